@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Options of our own code; never passed on to users of the library.
+add_library(macadam_options INTERFACE)
+target_include_directories(macadam_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
+target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra>)
+if(MACADAM_SANITIZE)
+  target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${MACADAM_SANITIZE}
+                                                   -fno-sanitize-recover=all -fno-omit-frame-pointer>)
+  target_link_options(macadam_options INTERFACE -fsanitize=${MACADAM_SANITIZE})
+endif()
+if(MACADAM_COVERAGE)
+  target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:--coverage -fprofile-update=atomic>)
+  target_link_options(macadam_options INTERFACE --coverage)
+endif()
+# gcc 12 misreads std::string concatenation (bug 105329)
+target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict>)

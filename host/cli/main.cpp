@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// main.cpp  The command line: macadam run | specimen | info. Exit code 0 done, 1 the run failed, 2 the input is wrong.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/cli/progress_line.hpp"
+#include "macadam/macadam.hpp"
+
+namespace macadam {
+namespace {
+
+/// What `run` and `specimen` were asked on the command line.
+struct Arguments {
+  std::string scene, out;
+  std::optional<Backend> backend;
+  std::optional<Precision> precision;
+  std::optional<int> threads;
+};
+
+void print_preparation(const Preparation& p) {
+  if (!p.composition.empty()) {
+    fmt::print("{:<14} {:>9} {:>9} {:>12} {:>12}\n", "class", "asked", "reached", "asked/box", "reached/box");
+    for (const CompositionRow& row : p.composition) {
+      fmt::print("{:<14} {:>9} {:>9} {:>11.3f}% {:>11.3f}%\n", row.name, row.count_asked, row.count,
+                 100 * row.fraction_asked, 100 * row.fraction);
+    }
+  }
+  fmt::print("{} particles, {} contacts (", p.specimen.size(), p.network.contacts.size());
+  const char* separator = "";
+  for (int pair = 0; pair < pair_types; ++pair) {
+    if (const auto n = p.network.count[static_cast<std::size_t>(pair)]; n > 0) {
+      fmt::print("{}{} {}", separator, to_string(static_cast<PairType>(pair)), n);
+      separator = ", ";
+    }
+  }
+  fmt::print("), {} contact points\n", p.network.point_area.size());
+  if (p.network.dropped_gap + p.network.dropped_area > 0) {
+    fmt::print("dropped: {} facets by gap_max, {} by area_min\n", p.network.dropped_gap, p.network.dropped_area);
+  }
+  fmt::print("specimen {:.2f} s, tessellation {:.2f} s, network {:.2f} s\n", p.seconds_specimen, p.seconds_tessellation,
+             p.seconds_network);
+}
+
+Scene scene_of(const Arguments& arguments) {
+  Scene scene = read_scene(arguments.scene);
+  if (arguments.backend) scene.solver.backend = *arguments.backend;
+  if (arguments.precision) scene.solver.precision = *arguments.precision;
+  if (arguments.threads) scene.solver.threads = *arguments.threads;
+  return scene;
+}
+
+void run_command(const Arguments& arguments) {
+  const Scene scene = scene_of(arguments);
+  ProgressLine line;
+  const auto progress = [&](const std::string& stage, double share) { line.show(stage, share); };
+  const RunResult result = run(scene, arguments.out, progress, [&](const Preparation& prepared) {
+    line.clear();
+    print_preparation(prepared);
+    std::fflush(stdout);
+  });
+  line.clear();
+  fmt::print("\n{:>10} {:>10} {:>9} {:>11} {:>9} {:>9} {:>12} {:>9}\n", "f (Hz)", "|E*| (GPa)", "phi (deg)",
+             "d|E*| cycle", "d phi", "scaling", "steps", "time (s)");
+  for (const FrequencyResult& f : result.frequencies) {
+    fmt::print("{:>10g} {:>10.4f} {:>9.3f} {:>11.1e} {:>9.1e} {:>9g} {:>12} {:>9.1f}\n", f.frequency_hz,
+               f.cyclic.fit.e_star_pa / 1e9, f.cyclic.fit.phase_deg, f.cyclic.change_e_star, f.cyclic.change_phase_deg,
+               f.density_scaling, f.steps, f.seconds);
+  }
+  fmt::print("\n{} | files in {}: summary.json response.csv specimen.csv{}\n", result.stepper, arguments.out,
+             scene.output.contacts ? " contacts.csv" : "");
+}
+
+void specimen_command(const Arguments& arguments) {
+  const Scene scene = scene_of(arguments);
+  ProgressLine line;
+  const Preparation prepared = prepare(scene, [&](const std::string& stage, double share) { line.show(stage, share); });
+  write_preparation(scene, prepared, arguments.out);
+  line.clear();
+  print_preparation(prepared);
+  const TessellationInvariants i = measure_invariants(prepared.specimen, prepared.tessellation);
+  fmt::print("tessellation errors: volume {:.1e}, closure {:.1e}, flatness {:.1e}, power {:.1e}, walls {:.1e}\n",
+             i.volume, i.closure, i.flatness, i.power, i.walls);
+  fmt::print("files in {}\n", arguments.out);
+}
+
+void info_command() {
+  const BackendReport report = report_backends();
+  fmt::print("macadam {}\n", version());
+  fmt::print("cpu        yes, {} threads\n", report.threads);
+  fmt::print("reference  yes, for checking: per point, double, one thread\n");
+  fmt::print("cuda       {}: {}\n", report.devices.empty() ? "no" : "yes", report.cuda_status);
+  for (const DeviceInfo& d : report.devices) {
+    fmt::print("           {}, compute capability {}.{}, {} multiprocessors, {:.1f} GiB\n", d.name,
+               d.compute_capability / 10, d.compute_capability % 10, d.multiprocessors,
+               static_cast<double>(d.memory_bytes) / (1 << 30));
+  }
+  std::string reason;
+  const Backend chosen = select_backend(Backend::automatic, &reason);
+  fmt::print("auto       {} ({})\n", to_string(chosen), reason);
+}
+
+void add_job_options(CLI::App& command, Arguments& arguments) {
+  command.add_option("scene", arguments.scene, "scene file (TOML)")->required();
+  command.add_option("--out", arguments.out, "folder of the results; made if it is not there")->required();
+}
+
+}  // namespace
+
+int main_function(int argc, char** argv) {
+  CLI::App app("Macadam: discrete elements for bituminous mixtures and other bonded granular solids");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", version());
+  Arguments arguments;
+
+  auto* run_app = app.add_subcommand("run", "run a scene and write its results");
+  add_job_options(*run_app, arguments);
+  run_app->add_option("--backend", arguments.backend, "instead of the scene's: auto, cuda, cpu or reference")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Backend>{{"auto", Backend::automatic},
+                                                                         {"cuda", Backend::cuda},
+                                                                         {"cpu", Backend::cpu},
+                                                                         {"reference", Backend::reference}}));
+  run_app->add_option("--precision", arguments.precision, "instead of the scene's: double, mixed or single")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Precision>{
+          {"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}}));
+  run_app->add_option("--threads", arguments.threads, "cpu threads; results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  auto* specimen_app = app.add_subcommand("specimen", "build the specimen and its contact network only");
+  add_job_options(*specimen_app, arguments);
+  auto* info_app = app.add_subcommand("info", "version, backends and devices");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : 2; }
+  try {
+    if (*run_app)
+      run_command(arguments);
+    else if (*specimen_app)
+      specimen_command(arguments);
+    else if (*info_app)
+      info_command();
+    return 0;
+  } catch (const InputError& error) {
+    fmt::print(stderr, "macadam: {}\n", error.what());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "macadam: out of memory\n");
+    return 1;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "macadam: {}\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace macadam
+
+int main(int argc, char** argv) { return macadam::main_function(argc, argv); }

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_network.cpp  Facets → contacts: which ones, their frames, lever arms, points, area moments, rows.
+#include "macadam/contact_network.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+void check_input(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec) {
+  if (tessellation.cell_volume.size() != specimen.size())
+    throw InputError("network", 0, "cells of the tessellation", std::to_string(tessellation.cell_volume.size()),
+                     std::to_string(specimen.size()) + ", the specimen's particles");
+  if (spec.gap_max && !std::isfinite(*spec.gap_max))
+    throw InputError("network", 0, "gap_max", fmt::format("{}", *spec.gap_max), "a finite number");
+  if (spec.area_min && !(*spec.area_min >= 0 && std::isfinite(*spec.area_min)))
+    throw InputError("network", 0, "area_min", fmt::format("{}", *spec.area_min), "a finite number, 0 or more");
+  if (const auto& hidden = tessellation.hidden; !hidden.empty()) {
+    constexpr std::size_t named = 10;
+    std::string found = std::to_string(hidden.size()) + " without (particle";
+    for (std::size_t k = 0; k < std::min(named, hidden.size()); ++k)
+      found += (k ? ", " : " ") + std::to_string(hidden[k]);
+    found += hidden.size() > named ? ", …)" : ")";
+    throw InputError("specimen", 0, "particles with a Laguerre cell inside the box", found,
+                     "a cell for each of the " + std::to_string(specimen.size()));
+  }
+}
+
+/// Mean area of the facets between particles; 0 where there is none.
+double mean_facet_area(const Tessellation& tessellation) {
+  double sum = 0;
+  std::int64_t count = 0;
+  for (const Facet& f : tessellation.facets)
+    if (f.b >= 0) sum += f.area, ++count;
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+PairType pair_of(const Specimen& specimen, const Facet& f) {
+  const bool mastic_a = specimen.phase[f.a] == Phase::mastic;
+  if (f.b < 0) return mastic_a ? PairType::mw : PairType::aw;
+  const bool mastic_b = specimen.phase[f.b] == Phase::mastic;
+  if (mastic_a && mastic_b) return PairType::mm;
+  if (mastic_a || mastic_b) return PairType::ma;
+  return specimen.body[f.a] == specimen.body[f.b] ? PairType::inner : PairType::aa;
+}
+
+/// Distance from a centre to a wall, checked: a wall contact's stiffness is E·A/h.
+double distance_to_wall(const Specimen& specimen, const Facet& f) {
+  const Vec3d &p = specimen.centre[f.a], &box = specimen.box.size;
+  const double h = std::array<double, 6>{p.x, box.x - p.x, p.y, box.y - p.y, p.z, box.z - p.z}[-1 - f.b];
+  if (!(h > 1e-9 * specimen.radius[f.a])) {
+    constexpr std::array<const char*, 6> name{"-x", "+x", "-y", "+y", "-z", "+z"};
+    throw InputError("specimen", 0,
+                     fmt::format("distance in metres of particle {}'s centre to the {} wall that it is bonded to", f.a,
+                                 name[-1 - f.b]),
+                     fmt::format("{}", h), "more than 1e-9 of its radius");
+  }
+  return h;
+}
+
+/// Distance, frame and lever arms.
+Contact geometry(const Specimen& specimen, const Facet& f) {
+  Contact c;
+  c.a = f.a, c.b = f.b;
+  c.pair = pair_of(specimen, f);
+  c.area = f.area;
+  c.n = f.normal;
+  canonical_frame(c.n, c.s, c.t);
+  if (f.b < 0) {
+    c.arm_a = c.distance = distance_to_wall(specimen, f);
+    return c;
+  }
+  const double ra = specimen.radius[f.a], rb = specimen.radius[f.b];
+  c.distance = norm(specimen.centre[f.b] - specimen.centre[f.a]);
+  c.arm_a = 0.5 * (c.distance + (ra - rb) * ((ra + rb) / c.distance));
+  c.arm_b = c.distance - c.arm_a;
+  return c;
+}
+
+/// Area moments of one triangle by its corners: as three points of a third of the area each, and exactly. Both have the
+/// exact area and first moments.
+void add_triangle(double area, const std::array<double, 3>& s, const std::array<double, 3>& t, AreaMoments& lumped,
+                  AreaMoments& exact) {
+  const auto product = [](const std::array<double, 3>& p, const std::array<double, 3>& q) {
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+  };
+  const double sum_s = s[0] + s[1] + s[2], sum_t = t[0] + t[1] + t[2];
+  const double ss = product(s, s), st = product(s, t), tt = product(t, t);
+  for (AreaMoments* m : {&lumped, &exact}) m->a += area, m->s += area / 3 * sum_s, m->t += area / 3 * sum_t;
+  lumped.ss += area / 3 * ss, lumped.st += area / 3 * st, lumped.tt += area / 3 * tt;
+  // ∫ x y dA over a triangle = A/12·(Σx·Σy + Σ x y)
+  exact.ss += area / 12 * (sum_s * sum_s + ss);
+  exact.st += area / 12 * (sum_s * sum_t + st);
+  exact.tt += area / 12 * (sum_t * sum_t + tt);
+}
+
+/// Appends the contact's points (vertices, then centroid) with their areas; returns both kinds of moments.
+std::array<AreaMoments, 2> add_points(const Specimen& specimen, const Tessellation& tessellation, const Facet& f,
+                                      Contact& c, ContactNetwork& out) {
+  const auto polygon = tessellation.polygon(f);
+  const std::size_t first = out.point_s.size(), n = polygon.size();
+  const Vec3d x0 = specimen.centre[f.a] + c.arm_a * c.n;
+  const auto add = [&](const Vec3d& x) {
+    out.point_s.push_back(dot(x - x0, c.s));
+    out.point_t.push_back(dot(x - x0, c.t));
+    out.point_area.push_back(0);
+  };
+  for (const Vec3d& x : polygon) add(x);
+  add(f.centroid);
+  c.point_begin = static_cast<std::uint32_t>(first);
+  c.point_end = static_cast<std::uint32_t>(out.point_s.size());
+  const double *s = &out.point_s[first], *t = &out.point_t[first];
+  AreaMoments lumped, exact;
+  for (std::size_t k = 0; k < n; ++k) {  // fan from the centroid: x0 may lie outside the polygon
+    const std::size_t l = k + 1 < n ? k + 1 : 0;
+    const double area = 0.5 * ((s[k] - s[n]) * (t[l] - t[n]) - (s[l] - s[n]) * (t[k] - t[n]));
+    for (const std::size_t j : {k, l, n}) out.point_area[first + j] += area / 3;
+    add_triangle(area, {s[k], s[l], s[n]}, {t[k], t[l], t[n]}, lumped, exact);
+  }
+  return {lumped, exact};
+}
+
+/// Compressed rows particle → contacts, ascending.
+void build_rows(std::size_t particles, ContactNetwork& out) {
+  out.row_begin.assign(particles + 1, 0);
+  for (const Contact& c : out.contacts) {
+    ++out.row_begin[c.a + 1];
+    if (c.b >= 0) ++out.row_begin[c.b + 1];
+  }
+  std::partial_sum(out.row_begin.begin(), out.row_begin.end(), out.row_begin.begin());
+  out.rows.resize(out.row_begin.back());
+  std::vector<std::uint32_t> next(out.row_begin.begin(), out.row_begin.end() - 1);
+  for (std::uint32_t k = 0; k < out.contacts.size(); ++k) {
+    const Contact& c = out.contacts[k];
+    out.rows[next[c.a]++] = k;
+    if (c.b >= 0) out.rows[next[c.b]++] = k;
+  }
+}
+
+}  // namespace
+
+const char* to_string(PairType pair) {
+  constexpr std::array<const char*, pair_types> name{"M-M", "M-A", "A-A", "inner", "A-W", "M-W"};
+  return name[static_cast<std::size_t>(pair)];
+}
+
+void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t) {
+  const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+  s = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
+  t = {b, sign + n.y * n.y * a, -n.y};
+}
+
+ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec) {
+  check_input(specimen, tessellation, spec);
+  ContactNetwork out;
+  const double smallest = spec.area_min.value_or(0) * mean_facet_area(tessellation);
+  const auto wanted = [&](const Facet& f) {
+    if (f.b < 0) return f.b <= wall_z_lo ? spec.bottom_top_walls : spec.lateral_walls;
+    const double radii = specimen.radius[f.a] + specimen.radius[f.b];
+    const double gap = norm(specimen.centre[f.b] - specimen.centre[f.a]) - radii;
+    if (spec.gap_max && gap > *spec.gap_max * 0.5 * radii) return ++out.dropped_gap, false;
+    if (f.area < smallest) return ++out.dropped_area, false;
+    return true;
+  };
+  double difference = 0, total = 0;
+  for (const Facet& f : tessellation.facets) {
+    if (!wanted(f)) continue;
+    Contact c = geometry(specimen, f);
+    const auto [lumped, exact] = add_points(specimen, tessellation, f, c, out);
+    c.moments = spec.quadrature == Quadrature::exact ? exact : lumped;
+    difference += std::abs(lumped.ss + lumped.tt - exact.ss - exact.tt);
+    total += exact.ss + exact.tt;
+    ++out.count[static_cast<std::size_t>(c.pair)];
+    out.contacts.push_back(c);
+  }
+  if (out.contacts.empty())
+    throw InputError("network", 0, "contacts",
+                     fmt::format("none left of {} facets ({} dropped by gap_max, {} by area_min)",
+                                 tessellation.facets.size(), out.dropped_gap, out.dropped_area),
+                     "at least one");
+  out.second_moment_difference = difference / total;
+  build_rows(specimen.size(), out);
+  return out;
+}
+
+}  // namespace macadam

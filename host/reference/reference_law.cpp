@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file reference_law.cpp  The trapezoidal rule for a chain of springs and dashpots, Eq. 13–17 derived again.
+#include "host/reference/reference_law.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "macadam/error.hpp"
+
+namespace macadam::reference {
+namespace {
+
+void require(bool good, const std::string& pair, const char* what, double found, const char* expected) {
+  if (!good) throw InputError("law of pair " + pair, 0, what, fmt::format("{}", found), expected);
+}
+
+ReferenceLaw read(const laws::Elastic& law, const std::string& pair) {
+  require(std::isfinite(law.E) && law.E >= 0, pair, "E", law.E, "a modulus of at least 0 Pa");
+  ReferenceLaw out;
+  out.E_m = law.E;
+  out.alpha = law.alpha;
+  return out;
+}
+
+ReferenceLaw read(const laws::GeneralisedKelvin& law, const std::string& pair) {
+  require(std::isfinite(law.E_m) && law.E_m > 0, pair, "E_m", law.E_m, "a positive modulus");
+  require(law.C_m > 0, pair, "C_m", law.C_m, "a positive viscosity or infinity");
+  if (law.E.size() != law.C.size()) {
+    throw InputError("law of pair " + pair, 0, "Kelvin units", fmt::format("{} E and {} C", law.E.size(), law.C.size()),
+                     "as many of each");
+  }
+  ReferenceLaw out{law.E_m, law.C_m, {}, law.alpha};
+  for (std::size_t l = 0; l < law.E.size(); ++l) {
+    require(std::isfinite(law.E[l]) && law.E[l] >= 0, pair, "E of a Kelvin unit", law.E[l],
+            "a modulus of at least 0 Pa");
+    require(law.C[l] > 0, pair, "C of a Kelvin unit", law.C[l], "a positive viscosity");
+    out.units.push_back({law.E[l], law.C[l]});
+  }
+  return out;
+}
+
+}  // namespace
+
+ReferenceLaw make_reference_law(const Law& law, const std::string& pair) {
+  const ReferenceLaw out = std::visit([&](const auto& l) { return read(l, pair); }, law);
+  require(std::isfinite(out.alpha) && out.alpha >= 0, pair, "alpha", out.alpha, "a ratio of at least 0");
+  return out;
+}
+
+// All elements carry the force f. Over one step, f0 at its start and f0 + Δf at its end, the trapezoidal rule replaces
+// every f by its mean f0 + Δf/2, and every stretch by its mean as well:
+//
+//   spring            Δx_m = Δf/k_m
+//   dashpot           Δx_η = (Δt/η_m)·(f0 + Δf/2)
+//   Kelvin unit       η·Δx_l/Δt + k·(x_l + Δx_l/2) = f0 + Δf/2
+//                     ⇒ Δx_l = μ_l·(f0 + Δf/2 − k·x_l)    with μ_l = (Δt/η)/(1 + k·Δt/(2η))
+//
+// The stretches add up to dx. Collecting what does and what does not multiply Δf:
+//
+//   Δf·[ 1/k_m + Δt/(2η_m) + Σ μ_l/2 ] = dx − (Δt/η_m)·f0 − Σ μ_l·(f0 − k·x_l)
+//
+// With a = 1 + kΔt/(2η), b = 1 − kΔt/(2η) the bracket is the paper's c, and μ_l·k·x_l = (1 − b/a)·x_l. Adding f0 gives
+//   c·f1 = dx + Σ (1 − b/a)·x_l − g·f0,   g = Σ μ_l/2 − 1/k_m + Δt/(2η_m),
+// so that Eq. 13 holds without its factor (1 + g/c) inside the bracket, and x_l + Δx_l = [b·x_l + Δt/(2η)·(f1 + f0)]/a
+// is Eq. 14 with the sum of the two forces, not their difference.
+void advance_chain(const ReferenceLaw& law, double scale, double dt, double dx, ChainState& state) {
+  const auto mobility = [&](const KelvinUnit& unit) {
+    return dt / (unit.C * scale) / (1 + dt * unit.E / (2 * unit.C));  // μ_l [m/N]
+  };
+  const double f0 = state.force;
+  const double mobility_m = dt / (law.C_m * scale);
+
+  double compliance = 1 / (law.E_m * scale) + mobility_m / 2;
+  double flow = mobility_m * f0;
+  for (std::size_t l = 0; l < law.units.size(); ++l) {
+    const double mu = mobility(law.units[l]);
+    compliance += mu / 2;
+    flow += mu * (f0 - law.units[l].E * scale * state.stretch[l]);
+  }
+  const double df = (dx - flow) / compliance;
+
+  for (std::size_t l = 0; l < law.units.size(); ++l) {
+    state.stretch[l] += mobility(law.units[l]) * (f0 + df / 2 - law.units[l].E * scale * state.stretch[l]);
+  }
+  state.force = f0 + df;
+}
+
+}  // namespace macadam::reference

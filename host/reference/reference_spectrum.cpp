@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file reference_spectrum.cpp  Eigenvalues by a dense solver, equilibrium by LDLᵀ with the free motions held softly.
+#include "host/reference/reference_spectrum.hpp"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
+#include <fmt/format.h>
+
+#include "host/reference/reference_stiffness.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+double reference_largest_frequency(const ContactNetwork& network,
+                                   const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia) {
+  const std::size_t particles = inertia.mass.size();
+  reference::require_inertia(inertia, particles);
+  const Eigen::MatrixXd K = reference::assemble_stiffness(network, laws, particles).K;
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(K.rows(), K.cols());
+  for (std::size_t i = 0; i < particles; ++i) {
+    const auto row = static_cast<Eigen::Index>(6 * i);
+    M.diagonal().segment<3>(row).setConstant(inertia.mass[i]);
+    M.diagonal().segment<3>(row + 3).setConstant(inertia.inertia[i]);
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(K, M, Eigen::EigenvaluesOnly);
+  return std::sqrt(modes.eigenvalues().maxCoeff());
+}
+
+// K is singular where motions have no stiffness, but the load of a wall does no work on them. So K·u = f is solved by
+// repeating u += (K + H)⁻¹·(f − K·u) with weak holding springs H: a stiff motion converges by a factor H/K each time,
+// and a free one gets no force and stays. At the end f − K·u ≈ 0: nothing is held by H.
+double reference_static_modulus(const Specimen& specimen, const ContactNetwork& network,
+                                const std::array<std::optional<Law>, pair_types>& laws) {
+  constexpr double holding = 1e-8;     // of the particle's own stiffness: far below the softest elastic motion, and far
+                                       // above the rounding of the factors
+  constexpr double tolerance = 1e-12;  // of the load; the reaction is that accurate
+  constexpr int most_rounds = 100;
+
+  const reference::Stiffness stiffness = reference::assemble_stiffness(network, laws, specimen.size());
+  Eigen::SparseMatrix<double> held = stiffness.K;
+  for (Eigen::Index block = 0; block < held.rows(); block += 3) {
+    const double own = held.diagonal().segment<3>(block).sum();
+    for (Eigen::Index i = block; i < block + 3; ++i) held.coeffRef(i, i) += own > 0 ? holding * own : 1.0;
+  }
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(held);
+
+  const double displacement = specimen.box.size.z;  // a unit strain
+  const Eigen::VectorXd load = stiffness.top_wall * displacement;
+  // Forces and moments have different units; a lever of one particle radius makes them comparable.
+  const auto size_of = [&](const Eigen::VectorXd& v) {
+    double sum = 0;
+    for (std::size_t i = 0; i < specimen.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(6 * i);
+      sum += v.segment<3>(row).squaredNorm() + (v.segment<3>(row + 3) / specimen.radius[i]).squaredNorm();
+    }
+    return std::sqrt(sum);
+  };
+
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(load.size());
+  Eigen::VectorXd residual = load;
+  for (int round = 0; !(size_of(residual) <= tolerance * size_of(load)); ++round) {
+    if (factors.info() != Eigen::Success || round == most_rounds) {
+      throw RunError(fmt::format("static modulus: residual {:.3g} of the load after {} rounds, expected {}",
+                                 size_of(residual) / size_of(load), round, tolerance));
+    }
+    u += factors.solve(residual);
+    residual = load - stiffness.K * u;
+  }
+  const double reaction = stiffness.top_stiffness * displacement - stiffness.top_wall.dot(u);
+  return reaction / (specimen.box.size.x * specimen.box.size.y);
+}
+
+}  // namespace macadam

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file reference_stepper.cpp  Leapfrog over contact points, sections 1 and 3 of the model in the order of the text.
+#include "host/reference/reference_stepper.hpp"
+
+#include <Eigen/Geometry>
+
+#include "host/reference/reference_contact.hpp"
+#include "host/reference/reference_input.hpp"
+
+namespace macadam {
+namespace reference {
+namespace {
+
+/// A rigid sphere in motion.
+struct Body {
+  Vector3d start = Vector3d::Zero();         ///< centre at the start [m]
+  Vector3d displacement = Vector3d::Zero();  ///< at the whole step [m]
+  Vector3d velocity = Vector3d::Zero();      ///< at the last half step [m/s]
+  Vector3d spin = Vector3d::Zero();          ///< likewise [rad/s]
+  Vector3d force = Vector3d::Zero();         ///< of the contacts at the whole step [N]
+  Vector3d moment = Vector3d::Zero();        ///< about the centre [N·m]
+  double radius = 0, mass = 0, inertia = 0;  ///< [m] [kg] [kg·m²], density scaling included
+
+  Vector3d centre() const { return start + displacement; }
+};
+
+/// A wall: it translates along z or rests.
+struct WallPlane {
+  Vector3d displacement = Vector3d::Zero();  ///< [m]
+  Vector3d velocity = Vector3d::Zero();      ///< [m/s]
+  Vector3d force = Vector3d::Zero();         ///< on the wall by the particles [N]
+};
+
+int wall_index(std::int32_t wall) { return -1 - wall; }
+
+Vec3d to_vec3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+class ReferenceStepper : public Stepper {
+ public:
+  ReferenceStepper(const Specimen& specimen, const ContactNetwork& network,
+                   const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+                   const StepperOptions& options)
+      : options_(options), laws_(read_laws(network, laws)) {
+    for (std::size_t i = 0; i < specimen.size(); ++i) {
+      Body body;
+      body.start = to_eigen(specimen.centre[i]);
+      body.radius = specimen.radius[i];
+      body.mass = inertia.mass[i] * options.density_scaling;
+      body.inertia = inertia.inertia[i] * options.density_scaling;
+      bodies_.push_back(body);
+    }
+    for (const Contact& contact : network.contacts) {
+      contacts_.push_back(make_reference_contact(network, contact, law(contact.pair).units.size()));
+    }
+  }
+
+  void advance(std::int64_t steps) override {
+    for (std::int64_t end = step_ + steps; step_ < end; ++step_) {
+      move_bodies();
+      move_walls();
+      for (ReferenceContact& contact : contacts_) {
+        if (options_.geometry == Geometry::updated) follow(contact);
+        load(contact);
+      }
+    }
+  }
+
+  Observation observe() const override {
+    Observation out;
+    out.step = step_;
+    out.time = static_cast<double>(step_) * options_.dt;
+    out.wall_displacement = walls_[wall_index(wall_z_hi)].displacement.z();
+    for (std::size_t w = 0; w < walls_.size(); ++w) out.wall_force[w] = to_vec3(walls_[w].force);
+    return out;
+  }
+
+  ParticleState particles() const override {
+    ParticleState out;
+    for (const Body& body : bodies_) {
+      out.displacement.push_back(to_vec3(body.displacement));
+      out.velocity.push_back(to_vec3(body.velocity));
+      out.spin.push_back(to_vec3(body.spin));
+      out.force.push_back(to_vec3(body.force));
+      out.moment.push_back(to_vec3(body.moment));
+    }
+    return out;
+  }
+
+  void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) override {
+    require_count("velocities", velocity.size(), bodies_.size());
+    require_count("spins", spin.size(), bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      bodies_[i].velocity = to_eigen(velocity[i]);
+      bodies_[i].spin = to_eigen(spin[i]);
+    }
+  }
+
+  std::int64_t first_divergent() const override {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const Body& b = bodies_[i];
+      const bool finite = b.displacement.allFinite() && b.velocity.allFinite() && b.spin.allFinite();
+      if (!finite || b.velocity.norm() * options_.dt > b.radius) return static_cast<std::int64_t>(i);
+    }
+    return -1;
+  }
+
+  std::string description() const override {
+    return std::string("reference, double, points, ") + (options_.geometry == Geometry::updated ? "updated" : "fixed") +
+           " geometry, 1 thread";
+  }
+
+  std::int64_t bytes() const override {
+    std::size_t sum = bodies_.size() * sizeof(Body) + contacts_.size() * sizeof(ReferenceContact);
+    for (const ReferenceContact& contact : contacts_) {
+      const std::size_t stretches = 3 * law(contact.pair).units.size() * sizeof(double);
+      sum += contact.points.size() * (sizeof(ContactPoint) + stretches);
+    }
+    return static_cast<std::int64_t>(sum);
+  }
+
+ private:
+  const ReferenceLaw& law(PairType pair) const { return *laws_[static_cast<std::size_t>(pair)]; }
+
+  /// m·dv/dt = F + F_d over one step, for forces and likewise for moments (Eq. 1, 2).
+  Vector3d accelerate(const Vector3d& v, const Vector3d& load, double mass) const {
+    const double dt = options_.dt, damping = options_.damping;
+    switch (options_.damping_kind) {
+      case Damping::viscous:  // F_d = −β·m·(v + v')/2: central, therefore implicit in v'
+        return (v * (1 - damping * dt / 2) + dt * load / mass) / (1 + damping * dt / 2);
+      case Damping::local: {  // F_d = −χ·|F|·sign(v) by component
+        const Vector3d sign = v.unaryExpr([](double c) { return static_cast<double>((c > 0) - (c < 0)); });
+        return v + dt * (load - damping * load.cwiseAbs().cwiseProduct(sign)) / mass;
+      }
+      case Damping::none:
+        break;
+    }
+    return v + dt * load / mass;
+  }
+
+  /// v(k+1/2) from the forces at k, then the displacement at k+1.
+  void move_bodies() {
+    for (Body& body : bodies_) {
+      body.velocity = accelerate(body.velocity, body.force, body.mass);
+      body.spin = accelerate(body.spin, body.moment, body.inertia);
+      body.displacement += options_.dt * body.velocity;
+      body.force.setZero();
+      body.moment.setZero();
+    }
+  }
+
+  void move_walls() {
+    if (options_.loading) {
+      walls_[wall_index(wall_z_hi)].velocity = Vector3d(0, 0, options_.loading->velocity(step_));
+    }
+    for (WallPlane& wall : walls_) {
+      wall.displacement += options_.dt * wall.velocity;
+      wall.force.setZero();
+    }
+  }
+
+  /// The geometry at k+1, where forces act, and half-way to it, where velocities are seen.
+  void follow(ReferenceContact& contact) const {
+    const Body& a = bodies_[contact.a];
+    if (contact.at_wall()) {
+      const Vector3d approach = walls_[wall_index(contact.b)].displacement - a.displacement;
+      contact.follow_wall(contact.initial_distance + approach.dot(contact.frame.n), options_.dt * a.spin / 2);
+    } else {
+      const Body& b = bodies_[contact.b];
+      contact.follow_pair(b.centre() - a.centre(), options_.dt * (a.spin + b.spin) / 2);
+    }
+  }
+
+  /// Advances the chains of every point of a contact and gives their forces to the two sides.
+  void load(ReferenceContact& contact) {
+    const ReferenceLaw& law = this->law(contact.pair);
+    Body& a = bodies_[contact.a];
+    for (ContactPoint& point : contact.points) {
+      const Vector3d increment = options_.dt * relative_velocity(contact, point);
+      const ContactFrame &middle = contact.middle, &frame = contact.frame;
+      const Vector3d local(increment.dot(middle.n), increment.dot(middle.s), increment.dot(middle.t));
+      for (int axis = 0; axis < 3; ++axis) {
+        const double scale = (axis == 0 ? 1.0 : law.alpha) * point.area / contact.initial_distance;
+        // No area, no shear stiffness (α = 0) or no modulus: no force, and no chain to advance.
+        if (scale * law.E_m != 0) advance_chain(law, scale, options_.dt, local[axis], point.chain[axis]);
+      }
+      // The chains resist the motion of B away from A: they pull A along it and B back.
+      const Vector3d force =
+          point.chain[0].force * frame.n + point.chain[1].force * frame.s + point.chain[2].force * frame.t;
+      a.force += force;
+      a.moment += frame.lever_a(point).cross(force);
+      if (contact.at_wall()) {
+        walls_[wall_index(contact.b)].force -= force;
+      } else {
+        Body& b = bodies_[contact.b];
+        b.force -= force;
+        b.moment -= frame.lever_b(point).cross(force);
+      }
+    }
+  }
+
+  /// Eq. 8: of B with respect to A where both meet.
+  Vector3d relative_velocity(const ReferenceContact& contact, const ContactPoint& point) const {
+    const Body& a = bodies_[contact.a];
+    const Vector3d side_a = a.velocity + a.spin.cross(contact.middle.lever_a(point));
+    if (contact.at_wall()) return walls_[wall_index(contact.b)].velocity - side_a;
+    const Body& b = bodies_[contact.b];
+    return b.velocity + b.spin.cross(contact.middle.lever_b(point)) - side_a;
+  }
+
+  StepperOptions options_;
+  ReferenceLaws laws_;
+  std::vector<Body> bodies_;
+  std::array<WallPlane, 6> walls_{};
+  std::vector<ReferenceContact> contacts_;
+  std::int64_t step_ = 0;
+};
+
+}  // namespace
+}  // namespace reference
+
+std::unique_ptr<Stepper> make_reference_stepper(const Specimen& specimen, const ContactNetwork& network,
+                                                const std::array<std::optional<Law>, pair_types>& laws,
+                                                const Inertia& inertia, const StepperOptions& options) {
+  reference::require_options(options);
+  reference::require_network(network, specimen.size());
+  reference::require_inertia(inertia, specimen.size());
+  return std::make_unique<reference::ReferenceStepper>(specimen, network, laws, inertia, options);
+}
+
+}  // namespace macadam

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// cyclic.cpp  |E*| and φ from the samples of a cyclic test: fit of the fundamental, and Eq. 24–25.
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+
+#include "macadam/error.hpp"
+#include "macadam/results.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+
+struct Fundamental {
+  std::complex<double> value;  ///< c of Re(c·exp(iωt))
+  double rms = 0;              ///< of what the fit leaves
+};
+
+/// Least squares of offset + trend·t + fundamental, so that drift and start-up offsets do not leak into the phasor.
+template <class Value>
+Fundamental fit(std::span<const ResponseSample> samples, double frequency, Value value) {
+  const auto n = static_cast<Eigen::Index>(samples.size());
+  Eigen::MatrixXd a(n, 4);
+  Eigen::VectorXd y(n);
+  const double t0 = samples.front().time_s;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const auto& s = samples[static_cast<std::size_t>(k)];
+    const double periods = (s.time_s - t0) * frequency;  // of order one: the columns are well scaled
+    const double phase = two_pi * (s.time_s * frequency - std::floor(s.time_s * frequency));
+    a.row(k) << 1, periods, std::cos(phase), std::sin(phase);
+    y(k) = value(s);
+  }
+  const Eigen::VectorXd x = a.colPivHouseholderQr().solve(y);
+  return {{x(2), -x(3)}, (a * x - y).norm() / std::sqrt(static_cast<double>(n))};
+}
+
+Stiffness from_phasors(std::complex<double> strain, std::complex<double> stress) {
+  const std::complex<double> modulus = stress / strain;
+  return {std::abs(modulus), std::arg(modulus) * 180 / std::numbers::pi};
+}
+
+/// Extreme value and its time by a parabola through the largest sample (sign = +1) or smallest (−1) and its neighbours.
+template <class Value>
+std::pair<double, double> peak(std::span<const ResponseSample> samples, double sign, Value value) {
+  std::size_t best = 1;
+  for (std::size_t k = 1; k + 1 < samples.size(); ++k) {
+    if (sign * value(samples[k]) > sign * value(samples[best])) best = k;
+  }
+  const double l = value(samples[best - 1]), m = value(samples[best]), r = value(samples[best + 1]);
+  const double curvature = l - 2 * m + r;
+  const double shift = curvature != 0 ? std::clamp(0.5 * (l - r) / curvature, -1.0, 1.0) : 0.0;
+  const double dt = samples[best + 1].time_s - samples[best].time_s;
+  return {m - 0.25 * (l - r) * shift, samples[best].time_s + shift * dt};
+}
+
+}  // namespace
+
+CyclicResult evaluate_cyclic(std::span<const ResponseSample> samples, double frequency, int fit_cycles) {
+  if (samples.size() < 5 || !(frequency > 0) || fit_cycles < 1) {
+    throw InputError("cyclic evaluation: found " + std::to_string(samples.size()) + " samples at " +
+                     std::to_string(frequency) + " Hz over " + std::to_string(fit_cycles) +
+                     " cycles, expected at least one cycle of 5 samples");
+  }
+  const double period = 1 / frequency, end = samples.back().time_s;
+  const double spacing = samples[1].time_s - samples[0].time_s;
+  // samples of the last `cycles` cycles, ending `skip` cycles before the end; half open, so that no phase counts twice
+  auto window = [&](int cycles, int skip) {
+    const double from = end - (cycles + skip) * period + 0.5 * spacing, to = end - skip * period + 0.5 * spacing;
+    auto at = [&](double t) {
+      return std::partition_point(samples.begin(), samples.end(), [&](const auto& s) { return s.time_s < t; });
+    };
+    return samples.subspan(static_cast<std::size_t>(at(from) - samples.begin()),
+                           static_cast<std::size_t>(at(to) - at(from)));
+  };
+  const auto strain = [](const ResponseSample& s) { return s.strain; };
+  const auto stress = [](const ResponseSample& s) { return s.stress_pa; };
+  auto stiffness = [&](std::span<const ResponseSample> part) {
+    return from_phasors(fit(part, frequency, strain).value, fit(part, frequency, stress).value);
+  };
+  const double available = (end - samples.front().time_s) * frequency + 1e-6;
+  if (available < fit_cycles) {
+    throw InputError("cyclic evaluation: found " + std::to_string(available) +
+                     " cycles of samples, expected at least " + std::to_string(fit_cycles));
+  }
+
+  CyclicResult out;
+  const auto last = window(fit_cycles, 0);
+  const Fundamental stress_fit = fit(last, frequency, stress);
+  out.fit = from_phasors(fit(last, frequency, strain).value, stress_fit.value);
+  out.fit_rms = stress_fit.rms / std::abs(stress_fit.value);
+
+  const auto cycle = window(1, 0);
+  const auto [strain_max, t_strain] = peak(cycle, +1, strain);
+  const auto [stress_max, t_stress] = peak(cycle, +1, stress);
+  const auto [strain_min, unused_1] = peak(cycle, -1, strain);
+  const auto [stress_min, unused_2] = peak(cycle, -1, stress);
+  double lag = (t_strain - t_stress) * frequency;
+  lag -= std::round(lag);
+  out.peaks = {(stress_max - stress_min) / (strain_max - strain_min), 360 * lag};  // Eq. 24, 25
+
+  out.change_e_star = out.change_phase_deg = std::numeric_limits<double>::quiet_NaN();
+  if (available >= 2) {
+    const Stiffness now = stiffness(cycle), before = stiffness(window(1, 1));
+    out.change_e_star = now.e_star_pa / before.e_star_pa - 1;
+    out.change_phase_deg = now.phase_deg - before.phase_deg;
+  }
+  return out;
+}
+
+}  // namespace macadam

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file read_solver.cpp  `[solver]`: how the scene is stepped or solved.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "host/scene/sections.hpp"
+
+namespace macadam::scene {
+namespace {
+
+/// Damping is a coefficient of the kind that stands beside it; a coefficient alone means local damping.
+void read_damping(const Section& section, SolverSpec& spec) {
+  constexpr Rule chi{[](double v) { return v >= 0 && v < 1; }, "a local damping from 0 to below 1"};
+  const auto value = section.find("damping");
+  const auto kind = section.find("damping_kind");
+  if (!kind) spec.damping_kind = Damping::local;
+  if (value) {
+    spec.damping = spec.damping_kind == Damping::local ? value->number(ratio, chi) : value->number(rate, non_negative);
+  } else if (kind && spec.damping_kind != Damping::none) {
+    section.refuse("damping", "nothing", "its value, as damping_kind is " + kind->shown());
+  }
+  if (spec.damping_kind == Damping::none && spec.damping > 0) {
+    section.refuse("damping", value->shown(), "0, as damping_kind is \"none\"");
+  }
+  if (spec.damping == 0) spec.damping_kind = Damping::none;
+}
+
+/// A number for all frequencies, or an array of one for each.
+void read_density_scaling(const Value& value, std::size_t frequencies, std::vector<double>& scaling) {
+  if (!value.is_array()) {
+    scaling = {value.number(ratio, positive)};
+    return;
+  }
+  scaling = value.numbers(ratio, positive);
+  if (scaling.size() != frequencies) {
+    value.refuse(fmt::format("{} entries", scaling.size()),
+                 fmt::format("a number, or an array of {}, one for each frequency", frequencies));
+  }
+}
+
+}  // namespace
+
+SolverSpec read_solver(const Section& section, const LoadingSpec& loading) {
+  constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a share of the critical step, above 0 and at most 1"};
+  constexpr std::int64_t most_threads = 65'536;
+  SolverSpec spec;
+  section.read(
+      {{"method", Need::optional,
+        into<SolverMethod>(spec.method, {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}})},
+       {"density_scaling", Need::optional,
+        [&](const Value& v) { read_density_scaling(v, loading.frequencies.size(), spec.density_scaling); }},
+       {"safety", Need::optional, into(spec.safety, ratio, share)},
+       {"time_step", Need::optional, into(spec.time_step, duration, positive)},
+       {"damping_kind", Need::optional,
+        into<Damping>(spec.damping_kind,
+                      {{"local", Damping::local}, {"viscous", Damping::viscous}, {"none", Damping::none}})},
+       {"damping", Need::optional, [](const Value&) {}},  // read when the kind is known
+       {"form", Need::optional,
+        into<ContactForm>(spec.form, {{"condensed", ContactForm::condensed}, {"points", ContactForm::points}})},
+       {"geometry", Need::optional,
+        into<Geometry>(spec.geometry, {{"updated", Geometry::updated}, {"fixed", Geometry::fixed}})},
+       {"precision", Need::optional,
+        into<Precision>(spec.precision,
+                        {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}})},
+       {"backend", Need::optional,
+        into<Backend>(spec.backend, {{"auto", Backend::automatic},
+                                     {"cpu", Backend::cpu},
+                                     {"cuda", Backend::cuda},
+                                     {"reference", Backend::reference}})},
+       {"threads", Need::optional, into(spec.threads, 0, most_threads)},
+       {"inertia", Need::optional, into(spec.inertia)}});
+  read_damping(section, spec);
+
+  if (spec.inertia && spec.method == SolverMethod::explicit_) {
+    section.refuse("inertia", "true beside method \"explicit\", which always has inertia",
+                   "false, or method = \"harmonic\"");
+  }
+  // A fit of the fundamental with offset and trend is meaningless with fewer than eight samples a cycle, and a sample
+  // takes a step.
+  const double fastest = *std::max_element(loading.frequencies.begin(), loading.frequencies.end());
+  constexpr double fewest_steps = 8;
+  if (spec.time_step && *spec.time_step * fastest * fewest_steps > 1) {
+    section.refuse(
+        "time_step", fmt::format("{} s", *spec.time_step),
+        fmt::format("at most {} s: {} steps a cycle at {} Hz", 1 / (fewest_steps * fastest), fewest_steps, fastest));
+  }
+  return spec;
+}
+
+}  // namespace macadam::scene

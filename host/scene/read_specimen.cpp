@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file read_specimen.cpp  `[specimen]`: a file or a recipe. Recipes that no generator could follow are refused here.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "host/scene/sections.hpp"
+
+namespace macadam::scene {
+namespace {
+
+/// Contact points are numbered in 32 bits and there are about forty a particle.
+constexpr std::int64_t most_particles = 100'000'000;
+
+double sphere_volume(double diameter) { return std::numbers::pi / 6 * diameter * diameter * diameter; }
+
+/// `[min, max]` with 0 < min ≤ max.
+Reader range_into(double& low, double& high) {
+  return [&low, &high](const Value& value) {
+    const std::vector<double> range = value.numbers(length, positive);
+    if (range.size() != 2) value.refuse(fmt::format("{} entries", range.size()), "two, [min, max]");
+    if (range[0] > range[1]) value.refuse(fmt::format("[{}, {}] m", range[0], range[1]), "min not above max");
+    low = range[0], high = range[1];
+  };
+}
+
+Reader box_into(Box& box) {
+  return [&box](const Value& value) {
+    const std::vector<double> edges = value.numbers(length, positive);
+    if (edges.size() != 3) value.refuse(fmt::format("{} entries", edges.size()), "three, [x, y, z]");
+    box.size = {edges[0], edges[1], edges[2]};
+    if (!(box.volume() > 0 && std::isfinite(box.volume()))) {
+      value.refuse(fmt::format("a volume of {} m3", box.volume()), "a volume within the range of a double");
+    }
+  };
+}
+
+/// Refuses a section in which both keys stand, or neither.
+void need_one_of(const Section& section, const std::string& a, const std::string& b) {
+  const bool both = section.has(a) && section.has(b);
+  if (both || (!section.has(a) && !section.has(b))) {
+    section.refuse(both ? b : a, both ? a + " and " + b : "neither " + a + " nor " + b, "exactly one of the two");
+  }
+}
+
+void need_to_fit(const Section& section, const std::string& key, double diameter, const Box& box) {
+  const double edge = std::min({box.size.x, box.size.y, box.size.z});
+  if (diameter >= edge) {
+    section.refuse(key, fmt::format("diameters up to {} m", diameter),
+                   fmt::format("less than the smallest edge of the box, {} m", edge));
+  }
+}
+
+AggregateClass read_aggregate(const Section& section, const Box& box) {
+  constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a fraction above 0 and at most 1"};
+  AggregateClass out;
+  section.read({{"sieve", Need::required, range_into(out.sieve_min, out.sieve_max)},
+                {"volume_fraction", Need::optional, into(out.volume_fraction, ratio, share)},
+                {"count", Need::optional, into(out.count, 1, most_particles)}});
+  need_one_of(section, "volume_fraction", "count");
+  need_to_fit(section, "sieve", out.sieve_max, box);
+  return out;
+}
+
+MasticSpec read_mastic(const Section& section, const Box& box) {
+  constexpr Rule porosity{[](double v) { return v > -1 && v < 1; }, "a porosity between -1 and 1"};
+  MasticSpec out;
+  section.read({{"radius", Need::required, range_into(out.radius_min, out.radius_max)},
+                {"porosity", Need::optional, into(out.porosity, ratio, porosity)},
+                {"count", Need::optional, into(out.count, 1, most_particles)}});
+  need_one_of(section, "porosity", "count");
+  need_to_fit(section, "radius", 2 * out.radius_max, box);
+  return out;
+}
+
+/// Refuses recipes that cannot be met whichever sizes are drawn. The bounds take the smallest aggregates where volume
+/// counts and the largest particles where number counts.
+void need_possible(const Section& section, const SpecimenSpec& spec) {
+  double fractions = 0, counted = 0, counted_most = 0;  // counted: volume of the classes that are given by count
+  std::int64_t count = 0;
+  for (const AggregateClass& c : spec.aggregate) {
+    fractions += c.volume_fraction.value_or(0);
+    count += c.count.value_or(0);
+    counted += static_cast<double>(c.count.value_or(0)) * sphere_volume(c.sieve_min);
+    counted_most += static_cast<double>(c.count.value_or(0)) * sphere_volume(c.sieve_max);
+  }
+  const double box = spec.box.volume();
+  if (fractions > 0 && !spec.mastic) {
+    section.refuse("aggregate", "volume_fraction without [specimen.mastic]",
+                   "count, as the solid volume is not known without mastic");
+  }
+  if (spec.mastic && fractions >= 1) {
+    section.refuse("aggregate", fmt::format("volume fractions with the sum {}", fractions),
+                   "a sum below 1, as the mastic takes the rest of the solid volume");
+  }
+  // With a count of mastic the solid volume follows from its share, 1 − Σ fractions; its least value is taken.
+  double solid = counted;
+  double number = static_cast<double>(count);
+  if (spec.mastic && spec.mastic->porosity) {
+    solid = (1 - *spec.mastic->porosity) * box;
+    const double rest = solid * (1 - fractions) - counted_most;
+    number += std::max(0.0, rest) / sphere_volume(2 * spec.mastic->radius_max);
+  } else if (spec.mastic) {
+    const double mastic = static_cast<double>(*spec.mastic->count) * sphere_volume(2 * spec.mastic->radius_min);
+    solid = (counted + mastic) / (1 - fractions);
+    number += static_cast<double>(*spec.mastic->count);
+  }
+  if (solid >= 2 * box) {
+    section.refuse(spec.mastic ? "mastic" : "aggregate", fmt::format("spheres of at least {:.4g} m3", solid),
+                   fmt::format("less than twice the box, {:.4g} m3: a porosity above -1", box));
+  }
+  for (const AggregateClass& c : spec.aggregate) {
+    number += c.volume_fraction.value_or(0) * solid / sphere_volume(c.sieve_max);
+  }
+  const double aggregates = counted + fractions * solid;
+  if (aggregates >= box) {
+    section.refuse("aggregate", fmt::format("aggregates of at least {:.4g} m3", aggregates),
+                   fmt::format("less than the box, {:.4g} m3, as aggregates do not overlap", box));
+  }
+  if (spec.mastic && aggregates >= solid) {
+    section.refuse("aggregate", fmt::format("aggregates of at least {:.4g} m3", aggregates),
+                   fmt::format("less than the solid volume at this porosity, {:.4g} m3", solid));
+  }
+  if (!(number <= static_cast<double>(most_particles))) {
+    section.refuse(spec.mastic ? "mastic" : "aggregate", fmt::format("sizes that take {:.3g} particles", number),
+                   fmt::format("at most {} particles", most_particles));
+  }
+}
+
+}  // namespace
+
+SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder) {
+  SpecimenSpec spec;
+  const auto read_file = [&](const Value& value) {
+    spec.file = (folder / value.text()).lexically_normal();
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(*spec.file, error)) {
+      value.refuse("no file " + spec.file->string(), "a specimen file; paths are relative to the scene's folder");
+    }
+  };
+  const auto read_classes = [&](const Value& value) {
+    for (const Section& entry : value.sections()) spec.aggregate.push_back(read_aggregate(entry, spec.box));
+  };
+  section.read({{"box", Need::required, box_into(spec.box)},
+                {"file", Need::optional, read_file},
+                {"seed", Need::optional, into(spec.seed, 0)},
+                {"size_law", Need::optional,
+                 into<SizeLaw>(spec.size_law, {{"log_uniform", SizeLaw::log_uniform},
+                                               {"uniform", SizeLaw::uniform},
+                                               {"volume_uniform", SizeLaw::volume_uniform}})},
+                {"fix_aggregates", Need::optional, into(spec.fix_aggregates)},
+                {"attempts", Need::optional, into(spec.attempts, 1)},
+                {"aggregate", Need::optional, read_classes},
+                {"mastic", Need::optional, [&](const Value& v) { spec.mastic = read_mastic(v.section(), spec.box); }}});
+  if (spec.file) {
+    for (const char* key : {"aggregate", "mastic", "seed", "size_law", "fix_aggregates", "attempts"}) {
+      if (section.has(key)) section.refuse(key, "this key of the generator beside file", "one of the two");
+    }
+  } else if (spec.aggregate.empty() && !spec.mastic) {
+    section.refuse("file", "neither a file nor aggregate or mastic to generate", "one of the two");
+  } else {
+    need_possible(section, spec);
+  }
+  return spec;
+}
+
+}  // namespace macadam::scene

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file scene_reader.cpp  read_scene: the file, its sections, and what holds between sections.
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "host/scene/sections.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace scene {
+namespace {
+
+/// A scene is written by hand; anything longer is another kind of file.
+constexpr std::uintmax_t longest_file = 1u << 20;
+/// A dotted key `a.a.a.…` nests a table a dot, and nested tables are destroyed by recursion: a line's length bounds it.
+constexpr std::size_t longest_line = 2000;
+
+std::string read_text(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto refuse = [&](const std::string& found, const std::string& expected) {
+    throw InputError(file.string(), 0, "scene", found, expected);
+  };
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) refuse("no such file", "a scene file (TOML)");
+  if (std::filesystem::is_directory(status)) refuse("a directory", "a scene file (TOML)");
+  if (!std::filesystem::is_regular_file(status)) refuse("a device or pipe", "a scene file (TOML)");
+  const auto bytes = std::filesystem::file_size(file, error);
+  if (!error && bytes > longest_file) {
+    refuse(fmt::format("{} bytes", bytes), fmt::format("a scene file (TOML) of at most {} bytes", longest_file));
+  }
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (bytes > 0) text << in.rdbuf();
+  if (!in || !text) refuse("a file that cannot be read", "read permission");
+  return text.str();
+}
+
+void check_line_lengths(const std::string& text, const std::string& file) {
+  int line = 1;
+  for (std::size_t begin = 0; begin < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    if (end - begin > longest_line) {
+      throw InputError(file, line, "scene", fmt::format("{} characters in a line", end - begin),
+                       fmt::format("at most {}", longest_line));
+    }
+    begin = end + 1;
+  }
+}
+
+toml::table parse_toml(const std::filesystem::path& file) {
+  const std::string text = read_text(file);
+  check_line_lengths(text, file.string());
+  try {
+    return toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(file.string(), static_cast<int>(error.source().begin.line), "TOML syntax",
+                     std::string(error.description()), "valid TOML");
+  }
+}
+
+Materials read_materials(const Section& section) {
+  Materials materials;
+  const auto phase = [](double& target) {
+    return [&target](const Value& value) {
+      value.section().read({{"density", Need::required, into(target, density, positive)}});
+    };
+  };
+  section.read(
+      {{"aggregate", Need::optional, phase(materials.aggregate)}, {"mastic", Need::optional, phase(materials.mastic)}});
+  return materials;
+}
+
+NetworkSpec read_network(const Section& section) {
+  // d − R_a − R_b over the mean radius is d/mean − 2.
+  constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, where centres coincide"};
+  NetworkSpec spec;
+  section.read({{"gap_max", Need::optional, into(spec.gap_max, ratio, gap)},
+                {"area_min", Need::optional, into(spec.area_min, ratio, non_negative)},
+                {"quadrature", Need::optional,
+                 into<Quadrature>(spec.quadrature, {{"lumped", Quadrature::lumped}, {"exact", Quadrature::exact}})},
+                {"lateral_walls", Need::optional, into(spec.lateral_walls)}});
+  return spec;
+}
+
+/// What can only be said of two sections together.
+void check_together(const Scene& scene, const Section& root) {
+  if (scene.network.quadrature == Quadrature::exact && scene.solver.form == ContactForm::points) {
+    root.find("network")->section().refuse("quadrature", "\"exact\" beside form = \"points\" in [solver]",
+                                           "\"lumped\", or form = \"condensed\"");
+  }
+  const auto need_density = [&](bool generated, double density, const std::string& phase) {
+    if (generated && density == 0) {
+      root.refuse("materials", "no density of the " + phase + " that [specimen] generates",
+                  "[materials." + phase + "] with a density");
+    }
+  };
+  need_density(!scene.specimen.aggregate.empty(), scene.materials.aggregate, "aggregate");
+  need_density(scene.specimen.mastic.has_value(), scene.materials.mastic, "mastic");
+}
+
+}  // namespace
+
+LoadingSpec read_loading(const Section& section) {
+  constexpr Rule strain{[](double v) { return v > 0 && v < 1; }, "a strain above 0 and below 1"};
+  constexpr std::int64_t most = 1'000'000;
+  LoadingSpec spec;
+  section.read({{"kind", Need::required, [](const Value& v) { v.choice({"cyclic"}); }},
+                {"frequencies", Need::required, into(spec.frequencies, frequency, positive)},
+                {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain)},
+                {"cycles", Need::optional, into(spec.cycles, 1, most)},
+                {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, non_negative)},
+                {"fit_cycles", Need::optional, into(spec.fit_cycles, 0, most)},
+                {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most)}});
+  if (spec.frequencies.empty()) section.refuse("frequencies", "none", "at least one");
+  std::vector<double> sorted = spec.frequencies;
+  std::sort(sorted.begin(), sorted.end());
+  if (const auto twin = std::adjacent_find(sorted.begin(), sorted.end()); twin != sorted.end()) {
+    section.refuse("frequencies", fmt::format("{} Hz twice", *twin), "each frequency once");
+  }
+  if (spec.ramp_cycles > spec.cycles - 1) {
+    section.refuse("ramp_cycles", fmt::format("{}", spec.ramp_cycles),
+                   fmt::format("at most {}, one less than cycles", spec.cycles - 1));
+  }
+  if (spec.fit_cycles > spec.cycles) {
+    section.refuse("fit_cycles", fmt::format("{}", spec.fit_cycles), fmt::format("at most cycles, {}", spec.cycles));
+  }
+  return spec;
+}
+
+}  // namespace scene
+
+Scene read_scene(const std::filesystem::path& file) {
+  using namespace scene;
+  const toml::table table = parse_toml(file);
+  const Section root(file.string(), 0, "", "", table);
+  Scene out;
+  out.file = file;
+  const std::filesystem::path folder = file.parent_path();
+  root.read({{"specimen", Need::required, [&](const Value& v) { out.specimen = read_specimen(v.section(), folder); }},
+             {"materials", Need::required, [&](const Value& v) { out.materials = read_materials(v.section()); }},
+             {"contacts", Need::required, [&](const Value& v) { out.laws = read_contacts(v.sections()); }},
+             {"network", Need::optional, [&](const Value& v) { out.network = read_network(v.section()); }},
+             {"loading", Need::required, [&](const Value& v) { out.loading = read_loading(v.section()); }},
+             {"solver", Need::optional, [&](const Value& v) { out.solver = read_solver(v.section(), out.loading); }},
+             {"output", Need::optional, [&](const Value& v) {
+                v.section().read({{"contacts", Need::optional, into(out.output.contacts)}});
+              }}});
+  check_together(out, root);
+  return out;
+}
+
+}  // namespace macadam

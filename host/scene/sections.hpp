@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file sections.hpp  The sections of a scene that have a file of their own.
+#pragma once
+
+#include "host/scene/table.hpp"
+#include "macadam/scene.hpp"
+
+namespace macadam::scene {
+
+/// Reads `[specimen]`: a file or a recipe, whichever it is, that is not impossible. Paths are taken from `folder`.
+/// \throws InputError
+SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder);
+
+/// Reads every `[[contacts]]`.
+/// \throws InputError
+LawTable read_contacts(const std::vector<Section>& sections);
+
+/// Reads `[loading]`.
+/// \throws InputError
+LoadingSpec read_loading(const Section& section);
+
+/// Reads `[solver]`; density scaling and time step are checked against the loading's frequencies.
+/// \throws InputError
+SolverSpec read_solver(const Section& section, const LoadingSpec& loading);
+
+}  // namespace macadam::scene

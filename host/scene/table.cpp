@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file table.cpp  Types, ranges and unknown keys of TOML tables.
+#include "host/scene/table.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "macadam/error.hpp"
+
+namespace macadam::scene {
+namespace {
+
+int line_of(const toml::source_region& region) { return static_cast<int>(region.begin.line); }
+
+/// Text between quotes, fit for one line of a message.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  std::string shown(text.substr(0, longest));
+  for (char& c : shown) {
+    if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
+  }
+  return '"' + shown + (text.size() > longest ? "…\"" : "\"");
+}
+
+std::string listed(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+
+std::size_t edits(std::string_view a, std::string_view b) {  // Levenshtein, one row at a time
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (lower(a[i]) == lower(b[j]) ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::string nearest(std::string_view word, const std::vector<std::string>& known) {
+  return *std::min_element(known.begin(), known.end(),
+                           [&](const auto& a, const auto& b) { return edits(word, a) < edits(word, b); });
+}
+
+std::string Value::shown() const {
+  if (const auto* text = node_->as_string()) return quoted(text->get());
+  if (const auto* integer = node_->as_integer()) return std::to_string(integer->get());
+  if (const auto* real = node_->as_floating_point()) return fmt::format("{}", real->get());
+  if (const auto* boolean = node_->as_boolean()) return boolean->get() ? "true" : "false";
+  if (const auto* array = node_->as_array()) return fmt::format("an array of {}", array->size());
+  if (node_->is_table()) return "a table";
+  return "a date or time";
+}
+
+void Value::refuse(const std::string& found, const std::string& expected) const {
+  throw InputError(file_, line_, name_, found, expected);
+}
+
+double Value::number(const Quantity& quantity, const Rule& rule) const {
+  std::optional<double> value;
+  if (const auto* text = node_->as_string()) {
+    value = parse(text->get(), quantity);
+  } else if (const auto* integer = node_->as_integer()) {
+    value = static_cast<double>(integer->get());
+  } else if (const auto* real = node_->as_floating_point()) {
+    value = real->get();
+  }
+  if (!value) refuse(shown(), accepted(quantity));
+  if (!std::isfinite(*value)) refuse(shown(), "a finite number");
+  if (!rule.holds(*value)) refuse(shown(), rule.words);
+  return *value;
+}
+
+bool Value::is_infinite() const {
+  const auto* real = node_->as_floating_point();
+  return real && std::isinf(real->get()) && real->get() > 0;
+}
+
+const toml::array& Value::array(const std::string& expected) const {
+  const auto* array = node_->as_array();
+  if (!array) refuse(shown(), expected);
+  return *array;
+}
+
+std::vector<double> Value::numbers(const Quantity& quantity, const Rule& rule) const {
+  std::vector<double> out;
+  for (const toml::node& node : array("an array, each entry " + accepted(quantity))) {
+    const std::string entry = fmt::format("{}, entry {}", name_, out.size() + 1);
+    out.push_back(Value(file_, line_of(node.source()), entry, path_, node).number(quantity, rule));
+  }
+  return out;
+}
+
+std::int64_t Value::integer(std::int64_t min, std::int64_t max) const {
+  const std::string expected = max == std::numeric_limits<std::int64_t>::max()
+                                   ? fmt::format("an integer of at least {}", min)
+                                   : fmt::format("an integer from {} to {}", min, max);
+  constexpr double exact = 9007199254740992.0;  // 2^53: above it a double does not tell whole numbers apart
+  std::optional<std::int64_t> value;
+  if (const auto* integer = node_->as_integer()) {
+    value = integer->get();
+  } else if (const auto* real = node_->as_floating_point()) {
+    if (std::abs(real->get()) <= exact && std::floor(real->get()) == real->get()) {
+      value = static_cast<std::int64_t>(real->get());
+    }
+  }
+  if (!value || *value < min || *value > max) refuse(shown(), expected);
+  return *value;
+}
+
+bool Value::boolean() const {
+  const auto* boolean = node_->as_boolean();
+  if (!boolean) refuse(shown(), "true or false");
+  return boolean->get();
+}
+
+std::string Value::text() const {
+  const auto* text = node_->as_string();
+  if (!text || text->get().empty()) refuse(shown(), "text that is not empty");
+  return text->get();
+}
+
+std::size_t Value::choice(const std::vector<std::string>& names) const {
+  const auto* text = node_->as_string();
+  const auto found = text ? std::find(names.begin(), names.end(), text->get()) : names.end();
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  std::vector<std::string> words;
+  for (const auto& name : names) words.push_back(quoted(name));
+  refuse(shown(), (words.size() > 1 ? "one of " : "") + listed(words));
+}
+
+Section Value::section() const {
+  const auto* table = node_->as_table();
+  if (!table) refuse(shown(), "a section [" + path_ + "]");
+  return Section(file_, line_, "[" + path_ + "]", path_, *table);
+}
+
+std::vector<Section> Value::sections() const {
+  const std::string expected = "sections [[" + path_ + "]], with double brackets";
+  std::vector<Section> out;
+  for (const toml::node& node : array(expected)) {
+    const auto* table = node.as_table();
+    const Value entry(file_, line_of(node.source()), name_, path_, node);
+    if (!table) entry.refuse(entry.shown(), expected);
+    out.emplace_back(file_, line_of(node.source()), "[[" + path_ + "]]", path_, *table);
+  }
+  if (out.empty()) refuse("none", expected);
+  return out;
+}
+
+std::string Section::name(const std::string& key) const {
+  return title_.empty() ? "[" + key + "]" : title_ + " " + key;
+}
+
+std::optional<Value> Section::find(const std::string& key) const {
+  const auto found = table_->find(key);
+  if (found == table_->end()) return {};
+  return Value(file_, line_of(found->first.source()), name(key), path_.empty() ? key : path_ + "." + key,
+               found->second);
+}
+
+void Section::refuse(const std::string& key, const std::string& found, const std::string& expected) const {
+  if (const auto value = find(key)) value->refuse(found, expected);
+  throw InputError(file_, line_, name(key), found, expected);
+}
+
+void Section::read(const std::vector<Key>& keys) const {
+  const std::string kind = title_.empty() ? "section" : "key";
+  std::vector<std::string> known;
+  for (const Key& key : keys) known.push_back(key.name);
+  for (const auto& [key, node] : *table_) {
+    const std::string word(key.str());
+    if (std::find(known.begin(), known.end(), word) == known.end()) {
+      refuse(word, "an unknown " + kind, nearest(word, known) + " (the nearest of " + listed(known) + ")");
+    }
+  }
+  for (const Key& key : keys) {
+    if (const auto value = find(key.name)) {
+      key.read(*value);
+    } else if (key.need == Need::required) {
+      refuse(key.name, "nothing", "this " + kind + ", which is required");
+    }
+  }
+}
+
+}  // namespace macadam::scene

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file units.hpp  Numbers with units: "12.5 mm", "35 GPa", "5 %". A quantity accepts units of its own dimension only.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace macadam::scene {
+
+/// A unit as a power of ten of the SI unit.
+struct Unit {
+  std::string_view name;
+  int exponent;
+};
+
+/// A physical dimension: what it is called and which units it may come in, the SI unit first.
+struct Quantity {
+  const char* name;
+  std::span<const Unit> units;
+};
+
+extern const Quantity length;     ///< [m]
+extern const Quantity modulus;    ///< [Pa]
+extern const Quantity viscosity;  ///< [Pa·s]
+extern const Quantity density;    ///< [kg/m³]
+extern const Quantity frequency;  ///< [Hz]
+extern const Quantity duration;   ///< [s]
+extern const Quantity rate;       ///< [1/s]
+extern const Quantity ratio;      ///< [1]; as text a percentage
+
+/// How a value of this quantity may be written, for messages: `a number in Pa, or text with one of: Pa, kPa, …`.
+std::string accepted(const Quantity& quantity);
+
+/// The SI value of `text`, a decimal number followed by a unit of the quantity; empty when it is anything else. The
+/// power of ten is applied to the decimal text, so "9.5 mm" is the same double as 0.0095.
+std::optional<double> parse(std::string_view text, const Quantity& quantity);
+
+}  // namespace macadam::scene

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// prepare.cpp  Scene → specimen → tessellation → contact network.
+#include <chrono>
+
+#include "host/results/files.hpp"
+#include "host/simulation/summary.hpp"
+#include "macadam/simulation.hpp"
+
+namespace macadam {
+namespace {
+
+/// Seconds that f takes.
+template <class F>
+double timed(F&& f) {
+  const auto start = std::chrono::steady_clock::now();
+  f();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Preparation prepare(const Scene& scene, const Progress& progress) {
+  Preparation out;
+  auto report = [&](const char* stage, double share) {
+    if (progress) progress(stage, share);
+  };
+  out.seconds_specimen = timed([&] {
+    if (scene.specimen.file) {
+      report("reading the specimen", 0);
+      out.specimen = read_specimen_csv(*scene.specimen.file, scene.specimen.box);
+    } else {
+      GeneratedSpecimen made = generate_specimen(scene.specimen, report);
+      out.specimen = std::move(made.specimen);
+      out.composition = std::move(made.composition);
+    }
+  });
+  report("tessellation", 0);
+  out.seconds_tessellation = timed([&] { out.tessellation = tessellate(out.specimen); });
+  report("contact network", 0);
+  out.seconds_network = timed([&] { out.network = build_network(out.specimen, out.tessellation, scene.network); });
+  require_laws(scene, out.specimen, out.network);
+  return out;
+}
+
+void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out) {
+  make_result_folder(out);
+  write_specimen_csv(out / "specimen.csv", prepared.specimen);
+  if (scene.output.contacts) write_contacts_csv(out / "contacts.csv", prepared.network);
+  write_whole(out / "summary.json", summary_json(scene, prepared, {}, "prepared"));
+}
+
+}  // namespace macadam

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file summary.hpp  summary.json: what was prepared, asked, run and found.
+#pragma once
+
+#include <string>
+
+#include "macadam/simulation.hpp"
+
+namespace macadam {
+
+/// The whole text. `status` is "prepared", "running", "done" or "failed: …".
+std::string summary_json(const Scene& scene, const Preparation& preparation, const RunResult& result,
+                         const std::string& status);
+
+}  // namespace macadam

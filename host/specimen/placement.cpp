@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file placement.cpp  Random sequential placement, with a list of open cells when room is scarce.
+#include "host/specimen/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "host/specimen/size_law.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+/// Plain tries before the open cells are listed; a listing costs about as much as this many tries.
+constexpr std::int64_t plain_attempts = 20'000;
+
+double squared_distance(const Vec3d& a, const Vec3d& b) {
+  const Vec3d d = a - b;
+  return dot(d, d);
+}
+
+/// One aggregate that waits for its place.
+struct Waiting {
+  std::size_t population, rank;  ///< class, and place within its list of radii
+  double radius;
+};
+
+std::vector<Waiting> largest_first(const std::vector<Population>& classes) {
+  std::vector<Waiting> all;
+  for (std::size_t k = 0; k < classes.size(); ++k)
+    for (std::size_t i = 0; i < classes[k].radius.size(); ++i) all.push_back({k, i, classes[k].radius[i]});
+  std::stable_sort(all.begin(), all.end(), [](const Waiting& a, const Waiting& b) { return a.radius > b.radius; });
+  return all;
+}
+
+std::string no_room(const Population& c, std::size_t placed, std::int64_t attempts) {
+  double volume = 0, total = 0;
+  for (std::size_t i = 0; i < c.radius.size(); ++i) {
+    total += sphere_volume(2 * c.radius[i]);
+    if (i < placed) volume += sphere_volume(2 * c.radius[i]);
+  }
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "no room for aggregate %zu of %zu of class %s (diameter %.4g mm) in %lld attempts: %zu of %zu placed, "
+                "%.1f %% of the class's volume; ask for less of this class or of larger ones, a larger box, smaller "
+                "sieves, more attempts or another seed",
+                placed + 1, c.radius.size(), c.row.name.c_str(), 2e3 * c.radius[placed],
+                static_cast<long long>(attempts), placed, c.radius.size(), 100 * volume / total);
+  return text;
+}
+
+}  // namespace
+
+Placement::Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random)
+    : specimen_(specimen), grid_(specimen.box, smallest), attempts_(attempts), random_(random) {}
+
+void Placement::place_aggregates(const std::vector<Population>& classes,
+                                 const std::function<void(double share)>& progress) {
+  const std::vector<Waiting> all = largest_first(classes);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const std::optional<Vec3d> centre = position_for(all[k].radius);
+    if (!centre) throw RunError(no_room(classes[all[k].population], all[k].rank, attempts_));
+    // Later spheres are no larger: they look for this one from at most twice its radius away.
+    grid_.insert(static_cast<std::int32_t>(specimen_.size()), *centre, 2 * all[k].radius);
+    add(*centre, all[k].radius, Phase::aggregate);
+    if (k % 64 == 0) progress(static_cast<double>(k) / static_cast<double>(all.size()));
+  }
+  progress(1);
+}
+
+void Placement::place_mastic(const Population& mastic) {
+  for (double radius : mastic.radius) add(point_outside_aggregates(), radius, Phase::mastic);
+}
+
+Vec3d Placement::point_outside_aggregates() {
+  for (std::int64_t k = 0; k < attempts_; ++k) {
+    const Vec3d point = random_point({0, 0, 0}, specimen_.box.size);
+    if (clear_of_placed(point, 0)) return point;
+  }
+  throw RunError("no room for mastic outside the aggregates in " + std::to_string(attempts_) +
+                 " attempts; ask for less aggregate");
+}
+
+std::optional<Vec3d> Placement::position_for(double radius) {
+  const Vec3d low{radius, radius, radius}, high = specimen_.box.size - low;
+  const std::int64_t plain = std::min(attempts_, plain_attempts);
+  for (std::int64_t k = 0; k < plain; ++k) {
+    const Vec3d point = random_point(low, high);
+    if (clear_of_placed(point, radius)) return point;
+  }
+  // Points drawn evenly over the cells that are not wholly taken are distributed as plain tries are, only more of them
+  // succeed.
+  const std::vector<std::size_t> open = open_cells(radius);
+  if (open.empty()) return std::nullopt;
+  for (std::int64_t k = plain; k < attempts_; ++k) {
+    const Vec3d corner = grid_.corner(open[random_.index(open.size())]);
+    const Vec3d point = random_point(corner, corner + grid_.edge());
+    const bool inside = point.x >= low.x && point.x <= high.x && point.y >= low.y && point.y <= high.y &&
+                        point.z >= low.z && point.z <= high.z;
+    if (inside && clear_of_placed(point, radius)) return point;
+  }
+  return std::nullopt;
+}
+
+Vec3d Placement::random_point(const Vec3d& low, const Vec3d& high) {
+  const double x = random_.uniform(low.x, high.x), y = random_.uniform(low.y, high.y);
+  return {x, y, random_.uniform(low.z, high.z)};
+}
+
+bool Placement::clear_of_placed(const Vec3d& point, double distance) const {
+  for (std::int32_t j : grid_.near(grid_.cell_of(point))) {
+    const double least = specimen_.radius[j] + distance;
+    if (squared_distance(point, specimen_.centre[j]) < least * least) return false;
+  }
+  return true;
+}
+
+std::vector<std::size_t> Placement::open_cells(double radius) const {
+  const Vec3d edge = grid_.edge(), size = specimen_.box.size;
+  std::vector<std::size_t> open;
+  for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
+    const Vec3d a = grid_.corner(cell), b = a + edge;
+    bool taken = b.x < radius || b.y < radius || b.z < radius || a.x > size.x - radius || a.y > size.y - radius ||
+                 a.z > size.z - radius;
+    for (std::size_t k = 0; k < grid_.near(cell).size() && !taken; ++k) {
+      const std::int32_t j = grid_.near(cell)[k];
+      const Vec3d c = specimen_.centre[j];
+      const Vec3d farthest{std::max(c.x - a.x, b.x - c.x), std::max(c.y - a.y, b.y - c.y),
+                           std::max(c.z - a.z, b.z - c.z)};
+      taken = norm(farthest) < specimen_.radius[j] + radius;
+    }
+    if (!taken) open.push_back(cell);
+  }
+  return open;
+}
+
+void Placement::add(const Vec3d& centre, double radius, Phase phase) {
+  specimen_.body.push_back(phase == Phase::aggregate ? static_cast<std::int32_t>(specimen_.size()) : -1);
+  specimen_.centre.push_back(centre);
+  specimen_.radius.push_back(radius);
+  specimen_.phase.push_back(phase);
+}
+
+}  // namespace macadam

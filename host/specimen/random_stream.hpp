@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file random_stream.hpp  Uniform numbers that are the same on every platform.
+#pragma once
+
+#include <cstdint>
+#include <random>
+
+namespace macadam {
+
+/// Independent stream number `stream` of a seed. The engine's output is fixed by the C++ standard; the standard's
+/// distributions are not, hence the mapping here.
+class RandomStream {
+ public:
+  RandomStream(std::uint64_t seed, std::uint64_t stream) : engine_(mixed(mixed(seed) + stream)) {}
+
+  /// Uniform in [0, 1).
+  double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+
+  /// Uniform in [low, high).
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+
+  /// Uniform in 0 … n − 1; the bias of 2⁻⁵³·n is of no account here.
+  std::size_t index(std::size_t n) { return static_cast<std::size_t>(uniform() * static_cast<double>(n)); }
+
+ private:
+  /// SplitMix64's finaliser: neighbouring seeds and streams give unrelated engine states.
+  static std::uint64_t mixed(std::uint64_t x) {
+    x += 0x9E3779B97F4A7C15u;
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+    return x ^ (x >> 31);
+  }
+
+  std::mt19937_64 engine_;
+};
+
+}  // namespace macadam

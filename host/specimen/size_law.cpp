@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file size_law.cpp  Quantiles and means of the size laws, and stratified draws of a given volume.
+#include "host/specimen/size_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace macadam {
+
+double sphere_volume(double diameter) { return std::numbers::pi / 6 * diameter * diameter * diameter; }
+
+double SizeRange::quantile(double u) const {
+  double d = min;
+  switch (law) {
+    case SizeLaw::log_uniform:
+      d = min * std::exp(u * std::log(max / min));
+      break;
+    case SizeLaw::uniform:
+      d = min + u * (max - min);
+      break;
+    case SizeLaw::volume_uniform: {
+      const double ratio = min / max;
+      d = min / std::sqrt(1 - u * (1 - ratio * ratio));
+    }
+  }
+  return std::clamp(d, min, max);  // rounding must not leave the sieves
+}
+
+double SizeRange::mean_volume() const {
+  const double a = min, b = max, q = std::log(b / a);
+  double mean_cube = 0;
+  switch (law) {
+    case SizeLaw::log_uniform:
+      mean_cube = q > 0 ? a * a * a * std::expm1(3 * q) / (3 * q) : a * a * a;
+      break;
+    case SizeLaw::uniform:
+      mean_cube = (a + b) * (a * a + b * b) / 4;
+      break;
+    case SizeLaw::volume_uniform:
+      mean_cube = 2 * a * a * b * b / (a + b);
+  }
+  return std::numbers::pi / 6 * mean_cube;
+}
+
+std::vector<double> draw_diameters(const SizeRange& range, std::int64_t count, double volume, RandomStream& random) {
+  const auto n = static_cast<std::size_t>(count);
+  std::vector<double> log_share(n), diameter(n);
+  for (std::size_t i = 0; i < n; ++i)
+    log_share[i] = std::log((static_cast<double>(i) + random.uniform()) / static_cast<double>(n));
+  const auto bend = [&](double t) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      diameter[n - 1 - i] = range.quantile(std::exp(t * log_share[i]));
+      sum += sphere_volume(diameter[n - 1 - i]);
+    }
+    return sum;
+  };
+  // The sum falls as t grows. Bisection in log t; the ends make every share 1 or 0 to rounding.
+  double low = -40, high = 40;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (low + high) / 2;
+    const double excess = bend(std::exp(middle)) - volume;
+    if (std::abs(excess) <= 1e-13 * volume) break;
+    (excess > 0 ? low : high) = middle;
+  }
+  return diameter;
+}
+
+}  // namespace macadam

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// backend.cpp  Names of the choices, what the machine offers, and the one switch between backends.
+#include "macadam/backend.hpp"
+
+#include <omp.h>
+
+#include "host/reference/reference_stepper.hpp"
+#include "kernels/steppers.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+const char* to_string(Backend b) {
+  switch (b) {
+    case Backend::cpu:
+      return "cpu";
+    case Backend::cuda:
+      return "cuda";
+    case Backend::reference:
+      return "reference";
+    default:
+      return "auto";
+  }
+}
+const char* to_string(Precision p) {
+  switch (p) {
+    case Precision::mixed:
+      return "mixed";
+    case Precision::single:
+      return "single";
+    default:
+      return "double";
+  }
+}
+const char* to_string(ContactForm f) { return f == ContactForm::points ? "points" : "condensed"; }
+const char* to_string(Geometry g) { return g == Geometry::fixed ? "fixed" : "updated"; }
+const char* to_string(Damping d) { return d == Damping::none ? "none" : d == Damping::local ? "local" : "viscous"; }
+
+BackendReport report_backends() {
+  BackendReport report;
+  report.threads = omp_get_max_threads();
+#ifdef MACADAM_CUDA
+  report.cuda_compiled = true;
+  report.devices = kernels::cuda_devices(report.cuda_status);
+#else
+  report.cuda_status = "this build has no CUDA backend (no CUDA toolkit was found when it was configured)";
+#endif
+  return report;
+}
+
+Backend select_backend(Backend asked, std::string* reason) {
+  std::string why = "asked for";
+  Backend chosen = asked;
+  if (asked == Backend::automatic || asked == Backend::cuda) {
+    const BackendReport report = report_backends();
+    chosen = report.devices.empty() ? Backend::cpu : Backend::cuda;
+    why = report.devices.empty() ? report.cuda_status : report.devices.front().name;
+    if (asked == Backend::cuda && chosen != Backend::cuda) {
+      throw RunError("backend cuda was asked for but cannot run: " + why + "; use --backend cpu or auto");
+    }
+  }
+  if (reason) *reason = why;
+  return chosen;
+}
+
+std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
+                                      const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+                                      const StepperOptions& options) {
+  for (int pair = 0; pair < pair_types; ++pair) {
+    const auto p = static_cast<std::size_t>(pair);
+    if (network.count[p] > 0 && !laws[p]) {
+      throw InputError(std::string("pair ") + to_string(static_cast<PairType>(pair)) + " has " +
+                       std::to_string(network.count[p]) + " contacts but no law");
+    }
+  }
+  switch (select_backend(backend)) {
+    case Backend::reference:
+      return make_reference_stepper(specimen, network, laws, inertia, options);
+#ifdef MACADAM_CUDA
+    case Backend::cuda:
+      return kernels::make_cuda_stepper(specimen, network, laws, inertia, options);
+#endif
+    default:
+      return kernels::make_cpu_stepper(specimen, network, laws, inertia, options);
+  }
+}
+
+}  // namespace macadam

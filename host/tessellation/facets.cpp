@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file facets.cpp  From the dual of the triangulation to facets: polygons, clipping by the box, walls.
+#include "host/tessellation/facets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace macadam {
+namespace {
+
+/// Facets of consecutive particles; vertex ranges count from 0.
+struct FacetBlock {
+  std::vector<Facet> facets;
+  std::vector<Vec3d> vertices;
+  std::int64_t null_facets = 0;
+};
+
+/// An edge of the triangulation seen from one particle, with a tetrahedron at it.
+struct Neighbour {
+  std::int32_t particle, tetrahedron;
+};
+
+/// Makes the facets of particles one by one, with buffers of its own.
+class FacetMaker {
+ public:
+  FacetMaker(const Specimen& specimen, const PowerDiagram& diagram, const std::vector<std::uint8_t>& beyond,
+             FacetBlock& out)
+      : specimen_(specimen),
+        diagram_(diagram),
+        beyond_(beyond),
+        box_(specimen.box.size),
+        rounding_(rounding_bound(box_)),
+        out_(out) {}
+
+  /// Facets of particle a with the walls and with particles of greater number, in order.
+  void particle(std::int32_t a, const std::int32_t* begin, const std::int32_t* end) {
+    neighbours_.clear();
+    unsigned walls = 0;
+    for (const std::int32_t* t = begin; t != end; ++t) {
+      walls |= beyond_[*t];
+      for (const std::int32_t b : diagram_.tetrahedra[*t].site)
+        if (b >= 0 && b != a) neighbours_.push_back({b, *t});
+    }
+    // Only the tetrahedron found first is needed; which it is must not depend on the sort.
+    std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& p, const Neighbour& q) {
+      return p.particle != q.particle ? p.particle < q.particle : p.tetrahedron < q.tetrahedron;
+    });
+    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end(),
+                                  [](const Neighbour& p, const Neighbour& q) { return p.particle == q.particle; }),
+                      neighbours_.end());
+    for (int k = wall_count - 1; k >= 0; --k)
+      if (walls >> k & 1) wall_facet(a, k);
+    for (const Neighbour& b : neighbours_)
+      if (b.particle > a) particle_facet(a, b);
+  }
+
+ private:
+  /// Dual points of the tetrahedra round the edge (a, b), in order, into polygon_. Returns the walls that some are
+  /// beyond.
+  unsigned circulate(std::int32_t a, const Neighbour& b) {
+    polygon_.clear();
+    unsigned some = 0;
+    std::int32_t t = b.tetrahedron;
+    std::int32_t leave = -1, keep = -1;  // the face to cross is opposite to site number `leave` of t
+    for (int k = 0; k < 4; ++k) {
+      const std::int32_t site = diagram_.tetrahedra[t].site[k];
+      if (site == a || site == b.particle) continue;
+      (leave < 0 ? leave : keep) = k;
+    }
+    std::int32_t kept_site = diagram_.tetrahedra[t].site[keep];
+    do {
+      polygon_.push_back(diagram_.dual[t]);
+      some |= beyond_[t];
+      t = diagram_.tetrahedra[t].neighbour[leave];
+      std::int32_t next_site = 0;
+      for (int k = 0; k < 4; ++k) {
+        const std::int32_t site = diagram_.tetrahedra[t].site[k];
+        if (site == a || site == b.particle) continue;
+        if (site == kept_site)
+          leave = k;
+        else
+          next_site = site;
+      }
+      kept_site = next_site;
+    } while (t != b.tetrahedron);
+    return some;
+  }
+
+  void particle_facet(std::int32_t a, const Neighbour& b) {
+    const unsigned walls = circulate(a, b);
+    for (int k = 0; k < wall_count; ++k) {
+      if (!(walls >> k & 1)) continue;
+      const WallPlane wall(k, box_);
+      clip(
+          polygon_, scratch_, rounding_, [&](const Vec3d& p) { return wall.height(p); },
+          [&](Vec3d& p) { p.*wall.coordinate = wall.position; });
+    }
+    if (polygon_.empty()) return;
+    const Bisector plane(specimen_, a, b.particle);
+    if (!add(a, b.particle, plane.normal, plane.distance)) ++out_.null_facets;
+  }
+
+  void wall_facet(std::int32_t a, int k) {
+    const WallPlane wall(k, box_);
+    wall.rectangle(box_, polygon_);
+    double nearest = norm(box_);
+    for (const Neighbour& b : neighbours_) {
+      const Bisector plane(specimen_, a, b.particle);
+      nearest = std::min(nearest, plane.distance);
+      clip(
+          polygon_, scratch_, rounding_,
+          [&](const Vec3d& p) { return dot(p - specimen_.centre[a], plane.normal) - plane.arm; },
+          [&](Vec3d& p) { p.*wall.coordinate = wall.position; });
+      if (polygon_.empty()) return;
+    }
+    add(a, -1 - k, wall.normal(), nearest);
+  }
+
+  /// Cleans polygon_ and stores it; false when it has no area. What is shorter than 1e-10 of `scale`, the distance of
+  /// the centres, is taken for rounding of the input: lattices written in decimals have such edges, slivers and splits.
+  bool add(std::int32_t a, std::int32_t b, const Vec3d& normal, double scale) {
+    const double tolerance = 1e-10 * scale + rounding_;
+    merge_vertices(polygon_, tolerance);
+    if (polygon_.size() < 3) return false;
+    PolygonMeasure m = measure(polygon_, normal);
+    if (std::abs(m.area) <= tolerance * m.extent) return false;
+    if (m.area < 0) {
+      std::reverse(polygon_.begin(), polygon_.end());
+      m.area = -m.area;
+    }
+    const auto first = static_cast<std::uint32_t>(out_.vertices.size());
+    out_.vertices.insert(out_.vertices.end(), polygon_.begin(), polygon_.end());
+    out_.facets.push_back({a, b, m.area, m.centroid, normal, first, static_cast<std::uint32_t>(out_.vertices.size())});
+    return true;
+  }
+
+  const Specimen& specimen_;
+  const PowerDiagram& diagram_;
+  const std::vector<std::uint8_t>& beyond_;
+  Vec3d box_;
+  double rounding_;
+  FacetBlock& out_;
+  Polygon polygon_, scratch_;
+  std::vector<Neighbour> neighbours_;
+};
+
+/// For each dual point the walls (bits 0…5) that it is on or beyond, within rounding.
+std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const Vec3d& box) {
+  const double rounding = rounding_bound(box);
+  std::vector<std::uint8_t> beyond(diagram.dual.size(), 0);
+  for (std::size_t t = 0; t < beyond.size(); ++t)
+    for (int k = 0; k < wall_count; ++k)
+      if (WallPlane(k, box).height(diagram.dual[t]) >= -rounding) beyond[t] |= 1U << k;
+  return beyond;
+}
+
+/// Tetrahedra at each particle, ascending: those of particle i are list[begin[i] … begin[i + 1]).
+struct Incidence {
+  std::vector<std::uint32_t> begin;
+  std::vector<std::int32_t> list;
+
+  Incidence(const PowerDiagram& diagram, std::size_t particles) : begin(particles + 1, 0) {
+    const auto each = [&](auto&& f) {
+      for (std::size_t t = 0; t < diagram.tetrahedra.size(); ++t)
+        for (const std::int32_t site : diagram.tetrahedra[t].site)
+          if (site >= 0) f(static_cast<std::size_t>(site), static_cast<std::int32_t>(t));
+    };
+    each([&](std::size_t site, std::int32_t) { ++begin[site + 1]; });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    list.resize(begin.back());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    each([&](std::size_t site, std::int32_t t) { list[next[site]++] = t; });
+  }
+};
+
+}  // namespace
+
+void make_facets(const Specimen& specimen, const PowerDiagram& diagram, Tessellation& out) {
+  const std::size_t n = specimen.size();
+  const Incidence incidence(diagram, n);
+  const std::vector<std::uint8_t> beyond = beyond_walls(diagram, specimen.box.size);
+  // Blocks of particles are independent and joined in order: the result does not depend on the number of threads.
+  constexpr std::size_t block_size = 256;
+  std::vector<FacetBlock> blocks((n + block_size - 1) / block_size);
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    FacetMaker maker(specimen, diagram, beyond, blocks[k]);
+    const std::int32_t* list = incidence.list.data();
+    for (std::size_t a = k * block_size; a < std::min(n, (k + 1) * block_size); ++a)
+      maker.particle(static_cast<std::int32_t>(a), list + incidence.begin[a], list + incidence.begin[a + 1]);
+  }
+  out.facets.clear(), out.vertices.clear();
+  out.null_facets = 0;
+  for (FacetBlock& block : blocks) {
+    const auto shift = static_cast<std::uint32_t>(out.vertices.size());
+    for (Facet& f : block.facets) f.vertex_begin += shift, f.vertex_end += shift;
+    out.facets.insert(out.facets.end(), block.facets.begin(), block.facets.end());
+    out.vertices.insert(out.vertices.end(), block.vertices.begin(), block.vertices.end());
+    out.null_facets += block.null_facets;
+  }
+}
+
+}  // namespace macadam

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file invariants.cpp  What every Laguerre diagram obeys, measured.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "host/tessellation/facets.hpp"
+#include "macadam/tessellation.hpp"
+
+namespace macadam {
+
+TessellationInvariants measure_invariants(const Specimen& specimen, const Tessellation& tessellation) {
+  TessellationInvariants out;
+  const Vec3d& box = specimen.box.size;
+  std::vector<Vec3d> closing(specimen.size());
+  std::vector<double> surface(specimen.size(), 0);
+  std::array<double, wall_count> wall_area{};
+  for (const Facet& f : tessellation.facets) {
+    closing[f.a] += f.area * f.normal;
+    surface[f.a] += f.area;
+    const Vec3d& pa = specimen.centre[f.a];
+    if (f.b < 0) {
+      const WallPlane wall(-1 - f.b, box);
+      wall_area[-1 - f.b] += f.area;
+      // A particle and its mirror image: their distance is twice the one to the wall, or nothing on it.
+      const double scale = std::max(2 * std::abs(wall.height(pa)), specimen.radius[f.a]);
+      for (const Vec3d& v : tessellation.polygon(f))
+        out.flatness = std::max(out.flatness, std::abs(wall.height(v)) / scale);
+      continue;
+    }
+    closing[f.b] -= f.area * f.normal;
+    surface[f.b] += f.area;
+    const Bisector plane(specimen, f.a, f.b);
+    for (const Vec3d& v : tessellation.polygon(f)) {
+      const double off = dot(v - pa, plane.normal) - plane.arm;
+      out.flatness = std::max(out.flatness, std::abs(dot(v - f.centroid, f.normal)) / plane.distance);
+      // pow_a − pow_b = 2·d·(height above the plane): formed so, it does not cancel where the powers are large.
+      out.power = std::max(out.power, 2 * std::abs(off) / plane.distance);
+    }
+  }
+  for (std::size_t i = 0; i < specimen.size(); ++i)
+    if (surface[i] > 0) out.closure = std::max(out.closure, norm(closing[i]) / surface[i]);
+  for (int k = 0; k < wall_count; ++k) {
+    const WallPlane wall(k, box);
+    const double area = box.*wall.u * (box.*wall.v);
+    out.walls = std::max(out.walls, std::abs(wall_area[k] - area) / area);
+  }
+  const auto& volume = tessellation.cell_volume;
+  // In double, a sum of n equal cells would itself be off by up to n·ε/2.
+  const long double sum = std::accumulate(volume.begin(), volume.end(), 0.0L);
+  out.volume = static_cast<double>(std::abs(sum - specimen.box.volume()) / specimen.box.volume());
+  return out;
+}
+
+}  // namespace macadam

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file tessellation.cpp  Triangulation, facets, cell volumes, and which particles have no cell.
+#include "macadam/tessellation.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/tessellation/facets.hpp"
+#include "host/tessellation/power_diagram.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+/// R² enters every plane's position: above this, in box diagonals, its rounding would be seen in the facets.
+constexpr double largest_radius = 1000;
+
+void check_radii(const Specimen& specimen) {
+  const double limit = largest_radius * norm(specimen.box.size);
+  for (std::size_t i = 0; i < specimen.size(); ++i)
+    if (specimen.radius[i] > limit)
+      throw InputError("specimen", 0, fmt::format("radius in metres of particle {}", i),
+                       fmt::format("{}", specimen.radius[i]),
+                       fmt::format("at most {}, {} diagonals of the box", limit, largest_radius));
+}
+
+/// Cell volumes as signed pyramids about the centres (a centre may lie outside its own cell), and cell surfaces.
+std::vector<double> measure_cells(const Specimen& specimen, Tessellation& out) {
+  std::vector<double> surface(specimen.size(), 0);
+  out.cell_volume.assign(specimen.size(), 0);
+  for (const Facet& f : out.facets) {
+    surface[f.a] += f.area;
+    if (f.b < 0) {
+      out.cell_volume[f.a] -= f.area * WallPlane(-1 - f.b, specimen.box.size).height(specimen.centre[f.a]) / 3;
+      continue;
+    }
+    const Bisector plane(specimen, f.a, f.b);
+    surface[f.b] += f.area;
+    out.cell_volume[f.a] += f.area * plane.arm / 3;
+    out.cell_volume[f.b] += f.area * (plane.distance - plane.arm) / 3;
+  }
+  return surface;
+}
+
+/// Takes particles whose cell has no volume out of `active`; true if any of them had facets. Such a cell is a sheet
+/// between two others (or on a wall) that only rounding opened: 1e-10 is the facets' own tolerance.
+bool retire_empty_cells(const Tessellation& tessellation, const std::vector<double>& surface,
+                        std::vector<std::uint8_t>& active) {
+  bool again = false;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    if (!active[i] || tessellation.cell_volume[i] > 1e-10 * surface[i] * std::sqrt(surface[i])) continue;
+    active[i] = 0;
+    again = again || surface[i] > 0;
+  }
+  return again;
+}
+
+}  // namespace
+
+Tessellation tessellate(const Specimen& specimen) {
+  validate(specimen, "specimen");
+  check_radii(specimen);
+  Tessellation out;
+  std::vector<std::uint8_t> active(specimen.size(), 1);
+  for (bool again = true; again;) {  // a second round is rare: without the sheets, their two sides meet
+    make_facets(specimen, power_diagram(specimen, active), out);
+    again = retire_empty_cells(out, measure_cells(specimen, out), active);
+  }
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    if (active[i]) continue;
+    out.cell_volume[i] = 0;
+    out.hidden.push_back(static_cast<std::int32_t>(i));
+  }
+  return out;
+}
+
+std::vector<std::int32_t> particles_without_cell(const Specimen& specimen) { return tessellate(specimen).hidden; }
+
+}  // namespace macadam

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file backend.hpp  The choices that decide which code runs a scene, and what this build and machine offer.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+enum class Backend : std::uint8_t { automatic, cpu, cuda, reference };
+/// Which quantities are double: all, the states and particles (`mixed`), or none.
+enum class Precision : std::uint8_t { double_, mixed, single };
+/// `condensed`: six generalised displacements a contact; `points`: three displacements a contact point (the paper's).
+enum class ContactForm : std::uint8_t { condensed, points };
+/// `updated`: Eq. 5–7 every step; `fixed`: normals and lever arms of the start (small strain).
+enum class Geometry : std::uint8_t { updated, fixed };
+/// `local`: F_d = −χ|F|sign(v); `viscous`: F_d = −β·m·v.
+enum class Damping : std::uint8_t { none, local, viscous };
+
+const char* to_string(Backend);
+const char* to_string(Precision);
+const char* to_string(ContactForm);
+const char* to_string(Geometry);
+const char* to_string(Damping);
+
+/// What one CUDA device says of itself.
+struct DeviceInfo {
+  std::string name;
+  int compute_capability = 0;  ///< e.g. 90
+  std::int64_t memory_bytes = 0;
+  int multiprocessors = 0;
+};
+
+/// What this build can do on this machine.
+struct BackendReport {
+  bool cuda_compiled = false;
+  std::vector<DeviceInfo> devices;  ///< empty without a usable device
+  std::string cuda_status;          ///< in words: why there is no device, or how many there are
+  int threads = 1;                  ///< OpenMP's maximum
+};
+
+/// Looks at the machine. Never throws.
+BackendReport report_backends();
+
+/// Resolves `automatic` to cuda where the build has it and a device answers, else cpu; `reason` (optional) says why.
+/// \throws RunError when cuda is asked for explicitly and is not there.
+Backend select_backend(Backend asked, std::string* reason = nullptr);
+
+}  // namespace macadam

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_network.hpp  Facets turned into contacts: points, frames, lever arms, area moments.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "macadam/tessellation.hpp"
+
+namespace macadam {
+
+/// Which materials meet. `inner`: two spheres of the same aggregate; W is a wall.
+enum class PairType : std::uint8_t { mm, ma, aa, inner, aw, mw };
+inline constexpr int pair_types = 6;
+/// `"M-M" "M-A" "A-A" "inner" "A-W" "M-W"`.
+const char* to_string(PairType pair);
+
+/// `lumped`: area moments of the contact points (the paper's); `exact`: of the polygon (condensed form only).
+enum class Quadrature : std::uint8_t { lumped, exact };
+
+/// Which facets become contacts.
+struct NetworkSpec {
+  std::optional<double> gap_max;   ///< largest surface gap, in units of the mean of the two radii
+  std::optional<double> area_min;  ///< smallest facet, in units of the mean facet area
+  Quadrature quadrature = Quadrature::lumped;
+  bool bottom_top_walls = true;  ///< facets on −z and +z are contacts
+  bool lateral_walls = false;    ///< facets on ±x and ±y are contacts
+};
+
+/// Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t² over a facet, local coordinates about x0.
+struct AreaMoments {
+  double a = 0, s = 0, t = 0, ss = 0, st = 0, tt = 0;  ///< [m²] [m³] [m³] [m⁴] [m⁴] [m⁴]
+};
+
+/// One contact. Lever arms are signed: x0 = x_a + arm_a·n = x_b − arm_b·n.
+struct Contact {
+  std::int32_t a = 0, b = 0;  ///< particle numbers in specimen order; b may be a Wall
+  PairType pair = PairType::mm;
+  double distance = 0;          ///< d: between the centres, or from centre to wall [m]
+  double area = 0;              ///< [m²]
+  Vec3d n{}, s{}, t{};          ///< unit frame, n from a to b, s × t = n (canonical_frame of n)
+  double arm_a = 0, arm_b = 0;  ///< [m]; arm_b = 0 at a wall
+  AreaMoments moments;          ///< by the quadrature asked for
+  std::uint32_t point_begin = 0, point_end = 0;
+};
+
+/// The contacts of a specimen, in order of (a, b) as the facets are.
+struct ContactNetwork {
+  std::vector<Contact> contacts;
+  std::vector<double> point_s, point_t;  ///< local coordinates of the contact points (vertices, then centroid) [m]
+  std::vector<double> point_area;        ///< A_J: one third of the fan triangles that contain J [m²]
+  std::vector<std::uint32_t> row_begin;  ///< particle i's contacts are rows[row_begin[i] … row_begin[i+1])
+  std::vector<std::uint32_t> rows;       ///< contact numbers, ascending in a row
+  std::int64_t dropped_gap = 0, dropped_area = 0;
+  std::array<std::int64_t, pair_types> count{};  ///< contacts by PairType
+  double second_moment_difference = 0;           ///< Σ|lumped − exact| / Σ exact of ss + tt over all contacts
+
+  std::span<const std::uint32_t> row(std::size_t particle) const {
+    return {rows.data() + row_begin[particle], row_begin[particle + 1] - row_begin[particle]};
+  }
+};
+
+/// The frame of a unit normal, without branches (Duff et al. 2017); s × t = n.
+void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t);
+
+/// Builds the network of a tessellation (Eq. 5–7 at the start; physics: dv = ½(R_a − R_b)(d − R_a − R_b)/d).
+/// \throws InputError when a particle is hidden (its number is named) or when no contact is left.
+ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec = {});
+
+}  // namespace macadam

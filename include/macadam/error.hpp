@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file error.hpp  Errors carry the culprit: where it is, what was found, what was expected.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace macadam {
+
+/// Base of everything that Macadam throws on purpose.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The input is wrong (command line exit code 2). The message names file and line, or the particle, and says what was
+/// found and what was expected.
+class InputError : public Error {
+ public:
+  using Error::Error;
+
+  /// `file:line: what: found F, expected E`; line 0 means that no line applies.
+  InputError(const std::string& file, int line, const std::string& what, const std::string& found,
+             const std::string& expected)
+      : Error(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what + ": found " + found + ", expected " +
+              expected) {}
+};
+
+/// The input was good but the run failed (exit code 1): divergence, no device, disk full.
+class RunError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A time step diverged: the first particle that left the range of sense, and when.
+class DivergenceError : public RunError {
+ public:
+  DivergenceError(const std::string& message, long long particle, double time)
+      : RunError(message), particle(particle), time(time) {}
+  long long particle;  ///< particle number in specimen order
+  double time;         ///< [s]
+};
+
+}  // namespace macadam

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file all.hpp  The list of contact laws. Scene reader, steppers, tests and benchmarks walk it.
+#pragma once
+
+#include <variant>
+
+#include "macadam/laws/elastic.hpp"
+#include "macadam/laws/generalised_kelvin.hpp"
+
+namespace macadam {
+
+/// Any one law. To add a law, add its type here.
+using Law = std::variant<laws::Elastic, laws::GeneralisedKelvin>;
+
+}  // namespace macadam

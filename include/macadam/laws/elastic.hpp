@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file elastic.hpp  Linear elastic contact, Eq. 9–12.
+#pragma once
+
+#include <complex>
+
+#include "macadam/laws/law.hpp"
+#include "macadam/numeric.hpp"
+
+namespace macadam::laws {
+
+/// f = E·x.
+struct Elastic {
+  static constexpr const char* name = "elastic";
+  double E = 0;      ///< modulus [Pa], δ included
+  double alpha = 0;  ///< shear over normal stiffness
+
+  int units() const { return 0; }
+  double instantaneous() const { return E; }
+  std::complex<double> stiffness(double) const { return E; }
+
+  template <class R>
+  struct Step {
+    R E;
+    MACADAM_HD int units() const { return 0; }
+    template <int L, class S, class Units>
+    MACADAM_HD S advance(S f, S dx, Units&&) const {
+      return f + S(E) * dx;  // Eq. 9
+    }
+  };
+  template <class R>
+  Step<R> step(double) const {
+    return {static_cast<R>(E)};
+  }
+};
+
+}  // namespace macadam::laws

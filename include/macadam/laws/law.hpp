@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file law.hpp  The contract of a contact law.
+///
+/// A law relates one displacement component x of a contact (opening, slip, relative rotation) to a force-like value f
+/// along it, tension positive. Moduli are per unit of area over distance: the force of a contact point is
+/// f·A_J/d (Eq. 11, 16, 17), so one set of coefficients serves every contact of a material pair. Shear components use
+/// the same f times α (Eq. 12).
+///
+/// A law is a plain struct with
+///   - `static constexpr const char* name` — the word in a scene file;
+///   - `double alpha` — shear stiffness over normal stiffness; all moduli already include δ;
+///   - `int units() const` — extra state numbers a component besides f (Kelvin units);
+///   - `double instantaneous() const` — stiffness of an infinitely fast displacement [Pa], for the critical step;
+///   - `std::complex<double> stiffness(double omega) const` — exact complex stiffness at ω [Pa];
+///   - `template <class R> struct Step` — coefficients of one time step in precision R, made by
+///     `template <class R> Step<R> step(double dt) const` (computed in double, then rounded once), with
+///     `template <int L, class S, class Units> S advance(S f, S dx, Units&& x) const` — returns f(t+Δt) for the
+///     displacement increment dx and updates the unit states x(0)…x(L−1) (references). L = −1: the number of units is
+///     only known at run time.
+/// Laws own no memory, know no arrays and no threads. Add one: a header here, a line in all.hpp, its second writing in
+/// host/reference, a test.
+#pragma once

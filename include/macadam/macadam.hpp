@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file macadam.hpp  Everything, in the order in which data flows.
+///
+///     scene ─► Specimen ─► Tessellation ─► ContactNetwork ─► Stepper ─► Observation ─► Results
+///
+/// A newcomer reads the headers in this order; each noun is made in the folder of host/ or kernels/ with the same stem
+/// and tested in tests/ under the same stem.
+#pragma once
+
+#include "macadam/version.hpp"
+#include "macadam/numeric.hpp"
+#include "macadam/error.hpp"
+#include "macadam/backend.hpp"
+#include "macadam/specimen.hpp"
+#include "macadam/tessellation.hpp"
+#include "macadam/contact_network.hpp"
+#include "macadam/laws/all.hpp"
+#include "macadam/scene.hpp"
+#include "macadam/loadings/cyclic.hpp"
+#include "macadam/stepper.hpp"
+#include "macadam/results.hpp"
+#include "macadam/simulation.hpp"

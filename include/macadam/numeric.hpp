@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file numeric.hpp  Small vectors that the same law text uses on the CPU (scalars or SIMD packs) and on the device.
+#pragma once
+
+#include <cmath>
+
+#if defined(__CUDACC__)
+#define MACADAM_HD __host__ __device__ __forceinline__
+#else
+#define MACADAM_HD inline __attribute__((always_inline))
+#endif
+
+namespace macadam {
+
+/// Three components of one quantity. T is double, float or a SIMD pack of either.
+template <class T>
+struct Vec3 {
+  T x{}, y{}, z{};
+
+  MACADAM_HD Vec3& operator+=(const Vec3& o) {
+    x += o.x, y += o.y, z += o.z;
+    return *this;
+  }
+  MACADAM_HD Vec3& operator-=(const Vec3& o) {
+    x -= o.x, y -= o.y, z -= o.z;
+    return *this;
+  }
+  friend MACADAM_HD Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend MACADAM_HD Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend MACADAM_HD Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+  friend MACADAM_HD Vec3 operator*(const T& k, const Vec3& a) { return {k * a.x, k * a.y, k * a.z}; }
+};
+
+using Vec3d = Vec3<double>;
+
+template <class T>
+MACADAM_HD T dot(const Vec3<T>& a, const Vec3<T>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class T>
+MACADAM_HD Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Euclidean length; for SIMD packs the square root is found by argument-dependent look-up.
+template <class T>
+MACADAM_HD T norm(const Vec3<T>& a) {
+  using std::sqrt;
+  return sqrt(dot(a, a));
+}
+
+}  // namespace macadam

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file scene.hpp  A scene file, read and checked completely before any work.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "macadam/backend.hpp"
+#include "macadam/contact_network.hpp"
+#include "macadam/laws/all.hpp"
+#include "macadam/specimen.hpp"
+
+namespace macadam {
+
+/// Densities by phase [kg/m³]; 0 where the scene gives none.
+struct Materials {
+  double aggregate = 0, mastic = 0;
+  double density(Phase phase) const { return phase == Phase::aggregate ? aggregate : mastic; }
+};
+
+/// One law for each pair type; empty where the scene gives none.
+using LawTable = std::array<std::optional<Law>, pair_types>;
+
+/// `[loading]`, kind "cyclic".
+struct LoadingSpec {
+  std::vector<double> frequencies;  ///< [Hz]
+  double strain_amplitude = 1e-4;   ///< of the height
+  int cycles = 5;
+  double ramp_cycles = 0;       ///< smooth start over so many cycles, ≤ cycles − 1
+  int fit_cycles = 0;           ///< last cycles that are fitted; 0: 2 where cycles ≥ 4, else 1
+  int samples_per_cycle = 500;  ///< points of response.csv in a cycle
+};
+
+enum class SolverMethod : std::uint8_t { explicit_, harmonic };
+
+/// `[solver]`.
+struct SolverSpec {
+  SolverMethod method = SolverMethod::explicit_;
+  std::vector<double> density_scaling{1.0};  ///< one, or one a frequency
+  double safety = 0.8;                       ///< share of the computed critical step
+  std::optional<double> time_step;           ///< [s]: given instead of computed
+  Damping damping_kind = Damping::none;
+  double damping = 0;  ///< χ of local damping, or β [1/s] of viscous damping
+  ContactForm form = ContactForm::condensed;
+  Geometry geometry = Geometry::updated;
+  Precision precision = Precision::double_;
+  Backend backend = Backend::automatic;
+  int threads = 0;       ///< 0: OpenMP's choice
+  bool inertia = false;  ///< harmonic only
+};
+
+/// `[output]`.
+struct OutputSpec {
+  bool contacts = false;  ///< write contacts.csv
+};
+
+/// A whole scene. `file` is where it came from; relative paths in it have been resolved.
+struct Scene {
+  std::filesystem::path file;
+  SpecimenSpec specimen;
+  Materials materials;
+  LawTable laws;
+  NetworkSpec network;
+  LoadingSpec loading;
+  SolverSpec solver;
+  OutputSpec output;
+};
+
+/// Reads a TOML scene and checks all that can be known without building the specimen: unknown keys (the nearest known
+/// one is named), wrong types, impossible values, missing sections, units ("12.5 mm", "35 GPa").
+/// \throws InputError with file, line, what was found, what was expected.
+Scene read_scene(const std::filesystem::path& file);
+
+/// Checks that every pair type present in the network has a law and every phase present a density.
+/// \throws InputError naming the pair or phase.
+void require_laws(const Scene& scene, const Specimen& specimen, const ContactNetwork& network);
+
+}  // namespace macadam

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file simulation.hpp  The main job: scene in, results in a folder.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "macadam/results.hpp"
+#include "macadam/scene.hpp"
+#include "macadam/specimen.hpp"
+#include "macadam/tessellation.hpp"
+
+namespace macadam {
+
+/// Particles, cells and contacts of a scene, with what their making took.
+struct Preparation {
+  Specimen specimen;
+  std::vector<CompositionRow> composition;  ///< empty for specimens read from a file
+  Tessellation tessellation;
+  ContactNetwork network;
+  double seconds_specimen = 0, seconds_tessellation = 0, seconds_network = 0;
+};
+
+/// One frequency's outcome.
+struct FrequencyResult {
+  double frequency_hz = 0;
+  CyclicResult cyclic;
+  double density_scaling = 1;
+  double dt_s = 0;
+  std::int64_t steps = 0;
+  double seconds = 0;  ///< wall time of the stepping
+};
+
+/// Outcome of a run.
+struct RunResult {
+  std::vector<FrequencyResult> frequencies;
+  Backend backend = Backend::automatic;  ///< that ran
+  std::string stepper;                   ///< Stepper::description()
+  std::int64_t bytes = 0;                ///< Stepper::bytes()
+  std::int32_t critical_particle = -1;   ///< the particle that sets the critical step
+};
+
+/// Called as work goes on: what is being done, share of it done 0…1.
+using Progress = std::function<void(const std::string& stage, double share)>;
+
+/// Specimen (read or generated), tessellation, network; checks that every pair present has a law.
+Preparation prepare(const Scene& scene, const Progress& progress = {});
+
+/// Writes specimen.csv, contacts.csv (where the scene asks) and summary.json without results.
+void write_preparation(const Scene& scene, const Preparation& preparation, const std::filesystem::path& out);
+
+/// The whole job: prepare, step every frequency, write every file. response.csv and summary.json are complete up to the
+/// last finished sample and frequency whatever happens later.
+/// \throws InputError, RunError (DivergenceError names particle and time).
+/// `prepared`, if given, is called once the specimen's files are written and before the first step.
+RunResult run(const Scene& scene, const std::filesystem::path& out, const Progress& progress = {},
+              const std::function<void(const Preparation&)>& prepared = {});
+
+}  // namespace macadam

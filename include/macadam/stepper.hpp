@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file stepper.hpp  Explicit time stepping of a contact network: the one interface of every backend.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "macadam/backend.hpp"
+#include "macadam/contact_network.hpp"
+#include "macadam/laws/all.hpp"
+#include "macadam/loadings/cyclic.hpp"
+#include "macadam/specimen.hpp"
+
+namespace macadam {
+
+/// What the stepper is told once, before the loop.
+struct StepperOptions {
+  double dt = 0;  ///< [s]
+  ContactForm form = ContactForm::condensed;
+  Geometry geometry = Geometry::updated;
+  Precision precision = Precision::double_;
+  Damping damping_kind = Damping::none;
+  double damping = 0;                       ///< χ, or β [1/s]
+  double density_scaling = 1;               ///< multiplies mass and inertia
+  int threads = 0;                          ///< cpu: 0 is OpenMP's choice; results do not depend on it
+  std::optional<loadings::Cyclic> loading;  ///< drives the top wall along z; its dt() must equal dt. None: walls rest
+};
+
+/// Mass and moment of inertia of every particle, density scaling not included.
+struct Inertia {
+  std::vector<double> mass;     ///< [kg]
+  std::vector<double> inertia;  ///< 2/5·m·R² [kg·m²]
+};
+
+/// Solid spheres: m = ρ·4/3·π·R³ (section 1 of the model).
+Inertia make_inertia(const Specimen& specimen, double density_aggregate, double density_mastic);
+
+/// Motion of all particles, specimen order.
+struct ParticleState {
+  std::vector<Vec3d> displacement;  ///< since the start, at the whole step [m]
+  std::vector<Vec3d> velocity;      ///< at the last half step [m/s]
+  std::vector<Vec3d> spin;          ///< angular velocity at the last half step [rad/s]
+  std::vector<Vec3d> force;         ///< sum over contacts at the whole step, damping not included [N]
+  std::vector<Vec3d> moment;        ///< about the centre, likewise [N·m]
+};
+
+/// What is measured of a run at a whole step.
+struct Observation {
+  std::int64_t step = 0;
+  double time = 0;                    ///< [s]
+  double wall_displacement = 0;       ///< of the top wall along z [m]
+  std::array<Vec3d, 6> wall_force{};  ///< on the walls −x +x −y +y −z +z by the particles [N]
+};
+
+/// Steps a network in time (leapfrog: velocities at half steps, displacements and forces at whole steps).
+class Stepper {
+ public:
+  virtual ~Stepper() = default;
+
+  /// Takes `steps` steps.
+  virtual void advance(std::int64_t steps) = 0;
+
+  /// Reaction and displacement of the walls now.
+  virtual Observation observe() const = 0;
+
+  /// Motion of all particles now, specimen order.
+  virtual ParticleState particles() const = 0;
+
+  /// Sets the half-step velocities and spins (specimen order), e.g. for free assemblies in tests.
+  virtual void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) = 0;
+
+  /// First particle (specimen order) whose motion is not finite or exceeds its radius in a step; −1 if none.
+  virtual std::int64_t first_divergent() const = 0;
+
+  /// The backend, precision and form that run, in words, e.g. `"cpu, double, condensed, 2 threads"`.
+  virtual std::string description() const = 0;
+
+  /// Bytes of state and geometry held for the step.
+  virtual std::int64_t bytes() const = 0;
+
+  /// Bytes that a step moves at the least: states read and written, all else read once. 0 where nobody counts.
+  virtual std::int64_t traffic() const { return 0; }
+};
+
+/// Makes the stepper of a backend (`automatic` is resolved first).
+/// \throws RunError when the backend is not there; InputError when an option does not fit the backend.
+std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
+                                      const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+                                      const StepperOptions& options);
+
+/// A step that no scene of this network can make unstable: √(2/max λ_max(M_i⁻¹·K_ii)) over the particles' own 6 × 6
+/// blocks with instantaneous stiffnesses, rotations included; local damping χ shortens it by √(1 + χ).
+struct CriticalStep {
+  double dt = 0;               ///< [s]
+  std::int32_t particle = -1;  ///< the particle that sets it
+};
+CriticalStep critical_step(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
+                           const Inertia& inertia, const StepperOptions& options);
+
+}  // namespace macadam

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_data.hpp  The arrays of one group of contacts, and how they are filled from the network.
+///
+/// Blocked structure-of-arrays: word w of the contact in lane j of packet p is at [(p·words + w)·lanes + j]. On the CPU
+/// a packet is a SIMD register, on the device a warp: both load one word of all lanes at once.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "kernels/aligned.hpp"
+#include "kernels/layout.hpp"
+#include "macadam/stepper.hpp"
+
+namespace macadam::kernels {
+
+/// Words of ContactView::geometry, in order. `distance` is only kept where the geometry is updated.
+enum GeometryWord { n_x, n_y, n_z, arm_a, arm_b, moment_0, distance = moment_0 + 6 };
+/// Words of one row of ContactView::points.
+enum PointWord { point_s, point_t, point_weight, point_words };
+
+/// Pointers to one group's arrays, as a kernel gets them.
+template <class P>
+struct ContactView {
+  using State = typename P::State;
+  using Geometry = typename P::Geometry;
+  const std::int32_t* body_a;       ///< [slot] body number
+  const std::int32_t* body_b;       ///< [slot]
+  const Geometry* geometry;         ///< [packet][geometry_words][lane]; arms [m], moments over d [m] [m²] [m³]
+  const Geometry* points;           ///< [row][point_words][lane]; s, t [m], A_J/d [m]; points form only
+  const std::uint32_t* packet_row;  ///< [packet + 1]; points form only
+  State* chain;  ///< condensed [packet], points [row]: [components][1 + units][lane]; f [Pa·m], x_l [m]
+  State* frame;  ///< [packet][frame_words][lane]: ŝ and, in single, the spin not yet applied to it
+  std::uint32_t packets;
+  std::int32_t geometry_words;
+  std::int32_t frame_words;
+  std::int32_t components;  ///< of the law: condensed 6 or 3, points 3 or 1 (no shear where α = 0)
+  std::int32_t units;       ///< Kelvin units
+  bool wall;                ///< body_b is a wall: its plane is the facet
+  Geometry alpha;
+};
+
+/// One group's arrays on the host. The device takes copies: for_each_array() walks them all.
+template <class P>
+struct ContactArrays {
+  AlignedVector<std::int32_t> body_a, body_b;
+  AlignedVector<typename P::Geometry> geometry, points;
+  AlignedVector<std::uint32_t> packet_row;
+  AlignedVector<typename P::State> chain, frame;
+  ContactView<P> shape{};  ///< the numbers of the view; pointers null
+  Law law;
+
+  /// f(name, unit, array, pointer of the view that it feeds)
+  template <class F>
+  void for_each_array(ContactView<P>& view, F&& f) {
+    f("body_a", "1", body_a, view.body_a);
+    f("body_b", "1", body_b, view.body_b);
+    f("geometry", "1, m, m, m2, m3", geometry, view.geometry);
+    f("points", "m, m, m", points, view.points);
+    f("packet_row", "1", packet_row, view.packet_row);
+    f("chain", "Pa m, m", chain, view.chain);
+    f("frame", "1, rad", frame, view.frame);
+  }
+};
+
+/// Words of the carried frame: ŝ, and in single precision the angle about n that is still to be applied, because
+/// increments of 1e-10 would be lost in ŝ itself.
+template <class P>
+constexpr std::int32_t frame_words_of(Geometry geometry) {
+  return geometry == Geometry::fixed ? 0 : sizeof(typename P::State) == 8 ? 3 : 4;
+}
+
+/// Fills the arrays of a group. Inert slots touch `body_a` of a real contact with zero arms and moments: they add zero.
+template <class P>
+ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
+                               const Law& law, const StepperOptions& options) {
+  using Geo = typename P::Geometry;
+  const bool by_points = options.form == ContactForm::points;
+  ContactArrays<P> out;
+  out.law = law;
+  auto& shape = out.shape;
+  const double alpha = std::visit([](const auto& l) { return l.alpha; }, law);
+  shape.alpha = static_cast<Geo>(alpha);
+  shape.packets = static_cast<std::uint32_t>(group.packets());
+  shape.geometry_words = options.geometry == Geometry::updated ? distance + 1 : distance;
+  shape.frame_words = frame_words_of<P>(options.geometry);
+  shape.components = (alpha != 0 ? 2 : 1) * (by_points ? 1 : 3) + (by_points && alpha != 0 ? 1 : 0);
+  shape.units = std::visit([](const auto& l) { return l.units(); }, law);
+  shape.wall = group.pair == PairType::aw || group.pair == PairType::mw;
+
+  const auto lanes = static_cast<std::size_t>(layout.lanes);
+  const std::size_t slots = group.contact.size();
+  out.body_a.resize(slots);
+  out.body_b.resize(slots);
+  out.geometry.assign(slots * static_cast<std::size_t>(shape.geometry_words), Geo(0));
+  out.frame.assign(slots * static_cast<std::size_t>(shape.frame_words), typename P::State(0));
+  const std::size_t rows = by_points ? group.packet_row.back() : group.packets();
+  out.chain.assign(rows * static_cast<std::size_t>(shape.components * (1 + shape.units)) * lanes, typename P::State(0));
+  if (by_points) {
+    out.packet_row.assign(group.packet_row.begin(), group.packet_row.end());
+    out.points.assign(rows * point_words * lanes, Geo(0));
+  }
+
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    const std::size_t packet = slot / lanes, lane = slot % lanes;
+    const bool real = group.contact[slot] != inert;
+    const Contact& c = network.contacts[group.contact[real ? slot : packet * lanes]];  // lane 0 is always real
+    out.body_a[slot] = layout.body_of(c.a);
+    out.body_b[slot] = layout.body_of(real ? c.b : c.a);
+    auto word = [&](int w) -> Geo& {
+      return out
+          .geometry[(packet * static_cast<std::size_t>(shape.geometry_words) + static_cast<std::size_t>(w)) * lanes +
+                    lane];
+    };
+    word(n_x) = static_cast<Geo>(c.n.x);
+    word(n_y) = static_cast<Geo>(c.n.y);
+    word(n_z) = static_cast<Geo>(c.n.z);
+    if (options.geometry == Geometry::updated) word(distance) = static_cast<Geo>(c.distance);
+    for (int k = 0; k < shape.frame_words && k < 3; ++k) {
+      const double s[3] = {c.s.x, c.s.y, c.s.z};
+      out.frame[(packet * static_cast<std::size_t>(shape.frame_words) + static_cast<std::size_t>(k)) * lanes + lane] =
+          static_cast<typename P::State>(s[k]);
+    }
+    if (!real) continue;
+    word(arm_a) = static_cast<Geo>(c.arm_a);
+    word(arm_b) = static_cast<Geo>(c.arm_b);
+    const double moments[6] = {c.moments.a, c.moments.s, c.moments.t, c.moments.ss, c.moments.st, c.moments.tt};
+    for (int k = 0; k < 6; ++k) word(moment_0 + k) = static_cast<Geo>(moments[k] / c.distance);
+    for (std::uint32_t j = 0; by_points && j < c.point_end - c.point_begin; ++j) {
+      Geo* row = &out.points[(group.packet_row[packet] + j) * point_words * lanes];
+      row[point_s * lanes + lane] = static_cast<Geo>(network.point_s[c.point_begin + j]);
+      row[point_t * lanes + lane] = static_cast<Geo>(network.point_t[c.point_begin + j]);
+      row[point_weight * lanes + lane] = static_cast<Geo>(network.point_area[c.point_begin + j] / c.distance);
+    }
+  }
+  return out;
+}
+
+}  // namespace macadam::kernels

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_forces.hpp  One step of one contact: kinematics, law, load. Written once for SIMD packs and threads.
+///
+/// An Item says how to load and store one word of a contact: `PackItem` (exec_cpu.hpp) handles a packet of contacts at
+/// once, `LaneItem` (exec_cuda.hpp) one contact of a packet. Per condensed contact with L Kelvin units a step reads and
+/// writes 6·(1 + L) states and reads 11 or 12 words of geometry and two bodies.
+#pragma once
+
+#include "kernels/contact_data.hpp"
+#include "kernels/contact_kinematics.hpp"
+
+namespace macadam::kernels {
+
+/// Motion of the bodies, eight words a body so that one body is one cache line: v, –, ω, –; displacements four: u, –.
+template <class P>
+struct MotionView {
+  const typename P::Geometry* velocity;      ///< [body][8] at the half step [m/s, rad/s]
+  const typename P::Particle* displacement;  ///< [body][4] at the whole step [m]
+};
+inline constexpr int velocity_words = 8;
+inline constexpr int displacement_words = 4;
+
+/// The functor of one group: what may branch (form, geometry, law, units) is decided by its type.
+template <class P, class LawStep, int Units, ContactForm form, Geometry geometry>
+struct ContactForces {
+  using Policy = P;
+  ContactView<P> view;
+  LawStep law;
+  typename P::State dt;  ///< [s]
+
+  /// Steps the contacts of `item` and returns their loads.
+  template <class Item>
+  MACADAM_HD ContactLoad<typename Item::template Value<typename P::Geometry>> operator()(
+      const Item& item, std::uint32_t packet, const MotionView<P>& motion) const {
+    using T = typename Item::template Value<typename P::Geometry>;
+    const auto slot = static_cast<std::size_t>(packet) * item.lanes();
+    const std::int32_t *ia = view.body_a + slot, *ib = view.body_b + slot;
+    const Twist<T> a = item.twist(motion.velocity, ia), b = item.twist(motion.velocity, ib);
+    const auto* g = view.geometry + slot * static_cast<std::size_t>(view.geometry_words);
+    auto word = [&](int w) { return item.load(g + static_cast<std::size_t>(w) * item.lanes()); };
+
+    const Vec3<T> n0{word(n_x), word(n_y), word(n_z)};
+    Placement<T> now, middle;  // where the load acts, and where the half-step velocities are seen
+    if constexpr (geometry == Geometry::fixed) {
+      now = middle = canonical_placement(n0, item.copysign_one(n0.z), word(arm_a), word(arm_b));
+    } else {
+      now.arm_a = word(arm_a);
+      now.arm_b = word(arm_b);
+      carry(item, packet, motion, ia, ib, a, b, n0, word(distance), now, middle);
+    }
+    T u[6];
+    relative_rates(middle, a, b, u);
+
+    if constexpr (form == ContactForm::condensed) {
+      T density[6];
+      typename P::State* chain = view.chain + slot * chain_words();
+      for (int c = 0; c < 6; ++c) {
+        density[c] =
+            c < view.components ? advance(item, u[c], chain + chain_stride(item) * static_cast<std::size_t>(c)) : T(0);
+      }
+      T m[6];
+      for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
+      return to_centres(now, condensed_load(density, T(view.alpha), m));
+    } else {
+      return to_centres(now, points_load(item, packet, u));
+    }
+  }
+
+ private:
+  MACADAM_HD std::size_t chain_words() const { return static_cast<std::size_t>(view.components * (1 + view.units)); }
+  template <class Item>
+  MACADAM_HD std::size_t chain_stride(const Item& item) const {
+    return static_cast<std::size_t>(1 + view.units) * item.lanes();
+  }
+
+  /// Advances one chain by one displacement component and returns its f.
+  template <class Item, class T>
+  MACADAM_HD T advance(const Item& item, const T& rate, typename P::State* chain) const {
+    using S = typename Item::template Value<typename P::State>;
+    const S dx = item.template convert<typename P::State>(rate) * S(dt);
+    auto unit = [&](int l) -> decltype(auto) {
+      return item.ref(chain + static_cast<std::size_t>(1 + l) * item.lanes());
+    };
+    const S f = law.template advance<Units>(item.load(chain), dx, unit);
+    item.store(chain, f);
+    return item.template convert<typename P::Geometry>(f);
+  }
+
+  /// Sums the loads of the contact points (Eq. 3, 4): each has its own chains.
+  template <class Item, class T>
+  MACADAM_HD FacetLoad<T> points_load(const Item& item, std::uint32_t packet, const T (&u)[6]) const {
+    FacetLoad<T> load{T(0), T(0), T(0), T(0), T(0), T(0)};
+    for (std::uint32_t row = view.packet_row[packet]; row < view.packet_row[packet + 1]; ++row) {
+      const auto* point = view.points + static_cast<std::size_t>(row) * point_words * item.lanes();
+      const T s = item.load(point + point_s * item.lanes()), t = item.load(point + point_t * item.lanes());
+      const T weight = item.load(point + point_weight * item.lanes());
+      typename P::State* chain = view.chain + static_cast<std::size_t>(row) * chain_words() * item.lanes();
+      const T n = weight * advance(item, u[0] + s * u[1] + t * u[2], chain);
+      load.n += n;
+      load.moment_s += t * n;
+      load.moment_t -= s * n;
+      if (view.components == 1) continue;
+      const T shear = T(view.alpha) * weight;
+      const T along_s = shear * advance(item, u[3] - t * u[5], chain + chain_stride(item));
+      const T along_t = shear * advance(item, u[4] + s * u[5], chain + 2 * chain_stride(item));
+      load.s += along_s;
+      load.t += along_t;
+      load.moment_n += s * along_t - t * along_s;
+    }
+    return load;
+  }
+
+  /// Eq. 5–6 every step: the normal from the displaced centres, x0 with half the change of distance, and the frame
+  /// turned with the normal and spun about it with the mean spin of the pair. `middle` is the frame half a step
+  /// earlier: seen in the frame of either end, a rigid turn by θ would open the contact by (1 − cos θ)·d every step.
+  template <class Item, class T>
+  MACADAM_HD void carry(const Item& item, std::uint32_t packet, const MotionView<P>& motion, const std::int32_t* ia,
+                        const std::int32_t* ib, const Twist<T>& a, const Twist<T>& b, const Vec3<T>& n0, const T& d0,
+                        Placement<T>& now, Placement<T>& middle) const {
+    using State = typename P::State;
+    using S = typename Item::template Value<State>;
+    const Vec3<T> branch = d0 * n0 + item.template relative<typename P::Geometry>(motion.displacement, ia, ib);
+    const Vec3<T> step = T(static_cast<typename P::Geometry>(dt)) * (b.linear - a.linear);
+    Vec3<T> n_before = n0;
+    now.n = middle.n = n0;
+    middle.arm_b = now.arm_b;
+    if (view.wall) {  // the facet stays on the wall
+      now.arm_a = dot(branch, n0);
+      middle.arm_a = now.arm_a - T(0.5f) * dot(step, n0);
+    } else {
+      const Vec3<T> branch_before = branch - step;
+      const T d = norm(branch), d_before = norm(branch_before);
+      now.n = (T(1) / d) * branch;
+      n_before = (T(1) / d_before) * branch_before;
+      middle.n = now.n + n_before;
+      middle.n = (T(1) / norm(middle.n)) * middle.n;
+      const T to_middle = T(0.25f) * (d_before - d), to_now = T(0.5f) * (d - d0);
+      now.arm_a += to_now;
+      now.arm_b += to_now;
+      middle.arm_a = now.arm_a + to_middle;
+      middle.arm_b = now.arm_b + to_middle;
+    }
+    const T spin_rate = T(0.5f) * dot(a.angular + b.angular, middle.n);
+
+    State* stored =
+        view.frame + static_cast<std::size_t>(packet) * static_cast<std::size_t>(view.frame_words) * item.lanes();
+    const Vec3<S> old{item.load(stored), item.load(stored + item.lanes()), item.load(stored + 2 * item.lanes())};
+    const Vec3<S> ns = converted<State>(item, now.n), nb = converted<State>(item, n_before),
+                  nm = converted<State>(item, middle.n);
+    const S turn = item.template convert<State>(spin_rate) * S(dt);
+    S pending = S(0);
+    if constexpr (sizeof(State) == 4) pending = item.load(stored + 3 * item.lanes());
+    const Vec3<S> s_middle = spun(swung(old, nb, nm), nm, pending + S(0.5f) * turn);
+    const Vec3<S> s = spun(swung(old, nb, ns), ns, pending + turn);
+    if constexpr (sizeof(State) == 8) {
+      item.store(stored, s.x);
+      item.store(stored + item.lanes(), s.y);
+      item.store(stored + 2 * item.lanes(), s.z);
+    } else {  // ŝ is rewritten only when the normal or the spin has moved by more than single precision can lose
+      const S tilt = dot(old, ns), spin = pending + turn;
+      const auto rebase = tilt * tilt + spin * spin > S(1e-6f);
+      item.store(stored, item.select(rebase, s.x, old.x));
+      item.store(stored + item.lanes(), item.select(rebase, s.y, old.y));
+      item.store(stored + 2 * item.lanes(), item.select(rebase, s.z, old.z));
+      item.store(stored + 3 * item.lanes(), item.select(rebase, S(0), spin));
+    }
+    now.s = converted<typename P::Geometry>(item, s);
+    now.t = cross(now.n, now.s);
+    middle.s = converted<typename P::Geometry>(item, s_middle);
+    middle.t = cross(middle.n, middle.s);
+  }
+
+  template <class To, class Item, class T>
+  MACADAM_HD static auto converted(const Item& item, const Vec3<T>& v) {
+    return Vec3<typename Item::template Value<To>>{item.template convert<To>(v.x), item.template convert<To>(v.y),
+                                                   item.template convert<To>(v.z)};
+  }
+
+  /// ŝ by the smallest rotation that takes one normal to the other, and one Newton step towards unit length.
+  template <class S>
+  MACADAM_HD static Vec3<S> swung(Vec3<S> s, const Vec3<S>& from, const Vec3<S>& to) {
+    s -= (dot(s, to) / (S(1) + dot(from, to))) * (from + to);
+    return (S(1.5f) - S(0.5f) * dot(s, s)) * s;
+  }
+
+  /// ŝ turned about n by a small angle; the series is exact to rounding below 1e-3.
+  template <class S>
+  MACADAM_HD static Vec3<S> spun(const Vec3<S>& s, const Vec3<S>& n, const S& angle) {
+    const S square = angle * angle;
+    return (S(1) - S(0.5f) * square) * s +
+           (angle * (S(1) - square * S(static_cast<typename P::State>(1.0 / 6)))) * cross(n, s);
+  }
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_kinematics.hpp  From the motion of two bodies to the six relative rates of a facet, and back to
+/// forces.
+///
+/// T is a scalar (one contact) or a SIMD pack (one contact a lane). A point of the facet lies at x0 + s·ŝ + t·t̂, at
+/// arm_a·n + s·ŝ + t·t̂ from centre A and at −arm_b·n + s·ŝ + t·t̂ from centre B. Eq. 8 then reads
+///   opening  u[0] + s·u[1] + t·u[2],   slip along ŝ  u[3] − t·u[5],   slip along t̂  u[4] + s·u[5].
+#pragma once
+
+#include "macadam/numeric.hpp"
+
+namespace macadam::kernels {
+
+/// Velocity and spin of a body, or force and moment on it.
+template <class T>
+struct Twist {
+  Vec3<T> linear, angular;
+};
+
+/// Frame of a facet and the lever arms from the centres to its reference point x0.
+template <class T>
+struct Placement {
+  Vec3<T> n, s, t;
+  T arm_a, arm_b;
+};
+
+/// Canonical frame of a unit normal (Duff et al. 2017); `sign` is copysign(1, n.z).
+template <class T>
+MACADAM_HD Placement<T> canonical_placement(const Vec3<T>& n, const T& sign, const T& arm_a, const T& arm_b) {
+  const T a = T(-1) / (sign + n.z);
+  const T b = n.x * n.y * a;
+  return {n, {T(1) + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, arm_a, arm_b};
+}
+
+/// Six relative rates u[0…5] of B with respect to A, opening positive [m/s, 1/s, 1/s, m/s, m/s, 1/s].
+template <class T>
+MACADAM_HD void relative_rates(const Placement<T>& f, const Twist<T>& a, const Twist<T>& b, T (&u)[6]) {
+  const Vec3<T> v = b.linear - a.linear;
+  const Vec3<T> w = b.angular - a.angular;
+  const Vec3<T> q = f.arm_a * a.angular + f.arm_b * b.angular;
+  u[0] = dot(v, f.n);
+  u[1] = -dot(w, f.t);
+  u[2] = dot(w, f.s);
+  u[3] = dot(v, f.s) - dot(q, f.t);
+  u[4] = dot(v, f.t) + dot(q, f.s);
+  u[5] = dot(w, f.n);
+}
+
+/// What the facet carries: force along (n, s, t) and moment about x0 along (n, s, t), both acting on A.
+template <class T>
+struct FacetLoad {
+  T n{}, s{}, t{};
+  T moment_n{}, moment_s{}, moment_t{};
+};
+
+/// Load of a facet from the six force densities f[c] (per unit of area over distance) and the area moments over d.
+template <class T>
+MACADAM_HD FacetLoad<T> condensed_load(const T (&f)[6], const T& alpha, const T (&m)[6]) {
+  const T slip_s = alpha * f[3], slip_t = alpha * f[4], twist = alpha * f[5];
+  FacetLoad<T> load;
+  load.n = f[0] * m[0] + f[1] * m[1] + f[2] * m[2];
+  load.moment_t = -(f[0] * m[1] + f[1] * m[3] + f[2] * m[4]);
+  load.moment_s = f[0] * m[2] + f[1] * m[4] + f[2] * m[5];
+  load.s = slip_s * m[0] - twist * m[2];
+  load.t = slip_t * m[0] + twist * m[1];
+  load.moment_n = twist * (m[3] + m[5]) + slip_t * m[1] - slip_s * m[2];
+  return load;
+}
+
+/// Force on A (B gets the opposite) and the moments about the two centres.
+template <class T>
+struct ContactLoad {
+  Vec3<T> force_a, moment_a, moment_b;
+};
+
+template <class T>
+MACADAM_HD ContactLoad<T> to_centres(const Placement<T>& f, const FacetLoad<T>& load) {
+  const Vec3<T> m0 = load.moment_n * f.n + load.moment_s * f.s + load.moment_t * f.t;
+  const Vec3<T> lever = load.s * f.t - load.t * f.s;  // n × force
+  return {load.n * f.n + load.s * f.s + load.t * f.t, m0 + f.arm_a * lever, f.arm_b * lever - m0};
+}
+
+}  // namespace macadam::kernels

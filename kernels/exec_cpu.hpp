@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file exec_cpu.hpp  How the step runs on the CPU: packets of contacts in SIMD registers, tiles shared among threads.
+#pragma once
+
+#include <omp.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "kernels/pack_item.hpp"
+#include "kernels/particle_motion.hpp"
+#include "kernels/tile_accumulators.hpp"
+
+namespace macadam::kernels {
+
+/// Owns the arrays of a scene in precision P and runs bodies and contacts over them.
+template <class P>
+class ExecCpu {
+ public:
+  using Policy = P;
+  using R = typename P::Particle;
+  static constexpr int lanes = PackItem::width;
+  static constexpr std::size_t tile_contacts = 1024;  ///< a tile's states (200 kB) fit a core's second-level cache
+
+  ExecCpu(const ContactNetwork& network, const Layout& layout, int threads)
+      : layout_(layout), accumulators_(network, layout) {
+    threads_ = std::min(threads > 0 ? threads : omp_get_max_threads(), static_cast<int>(layout.tiles()));
+    const std::size_t bodies = layout.particles() + walls;
+    sums_.assign(accumulators_.size() * velocity_words, R(0));
+    master_.assign(bodies * velocity_words, R(0));
+    displacement_.assign(bodies * displacement_words, R(0));
+    if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
+  }
+
+  /// Takes Δt/m and Δt/I of every body and returns the view of all body arrays.
+  BodyView<P> set_bodies(std::vector<R> inverse) {
+    inverse_ = std::move(inverse);
+    return {gathered(), master_.data(), displacement_.data(), inverse_.data(),
+            static_cast<std::int32_t>(layout_.particles())};
+  }
+
+  /// Takes a group: its arrays, and the functor that steps its contacts.
+  template <class Forces>
+  void add_group(ContactArrays<P> arrays, Forces forces) {
+    auto group = std::make_unique<GroupOf<Forces>>(std::move(arrays), forces);
+    group->number = groups_.size();
+    group->arrays.for_each_array(group->forces.view, [this](auto, auto, auto& array, auto& pointer) {
+      pointer = array.data();
+      const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
+      bytes_ += size;
+      if (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) state_bytes_ += size;
+    });
+    groups_.push_back(std::move(group));
+  }
+
+  /// What one thread may call inside repeat().
+  struct Team {
+    ExecCpu& exec;
+    std::size_t thread, threads;
+
+    /// Moves all bodies with the forces of the last contacts().
+    void bodies(const ParticleMotion<P>& motion, std::int64_t k) const {
+      for_own_tiles([&](std::size_t tile) {
+        std::uint32_t own = exec.accumulators_.tile_begin[tile];
+        for (auto i = exec.layout_.tile_body[tile]; i < exec.layout_.tile_body[tile + 1]; ++i) {
+          motion(i, exec.sum(i, own++), k);
+        }
+      });
+      if (thread == 0) {
+        for (auto i = motion.body.particles; i < motion.body.particles + walls; ++i) motion(i, {}, k);
+      }
+#pragma omp barrier
+    }
+
+    /// Steps all contacts and adds up their loads.
+    void contacts() const {
+      const MotionView<P> motion{exec.gathered(), exec.displacement_.data()};
+      for_own_tiles([&](std::size_t tile) {
+        const auto *begin = exec.accumulators_.tile_begin.data() + tile, *end = begin + 1;
+        std::fill(exec.sums_.begin() + *begin * velocity_words, exec.sums_.begin() + *end * velocity_words, R(0));
+        for (const auto& group : exec.groups_) group->run(exec, tile, motion);
+      });
+#pragma omp barrier
+    }
+
+   private:
+    template <class F>
+    void for_own_tiles(F&& f) const {
+      const std::size_t tiles = exec.layout_.tiles();
+      for (std::size_t tile = tiles * thread / threads; tile < tiles * (thread + 1) / threads; ++tile) f(tile);
+    }
+  };
+
+  /// Calls f(team, k) for k = first … first + steps − 1 on every thread.
+  template <class F>
+  void repeat(std::int64_t first, std::int64_t steps, F&& f) {
+#pragma omp parallel num_threads(threads_)
+    {
+      const Team team{*this, static_cast<std::size_t>(omp_get_thread_num()),
+                      static_cast<std::size_t>(omp_get_num_threads())};
+      for (std::int64_t k = first; k < first + steps; ++k) f(team, k);
+    }
+  }
+
+  /// Force and moment on the bodies first … first + count − 1 now.
+  std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
+    std::vector<Twist<R>> out;
+    std::size_t tile = 0;
+    for (std::int32_t body = first; out.size() < count; ++body) {
+      while (tile < layout_.tiles() && body >= layout_.tile_body[tile + 1]) ++tile;
+      out.push_back(
+          tile == layout_.tiles()
+              ? row_sum(body, {})
+              : sum(body, accumulators_.tile_begin[tile] + static_cast<std::uint32_t>(body - layout_.tile_body[tile])));
+    }
+    return out;
+  }
+
+  /// Host copies of the bodies' arrays and back.
+  std::vector<R> velocities() const { return {master_.begin(), master_.end()}; }
+  std::vector<R> displacements() const { return {displacement_.begin(), displacement_.end()}; }
+  void set_velocities(const std::vector<R>& v) {
+    std::copy(v.begin(), v.end(), master_.begin());
+    if constexpr (!std::is_same_v<typename P::Geometry, R>) {
+      std::transform(v.begin(), v.end(), velocity_.begin(), [](R x) { return static_cast<typename P::Geometry>(x); });
+    }
+  }
+
+  std::string description() const {
+    return "cpu, " + std::to_string(threads_) + (threads_ == 1 ? " thread" : " threads");
+  }
+  std::int64_t state_bytes() const { return state_bytes_; }
+  std::int64_t bytes() const {
+    return bytes_ + static_cast<std::int64_t>((sums_.size() + master_.size() + displacement_.size()) * sizeof(R) +
+                                              velocity_.size() * sizeof(typename P::Geometry));
+  }
+
+ private:
+  struct Group {
+    virtual ~Group() = default;
+    virtual void run(ExecCpu& exec, std::size_t tile, const MotionView<P>& motion) = 0;
+    std::size_t number = 0;
+  };
+
+  template <class Forces>
+  struct GroupOf final : Group {
+    GroupOf(ContactArrays<P> a, Forces f) : arrays(std::move(a)), forces(f) { forces.view = arrays.shape; }
+    ContactArrays<P> arrays;
+    Forces forces;
+
+    void run(ExecCpu& exec, std::size_t tile, const MotionView<P>& motion) override {
+      const auto& packets = exec.layout_.groups[this->number].tile_packet;
+      const std::uint32_t* end_a = exec.accumulators_.end_a[this->number].data();
+      const std::uint32_t* end_b = exec.accumulators_.end_b[this->number].data();
+      for (std::uint32_t packet = packets[tile]; packet < packets[tile + 1]; ++packet) {
+        const auto load = forces(PackItem{}, packet, motion);
+        exec.add(load, end_a + packet * lanes, end_b + packet * lanes);
+      }
+    }
+  };
+
+  /// Adds a packet's loads, contact by contact. Plain loops of four: the compiler makes one vector of each.
+  template <class T>
+  void add(const ContactLoad<T>& load, const std::uint32_t* end_a, const std::uint32_t* end_b) {
+    alignas(64) typename P::Geometry words[9][lanes];
+    const Vec3<T>* vectors[3] = {&load.force_a, &load.moment_a, &load.moment_b};
+    for (int v = 0; v < 3; ++v) {
+      PackItem::store(words[3 * v], vectors[v]->x);
+      PackItem::store(words[3 * v + 1], vectors[v]->y);
+      PackItem::store(words[3 * v + 2], vectors[v]->z);
+    }
+    for (int j = 0; j < lanes; ++j) {
+      R* a = sums_.data() + static_cast<std::size_t>(end_a[j]) * velocity_words;
+      for (int w = 0; w < 3; ++w) a[w] += words[w][j];
+      for (int w = 0; w < 3; ++w) a[4 + w] += words[3 + w][j];
+      R* b = sums_.data() + static_cast<std::size_t>(end_b[j]) * velocity_words;
+      for (int w = 0; w < 3; ++w) b[w] -= words[w][j];
+      for (int w = 0; w < 3; ++w) b[4 + w] += words[6 + w][j];
+    }
+  }
+
+  Twist<R> sum(std::int32_t body, std::uint32_t own) const {
+    const R* s = sums_.data() + static_cast<std::size_t>(own) * velocity_words;
+    return row_sum(body, {{s[0], s[1], s[2]}, {s[4], s[5], s[6]}});
+  }
+  Twist<R> row_sum(std::int32_t body, Twist<R> total) const {
+    const auto i = static_cast<std::size_t>(body);
+    for (auto r = accumulators_.row_begin[i]; r < accumulators_.row_begin[i + 1]; ++r) {
+      const R* s = sums_.data() + static_cast<std::size_t>(accumulators_.row[r]) * velocity_words;
+      total.linear += {s[0], s[1], s[2]};
+      total.angular += {s[4], s[5], s[6]};
+    }
+    return total;
+  }
+  typename P::Geometry* gathered() {
+    if constexpr (std::is_same_v<typename P::Geometry, R>)
+      return master_.data();
+    else
+      return velocity_.data();
+  }
+
+  const Layout& layout_;
+  TileAccumulators accumulators_;
+  std::vector<std::unique_ptr<Group>> groups_;
+  AlignedVector<R> sums_, master_, displacement_;  // [accumulator][8], [body][8], [body][4]
+  AlignedVector<typename P::Geometry> velocity_;   // [body][8], where Geometry is not Particle
+  std::vector<R> inverse_;
+  std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
+  int threads_ = 1;
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file layout.hpp  The private order in which a backend keeps particles and contacts.
+///
+/// Particles are ordered by recursive bisection, so that neighbours in space are neighbours in memory; a tile is a run
+/// of particles whose contacts fit a core's cache. Contacts are grouped by pair type (one law a group), then by tile,
+/// then by number of points, and cut into packets of `lanes`; the rest of a packet is filled with inert contacts.
+/// Walls are bodies too: they follow the particles as N…N+5.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "macadam/contact_network.hpp"
+#include "macadam/laws/all.hpp"
+#include "macadam/specimen.hpp"
+
+namespace macadam::kernels {
+
+inline constexpr int walls = 6;
+inline constexpr std::uint32_t inert = UINT32_MAX;
+
+/// Contacts of one pair type in device order.
+struct GroupLayout {
+  PairType pair = PairType::mm;
+  std::vector<std::uint32_t> contact;      ///< slot → network contact, or `inert`; a multiple of lanes
+  std::vector<std::uint32_t> tile_packet;  ///< tile → first packet; tiles + 1 entries
+  std::vector<std::uint32_t> packet_row;   ///< packet → first row of points; packets + 1 entries
+  std::size_t packets() const { return tile_packet.back(); }
+};
+
+/// The whole order. Bodies are particles in device order, then the six walls.
+struct Layout {
+  int lanes = 1;
+  std::vector<std::int32_t> particle;   ///< body → specimen particle (particles only)
+  std::vector<std::int32_t> body;       ///< specimen particle → body
+  std::vector<std::int32_t> tile_body;  ///< tile → first body; tiles + 1 entries
+  std::vector<GroupLayout> groups;
+
+  std::size_t tiles() const { return tile_body.size() - 1; }
+  std::size_t particles() const { return particle.size(); }
+  /// Body of a contact's end, which may be a Wall.
+  std::int32_t body_of(std::int32_t end) const {
+    return end >= 0 ? body[static_cast<std::size_t>(end)] : static_cast<std::int32_t>(particles()) - 1 - end;
+  }
+};
+
+/// Orders a network. `tile_contacts` is the number of contacts aimed at in a tile.
+Layout make_layout(const Specimen& specimen, const ContactNetwork& network, int lanes, std::size_t tile_contacts);
+
+}  // namespace macadam::kernels

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file particle_motion.hpp  Eq. 1–2 of one body: damping, leapfrog, displacement.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/contact_forces.hpp"
+#include "macadam/backend.hpp"
+#include "macadam/loadings/cyclic.hpp"
+
+namespace macadam::kernels {
+
+/// Arrays of the bodies; walls last. `velocity` is what contacts gather (Geometry precision), `master` what is
+/// integrated (Particle precision); the two are one array where the precisions are the same.
+template <class P>
+struct BodyView {
+  typename P::Geometry* velocity;       ///< [body][8] v [m/s], ω [rad/s]
+  typename P::Particle* master;         ///< [body][8] likewise
+  typename P::Particle* displacement;   ///< [body][4] [m]
+  const typename P::Particle* inverse;  ///< [body][2] Δt/m [s/kg], Δt/I [s/(kg·m²)]; 0 for walls
+  std::int32_t particles;
+};
+
+/// Moves one body by one step.
+template <class P>
+struct ParticleMotion {
+  using R = typename P::Particle;
+  BodyView<P> body;
+  Damping damping;
+  R chi;          ///< local damping
+  R keep, drive;  ///< viscous: (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2); 1 and 1 without
+  double dt;      ///< [s]
+  bool loaded;
+  loadings::Cyclic loading;
+
+  /// v ← v + Δt·(F + F_d)/m, u ← u + Δt·v for a particle; the top wall gets its velocity of step k, others rest.
+  MACADAM_HD void operator()(std::int32_t i, const Twist<R>& force, std::int64_t k) const {
+    R* v = body.master + static_cast<std::size_t>(i) * velocity_words;
+    R* u = body.displacement + static_cast<std::size_t>(i) * displacement_words;
+    if (i < body.particles) {
+      const R by_mass = body.inverse[2 * i], by_inertia = body.inverse[2 * i + 1];
+      v[0] = moved(v[0], force.linear.x, by_mass);
+      v[1] = moved(v[1], force.linear.y, by_mass);
+      v[2] = moved(v[2], force.linear.z, by_mass);
+      v[4] = moved(v[4], force.angular.x, by_inertia);
+      v[5] = moved(v[5], force.angular.y, by_inertia);
+      v[6] = moved(v[6], force.angular.z, by_inertia);
+    } else if (loaded && i == body.particles + 5) {
+      v[2] = static_cast<R>(loading.velocity(k));
+    }
+    const R step = static_cast<R>(dt);
+    u[0] += step * v[0];
+    u[1] += step * v[1];
+    u[2] += step * v[2];
+    if constexpr (!std::is_same_v<typename P::Geometry, R>) {
+      for (int w = 0; w < velocity_words; ++w) {
+        body.velocity[static_cast<std::size_t>(i) * velocity_words + static_cast<std::size_t>(w)] =
+            static_cast<typename P::Geometry>(v[w]);
+      }
+    }
+  }
+
+ private:
+  MACADAM_HD R moved(R v, R f, R inverse) const {
+    if (damping == Damping::local) {
+      const R drag = chi * (f < 0 ? -f : f);  // F_d = −χ·|F|·sign(v)
+      f -= v > 0 ? drag : v < 0 ? -drag : R(0);
+    }
+    return keep * v + drive * inverse * f;
+  }
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file precision.hpp  Which quantities of the step are double and which are float.
+#pragma once
+
+#include "macadam/backend.hpp"
+
+namespace macadam::kernels {
+
+/// State: chain states and carried frames. Geometry: normals, arms, moments, gathered velocities. Particle: master
+/// velocities, displacements and force sums.
+struct DoublePrecision {
+  using State = double;
+  using Geometry = double;
+  using Particle = double;
+  static constexpr Precision value = Precision::double_;
+};
+struct MixedPrecision {
+  using State = double;
+  using Geometry = float;
+  using Particle = double;
+  static constexpr Precision value = Precision::mixed;
+};
+struct SinglePrecision {
+  using State = float;
+  using Geometry = float;
+  using Particle = float;
+  static constexpr Precision value = Precision::single;
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file stepper_impl.hpp  The step, for any executor. stepper_cpu.cpp and stepper_cuda.cu compile it.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "kernels/contact_forces.hpp"
+#include "kernels/layout.hpp"
+#include "kernels/particle_motion.hpp"
+#include "kernels/precision.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam::kernels {
+
+/// Calls f(std::integral_constant) for the value of an enum of two.
+template <auto First, auto Second, class F>
+void dispatch(decltype(First) value, F&& f) {
+  if (value == First)
+    f(std::integral_constant<decltype(First), First>{});
+  else
+    f(std::integral_constant<decltype(First), Second>{});
+}
+
+/// Calls f(step coefficients, units as a constant) for a law; units beyond the compiled ones run as −1 (any number).
+template <class R, class F>
+void dispatch_units(const laws::Elastic& law, double dt, F&& f) {
+  f(law.step<R>(dt), std::integral_constant<int, 0>{});
+}
+template <class R, class F>
+void dispatch_units(const laws::GeneralisedKelvin& law, double dt, F&& f) {
+  const auto step = law.step<R>(dt);
+  if (law.units() == 3)
+    f(step, std::integral_constant<int, 3>{});
+  else
+    f(step, std::integral_constant<int, -1>{});
+}
+
+template <class Exec>
+class StepperImpl final : public Stepper {
+ public:
+  using P = typename Exec::Policy;
+  using R = typename P::Particle;
+
+  StepperImpl(const Specimen& specimen, const ContactNetwork& network,
+              const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+              const StepperOptions& options)
+      : options_(options),
+        radius_(specimen.radius),
+        layout_(make_layout(specimen, network, Exec::lanes, Exec::tile_contacts)),
+        exec_(network, layout_, options.threads) {
+    std::vector<R> inverse(2 * (layout_.particles() + walls), R(0));
+    for (std::size_t b = 0; b < layout_.particles(); ++b) {
+      const auto i = static_cast<std::size_t>(layout_.particle[b]);
+      inverse[2 * b] = static_cast<R>(options.dt / (inertia.mass[i] * options.density_scaling));
+      inverse[2 * b + 1] = static_cast<R>(options.dt / (inertia.inertia[i] * options.density_scaling));
+    }
+    const double beta = options.damping_kind == Damping::viscous ? options.damping : 0;
+    motion_ = {exec_.set_bodies(std::move(inverse)),
+               options.damping_kind,
+               static_cast<R>(options.damping),
+               static_cast<R>((1 - beta * options.dt / 2) / (1 + beta * options.dt / 2)),
+               static_cast<R>(1 / (1 + beta * options.dt / 2)),
+               options.dt,
+               options.loading.has_value(),
+               options.loading.value_or(loadings::Cyclic{})};
+    for (const auto& group : layout_.groups)
+      add_group(network, group, laws[static_cast<std::size_t>(group.pair)].value());
+  }
+
+  /// The step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
+  void advance(std::int64_t steps) override {
+    exec_.repeat(step_, steps, [this](auto& team, std::int64_t k) {
+      team.bodies(motion_, k);
+      team.contacts();
+    });
+    step_ += steps;
+  }
+
+  Observation observe() const override {
+    Observation out;
+    out.step = step_;
+    out.time = static_cast<double>(step_) * options_.dt;
+    if (options_.loading) out.wall_displacement = options_.loading->displacement(step_);
+    const auto forces = exec_.forces(static_cast<std::int32_t>(layout_.particles()), walls);
+    for (std::size_t w = 0; w < walls; ++w) {
+      const auto& f = forces[w].linear;
+      out.wall_force[w] = {f.x, f.y, f.z};
+    }
+    return out;
+  }
+
+  ParticleState particles() const override {
+    const std::size_t n = layout_.particles();
+    ParticleState out{std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<Vec3d>(n),
+                      std::vector<Vec3d>(n)};
+    const auto v = exec_.velocities();
+    const auto u = exec_.displacements();
+    const auto forces = exec_.forces(0, n);
+    for (std::size_t b = 0; b < n; ++b) {
+      const auto i = static_cast<std::size_t>(layout_.particle[b]);
+      const R *vb = &v[b * velocity_words], *ub = &u[b * displacement_words];
+      const auto& f = forces[b];
+      out.displacement[i] = {ub[0], ub[1], ub[2]};
+      out.velocity[i] = {vb[0], vb[1], vb[2]};
+      out.spin[i] = {vb[4], vb[5], vb[6]};
+      out.force[i] = {f.linear.x, f.linear.y, f.linear.z};
+      out.moment[i] = {f.angular.x, f.angular.y, f.angular.z};
+    }
+    return out;
+  }
+
+  void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) override {
+    std::vector<R> v = exec_.velocities();
+    for (std::size_t b = 0; b < layout_.particles(); ++b) {
+      const auto i = static_cast<std::size_t>(layout_.particle[b]);
+      const double words[velocity_words] = {velocity[i].x, velocity[i].y, velocity[i].z, 0,
+                                            spin[i].x,     spin[i].y,     spin[i].z,     0};
+      for (int w = 0; w < velocity_words; ++w)
+        v[b * velocity_words + static_cast<std::size_t>(w)] = static_cast<R>(words[w]);
+    }
+    exec_.set_velocities(v);
+  }
+
+  std::int64_t first_divergent() const override {
+    const auto v = exec_.velocities();
+    std::int64_t first = -1;
+    for (std::size_t b = 0; b < layout_.particles(); ++b) {
+      const auto i = static_cast<std::int64_t>(layout_.particle[b]);
+      const R* w = &v[b * velocity_words];
+      const double travel = options_.dt * std::sqrt(double(w[0]) * w[0] + double(w[1]) * w[1] + double(w[2]) * w[2]);
+      const double turn = options_.dt * std::sqrt(double(w[4]) * w[4] + double(w[5]) * w[5] + double(w[6]) * w[6]);
+      // written so that NaN counts as divergent
+      const bool sensible = travel <= radius_[static_cast<std::size_t>(i)] && turn <= 1.0;
+      if (!sensible && (first < 0 || i < first)) first = i;
+    }
+    return first;
+  }
+
+  std::string description() const override {
+    return exec_.description() + ", " + to_string(P::value) + ", " + to_string(options_.form) + ", geometry " +
+           to_string(options_.geometry);
+  }
+  std::int64_t bytes() const override { return exec_.bytes(); }
+  std::int64_t traffic() const override { return exec_.bytes() + exec_.state_bytes(); }
+
+ private:
+  void add_group(const ContactNetwork& network, const GroupLayout& group, const Law& law) {
+    using State = typename P::State;
+    std::visit(
+        [&](const auto& l) {
+          dispatch_units<State>(l, options_.dt, [&](const auto& step, auto units) {
+            dispatch<ContactForm::condensed, ContactForm::points>(options_.form, [&](auto form) {
+              dispatch<Geometry::updated, Geometry::fixed>(options_.geometry, [&](auto geometry) {
+                exec_.add_group(fill_contacts<P>(network, layout_, group, law, options_),
+                                ContactForces<P, std::decay_t<decltype(step)>, units(), form(), geometry()>{
+                                    {}, step, static_cast<State>(options_.dt)});
+              });
+            });
+          });
+        },
+        law);
+  }
+
+  StepperOptions options_;
+  std::vector<double> radius_;
+  Layout layout_;
+  Exec exec_;
+  ParticleMotion<P> motion_{};
+  std::int64_t step_ = 0;
+};
+
+/// Makes the stepper of an executor in the precision asked for.
+template <template <class> class Exec, class... Args>
+std::unique_ptr<Stepper> make_in_precision(Precision precision, const Args&... args) {
+  switch (precision) {
+    case Precision::single:
+      return std::make_unique<StepperImpl<Exec<SinglePrecision>>>(args...);
+    case Precision::mixed:
+      return std::make_unique<StepperImpl<Exec<MixedPrecision>>>(args...);
+    default:
+      return std::make_unique<StepperImpl<Exec<DoublePrecision>>>(args...);
+  }
+}
+
+}  // namespace macadam::kernels

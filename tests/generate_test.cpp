@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file generate_test.cpp  The specimen generator: composition, placement, relaxation, reproducibility.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "macadam/error.hpp"
+#include "macadam/specimen.hpp"
+
+namespace macadam {
+namespace {
+
+double volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
+
+/// A small mix in a box of 13 mm: two classes and about 440 mastic spheres.
+SpecimenSpec small_mix() {
+  SpecimenSpec spec;
+  spec.box = {{0.013, 0.013, 0.013}};
+  spec.aggregate = {{0.002, 0.00475, 0.2, {}}, {0.00475, 0.0095, 0.2, {}}};
+  spec.mastic = MasticSpec{0.00075, 0.001, 0.05, {}};
+  return spec;
+}
+
+bool same_bits(const Specimen& a, const Specimen& b) {
+  const auto equal = [](const Vec3d& p, const Vec3d& q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
+  return a.radius == b.radius && a.phase == b.phase && a.body == b.body &&
+         std::equal(a.centre.begin(), a.centre.end(), b.centre.begin(), b.centre.end(), equal);
+}
+
+/// Aggregates are wholly inside the box, no two overlap, and each is its own body.
+void expect_sound_aggregates(const Specimen& s) {
+  const std::size_t n = std::count(s.phase.begin(), s.phase.end(), Phase::aggregate);
+  // Positions are compared as doubles: half a unit in the last place of the box's edge a coordinate.
+  const double rounding =
+      4 * std::numeric_limits<double>::epsilon() * std::max({s.box.size.x, s.box.size.y, s.box.size.z});
+  for (std::size_t i = 0; i < n; ++i) {
+    ASSERT_EQ(s.phase[i], Phase::aggregate);
+    EXPECT_EQ(s.body[i], static_cast<std::int32_t>(i));
+    EXPECT_TRUE(i == 0 || s.radius[i] <= s.radius[i - 1]) << i;
+    const Vec3d c = s.centre[i], l = s.box.size;
+    EXPECT_GE(std::min({c.x, c.y, c.z, l.x - c.x, l.y - c.y, l.z - c.z}), s.radius[i] - rounding) << i;
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GE(norm(c - s.centre[j]), s.radius[i] + s.radius[j] - rounding) << i << " and " << j;
+  }
+}
+
+std::string message_for(const SpecimenSpec& spec) {
+  try {
+    generate_specimen(spec);
+  } catch (const Error& error) { return error.what(); }
+  return "(accepted)";
+}
+
+void expect_refused(const SpecimenSpec& spec, const std::string& words) {
+  try {
+    generate_specimen(spec);
+    ADD_FAILURE() << "accepted; expected: " << words;
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+TEST(Generate, SameSeedSameBitsOtherSeedOtherSpecimen) {
+  SpecimenSpec spec = small_mix();
+  const Specimen first = generate_specimen(spec).specimen;
+  EXPECT_TRUE(same_bits(first, generate_specimen(spec).specimen));
+  spec.seed = 2;
+  EXPECT_FALSE(same_bits(first, generate_specimen(spec).specimen));
+}
+
+TEST(Generate, SameBitsForAnyNumberOfThreads) {
+  const int threads = omp_get_max_threads();
+  for (bool fix : {true, false}) {
+    SpecimenSpec spec = small_mix();
+    spec.box = {{0.016, 0.016, 0.016}};
+    spec.aggregate = {{0.00475, 0.0095, 0.1, {}}};
+    spec.fix_aggregates = fix;
+    omp_set_num_threads(1);
+    const Specimen one = generate_specimen(spec).specimen;
+    ASSERT_GT(one.size(), 1000u);  // fewer are left to one thread
+    omp_set_num_threads(2);
+    EXPECT_TRUE(same_bits(one, generate_specimen(spec).specimen)) << "fix_aggregates " << fix;
+  }
+  omp_set_num_threads(threads);
+}
+
+TEST(Generate, AggregatesAreInsideAndClearOfEachOther) {
+  const GeneratedSpecimen g = generate_specimen(small_mix());
+  expect_sound_aggregates(g.specimen);
+  EXPECT_EQ(g.residual_overlap, 0);
+}
+
+TEST(Generate, CompositionIsWhatWasAsked) {
+  const GeneratedSpecimen g = generate_specimen(small_mix());
+  ASSERT_EQ(g.composition.size(), 3u);
+  EXPECT_EQ(g.composition[0].name, "2-4.75 mm");
+  EXPECT_EQ(g.composition[1].name, "4.75-9.5 mm");
+  EXPECT_EQ(g.composition[2].name, "mastic");
+  const double solid = 0.95, asked[] = {0.2 * solid, 0.2 * solid, 0.6 * solid};
+  double sums[3] = {};
+  std::int64_t counts[3] = {};
+  for (std::size_t i = 0; i < g.specimen.size(); ++i) {
+    const double r = g.specimen.radius[i];
+    const int k = g.specimen.phase[i] == Phase::mastic ? 2 : r > 0.00475 / 2 ? 1 : 0;
+    sums[k] += volume(r) / g.specimen.box.volume();
+    ++counts[k];
+    EXPECT_GE(r, k == 2 ? 0.00075 : 0.001);
+    EXPECT_LE(r, k == 2 ? 0.001 : 0.00475);
+  }
+  for (int k = 0; k < 3; ++k) {
+    // Bisection ends at 1e-13 of the class; sums of some hundred terms round to less than that.
+    EXPECT_NEAR(sums[k], asked[k], 1e-12) << k;
+    EXPECT_NEAR(g.composition[k].fraction, sums[k], 1e-12) << k;
+    EXPECT_NEAR(g.composition[k].fraction_asked, asked[k], 1e-12) << k;
+    EXPECT_EQ(g.composition[k].count, counts[k]) << k;
+  }
+}
+
+TEST(Generate, CountsGiveTheMeanVolumeOfTheSizeLaw) {
+  // Mean cubes between a and b: log-uniform (b³−a³)/(3 ln(b/a)); uniform (b⁴−a⁴)/(4(b−a)); volume spread evenly over
+  // the diameters, density ∝ d⁻³: 2a²b²/(a+b).
+  const double a = 0.001, b = 0.003, mastic_min = 0.0005, mastic_max = 0.001;
+  const std::pair<SizeLaw, double> laws[] = {{SizeLaw::log_uniform, (b * b * b - a * a * a) / (3 * std::log(b / a))},
+                                             {SizeLaw::uniform, (std::pow(b, 4) - std::pow(a, 4)) / (4 * (b - a))},
+                                             {SizeLaw::volume_uniform, 2 * a * a * b * b / (a + b)}};
+  for (const auto& [law, mean_cube] : laws) {
+    SpecimenSpec spec;
+    spec.box = {{0.012, 0.012, 0.012}};
+    spec.size_law = law;
+    spec.aggregate = {{a, b, {}, 60}};
+    spec.mastic = MasticSpec{mastic_min, mastic_max, {}, 300};
+    const GeneratedSpecimen g = generate_specimen(spec);
+    EXPECT_EQ(g.composition[0].count, 60);
+    EXPECT_EQ(g.composition[1].count, 300);
+    EXPECT_NEAR(g.composition[0].fraction, 60 * std::numbers::pi / 6 * mean_cube / spec.box.volume(), 1e-12);
+    const double mean_radius_cube =
+        (std::pow(mastic_max, 4) - std::pow(mastic_min, 4)) / (4 * (mastic_max - mastic_min));
+    EXPECT_NEAR(g.composition[1].fraction, 300 * 4 * std::numbers::pi / 3 * mean_radius_cube / spec.box.volume(),
+                1e-12);
+    // Stratified draws: the share below any size is within one sphere of the law's, and the bend that makes the volume
+    // exact moves it by less than one more.
+    const double middle = law == SizeLaw::log_uniform ? std::sqrt(a * b)
+                          : law == SizeLaw::uniform   ? (a + b) / 2
+                                                      : std::sqrt(2 / (1 / (a * a) + 1 / (b * b)));
+    const auto below = std::count_if(g.specimen.radius.begin(), g.specimen.radius.begin() + 60,
+                                     [&](double r) { return 2 * r < middle; });
+    EXPECT_NEAR(static_cast<double>(below), 30, 2) << static_cast<int>(law);
+  }
+}
+
+TEST(Generate, MasticByCountSolvesForTheSolidVolume) {
+  SpecimenSpec spec = small_mix();
+  spec.aggregate = {{0.002, 0.004, 0.25, {}}, {0.004, 0.006, {}, 3}};
+  spec.mastic = MasticSpec{0.00075, 0.001, {}, 500};
+  const GeneratedSpecimen g = generate_specimen(spec);
+  const double solid = g.composition[0].fraction + g.composition[1].fraction + g.composition[2].fraction;
+  EXPECT_NEAR(g.composition[0].fraction / solid, 0.25, 1e-12);
+}
+
+TEST(Generate, MasticIsSpreadEvenly) {
+  const Specimen s = generate_specimen(small_mix()).specimen;
+  EXPECT_TRUE(particles_without_cell(s).empty());
+  // Of 440 points at random in this box a dozen pairs are closer than 0.2 of touching. Spread evenly at porosity
+  // 0.05 neighbours keep about 0.9 of touching, those squeezed between a wall and an aggregate somewhat less.
+  double closest = 1;
+  for (std::size_t i = 0; i < s.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      closest = std::min(closest, norm(s.centre[i] - s.centre[j]) / (s.radius[i] + s.radius[j]));
+  EXPECT_GT(closest, 0.6);
+  EXPECT_LT(closest, 1);
+}
+
+TEST(Generate, FreeAggregatesReportTheirOverlap) {
+  SpecimenSpec spec = small_mix();
+  const Specimen held = generate_specimen(spec).specimen;
+  spec.fix_aggregates = false;
+  const GeneratedSpecimen g = generate_specimen(spec);
+  double largest = 0, farthest = 0;
+  for (std::size_t i = 0; g.specimen.phase[i] == Phase::aggregate; ++i) {
+    farthest = std::max(farthest, norm(g.specimen.centre[i] - held.centre[i]));
+    for (std::size_t j = 0; j < i; ++j)
+      largest = std::max(
+          largest, g.specimen.radius[i] + g.specimen.radius[j] - norm(g.specimen.centre[i] - g.specimen.centre[j]));
+  }
+  EXPECT_EQ(g.residual_overlap, largest);
+  // Mastic overlaps by about a tenth of its diameter of 1.75 mm; a pair of aggregates, 20 times stiffer, by less even
+  // where it carries the load of several.
+  EXPECT_LT(largest, 0.000175);
+  EXPECT_GT(farthest, 1e-5);  // they did move
+}
+
+TEST(Generate, MasticOnlyAggregatesOnlySingleParticle) {
+  SpecimenSpec spec = small_mix();
+  spec.aggregate.clear();
+  spec.box = {{0.01, 0.01, 0.01}};
+  GeneratedSpecimen g = generate_specimen(spec);
+  ASSERT_EQ(g.composition.size(), 1u);
+  EXPECT_NEAR(g.composition[0].fraction, 0.95, 1e-12);
+
+  spec = small_mix();
+  spec.mastic.reset();
+  g = generate_specimen(spec);
+  EXPECT_EQ(g.composition.size(), 2u);
+  EXPECT_NEAR(g.composition[0].fraction, 0.2, 1e-12);  // no mastic: of the box
+  expect_sound_aggregates(g.specimen);
+
+  spec.aggregate = {{0.004, 0.006, {}, 1}};
+  EXPECT_EQ(generate_specimen(spec).specimen.size(), 1u);
+  spec.aggregate.clear();
+  spec.mastic = MasticSpec{0.001, 0.001, {}, 1};
+  EXPECT_EQ(generate_specimen(spec).specimen.size(), 1u);
+}
+
+TEST(Generate, AClassWithoutRoomSaysHowMuchHadRoom) {
+  SpecimenSpec spec = small_mix();
+  spec.box = {{0.016, 0.016, 0.016}};
+  spec.aggregate = {{0.0047, 0.005, {}, 40}};  // 56 % of the box at one size: beyond random sequential placement
+  spec.mastic.reset();
+  spec.attempts = 30'000;
+  EXPECT_THROW(generate_specimen(spec), RunError);
+  const std::string message = message_for(spec);
+  for (const char* words : {"of 40 of class 4.7-5 mm", "30000 attempts", "of 40 placed", "% of the class's volume",
+                            "larger box", "another seed"})
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+}
+
+TEST(Generate, ImpossibleRecipesAreRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto spoilt = [](const std::function<void(SpecimenSpec&)>& spoil) {
+    SpecimenSpec spec = small_mix();
+    spoil(spec);
+    return spec;
+  };
+  using S = SpecimenSpec;
+  expect_refused(spoilt([](S& s) { s.box.size.y = 0; }), "box: edge: found 0");
+  expect_refused(spoilt([&](S& s) { s.box.size.y = nan; }), "box: edge: found nan");
+  expect_refused(spoilt([](S& s) { s.attempts = 0; }), "attempts: found 0");
+  expect_refused(spoilt([](S& s) { s.file = "x.csv"; }), "x.csv");
+  expect_refused(spoilt([](S& s) { s.aggregate[0].count = 3; }), "both volume_fraction and count");
+  expect_refused(spoilt([](S& s) { s.aggregate[0].volume_fraction.reset(); }), "neither volume_fraction nor count");
+  expect_refused(spoilt([](S& s) { s.aggregate[0].sieve_min = 0.005; }), "0 < smallest <= largest");
+  expect_refused(spoilt([&](S& s) { s.aggregate[0].sieve_max = nan; }), "0 < smallest <= largest");
+  expect_refused(spoilt([](S& s) { s.aggregate[0].volume_fraction = 1.2; }), "volume_fraction: found 1.2");
+  expect_refused(spoilt([](S& s) { s.aggregate[0].volume_fraction = 0.85; }), "solid volume that the porosity leaves");
+  expect_refused(spoilt([](S& s) { s.mastic->count = 4; }), "both porosity and count");
+  expect_refused(spoilt([](S& s) { s.mastic->porosity.reset(); }), "neither porosity nor count");
+  expect_refused(spoilt([](S& s) { s.mastic->porosity = 1; }), "porosity: found 1");
+  expect_refused(spoilt([](S& s) { s.mastic->radius_min = -1; }), "0 < smallest <= largest");
+  expect_refused(spoilt([](S& s) { s.mastic = MasticSpec{1e-9, 1e-9, 0.05, {}}; }), "number of spheres");
+  expect_refused(spoilt([](S& s) { s.aggregate[1] = {0.0132, 0.0134, {}, 1}; }), "shortest edge of the box, 13 mm");
+  expect_refused(spoilt([](S& s) { s.aggregate[1].sieve_min = 0.0094; }), "(1 spheres), or wider sieves");
+  expect_refused(spoilt([](S& s) { s.aggregate.clear(), s.mastic.reset(); }), "particles: found 0");
+}
+
+TEST(GenerateLarge, PaperSpecimen) {
+  SpecimenSpec spec;
+  spec.box = {{0.05, 0.05, 0.08}};
+  spec.aggregate = {
+      {0.0125, 0.019, {}, 12}, {0.0095, 0.0125, {}, 27}, {0.00475, 0.0095, {}, 184}, {0.002, 0.00475, {}, 1373}};
+  spec.mastic = MasticSpec{0.00075, 0.001, {}, 34164};
+  const auto start = std::chrono::steady_clock::now();
+  const GeneratedSpecimen g = generate_specimen(spec);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  EXPECT_LT(seconds, 60);
+  EXPECT_EQ(g.specimen.size(), 35760u);
+  double total = 0;
+  for (const CompositionRow& row : g.composition) {
+    EXPECT_EQ(row.count, row.count_asked) << row.name;
+    EXPECT_NEAR(row.fraction, row.fraction_asked, 1e-10) << row.name;  // 34,164 terms of one sign, rounded
+    total += row.fraction;
+  }
+  EXPECT_NEAR(total, 1.017, 0.001);  // from the mean volumes: 0.1227 + 0.0941 + 0.1738 + 0.1374 + 0.4891
+  expect_sound_aggregates(g.specimen);
+  EXPECT_TRUE(particles_without_cell(g.specimen).empty());
+}
+
+}  // namespace
+}  // namespace macadam

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file laws_test.cpp  The contact laws against closed forms and against the reference's own writing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <ostream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "host/reference/reference_law.hpp"
+#include "macadam/error.hpp"
+#include "macadam/laws/all.hpp"
+#include "test_networks.hpp"
+
+namespace macadam {
+namespace {
+
+using laws::Elastic;
+using laws::GeneralisedKelvin;
+using std::numbers::pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// One displacement component under a law of the library.
+template <class L>
+class Element {
+ public:
+  Element(const L& law, double dt, double f = 0) : step_(law.template step<double>(dt)), x_(law.units(), 0.0), f_(f) {}
+  double advance(double dx) {
+    f_ = step_.template advance<-1>(f_, dx, [&](int l) -> double& { return x_[l]; });
+    return f_;
+  }
+  double force() const { return f_; }
+  const std::vector<double>& stretch() const { return x_; }
+  const auto& step() const { return step_; }
+
+ private:
+  typename L::template Step<double> step_;
+  std::vector<double> x_;
+  double f_;
+};
+
+/// The same under the reference's chain, area over distance being 1.
+class ReferenceElement {
+ public:
+  ReferenceElement(const Law& law, double dt, double f = 0) : law_(reference::make_reference_law(law, "M-M")), dt_(dt) {
+    state_.force = f;
+    state_.stretch.assign(law_.units.size(), 0.0);
+  }
+  double advance(double dx) {
+    reference::advance_chain(law_, 1.0, dt_, dx, state_);
+    return state_.force;
+  }
+  const std::vector<double>& stretch() const { return state_.stretch; }
+
+ private:
+  reference::ReferenceLaw law_;
+  double dt_;
+  reference::ChainState state_;
+};
+
+struct Case {
+  std::string name;
+  GeneralisedKelvin law;
+  double settling;  ///< longer than 35 of the slowest relaxation times [s]: transients fall below e⁻³⁵ ≈ 6e-16
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+// The slowest relaxation time of these chains is below (ΣC_l + C_m)/min E_l.
+std::vector<Case> cases() {
+  GeneralisedKelvin no_flow = test::mastic_am1();
+  no_flow.C_m = infinity;
+  return {
+      {"Maxwell", {2.0e9, 1.0e8, {}, {}}, 2},
+      {"Spring", {2.0e9, infinity, {}, {}}, 1},
+      {"Burgers", {2.0e9, 1.0e9, {1.0e9}, {3.0e8}}, 80},
+      {"TwoUnits", {2.0e9, 1.0e9, {1.0e9, 4.0e9}, {3.0e8, 1.0e7}}, 80},
+      {"AM1", test::mastic_am1(), 1200},
+      {"AM2", test::mastic_am2(), 60},
+      {"AM1WithoutFlow", no_flow, 1000},
+      {"FiveUnits", {1.0e10, 2.0e9, {3.0e9, 1.0e9, 5.0e9, 2.0e9, 4.0e9}, {1.0e9, 2.0e7, 5.0e8, 1.0e8, 3.0e7}}, 130}};
+}
+
+/// Complex stiffness of an element driven by x = sin(2πft), from its last whole cycle.
+template <class E>
+std::complex<double> measured_stiffness(E element, double frequency, double settling, int steps_per_cycle) {
+  const int n = steps_per_cycle;
+  std::vector<double> x(n);
+  for (int k = 0; k < n; ++k) x[k] = std::sin(2 * pi * k / n);
+  // The rule damps what is faster than the step slowly, by 1 − 4τ/Δt a step: 200 cycles more settle τ > Δt/1000.
+  const auto cycles = static_cast<std::int64_t>(std::ceil(settling * frequency)) + 200;
+  for (std::int64_t c = 0; c + 1 < cycles; ++c) {
+    for (int k = 0; k < n; ++k) element.advance(x[(k + 1) % n] - x[k]);
+  }
+  // f = Im(k*·e^{iωt}) = (k*·e^{iωt} − c.c.)/2i, and the mean of e^{−2iωt} over whole cycles is 0.
+  const std::complex<double> i(0, 1);
+  std::complex<double> mean = 0;
+  for (int k = 0; k < n; ++k) {
+    mean += element.advance(x[(k + 1) % n] - x[k]) * std::exp(-2 * pi * i * double(k + 1) / double(n));
+  }
+  return 2.0 * i * mean / double(n);
+}
+
+class ComplexStiffness : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Chains, ComplexStiffness, testing::ValuesIn(cases()),
+                         [](const auto& info) { return info.param.name; });
+
+// The trapezoidal rule maps a harmonic at ω exactly onto the continuous law at (2/Δt)·tan(ωΔt/2). The tolerance is the
+// random walk of rounding over up to 2e6 steps, 1400·1.1e-16, on forces up to E_m while |k*| may be E_m/1000.
+TEST_P(ComplexStiffness, IsExactAtTheWarpedFrequency) {
+  const auto& [name, law, settling] = GetParam();
+  constexpr int n = 64;
+  for (double f : {0.02, 2.0, 20.0}) {
+    const double dt = 1 / (f * n);
+    const auto exact = law.stiffness(2 / dt * std::tan(pi / n));
+    EXPECT_LT(std::abs(measured_stiffness(Element(law, dt), f, settling, n) - exact) / std::abs(exact), 1e-9) << f;
+    if (f < 1) {  // the reference is slow
+      EXPECT_LT(std::abs(measured_stiffness(ReferenceElement(law, dt), f, settling, n) - exact) / std::abs(exact),
+                1e-9);
+    }
+  }
+}
+
+// Second order: a quarter of the error for half the step. The next order of the error is (ωΔt)² = 0.01 of it.
+TEST_P(ComplexStiffness, ConvergesAtSecondOrder) {
+  const auto& [name, law, settling] = GetParam();
+  const double f = 0.5;
+  const auto exact = law.stiffness(2 * pi * f);
+  const auto error = [&](int n) {
+    return std::abs(measured_stiffness(Element(law, 1 / (f * n)), f, settling, n) - exact) / std::abs(exact);
+  };
+  const double coarse = error(64), fine = error(128);
+  if (name == "Spring") {
+    EXPECT_LT(coarse, 1e-12);  // nothing to integrate: only 64 roundings
+  } else {
+    EXPECT_LT(coarse, 1e-3);  // (ωΔt)²/12 = 8e-4
+    EXPECT_NEAR(coarse / fine, 4, 0.05);
+  }
+}
+
+TEST_P(ComplexStiffness, TendsToTheInstantaneousStiffness) {
+  const auto& law = GetParam().law;
+  // At ω the dashpots give way by E_m/(ω·C), summed below 5e10/(1e12·2e6).
+  EXPECT_LT(std::abs(law.stiffness(1e12) - law.instantaneous()) / law.instantaneous(), 1e-6);
+}
+
+// Both writings of the law follow the same random motion. Rounding walks over 1e4 steps: 100·1.1e-16 of forces E_m·1.
+TEST_P(ComplexStiffness, LibraryAndReferenceAgree) {
+  const auto& law = GetParam().law;
+  for (double dt : {1e-7, 1e-3, 1.0}) {
+    Element element(law, dt);
+    ReferenceElement reference(law, dt);
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> increment(-1e-2, 1e-2);
+    for (int k = 0; k < 10'000; ++k) {
+      const double dx = increment(random);
+      ASSERT_NEAR(element.advance(dx), reference.advance(dx), 1e-12 * law.E_m) << dt << " s, step " << k;
+    }
+    for (int l = 0; l < law.units(); ++l) EXPECT_NEAR(element.stretch()[l], reference.stretch()[l], 1e-12) << dt;
+  }
+}
+
+/// Closed form of creep under a unit force.
+double creep(const GeneralisedKelvin& law, double t) {
+  double x = 1 / law.E_m + t / law.C_m;
+  for (std::size_t l = 0; l < law.E.size(); ++l) x += -std::expm1(-law.E[l] * t / law.C[l]) / law.E[l];
+  return x;
+}
+
+/// Displacement after `steps` steps of the unit force: dx is what keeps f, from Eq. 13 with f(t+Δt) = f(t).
+double computed_creep(const GeneralisedKelvin& law, double dt, int steps) {
+  Element element(law, dt, 1.0);
+  double x = 1 / law.E_m;
+  for (int k = 0; k < steps; ++k) {
+    const auto& c = element.step();
+    double dx = c.relax / c.inv_c;
+    for (int l = 0; l < law.units(); ++l) dx -= c.recover[l] * element.stretch()[l];
+    element.advance(dx);
+    x += dx;
+  }
+  EXPECT_NEAR(element.force(), 1, steps * 4e-16);  // a rounding or two a step
+  return x;
+}
+
+TEST(Creep, FollowsTheClosedForm) {
+  for (const Case& c : cases()) {
+    if (c.name == "Spring") continue;
+    // One relaxation time of the fastest unit, so that every unit is on its way.
+    double t = 1;
+    for (std::size_t l = 0; l < c.law.E.size(); ++l) t = std::min(t, c.law.C[l] / c.law.E[l]);
+    const double exact = creep(c.law, t);
+    const double coarse = std::abs(computed_creep(c.law, t / 50, 50) - exact) / exact;
+    const double fine = std::abs(computed_creep(c.law, t / 100, 100) - exact) / exact;
+    if (c.law.units() == 0) {
+      EXPECT_LT(coarse, 1e-13) << c.name;  // a Maxwell unit creeps linearly: 50 roundings
+    } else {
+      EXPECT_LT(coarse, 2e-5) << c.name;  // (Δt/τ)²/12·e⁻¹ of one unit's share
+      EXPECT_NEAR(coarse / fine, 4, 0.02) << c.name;
+    }
+  }
+}
+
+/// Force after `steps` steps at rest, starting from a unit displacement just applied.
+double computed_relaxation(const GeneralisedKelvin& law, double dt, int steps) {
+  Element element(law, dt, law.E_m);
+  for (int k = 0; k < steps; ++k) element.advance(0);
+  return element.force();
+}
+
+void expect_relaxation(const GeneralisedKelvin& law, double t, double exact) {
+  const double coarse = std::abs(computed_relaxation(law, t / 100, 100) / exact - 1);
+  const double fine = std::abs(computed_relaxation(law, t / 200, 200) / exact - 1);
+  EXPECT_LT(coarse, 1e-3);
+  EXPECT_NEAR(coarse / fine, 4, 0.05);  // the next order is (Δt/τ)² below 1e-2 of it
+}
+
+TEST(Relaxation, Maxwell) {
+  const GeneralisedKelvin law{2.0e9, 1.0e9, {}, {}};
+  expect_relaxation(law, 0.7, 2.0e9 * std::exp(-0.7 * 2.0));
+}
+
+TEST(Relaxation, Zener) {
+  const GeneralisedKelvin law{2.0e9, infinity, {1.0e9}, {3.0e9}};
+  const double t = 1.1, k = 2.0e9, k1 = 1.0e9, rate = (k + k1) / 3.0e9;
+  expect_relaxation(law, t, k / (k + k1) * (k1 + k * std::exp(-rate * t)));
+}
+
+TEST(Relaxation, Burgers) {
+  const double k = 2.0e9, eta = 1.5e9, k1 = 1.0e9, eta1 = 0.8e9, t = 0.9;
+  // f + p1·f' + p2·f'' = q1·x' + q2·x'' for a step of x: two exponentials.
+  const double p1 = eta / k + eta / k1 + eta1 / k1, p2 = eta * eta1 / (k * k1);
+  const double q1 = eta, q2 = eta * eta1 / k1;
+  const double root = std::sqrt(p1 * p1 - 4 * p2), r1 = (p1 - root) / (2 * p2), r2 = (p1 + root) / (2 * p2);
+  const double exact = ((q1 - q2 * r1) * std::exp(-r1 * t) - (q1 - q2 * r2) * std::exp(-r2 * t)) / root;
+  expect_relaxation({k, eta, {k1}, {eta1}}, t, exact);
+}
+
+TEST(ElasticLimit, AChainWithoutDashpotsIsTheElasticLaw) {
+  const GeneralisedKelvin chain{2.0e9, infinity, {}, {}};
+  const GeneralisedKelvin stiff{2.0e9, 1e30, {1e9, 2e9}, {1e30, 1e30}};
+  Element spring(Elastic{2.0e9}, 1e-3);
+  Element bare(chain, 1e-3), slow(stiff, 1e-3);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> increment(-1, 1);
+  for (int k = 0; k < 1000; ++k) {
+    const double dx = increment(random);
+    spring.advance(dx), bare.advance(dx), slow.advance(dx);
+    // A thousand roundings of forces below 1e2·E; dashpots of 1e30 give way by 1e-21 of the displacement a second.
+    ASSERT_NEAR(bare.force(), spring.force(), 1e-11 * 2.0e9);
+    ASSERT_NEAR(slow.force(), spring.force(), 1e-11 * 2.0e9);
+  }
+}
+
+TEST(ElasticLimit, NoUnitsAreNoTrouble) {
+  const auto step = GeneralisedKelvin{2.0e9, infinity, {}, {}}.step<float>(1e-7);
+  EXPECT_EQ(step.n, 0);
+  EXPECT_EQ(step.relax, 0);
+  EXPECT_FLOAT_EQ(step.inv_c, 2.0e9f);
+  const float f = step.advance<0>(1.0f, 0.0f, [](int) -> float& { throw std::logic_error("no unit to ask for"); });
+  EXPECT_EQ(f, 1);
+}
+
+TEST(Step, TheNumberOfUnitsMayBeKnownToTheCompiler) {
+  const auto step = test::mastic_am1().step<double>(1e-4);
+  double x[3] = {1e-3, 2e-3, 3e-3}, y[3] = {1e-3, 2e-3, 3e-3};
+  const double f = step.advance<3>(1e6, 1e-4, [&](int l) -> double& { return x[l]; });
+  const double g = step.advance<-1>(1e6, 1e-4, [&](int l) -> double& { return y[l]; });
+  EXPECT_DOUBLE_EQ(f, g);
+  for (int l = 0; l < 3; ++l) EXPECT_DOUBLE_EQ(x[l], y[l]);
+}
+
+// 1 − b/a formed in single precision would be 0 or 1.2e-7 here. Rounded once from double it is good to 6e-8.
+TEST(Step, SinglePrecisionCoefficientsDoNotCancel) {
+  const auto step = GeneralisedKelvin{1, 1, {1, 10}, {1, 1}}.step<float>(1e-9);
+  EXPECT_NEAR(step.recover[0], 1e-9, 1e-16);
+  EXPECT_NEAR(step.recover[1], 1e-8, 1e-15);
+  EXPECT_NEAR(step.compliance[0], 0.5e-9, 0.5e-16);
+  EXPECT_NEAR(step.relax, 3e-9, 3e-16);  // Δt·k_m·(1/η_m + Σ 1/η_l)
+}
+
+TEST(ReferenceLaw, NamesWhatIsWrong) {
+  const auto message = [](const Law& law) -> std::string {
+    try {
+      reference::make_reference_law(law, "M-A");
+    } catch (const InputError& error) { return error.what(); }
+    return "accepted";
+  };
+  EXPECT_NE(message(Elastic{-1}).find("M-A"), std::string::npos);
+  EXPECT_NE(message(Elastic{NAN}).find("nan"), std::string::npos);
+  EXPECT_NE(message(GeneralisedKelvin{1, 1, {1, 2}, {1}}).find("2 E and 1 C"), std::string::npos);
+  EXPECT_NE(message(GeneralisedKelvin{0, 1, {}, {}}).find("E_m"), std::string::npos);
+  EXPECT_NE(message(GeneralisedKelvin{1, 0, {}, {}}).find("C_m"), std::string::npos);
+  EXPECT_NE(message(GeneralisedKelvin{1, 1, {1}, {-2}}).find("-2"), std::string::npos);
+  EXPECT_NE(message(Elastic{1, -0.1}).find("alpha"), std::string::npos);
+  EXPECT_EQ(message(Elastic{1}), "accepted");
+}
+
+}  // namespace
+}  // namespace macadam

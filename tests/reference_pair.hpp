@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file reference_pair.hpp  What the tests of the reference stepper share: a spring, a driven pair, a comparison.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "host/reference/reference_stepper.hpp"
+#include "test_networks.hpp"
+
+namespace macadam::test {
+
+inline constexpr double E = 1e9, alpha = 0.3;
+inline const laws::Elastic spring{E, alpha};
+
+inline StepperOptions options_of(double dt, Geometry geometry) {
+  StepperOptions options;
+  options.dt = dt;
+  options.geometry = geometry;
+  return options;
+}
+
+inline std::unique_ptr<Stepper> make(const HandMade& made, const Law& law, const StepperOptions& options) {
+  return make_reference_stepper(made.specimen, made.network, same_law(law), made.inertia, options);
+}
+
+/// A pair so heavy that its own forces do not move it: it does what its velocities say.
+inline PairShape heavy(const Vec3d& n = {0, 0, 1}) {
+  PairShape shape;
+  shape.mass_a = shape.mass_b = 1e30;
+  shape.n = n;
+  return shape;
+}
+
+/// Compares each component.
+inline void expect_near(const Vec3d& found, const Vec3d& expected, double tolerance, const char* what) {
+  EXPECT_NEAR(found.x, expected.x, tolerance) << what;
+  EXPECT_NEAR(found.y, expected.y, tolerance) << what;
+  EXPECT_NEAR(found.z, expected.z, tolerance) << what;
+}
+
+}  // namespace macadam::test

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file reference_test.cpp  The reference stepper against answers worked out on paper.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "macadam/error.hpp"
+#include "reference_pair.hpp"
+
+namespace macadam {
+namespace {
+
+using test::alpha;
+using test::E;
+using test::expect_near;
+using test::HandMade;
+using test::heavy;
+using test::make;
+using test::options_of;
+using test::PairShape;
+using test::same_law;
+using test::spring;
+
+/// A small displacement of B along one direction, or a small rotation about one axis, A at rest, for a pair
+/// with an oblique normal and a facet off the line of centres.
+class SmallMotion : public testing::TestWithParam<Geometry> {
+ protected:
+  static constexpr double amount = 1e-9;  // [m], or this many radians a millimetre
+
+  SmallMotion() {
+    shape.s0 = 1.0e-4;
+    shape.t0 = -2.0e-4;
+    made = test::two_sphere_network(shape);
+    contact = made.network.contacts[0];
+  }
+  ParticleState after(const Vec3d& displacement, const Vec3d& rotation) {
+    const double dt = 1e-3;
+    auto stepper = make(made, spring, options_of(dt / 10, GetParam()));
+    stepper->set_velocities({{}, (1 / dt) * displacement}, {{}, (1 / dt) * rotation});
+    stepper->advance(10);
+    return stepper->particles();
+  }
+  /// Forces and moments on both particles. Updated geometry turns the normal by amount/distance = 6e-7 on the way.
+  void expect_loads(const ParticleState& p, const Vec3d& force_a, const Vec3d& moment_a, const Vec3d& moment_b) {
+    const double error = GetParam() == Geometry::fixed ? 1e-13 : 2e-6;
+    const double force = E * contact.area / contact.distance * amount;
+    expect_near(p.force[0], force_a, error * force, "force on A");
+    expect_near(p.force[1], -force_a, error * force, "force on B");
+    expect_near(p.moment[0], moment_a, error * force * contact.distance, "moment on A");
+    expect_near(p.moment[1], moment_b, error * force * contact.distance, "moment on B");
+  }
+
+  PairShape shape = heavy({2.0 / 7, 3.0 / 7, 6.0 / 7});
+  HandMade made;
+  Contact contact;
+};
+INSTANTIATE_TEST_SUITE_P(Geometries, SmallMotion, testing::Values(Geometry::fixed, Geometry::updated),
+                         [](const auto& info) { return info.param == Geometry::fixed ? "Fixed" : "Updated"; });
+
+// The points' first moments are A·s0 and A·t0. n × ŝ = t̂, n × t̂ = −ŝ, ŝ × t̂ = n.
+TEST_P(SmallMotion, Opening) {
+  const Vec3d &n = contact.n, &s = contact.s, &t = contact.t;
+  const double f = E * contact.area / contact.distance * amount;
+  const Vec3d moment = f * (shape.t0 * s - shape.s0 * t);  // (s0·ŝ + t0·t̂) × f·n
+  expect_loads(after(amount * n, {}), f * n, moment, -moment);
+}
+
+TEST_P(SmallMotion, Slip) {
+  const Vec3d &n = contact.n, &s = contact.s, &t = contact.t;
+  const double f = alpha * E * contact.area / contact.distance * amount;
+  const Vec3d twist = -(f * shape.t0) * n;  // t0·t̂ × f·ŝ
+  expect_loads(after(amount * s, {}), f * s, f * contact.arm_a * t + twist, f * contact.arm_b * t - twist);
+}
+
+// B turns by θ about ŝ: the point (s, t) opens by θ·t and, arm_b below B, slips by θ·arm_b along t̂.
+TEST_P(SmallMotion, Bending) {
+  const Vec3d &n = contact.n, &s = contact.s, &t = contact.t;
+  const double theta = amount / 1e-3, k = E / contact.distance * theta;
+  const AreaMoments& m = contact.moments;
+  const double slip = alpha * k * m.a * contact.arm_b;
+  // Σ (s·ŝ + t·t̂) × (k·t·n + α·k·arm_b·t̂)·A_J
+  const Vec3d about_x0 = k * (m.tt * s - m.st * t) + alpha * k * contact.arm_b * m.s * n;
+  expect_loads(after({}, theta * s), k * m.t * n + slip * t, about_x0 - contact.arm_a * slip * s,
+               -about_x0 - contact.arm_b * slip * s);
+}
+
+// B turns by θ about n: the point (s, t) slips by θ·(s·t̂ − t·ŝ).
+TEST_P(SmallMotion, Twist) {
+  const Vec3d &n = contact.n, &s = contact.s, &t = contact.t;
+  const double theta = amount / 1e-3, k = alpha * E / contact.distance * theta;
+  const AreaMoments& m = contact.moments;
+  const double along_s = -k * m.t, along_t = k * m.s;
+  const Vec3d about_x0 = k * (m.ss + m.tt) * n;
+  const Vec3d lever = along_s * t - along_t * s;  // n × force
+  expect_loads(after({}, theta * n), along_s * s + along_t * t, about_x0 + contact.arm_a * lever,
+               -about_x0 + contact.arm_b * lever);
+}
+
+// A pair held at constant velocity is a displacement-controlled test of the law in the contact: relaxation at AM1.
+TEST(Reference, ContactFollowsItsLaw) {
+  HandMade made = test::two_sphere_network(heavy());
+  const auto law = test::mastic_am1();
+  const double dt = 1e-3;
+  auto stepper = make(made, law, options_of(dt, Geometry::fixed));
+  stepper->set_velocities({{}, {1e-6, 0, 1e-6}}, {{}, {}});
+  const auto step = law.step<double>(dt);
+  double f = 0, x[3] = {};
+  for (int k = 0; k < 500; ++k) f = step.advance<3>(f, 1e-6 * dt, [&](int l) -> double& { return x[l]; });
+  stepper->advance(500);
+  const Contact& c = made.network.contacts[0];
+  const double scale = c.area / c.distance, tolerance = 1e-12 * scale * f;  // 500 steps of rounding
+  EXPECT_NEAR(stepper->particles().force[0].z, scale * f, tolerance);
+  EXPECT_NEAR(stepper->particles().force[0].x, law.alpha * scale * f, tolerance);
+}
+
+TEST(Reference, ViscousDampingDecaysAsItsClosedForm) {
+  const HandMade made = test::two_sphere_network();
+  StepperOptions options = options_of(1e-4, Geometry::fixed);
+  options.damping_kind = Damping::viscous;
+  options.damping = 25;
+  options.density_scaling = 7;  // no force, no mass
+  auto stepper = make(made, spring, options);
+  const Vec3d v{0.01, -0.02, 0.03};
+  stepper->set_velocities({v, v}, {{}, {}});
+  stepper->advance(1000);
+  const double b = 25 * 1e-4 / 2, discrete = std::pow((1 - b) / (1 + b), 1000);
+  expect_near(stepper->particles().velocity[1], discrete * v, 1e-13 * norm(v), "velocity");  // 1000 roundings
+  EXPECT_NEAR(discrete / std::exp(-25 * 0.1), 1, 2e-6);                                      // β³Δt²·T/12 = 1.3e-6
+}
+
+// One step of known force: F on A is k·Δt·v along z and the damping takes χ of it against the motion.
+TEST(Reference, LocalDampingOpposesEveryComponent) {
+  const HandMade made = test::two_sphere_network();
+  const Contact& c = made.network.contacts[0];
+  StepperOptions options = options_of(1e-8, Geometry::fixed);
+  options.damping_kind = Damping::local;
+  options.damping = 0.2;
+  options.density_scaling = 10;
+  auto stepper = make(made, spring, options);
+  stepper->set_velocities({{0, 0, -0.01}, {0, 0, 0.02}}, {{}, {}});
+  stepper->advance(2);
+  const double force = E * c.area / c.distance * 1e-8 * 0.03;
+  const ParticleState p = stepper->particles();
+  // A: pulled up (+) while it moves down (−), so the damping pulls up as well. B likewise downwards.
+  EXPECT_NEAR(p.velocity[0].z, -0.01 + 1e-8 * 1.2 * force / (10 * 2e-5), 1e-15);
+  EXPECT_NEAR(p.velocity[1].z, 0.02 - 1e-8 * 1.2 * force / (10 * 1e-5), 1e-15);
+}
+
+// A sphere that cannot move between two walls: the top wall's spring has d = h, the bottom one stays at rest.
+TEST(Reference, TheTopWallFollowsItsLoading) {
+  const double side = 2e-3;
+  const HandMade made = test::cubic_lattice_network(1, 1, 1, side, 1e30);
+  const loadings::Cyclic loading{1e-7, 2.0, 1000, 250};
+  for (Geometry geometry : {Geometry::fixed, Geometry::updated}) {
+    StepperOptions options = options_of(loading.dt(), geometry);
+    options.loading = loading;
+    auto stepper = make(made, spring, options);
+    stepper->advance(700);
+    const Observation seen = stepper->observe();
+    EXPECT_EQ(seen.step, 700);
+    EXPECT_DOUBLE_EQ(seen.time, 0.35);
+    // The smooth start's velocity is exact to (2π/1000)²: 4e-5, of which its mean over the ramp remains.
+    EXPECT_NEAR(seen.wall_displacement, loading.displacement(700), 1e-5 * loading.amplitude);
+    const double stiffness = E * side * side / (side / 2);
+    expect_near(seen.wall_force[5], {0, 0, -stiffness * seen.wall_displacement}, 1e-12 * stiffness * 1e-7, "top");
+    expect_near(seen.wall_force[4], {0, 0, 0}, 1e-12 * stiffness * 1e-7, "bottom");
+  }
+}
+
+// Eq. 5: when the centres move apart, each lever arm takes half of it.
+TEST(Reference, LeverArmsShareTheOpening) {
+  const HandMade made = test::two_sphere_network(heavy());
+  const Contact& c = made.network.contacts[0];
+  const double open = 1e-4, slide = 1e-7;
+  auto stepper = make(made, spring, options_of(1.0, Geometry::updated));
+  stepper->set_velocities({{}, {0, 0, open}}, {{}, {}});
+  stepper->advance(1);
+  stepper->set_velocities({{}, {slide, 0, 0}}, {{}, {}});
+  stepper->advance(1);
+  const ParticleState p = stepper->particles();
+  const double shear = alpha * E * c.area / c.distance * slide;  // along the initial d for all time
+  // The normal turned by slide/d = 6e-5, whose square is 3e-9, on its way; the opening has no moment.
+  EXPECT_NEAR(p.moment[0].y / (shear * (c.arm_a + open / 2)), 1, 1e-8);
+  EXPECT_NEAR(p.moment[1].y / (shear * (c.arm_b + open / 2)), 1, 1e-8);
+}
+
+// At a wall the lever ends on the wall's plane: a particle that rises towards it has a shorter one.
+TEST(Reference, WallLeverFollowsTheParticle) {
+  const double side = 2e-3;
+  const HandMade made = test::cubic_lattice_network(1, 1, 1, side, 1e30);
+  const double rise = 1e-4, slide = 1e-6;
+  auto stepper = make(made, spring, options_of(1.0, Geometry::updated));
+  stepper->set_velocities({{0, 0, rise}}, {{}});
+  stepper->advance(1);
+  stepper->set_velocities({{slide, 0, 0}}, {{}});
+  stepper->advance(1);
+  const ParticleState p = stepper->particles();
+  const double shear = alpha * E * side * side / (side / 2) * slide;
+  EXPECT_NEAR(p.force[0].x, -2 * shear, 1e-12 * shear);
+  // (h − rise)·ẑ × −shear·x̂ at the top, −(h + rise)·ẑ × −shear·x̂ at the bottom; the normal forces act on the axis.
+  // Each normal force is rise/slide/α = 333 times the shear, with roundings at levers of h.
+  EXPECT_NEAR(p.moment[0].y, 2 * rise * shear, 1e-12 * shear * side);
+}
+
+TEST(Reference, ReportsTheFirstDivergentParticle) {
+  const HandMade made = test::two_sphere_network(heavy());
+  auto stepper = make(made, spring, options_of(1e-3, Geometry::updated));
+  EXPECT_EQ(stepper->first_divergent(), -1);
+  stepper->set_velocities({{0.9, 0, 0}, {0.9, 0, 0}}, {{}, {}});  // 0.9 mm a step: B's radius is 0.8 mm
+  EXPECT_EQ(stepper->first_divergent(), 1);
+  stepper->set_velocities({{NAN, 0, 0}, {}}, {{}, {}});
+  stepper->advance(1);
+  EXPECT_EQ(stepper->first_divergent(), 0);
+}
+
+TEST(Reference, RefusesWhatItCannotStep) {
+  const HandMade good = test::two_sphere_network();
+  const auto message = [&](auto&& spoil) -> std::string {
+    HandMade made = good;
+    test::Laws laws = same_law(spring);
+    StepperOptions options = options_of(1e-7, Geometry::updated);
+    spoil(made, laws, options);
+    try {
+      make_reference_stepper(made.specimen, made.network, laws, made.inertia, options);
+    } catch (const InputError& error) { return error.what(); }
+    return "accepted";
+  };
+  const auto expect = [&](const char* part, auto&& spoil) {
+    EXPECT_NE(message(spoil).find(part), std::string::npos) << message(spoil);
+  };
+  expect("accepted", [](HandMade&, test::Laws&, StepperOptions&) {});
+  expect("mixed", [](HandMade&, test::Laws&, StepperOptions& o) { o.precision = Precision::mixed; });
+  expect("time step", [](HandMade&, test::Laws&, StepperOptions& o) { o.dt = 0; });
+  expect("period", [](HandMade&, test::Laws&, StepperOptions& o) { o.loading = loadings::Cyclic{1e-7, 2, 100, 0}; });
+  expect("damping", [](HandMade&, test::Laws&, StepperOptions& o) { o.damping = -1; });
+  expect("density scaling", [](HandMade&, test::Laws&, StepperOptions& o) { o.density_scaling = NAN; });
+  expect("M-M", [](HandMade&, test::Laws& l, StepperOptions&) { l[0].reset(); });
+  expect("particle 1", [](HandMade& m, test::Laws&, StepperOptions&) { m.inertia.mass[1] = 0; });
+  expect("masses", [](HandMade& m, test::Laws&, StepperOptions&) { m.inertia.mass.pop_back(); });
+  expect("contact 0 (0 – 7)", [](HandMade& m, test::Laws&, StepperOptions&) { m.network.contacts[0].b = 7; });
+  expect("distance", [](HandMade& m, test::Laws&, StepperOptions&) { m.network.contacts[0].distance = 0; });
+  expect("contact points", [](HandMade& m, test::Laws&, StepperOptions&) { m.network.point_s.pop_back(); });
+  auto stepper = make(good, spring, options_of(1e-7, Geometry::fixed));
+  EXPECT_THROW(stepper->set_velocities({{}}, {{}, {}}), InputError);
+}
+
+}  // namespace
+}  // namespace macadam

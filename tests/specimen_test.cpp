@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file specimen_test.cpp  The specimen's file and its checks.
+#include "macadam/specimen.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <limits>
+
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+const Box box{{0.05, 0.05, 0.08}};
+
+/// A folder of its own for each test process, removed at the end.
+class SpecimenCsv : public testing::Test {
+ protected:
+  SpecimenCsv() { std::filesystem::create_directories(folder_); }
+  ~SpecimenCsv() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path written(const std::string& text) const {
+    const std::filesystem::path file = folder_ / "specimen.csv";
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+  }
+
+  std::string message_for(const std::filesystem::path& file) const {
+    try {
+      read_specimen_csv(file, box);
+    } catch (const InputError& error) { return error.what(); }
+    return "(accepted)";
+  }
+
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("macadam_specimen_test_" + std::to_string(::getpid()));
+};
+
+const std::string header = "id,x,y,z,radius,phase,body\n";
+const std::string good = "0,0.01,0.02,0.03,0.004,aggregate,0\n";
+
+Specimen two_spheres() {
+  return {box, {{0.01, 0.02, 0.03}, {0.04, 0.02, 0.03}}, {0.004, 0.001}, {Phase::aggregate, Phase::mastic}, {0, -1}};
+}
+
+TEST_F(SpecimenCsv, RoundTripIsExact) {
+  Specimen s = two_spheres();
+  s.centre.push_back({1.0 / 3 * 0.05, std::nextafter(0.05, 0), 5e-324});  // needs 17 digits, 17 digits, a subnormal
+  s.radius.push_back(0.1 + 0.2);
+  s.phase.push_back(Phase::aggregate);
+  s.body.push_back(2147483647);
+  const auto file = folder_ / "specimen.csv";
+  write_specimen_csv(file, s);
+  const Specimen t = read_specimen_csv(file, box);
+  ASSERT_EQ(t.size(), s.size());
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    EXPECT_EQ(t.centre[i].x, s.centre[i].x);
+    EXPECT_EQ(t.centre[i].y, s.centre[i].y);
+    EXPECT_EQ(t.centre[i].z, s.centre[i].z);
+  }
+  EXPECT_EQ(t.radius, s.radius);
+  EXPECT_EQ(t.phase, s.phase);
+  EXPECT_EQ(t.body, s.body);
+  EXPECT_EQ(t.box.size.z, box.size.z);
+}
+
+TEST_F(SpecimenCsv, ReadsGzipToldByContent) {
+  const std::string text = header + good;
+  const auto file = folder_ / "no_gz_in_the_name";
+  gzFile out = gzopen(file.c_str(), "wb");
+  gzwrite(out, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(out);
+  EXPECT_EQ(read_specimen_csv(file, box).size(), 1u);
+}
+
+TEST_F(SpecimenCsv, ReadsThePaperSpecimen) {
+  const Specimen s = read_specimen_csv(std::filesystem::path(MACADAM_TEST_DATA) / "ss_full.csv.gz", box);
+  EXPECT_EQ(s.size(), 35760u);
+  EXPECT_EQ(std::count(s.phase.begin(), s.phase.end(), Phase::mastic), 34164);
+}
+
+TEST_F(SpecimenCsv, KeepsFileOrderAndToleratesWindowsLineEnds) {
+  const auto file = written(
+      "\xEF\xBB\xBFid,x,y,z,radius,phase,body\r\n7,0.01,0.02,0.03,0.004,aggregate,0\r\n"
+      "3,0.02,0.02,0.03,0.001,mastic,-1\r\n\r\n");
+  const Specimen s = read_specimen_csv(file, box);
+  ASSERT_EQ(s.size(), 2u);
+  EXPECT_EQ(s.centre[0].x, 0.01);
+  EXPECT_EQ(s.phase[1], Phase::mastic);
+}
+
+TEST_F(SpecimenCsv, BadFilesAreNamedByLine) {
+  struct Case {
+    std::string text, line;
+    std::vector<std::string> words;
+  };
+  const Case cases[] = {
+      {"", "", {"empty file", "id,x,y,z"}},
+      {"\n\n", "", {"empty file"}},
+      {header, "", {"particles", "found 0"}},
+      {good, ":1:", {"header", "0,0.01", "id,x,y,z,radius,phase,body"}},
+      {"id,x,y,z,radius,phase\n", ":1:", {"header"}},
+      {header + good + "1,0.02,0.02,0.03,0.001,mastic\n", ":3:", {"columns", "found 6", "expected 7"}},
+      {header + good + "1,0.02,0.02,0.03,0.001,mastic,-1,\n", ":3:", {"columns", "found 8"}},
+      {header + "\n" + good, ":2:", {"columns", "found 1"}},
+      {header + "0,abc,0.02,0.03,0.004,aggregate,0\n", ":2:", {"column x", "\"abc\"", "finite number"}},
+      {header + "0,0.01,nan,0.03,0.004,aggregate,0\n", ":2:", {"column y", "\"nan\""}},
+      {header + "0,0.01,0.02,inf,0.004,aggregate,0\n", ":2:", {"column z", "\"inf\""}},
+      {header + "0,0.01,0.02,1e999,0.004,aggregate,0\n", ":2:", {"column z", "1e999"}},
+      {header + "0,0.01,0.02,0.03mm,0.004,aggregate,0\n", ":2:", {"column z", "0.03mm"}},
+      {header + "0,0.01,0.02, 0.03,0.004,aggregate,0\n", ":2:", {"column z", "\" 0.03\""}},
+      {header + "0,0.01,0.02,0.03,,aggregate,0\n", ":2:", {"column radius", "\"\""}},
+      {header + "0,0.01,0.02,0.03,0,aggregate,0\n", ":2:", {"particle 0", "radius", "found 0", "positive"}},
+      {header + "0,0.01,0.02,0.03,-1,aggregate,0\n", ":2:", {"radius", "found -1"}},
+      {header + "0,0.01,0.02,0.03,0.004,stone,0\n", ":2:", {"column phase", "stone", "aggregate or mastic"}},
+      {header + "0,0.01,0.02,0.03,0.004,Mastic,-1\n", ":2:", {"column phase", "Mastic"}},
+      {header + "0,0.01,0.02,0.03,0.004,aggregate,1.5\n", ":2:", {"column body", "1.5"}},
+      {header + "0,0.01,0.02,0.03,0.004,aggregate,3000000000\n", ":2:", {"column body", "3000000000"}},
+      {header + "0,0.01,0.02,0.03,0.004,aggregate,-1\n", ":2:", {"particle 0", "body", "found -1"}},
+      {header + "0,0.01,0.02,0.03,0.004,mastic,0\n", ":2:", {"particle 0", "body", "expected -1"}},
+      {header + "-1,0.01,0.02,0.03,0.004,aggregate,0\n", ":2:", {"column id", "-1"}},
+      {header + "1.0,0.01,0.02,0.03,0.004,aggregate,0\n", ":2:", {"column id", "1.0"}},
+      {header + good + "0,0.02,0.02,0.03,0.001,mastic,-1\n", ":3:", {"column id", "line 2"}},
+      {header + good + "1,0.01,0.02,0.09,0.001,mastic,-1\n", ":3:", {"particle 1", "0.09", "box"}},
+      {header + good + "1,0.01,0.02,0.03,0.001,mastic,-1\n", ":3:", {"particle 1", "particle 0", "coincident"}},
+      {header + std::string("0,0.01,0.02,0.03,0.004,aggregate,\0\n", 36), ":2:", {"column body"}},
+  };
+  for (const Case& c : cases) {
+    const auto file = written(c.text);
+    const std::string message = message_for(file);
+    EXPECT_EQ(message.rfind(file.string() + c.line, 0), 0u) << message << "\nfor: " << c.text;
+    for (const std::string& word : c.words) EXPECT_NE(message.find(word), std::string::npos) << word << "\n" << message;
+  }
+}
+
+TEST_F(SpecimenCsv, UnreadableFilesAreNamed) {
+  EXPECT_NE(message_for(folder_ / "missing.csv").find("missing.csv: specimen: found No such file"), std::string::npos);
+  EXPECT_NE(message_for(folder_).find("a directory"), std::string::npos);
+
+  std::ifstream whole(std::filesystem::path(MACADAM_TEST_DATA) / "ss_full.csv.gz", std::ios::binary);
+  std::string bytes(100'000, '\0');
+  whole.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  EXPECT_NE(message_for(written(bytes)).find("whole readable file"), std::string::npos);
+}
+
+TEST_F(SpecimenCsv, AFileThatCannotBeWrittenIsARunError) {
+  EXPECT_THROW(write_specimen_csv(folder_ / "no" / "such" / "folder.csv", two_spheres()), RunError);
+}
+
+TEST(Validate, AcceptsAGoodSpecimenAndThePointsOfTheWalls) {
+  Specimen s = two_spheres();
+  EXPECT_NO_THROW(validate(s, "here"));
+  s.centre[0] = {0, 0.05, 0.08};
+  EXPECT_NO_THROW(validate(s, "here"));
+}
+
+TEST(Validate, NamesSourceAndParticle) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  struct Case {
+    std::function<void(Specimen&)> spoil;
+    std::string expected;
+  };
+  const Case cases[] = {
+      {[&](Specimen& s) { s.centre[1].y = nan; }, "here: particle 1: centre: found (0.04, nan, 0.03)"},
+      {[&](Specimen& s) { s.centre[1].z = -1e-9; }, "here: particle 1: centre: found (0.04, 0.02, -1e-09)"},
+      {[&](Specimen& s) { s.centre[0].x = inf; }, "here: particle 0: centre: found (inf"},
+      {[&](Specimen& s) { s.radius[1] = inf; }, "here: particle 1: radius: found inf"},
+      {[&](Specimen& s) { s.radius[1] = nan; }, "here: particle 1: radius: found nan"},
+      {[&](Specimen& s) { s.radius[0] = 0; }, "here: particle 0: radius: found 0"},
+      {[&](Specimen& s) { s.phase[0] = static_cast<Phase>(9); }, "here: particle 0: phase: found 9"},
+      {[&](Specimen& s) { s.body[0] = -1; }, "here: particle 0: body of an aggregate particle: found -1"},
+      {[&](Specimen& s) { s.body[1] = 0; }, "here: particle 1: body of a mastic particle: found 0"},
+      {[&](Specimen& s) { s.centre[1] = s.centre[0]; }, "that of particle 0"},
+      {[&](Specimen& s) { s.box.size.y = 0; }, "here: box: found (0.05, 0, 0.08)"},
+      {[&](Specimen& s) { s.box.size.x = inf; }, "here: box: found (inf"},
+      {[&](Specimen& s) { s.radius.pop_back(); }, "here: length of array radius: found 1, expected 2"},
+      {[&](Specimen& s) {
+         s = Specimen{box, {}, {}, {}, {}};
+       },
+       "here: particles: found 0"},
+  };
+  for (const Case& c : cases) {
+    Specimen s = two_spheres();
+    c.spoil(s);
+    try {
+      validate(s, "here");
+      ADD_FAILURE() << "accepted; expected " << c.expected;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(c.expected), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Validate, MinusZeroCoincidesWithZero) {
+  Specimen s = two_spheres();
+  s.centre[0] = {0.0, 0.02, 0.03};
+  s.centre[1] = {-0.0, 0.02, 0.03};
+  EXPECT_THROW(validate(s, "here"), InputError);
+}
+
+TEST(PhaseName, IsTheFilesWord) {
+  EXPECT_STREQ(to_string(Phase::aggregate), "aggregate");
+  EXPECT_STREQ(to_string(Phase::mastic), "mastic");
+}
+
+}  // namespace
+}  // namespace macadam

@@ -1,0 +1,428 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file tessellation_test.cpp  Lattices with known cells, walls, degenerate and hostile input, random specimens.
+#include "macadam/tessellation.hpp"
+
+#include <gtest/gtest.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+// Facets come from a handful of operations on coordinates good to ε of the box: about 1e-15 · (box / spacing). With up
+// to ten spacings a box, and room for the tetrahedra that are solved in double down to a flatness of 1e-3, 1e-11.
+constexpr double relative = 1e-11;
+
+Specimen make(const Vec3d& box) {
+  Specimen s;
+  s.box.size = box;
+  return s;
+}
+
+void add(Specimen& s, const Vec3d& p, double radius) {
+  s.centre.push_back(p);
+  s.radius.push_back(radius);
+  s.phase.push_back(Phase::mastic);
+  s.body.push_back(-1);
+}
+
+void expect_invariants(const Specimen& s, const Tessellation& t, double limit = relative) {
+  const TessellationInvariants i = measure_invariants(s, t);
+  EXPECT_LT(i.volume, 1e-12);
+  EXPECT_LT(i.walls, 1e-12);
+  EXPECT_LT(i.closure, limit);
+  EXPECT_LT(i.flatness, limit);
+  EXPECT_LT(i.power, limit);
+}
+
+void expect_order_and_orientation(const Tessellation& t) {
+  for (std::size_t k = 0; k < t.facets.size(); ++k) {
+    const Facet& f = t.facets[k];
+    const auto p = t.polygon(f);
+    ASSERT_GE(p.size(), 3U);
+    EXPECT_GT(f.area, 0);
+    EXPECT_TRUE(f.b < 0 || f.a < f.b);
+    if (k > 0) {
+      const Facet& e = t.facets[k - 1];
+      EXPECT_TRUE(e.a < f.a || (e.a == f.a && e.b < f.b)) << "facet " << k;
+    }
+    Vec3d twice{};
+    for (std::size_t v = 1; v + 1 < p.size(); ++v) twice += cross(p[v] - p[0], p[v + 1] - p[0]);
+    EXPECT_NEAR(0.5 * dot(twice, f.normal), f.area, 1e-12 * f.area);
+  }
+}
+
+/// Facets of one particle: area and number of corners, by the other side.
+std::map<int, std::pair<double, std::size_t>> cell(const Tessellation& t, int particle) {
+  std::map<int, std::pair<double, std::size_t>> out;
+  for (const Facet& f : t.facets)
+    if (f.a == particle || f.b == particle) out[f.a == particle ? f.b : f.a] = {f.area, t.polygon(f).size()};
+  return out;
+}
+
+Specimen random_specimen(int n, double smallest, double largest, unsigned seed) {
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> u(0, 1);
+  Specimen s = make({1, 0.7, 1.3});
+  for (int i = 0; i < n; ++i) {
+    const double r = smallest * std::pow(largest / smallest, u(engine));
+    add(s, {u(engine), 0.7 * u(engine), 1.3 * u(engine)}, r);
+  }
+  return s;
+}
+
+// Lattices: every vertex is shared by more cells than four, and (in decimals) only up to rounding.
+
+/// `unit` 1: coordinates exact in binary; 1e-3: millimetres turned into metres, with all their rounding.
+struct Lattice : ::testing::TestWithParam<double> {
+  double unit = GetParam(), a = GetParam() == 1 ? 8 : 7;  ///< 7 mm is no binary fraction of a metre
+  double length(double x) const { return x * unit; }
+
+  /// `cells` periods of the basis (in periods), all in the box's interior, none on its boundary.
+  Specimen build(std::array<int, 3> cells, const Vec3d& period, const std::vector<Vec3d>& basis, double radius) {
+    Specimen s = make({length(cells[0] * period.x), length(cells[1] * period.y), length(cells[2] * period.z)});
+    for (int i = 0; i < cells[0]; ++i)
+      for (int j = 0; j < cells[1]; ++j)
+        for (int k = 0; k < cells[2]; ++k)
+          for (const Vec3d& b : basis)
+            add(s, {length((i + b.x) * period.x), length((j + b.y) * period.y), length((k + b.z) * period.z)},
+                length(radius));
+    return s;
+  }
+
+  /// Calls `check` with the facets of each cell whose neighbours are all in the box; there must be some.
+  void interior(const Specimen& s,
+                const std::function<void(const std::map<int, std::pair<double, std::size_t>>&)>& check) {
+    const Tessellation t = tessellate(s);
+    EXPECT_TRUE(t.hidden.empty());
+    expect_invariants(s, t);
+    expect_order_and_orientation(t);
+    int found = 0;
+    for (int i = 0; i < static_cast<int>(s.size()); ++i) {
+      const Vec3d &p = s.centre[i], &box = s.box.size;
+      const double margin = length(1.1 * a);
+      if (std::min({p.x, p.y, p.z, box.x - p.x, box.y - p.y, box.z - p.z}) < margin) continue;
+      check(cell(t, i));
+      ++found;
+    }
+    EXPECT_GT(found, 0);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Units, Lattice, ::testing::Values(1.0, 1e-3));
+
+TEST_P(Lattice, SimpleCubic) {
+  const std::array<int, 3> n{5, 6, 7};
+  const Specimen s = build(n, {a, a, a}, {{0.5, 0.5, 0.5}}, a / 2);
+  const Tessellation t = tessellate(s);
+  const double area = length(a) * length(a);
+  EXPECT_EQ(t.facets.size(),
+            static_cast<std::size_t>(3 * n[0] * n[1] * n[2] + n[0] * n[1] + n[1] * n[2] + n[2] * n[0]));
+  std::vector<int> facets(s.size(), 0);
+  for (const Facet& f : t.facets) {
+    EXPECT_EQ(t.polygon(f).size(), 4U);
+    EXPECT_NEAR(f.area, area, relative * area);
+    ++facets[f.a];
+    if (f.b >= 0) ++facets[f.b];
+  }
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    EXPECT_EQ(facets[i], 6) << "particle " << i;
+    EXPECT_NEAR(t.cell_volume[i], area * length(a), relative * area * length(a));
+  }
+  expect_invariants(s, t);
+  expect_order_and_orientation(t);
+}
+
+TEST_P(Lattice, BodyCentredCubicIsTruncatedOctahedra) {
+  const double square = length(a) * length(a) / 8, hexagon = length(a) * length(a) * 3 * std::sqrt(3.0) / 16;
+  interior(build({4, 4, 4}, {a, a, a}, {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}}, 0.4 * a), [&](const auto& facets) {
+    EXPECT_EQ(facets.size(), 14U);
+    for (const auto& [other, facet] : facets) {
+      ASSERT_TRUE(facet.second == 4 || facet.second == 6) << facet.second;
+      const double area = facet.second == 4 ? square : hexagon;
+      EXPECT_NEAR(facet.first, area, relative * area);
+    }
+  });
+}
+
+TEST_P(Lattice, FaceCentredCubicIsRhombicDodecahedra) {
+  const double area = length(a) * length(a) * std::sqrt(2.0) / 8;
+  const std::vector<Vec3d> basis{{0.25, 0.25, 0.25}, {0.75, 0.75, 0.25}, {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}};
+  interior(build({4, 4, 4}, {a, a, a}, basis, 0.35 * a), [&](const auto& facets) {
+    EXPECT_EQ(facets.size(), 12U);
+    for (const auto& [other, facet] : facets) {
+      EXPECT_EQ(facet.second, 4U);
+      EXPECT_NEAR(facet.first, area, relative * area);
+    }
+  });
+}
+
+TEST_P(Lattice, HexagonalLayersArePrisms) {
+  const double c = 0.9 * a, side = length(a) / std::sqrt(3.0) * length(c);
+  const double top = length(a) * length(a) * std::sqrt(3.0) / 2;
+  interior(build({5, 3, 5}, {a, a * std::sqrt(3.0), c}, {{0.25, 0.25, 0.5}, {0.75, 0.75, 0.5}}, a / 2),
+           [&](const auto& facets) {
+             EXPECT_EQ(facets.size(), 8U);
+             for (const auto& [other, facet] : facets) {
+               ASSERT_TRUE(facet.second == 4 || facet.second == 6) << facet.second;
+               const double area = facet.second == 4 ? side : top;
+               EXPECT_NEAR(facet.first, area, relative * area);
+             }
+           });
+}
+
+TEST_P(Lattice, ParticlesOnTheBoxBoundary) {
+  // A grid that starts and ends on the walls: cells are cut in half, quarters and eighths.
+  const int n = 5;
+  Specimen s = make({length(a * (n - 1)), length(a * (n - 1)), length(a * (n - 1))});
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) add(s, {length(a * i), length(a * j), length(a * k)}, length(a / 2));
+  const Tessellation t = tessellate(s);
+  EXPECT_TRUE(t.hidden.empty());
+  EXPECT_EQ(t.facets.size(), static_cast<std::size_t>(3 * n * n * (n - 1) + 6 * n * n));
+  EXPECT_NEAR(t.cell_volume[0], std::pow(length(a), 3) / 8, relative * std::pow(length(a), 3));
+  expect_invariants(s, t);
+}
+
+// Few particles.
+
+TEST(Tessellation, OneParticleOwnsTheBox) {
+  for (const Vec3d& p : {Vec3d{0.3, 0.4, 0.5}, Vec3d{0, 0, 0}, Vec3d{1, 0.4, 0}, Vec3d{1, 2, 3}}) {
+    Specimen s = make({1, 2, 3});
+    add(s, p, 0.1);
+    const Tessellation t = tessellate(s);
+    ASSERT_EQ(t.facets.size(), 6U);
+    const double area[] = {2, 3, 3, 6, 6, 2};
+    std::vector<double> found;
+    for (const Facet& f : t.facets) found.push_back(f.area);
+    EXPECT_EQ(t.facets.front().b, wall_z_hi);
+    EXPECT_DOUBLE_EQ(found[0], area[0]);
+    EXPECT_DOUBLE_EQ(std::accumulate(found.begin(), found.end(), 0.0), 22);
+    EXPECT_DOUBLE_EQ(t.cell_volume[0], 6);
+    expect_invariants(s, t);
+    expect_order_and_orientation(t);
+  }
+}
+
+TEST(Tessellation, TwoParticlesWithTheWeightedPlane) {
+  Specimen s = make({1, 1, 1});
+  add(s, {0.25, 0.5, 0.5}, 0.3);
+  add(s, {0.75, 0.5, 0.5}, 0.1);
+  const Tessellation t = tessellate(s);
+  EXPECT_EQ(t.facets.size(), 11U);
+  const Facet& f = *std::find_if(t.facets.begin(), t.facets.end(), [](const Facet& g) { return g.b == 1; });
+  const double x = 0.25 + (0.25 + 0.09 - 0.01) / (2 * 0.5);  // h = (d² + R_a² − R_b²)/(2d)
+  EXPECT_NEAR(f.centroid.x, x, 1e-15);
+  EXPECT_NEAR(f.centroid.y, 0.5, 1e-15);
+  EXPECT_NEAR(f.area, 1, 1e-15);
+  EXPECT_DOUBLE_EQ(f.normal.x, 1);
+  EXPECT_NEAR(t.cell_volume[0], x, 1e-15);
+  expect_invariants(s, t);
+}
+
+TEST(Tessellation, CentreOutsideItsOwnCell) {
+  Specimen s = make({1, 1, 1});
+  add(s, {0.5, 0.5, 0.5}, 0.4);
+  add(s, {0.6, 0.5, 0.5}, 0.3);  // plane at 0.5 + (0.01 + 0.16 − 0.09)/0.2 = 0.9
+  const Tessellation t = tessellate(s);
+  EXPECT_NEAR(t.cell_volume[0], 0.9, 1e-14);
+  EXPECT_NEAR(t.cell_volume[1], 0.1, 1e-14);
+  expect_invariants(s, t);
+}
+
+// Degenerate positions.
+
+TEST(Tessellation, CollinearCentresGiveSlabs) {
+  Specimen s = make({1, 1, 1});
+  for (int i = 0; i < 9; ++i) add(s, {0.1 * (i + 1), 0.3, 0.7}, 0.05);
+  const Tessellation t = tessellate(s);
+  for (int i = 0; i + 1 < 9; ++i) EXPECT_NEAR(cell(t, i).at(i + 1).first, 1, relative);
+  EXPECT_EQ(t.facets.size(), 8U + 9 * 4 + 2);
+  expect_invariants(s, t);
+}
+
+TEST(Tessellation, CoplanarAndCosphericalCentres) {
+  std::mt19937_64 engine(7);
+  std::uniform_real_distribution<double> u(0, 1);
+  std::normal_distribution<double> g;
+  Specimen plane = make({1, 1, 1}), ball = make({1, 1, 1});
+  for (int i = 0; i < 300; ++i) {
+    add(plane, {u(engine), u(engine), 0.3}, 0.02);
+    Vec3d v{g(engine), g(engine), g(engine)};
+    add(ball, Vec3d{0.5, 0.5, 0.5} + (0.4 / norm(v)) * v, 0.02);
+  }
+  const Tessellation prisms = tessellate(plane);
+  for (const Facet& f : prisms.facets) {
+    if (f.b >= 0) { EXPECT_EQ(prisms.polygon(f).size(), 4U); }
+  }
+  expect_invariants(plane, prisms);
+  const Tessellation cones = tessellate(ball);  // all cells meet in the ball's centre
+  EXPECT_TRUE(cones.hidden.empty());
+  expect_invariants(ball, cones);
+}
+
+TEST(Tessellation, ThinFacetsAreKeptAndRoundingIsNot) {
+  // A square of centres whose corner is pushed in by δ: it meets the opposite one in a strip between the points
+  // (½, ½ − δ) and (½ − δ, ½) of equal distance to three corners.
+  for (const double delta : {1e-3, 1e-6, 1e-8, 0.0, 1e-14}) {
+    Specimen s = make({2, 2, 1});
+    for (const Vec3d& p : {Vec3d{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}, {0.5, 1.5, 0.5}, {1.5 - delta, 1.5 - delta, 0.5}})
+      add(s, p, 0.5);
+    const Tessellation t = tessellate(s);
+    const auto facets = cell(t, 0);
+    if (delta < 1e-12) {
+      EXPECT_EQ(facets.count(3), 0U) << delta;
+      continue;
+    }
+    ASSERT_EQ(facets.count(3), 1U) << delta;
+    EXPECT_NEAR(facets.at(3).first, std::numbers::sqrt2 * delta, 2e-15) << delta;  // error: a few ε of the box
+    expect_invariants(s, t);
+  }
+}
+
+// Hidden particles.
+
+TEST(Tessellation, HiddenParticlesAreNamed) {
+  Specimen s = make({1, 1, 1});
+  add(s, {0.50, 0.5, 0.5}, 0.3);
+  add(s, {0.52, 0.5, 0.5}, 0.01);  // pow_0 < pow_1 at every point of the box: its cell lies beyond x = 2.7
+  add(s, {0.2, 0.2, 0.2}, 0.1);
+  add(s, {0.205, 0.2, 0.2}, 0.02);  // shadowed by 0 and 2
+  const Tessellation t = tessellate(s);
+  EXPECT_EQ(t.hidden, (std::vector<std::int32_t>{1, 3}));
+  EXPECT_EQ(particles_without_cell(s), t.hidden);
+  EXPECT_EQ(t.cell_volume[1], 0);
+  for (const Facet& f : t.facets) EXPECT_TRUE(f.a % 2 == 0 && (f.b < 0 || f.b % 2 == 0));
+  expect_invariants(s, t);
+}
+
+TEST(Tessellation, SheetsOfRoundingAreNotCells) {
+  // R_a² − R_b² = d², exact in binary: the planes of a–b and b–c are the same, b's cell is a sheet of no thickness.
+  // The same with b's radius a little too large by rounding; and with one that does open a cell.
+  for (const double more : {0.0, 1e-15, -1e-15, 1e-13, 1e-6}) {
+    Specimen s = make({1, 1, 1});
+    add(s, {0.25, 0.5, 0.5}, 0.3125);
+    add(s, {0.50, 0.5, 0.5}, 0.1875 * (1 + more));
+    add(s, {0.75, 0.5, 0.5}, 0.3125);
+    const Tessellation t = tessellate(s);
+    const bool open = more > 1e-9;
+    EXPECT_EQ(t.hidden.size(), open ? 0U : 1U) << more;
+    EXPECT_EQ(cell(t, 0).count(2), open ? 0U : 1U) << more;
+    expect_invariants(s, t);
+  }
+}
+
+TEST(Tessellation, CellThatOnlyTouchesTheWallIsHidden) {
+  Specimen s = make({1, 1, 1});
+  add(s, {0.5, 0.5, 0.5}, 0.5);  // plane at 0.5 + (1/16 + 1/4 − 1/16)/(1/2) = 1, the wall
+  add(s, {0.75, 0.5, 0.5}, 0.25);
+  const Tessellation t = tessellate(s);
+  EXPECT_EQ(t.hidden, std::vector<std::int32_t>{1});
+  EXPECT_EQ(t.facets.size(), 6U);
+  expect_invariants(s, t);
+}
+
+// Random specimens.
+
+class RandomSpecimen : public ::testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(RadiusRatio, RandomSpecimen, ::testing::Values(1.0, 5.0, 50.0));
+
+TEST_P(RandomSpecimen, FacetsBelongToTheirTwoParticles) {
+  const Specimen s = random_specimen(400, 0.004, 0.004 * GetParam(), 11);
+  const Tessellation t = tessellate(s);
+  expect_invariants(s, t, 1e-9);  // smallest distances of random centres are 1e-2 of the spacing and less
+  expect_order_and_orientation(t);
+  std::vector<std::uint8_t> hidden(s.size(), 0);
+  for (const auto i : t.hidden) hidden[i] = 1;
+  const auto power = [&](std::size_t i, const Vec3d& x) {
+    const Vec3d v = x - s.centre[i];
+    return dot(v, v) - s.radius[i] * s.radius[i];
+  };
+  for (const Facet& f : t.facets) {  // nobody is nearer (in power) than the owners at a facet's centroid
+    const double own = power(f.a, f.centroid);
+    for (std::size_t i = 0; i < s.size(); ++i) ASSERT_GE(power(i, f.centroid), own - 1e-13) << f.a << ' ' << f.b;
+    ASSERT_FALSE(hidden[f.a] || (f.b >= 0 && hidden[f.b]));
+  }
+  std::mt19937_64 engine(3);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int k = 0; k < 2000; ++k) {  // the owner of any point has a cell
+    const Vec3d x{u(engine), 0.7 * u(engine), 1.3 * u(engine)};
+    std::size_t owner = 0;
+    for (std::size_t i = 1; i < s.size(); ++i)
+      if (power(i, x) < power(owner, x)) owner = i;
+    ASSERT_FALSE(hidden[owner]) << owner;
+  }
+  if (GetParam() == 1) { EXPECT_TRUE(t.hidden.empty()); }
+  if (GetParam() == 50) { EXPECT_FALSE(t.hidden.empty()); }
+}
+
+TEST(Tessellation, LengthUnitDoesNotMatter) {
+  const Specimen s = random_specimen(200, 0.02, 0.1, 5);
+  Specimen scaled = s;
+  const double factor = 0x1p-30;  // a power of two: exact
+  scaled.box.size = factor * s.box.size;
+  for (auto& p : scaled.centre) p = factor * p;
+  for (auto& r : scaled.radius) r *= factor;
+  const Tessellation t = tessellate(s), u = tessellate(scaled);
+  ASSERT_EQ(t.facets.size(), u.facets.size());
+  for (std::size_t k = 0; k < t.facets.size(); ++k) EXPECT_EQ(u.facets[k].area, factor * factor * t.facets[k].area);
+}
+
+TEST(Tessellation, SameBitsEveryTimeAndForAnyNumberOfThreads) {
+  const Specimen s = random_specimen(1500, 0.01, 0.1, 17);
+  const auto run = [&](int threads) {
+#ifdef _OPENMP
+    const int before = omp_get_max_threads();
+    omp_set_num_threads(threads);
+    const Tessellation t = tessellate(s);
+    omp_set_num_threads(before);
+    return t;
+#else
+    return (void)threads, tessellate(s);
+#endif
+  };
+  const Tessellation one = run(1);
+  for (const int threads : {1, 2, 5}) {
+    const Tessellation t = run(threads);
+    ASSERT_EQ(t.vertices.size(), one.vertices.size());
+    EXPECT_EQ(std::memcmp(t.vertices.data(), one.vertices.data(), t.vertices.size() * sizeof(Vec3d)), 0);
+    ASSERT_EQ(t.facets.size(), one.facets.size());
+    for (std::size_t k = 0; k < t.facets.size(); ++k) {
+      EXPECT_TRUE(t.facets[k].a == one.facets[k].a && t.facets[k].b == one.facets[k].b);
+      EXPECT_EQ(t.facets[k].area, one.facets[k].area);
+    }
+    EXPECT_EQ(t.cell_volume, one.cell_volume);
+    EXPECT_EQ(t.hidden, one.hidden);
+    EXPECT_EQ(t.null_facets, one.null_facets);
+  }
+}
+
+TEST(Tessellation, BadInputIsNamed) {
+  const auto message = [](const Specimen& s) -> std::string {
+    try {
+      tessellate(s);
+    } catch (const InputError& e) { return e.what(); }
+    return "no error";
+  };
+  Specimen s = random_specimen(20, 0.02, 0.05, 1);
+  s.centre[7].x = 2;
+  EXPECT_NE(message(s).find("particle 7"), std::string::npos) << message(s);
+  s = random_specimen(20, 0.02, 0.05, 1);
+  s.radius[9] = 1e200;  // its square would be infinite
+  EXPECT_NE(message(s).find("particle 9"), std::string::npos) << message(s);
+}
+
+}  // namespace
+}  // namespace macadam

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file test_scenes.hpp  Random specimens with their networks, laws and masses, fresh for every seed.
+#pragma once
+
+#include <random>
+
+#include "macadam/macadam.hpp"
+#include "test_networks.hpp"
+
+namespace macadam::test {
+
+/// Everything a stepper needs.
+struct TestScene {
+  Specimen specimen;
+  ContactNetwork network;
+  Laws laws;
+  Inertia inertia;
+};
+
+/// The paper's AM1 laws, one for each pair type.
+inline Laws am1_laws() {
+  const auto mm = mastic_am1();
+  laws::GeneralisedKelvin ma{3.511e10, 7.921e9, {1.197e9, 5.039e9, 1.357e11}, {2.819e10, 1.794e10, 3.510e9}, 0.10};
+  Laws out;
+  out[static_cast<std::size_t>(PairType::mm)] = mm;
+  out[static_cast<std::size_t>(PairType::ma)] = ma;
+  out[static_cast<std::size_t>(PairType::aa)] = laws::Elastic{1.151e11, 0.05};
+  out[static_cast<std::size_t>(PairType::inner)] = laws::Elastic{1.125e11, 0.05};
+  out[static_cast<std::size_t>(PairType::aw)] = laws::Elastic{1.151e11, 0.0};
+  out[static_cast<std::size_t>(PairType::mw)] = laws::Elastic{3.511e10, 0.0};
+  return out;
+}
+
+/// Spheres of random size jittered about a grid in a box of 4 × 4 × 5 cells of 2 mm: every pair type occurs, a pair of
+/// spheres makes up one aggregate.
+inline Specimen random_specimen(unsigned seed, int nx = 4, int ny = 4, int nz = 5) {
+  std::mt19937 random(seed);
+  auto uniform = [&](double lo, double hi) { return lo + (hi - lo) * (static_cast<double>(random()) / 4294967296.0); };
+  const double cell = 2e-3;
+  Specimen out;
+  out.box.size = {nx * cell, ny * cell, nz * cell};
+  for (int z = 0; z < nz; ++z) {
+    for (int y = 0; y < ny; ++y) {
+      for (int x = 0; x < nx; ++x) {
+        out.centre.push_back(
+            {(x + uniform(0.3, 0.7)) * cell, (y + uniform(0.3, 0.7)) * cell, (z + uniform(0.3, 0.7)) * cell});
+        out.radius.push_back(uniform(0.7e-3, 1.1e-3));
+        const auto n = static_cast<std::int32_t>(out.size()) - 1;
+        const bool aggregate = n % 3 != 0;
+        out.phase.push_back(aggregate ? Phase::aggregate : Phase::mastic);
+        out.body.push_back(aggregate ? n / 6 : -1);
+      }
+    }
+  }
+  return out;
+}
+
+inline TestScene make_scene(Specimen specimen, const NetworkSpec& spec = {}, const Laws& laws = am1_laws()) {
+  TestScene out{std::move(specimen), {}, laws, {}};
+  out.network = build_network(out.specimen, tessellate(out.specimen), spec);
+  out.inertia = make_inertia(out.specimen, 2630, 2110);
+  return out;
+}
+
+/// Options with a stable step and a load of the top wall at 2 kHz, fast enough to shake everything in 1,000 steps.
+inline StepperOptions shaking_options(const TestScene& scene) {
+  StepperOptions out;
+  const double dt = 0.5 * critical_step(scene.network, scene.laws, scene.inertia, out).dt;
+  loadings::Cyclic loading;
+  loading.amplitude = 1e-4 * scene.specimen.box.size.z;
+  loading.frequency = 2000;
+  loading.steps_per_period = static_cast<std::int64_t>(1 / (loading.frequency * dt)) + 1;
+  loading.ramp_steps = 100;
+  out.loading = loading;
+  out.dt = loading.dt();
+  return out;
+}
+
+/// Largest length in a list of vectors.
+inline double largest(const std::vector<Vec3d>& list) {
+  double out = 0;
+  for (const auto& v : list) out = std::max(out, norm(v));
+  return out;
+}
+
+/// Largest difference of two lists over the largest length of the second.
+inline double relative_difference(const std::vector<Vec3d>& list, const std::vector<Vec3d>& expected) {
+  double out = list.size() == expected.size() ? 0 : INFINITY;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const double d = norm(list[i] - expected[i]);
+    out = std::isnan(d) ? INFINITY : std::max(out, d);
+  }
+  return out / largest(expected);
+}
+
+/// Backends that this build and machine can test besides the reference. MACADAM_REQUIRE_GPU=1 makes a missing device a
+/// failure.
+inline std::vector<Backend> tested_backends() {
+  std::vector<Backend> out{Backend::cpu};
+  const char* required = std::getenv("MACADAM_REQUIRE_GPU");
+  if (!report_backends().devices.empty() || (required && std::string(required) == "1")) out.push_back(Backend::cuda);
+  return out;
+}
+
+}  // namespace macadam::test
