@@ -42,7 +42,8 @@ double copy_bandwidth(int threads) {
   return best;
 }
 
-void step(benchmark::State& state, Backend backend, ContactForm form, Precision precision, Geometry geometry, int threads) {
+void step(benchmark::State& state, Backend backend, ContactForm form, Precision precision, Geometry geometry,
+          int threads) {
   const test::TestScene& scene = full_specimen();
   StepperOptions options = test::shaking_options(scene);
   options.form = form;
@@ -53,16 +54,15 @@ void step(benchmark::State& state, Backend backend, ContactForm form, Precision 
   stepper->advance(20);  // real motion in every array before the clock runs
   const double bandwidth = backend == Backend::cpu ? copy_bandwidth(threads) : 0;
   constexpr std::int64_t steps = 5;
-  for (auto unused : state) {
-    stepper->advance(steps);
-  }
+  for (auto unused : state) { stepper->advance(steps); }
   const auto per_iteration = [&](double x) {
     return benchmark::Counter(x * steps, benchmark::Counter::kIsIterationInvariantRate);
   };
   state.counters["contacts/s"] = per_iteration(static_cast<double>(scene.network.contacts.size()));
   state.counters["steps/s"] = per_iteration(1);
   state.counters["bytes/s"] = per_iteration(static_cast<double>(stepper->traffic()));
-  state.counters["bytes/contact"] = static_cast<double>(stepper->traffic()) / static_cast<double>(scene.network.contacts.size());
+  state.counters["bytes/contact"] =
+      static_cast<double>(stepper->traffic()) / static_cast<double>(scene.network.contacts.size());
   if (bandwidth > 0) {
     state.counters["copy_bytes/s"] = bandwidth;
     state.counters["share_of_copy"] = per_iteration(static_cast<double>(stepper->traffic()) / bandwidth);

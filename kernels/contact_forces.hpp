@@ -128,12 +128,15 @@ struct ContactForces {
       now.arm_a = dot(branch, n0);
       middle.arm_a = now.arm_a - T(0.5f) * dot(step, n0);
     } else {
+      // all lengths of a step are nearly one another's: one root and one division do, the rest are series
       const Vec3<T> branch_before = branch - step;
-      const T d = norm(branch), d_before = norm(branch_before);
-      now.n = (T(1) / d) * branch;
-      n_before = (T(1) / d_before) * branch_before;
-      middle.n = now.n + n_before;
-      middle.n = (T(1) / norm(middle.n)) * middle.n;
+      const T d = norm(branch), inverse_d = T(1) / d;
+      now.n = inverse_d * branch;
+      n_before = inverse_d * branch_before;
+      n_before = inverse_root_near_one(dot(n_before, n_before)) * n_before;
+      const T d_before = dot(branch_before, n_before);
+      middle.n = T(0.5f) * (now.n + n_before);
+      middle.n = inverse_root_near_one(dot(middle.n, middle.n)) * middle.n;
       const T to_middle = T(0.25f) * (d_before - d), to_now = T(0.5f) * (d - d0);
       now.arm_a += to_now;
       now.arm_b += to_now;
@@ -145,18 +148,18 @@ struct ContactForces {
     State* stored =
         view.frame + static_cast<std::size_t>(packet) * static_cast<std::size_t>(view.frame_words) * item.lanes();
     const Vec3<S> old{item.load(stored), item.load(stored + item.lanes()), item.load(stored + 2 * item.lanes())};
-    const Vec3<S> ns = converted<State>(item, now.n), nb = converted<State>(item, n_before),
-                  nm = converted<State>(item, middle.n);
+    const Vec3<S> ns = converted<State>(item, now.n), nb = converted<State>(item, n_before);
     const S turn = item.template convert<State>(spin_rate) * S(dt);
-    S pending = S(0);
-    if constexpr (sizeof(State) == 4) pending = item.load(stored + 3 * item.lanes());
-    const Vec3<S> s_middle = spun(swung(old, nb, nm), nm, pending + S(0.5f) * turn);
-    const Vec3<S> s = spun(swung(old, nb, ns), ns, pending + turn);
+    Vec3<S> before = old, s;
     if constexpr (sizeof(State) == 8) {
+      s = spun(swung(before, nb, ns), ns, turn);
       item.store(stored, s.x);
       item.store(stored + item.lanes(), s.y);
       item.store(stored + 2 * item.lanes(), s.z);
     } else {  // ŝ is rewritten only when the normal or the spin has moved by more than single precision can lose
+      const S pending = item.load(stored + 3 * item.lanes());
+      before = spun(swung(old, nb, nb), nb, pending);
+      s = spun(swung(before, nb, ns), ns, turn);
       const S tilt = dot(old, ns), spin = pending + turn;
       const auto rebase = tilt * tilt + spin * spin > S(1e-6f);
       item.store(stored, item.select(rebase, s.x, old.x));
@@ -164,6 +167,10 @@ struct ContactForces {
       item.store(stored + 2 * item.lanes(), item.select(rebase, s.z, old.z));
       item.store(stored + 3 * item.lanes(), item.select(rebase, S(0), spin));
     }
+    Vec3<S> s_middle = S(0.5f) * (before + s);
+    const Vec3<S> nm = converted<State>(item, middle.n);
+    s_middle -= dot(s_middle, nm) * nm;  // of the order of swing times spin
+    s_middle = inverse_root_near_one(dot(s_middle, s_middle)) * s_middle;
     now.s = converted<typename P::Geometry>(item, s);
     now.t = cross(now.n, now.s);
     middle.s = converted<typename P::Geometry>(item, s_middle);
@@ -176,10 +183,20 @@ struct ContactForces {
                                                    item.template convert<To>(v.z)};
   }
 
-  /// ŝ by the smallest rotation that takes one normal to the other, and one Newton step towards unit length.
+  /// 1/√x by its series about 1: exact to rounding for |1 − x| < 1e-3 in double, and never NaN for a finite x.
+  template <class S>
+  MACADAM_HD static S inverse_root_near_one(const S& x) {
+    const S e = S(1) - x;
+    return S(1) + e * (S(0.5f) + e * (S(0.375f) + e * (S(0.3125f) + e * S(0.2734375f))));
+  }
+
+  /// ŝ by the smallest rotation that takes one normal to the other, and one Newton step towards unit length. The exact
+  /// divisor of (from + to) is 1 + from·to = 2 − e; 1/(2 − e) is expanded in the small e.
   template <class S>
   MACADAM_HD static Vec3<S> swung(Vec3<S> s, const Vec3<S>& from, const Vec3<S>& to) {
-    s -= (dot(s, to) / (S(1) + dot(from, to))) * (from + to);
+    const S e = S(1) - dot(from, to);
+    const S inverse = S(0.5f) + e * (S(0.25f) + e * (S(0.125f) + e * S(0.0625f)));
+    s -= (dot(s, to) * inverse) * (from + to);
     return (S(1.5f) - S(0.5f) * dot(s, s)) * s;
   }
 

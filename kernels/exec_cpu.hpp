@@ -110,7 +110,7 @@ class ExecCpu {
       while (tile < layout_.tiles() && body >= layout_.tile_body[tile + 1]) ++tile;
       out.push_back(
           tile == layout_.tiles()
-              ? row_sum(body, {})
+              ? sum(body, none)
               : sum(body, accumulators_.tile_begin[tile] + static_cast<std::uint32_t>(body - layout_.tile_body[tile])));
     }
     return out;
@@ -159,38 +159,37 @@ class ExecCpu {
     }
   };
 
-  /// Adds a packet's loads, contact by contact. Plain loops of four: the compiler makes one vector of each.
+  /// Adds a packet's loads, contact by contact: one line a body.
   template <class T>
   void add(const ContactLoad<T>& load, const std::uint32_t* end_a, const std::uint32_t* end_b) {
-    alignas(64) typename P::Geometry words[9][lanes];
-    const Vec3<T>* vectors[3] = {&load.force_a, &load.moment_a, &load.moment_b};
-    for (int v = 0; v < 3; ++v) {
-      PackItem::store(words[3 * v], vectors[v]->x);
-      PackItem::store(words[3 * v + 1], vectors[v]->y);
-      PackItem::store(words[3 * v + 2], vectors[v]->z);
-    }
+    add_side<T>({load.force_a, load.moment_a}, end_a);
+    add_side<T>({-load.force_a, load.moment_b}, end_b);
+  }
+  template <class T>
+  void add_side(const Twist<T>& load, const std::uint32_t* end) {
+    using G = typename P::Geometry;
+    const T* words[8] = {&load.linear.x,  &load.linear.y,  &load.linear.z,  nullptr,
+                         &load.angular.x, &load.angular.y, &load.angular.z, nullptr};
+    Line<G> lines[8];
+    for (int w = 0; w < 8; ++w) lines[w] = words[w] ? PackItem::to_line<G>(*words[w]) : Line<G>{};
+    transpose<G>(lines);
     for (int j = 0; j < lanes; ++j) {
-      R* a = sums_.data() + static_cast<std::size_t>(end_a[j]) * velocity_words;
-      for (int w = 0; w < 3; ++w) a[w] += words[w][j];
-      for (int w = 0; w < 3; ++w) a[4 + w] += words[3 + w][j];
-      R* b = sums_.data() + static_cast<std::size_t>(end_b[j]) * velocity_words;
-      for (int w = 0; w < 3; ++w) b[w] -= words[w][j];
-      for (int w = 0; w < 3; ++w) b[4 + w] += words[6 + w][j];
+      auto& sum = *reinterpret_cast<Line<R>*>(sums_.data() + static_cast<std::size_t>(end[j]) * velocity_words);
+      sum += __builtin_convertvector(lines[j], Line<R>);
     }
   }
 
+  /// A body's own accumulator (walls have `none`) and its halo row.
   Twist<R> sum(std::int32_t body, std::uint32_t own) const {
-    const R* s = sums_.data() + static_cast<std::size_t>(own) * velocity_words;
-    return row_sum(body, {{s[0], s[1], s[2]}, {s[4], s[5], s[6]}});
-  }
-  Twist<R> row_sum(std::int32_t body, Twist<R> total) const {
     const auto i = static_cast<std::size_t>(body);
-    for (auto r = accumulators_.row_begin[i]; r < accumulators_.row_begin[i + 1]; ++r) {
-      const R* s = sums_.data() + static_cast<std::size_t>(accumulators_.row[r]) * velocity_words;
-      total.linear += {s[0], s[1], s[2]};
-      total.angular += {s[4], s[5], s[6]};
-    }
-    return total;
+    R total[velocity_words] = {};
+    auto add = [&](std::uint32_t accumulator) {
+      const R* words = sums_.data() + static_cast<std::size_t>(accumulator) * velocity_words;
+      for (int w = 0; w < velocity_words; ++w) total[w] += words[w];
+    };
+    if (own != none) add(own);
+    for (auto r = accumulators_.row_begin[i]; r < accumulators_.row_begin[i + 1]; ++r) add(accumulators_.row[r]);
+    return {{total[0], total[1], total[2]}, {total[4], total[5], total[6]}};
   }
   typename P::Geometry* gathered() {
     if constexpr (std::is_same_v<typename P::Geometry, R>)
@@ -198,6 +197,8 @@ class ExecCpu {
     else
       return velocity_.data();
   }
+
+  static constexpr std::uint32_t none = UINT32_MAX;
 
   const Layout& layout_;
   TileAccumulators accumulators_;

@@ -2,9 +2,11 @@
 /// \file pack_item.hpp  The CPU's Item: a packet of eight contacts in SIMD registers (std::experimental::simd).
 #pragma once
 
+#include <bit>
 #include <experimental/simd>
 
 #include "kernels/contact_forces.hpp"
+#include "kernels/transpose.hpp"
 
 namespace macadam::kernels {
 
@@ -51,25 +53,42 @@ struct PackItem {
     return no;
   }
 
+  /// The same eight words as a vector of the compiler's, and back.
+  template <class R>
+  static Line<R> to_line(const Value<R>& x) {
+    return std::bit_cast<Line<R>>(x);
+  }
+  template <class R>
+  static Value<R> to_pack(const Line<R>& x) {
+    return std::bit_cast<Value<R>>(x);
+  }
+
   /// Velocity and spin of one body a lane.
   template <class R>
   static Twist<Value<R>> twist(const R* velocity, const std::int32_t* body) {
-    auto word = [&](std::size_t w) {
-      return Value<R>([&](auto j) { return velocity[static_cast<std::size_t>(body[j]) * velocity_words + w]; });
-    };
-    return {{word(0), word(1), word(2)}, {word(4), word(5), word(6)}};
+    Line<R> r[8];
+    for (std::size_t j = 0; j < 8; ++j) {
+      r[j] = *reinterpret_cast<const Line<R>*>(velocity + static_cast<std::size_t>(body[j]) * velocity_words);
+    }
+    transpose<R>(r);
+    return {{to_pack<R>(r[0]), to_pack<R>(r[1]), to_pack<R>(r[2])},
+            {to_pack<R>(r[4]), to_pack<R>(r[5]), to_pack<R>(r[6])}};
   }
 
   /// u_b − u_a, subtracted before it is rounded to To.
   template <class To, class R>
   static Vec3<Value<To>> relative(const R* displacement, const std::int32_t* a, const std::int32_t* b) {
-    auto word = [&](std::size_t w) {
-      return Value<To>([&](auto j) {
-        return static_cast<To>(displacement[static_cast<std::size_t>(b[j]) * displacement_words + w] -
-                               displacement[static_cast<std::size_t>(a[j]) * displacement_words + w]);
-      });
-    };
-    return {word(0), word(1), word(2)};
+    HalfLine<R> difference[8];
+    for (std::size_t j = 0; j < 8; ++j) {
+      const auto line = [&](std::int32_t body) {
+        return *reinterpret_cast<const HalfLine<R>*>(displacement +
+                                                     static_cast<std::size_t>(body) * displacement_words);
+      };
+      difference[j] = line(b[j]) - line(a[j]);
+    }
+    Line<R> words[3];
+    transpose_three<R>(difference, words);
+    return {convert<To>(to_pack<R>(words[0])), convert<To>(to_pack<R>(words[1])), convert<To>(to_pack<R>(words[2]))};
   }
 };
 
