@@ -12,5 +12,5 @@ if(MACADAM_COVERAGE)
   target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:--coverage -fprofile-update=atomic>)
   target_link_options(macadam_options INTERFACE --coverage)
 endif()
-# gcc 12 misreads std::string concatenation (bug 105329)
-target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict>)
+# gcc 12 misreads std::string concatenation (bug 105329) and Eigen's fixed-size kernels
+target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict -Wno-maybe-uninitialized>)

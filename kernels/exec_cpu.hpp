@@ -171,7 +171,12 @@ class ExecCpu {
     const T* words[8] = {&load.linear.x,  &load.linear.y,  &load.linear.z,  nullptr,
                          &load.angular.x, &load.angular.y, &load.angular.z, nullptr};
     Line<G> lines[8];
-    for (int w = 0; w < 8; ++w) lines[w] = words[w] ? PackItem::to_line<G>(*words[w]) : Line<G>{};
+    for (int w = 0; w < 8; ++w) {
+      if (words[w])
+        PackItem::to_line<G>(*words[w], lines[w]);
+      else
+        lines[w] = Line<G>{};
+    }
     transpose<G>(lines);
     for (int j = 0; j < lanes; ++j) {
       auto& sum = *reinterpret_cast<Line<R>*>(sums_.data() + static_cast<std::size_t>(end[j]) * velocity_words);

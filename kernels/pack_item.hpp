@@ -2,7 +2,6 @@
 /// \file pack_item.hpp  The CPU's Item: a packet of eight contacts in SIMD registers (std::experimental::simd).
 #pragma once
 
-#include <bit>
 #include <experimental/simd>
 
 #include "kernels/contact_forces.hpp"
@@ -53,14 +52,14 @@ struct PackItem {
     return no;
   }
 
-  /// The same eight words as a vector of the compiler's, and back.
+  /// The same eight words as a vector of the compiler's, and back (a packet may be made of several registers).
   template <class R>
-  static Line<R> to_line(const Value<R>& x) {
-    return std::bit_cast<Line<R>>(x);
+  static void to_line(const Value<R>& x, Line<R>& line) {
+    x.copy_to(reinterpret_cast<R*>(&line), stdx::vector_aligned);
   }
   template <class R>
-  static Value<R> to_pack(const Line<R>& x) {
-    return std::bit_cast<Value<R>>(x);
+  static Value<R> to_pack(const Line<R>& line) {
+    return Value<R>(reinterpret_cast<const R*>(&line), stdx::vector_aligned);
   }
 
   /// Velocity and spin of one body a lane.

@@ -51,6 +51,25 @@ Scene scene_of(const Arguments& arguments) {
   return scene;
 }
 
+void print_results(const RunResult& result) {
+  fmt::print("\n{:>8} {:>11} {:>9}", "f (Hz)", "|E*| (GPa)", "phi (deg)");
+  const bool stepped = !result.frequencies.empty() && result.frequencies.front().method == SolverMethod::explicit_;
+  if (stepped) {
+    fmt::print(" {:>11} {:>9} {:>9} {:>10} {:>9}\n", "d|E*| cycle", "d phi", "scaling", "steps", "time (s)");
+  } else {
+    fmt::print(" {:>9} {:>10} {:>11} {:>9}\n", "residual", "iterations", "held force", "time (s)");
+  }
+  for (const FrequencyResult& f : result.frequencies) {
+    fmt::print("{:>8g} {:>11.5f} {:>9.4f}", f.frequency_hz, f.stiffness.e_star_pa / 1e9, f.stiffness.phase_deg);
+    if (f.cyclic) {
+      fmt::print(" {:>11.1e} {:>9.1e} {:>9g} {:>10} {:>9.1f}\n", f.cyclic->change_e_star, f.cyclic->change_phase_deg,
+                 f.density_scaling, f.steps, f.seconds);
+    } else {
+      fmt::print(" {:>9.1e} {:>10} {:>11.1e} {:>9.1f}\n", f.residual, f.iterations, f.held_force, f.seconds);
+    }
+  }
+}
+
 void run_command(const Arguments& arguments) {
   const Scene scene = scene_of(arguments);
   ProgressLine line;
@@ -61,14 +80,9 @@ void run_command(const Arguments& arguments) {
     std::fflush(stdout);
   });
   line.clear();
-  fmt::print("\n{:>10} {:>10} {:>9} {:>11} {:>9} {:>9} {:>12} {:>9}\n", "f (Hz)", "|E*| (GPa)", "phi (deg)",
-             "d|E*| cycle", "d phi", "scaling", "steps", "time (s)");
-  for (const FrequencyResult& f : result.frequencies) {
-    fmt::print("{:>10g} {:>10.4f} {:>9.3f} {:>11.1e} {:>9.1e} {:>9g} {:>12} {:>9.1f}\n", f.frequency_hz,
-               f.cyclic.fit.e_star_pa / 1e9, f.cyclic.fit.phase_deg, f.cyclic.change_e_star, f.cyclic.change_phase_deg,
-               f.density_scaling, f.steps, f.seconds);
-  }
-  fmt::print("\n{} | files in {}: summary.json response.csv specimen.csv{}\n", result.stepper, arguments.out,
+  print_results(result);
+  fmt::print("\n{} | files in {}: summary.json specimen.csv{}{}\n", result.solver, arguments.out,
+             scene.solver.method == SolverMethod::explicit_ ? " response.csv" : "",
              scene.output.contacts ? " contacts.csv" : "");
 }
 

@@ -43,18 +43,19 @@ Stiffness from_phasors(std::complex<double> strain, std::complex<double> stress)
   return {std::abs(modulus), std::arg(modulus) * 180 / std::numbers::pi};
 }
 
-/// Extreme value and its time by a parabola through the largest sample (sign = +1) or smallest (−1) and its neighbours.
+/// Extreme value of one cycle and its time, by a parabola through the largest sample (sign = +1) or smallest (−1) and its
+/// neighbours. The cycle is taken as periodic, so that a peak at its end has both.
 template <class Value>
-std::pair<double, double> peak(std::span<const ResponseSample> samples, double sign, Value value) {
-  std::size_t best = 1;
-  for (std::size_t k = 1; k + 1 < samples.size(); ++k) {
-    if (sign * value(samples[k]) > sign * value(samples[best])) best = k;
+std::pair<double, double> peak(std::span<const ResponseSample> cycle, double sign, Value value) {
+  const std::size_t n = cycle.size();
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < n; ++k) {
+    if (sign * value(cycle[k]) > sign * value(cycle[best])) best = k;
   }
-  const double l = value(samples[best - 1]), m = value(samples[best]), r = value(samples[best + 1]);
+  const double l = value(cycle[(best + n - 1) % n]), m = value(cycle[best]), r = value(cycle[(best + 1) % n]);
   const double curvature = l - 2 * m + r;
   const double shift = curvature != 0 ? std::clamp(0.5 * (l - r) / curvature, -1.0, 1.0) : 0.0;
-  const double dt = samples[best + 1].time_s - samples[best].time_s;
-  return {m - 0.25 * (l - r) * shift, samples[best].time_s + shift * dt};
+  return {m - 0.25 * (l - r) * shift, cycle[best].time_s + shift * (cycle[1].time_s - cycle[0].time_s)};
 }
 
 }  // namespace

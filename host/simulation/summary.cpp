@@ -27,21 +27,59 @@ Json volume_fractions(const Specimen& specimen, const Tessellation& tessellation
           {"mastic_cells", cells[1] / box}};
 }
 
+const char* to_string(SolverMethod method) { return method == SolverMethod::harmonic ? "harmonic" : "explicit"; }
+
 Json frequency_json(const FrequencyResult& f) {
-  const CyclicResult& c = f.cyclic;
-  return {{"frequency_hz", f.frequency_hz},
-          {"e_star_pa", c.fit.e_star_pa},
-          {"phase_deg", c.fit.phase_deg},
-          {"method", "explicit"},
-          {"residual", c.fit_rms},
-          {"e_star_peaks_pa", c.peaks.e_star_pa},
-          {"phase_peaks_deg", c.peaks.phase_deg},
-          {"change_e_star", c.change_e_star},
-          {"change_phase_deg", c.change_phase_deg},
-          {"density_scaling", f.density_scaling},
-          {"dt_s", f.dt_s},
-          {"steps", f.steps},
-          {"solve_s", f.seconds}};
+  Json out = {{"frequency_hz", f.frequency_hz},
+              {"e_star_pa", f.stiffness.e_star_pa},
+              {"phase_deg", f.stiffness.phase_deg},
+              {"method", to_string(f.method)},
+              {"residual", f.residual},
+              {"density_scaling", f.density_scaling},
+              {"solve_s", f.seconds}};
+  if (f.cyclic) {
+    out["e_star_peaks_pa"] = f.cyclic->peaks.e_star_pa;
+    out["phase_peaks_deg"] = f.cyclic->peaks.phase_deg;
+    out["change_e_star"] = f.cyclic->change_e_star;
+    out["change_phase_deg"] = f.cyclic->change_phase_deg;
+    out["dt_s"] = f.dt_s;
+    out["steps"] = f.steps;
+  }
+  if (f.bottom) {
+    out["e_star_bottom_pa"] = f.bottom->e_star_pa;
+    out["phase_bottom_deg"] = f.bottom->phase_deg;
+    out["iterations"] = f.iterations;
+    out["held_force"] = f.held_force;
+  }
+  return out;
+}
+
+/// Settings and cost of the solution; the keys of the time stepping are null for a harmonic one.
+Json solver_json(const Scene& scene, const RunResult& result) {
+  std::int64_t steps = 0;
+  for (const FrequencyResult& f : result.frequencies) steps += f.steps;
+  const bool stepped = scene.solver.method == SolverMethod::explicit_;
+  const auto last_step = stepped && !result.frequencies.empty() ? Json(result.frequencies.back().dt_s) : Json();
+  Json out = {{"method", to_string(scene.solver.method)},
+              {"dt_s", last_step},
+              {"steps", stepped ? Json(steps) : Json()},
+              {"backend", stepped ? Json(to_string(result.backend)) : Json()},
+              {"precision", stepped ? to_string(scene.solver.precision) : "double"},
+              {"description", result.solver},
+              {"quadrature", scene.network.quadrature == Quadrature::exact ? "exact" : "lumped"},
+              {"reaction", "top wall"}};
+  if (stepped) {
+    out["form"] = to_string(scene.solver.form);
+    out["geometry"] = to_string(scene.solver.geometry);
+    out["damping"] = {{"kind", to_string(scene.solver.damping_kind)}, {"value", scene.solver.damping}};
+    out["strain_amplitude"] = scene.loading.strain_amplitude;
+    out["cycles"] = scene.loading.cycles;
+    out["critical_particle"] = result.critical_particle;
+    out["bytes"] = result.bytes;
+  } else {
+    out["inertia"] = scene.solver.inertia;
+  }
+  return out;
 }
 
 }  // namespace
@@ -72,28 +110,12 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
     out["specimen"] = {{"seed", scene.specimen.seed}, {"aggregates_held", scene.specimen.fix_aggregates}};
   }
   out["results"] = Json::array();
-  std::int64_t steps = 0;
   double solve = 0;
   for (const FrequencyResult& f : result.frequencies) {
     out["results"].push_back(frequency_json(f));
-    steps += f.steps;
     solve += f.seconds;
   }
-  out["solver"] = {{"method", "explicit"},
-                   {"dt_s", result.frequencies.empty() ? Json() : Json(result.frequencies.back().dt_s)},
-                   {"steps", steps},
-                   {"backend", to_string(result.backend)},
-                   {"precision", to_string(scene.solver.precision)},
-                   {"form", to_string(scene.solver.form)},
-                   {"geometry", to_string(scene.solver.geometry)},
-                   {"quadrature", scene.network.quadrature == Quadrature::exact ? "exact" : "lumped"},
-                   {"damping", {{"kind", to_string(scene.solver.damping_kind)}, {"value", scene.solver.damping}}},
-                   {"strain_amplitude", scene.loading.strain_amplitude},
-                   {"cycles", scene.loading.cycles},
-                   {"reaction", "top wall"},
-                   {"description", result.stepper},
-                   {"critical_particle", result.critical_particle},
-                   {"bytes", result.bytes}};
+  out["solver"] = solver_json(scene, result);
   out["timing_s"] = {{"specimen", prepared.seconds_specimen},
                      {"tessellation", prepared.seconds_tessellation},
                      {"network", prepared.seconds_network},

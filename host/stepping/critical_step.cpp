@@ -7,48 +7,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/network/contact_stiffness.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam {
-namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
-Eigen::Vector3d eigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
-
-/// Adds the stiffness that one contact gives one of its ends: lever is signed along n (arm_a for A, −arm_b for B).
-/// Displacement of the end's point (s, t): v + ω × (lever·n + s·ŝ + t·t̂).
-void add_block(Matrix6& block, const Contact& c, double lever, double k, double alpha) {
-  const Eigen::Vector3d n = eigen(c.n), s = eigen(c.s), t = eigen(c.t);
-  auto row = [](const Eigen::Vector3d& v, const Eigen::Vector3d& w) {
-    Vector6 r;
-    r << v, w;
-    return r;
-  };
-  // the six generalised displacements of this end as rows over (v, ω)
-  const Vector6 open = row(n, Eigen::Vector3d::Zero());
-  const Vector6 bend_s = row(Eigen::Vector3d::Zero(), -t), bend_t = row(Eigen::Vector3d::Zero(), s);
-  const Vector6 slip_s = row(s, lever * t), slip_t = row(t, -lever * s);
-  const Vector6 twist = row(Eigen::Vector3d::Zero(), n);
-  const AreaMoments& m = c.moments;
-  auto outer = [&](double weight, const Vector6& p, const Vector6& q) {
-    block += 0.5 * k / c.distance * weight * (p * q.transpose() + q * p.transpose());
-  };
-  outer(m.a, open, open);
-  outer(2 * m.s, open, bend_s);
-  outer(2 * m.t, open, bend_t);
-  outer(m.ss, bend_s, bend_s);
-  outer(2 * m.st, bend_s, bend_t);
-  outer(m.tt, bend_t, bend_t);
-  outer(alpha * m.a, slip_s, slip_s);
-  outer(alpha * m.a, slip_t, slip_t);
-  outer(-2 * alpha * m.t, slip_s, twist);
-  outer(2 * alpha * m.s, slip_t, twist);
-  outer(alpha * (m.ss + m.tt), twist, twist);
-}
-
-}  // namespace
 
 Inertia make_inertia(const Specimen& specimen, double density_aggregate, double density_mastic) {
   Inertia out;
@@ -74,9 +36,10 @@ CriticalStep critical_step(const ContactNetwork& network, const std::array<std::
             return std::pair{law.instantaneous(), law.alpha};
           },
           laws[static_cast<std::size_t>(c.pair)].value());
-      add_block(block, c, c.a == static_cast<std::int32_t>(i) ? c.arm_a : -c.arm_b, k, alpha);
+      const int end = c.a == static_cast<std::int32_t>(i) ? 0 : 1;
+      block += contact_block(c, k, alpha, end, end);
     }
-    Vector6 scale;  // M_i^(-1/2), so that the eigenproblem stays symmetric
+    Eigen::Matrix<double, 6, 1> scale;  // M_i^(-1/2), so that the eigenproblem stays symmetric
     scale.head<3>().setConstant(1 / std::sqrt(inertia.mass[i] * options.density_scaling));
     scale.tail<3>().setConstant(1 / std::sqrt(inertia.inertia[i] * options.density_scaling));
     const Matrix6 scaled = scale.asDiagonal() * block * scale.asDiagonal();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file macadam.hpp  Everything, in the order in which data flows.
 ///
-///     scene ─► Specimen ─► Tessellation ─► ContactNetwork ─► Stepper ─► Observation ─► Results
+///     scene ─► Specimen ─► Tessellation ─► ContactNetwork ─┬─► Stepper ─► Observation ─► Results
+///                                                          └─► Harmonic (frequency domain) ─► Results
 ///
 /// A newcomer reads the headers in this order; each noun is made in the folder of host/ or kernels/ with the same stem
 /// and tested in tests/ under the same stem.
@@ -19,4 +20,5 @@
 #include "macadam/loadings/cyclic.hpp"
 #include "macadam/stepper.hpp"
 #include "macadam/results.hpp"
+#include "macadam/harmonic.hpp"
 #include "macadam/simulation.hpp"

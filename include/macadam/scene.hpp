@@ -50,7 +50,7 @@ struct SolverSpec {
   Precision precision = Precision::double_;
   Backend backend = Backend::automatic;
   int threads = 0;       ///< 0: OpenMP's choice
-  bool inertia = false;  ///< harmonic only
+  bool inertia = false;  ///< harmonic only: include −ω²M, times density_scaling
 };
 
 /// `[output]`.

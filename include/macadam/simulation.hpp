@@ -27,20 +27,26 @@ struct Preparation {
 /// One frequency's outcome.
 struct FrequencyResult {
   double frequency_hz = 0;
-  CyclicResult cyclic;
-  double density_scaling = 1;
-  double dt_s = 0;
-  std::int64_t steps = 0;
-  double seconds = 0;  ///< wall time of the stepping
+  SolverMethod method = SolverMethod::explicit_;
+  Stiffness stiffness;  ///< the result, from the reaction of the top wall
+  double residual = 0;  ///< explicit: rms of stress that the fit leaves / amplitude; harmonic: ‖f − K·u‖/‖f‖
+  double density_scaling = 1;          ///< of the inertia that is in the result
+  double seconds = 0;                  ///< wall time of the solution
+  std::optional<CyclicResult> cyclic;  ///< explicit: fit, peaks, steadiness
+  double dt_s = 0;                     ///< explicit
+  std::int64_t steps = 0;              ///< explicit
+  std::optional<Stiffness> bottom;     ///< harmonic: from the reaction of the bottom wall
+  int iterations = 0;                  ///< harmonic
+  double held_force = 0;               ///< harmonic: force that holds free rigid motions / reaction
 };
 
 /// Outcome of a run.
 struct RunResult {
   std::vector<FrequencyResult> frequencies;
-  Backend backend = Backend::automatic;  ///< that ran
-  std::string stepper;                   ///< Stepper::description()
-  std::int64_t bytes = 0;                ///< Stepper::bytes()
-  std::int32_t critical_particle = -1;   ///< the particle that sets the critical step
+  std::string solver;                    ///< what ran, in words: Stepper::description(), or "harmonic, …"
+  Backend backend = Backend::automatic;  ///< explicit: that ran
+  std::int64_t bytes = 0;                ///< explicit: Stepper::bytes()
+  std::int32_t critical_particle = -1;   ///< explicit: the particle that sets the critical step
 };
 
 /// Called as work goes on: what is being done, share of it done 0…1.

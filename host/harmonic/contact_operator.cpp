@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// contact_operator.cpp  A contact's complex load: its real kinematics on real and imaginary parts, times k*(ω).
+#include "host/harmonic/contact_operator.hpp"
+
+#include "kernels/contact_kinematics.hpp"
+
+namespace macadam::harmonic {
+
+using kernels::Placement;
+using kernels::Twist;
+
+PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& laws, double omega) {
+  PairStiffness out;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (!laws[pair]) continue;
+    out.k[pair] = std::visit([&](const auto& law) { return law.stiffness(omega); }, *laws[pair]);
+    out.alpha[pair] = std::visit([](const auto& law) { return law.alpha; }, *laws[pair]);
+  }
+  return out;
+}
+
+ContactOperator::Load ContactOperator::contact_load(const Contact& c, const PairStiffness& stiffness,
+                                                    const Vector& motion, Complex wall) const {
+  const Placement<double> placement{c.n, c.s, c.t, c.arm_a, c.arm_b};
+  const double m[6] = {c.moments.a / c.distance,  c.moments.s / c.distance,  c.moments.t / c.distance,
+                       c.moments.ss / c.distance, c.moments.st / c.distance, c.moments.tt / c.distance};
+  const auto pair = static_cast<std::size_t>(c.pair);
+  const Complex k = stiffness.k[pair];
+  auto twist = [&](std::int32_t end, auto part) -> Twist<double> {
+    if (end >= 0) {
+      const Complex* x = &motion[6 * static_cast<std::size_t>(end)];
+      return {{part(x[0]), part(x[1]), part(x[2])}, {part(x[3]), part(x[4]), part(x[5])}};
+    }
+    return {{0, 0, end == wall_z_hi ? part(wall) : 0.0}, {}};
+  };
+  double u[2][6];
+  const auto real = [](Complex z) { return z.real(); };
+  const auto imag = [](Complex z) { return z.imag(); };
+  kernels::relative_rates(placement, twist(c.a, real), twist(c.b, real), u[0]);
+  kernels::relative_rates(placement, twist(c.a, imag), twist(c.b, imag), u[1]);
+  Load load{};
+  for (int part = 0; part < 2; ++part) {
+    double f[6];
+    for (int i = 0; i < 6; ++i) {
+      const Complex density = k * Complex(u[0][i], u[1][i]);
+      f[i] = part == 0 ? density.real() : density.imag();
+    }
+    const auto at = kernels::to_centres(placement, kernels::condensed_load(f, stiffness.alpha[pair], m));
+    const double on_a[6] = {at.force_a.x, at.force_a.y, at.force_a.z, at.moment_a.x, at.moment_a.y, at.moment_a.z};
+    const double on_b[6] = {-at.force_a.x, -at.force_a.y, -at.force_a.z, at.moment_b.x, at.moment_b.y, at.moment_b.z};
+    const Complex unit = part == 0 ? Complex(1, 0) : Complex(0, 1);
+    for (int i = 0; i < 6; ++i) {
+      load.a[i] += unit * on_a[i];
+      load.b[i] += unit * on_b[i];
+    }
+  }
+  return load;
+}
+
+void ContactOperator::forces(const PairStiffness& stiffness, const Vector& motion, Complex wall, Vector& out) const {
+  const auto contacts = static_cast<std::int64_t>(network_.contacts.size());
+  loads_.resize(network_.contacts.size());
+#pragma omp parallel for schedule(static)
+  for (std::int64_t i = 0; i < contacts; ++i) {
+    const auto c = static_cast<std::size_t>(i);
+    loads_[c] = contact_load(network_.contacts[c], stiffness, motion, wall);
+  }
+  out.assign(6 * particles_, 0);
+#pragma omp parallel for schedule(static)
+  for (std::int64_t i = 0; i < static_cast<std::int64_t>(particles_); ++i) {
+    for (const std::uint32_t c : network_.row(static_cast<std::size_t>(i))) {
+      const Complex* load = network_.contacts[c].a == i ? loads_[c].a : loads_[c].b;
+      for (int k = 0; k < 6; ++k) out[6 * static_cast<std::size_t>(i) + static_cast<std::size_t>(k)] += load[k];
+    }
+  }
+}
+
+WallForces ContactOperator::wall_forces(const PairStiffness& stiffness, const Vector& motion, Complex wall) const {
+  WallForces out;
+  for (const Contact& c : network_.contacts) {
+    if (c.b == wall_z_lo) out.bottom += contact_load(c, stiffness, motion, wall).a[2];
+    if (c.b == wall_z_hi) out.top += contact_load(c, stiffness, motion, wall).a[2];
+  }
+  return out;
+}
+
+}  // namespace macadam::harmonic

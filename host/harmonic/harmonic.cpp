@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// harmonic.cpp  COCG (conjugate gradients for complex symmetric matrices) with a real Cholesky preconditioner.
+//
+// K*(ω) is the real network with each contact multiplied by the complex number of its pair. Preconditioned by the real
+// parts at one frequency, its eigenvalues gather about a few such ratios: some ten iterations do.
+#include "macadam/harmonic.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "host/harmonic/contact_operator.hpp"
+#include "host/harmonic/preconditioner.hpp"
+#include "host/harmonic/rigid_motions.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+using namespace harmonic;
+
+namespace {
+
+void require_laws_of(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws) {
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (network.count[pair] > 0 && !laws[pair]) {
+      throw InputError(std::string("pair ") + to_string(static_cast<PairType>(pair)) + " has " +
+                       std::to_string(network.count[pair]) + " contacts but no law");
+    }
+  }
+}
+
+/// xᵀ·y without conjugation, and ‖x‖; sums in a fixed order.
+Complex product(const Vector& x, const Vector& y) {
+  Complex sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
+  return sum;
+}
+double length(const Vector& x) {
+  double sum = 0;
+  for (const Complex& v : x) sum += std::norm(v);
+  return std::sqrt(sum);
+}
+
+}  // namespace
+
+class Harmonic::Implementation {
+ public:
+  Implementation(const Specimen& specimen, const ContactNetwork& network,
+                 const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+                 const HarmonicOptions& options, double typical_frequency)
+      : box_(specimen.box), laws_(laws), inertia_(inertia), options_(options), contacts_(network, specimen.size()) {
+    require_laws_of(network, laws);
+    const PairStiffness typical = pair_stiffness(laws, 2 * std::numbers::pi * typical_frequency);
+    pins_ = pins_of_free_motions(specimen, network, typical);
+    preconditioner_ = std::make_unique<Preconditioner>(network, specimen.size(), typical, pins_);
+  }
+
+  HarmonicResult solve(double frequency, double density_scaling) {
+    const auto start = std::chrono::steady_clock::now();
+    const double omega = 2 * std::numbers::pi * frequency, inertia = omega * omega * density_scaling;
+    const PairStiffness stiffness = pair_stiffness(laws_, omega);
+    HarmonicResult out;
+    out.frequency_hz = frequency;
+
+    Vector x(6 * inertia_.mass.size(), 0), right, r, z, p, q;
+    contacts_.forces(stiffness, x, 1.0, right);  // of a unit displacement of the top wall
+    const double scale = length(right);
+    r = right;
+    Complex rho_before = 0;
+    double residual = 1;
+    // the recurrence drifts from the true residual by rounding: it is computed anew, and the recurrence restarted
+    for (int restart = 0; restart < 4 && residual > options_.tolerance; ++restart) {
+      for (int k = 0; residual > 0.3 * options_.tolerance && out.iterations < options_.max_iterations; ++k) {
+        preconditioner_->solve(r, z);
+        const Complex rho = product(r, z);
+        if (k == 0) {
+          p = z;
+        } else {
+          const Complex beta = rho / rho_before;
+          for (std::size_t i = 0; i < p.size(); ++i) p[i] = z[i] + beta * p[i];
+        }
+        apply(stiffness, inertia, p, q);
+        const Complex alpha = rho / product(p, q);
+        for (std::size_t i = 0; i < x.size(); ++i) {
+          x[i] += alpha * p[i];
+          r[i] -= alpha * q[i];
+        }
+        rho_before = rho;
+        ++out.iterations;
+        residual = length(r) / scale;
+        if (!std::isfinite(residual)) break;
+      }
+      apply(stiffness, inertia, x, q);
+      for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - q[i];
+      residual = length(r) / scale;
+    }
+    out.residual = residual;
+    if (!(residual <= options_.tolerance)) {
+      throw RunError("harmonic: residual " + std::to_string(residual) + " after " + std::to_string(out.iterations) +
+                     " iterations at " + std::to_string(frequency) + " Hz, expected at most " +
+                     std::to_string(options_.tolerance) + " (near a resonance, or a nearly singular stiffness)");
+    }
+
+    const WallForces walls = contacts_.wall_forces(stiffness, x, 1.0);
+    const double to_modulus = box_.size.z / (box_.size.x * box_.size.y);  // stress per strain of a unit displacement
+    out.top = modulus(to_modulus * walls.top);
+    out.bottom = modulus(-to_modulus * walls.bottom);
+    if (inertia == 0) {
+      for (const Pin& pin : pins_) out.held_force += std::abs(pin.stiffness * x[pin.dof]);
+      out.held_force /= std::abs(walls.top);
+    }
+    out.motion = std::move(x);
+    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return out;
+  }
+
+ private:
+  static Stiffness modulus(Complex e) { return {std::abs(e), std::arg(e) * 180 / std::numbers::pi}; }
+
+  /// out = (K* − ω²M)·x, or (K* + pins)·x without inertia.
+  void apply(const PairStiffness& stiffness, double inertia, const Vector& x, Vector& out) const {
+    contacts_.forces(stiffness, x, 0.0, out);
+    for (Complex& f : out) f = -f;
+    if (inertia == 0) {
+      for (const Pin& pin : pins_) out[pin.dof] += pin.stiffness * x[pin.dof];
+      return;
+    }
+    // free motions then carry their own inertia and need no pins
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      out[i] -= inertia * (i % 6 < 3 ? inertia_.mass[i / 6] : inertia_.inertia[i / 6]) * x[i];
+    }
+  }
+
+  Box box_;
+  std::array<std::optional<Law>, pair_types> laws_;
+  Inertia inertia_;
+  HarmonicOptions options_;
+  ContactOperator contacts_;
+  std::vector<Pin> pins_;
+  std::unique_ptr<Preconditioner> preconditioner_;
+};
+
+Harmonic::Harmonic(const Specimen& specimen, const ContactNetwork& network,
+                   const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+                   const HarmonicOptions& options, double typical_frequency)
+    : implementation_(std::make_unique<Implementation>(specimen, network, laws, inertia, options, typical_frequency)) {}
+Harmonic::~Harmonic() = default;
+
+HarmonicResult Harmonic::solve(double frequency_hz, double density_scaling) {
+  return implementation_->solve(frequency_hz, density_scaling);
+}
+
+}  // namespace macadam

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// preconditioner.cpp  METIS orders particles (35,000 nodes in place of 215,000 unknowns), CHOLMOD factors by
+// supernodes.
+#include "host/harmonic/preconditioner.hpp"
+
+#include <cholmod.h>
+#include <metis.h>
+
+#include "macadam/error.hpp"
+
+namespace macadam::harmonic {
+namespace {
+
+std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::size_t particles) {
+  std::vector<idx_t> begin{0}, neighbour;
+  for (std::size_t i = 0; i < particles; ++i) {
+    for (const std::uint32_t number : network.row(i)) {
+      const Contact& c = network.contacts[number];
+      if (c.b >= 0) neighbour.push_back(c.a == static_cast<std::int32_t>(i) ? c.b : c.a);
+    }
+    begin.push_back(static_cast<idx_t>(neighbour.size()));
+  }
+  std::vector<idx_t> order(particles), place(particles);
+  auto nodes = static_cast<idx_t>(particles);
+  idx_t options[METIS_NOPTIONS];
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_SEED] = 1;
+  if (neighbour.empty() ||
+      METIS_NodeND(&nodes, begin.data(), neighbour.data(), nullptr, options, order.data(), place.data()) != METIS_OK) {
+    for (std::size_t i = 0; i < particles; ++i) place[i] = static_cast<idx_t>(i);
+  }
+  return {place.begin(), place.end()};
+}
+
+/// CHOLMOD's view of a lower triangle in compressed columns.
+cholmod_sparse view(Eigen::SparseMatrix<double>& matrix) {
+  cholmod_sparse out{};
+  out.nrow = out.ncol = static_cast<std::size_t>(matrix.rows());
+  out.nzmax = static_cast<std::size_t>(matrix.nonZeros());
+  out.p = matrix.outerIndexPtr();
+  out.i = matrix.innerIndexPtr();
+  out.x = matrix.valuePtr();
+  out.stype = -1;
+  out.itype = CHOLMOD_INT;
+  out.xtype = CHOLMOD_REAL;
+  out.dtype = CHOLMOD_DOUBLE;
+  out.sorted = out.packed = 1;
+  return out;
+}
+
+}  // namespace
+
+struct Preconditioner::Factor {
+  cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+  std::vector<std::int32_t> place;
+  cholmod_dense *right = nullptr, *x = nullptr, *work_y = nullptr, *work_e = nullptr;
+
+  Factor() { cholmod_start(&common); }
+  ~Factor() {
+    cholmod_free_factor(&factor, &common);
+    for (auto* dense : {&right, &x, &work_y, &work_e}) cholmod_free_dense(dense, &common);
+    cholmod_finish(&common);
+  }
+};
+
+Preconditioner::Preconditioner(const ContactNetwork& network, std::size_t particles, const PairStiffness& stiffness,
+                               const std::vector<Pin>& pins)
+    : factor_(std::make_unique<Factor>()) {
+  Factor& f = *factor_;
+  f.place = nested_dissection(network, particles);
+  Eigen::SparseMatrix<double> matrix = assemble_lower(network, stiffness, f.place, pins);
+  cholmod_sparse sparse = view(matrix);
+  f.common.nmethods = 1;
+  f.common.method[0].ordering = CHOLMOD_NATURAL;  // already ordered; postordering keeps the fill
+  f.common.supernodal = CHOLMOD_SUPERNODAL;
+  f.common.print = 0;
+  f.factor = cholmod_analyze(&sparse, &f.common);
+  if (f.factor) cholmod_factorize(&sparse, f.factor, &f.common);
+  if (!f.factor || f.common.status == CHOLMOD_OUT_OF_MEMORY) {
+    throw RunError("harmonic: not enough memory to factor the stiffness of " + std::to_string(particles) +
+                   " particles");
+  }
+  if (f.common.status == CHOLMOD_NOT_POSDEF || f.factor->minor < f.factor->n) {
+    const auto row = static_cast<std::int32_t>(f.factor->minor / 6);
+    std::size_t particle = 0;
+    while (particle + 1 < f.place.size() && f.place[particle] != row) ++particle;
+    throw RunError("harmonic: the stiffness is singular: particle " + std::to_string(particle) +
+                   " or its neighbours can move without force (contacts without shear stiffness make a mechanism)");
+  }
+  f.right = cholmod_allocate_dense(6 * particles, 2, 6 * particles, CHOLMOD_REAL, &f.common);
+}
+
+Preconditioner::~Preconditioner() = default;
+
+void Preconditioner::solve(const Vector& in, Vector& out) const {
+  Factor& f = *factor_;
+  const std::size_t n = in.size();
+  auto* right = static_cast<double*>(f.right->x);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t row = 6 * static_cast<std::size_t>(f.place[i / 6]) + i % 6;
+    right[row] = in[i].real();
+    right[n + row] = in[i].imag();
+  }
+  cholmod_solve2(CHOLMOD_A, f.factor, f.right, nullptr, &f.x, nullptr, &f.work_y, &f.work_e, &f.common);
+  const auto* x = static_cast<const double*>(f.x->x);
+  out.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t row = 6 * static_cast<std::size_t>(f.place[i / 6]) + i % 6;
+    out[i] = {x[row], x[n + row]};
+  }
+}
+
+}  // namespace macadam::harmonic

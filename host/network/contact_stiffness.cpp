@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// contact_stiffness.cpp  Gᵀ·D·G of one contact: G from motions to generalised displacements, D from its area moments.
+#include "host/network/contact_stiffness.hpp"
+
+namespace macadam {
+namespace {
+
+Eigen::Vector3d eigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
+
+/// The six generalised displacements of a contact as rows over the motion of one end.
+Matrix6 generalised(const Contact& c, int end) {
+  const double sign = end == 0 ? -1 : 1, lever = end == 0 ? c.arm_a : -c.arm_b;
+  const Eigen::Vector3d n = eigen(c.n), s = eigen(c.s), t = eigen(c.t), zero = Eigen::Vector3d::Zero();
+  Matrix6 g;
+  g.row(0) << n.transpose(), zero.transpose();
+  g.row(1) << zero.transpose(), -t.transpose();
+  g.row(2) << zero.transpose(), s.transpose();
+  g.row(3) << s.transpose(), lever * t.transpose();
+  g.row(4) << t.transpose(), -lever * s.transpose();
+  g.row(5) << zero.transpose(), n.transpose();
+  return sign * g;
+}
+
+}  // namespace
+
+Matrix6 contact_block(const Contact& c, double k, double alpha, int i, int j) {
+  const AreaMoments& m = c.moments;
+  Matrix6 d = Matrix6::Zero();
+  d.topLeftCorner<3, 3>() << m.a, m.s, m.t, m.s, m.ss, m.st, m.t, m.st, m.tt;
+  d.bottomRightCorner<3, 3>() << m.a, 0, -m.t, 0, m.a, m.s, -m.t, m.s, m.ss + m.tt;
+  d.bottomRightCorner<3, 3>() *= alpha;
+  return generalised(c, i).transpose() * (k / c.distance * d) * generalised(c, j);
+}
+
+}  // namespace macadam

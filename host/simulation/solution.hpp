@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file solution.hpp  The two ways from a prepared scene to |E*| and φ.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "macadam/simulation.hpp"
+
+namespace macadam {
+
+/// Writes summary.json with a status.
+using Saving = std::function<void(const std::string& status)>;
+
+/// Steps every frequency in time; each sample goes to `response` and each finished frequency into `result` at once.
+/// \throws DivergenceError naming the particle that left the range of sense first.
+void step_frequencies(const Scene& scene, const Preparation& prepared, const std::filesystem::path& response,
+                      const Progress& progress, const Saving& save, RunResult& result);
+
+/// Solves every frequency's steady state (method "harmonic"). \throws as Harmonic does.
+void solve_frequencies(const Scene& scene, const Preparation& prepared, const Progress& progress, const Saving& save,
+                       RunResult& result);
+
+/// Density scaling of a frequency of the scene.
+double density_scaling_of(const SolverSpec& solver, std::size_t frequency);
+
+}  // namespace macadam

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// solve_frequencies.cpp  Method "harmonic": the steady state of every frequency; the factors of one serve all.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "host/simulation/solution.hpp"
+#include "macadam/harmonic.hpp"
+
+namespace macadam {
+
+void solve_frequencies(const Scene& scene, const Preparation& prepared, const Progress& progress, const Saving& save,
+                       RunResult& result) {
+  const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
+  const auto& frequencies = scene.loading.frequencies;
+  double log_sum = 0;  // the preconditioner is made at the geometric mean, halfway for a relaxation spectrum
+  for (const double f : frequencies) log_sum += std::log(f);
+  result.solver = scene.solver.inertia ? "harmonic, with inertia" : "harmonic, without inertia";
+  save("running");
+  if (progress) progress("harmonic: factoring", 0);
+  Harmonic harmonic(prepared.specimen, prepared.network, scene.laws, inertia, {},
+                    std::exp(log_sum / static_cast<double>(frequencies.size())));
+  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    if (progress) {
+      progress(fmt::format("harmonic: {} Hz ({} of {})", frequencies[i], i + 1, frequencies.size()),
+               static_cast<double>(i) / static_cast<double>(frequencies.size()));
+    }
+    FrequencyResult f;
+    f.density_scaling = scene.solver.inertia ? density_scaling_of(scene.solver, i) : 0;
+    const HarmonicResult solved = harmonic.solve(frequencies[i], f.density_scaling);
+    f.frequency_hz = frequencies[i];
+    f.method = SolverMethod::harmonic;
+    f.stiffness = solved.top;
+    f.bottom = solved.bottom;
+    f.residual = solved.residual;
+    f.iterations = solved.iterations;
+    f.held_force = solved.held_force;
+    f.seconds = solved.seconds;
+    result.frequencies.push_back(f);
+    save("running");
+  }
+}
+
+}  // namespace macadam

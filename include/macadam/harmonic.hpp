@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file harmonic.hpp  The steady state of a linear scene at one frequency: (K*(ω) − ω²M)·u = f.
+///
+/// Same contact network, same area moments, same wall contacts as the time stepping (geometry of the start), so that it
+/// is both the accuracy reference of every explicit run and the fast way to |E*| and φ.
+#pragma once
+
+#include <array>
+#include <complex>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "macadam/contact_network.hpp"
+#include "macadam/laws/all.hpp"
+#include "macadam/results.hpp"
+#include "macadam/stepper.hpp"
+
+namespace macadam {
+
+/// What the harmonic solver is told once.
+struct HarmonicOptions {
+  double tolerance = 1e-11;  ///< largest relative residual ‖f − K·u‖ / ‖f‖
+  int max_iterations = 500;
+};
+
+/// One frequency's steady state.
+struct HarmonicResult {
+  double frequency_hz = 0;
+  Stiffness top, bottom;  ///< from the reaction of the top and of the bottom wall; equal without inertia
+  double residual = 0;    ///< relative, computed anew from the solution
+  int iterations = 0;
+  double held_force = 0;  ///< force that holds free rigid motions / reaction; rounding, where nothing is wrong
+  double seconds = 0;
+  /// Complex displacement and rotation of each particle (ux uy uz θx θy θz) per unit displacement of the top wall.
+  std::vector<std::complex<double>> motion;
+};
+
+/// Solves one scene at any number of frequencies; the preconditioner is factored once.
+class Harmonic {
+ public:
+  /// \throws InputError naming the particles of a cluster that does not touch both walls, or a pair without a law;
+  /// RunError when the stiffness is singular (a mechanism).
+  Harmonic(const Specimen& specimen, const ContactNetwork& network,
+           const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+           const HarmonicOptions& options, double typical_frequency);
+  ~Harmonic();
+
+  /// Without inertia where `density_scaling` is 0; else with −ω²M times it, as an explicit run of that scaling has.
+  /// \throws RunError when the residual does not come down to the tolerance.
+  HarmonicResult solve(double frequency_hz, double density_scaling = 0);
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace macadam

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// command_line_test.cpp  The program as a user meets it: exit codes, messages, files.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "macadam/macadam.hpp"
+
+namespace macadam::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Laws of binder AM1 and densities.
+constexpr const char* materials = R"(
+[materials.aggregate]
+density = 2630.0
+[materials.mastic]
+density = 2110.0
+[[contacts]]
+pair = "M-M"
+law = "generalised_kelvin"
+E_m = 1.115e10
+C_m = 2.515e9
+E = [3.799e8, 1.600e9, 4.308e10]
+C = [8.950e9, 5.695e9, 1.114e9]
+alpha = 0.10
+[[contacts]]
+pair = "M-A"
+law = "generalised_kelvin"
+E_m = 3.511e10
+C_m = 7.921e9
+E = [1.197e9, 5.039e9, 1.357e11]
+C = [2.819e10, 1.794e10, 3.510e9]
+alpha = 0.10
+[[contacts]]
+pair = "A-A"
+law = "elastic"
+E = 1.151e11
+alpha = 0.05
+[[contacts]]
+pair = "A-W"
+law = "elastic"
+E = 1.151e11
+alpha = 0.0
+[[contacts]]
+pair = "M-W"
+law = "elastic"
+E = 3.511e10
+alpha = 0.0
+)";
+
+/// One cycle of 500 steps at 20 Hz.
+constexpr const char* quick = "density_scaling = 1e6\n";
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_TRUE(in) << file;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) out.push_back(line);
+  return out;
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+class CommandLine : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              fmt::format("macadam_cli_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(), getpid());
+    fs::create_directories(folder_);
+    fs::copy_file(MACADAM_TEST_DATA "/t8.csv", folder_ / "t8.csv");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Runs the program in a shell; output goes to files, which are no terminals.
+  Outcome macadam(const std::string& arguments) const {
+    const fs::path out = folder_ / "stdout.txt", err = folder_ / "stderr.txt";
+    const int status = std::system(
+        fmt::format("'{}' {} >'{}' 2>'{}' </dev/null", MACADAM_PROGRAM, arguments, out.string(), err.string()).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+  }
+
+  std::string path(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+
+  /// A scene of the 175 particles; the specimen's path is relative to it.
+  fs::path write_scene(const std::string& solver = quick, const std::string& more = "") const {
+    const fs::path file = folder_ / "scene.toml";
+    std::ofstream(file) << "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n"
+                        << "[loading]\nkind = \"cyclic\"\nfrequencies = [20.0]\ncycles = 1\n"
+                        << "[solver]\n"
+                        << solver << more << materials;
+    return file;
+  }
+
+  Outcome run_quick(const std::string& out, const std::string& options = "--backend cpu") const {
+    return macadam(fmt::format("run {} --out {} {}", path("scene.toml"), path(out), options));
+  }
+
+  nlohmann::json summary(const std::string& out) const {
+    return nlohmann::json::parse(read(folder_ / out / "summary.json"));
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(CommandLine, InfoNamesVersionBackendsAndChoice) {
+  const Outcome info = macadam("info");
+  EXPECT_EQ(info.code, 0) << info.err;
+  EXPECT_TRUE(contains(info.out, std::string("macadam ") + version())) << info.out;
+  for (const char* word : {"cpu", "reference", "cuda", "auto"}) EXPECT_TRUE(contains(info.out, word)) << word;
+  EXPECT_TRUE(contains(info.out, report_backends().cuda_status)) << info.out;
+  EXPECT_TRUE(contains(macadam("--version").out, version()));
+}
+
+TEST_F(CommandLine, HelpOnEachCommand) {
+  const std::map<std::string, std::vector<std::string>> expected{
+      {"", {"run", "specimen", "info"}},
+      {"run", {"--out", "--backend", "--precision", "--threads", "scene"}},
+      {"specimen", {"--out", "scene"}},
+      {"info", {"--help"}}};
+  for (const auto& [command, words] : expected) {
+    const Outcome help = macadam(command + " --help");
+    EXPECT_EQ(help.code, 0) << command;
+    for (const auto& word : words) EXPECT_TRUE(contains(help.out, word)) << command << ": " << word;
+  }
+}
+
+TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
+  write_scene();
+  const std::string job = path("scene.toml") + " --out " + path("out");
+  for (const std::string& arguments : std::vector<std::string>{
+           "", "fly", "info --colour", "run " + path("scene.toml"), "run --out x", "run " + job + " --frobnicate",
+           "run " + job + " --backend gpu", "run " + job + " --precision half", "run " + job + " --threads 0",
+           "run " + job + " --threads two", "specimen " + job + " --threads 1"}) {
+    const Outcome outcome = macadam(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_FALSE(outcome.err.empty()) << arguments;
+  }
+  EXPECT_TRUE(contains(macadam("run " + job + " --frobnicate").err, "--frobnicate"));
+  EXPECT_TRUE(contains(macadam("run " + job + " --backend gpu").err, "gpu"));
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(CommandLine, WrongInputIsExitCodeTwoAndNamesTheLine) {
+  for (const char* command : {"run", "specimen"}) {
+    const auto job = [&](const std::string& scene) {
+      return macadam(fmt::format("{} {} --out {}", command, path(scene), path("out")));
+    };
+    const Outcome missing = job("nowhere.toml");
+    EXPECT_EQ(missing.code, 2);
+    EXPECT_TRUE(contains(missing.err, "nowhere.toml")) << missing.err;
+
+    write_scene("density_scalling = 1e6\n");  // line 9
+    const Outcome misspelt = job("scene.toml");
+    EXPECT_EQ(misspelt.code, 2);
+    EXPECT_TRUE(contains(misspelt.err, "scene.toml:9:")) << misspelt.err;
+    EXPECT_TRUE(contains(misspelt.err, "density_scaling")) << misspelt.err;
+
+    write_scene();
+    fs::rename(folder_ / "t8.csv", folder_ / "moved.csv");
+    const Outcome no_specimen = job("scene.toml");
+    EXPECT_EQ(no_specimen.code, 2);
+    EXPECT_TRUE(contains(no_specimen.err, "t8.csv")) << no_specimen.err;
+    fs::rename(folder_ / "moved.csv", folder_ / "t8.csv");
+
+    std::string text = read(folder_ / "t8.csv");
+    std::ofstream(folder_ / "t8.csv") << text << "175,0.001,0.001,0.001,-0.5,mastic,-1\n";
+    const Outcome bad_particle = job("scene.toml");
+    EXPECT_EQ(bad_particle.code, 2);
+    EXPECT_TRUE(contains(bad_particle.err, "175")) << bad_particle.err;
+    std::ofstream(folder_ / "t8.csv") << text;
+  }
+}
+
+TEST_F(CommandLine, SpecimenWritesParticlesAndContacts) {
+  write_scene(quick, "[output]\ncontacts = true\n");
+  const Outcome outcome = macadam("specimen " + path("scene.toml") + " --out " + path("made/here"));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "175 particles")) << outcome.out;
+  const auto particles = lines_of(read(folder_ / "made/here/specimen.csv"));
+  EXPECT_EQ(particles.size(), 176u);
+  EXPECT_EQ(particles[0], "id,x,y,z,radius,phase,body");
+  const auto contacts = lines_of(read(folder_ / "made/here/contacts.csv"));
+  EXPECT_EQ(contacts[0], "a,b,pair,area,distance,nx,ny,nz,points");
+  const auto summary = this->summary("made/here");
+  EXPECT_EQ(summary.at("status"), "prepared");
+  EXPECT_TRUE(summary.at("results").empty());
+  std::size_t count = 0;
+  for (const auto& [pair, number] : summary.at("contacts").items()) count += number.get<std::size_t>();
+  EXPECT_EQ(contacts.size(), count + 1);
+  EXPECT_FALSE(fs::exists(folder_ / "made/here/response.csv"));
+}
+
+TEST_F(CommandLine, RunWritesItsFilesWithoutProgressText) {
+  write_scene();
+  const Outcome outcome = run_quick("out");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out.find_first_of("\r\033"), std::string::npos);
+  EXPECT_TRUE(contains(outcome.out, "|E*| (GPa)")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, (folder_ / "out").string())) << outcome.out;
+  const auto response = lines_of(read(folder_ / "out/response.csv"));
+  EXPECT_EQ(response.size(), 502u);  // header, start, 500 samples
+  EXPECT_EQ(response[0], "frequency_hz,time_s,strain,stress_pa");
+  EXPECT_EQ(lines_of(read(folder_ / "out/specimen.csv")).size(), 176u);
+  EXPECT_FALSE(fs::exists(folder_ / "out/contacts.csv"));  // nobody asked
+  const auto summary = this->summary("out");
+  EXPECT_EQ(summary.at("status"), "done");
+  EXPECT_EQ(summary.at("solver").at("backend"), "cpu");
+  EXPECT_EQ(summary.at("solver").at("steps"), 500);
+  EXPECT_GT(summary.at("results").at(0).at("e_star_pa"), 1e9);
+}
+
+TEST_F(CommandLine, SameSceneSameBytes) {
+  write_scene("density_scaling = 1e5\n");
+  const std::vector<std::string> options{"--threads 1", "--threads 1", "--threads 2", ""};
+  std::vector<std::string> responses;
+  for (const auto& option : options) {
+    ASSERT_EQ(run_quick("out", "--backend cpu " + option).code, 0);
+    responses.push_back(read(folder_ / "out/response.csv"));
+  }
+  EXPECT_GT(responses[0].size(), 500u * 20);
+  for (std::size_t k = 1; k < options.size(); ++k) EXPECT_TRUE(responses[k] == responses[0]) << options[k];
+}
+
+// The command line overrides the scene. 500 steps in single precision round by up to 500·2⁻²⁴ = 3e-5.
+TEST_F(CommandLine, OtherPrecisionsAndTheReferenceRun) {
+  write_scene();
+  ASSERT_EQ(run_quick("double").code, 0);
+  const double expected = summary("double").at("results").at(0).at("e_star_pa");
+  struct Choice {
+    const char *options, *backend, *precision;
+    double tolerance;
+  };
+  for (const Choice& c : {Choice{"--backend cpu --precision single", "cpu", "single", 3e-5},
+                          Choice{"--backend cpu --precision mixed", "cpu", "mixed", 3e-5},
+                          Choice{"--backend reference", "reference", "double", 1e-10}}) {
+    const Outcome outcome = run_quick("other", c.options);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(contains(outcome.out, c.precision)) << outcome.out;
+    const auto other = summary("other");
+    EXPECT_EQ(other.at("solver").at("backend"), c.backend);
+    EXPECT_EQ(other.at("solver").at("precision"), c.precision);
+    const double found = other.at("results").at(0).at("e_star_pa");
+    EXPECT_NEAR(found / expected, 1, c.tolerance) << c.options;
+    EXPECT_TRUE(found != expected) << c.options << ": did it run at all?";
+  }
+}
+
+TEST_F(CommandLine, CudaWithoutADeviceFailsAndLeavesOldResultsAlone) {
+  write_scene();
+  ASSERT_EQ(run_quick("out").code, 0);
+  const std::string response = read(folder_ / "out/response.csv"), summary = read(folder_ / "out/summary.json");
+  const Outcome cuda = run_quick("out", "--backend cuda");
+  if (!report_backends().devices.empty()) {
+    EXPECT_EQ(cuda.code, 0) << cuda.err;
+    EXPECT_EQ(this->summary("out").at("solver").at("backend"), "cuda");
+    return;
+  }
+  EXPECT_EQ(cuda.code, 1);
+  EXPECT_TRUE(contains(cuda.err, "cuda") && contains(cuda.err, "cpu")) << cuda.err;  // what and instead
+  EXPECT_TRUE(contains(cuda.err, report_backends().cuda_status)) << cuda.err;        // why
+  EXPECT_TRUE(read(folder_ / "out/response.csv") == response);
+  EXPECT_TRUE(read(folder_ / "out/summary.json") == summary);
+}
+
+// A step of 1e-4 s is 1.5 times the limit for this mass: it takes some samples to leave the range of sense.
+TEST_F(CommandLine, ADivergingRunNamesAParticleAndKeepsItsFiles) {
+  write_scene("density_scaling = 2e5\ntime_step = 1e-4\n");
+  const Outcome outcome = run_quick("out");
+  EXPECT_EQ(outcome.code, 1);
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(outcome.err, found, std::regex("particle ([0-9]+) .*at t = ([0-9.e+-]+) s")))
+      << outcome.err;
+  EXPECT_LT(std::stoi(found[1]), 175);
+  const double failed_at = std::stod(found[2]);
+
+  const std::string text = read(folder_ / "out/response.csv");
+  EXPECT_EQ(text.back(), '\n');
+  const auto response = lines_of(text);
+  ASSERT_GT(response.size(), 3u);
+  ASSERT_LT(response.size(), 502u);
+  double time = -1;
+  for (std::size_t k = 1; k < response.size(); ++k) {
+    double f = 0, strain = 0, stress = 0;
+    int end = 0;
+    ASSERT_EQ(std::sscanf(response[k].c_str(), "%lf,%lf,%lf,%lf%n", &f, &time, &strain, &stress, &end), 4);
+    ASSERT_EQ(static_cast<std::size_t>(end), response[k].size()) << response[k];
+    ASSERT_TRUE(std::isfinite(stress)) << response[k];
+  }
+  EXPECT_NEAR(failed_at - time, 1e-4, 1e-7);  // it stopped one sample after the last good one
+  const auto summary = this->summary("out");
+  EXPECT_EQ(summary.at("status").get<std::string>().rfind("failed", 0), 0u) << summary.at("status");
+  EXPECT_TRUE(contains(summary.at("status"), "particle " + found[1].str()));
+  EXPECT_TRUE(summary.at("results").empty());
+  EXPECT_EQ(lines_of(read(folder_ / "out/specimen.csv")).size(), 176u);
+}
+
+TEST_F(CommandLine, AFolderThatCannotBeMadeIsExitCodeOne) {
+  write_scene();
+  std::ofstream(folder_ / "file") << "in the way\n";
+  for (const char* out : {"file", "file/below"}) {
+    for (const char* command : {"run", "specimen"}) {
+      const Outcome outcome = macadam(fmt::format("{} {} --out {}", command, path("scene.toml"), path(out)));
+      EXPECT_EQ(outcome.code, 1) << outcome.err;
+      EXPECT_TRUE(contains(outcome.err, (folder_ / out).string())) << outcome.err;
+    }
+  }
+  EXPECT_EQ(read(folder_ / "file"), "in the way\n");
+}
+
+TEST_F(CommandLine, AFileThatCannotBeWrittenIsExitCodeOne) {
+  write_scene();
+  fs::create_directories(folder_ / "out/response.csv");  // a folder where the file should be
+  const Outcome outcome = run_quick("out");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_TRUE(contains(outcome.err, "response.csv")) << outcome.err;
+}
+
+}  // namespace
+}  // namespace macadam::test

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// cyclic_test.cpp  Signals of known |E*| and φ read back, and the loading that makes them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <random>
+
+#include "macadam/macadam.hpp"
+
+namespace macadam::test {
+namespace {
+
+constexpr double pi = std::numbers::pi, degree = pi / 180;
+constexpr double strain_amplitude = 1e-4, modulus = 1.17e10;
+
+/// A test that samples −ε·sin(ωt) and a stress given by the phase 2π·cycles.
+struct Signal {
+  double frequency = 20, phase_deg = 7;
+  int per_cycle = 500, cycles = 4;
+  double first_cycle = 0;  ///< where the samples begin
+
+  using Addition = std::function<double(double cycles)>;  ///< in units of the amplitude
+
+  std::vector<ResponseSample> samples(const Addition& to_stress = {}, const Addition& to_strain = {}) const {
+    std::vector<ResponseSample> out;
+    for (int k = 0; k <= per_cycle * cycles; ++k) {
+      const double x = static_cast<double>(k) / per_cycle, angle = 2 * pi * x;
+      const double strain = -std::sin(angle) + (to_strain ? to_strain(x) : 0);
+      const double stress = -std::sin(angle + phase_deg * degree) + (to_stress ? to_stress(x) : 0);
+      out.push_back(
+          {frequency, (first_cycle + x) / frequency, strain_amplitude * strain, strain_amplitude * modulus * stress});
+    }
+    return out;
+  }
+};
+
+void expect_stiffness(const Stiffness& found, double phase_deg, double relative, double radians) {
+  EXPECT_NEAR(found.e_star_pa / modulus, 1, relative);
+  EXPECT_NEAR(found.phase_deg * degree, phase_deg * degree, radians);
+}
+
+TEST(EvaluateCyclic, SinusoidsAreReadToRounding) {
+  for (const double phase : {0.0, 1e-6, 6.97771, 27.4374, 45.0, 89.999, 90.0}) {
+    for (const double frequency : {0.1, 2.0, 20.0, 1000.0}) {
+      for (const auto& [per_cycle, cycles, fit_cycles] : {std::tuple{500, 4, 2}, {37, 3, 3}, {8, 1, 1}, {500, 5, 1}}) {
+        SCOPED_TRACE(testing::Message() << phase << "°, " << frequency << " Hz, " << per_cycle << " a cycle");
+        const Signal signal{frequency, phase, per_cycle, cycles};
+        const CyclicResult found = evaluate_cyclic(signal.samples(), frequency, fit_cycles);
+        expect_stiffness(found.fit, phase, 1e-12, 1e-12);
+        EXPECT_LT(found.fit_rms, 1e-12);
+      }
+    }
+  }
+}
+
+// t·f loses ε·t·f of its fraction: 1e5 cycles are a phase of 2π·1e-11 in strain and stress alike.
+TEST(EvaluateCyclic, LateCyclesAreAsGood) {
+  Signal signal;
+  signal.first_cycle = 1e5;
+  expect_stiffness(evaluate_cyclic(signal.samples(), signal.frequency, 2).fit, signal.phase_deg, 1e-10, 2e-10);
+}
+
+TEST(EvaluateCyclic, OffsetAndTrendAreTakenOutExactly) {
+  const auto drift = [](double x) { return 3.0 - 0.8 * x; };
+  const auto other = [](double x) { return -0.2 + 0.05 * x; };
+  const Signal signal;
+  const CyclicResult found = evaluate_cyclic(signal.samples(drift, other), signal.frequency, 2);
+  expect_stiffness(found.fit, signal.phase_deg, 1e-12, 1e-12);
+  EXPECT_LT(found.fit_rms, 1e-12);
+}
+
+// White noise of deviation s on N samples moves a fitted amplitude by s·√(2/N) in each direction; five deviations are
+// allowed. The residual is s, to s/√(2N).
+TEST(EvaluateCyclic, NoiseMovesTheFitByItsShare) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0, 0.05);
+  const Signal signal;
+  const CyclicResult found =
+      evaluate_cyclic(signal.samples([&](double) { return noise(random); }), signal.frequency, 2);
+  const double samples = 2.0 * signal.per_cycle, deviation = 0.05 * std::sqrt(2 / samples);
+  expect_stiffness(found.fit, signal.phase_deg, 5 * deviation, 5 * deviation);
+  EXPECT_NEAR(found.fit_rms, 0.05, 5 * 0.05 / std::sqrt(2 * samples));
+  EXPECT_GT(std::abs(found.peaks.e_star_pa / modulus - 1), 5 * deviation);  // what the fit is for
+}
+
+// A ringing of r periods a cycle leaks into the fundamental over c cycles by at most (1/(r − 1) + 1/(r + 1))/(π·c) of
+// its amplitude, once more for what the trend takes of it. Peaks take it almost whole.
+TEST(EvaluateCyclic, RingingHardlyMovesTheFit) {
+  constexpr double ringing = 0.02;
+  const Signal signal;
+  for (const double periods : {40.3, 83.0, 157.77}) {
+    const double bound = 2 * ringing * (1 / (periods - 1) + 1 / (periods + 1)) / (2 * pi);
+    const auto wave = [&](double x) { return ringing * std::sin(2 * pi * periods * x + 0.4); };
+    const CyclicResult found = evaluate_cyclic(signal.samples(wave), signal.frequency, 2);
+    expect_stiffness(found.fit, signal.phase_deg, bound, bound);
+    EXPECT_NEAR(found.fit_rms, ringing / std::sqrt(2), 0.02 * ringing);
+    EXPECT_GT(std::abs(found.peaks.e_star_pa / modulus - 1), 0.25 * ringing) << periods;
+  }
+}
+
+// Samples h apart, a crest δ from the nearest: the parabola's crest lies (h/2)·tan δ/tan(h/2) from it and is
+// δ²·(h² − δ²)/8 too low. Over |δ| ≤ h/2 these are at most h³/62 in angle and 3h⁴/128 in height; strain and stress have
+// an error each.
+void expect_peaks_good_to_the_sampling(double phase, int per_cycle) {
+  SCOPED_TRACE(testing::Message() << phase << "°, " << per_cycle << " samples a cycle");
+  const double h = 2 * pi / per_cycle;
+  Signal signal;
+  signal.phase_deg = phase;
+  signal.per_cycle = per_cycle;
+  const CyclicResult found = evaluate_cyclic(signal.samples(), signal.frequency, 2);
+  expect_stiffness(found.peaks, phase, 2.2 * 3 * h * h * h * h / 128 + 1e-12, 2.2 * h * h * h / 62 + 1e-12);
+}
+
+TEST(EvaluateCyclic, PeaksAreGoodToTheSampling) {
+  for (const int per_cycle : {50, 500}) {
+    for (const double phase : {0.0, 0.3, 6.97771, 27.4374, 45.1, 80.0}) {
+      expect_peaks_good_to_the_sampling(phase, per_cycle);
+    }
+  }
+}
+
+// Stress a quarter ahead of −sin(ωt) has its trough where a cycle ends and the next begins.
+TEST(EvaluateCyclic, PeaksAtTheEndOfACycleAreAsGood) {
+  for (const int per_cycle : {50, 500}) {
+    for (const double phase : {89.0, 89.64, 89.9, 90.0}) expect_peaks_good_to_the_sampling(phase, per_cycle);
+  }
+}
+
+/// A signal that changes its stiffness and phase at the end of each cycle.
+std::vector<ResponseSample> changing(int cycles, double growth, double turn_deg, int per_cycle = 200) {
+  std::vector<ResponseSample> out;
+  for (int k = 0; k <= cycles * per_cycle; ++k) {
+    const int cycle = k == 0 ? 0 : (k - 1) / per_cycle;  // the sample at its end belongs to a cycle
+    const double angle = 2 * pi * k / per_cycle, phase = (10 + turn_deg * cycle) * degree;
+    out.push_back({5, k / (5.0 * per_cycle), strain_amplitude * std::sin(angle),
+                   strain_amplitude * modulus * std::pow(1 + growth, cycle) * std::sin(angle + phase)});
+  }
+  return out;
+}
+
+TEST(EvaluateCyclic, ChangeFromCycleToCycle) {
+  const CyclicResult found = evaluate_cyclic(changing(4, 0.01, -0.2), 5, 1);
+  EXPECT_NEAR(found.change_e_star, 0.01, 1e-11);
+  EXPECT_NEAR(found.change_phase_deg, -0.2, 1e-10);
+  EXPECT_NEAR(found.fit.e_star_pa / modulus, std::pow(1.01, 3), 1e-11);  // the last cycle alone is fitted
+  EXPECT_NEAR(found.fit.phase_deg, 10 - 3 * 0.2, 1e-10);
+
+  const CyclicResult steady = evaluate_cyclic(Signal{}.samples(), 20, 1);
+  EXPECT_NEAR(steady.change_e_star, 0, 1e-12);
+  EXPECT_NEAR(steady.change_phase_deg, 0, 1e-10);
+
+  const CyclicResult single = evaluate_cyclic(changing(1, 0, 0), 5, 1);
+  EXPECT_TRUE(std::isnan(single.change_e_star));
+  EXPECT_TRUE(std::isnan(single.change_phase_deg));
+}
+
+TEST(EvaluateCyclic, OnlyTheLastCyclesCount) {
+  std::vector<ResponseSample> samples = Signal{}.samples();
+  for (std::size_t k = 0; k <= 1000; ++k) samples[k].stress_pa = 1e12;  // two cycles, the sample at their end included
+  expect_stiffness(evaluate_cyclic(samples, 20, 2).fit, 7, 1e-12, 1e-12);
+  samples[1001].stress_pa = 1e12;
+  EXPECT_GT(std::abs(evaluate_cyclic(samples, 20, 2).fit.e_star_pa / modulus - 1), 1e-3);
+}
+
+TEST(EvaluateCyclic, TooLittleIsAnError) {
+  const auto refused = [](std::span<const ResponseSample> samples, double frequency, int fit_cycles) {
+    try {
+      evaluate_cyclic(samples, frequency, fit_cycles);
+      return std::string("accepted");
+    } catch (const InputError& error) { return std::string(error.what()); }
+  };
+  const std::vector<ResponseSample> samples = Signal{20, 7, 100, 2}.samples();
+  const std::span<const ResponseSample> all(samples);
+  EXPECT_NE(refused(all.first(0), 20, 1).find("0 samples"), std::string::npos);
+  EXPECT_NE(refused(all.first(4), 20, 1).find("4 samples"), std::string::npos);
+  EXPECT_NE(refused(all.first(100), 20, 1).find("0.99"), std::string::npos) << "a sample short of a cycle";
+  EXPECT_EQ(refused(all.first(101), 20, 1), "accepted");
+  EXPECT_NE(refused(all, 20, 3).find("at least 3"), std::string::npos);
+  EXPECT_NE(refused(all, 20, 0), "accepted");
+  EXPECT_NE(refused(all, 0, 1), "accepted");
+  EXPECT_NE(refused(all, NAN, 1), "accepted");
+}
+
+// ---- the loading
+
+loadings::Cyclic loading_of(std::int64_t steps_per_period, std::int64_t ramp_steps) {
+  loadings::Cyclic out;
+  out.amplitude = 1.1e-6;
+  out.frequency = 20;
+  out.steps_per_period = steps_per_period;
+  out.ramp_steps = ramp_steps;
+  return out;
+}
+
+// Rounding of a sum of n steps of up to A·2π/n each: a walk far below 1e-12·A.
+TEST(CyclicLoading, VelocityIsTheMeanRateOfDisplacement) {
+  for (const std::int64_t n : {8, 500, 43'500}) {
+    const loadings::Cyclic loading = loading_of(n, 0);
+    double sum = 0;
+    for (std::int64_t k = 0; k < 3 * n; ++k) {
+      sum += loading.dt() * loading.velocity(k);
+      ASSERT_NEAR(sum, loading.displacement(k + 1), 1e-12 * loading.amplitude) << k << " of " << n;
+    }
+  }
+}
+
+// During the start the product r·sin is differenced by its factors at the middle of the step: exact to Δt³ a step,
+// hence to Δt² at the end of the start, and constant from there.
+TEST(CyclicLoading, VelocityDuringTheSmoothStartIsOfSecondOrder) {
+  std::vector<double> errors;
+  for (const std::int64_t n : {100, 200, 400}) {
+    const loadings::Cyclic loading = loading_of(n, 3 * n / 4);
+    double sum = 0, worst = 0;
+    for (std::int64_t k = 0; k < 2 * n; ++k) {
+      sum += loading.dt() * loading.velocity(k);
+      worst = std::max(worst, std::abs(sum - loading.displacement(k + 1)) / loading.amplitude);
+    }
+    EXPECT_LT(worst, std::pow(2 * pi / static_cast<double>(n), 2));
+    errors.push_back(worst);
+  }
+  EXPECT_NEAR(errors[0] / errors[1], 4, 0.4);
+  EXPECT_NEAR(errors[1] / errors[2], 4, 0.2);
+}
+
+TEST(CyclicLoading, PhaseIsExactHoweverLongTheRun) {
+  const loadings::Cyclic loading = loading_of(43'500, 0);
+  for (const std::int64_t k : {std::int64_t{1}, std::int64_t{12'345}, std::int64_t{43'499}}) {
+    const double angle = 2 * pi * static_cast<double>(k) / 43'500;
+    // angles below 2π round by up to 9e-16 here and there
+    EXPECT_NEAR(loading.displacement(k), -1.1e-6 * std::sin(angle), 2e-15 * 1.1e-6);
+    EXPECT_NEAR(loading.displacement(k, 1), -1.1e-6 * std::sin(angle + pi / 43'500), 2e-15 * 1.1e-6);
+    for (const std::int64_t periods : {std::int64_t{23'000}, std::int64_t{1'000'000'000}}) {  // from 1e9 steps on
+      EXPECT_EQ(loading.displacement(k + periods * 43'500), loading.displacement(k));
+      EXPECT_EQ(loading.velocity(k + periods * 43'500), loading.velocity(k));
+    }
+  }
+}
+
+TEST(CyclicLoading, StartsSmoothlyFromNothingToAll) {
+  const loadings::Cyclic plain = loading_of(1000, 0), smooth = loading_of(1000, 2500);
+  EXPECT_EQ(smooth.displacement(0), 0);
+  double before = 0;
+  for (std::int64_t k = 1; k < 2500; ++k) {
+    if (k % 500 == 0) continue;  // the sine is zero
+    const double ramp = smooth.displacement(k) / plain.displacement(k);
+    ASSERT_GT(ramp, before) << k;
+    ASSERT_LT(ramp, 1) << k;
+    before = ramp;
+  }
+  EXPECT_NEAR(smooth.displacement(1250) / plain.displacement(1250), 0.5, 1e-14);
+  for (const std::int64_t k : {2500, 2501, 3250, 99'999}) EXPECT_EQ(smooth.displacement(k), plain.displacement(k));
+  // No jump of velocity: it begins as the cube of time, r·sin ≈ (π/2·k/2500)²·2πk/1000.
+  EXPECT_LT(std::abs(smooth.velocity(0)), 1e-5 * std::abs(plain.velocity(0)));
+}
+
+}  // namespace
+}  // namespace macadam::test
