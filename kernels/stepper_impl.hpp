@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepper_impl.hpp  The step, for any executor. stepper_cpu.cpp and stepper_cuda.cu compile it.
+/// \file stepper_impl.hpp  The step, for any executor. stepper_cpu_*.cpp and stepper_cuda_*.cu compile it.
 #pragma once
 
 #include <cmath>
@@ -172,17 +172,12 @@ class StepperImpl final : public Stepper {
   std::int64_t step_ = 0;
 };
 
-/// Makes the stepper of an executor in the precision asked for.
-template <template <class> class Exec, class... Args>
-std::unique_ptr<Stepper> make_in_precision(Precision precision, const Args&... args) {
-  switch (precision) {
-    case Precision::single:
-      return std::make_unique<StepperImpl<Exec<SinglePrecision>>>(args...);
-    case Precision::mixed:
-      return std::make_unique<StepperImpl<Exec<MixedPrecision>>>(args...);
-    default:
-      return std::make_unique<StepperImpl<Exec<DoublePrecision>>>(args...);
-  }
+/// Instantiated once an executor and precision, in a file of its own.
+template <class Exec>
+std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
+                                         const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+                                         const StepperOptions& options) {
+  return std::make_unique<StepperImpl<Exec>>(specimen, network, laws, inertia, options);
 }
 
 }  // namespace macadam::kernels

@@ -1,21 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file steppers.hpp  Makers of the backends' steppers; arguments as make_stepper().
+/// \file steppers.hpp  Makers of the backends' steppers, and the choice of precision.
 #pragma once
 
 #include <memory>
 
+#include "kernels/precision.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam::kernels {
 
-std::unique_ptr<Stepper> make_cpu_stepper(const Specimen& specimen, const ContactNetwork& network,
-                                          const std::array<std::optional<Law>, pair_types>& laws,
-                                          const Inertia& inertia, const StepperOptions& options);
+template <class P>
+class ExecCpu;
+template <class P>
+class ExecCuda;  // only in builds with CUDA
 
-/// Only in builds with CUDA.
-std::unique_ptr<Stepper> make_cuda_stepper(const Specimen& specimen, const ContactNetwork& network,
+/// The stepper of one executor; arguments as make_stepper(). Defined in stepper_impl.hpp, compiled in stepper_*.
+template <class Exec>
+std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
+                                         const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+                                         const StepperOptions& options);
+
+/// The stepper of a family of executors in the precision that the options ask for.
+template <template <class> class Exec>
+std::unique_ptr<Stepper> make_in_precision(const Specimen& specimen, const ContactNetwork& network,
                                            const std::array<std::optional<Law>, pair_types>& laws,
-                                           const Inertia& inertia, const StepperOptions& options);
+                                           const Inertia& inertia, const StepperOptions& options) {
+  switch (options.precision) {
+    case Precision::single:
+      return make_stepper_on<Exec<SinglePrecision>>(specimen, network, laws, inertia, options);
+    case Precision::mixed:
+      return make_stepper_on<Exec<MixedPrecision>>(specimen, network, laws, inertia, options);
+    default:
+      return make_stepper_on<Exec<DoublePrecision>>(specimen, network, laws, inertia, options);
+  }
+}
 
 /// Only in builds with CUDA: the devices that answer; `status` says in words why there are none.
 std::vector<DeviceInfo> cuda_devices(std::string& status);

@@ -65,6 +65,14 @@ const std::vector<std::string> good = {
     "damping = 0.0",                        // 40
     "[output]",                             // 41
     "contacts = true",                      // 42
+    "[[contacts]]",                         // 43
+    "pair = \"M-A\"",                       // 44
+    "law = \"elastic\"",                    // 45
+    "E = 1e10",                             // 46
+    "[[contacts]]",                         // 47
+    "pair = \"M-W\"",                       // 48
+    "law = \"elastic\"",                    // 49
+    "E = 1e10",                             // 50
 };
 
 using Lines = std::vector<std::string>;
@@ -281,7 +289,7 @@ const std::vector<Wrong> wrong_scenes = {
     {"NotUtf8", {{3, "seed = 1 # \xff"}}, 3, "", "valid TOML"},
     // Types
     {"SectionIsANumber", {{41, ""}, {42, ""}, {1, "output = 5\n[specimen]"}}, 1, "5", "a section [output]"},
-    {"ContactsInSingleBrackets", {{14, "[contacts]"}, {22, ""}, {23, ""}, {24, ""}, {25, ""}, {26, ""}},
+    {"ContactsInSingleBrackets", {{14, "[contacts]"}, {22, ""}, {23, ""}, {24, ""}, {25, ""}, {26, ""}, {43, ""}, {44, ""}, {45, ""}, {46, ""}, {47, ""}, {48, ""}, {49, ""}, {50, ""}},
      14, "a table", "[[contacts]]"},
     {"MasticInDoubleBrackets", {{7, "[[specimen.mastic]]"}}, 7, "an array of 1", "[specimen.mastic]"},
     {"TextForANumber", {{32, "strain_amplitude = \"small\""}}, 32, "\"small\"", "without unit"},
@@ -369,7 +377,11 @@ const std::vector<Wrong> wrong_scenes = {
     {"FrequencyTwice", {{31, "frequencies = [5, 2, \"5000 mHz\"]"}}, 31, "5 Hz twice", "once"},
     {"FrequenciesEmpty", {{31, "frequencies = []"}, {37, ""}}, 31, "none", "at least one"},
     {"ScalingForTooFew", {{37, "density_scaling = [100]"}}, 37, "1 entries", "an array of 2"},
-    {"RampAsLongAsTheRun", {{34, "ramp_cycles = 4.5"}}, 34, "4.5", "at most 4"},
+    {"RampAsLongAsTheRun", {{34, "ramp_cycles = 4.5"}}, 34, "4.5", "at most 3: the last 2 of 5 cycles are fitted"},
+    {"NoLawForAPairThatIsGenerated", {{48, "pair = \"inner\""}}, 14, "no law for M-W", "pair = \"M-W\""},
+    {"NoLawOfMasticToAggregate", {{44, "pair = \"inner\""}}, 14, "no law for M-A", "pair = \"M-A\""},
+    {"ExactQuadratureOfTheReference", {{28, "quadrature = \"exact\""}, {39, "backend = \"reference\""}},
+     28, "\"reference\"", "\"lumped\""},
     {"FitLongerThanTheRun", {{34, "fit_cycles = 6"}}, 34, "6", "at most cycles, 5"},
     {"ExactQuadratureOfPoints", {{28, "quadrature = \"exact\""}, {39, "form = \"points\""}},
      28, "form = \"points\"", "\"lumped\""},

@@ -42,6 +42,7 @@ class T8 : public testing::Test {
     scene.laws = am1_laws();
     scene.loading.frequencies = {frequency};
     scene.loading.cycles = cycles;
+    scene.loading.fit_cycles = 2;
     scene.loading.samples_per_cycle = samples_per_cycle;
     scene.solver.density_scaling = {density_scaling};
     scene.solver.form = form;

@@ -39,6 +39,7 @@ void print_preparation(const Preparation& p) {
   if (p.network.dropped_gap + p.network.dropped_area > 0) {
     fmt::print("dropped: {} facets by gap_max, {} by area_min\n", p.network.dropped_gap, p.network.dropped_area);
   }
+  if (p.loose_particles > 0) fmt::print("warning: {} particles are not joined to both walls\n", p.loose_particles);
   fmt::print("specimen {:.2f} s, tessellation {:.2f} s, network {:.2f} s\n", p.seconds_specimen, p.seconds_tessellation,
              p.seconds_network);
 }

@@ -1,37 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rigid_motions.cpp  Clusters by union–find; free motions as the null space of the walls' stiffness on six rigid
+// rigid_motions.cpp  Free motions as the null space of the walls' stiffness on six rigid
 // motions.
 #include "host/harmonic/rigid_motions.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <map>
-#include <numeric>
 
+#include "host/network/clusters.hpp"
 #include "host/network/contact_stiffness.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {
 namespace {
-
-/// Smallest particle number of each particle's cluster.
-std::vector<std::int32_t> clusters(const ContactNetwork& network, std::size_t particles) {
-  std::vector<std::int32_t> parent(particles);
-  std::iota(parent.begin(), parent.end(), 0);
-  auto root = [&](std::int32_t i) {
-    while (parent[static_cast<std::size_t>(i)] != i) {
-      i = parent[static_cast<std::size_t>(i)] = parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
-    }
-    return i;
-  };
-  for (const Contact& c : network.contacts) {
-    if (c.b < 0) continue;
-    const std::int32_t a = root(c.a), b = root(c.b);
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-  for (std::size_t i = 0; i < particles; ++i) parent[i] = root(static_cast<std::int32_t>(i));
-  return parent;
-}
 
 /// Motion of a particle under the six rigid motions about the middle of the box, turns scaled to lengths.
 Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
@@ -44,53 +24,32 @@ Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
   return out;
 }
 
-void refuse(const std::vector<std::int32_t>& cluster, std::int32_t root, const char* wall) {
-  std::string numbers;
-  std::int64_t count = 0;
-  for (std::size_t i = 0; i < cluster.size(); ++i) {
-    if (cluster[i] != root) continue;
-    if (count++ < 10) numbers += (numbers.empty() ? "" : ", ") + std::to_string(i);
-  }
-  throw InputError("harmonic: the stiffness is singular: a cluster of " + std::to_string(count) + " particles (" +
-                   numbers + (count > 10 ? ", …" : "") + ") does not touch the " + wall +
-                   " wall; expected every particle to be joined to both walls (check gap_max and area_min)");
-}
-
 }  // namespace
 
 std::vector<Pin> pins_of_free_motions(const Specimen& specimen, const ContactNetwork& network,
                                       const PairStiffness& stiffness) {
-  struct Held {
-    bool bottom = false, top = false;
-    Matrix6 stiffness = Matrix6::Zero();
-  };
-  const std::vector<std::int32_t> cluster = clusters(network, specimen.size());
-  std::map<std::int32_t, Held> held;
-  for (const auto root : cluster) held[root];
-  for (const Contact& c : network.contacts) {
-    if (c.b >= 0) continue;
-    Held& h = held[cluster[static_cast<std::size_t>(c.a)]];
-    h.bottom |= c.b == wall_z_lo;
-    h.top |= c.b == wall_z_hi;
-    const auto pair = static_cast<std::size_t>(c.pair);
-    const Matrix6 motion = rigid(specimen, c.a);
-    h.stiffness +=
-        motion.transpose() * contact_block(c, stiffness.k[pair].real(), stiffness.alpha[pair], 0, 0) * motion;
-  }
-
   std::vector<Pin> pins;
-  for (const auto& [root, h] : held) {
-    if (!h.bottom) refuse(cluster, root, "bottom");
-    if (!h.top) refuse(cluster, root, "top");
-    const Eigen::SelfAdjointEigenSolver<Matrix6> modes(h.stiffness);
+  for (const Cluster& cluster : find_clusters(network, specimen.size())) {
+    if (!cluster.spans()) {
+      throw InputError("harmonic: the stiffness is singular: found " + describe(cluster) +
+                       ", expected every particle to be joined to both walls (check gap_max and area_min)");
+    }
+    Matrix6 walls = Matrix6::Zero();
+    for (const std::int32_t particle : cluster.particles) {
+      for (const std::uint32_t number : network.row(static_cast<std::size_t>(particle))) {
+        const Contact& c = network.contacts[number];
+        if (c.b >= 0) continue;
+        const auto pair = static_cast<std::size_t>(c.pair);
+        const Matrix6 motion = rigid(specimen, particle);
+        walls += motion.transpose() * contact_block(c, stiffness.k[pair].real(), stiffness.alpha[pair], 0, 0) * motion;
+      }
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix6> modes(walls);
     const double largest = modes.eigenvalues()(5);
     int free = 0;
     while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest) ++free;  // sums of at most 1e4 terms to rounding
     if (free == 0) continue;
-    std::vector<std::int32_t> members;
-    for (std::size_t i = 0; i < cluster.size(); ++i) {
-      if (cluster[i] == root) members.push_back(static_cast<std::int32_t>(i));
-    }
+    const std::vector<std::int32_t>& members = cluster.particles;
     // displacements (not rotations) of all members under the free motions; pivoting picks independent, far apart ones
     Eigen::MatrixXd motion(free, static_cast<Eigen::Index>(3 * members.size()));
     for (std::size_t k = 0; k < members.size(); ++k) {

@@ -43,8 +43,8 @@ Stiffness from_phasors(std::complex<double> strain, std::complex<double> stress)
   return {std::abs(modulus), std::arg(modulus) * 180 / std::numbers::pi};
 }
 
-/// Extreme value of one cycle and its time, by a parabola through the largest sample (sign = +1) or smallest (−1) and its
-/// neighbours. The cycle is taken as periodic, so that a peak at its end has both.
+/// Extreme value of one cycle and its time, by a parabola through the largest sample (sign = +1) or smallest (−1) and
+/// its neighbours. The cycle is taken as periodic, so that a peak at its end has both.
 template <class Value>
 std::pair<double, double> peak(std::span<const ResponseSample> cycle, double sign, Value value) {
   const std::size_t n = cycle.size();

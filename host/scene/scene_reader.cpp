@@ -88,6 +88,11 @@ NetworkSpec read_network(const Section& section) {
 
 /// What can only be said of two sections together.
 void check_together(const Scene& scene, const Section& root) {
+  if (scene.network.quadrature == Quadrature::exact && scene.solver.backend == Backend::reference &&
+      scene.solver.method == SolverMethod::explicit_) {
+    root.find("network")->section().refuse("quadrature", "\"exact\" beside backend = \"reference\" in [solver]",
+                                           "\"lumped\": the reference works per point");
+  }
   if (scene.network.quadrature == Quadrature::exact && scene.solver.form == ContactForm::points) {
     root.find("network")->section().refuse("quadrature", "\"exact\" beside form = \"points\" in [solver]",
                                            "\"lumped\", or form = \"condensed\"");
@@ -100,6 +105,17 @@ void check_together(const Scene& scene, const Section& root) {
   };
   need_density(!scene.specimen.aggregate.empty(), scene.materials.aggregate, "aggregate");
   need_density(scene.specimen.mastic.has_value(), scene.materials.mastic, "mastic");
+  const auto need_law = [&](PairType pair) {
+    if (!scene.laws[static_cast<std::size_t>(pair)]) {
+      root.refuse("contacts", std::string("no law for ") + to_string(pair) + ", which [specimen] generates",
+                  std::string("[[contacts]] with pair = \"") + to_string(pair) + "\"");
+    }
+  };
+  if (scene.specimen.mastic) {
+    need_law(PairType::mm);
+    need_law(PairType::mw);
+    if (!scene.specimen.aggregate.empty()) need_law(PairType::ma);
+  }
 }
 
 }  // namespace
@@ -108,6 +124,7 @@ LoadingSpec read_loading(const Section& section) {
   constexpr Rule strain{[](double v) { return v > 0 && v < 1; }, "a strain above 0 and below 1"};
   constexpr std::int64_t most = 1'000'000;
   LoadingSpec spec;
+  spec.fit_cycles = 0;  // until the number of cycles is known
   section.read({{"kind", Need::required, [](const Value& v) { v.choice({"cyclic"}); }},
                 {"frequencies", Need::required, into(spec.frequencies, frequency, positive)},
                 {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain)},
@@ -121,12 +138,14 @@ LoadingSpec read_loading(const Section& section) {
   if (const auto twin = std::adjacent_find(sorted.begin(), sorted.end()); twin != sorted.end()) {
     section.refuse("frequencies", fmt::format("{} Hz twice", *twin), "each frequency once");
   }
-  if (spec.ramp_cycles > spec.cycles - 1) {
-    section.refuse("ramp_cycles", fmt::format("{}", spec.ramp_cycles),
-                   fmt::format("at most {}, one less than cycles", spec.cycles - 1));
-  }
   if (spec.fit_cycles > spec.cycles) {
     section.refuse("fit_cycles", fmt::format("{}", spec.fit_cycles), fmt::format("at most cycles, {}", spec.cycles));
+  }
+  if (spec.fit_cycles == 0) spec.fit_cycles = spec.cycles >= 4 ? 2 : 1;
+  if (spec.ramp_cycles > spec.cycles - spec.fit_cycles) {
+    section.refuse("ramp_cycles", fmt::format("{}", spec.ramp_cycles),
+                   fmt::format("at most {}: the last {} of {} cycles are fitted", spec.cycles - spec.fit_cycles,
+                               spec.fit_cycles, spec.cycles));
   }
   return spec;
 }

@@ -2,8 +2,10 @@
 // prepare.cpp  Scene → specimen → tessellation → contact network.
 #include <chrono>
 
+#include "host/network/clusters.hpp"
 #include "host/results/files.hpp"
 #include "host/simulation/summary.hpp"
+#include "macadam/error.hpp"
 #include "macadam/simulation.hpp"
 
 namespace macadam {
@@ -32,6 +34,7 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
       GeneratedSpecimen made = generate_specimen(scene.specimen, report);
       out.specimen = std::move(made.specimen);
       out.composition = std::move(made.composition);
+      out.relaxation_iterations = made.relaxation_iterations;
     }
   });
   report("tessellation", 0);
@@ -39,6 +42,17 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
   report("contact network", 0);
   out.seconds_network = timed([&] { out.network = build_network(out.specimen, out.tessellation, scene.network); });
   require_laws(scene, out.specimen, out.network);
+  for (const Cluster& cluster : find_clusters(out.network, out.specimen.size())) {
+    if (cluster.spans()) {
+      ++out.spanning_clusters;
+    } else {
+      out.loose_particles += static_cast<std::int64_t>(cluster.particles.size());
+    }
+  }
+  if (out.spanning_clusters == 0) {
+    throw InputError(scene.file.string(), 0, "contact network", "no path of contacts from the bottom to the top wall",
+                     "one (check gap_max and area_min)");
+  }
   return out;
 }
 

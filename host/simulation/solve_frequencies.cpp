@@ -2,6 +2,7 @@
 // solve_frequencies.cpp  Method "harmonic": the steady state of every frequency; the factors of one serve all.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "host/simulation/solution.hpp"
@@ -18,8 +19,10 @@ void solve_frequencies(const Scene& scene, const Preparation& prepared, const Pr
   result.solver = scene.solver.inertia ? "harmonic, with inertia" : "harmonic, without inertia";
   save("running");
   if (progress) progress("harmonic: factoring", 0);
+  const auto start = std::chrono::steady_clock::now();
   Harmonic harmonic(prepared.specimen, prepared.network, scene.laws, inertia, {},
                     std::exp(log_sum / static_cast<double>(frequencies.size())));
+  result.seconds_factoring = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t i = 0; i < frequencies.size(); ++i) {
     if (progress) {
       progress(fmt::format("harmonic: {} Hz ({} of {})", frequencies[i], i + 1, frequencies.size()),

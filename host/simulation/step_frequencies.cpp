@@ -46,19 +46,20 @@ CyclicResult run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& s
     const Observation now = stepper.observe();
     const double stress = -now.wall_force[5].z / area;  // particles pull a wall that moves away from them
     if (const std::int64_t particle = stepper.first_divergent(); particle >= 0 || !std::isfinite(stress)) {
+      const std::string what =
+          particle >= 0 ? fmt::format("particle {} moves more than its radius in a step, or not finitely", particle)
+                        : "the stress at the top wall is not finite";
       throw DivergenceError(
-          fmt::format(
-              "the time stepping diverged: particle {} moves more than its radius in a step, or not finitely, at "
-              "t = {:.6g} s ({} Hz, step {}, dt = {:.6g} s); use a smaller time_step or safety",
-              particle, now.time, loading.frequency, now.step, loading.dt()),
+          fmt::format("the time stepping diverged: {}, at t = {:.6g} s ({} Hz, step {}, dt = {:.6g} s); use a smaller "
+                      "time_step or safety",
+                      what, now.time, loading.frequency, now.step, loading.dt()),
           particle, now.time);
     }
     samples.push_back({loading.frequency, now.time, now.wall_displacement / height, stress});
     writer.add(samples.back());
     stepped(k * stride);
   }
-  const int fit_cycles = scene.loading.fit_cycles > 0 ? scene.loading.fit_cycles : scene.loading.cycles >= 4 ? 2 : 1;
-  return evaluate_cyclic(samples, loading.frequency, fit_cycles);
+  return evaluate_cyclic(samples, loading.frequency, scene.loading.fit_cycles);
 }
 
 /// What all frequencies have in common.
@@ -85,6 +86,7 @@ void step_frequencies(const Scene& scene, const Preparation& prepared, const std
   StepperOptions options = common_options(scene.solver);
   const CriticalStep unscaled = critical_step(prepared.network, scene.laws, inertia, options);
   result.critical_particle = unscaled.particle;
+  result.critical_dt_s = unscaled.dt;
   ResponseWriter writer(response);
   const auto& frequencies = scene.loading.frequencies;
   for (std::size_t i = 0; i < frequencies.size(); ++i) {

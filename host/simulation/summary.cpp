@@ -75,6 +75,7 @@ Json solver_json(const Scene& scene, const RunResult& result) {
     out["strain_amplitude"] = scene.loading.strain_amplitude;
     out["cycles"] = scene.loading.cycles;
     out["critical_particle"] = result.critical_particle;
+    out["critical_dt_s"] = result.critical_dt_s;
     out["bytes"] = result.bytes;
   } else {
     out["inertia"] = scene.solver.inertia;
@@ -97,6 +98,8 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
     out["contacts"][to_string(pair)] = prepared.network.count[static_cast<std::size_t>(pair)];
   }
   out["contact_points"] = prepared.network.point_area.size();
+  out["loose_particles"] = prepared.loose_particles;
+  out["second_moment_difference"] = prepared.network.second_moment_difference;
   out["dropped"] = {{"gap", prepared.network.dropped_gap}, {"area", prepared.network.dropped_area}};
   out["volume_fractions"] = volume_fractions(prepared.specimen, prepared.tessellation);
   for (const CompositionRow& row : prepared.composition) {
@@ -107,10 +110,12 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                                   {"fraction", row.fraction}});
   }
   if (!prepared.composition.empty()) {
-    out["specimen"] = {{"seed", scene.specimen.seed}, {"aggregates_held", scene.specimen.fix_aggregates}};
+    out["specimen"] = {{"seed", scene.specimen.seed},
+                       {"aggregates_held", scene.specimen.fix_aggregates},
+                       {"relaxation_iterations", prepared.relaxation_iterations}};
   }
   out["results"] = Json::array();
-  double solve = 0;
+  double solve = result.seconds_factoring;
   for (const FrequencyResult& f : result.frequencies) {
     out["results"].push_back(frequency_json(f));
     solve += f.seconds;
@@ -120,7 +125,7 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                      {"tessellation", prepared.seconds_tessellation},
                      {"network", prepared.seconds_network},
                      {"solve", solve}};
-  return out.dump(2) + "\n";
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // a path need not be UTF-8
 }
 
 }  // namespace macadam

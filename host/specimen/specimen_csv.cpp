@@ -8,13 +8,14 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
+#include <sstream>
 #include <memory>
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
 
 #include "host/specimen/specimen_check.hpp"
+#include "host/results/files.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"
 
@@ -137,16 +138,14 @@ class CsvReader {
 Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box) { return CsvReader(file, box).read(); }
 
 void write_specimen_csv(const std::filesystem::path& file, const Specimen& specimen) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary);
+  std::ostringstream out;
   out << header << '\n';
   for (std::size_t i = 0; i < specimen.size(); ++i) {
     const Vec3d& c = specimen.centre[i];
     out << i << ',' << shown(c.x) << ',' << shown(c.y) << ',' << shown(c.z) << ',' << shown(specimen.radius[i]) << ','
         << to_string(specimen.phase[i]) << ',' << specimen.body[i] << '\n';
   }
-  out.close();
-  if (!out) throw RunError(file.string() + ": the specimen could not be written: " + std::strerror(errno));
+  write_whole(file, out.str());  // it may be the very file that the scene was read from
 }
 
 }  // namespace macadam

@@ -78,10 +78,10 @@ std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen,
       return make_reference_stepper(specimen, network, laws, inertia, options);
 #ifdef MACADAM_CUDA
     case Backend::cuda:
-      return kernels::make_cuda_stepper(specimen, network, laws, inertia, options);
+      return kernels::make_in_precision<kernels::ExecCuda>(specimen, network, laws, inertia, options);
 #endif
     default:
-      return kernels::make_cpu_stepper(specimen, network, laws, inertia, options);
+      return kernels::make_in_precision<kernels::ExecCpu>(specimen, network, laws, inertia, options);
   }
 }
 

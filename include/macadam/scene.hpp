@@ -30,8 +30,8 @@ struct LoadingSpec {
   std::vector<double> frequencies;  ///< [Hz]
   double strain_amplitude = 1e-4;   ///< of the height
   int cycles = 5;
-  double ramp_cycles = 0;       ///< smooth start over so many cycles, ≤ cycles − 1
-  int fit_cycles = 0;           ///< last cycles that are fitted; 0: 2 where cycles ≥ 4, else 1
+  double ramp_cycles = 0;       ///< smooth start over so many cycles, ≤ cycles − fit_cycles
+  int fit_cycles = 2;           ///< last cycles that are fitted (a scene without the key: 2 where cycles ≥ 4, else 1)
   int samples_per_cycle = 500;  ///< points of response.csv in a cycle
 };
 

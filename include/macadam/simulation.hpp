@@ -21,6 +21,9 @@ struct Preparation {
   std::vector<CompositionRow> composition;  ///< empty for specimens read from a file
   Tessellation tessellation;
   ContactNetwork network;
+  std::int64_t loose_particles = 0;  ///< in clusters that do not touch both walls: they carry nothing
+  int spanning_clusters = 0;         ///< clusters that touch both; one, usually
+  int relaxation_iterations = 0;     ///< of a generated specimen
   double seconds_specimen = 0, seconds_tessellation = 0, seconds_network = 0;
 };
 
@@ -43,10 +46,12 @@ struct FrequencyResult {
 /// Outcome of a run.
 struct RunResult {
   std::vector<FrequencyResult> frequencies;
+  double seconds_factoring = 0;          ///< harmonic: wall time before the first frequency
   std::string solver;                    ///< what ran, in words: Stepper::description(), or "harmonic, …"
   Backend backend = Backend::automatic;  ///< explicit: that ran
   std::int64_t bytes = 0;                ///< explicit: Stepper::bytes()
   std::int32_t critical_particle = -1;   ///< explicit: the particle that sets the critical step
+  double critical_dt_s = 0;              ///< explicit: the critical step at true mass
 };
 
 /// Called as work goes on: what is being done, share of it done 0…1.

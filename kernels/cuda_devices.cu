@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_cuda.cu  The step compiled for CUDA devices, and what devices there are.
-#include "kernels/exec_cuda.hpp"
-#include "kernels/stepper_impl.hpp"
+// cuda_devices.cu  What CUDA devices answer.
+#include <cuda_runtime.h>
+
 #include "kernels/steppers.hpp"
 
 namespace macadam::kernels {
 
-std::unique_ptr<Stepper> make_cuda_stepper(const Specimen& specimen, const ContactNetwork& network,
-                                           const std::array<std::optional<Law>, pair_types>& laws,
-                                           const Inertia& inertia, const StepperOptions& options) {
-  return make_in_precision<ExecCuda>(options.precision, specimen, network, laws, inertia, options);
-}
+/// Asked whether the device has code for it: compiled for it, or to be compiled by its driver.
+__global__ void probe() {}
 
 std::vector<DeviceInfo> cuda_devices(std::string& status) {
   int count = 0;
@@ -21,10 +18,17 @@ std::vector<DeviceInfo> cuda_devices(std::string& status) {
   }
   for (int i = 0; i < count; ++i) {
     cudaDeviceProp p{};
-    if (cudaGetDeviceProperties(&p, i) != cudaSuccess) continue;
+    if (cudaGetDeviceProperties(&p, i) != cudaSuccess || cudaSetDevice(i) != cudaSuccess) continue;
+    cudaFuncAttributes attributes{};
+    if (cudaFuncGetAttributes(&attributes, probe) != cudaSuccess) {
+      status = std::string(p.name) + " cannot run this build's kernels: " + cudaGetErrorString(cudaGetLastError());
+      continue;
+    }
     devices.push_back(
         {p.name, 10 * p.major + p.minor, static_cast<std::int64_t>(p.totalGlobalMem), p.multiProcessorCount});
   }
+  if (devices.empty()) return devices;
+  cudaSetDevice(0);
   status = std::to_string(devices.size()) + (devices.size() == 1 ? " device answers" : " devices answer");
   return devices;
 }
