@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "kernels/barrier.hpp"
 #include "kernels/pack_item.hpp"
 #include "kernels/particle_motion.hpp"
 #include "kernels/tile_accumulators.hpp"
@@ -57,6 +58,7 @@ class ExecCpu {
   struct Team {
     ExecCpu& exec;
     std::size_t thread, threads;
+    Barrier& barrier;
 
     /// Moves all bodies with the forces of the last contacts().
     void bodies(const ParticleMotion<P>& motion, std::int64_t k) const {
@@ -69,7 +71,7 @@ class ExecCpu {
       if (thread == 0) {
         for (auto i = motion.body.particles; i < motion.body.particles + walls; ++i) motion(i, {}, k);
       }
-#pragma omp barrier
+      barrier.wait();
     }
 
     /// Steps all contacts and adds up their loads.
@@ -80,7 +82,7 @@ class ExecCpu {
         std::fill(exec.sums_.begin() + *begin * velocity_words, exec.sums_.begin() + *end * velocity_words, R(0));
         for (const auto& group : exec.groups_) group->run(exec, tile, motion);
       });
-#pragma omp barrier
+      barrier.wait();
     }
 
    private:
@@ -94,10 +96,13 @@ class ExecCpu {
   /// Calls f(team, k) for k = first … first + steps − 1 on every thread.
   template <class F>
   void repeat(std::int64_t first, std::int64_t steps, F&& f) {
+    Barrier barrier;
 #pragma omp parallel num_threads(threads_)
     {
+#pragma omp single  // OpenMP may give fewer threads than asked
+      barrier.set_threads(static_cast<unsigned>(omp_get_num_threads()));
       const Team team{*this, static_cast<std::size_t>(omp_get_thread_num()),
-                      static_cast<std::size_t>(omp_get_num_threads())};
+                      static_cast<std::size_t>(omp_get_num_threads()), barrier};
       for (std::int64_t k = first; k < first + steps; ++k) f(team, k);
     }
   }
