@@ -329,6 +329,25 @@ TEST_F(CommandLine, AFolderThatCannotBeMadeIsExitCodeOne) {
   EXPECT_EQ(read(folder_ / "file"), "in the way\n");
 }
 
+// The known number of t8 at 20 Hz to its digits; a response of an earlier stepped run does not stay beside it.
+TEST_F(CommandLine, HarmonicMethodGivesTheKnownNumber) {
+  write_scene();
+  ASSERT_EQ(run_quick("out").code, 0);
+  ASSERT_TRUE(fs::exists(folder_ / "out/response.csv"));
+  write_scene("method = \"harmonic\"\n");
+  const Outcome outcome = run_quick("out");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "11.69667")) << outcome.out;
+  EXPECT_FALSE(fs::exists(folder_ / "out/response.csv"));
+  const auto summary = nlohmann::json::parse(read(folder_ / "out/summary.json"));
+  EXPECT_EQ(summary.at("status"), "done");
+  const auto& result = summary.at("results").at(0);
+  EXPECT_EQ(result.at("method"), "harmonic");
+  EXPECT_NEAR(result.at("e_star_pa").get<double>(), 11.69667e9, 0.51e4);
+  EXPECT_NEAR(result.at("phase_deg").get<double>(), 6.97771, 0.51e-5);
+  EXPECT_LE(result.at("residual").get<double>(), 1e-11);
+}
+
 TEST_F(CommandLine, AFileThatCannotBeWrittenIsExitCodeOne) {
   write_scene();
   fs::create_directories(folder_ / "out/response.csv");  // a folder where the file should be
