@@ -76,6 +76,11 @@ struct LaneItem {
     return {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}};
   }
   template <class To, class R>
+  MACADAM_HD Vec3<To> vector(const R* displacement, const std::int32_t* body) const {
+    const R* u = displacement + static_cast<std::size_t>(body[lane]) * displacement_words;
+    return {static_cast<To>(u[0]), static_cast<To>(u[1]), static_cast<To>(u[2])};
+  }
+  template <class To, class R>
   MACADAM_HD Vec3<To> relative(const R* displacement, const std::int32_t* a, const std::int32_t* b) const {
     const R* ua = displacement + static_cast<std::size_t>(a[lane]) * displacement_words;
     const R* ub = displacement + static_cast<std::size_t>(b[lane]) * displacement_words;
@@ -153,7 +158,7 @@ class ExecCuda {
   ExecCuda(const ContactNetwork& network, const Layout& layout, int) : layout_(layout) {
     const std::size_t bodies = layout.particles() + walls;
     master_.assign(bodies * velocity_words, R(0));
-    displacement_.assign(bodies * displacement_words, R(0));
+    displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
     make_rows(network);
   }
@@ -201,7 +206,8 @@ class ExecCuda {
     return to_host(sums);
   }
   std::vector<R> velocities() const { return to_host(master_); }
-  std::vector<R> displacements() const { return to_host(displacement_); }
+  std::vector<double> displacements() const { return to_host(displacement_); }
+  void set_displacements(const std::vector<double>& u) { displacement_ = u; }
   void set_velocities(const std::vector<R>& v) {
     master_ = v;
     if constexpr (!std::is_same_v<typename P::Geometry, R>) thrust::copy(v.begin(), v.end(), velocity_.begin());
@@ -214,7 +220,7 @@ class ExecCuda {
   }
   std::int64_t state_bytes() const { return state_bytes_; }
   std::int64_t bytes() const {
-    return bytes_ + static_cast<std::int64_t>((master_.size() + displacement_.size()) * sizeof(R) +
+    return bytes_ + static_cast<std::int64_t>(master_.size() * sizeof(R) + displacement_.size() * sizeof(double) +
                                               (velocity_.size() + records_.size()) * sizeof(typename P::Geometry));
   }
 
@@ -291,7 +297,8 @@ class ExecCuda {
 
   const Layout& layout_;
   std::vector<std::unique_ptr<Group>> groups_;
-  thrust::device_vector<R> master_, displacement_, inverse_;
+  thrust::device_vector<R> master_, inverse_;
+  thrust::device_vector<double> displacement_;
   thrust::device_vector<typename P::Geometry> velocity_, records_;
   thrust::device_vector<std::uint32_t> row_begin_, row_;
   std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes

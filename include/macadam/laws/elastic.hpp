@@ -18,10 +18,16 @@ struct Elastic {
   int units() const { return 0; }
   double instantaneous() const { return E; }
   std::complex<double> stiffness(double) const { return E; }
+  std::complex<double> unit_compliance(int, double) const { return 0; }
 
   template <class R>
   struct Step {
+    static constexpr bool memoryless = true;
     R E;
+    template <class S>
+    MACADAM_HD S value(S x) const {
+      return S(E) * x;
+    }
     MACADAM_HD int units() const { return 0; }
     template <int L, class S, class Units>
     MACADAM_HD S advance(S f, S dx, Units&&) const {
