@@ -12,6 +12,7 @@
 
 #include "kernels/aligned.hpp"
 #include "kernels/layout.hpp"
+#include "kernels/start_frame.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam::kernels {
@@ -73,26 +74,6 @@ constexpr std::int32_t frame_words_of(Geometry geometry) {
   return geometry == Geometry::fixed ? 0 : sizeof(typename P::State) == 8 ? 3 : 4;
 }
 
-/// The chain of displacement component `component` of point (s, t): a point follows the facet's rigid motion, and the
-/// law is linear. Of a condensed contact, (s, t) is the facet itself: `component` of the six.
-struct StartChain {
-  const double* six;  ///< of the contact: six chains of `words` numbers
-  std::size_t words;
-  double facet(int component, std::size_t word) const {
-    return six[static_cast<std::size_t>(component) * words + word];
-  }
-  double point(int component, std::size_t word, double s, double t) const {
-    switch (component) {
-      case 0:
-        return facet(0, word) + s * facet(1, word) + t * facet(2, word);
-      case 1:
-        return facet(3, word) - t * facet(5, word);
-      default:
-        return facet(4, word) + s * facet(5, word);
-    }
-  }
-};
-
 /// Fills the arrays of a group. Inert slots touch `body_a` of a real contact with zero arms and moments: they add zero.
 /// `options.skip_rotations` is taken as decided.
 template <class P>
@@ -146,7 +127,8 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
     word(n_z) = static_cast<Geo>(c.n.z);
     if (options.geometry == Geometry::updated) word(distance) = static_cast<Geo>(c.distance);
     for (int k = 0; k < shape.frame_words && k < 3; ++k) {
-      const double s[3] = {c.s.x, c.s.y, c.s.z};
+      const Vec3d from = options.start && real ? carried_to_start(c, *options.start) : c.s;
+      const double s[3] = {from.x, from.y, from.z};
       out.frame[(packet * static_cast<std::size_t>(shape.frame_words) + static_cast<std::size_t>(k)) * lanes + lane] =
           static_cast<typename P::State>(s[k]);
     }

@@ -160,10 +160,6 @@ class StepperImpl final : public Stepper {
   static StepperOptions decided(StepperOptions options, const ContactNetwork& network,
                                 const std::array<std::optional<Law>, pair_types>& laws) {
     options.skip_rotations = options.skip_rotations && nothing_turns(network, laws);
-    if (options.loading && options.start && options.loading->ramp_steps > 0) {
-      throw InputError("a start in motion and a ramp of " + std::to_string(options.loading->ramp_steps) +
-                       " steps: expected one of them");
-    }
     return options;
   }
   static double largest(const std::vector<Vec3d>& list) {

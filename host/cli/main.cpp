@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "host/cli/progress_line.hpp"
 #include "macadam/macadam.hpp"
@@ -55,20 +56,25 @@ Scene scene_of(const Arguments& arguments) {
 void print_results(const RunResult& result) {
   fmt::print("\n{:>8} {:>11} {:>9}", "f (Hz)", "|E*| (GPa)", "phi (deg)");
   const bool stepped = !result.frequencies.empty() && result.frequencies.front().method == SolverMethod::explicit_;
+  const bool known = stepped && result.frequencies.front().achieved;
   if (stepped) {
-    fmt::print(" {:>11} {:>9} {:>9} {:>10} {:>9}\n", "d|E*| cycle", "d phi", "scaling", "steps", "time (s)");
+    fmt::print(" {:>11} {:>9} {:>9} {:>10} {:>9}\n", known ? "err |E*|" : "d|E*| cycle", known ? "err phi" : "d phi",
+               "scaling", "steps", "time (s)");
   } else {
     fmt::print(" {:>9} {:>10} {:>11} {:>9}\n", "residual", "iterations", "held force", "time (s)");
   }
   for (const FrequencyResult& f : result.frequencies) {
     fmt::print("{:>8g} {:>11.5f} {:>9.4f}", f.frequency_hz, f.stiffness.e_star_pa / 1e9, f.stiffness.phase_deg);
     if (f.cyclic) {
-      fmt::print(" {:>11.1e} {:>9.1e} {:>9g} {:>10} {:>9.1f}\n", f.cyclic->change_e_star, f.cyclic->change_phase_deg,
-                 f.density_scaling, f.steps, f.seconds);
+      const double e_star = f.achieved ? f.achieved->e_star : f.cyclic->change_e_star;
+      const double phase = f.achieved ? f.achieved->phase_rad * 180 / std::numbers::pi : f.cyclic->change_phase_deg;
+      fmt::print(" {:>11.1e} {:>9.1e} {:>9.5g} {:>10} {:>9.1f}\n", e_star, phase, f.density_scaling, f.steps,
+                 f.seconds);
     } else {
       fmt::print(" {:>9.1e} {:>10} {:>11.1e} {:>9.1f}\n", f.residual, f.iterations, f.held_force, f.seconds);
     }
   }
+  if (known) fmt::print("err: against the harmonic solution at true mass, |E*| relative, phi in degrees\n");
 }
 
 void run_command(const Arguments& arguments) {
@@ -81,16 +87,17 @@ void run_command(const Arguments& arguments) {
     print_preparation(prepared);
     std::fflush(stdout);
   };
-  watcher.planned = [&](const std::vector<std::string>& decisions) {
+  watcher.planned = [&](const RunResult& planned) {
     line.clear();
-    for (const std::string& decision : decisions) fmt::print("{}\n", decision);
+    for (const std::string& decision : planned.decisions) fmt::print("{}\n", decision);
+    for (const Skip& skip : planned.skips) fmt::print("skips {}: {}\n", skip.what, skip.why);
     std::fflush(stdout);
   };
   const RunResult result = run(scene, arguments.out, watcher);
   line.clear();
   print_results(result);
   fmt::print("\n{} | files in {}: summary.json specimen.csv{}{}\n", result.solver, arguments.out,
-             scene.solver.method == SolverMethod::explicit_ ? " response.csv" : "",
+             scene.solver.method == SolverMethod::explicit_ && scene.output.response ? " response.csv" : "",
              scene.output.contacts ? " contacts.csv" : "");
 }
 

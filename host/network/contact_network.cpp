@@ -127,6 +127,18 @@ std::array<AreaMoments, 2> add_points(const Specimen& specimen, const Tessellati
   return {lumped, exact};
 }
 
+/// Appends the centroid as the contact's one point, with the whole area; returns its moments.
+AreaMoments add_one_point(const Specimen& specimen, const Facet& f, Contact& c, ContactNetwork& out) {
+  const Vec3d x = f.centroid - (specimen.centre[f.a] + c.arm_a * c.n);
+  const double s = dot(x, c.s), t = dot(x, c.t);
+  c.point_begin = static_cast<std::uint32_t>(out.point_s.size());
+  c.point_end = c.point_begin + 1;
+  out.point_s.push_back(s);
+  out.point_t.push_back(t);
+  out.point_area.push_back(f.area);
+  return {f.area, f.area * s, f.area * t, f.area * s * s, f.area * s * t, f.area * t * t};
+}
+
 /// Compressed rows particle → contacts, ascending.
 void build_rows(std::size_t particles, ContactNetwork& out) {
   out.row_begin.assign(particles + 1, 0);
@@ -151,6 +163,10 @@ const char* to_string(PairType pair) {
   return name[static_cast<std::size_t>(pair)];
 }
 
+const char* to_string(Quadrature quadrature) {
+  return quadrature == Quadrature::exact ? "exact" : quadrature == Quadrature::one_point ? "one_point" : "lumped";
+}
+
 void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t) {
   const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
   s = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
@@ -173,10 +189,14 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
   for (const Facet& f : tessellation.facets) {
     if (!wanted(f)) continue;
     Contact c = geometry(specimen, f);
-    const auto [lumped, exact] = add_points(specimen, tessellation, f, c, out);
-    c.moments = spec.quadrature == Quadrature::exact ? exact : lumped;
-    difference += std::abs(lumped.ss + lumped.tt - exact.ss - exact.tt);
-    total += exact.ss + exact.tt;
+    if (spec.quadrature == Quadrature::one_point) {
+      c.moments = add_one_point(specimen, f, c, out);
+    } else {
+      const auto [lumped, exact] = add_points(specimen, tessellation, f, c, out);
+      c.moments = spec.quadrature == Quadrature::exact ? exact : lumped;
+      difference += std::abs(lumped.ss + lumped.tt - exact.ss - exact.tt);
+      total += exact.ss + exact.tt;
+    }
     ++out.count[static_cast<std::size_t>(c.pair)];
     out.contacts.push_back(c);
   }
@@ -185,7 +205,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
                      fmt::format("none left of {} facets ({} dropped by gap_max, {} by area_min)",
                                  tessellation.facets.size(), out.dropped_gap, out.dropped_area),
                      "at least one");
-  out.second_moment_difference = difference / total;
+  if (total > 0) out.second_moment_difference = difference / total;
   build_rows(specimen.size(), out);
   return out;
 }

@@ -135,6 +135,7 @@ class ReferenceStepper : public Stepper {
     }
     if (options_.loading) walls_[wall_index(wall_z_hi)].displacement.z() = options_.loading->displacement(-1);
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      if (options_.geometry == Geometry::updated) carry_to_start(contacts_[c], start.rotation);
       const ReferenceLaw& law = this->law(contacts_[c].pair);
       const std::size_t words = 1 + law.units.size();
       const auto number = [&](std::size_t component, std::size_t word) {
@@ -158,6 +159,18 @@ class ReferenceStepper : public Stepper {
     }
     step_ = -1;
     advance(1);
+  }
+
+  /// From the undeformed frame to that of step −1, in one step.
+  void carry_to_start(ReferenceContact& contact, const std::vector<Vec3d>& rotation) const {
+    const Body& a = bodies_[contact.a];
+    const Vector3d turn_a = to_eigen(rotation[contact.a]);
+    if (contact.at_wall()) {
+      const Vector3d approach = walls_[wall_index(contact.b)].displacement - a.displacement;
+      contact.follow_wall(contact.initial_distance + approach.dot(contact.frame.n), turn_a / 2);
+    } else {
+      contact.follow_pair(bodies_[contact.b].centre() - a.centre(), (turn_a + to_eigen(rotation[contact.b])) / 2);
+    }
   }
 
   const ReferenceLaw& law(PairType pair) const { return *laws_[static_cast<std::size_t>(pair)]; }

@@ -81,7 +81,9 @@ NetworkSpec read_network(const Section& section) {
   section.read({{"gap_max", Need::optional, into(spec.gap_max, ratio, gap)},
                 {"area_min", Need::optional, into(spec.area_min, ratio, non_negative)},
                 {"quadrature", Need::optional,
-                 into<Quadrature>(spec.quadrature, {{"lumped", Quadrature::lumped}, {"exact", Quadrature::exact}})},
+                 into<Quadrature>(spec.quadrature, {{"lumped", Quadrature::lumped},
+                                                    {"exact", Quadrature::exact},
+                                                    {"one_point", Quadrature::one_point}})},
                 {"lateral_walls", Need::optional, into(spec.lateral_walls)}});
   return spec;
 }
@@ -174,7 +176,8 @@ Scene read_scene(const std::filesystem::path& file) {
              {"loading", Need::required, [&](const Value& v) { out.loading = read_loading(v.section()); }},
              {"solver", Need::optional, [&](const Value& v) { out.solver = read_solver(v.section(), out.loading); }},
              {"output", Need::optional, [&](const Value& v) {
-                v.section().read({{"contacts", Need::optional, into(out.output.contacts)}});
+                v.section().read({{"contacts", Need::optional, into(out.output.contacts)},
+                                  {"response", Need::optional, into(out.output.response)}});
               }}});
   check_together(out, root);
   return out;

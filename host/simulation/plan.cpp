@@ -16,7 +16,8 @@ namespace macadam {
 namespace {
 
 /// Shares of the tolerance: inertia is predicted by a solution and so may take most of it; the rest are estimates.
-constexpr double inertia_share = 0.9, precision_share = 0.05, geometry_share = 0.02;
+/// Without a solution it is a bound, and the start from rest takes its share.
+constexpr double inertia_share = 0.9, inertia_bound_share = 0.5, precision_share = 0.05, geometry_share = 0.02;
 
 double geometric_mean(const std::vector<double>& values) {
   double sum = 0;
@@ -50,7 +51,9 @@ class Planner {
   double tolerance() const { return *scene_.solver.tolerance; }
 
   void choose_form_and_geometry() {
-    plan_.form = scene_.solver.form.value_or(ContactForm::condensed);
+    // one point has three chains, a facet six
+    const bool one_point = scene_.network.quadrature == Quadrature::one_point;
+    plan_.form = scene_.solver.form.value_or(one_point ? ContactForm::points : ContactForm::condensed);
     if (scene_.solver.geometry || !automatic()) {
       plan_.geometry = scene_.solver.geometry.value_or(Geometry::updated);
       return;
@@ -92,7 +95,7 @@ class Planner {
     harmonic_.emplace(prepared_.specimen, prepared_.network, scene_.laws, inertia_, HarmonicOptions{},
                       geometric_mean(scene_.loading.frequencies));
     if (start_ == Start::steady) {
-      decide("steady start from the harmonic solution{}", asked ? "" : ": one cycle is enough");
+      decide("steady start from the harmonic solution{}", asked ? "" : ": the first cycle is periodic");
     }
   }
 
@@ -109,7 +112,7 @@ class Planner {
       scaled = choose_scaling(frequency, f);
     } else {
       const double bound = inertia_bound(scene_, prepared_, frequency);
-      f.density_scaling = std::max(1.0, inertia_share * tolerance() / bound);
+      f.density_scaling = std::max(1.0, inertia_bound_share * tolerance() / bound);
       decide(
           "{} Hz: density scaling {:.4g}, whose inertia costs less than {:.1e} by the specimen's height and the "
           "slowest wave",

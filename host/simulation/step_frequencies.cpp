@@ -8,6 +8,7 @@
 #include "host/results/files.hpp"
 #include "host/simulation/error_model.hpp"
 #include "host/simulation/plan.hpp"
+#include "host/simulation/skips.hpp"
 #include "host/simulation/solution.hpp"
 #include "macadam/error.hpp"
 #include "macadam/stepper.hpp"
@@ -18,18 +19,21 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Runs one frequency; every sample goes to `writer` at once.
+/// Runs one frequency; every sample goes to `writer` at once. Without one, only the cycles that are fitted and the one
+/// before, which shows the change from cycle to cycle, are observed.
 /// \throws DivergenceError naming the particle that left the range of sense first.
 CyclicResult run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, const FrequencyPlan& plan,
-                        ResponseWriter& writer, const std::function<void(std::int64_t)>& stepped) {
+                        ResponseWriter* writer, const std::function<void(std::int64_t)>& stepped) {
   const loadings::Cyclic& loading = plan.loading;
   const int per_cycle = scene.loading.samples_per_cycle;
   const std::int64_t samples_wanted = static_cast<std::int64_t>(plan.cycles) * per_cycle;
   const std::int64_t stride = loading.steps_per_period / per_cycle;
   const double area = specimen.box.size.x * specimen.box.size.y, height = specimen.box.size.z;
+  const std::int64_t first = writer ? 0 : std::int64_t{std::max(0, plan.cycles - plan.fit_cycles - 1)} * per_cycle;
   std::vector<ResponseSample> samples;
   for (std::int64_t k = 0; k <= samples_wanted; ++k) {
     if (k > 0) stepper.advance(stride);
+    if (k < first && k % per_cycle != 0) continue;
     const Observation now = stepper.observe();
     const double stress = -now.wall_force[5].z / area;  // particles pull a wall that moves away from them
     if (const std::int64_t particle = stepper.first_divergent(); particle >= 0 || !std::isfinite(stress)) {
@@ -42,8 +46,8 @@ CyclicResult run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& s
                       what, now.time, loading.frequency, now.step, loading.dt()),
           particle, now.time);
     }
-    samples.push_back({loading.frequency, now.time, now.wall_displacement / height, stress});
-    writer.add(samples.back());
+    if (k >= first) samples.push_back({loading.frequency, now.time, now.wall_displacement / height, stress});
+    if (writer) writer->add(samples.back());
     stepped(k * stride);
   }
   return evaluate_cyclic(samples, loading.frequency, plan.fit_cycles);
@@ -80,9 +84,11 @@ void step_frequencies(const Scene& scene, const Preparation& prepared, const std
   result.critical_particle = plan.critical.particle;
   result.critical_dt_s = plan.critical.dt;
   result.seconds_planning = seconds_since(planning);
-  if (watcher.planned) watcher.planned(plan.decisions);
+  result.skips = find_skips(scene, prepared, plan);
+  if (watcher.planned) watcher.planned(result);
   StepperOptions options = common_options(plan, scene.solver);
-  ResponseWriter writer(response);
+  std::optional<ResponseWriter> writer;
+  if (scene.output.response) writer.emplace(response);
   for (std::size_t i = 0; i < plan.frequencies.size(); ++i) {
     const auto start = Clock::now();
     const FrequencyPlan& p = plan.frequencies[i];
@@ -115,7 +121,7 @@ void step_frequencies(const Scene& scene, const Preparation& prepared, const std
                                    p.cycles, steps / seconds_since(start)),
                        steps / static_cast<double>(f.steps));
     };
-    f.cyclic = run_cyclic(scene, prepared.specimen, *stepper, p, writer, stepped);
+    f.cyclic = run_cyclic(scene, prepared.specimen, *stepper, p, writer ? &*writer : nullptr, stepped);
     f.stiffness = f.cyclic->fit;
     f.residual = f.cyclic->fit_rms;
     f.predicted = p.predicted;

@@ -72,7 +72,7 @@ Json solver_json(const Scene& scene, const RunResult& result) {
               {"backend", stepped ? Json(to_string(result.backend)) : Json()},
               {"precision", stepped ? to_string(result.precision) : "double"},
               {"description", result.solver},
-              {"quadrature", scene.network.quadrature == Quadrature::exact ? "exact" : "lumped"},
+              {"quadrature", to_string(scene.network.quadrature)},
               {"reaction", "top wall"}};
   if (stepped) {
     out["form"] = to_string(result.form);
@@ -81,6 +81,10 @@ Json solver_json(const Scene& scene, const RunResult& result) {
     out["strain_amplitude"] = scene.loading.strain_amplitude;
     out["tolerance"] = scene.solver.tolerance ? Json(*scene.solver.tolerance) : Json();
     out["decisions"] = result.decisions;
+    out["skips"] = Json::array();
+    for (const Skip& skip : result.skips) {
+      out["skips"].push_back({{"what", skip.what}, {"why", skip.why}, {"effect", skip.effect}});
+    }
     out["critical_particle"] = result.critical_particle;
     out["critical_dt_s"] = result.critical_dt_s;
     out["bytes"] = result.bytes;

@@ -10,6 +10,35 @@
 
 namespace macadam {
 
+namespace {
+
+/// A start state must be one of this network.
+void require_start(const Specimen& specimen, const ContactNetwork& network,
+                   const std::array<std::optional<Law>, pair_types>& laws, const StepperOptions& options) {
+  const StartState& start = *options.start;
+  const auto require = [](const char* what, std::size_t found, std::size_t expected) {
+    if (found != expected) {
+      throw InputError(std::string("start state: ") + what + ": found " + std::to_string(found) + ", expected " +
+                       std::to_string(expected));
+    }
+  };
+  require("displacements", start.displacement.size(), specimen.size());
+  require("rotations", start.rotation.size(), specimen.size());
+  require("velocities", start.velocity.size(), specimen.size());
+  require("spins", start.spin.size(), specimen.size());
+  require("chains' beginnings", start.chain_begin.size(), network.contacts.size());
+  std::size_t numbers = 0;
+  for (std::size_t c = 0; c < network.contacts.size(); ++c) {
+    const Law& law = *laws[static_cast<std::size_t>(network.contacts[c].pair)];
+    require("beginning of a contact's chains", start.chain_begin[c], numbers);
+    numbers += 6 * static_cast<std::size_t>(1 + std::visit([](const auto& l) { return l.units(); }, law));
+  }
+  require("numbers of the chains", start.chain.size(), numbers);
+  if (options.loading) require("ramp steps", static_cast<std::size_t>(options.loading->ramp_steps), 0);
+}
+
+}  // namespace
+
 const char* to_string(Backend b) {
   switch (b) {
     case Backend::cpu:
@@ -73,6 +102,7 @@ std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen,
                        std::to_string(network.count[p]) + " contacts but no law");
     }
   }
+  if (options.start) require_start(specimen, network, laws, options);
   switch (select_backend(backend)) {
     case Backend::reference:
       return make_reference_stepper(specimen, network, laws, inertia, options);

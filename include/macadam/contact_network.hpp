@@ -18,8 +18,10 @@ inline constexpr int pair_types = 6;
 /// `"M-M" "M-A" "A-A" "inner" "A-W" "M-W"`.
 const char* to_string(PairType pair);
 
-/// `lumped`: area moments of the contact points (the paper's); `exact`: of the polygon (condensed form only).
-enum class Quadrature : std::uint8_t { lumped, exact };
+/// `lumped`: area moments of the contact points (the paper's); `exact`: of the polygon (condensed form only);
+/// `one_point`: the whole area at the centroid, which does not resist bending and twist.
+enum class Quadrature : std::uint8_t { lumped, exact, one_point };
+const char* to_string(Quadrature);
 
 /// Which facets become contacts.
 struct NetworkSpec {

@@ -65,6 +65,7 @@ struct SolverSpec {
 /// `[output]`.
 struct OutputSpec {
   bool contacts = false;  ///< write contacts.csv
+  bool response = true;   ///< write response.csv; without it only what the result needs is observed
 };
 
 /// A whole scene. `file` is where it came from; relative paths in it have been resolved.

@@ -27,6 +27,12 @@ struct Preparation {
   double seconds_specimen = 0, seconds_tessellation = 0, seconds_network = 0;
 };
 
+/// Something that a run leaves out because the scene does not need it.
+struct Skip {
+  std::string what, why;
+  std::string effect;  ///< on the answer: "none: same bits", or how much
+};
+
 /// An error of |E*| (relative) and of φ [rad], with signs.
 struct ErrorEstimate {
   double e_star = 0, phase_rad = 0;
@@ -58,6 +64,7 @@ struct RunResult {
   double seconds_factoring = 0;        ///< harmonic: wall time before the first frequency
   double seconds_planning = 0;         ///< explicit: wall time before the first stepper, harmonic solutions included
   std::vector<std::string> decisions;  ///< explicit: what the scene left open, and what was chosen why
+  std::vector<Skip> skips;             ///< explicit
   ContactForm form = ContactForm::condensed;  ///< explicit: that ran, likewise the next two
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
@@ -80,8 +87,8 @@ void write_preparation(const Scene& scene, const Preparation& preparation, const
 /// What a run tells as it goes; any may be empty.
 struct Watcher {
   Progress progress;
-  std::function<void(const Preparation&)> prepared;              ///< once the specimen's files are written
-  std::function<void(const std::vector<std::string>&)> planned;  ///< decisions, before the first step
+  std::function<void(const Preparation&)> prepared;  ///< once the specimen's files are written
+  std::function<void(const RunResult&)> planned;     ///< decisions, before the first step
 };
 
 /// The whole job: prepare, step every frequency, write every file. response.csv and summary.json are complete up to the

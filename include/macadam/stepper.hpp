@@ -18,7 +18,7 @@
 namespace macadam {
 
 /// A state of motion to start from, given one step before the start: the stepper takes that step when it is made, which
-/// gives it the forces of step 0. Shear histories lie in the frames of the undeformed contacts.
+/// gives it the forces of step 0. Frames of updated geometry are those of the undeformed contacts, carried there at once.
 struct StartState {
   std::vector<Vec3d> displacement, rotation;  ///< at step −1, specimen order [m] [rad]
   std::vector<Vec3d> velocity, spin;          ///< half a step before step 0 [m/s] [rad/s]

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file start_frame.hpp  Frame and chains of a contact that starts in motion.
+#pragma once
+
+#include "macadam/stepper.hpp"
+
+namespace macadam::kernels {
+
+/// ŝ of the undeformed contact, carried to step −1: by the smallest rotation that takes one normal to the other, then
+/// about the normal by the pair's mean rotation.
+inline Vec3d carried_to_start(const Contact& c, const StartState& start) {
+  const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
+  const Vec3d branch = c.b >= 0 ? c.distance * c.n + (start.displacement[b] - start.displacement[a]) : c.n;
+  const Vec3d n = (1 / norm(branch)) * branch;
+  const Vec3d turn = 0.5 * (start.rotation[a] + (c.b >= 0 ? start.rotation[b] : Vec3d{}));
+  const Vec3d swung = c.s - (dot(c.s, n) / (1 + dot(c.n, n))) * (c.n + n);
+  const double angle = dot(turn, n);
+  const Vec3d spun = std::cos(angle) * swung + std::sin(angle) * cross(n, swung);
+  return (1 / norm(spun)) * spun;
+}
+
+/// Chains of a contact with `words` numbers each. A point (s, t) follows the facet's rigid motion and the law is
+/// linear, so its chains are sums of the facet's six.
+struct StartChain {
+  const double* six;  ///< null: at rest
+  std::size_t words;
+  double facet(int component, std::size_t word) const {
+    return six[static_cast<std::size_t>(component) * words + word];
+  }
+  double point(int component, std::size_t word, double s, double t) const {
+    switch (component) {
+      case 0:
+        return facet(0, word) + s * facet(1, word) + t * facet(2, word);
+      case 1:
+        return facet(3, word) - t * facet(5, word);
+      default:
+        return facet(4, word) + s * facet(5, word);
+    }
+  }
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// tolerance_test.cpp  [solver] tolerance: the error that is asked for is kept, and is what was predicted.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "test_scenes.hpp"
+
+namespace macadam::test {
+namespace {
+
+double largest(const ErrorEstimate& e) { return std::max(std::abs(e.e_star), std::abs(e.phase_rad)); }
+
+class Tolerance : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ =
+        std::filesystem::path(testing::TempDir()) /
+        fmt::format("macadam_tolerance_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(), getpid());
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  static Scene scene_of(SpecimenSpec specimen, double tolerance) {
+    Scene scene;
+    scene.specimen = std::move(specimen);
+    scene.materials = {2630, 2110};
+    scene.laws = am1_laws();
+    scene.loading.frequencies = {2, 5, 10, 20};
+    scene.solver.tolerance = tolerance;
+    scene.solver.backend = Backend::cpu;
+    scene.solver.threads = 1;
+    return scene;
+  }
+  static SpecimenSpec t8() {
+    SpecimenSpec spec;
+    spec.file = MACADAM_TEST_DATA "/t8.csv";
+    spec.box.size = {0.008, 0.008, 0.011};
+    return spec;
+  }
+  /// Mastic and a few aggregates in a small box.
+  static SpecimenSpec fresh(std::uint64_t seed) {
+    SpecimenSpec spec = read_scene(MACADAM_EXAMPLES "/demo/scene.toml").specimen;
+    spec.seed = seed;
+    spec.box.size = {0.012, 0.012, 0.016};
+    spec.aggregate = {{2e-3, 4.75e-3, 0.25, std::nullopt}};
+    return spec;
+  }
+  const std::filesystem::path& folder() const { return folder_; }
+  RunResult run_it(const Scene& scene) const { return run(scene, folder_); }
+  nlohmann::json summary() const { return nlohmann::json::parse(std::ifstream(folder_ / "summary.json")); }
+
+  void expect_kept(const Scene& scene) const {
+    const RunResult result = run_it(scene);
+    for (const FrequencyResult& f : result.frequencies) {
+      ASSERT_TRUE(f.achieved && f.predicted);
+      EXPECT_LE(largest(*f.achieved), *scene.solver.tolerance) << f.frequency_hz << " Hz";
+      // most of the tolerance is used: time goes as the root of the inertia that is admitted
+      EXPECT_GE(largest(*f.achieved), 0.5 * *scene.solver.tolerance) << f.frequency_hz << " Hz";
+      EXPECT_NEAR(f.achieved->e_star, f.predicted->e_star, 0.05 * *scene.solver.tolerance);
+      EXPECT_NEAR(f.achieved->phase_rad, f.predicted->phase_rad, 0.05 * *scene.solver.tolerance);
+    }
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+TEST_F(Tolerance, IsKeptOnT8) {
+  for (const double tolerance : long_tests ? std::vector{1e-2, 1e-3, 1e-4} : std::vector{1e-2}) {
+    SCOPED_TRACE(tolerance);
+    expect_kept(scene_of(t8(), tolerance));
+  }
+}
+
+TEST_F(Tolerance, IsKeptOnFreshSpecimens) {
+  const auto seed = static_cast<std::uint64_t>(testing::UnitTest::GetInstance()->random_seed()) + 1;
+  for (std::uint64_t s = seed; s < seed + 2; ++s) {
+    for (const double tolerance : long_tests ? std::vector{1e-2, 1e-3, 1e-4} : std::vector{1e-2}) {
+      SCOPED_TRACE(fmt::format("seed {}, tolerance {}", s, tolerance));
+      expect_kept(scene_of(fresh(s), tolerance));
+    }
+  }
+}
+
+TEST_F(Tolerance, IsKeptOnTheDemo) {
+  if (!long_tests) GTEST_SKIP() << "some ten thousand steps of 2,391 particles";
+  expect_kept(scene_of(read_scene(MACADAM_EXAMPLES "/demo/scene.toml").specimen, 1e-2));
+}
+
+TEST_F(Tolerance, GivenSettingsWin) {
+  Scene scene = scene_of(t8(), 1e-2);
+  scene.loading.frequencies = {20};
+  scene.solver.density_scaling = std::vector<double>{2e4};
+  scene.solver.precision = Precision::double_;
+  scene.solver.geometry = Geometry::updated;
+  scene.solver.form = ContactForm::points;
+  scene.loading.cycles = 2;
+  const RunResult result = run_it(scene);
+  EXPECT_EQ(result.frequencies[0].density_scaling, 2e4);
+  EXPECT_EQ(result.frequencies[0].cycles, 2);
+  EXPECT_EQ(result.precision, Precision::double_);
+  EXPECT_EQ(result.geometry, Geometry::updated);
+  EXPECT_EQ(result.form, ContactForm::points);
+  EXPECT_NEAR(result.frequencies[0].achieved->e_star, result.frequencies[0].predicted->e_star, 1e-5);
+  const auto json = summary();
+  EXPECT_EQ(json.at("results").at(0).at("start"), "steady");
+  EXPECT_EQ(json.at("solver").at("tolerance"), 1e-2);
+  EXPECT_FALSE(json.at("solver").at("decisions").empty());
+  EXPECT_FALSE(json.at("solver").at("skips").empty());
+}
+
+// Local damping is not linear: a ramp from rest, a scaling from the wave speed, no comparison; and it is said.
+TEST_F(Tolerance, WithoutAHarmonicSolutionABoundDecides) {
+  Scene scene = scene_of(t8(), 1e-2);
+  scene.loading.frequencies = {20};
+  scene.loading.start = Start::steady;
+  const double predicted = run_it(scene).frequencies[0].density_scaling;
+  scene.solver.damping_kind = Damping::local;
+  scene.solver.damping = 0.02;
+  const RunResult result = run_it(scene);
+  const FrequencyResult& f = result.frequencies[0];
+  EXPECT_EQ(f.start, Start::rest);
+  EXPECT_FALSE(f.achieved);
+  EXPECT_GE(f.cycles, 3);
+  EXPECT_LE(f.density_scaling, predicted);
+  EXPECT_GT(f.density_scaling, predicted / 30);
+  EXPECT_NE(result.decisions.at(1).find("local damping is not linear"), std::string::npos) << result.decisions.at(1);
+  // the bound kept what it promised, local damping aside
+  EXPECT_NEAR(f.stiffness.e_star_pa, 11.69667e9, 0.02 * 11.69667e9);
+}
+
+// Only the fitted cycles are observed where nobody wants the response; the answer is the same.
+TEST_F(Tolerance, AResponseNobodyAskedForIsNotObserved) {
+  Scene scene = scene_of(t8(), 1e-2);
+  scene.loading.frequencies = {20};
+  scene.loading.start = Start::rest;
+  scene.loading.cycles = 5;
+  const RunResult with = run_it(scene);
+  EXPECT_TRUE(std::filesystem::exists(folder() / "response.csv"));
+  scene.output.response = false;
+  const RunResult without = run_it(scene);
+  EXPECT_FALSE(std::filesystem::exists(folder() / "response.csv"));
+  EXPECT_EQ(without.frequencies[0].stiffness.e_star_pa, with.frequencies[0].stiffness.e_star_pa);
+  EXPECT_EQ(without.frequencies[0].stiffness.phase_deg, with.frequencies[0].stiffness.phase_deg);
+  EXPECT_EQ(without.frequencies[0].cyclic->change_e_star, with.frequencies[0].cyclic->change_e_star);
+}
+
+}  // namespace
+}  // namespace macadam::test
