@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// cases.cpp  The list of cases: a new one is a function and a line here.
+#include "bench/stability/stability.hpp"
+
+namespace macadam::stability {
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all = {
+      {"step_sweep", "Steps around the true limit", step_sweep, {}},
+      {"step_bound", "The computed step against the true limit", step_bound, bound_conclusion},
+      {"stiffness_ratios", "Stiffness ratios between the phases", stiffness_ratios, {}},
+      {"size_ratios", "Size ratios", size_ratios, {}},
+      {"slivers", "Slivers and tiny facets", slivers, {}},
+      {"relaxation_times", "Relaxation times far from the step", relaxation_times, ringing_conclusion},
+      {"long_free", "Long free runs: energy and momenta", long_free, drift_conclusion},
+      {"long_driven", "Long driven runs: E*", long_driven, {}},
+      {"strain_amplitudes", "Strain amplitudes", strain_amplitudes, strain_conclusion},
+      {"recovery", "Load, hold, reversal and release", recovery, {}},
+      {"rigid_turn", "A full turn", rigid_turn, {}},
+  };
+  return all;
+}
+
+}  // namespace macadam::stability

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// hostile_networks.cpp  Stiffness ratios, size ratios and slivers: is the step safe, is the answer right?
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "bench/stability/stability.hpp"
+#include "host/reference/reference_spectrum.hpp"
+
+namespace macadam::stability {
+namespace {
+
+/// What every hostile network must give: a safe step, a steady run at 0.95 of it, a modulus that two solvers share.
+/// `conditioning`: how far stiffnesses lie apart, which both solvers' rounding grows with.
+void judge(Rows& rows, const std::string& name, const test::TestScene& scene, Effort effort, double conditioning) {
+  const double limit = true_limit(scene);
+  StepperOptions options;
+  const double computed = critical_step(scene.network, scene.laws, scene.inertia, options).dt;
+  rows.push_back({name, "double", "computed / true limit", std::sqrt(0.5) * (1 - 1e-9), 1 + 1e-9,
+                  "safe, and within √2 (see step_bound)", computed / limit});
+  options.dt = 0.95 * computed;
+  const auto steps = by_effort<std::int64_t>(effort, 1000, 3000, 100000);
+  for (const Setting& setting : settings()) {
+    if (effort == Effort::test && setting.precision == Precision::mixed) continue;
+    rows.push_back({name, setting.name(), fmt::format("largest kinetic energy / bound, {} steps", steps), 0, 1.01,
+                    "leapfrog keeps H (see step_sweep); a hundredth for the change of geometry",
+                    energy_over_bound(setting, scene, options, limit, steps, 1e-5)});
+  }
+  const HarmonicResult found = harmonic_solution(scene, 10);
+  const double expected = reference_static_modulus(scene.specimen, scene.network, scene.laws);
+  rows.push_back({name, "harmonic", "residual", 0, 1e-10, "what the solver promises, computed anew", found.residual});
+  rows.push_back({name, "harmonic", "modulus against the reference's direct solution, relative", 0,
+                  1e-10 + 1e-14 * conditioning,
+                  "elastic: no frequency in it; both solve to 1e-11, times what the stiffnesses lie apart",
+                  std::abs(found.top.e_star_pa / expected - 1)});
+}
+
+/// Large spheres about a grid of edge 2R, and in each of the gaps between eight of them four small ones of R/ratio.
+Specimen two_sizes(double ratio) {
+  std::mt19937 random(77);
+  const auto uniform = [&](double lo, double hi) {
+    return lo + (hi - lo) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  constexpr int n = 3;
+  const double radius = 1e-3, edge = 2 * radius, small = std::min(radius / ratio, 0.35 * radius);
+  Specimen out;
+  out.box.size = {n * edge, n * edge, n * edge};
+  const auto add = [&](const Vec3d& centre, double r, Phase phase) {
+    out.centre.push_back(centre);
+    out.radius.push_back(r);
+    out.phase.push_back(phase);
+    out.body.push_back(phase == Phase::mastic ? -1 : static_cast<std::int32_t>(out.size()) - 1);
+  };
+  const auto jitter = [&](double size) {
+    return Vec3d{uniform(-size, size), uniform(-size, size), uniform(-size, size)};
+  };
+  for (int i = 0; i < n * n * n; ++i) {
+    const Vec3d cell{i % n + 0.5, i / n % n + 0.5, i / (n * n) + 0.5};
+    add(edge * cell + jitter(0.03 * radius), ratio == 1 ? small : radius, Phase::aggregate);
+  }
+  constexpr int m = n - 1;
+  const double apart = std::max(1.2 * small, 0.02 * radius);  // half the edge of the cube whose four corners they take
+  for (int i = 0; i < m * m * m; ++i) {
+    const Vec3d gap{i % m + 1.0, i / m % m + 1.0, i / (m * m) + 1.0};
+    for (const Vec3d& corner : {Vec3d{1, 1, 1}, Vec3d{1, -1, -1}, Vec3d{-1, 1, -1}, Vec3d{-1, -1, 1}}) {
+      add(edge * gap + apart * corner + jitter(0.1 * apart), small, Phase::mastic);
+    }
+  }
+  return out;
+}
+
+/// A cubic lattice of 3 × 3 × 3 equal spheres whose centres are off their places by up to `jitter` edges. The four
+/// cells along an edge then share a facet of about jitter × edge by edge, the eight at a corner some of jitter² edge².
+Specimen nearly_cubic(double jitter) {
+  std::mt19937 random(5);
+  const auto offset = [&] { return jitter * (2 * (static_cast<double>(random()) / 4294967296.0) - 1); };
+  constexpr int n = 3;
+  const double edge = 2e-3;
+  Specimen out;
+  out.box.size = {n * edge, n * edge, n * edge};
+  for (int i = 0; i < n * n * n; ++i) {
+    out.centre.push_back(edge *
+                         Vec3d{i % n + 0.5 + offset(), i / n % n + 0.5 + offset(), i / (n * n) + 0.5 + offset()});
+    out.radius.push_back(edge / 2);
+    out.phase.push_back(Phase::mastic);
+    out.body.push_back(-1);
+  }
+  return out;
+}
+
+/// Smallest facet over the mean.
+double smallest_share(const ContactNetwork& network) {
+  double least = INFINITY, sum = 0;
+  for (const Contact& c : network.contacts) least = std::min(least, c.area), sum += c.area;
+  return least * static_cast<double>(network.contacts.size()) / sum;
+}
+
+}  // namespace
+
+Rows stiffness_ratios(Effort effort) {
+  Rows rows;
+  for (const double ratio : {1e0, 1e2, 1e4, 1e6}) {
+    const double soft = 1e9;
+    test::Laws laws = test::same_law(laws::Elastic{soft, 0.3});
+    laws[static_cast<std::size_t>(PairType::ma)] = laws::Elastic{soft * std::sqrt(ratio), 0.3};
+    for (const PairType pair : {PairType::aa, PairType::inner, PairType::aw}) {
+      laws[static_cast<std::size_t>(pair)] = laws::Elastic{soft * ratio, 0.3};
+    }
+    judge(rows, fmt::format("A–A over M–M {:.0e}", ratio), test::make_scene(test::random_specimen(8), {}, laws), effort,
+          ratio);
+  }
+  return rows;
+}
+
+Rows size_ratios(Effort effort) {
+  Rows rows;
+  for (const double ratio : {3.0, 10.0, 25.0, 50.0}) {
+    const auto scene = test::make_scene(two_sizes(ratio), {}, elastic_laws());
+    judge(rows, fmt::format("radii 1:{}", ratio), scene, effort, ratio * ratio * ratio);
+  }
+  return rows;
+}
+
+Rows slivers(Effort effort) {
+  Rows rows;
+  for (const double jitter : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    const auto scene = test::make_scene(nearly_cubic(jitter), {}, elastic_laws());
+    const std::string name = fmt::format("cubic lattice off by {:.0e} of its edge", jitter);
+    const auto invariants = measure_invariants(scene.specimen, tessellate(scene.specimen));
+    rows.push_back({name, "double", "smallest facet / mean facet", 0, jitter,
+                    "that there are such facets: a corner's is of the square of what the lattice is off by",
+                    smallest_share(scene.network)});
+    rows.push_back({name, "double", "volume and closure of the cells, relative", 0, jitter < 1e-7 ? 2e-10 : 1e-12,
+                    "cells fill the box to rounding; at 1e-8 also facets narrower than 1e-10 of the distance, which "
+                    "are none, up to one at each of twelve edges",
+                    std::max(invariants.volume, invariants.closure)});
+    judge(rows, name, scene, effort, 1);
+    const double modulus = harmonic_solution(scene, 10).top.e_star_pa;
+    rows.push_back({name, "harmonic", "modulus / E − 1", -20 * jitter - 1e-10, 20 * jitter + 1e-10,
+                    "a column of equal contacts has the modulus E; areas and distances are off by up to four times "
+                    "the offset and three slivers a particle of that size add to it",
+                    modulus / 3e10 - 1});
+  }
+  return rows;
+}
+
+}  // namespace macadam::stability
