@@ -17,6 +17,7 @@ struct Arguments {
   std::string scene, out;
   std::optional<Backend> backend;
   std::optional<Precision> precision;
+  std::optional<SolverMethod> method;
   std::optional<int> threads;
 };
 
@@ -47,6 +48,7 @@ void print_preparation(const Preparation& p) {
 
 Scene scene_of(const Arguments& arguments) {
   Scene scene = read_scene(arguments.scene);
+  if (arguments.method) scene.solver.method = *arguments.method;
   if (arguments.backend) scene.solver.backend = *arguments.backend;
   if (arguments.precision) scene.solver.precision = *arguments.precision;
   if (arguments.threads) scene.solver.threads = *arguments.threads;
@@ -153,6 +155,9 @@ int main_function(int argc, char** argv) {
   run_app->add_option("--precision", arguments.precision, "instead of the scene's: double, mixed or single")
       ->transform(CLI::CheckedTransformer(std::map<std::string, Precision>{
           {"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}}));
+  run_app->add_option("--method", arguments.method, "instead of the scene's: explicit or harmonic")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, SolverMethod>{{"explicit", SolverMethod::explicit_},
+                                                                              {"harmonic", SolverMethod::harmonic}}));
   run_app->add_option("--threads", arguments.threads, "cpu threads; results do not depend on it")
       ->check(CLI::Range(1, 1024));
   auto* specimen_app = app.add_subcommand("specimen", "build the specimen and its contact network only");

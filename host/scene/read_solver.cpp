@@ -77,10 +77,6 @@ SolverSpec read_solver(const Section& section, const LoadingSpec& loading) {
     section.refuse("inertia", "true beside method \"explicit\", which always has inertia",
                    "false, or method = \"harmonic\"");
   }
-  if (spec.tolerance && spec.method == SolverMethod::harmonic) {
-    section.refuse("tolerance", "given beside method \"harmonic\", which has no such error",
-                   "none, or method = \"explicit\"");
-  }
   // A fit of the fundamental with offset and trend is meaningless with fewer than eight samples a cycle, and a sample
   // takes a step.
   const double fastest = *std::max_element(loading.frequencies.begin(), loading.frequencies.end());
