@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// runner.cpp  One run: network, harmonic solutions, stepping, evaluation after each number of cycles asked.
+#include "bench/accuracy/runner.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace macadam::accuracy {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr int samples_per_cycle = 500;
+
+/// A whole number of samples a period, a whole number of steps a sample.
+loadings::Cyclic make_loading(const Case& c, double height, double step) {
+  loadings::Cyclic loading;
+  loading.amplitude = c.strain * height;
+  loading.frequency = c.frequency;
+  loading.steps_per_period = std::llround(std::ceil(1 / (c.frequency * step * samples_per_cycle))) * samples_per_cycle;
+  loading.ramp_steps = std::llround(c.ramp_cycles * static_cast<double>(loading.steps_per_period));
+  return loading;
+}
+
+}  // namespace
+
+/// A specimen with one choice of contacts, and its harmonic solutions.
+struct Runner::Network {
+  Preparation prepared;
+  LawTable laws;
+  Inertia inertia;
+  Harmonic harmonic;
+  double seconds_factoring;
+  std::map<std::tuple<double, double, double>, HarmonicResult> solved;
+
+  Network(Preparation made, const Scene& scene, Clock::time_point start = Clock::now())
+      : prepared(std::move(made)),
+        laws(scene.laws),
+        inertia(make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic)),
+        harmonic(prepared.specimen, prepared.network, laws, inertia, {}, 6),
+        seconds_factoring(seconds_since(start)) {}
+
+  const HarmonicResult& solve(double frequency, double scaling, double viscous) {
+    auto [at, fresh] = solved.try_emplace({frequency, scaling, viscous});
+    if (fresh) at->second = harmonic.solve(frequency, scaling, viscous);
+    return at->second;
+  }
+};
+
+Runner::Runner(std::filesystem::path root, std::filesystem::path out) : root_(std::move(root)), out_(std::move(out)) {}
+Runner::~Runner() = default;
+
+/// The laws and materials of the demo for all three.
+const Scene& Runner::scene(const std::string& name) {
+  auto [at, fresh] = scenes_.try_emplace(name);
+  if (fresh) {
+    Scene& made = at->second = read_scene(root_ / "examples/demo/scene.toml");
+    made.loading = {};
+    made.solver = {};
+    if (name != "demo") {
+      made.specimen = {};
+      made.specimen.file = root_ / "tests/data" / (name == "t8" ? "t8.csv" : "ss_full.csv.gz");
+      made.specimen.box.size = name == "t8" ? Vec3d{0.008, 0.008, 0.011} : Vec3d{0.05, 0.05, 0.08};
+    }
+  }
+  return at->second;
+}
+
+Runner::Network& Runner::network(const Case& c) {
+  auto& at = networks_[{c.scene, c.quadrature, c.gap_max.value_or(-1), c.area_min.value_or(-1)}];
+  if (!at) {
+    Scene variant = scene(c.scene);
+    variant.network.quadrature = c.quadrature;
+    variant.network.gap_max = c.gap_max;
+    variant.network.area_min = c.area_min;
+    at = std::make_unique<Network>(prepare(variant), variant);
+  }
+  return *at;
+}
+
+std::vector<Outcome> Runner::run(Case& c) {
+  if (c.tolerance) return run_asked(c);
+  Network& n = network(c);
+  const Box& box = n.prepared.specimen.box;
+  const double viscous = c.damping_kind == Damping::viscous ? c.damping : 0;
+
+  StepperOptions options;
+  options.damping_kind = c.damping_kind;
+  options.damping = c.damping;
+  const double critical = critical_step(n.prepared.network, n.laws, n.inertia, options).dt;
+  const loadings::Cyclic loading = make_loading(c, box.size.z, c.step_share * critical * std::sqrt(c.density_scaling));
+  options.loading = loading;
+  options.dt = loading.dt();
+  options.density_scaling = c.density_scaling;
+  options.form = c.form;
+  options.geometry = c.geometry;
+  options.precision = c.precision;
+  options.threads = 1;
+
+  Outcome now;
+  const HarmonicResult& own = n.solve(c.frequency, c.density_scaling, viscous);
+  now.own = own.top;
+  now.truth = n.solve(c.frequency, 1, 0).top;
+  Case plain = c;
+  plain.quadrature = Quadrature::lumped;
+  plain.gap_max = plain.area_min = std::nullopt;
+  now.model = network(plain).solve(c.frequency, 1, 0).top;
+  now.seconds_harmonic = n.seconds_factoring + own.seconds;
+  now.contacts = static_cast<std::int64_t>(n.prepared.network.contacts.size());
+  now.dt = loading.dt();
+  now.step_share = now.dt / (critical * std::sqrt(c.density_scaling));
+
+  StartState state;
+  if (c.start == Start::steady) {
+    state = steady_start(n.prepared.network, n.laws, own.motion, loading);
+    options.start = &state;
+  }
+  const auto stepper = make_stepper(c.backend, n.prepared.specimen, n.prepared.network, n.laws, n.inertia, options);
+  now.bytes = stepper->bytes();
+
+  std::vector<Outcome> out;
+  std::vector<ResponseSample> samples;
+  const auto start = Clock::now();
+  for (int cycle = 0; cycle < c.cycles.back(); ++cycle) {
+    for (int k = cycle == 0 ? 0 : 1; k <= samples_per_cycle; ++k) {
+      if (k > 0) stepper->advance(loading.steps_per_period / samples_per_cycle);
+      const Observation seen = stepper->observe();
+      samples.push_back({c.frequency, seen.time, seen.wall_displacement / box.size.z,
+                         -seen.wall_force[5].z / (box.size.x * box.size.y)});
+    }
+    now.seconds = seconds_since(start);
+    now.cycles = cycle + 1;
+    now.steps = now.cycles * loading.steps_per_period;
+    if (stepper->first_divergent() >= 0 || !std::isfinite(samples.back().stress_pa)) {
+      now.status = "diverged";
+      out.push_back(now);
+      return out;
+    }
+    if (std::ranges::find(c.cycles, now.cycles) == c.cycles.end()) continue;
+    now.fit_cycles = LoadingSpec{}.fitted(now.cycles);
+    now.found = evaluate_cyclic(samples, c.frequency, now.fit_cycles).fit;
+    out.push_back(now);
+  }
+  return out;
+}
+
+/// The whole program with `[solver] tolerance`: it chooses, and the case's settings say afterwards what it chose.
+std::vector<Outcome> Runner::run_asked(Case& c) {
+  Scene asked = scene(c.scene);
+  asked.loading.frequencies = {c.frequency};
+  asked.loading.strain_amplitude = c.strain;
+  asked.solver.tolerance = c.tolerance;
+  asked.solver.backend = c.backend;
+  asked.solver.threads = 1;
+  const RunResult result = macadam::run(asked, out_);
+  const FrequencyResult& f = result.frequencies.at(0);
+  c.density_scaling = f.density_scaling;
+  c.precision = result.precision;
+  c.form = result.form;
+  c.geometry = result.geometry;
+  c.start = f.start;
+  Outcome out;
+  Network& n = network(c);
+  out.found = f.stiffness;
+  out.truth = out.model = n.solve(c.frequency, 1, 0).top;
+  out.own = n.solve(c.frequency, f.density_scaling, 0).top;
+  out.cycles = f.cycles;
+  out.fit_cycles = asked.loading.fitted(f.cycles);
+  out.steps = f.steps;
+  out.seconds = f.seconds;
+  out.seconds_harmonic = result.seconds_planning;
+  out.dt = f.dt_s;
+  out.step_share = f.dt_s / (result.critical_dt_s * std::sqrt(f.density_scaling));
+  out.bytes = result.bytes;
+  out.contacts = static_cast<std::int64_t>(n.prepared.network.contacts.size());
+  return {out};
+}
+
+}  // namespace macadam::accuracy
