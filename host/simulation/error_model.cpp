@@ -37,9 +37,7 @@ double single_precision_error(std::int64_t steps) {
   return 4e-7 + 1.4e-5 * millions * millions;
 }
 
-// t8: 1.2·ε² at strains of 1e-3, 3e-3 and 1e-2. (Runs with updated geometry seem to differ by 0.03·ε when one cycle is
-// fitted: that is their second harmonic, of which a fit with a trend takes 0.78 for the fundamental; of two cycles
-// 0.09.)
+// t8: 1.2·ε² at strains of 1e-3, 3e-3 and 1e-2.
 double fixed_geometry_error(double strain) { return 3 * strain * strain; }
 
 // With a ramp of one cycle: 4 cycles come within 4e-5, 6 within 1.3e-5, 12 within 2.3e-6 (t8 and demo, 2 and 20 Hz), a

@@ -83,6 +83,10 @@ class Planner {
     start_ = scene_.loading.start.value_or(automatic() && scene_.loading.ramp_cycles.value_or(0) == 0 ? Start::steady
                                                                                                       : Start::rest);
     if (!automatic() && start_ == Start::rest) return;
+    if (start_ == Start::rest && !scene_.loading.ramp_cycles) {
+      ramp_ = 1;
+      decide("start from rest with a ramp of one cycle: without it, the waves of the start stay");
+    }
     if (const auto why = why_not_linear()) {
       if (start_ == Start::steady) {
         start_ = Start::rest;
