@@ -16,7 +16,7 @@ namespace macadam::accuracy {
 /// Settings of a run. The defaults are the base about which one factor is varied at a time.
 struct Case {
   std::string study;           ///< why it was run: the figure or table that it belongs to
-  std::string scene = "t8";    ///< "t8", "demo" or "full"
+  std::string scene = "t8";    ///< "t8", "demo", "full", or "seed N": another mixture in a smaller box
   double frequency = 20;       ///< [Hz]
   double density_scaling = 1;  ///< multiplies mass and inertia
   double step_share = 0.95;    ///< of critical_step()
@@ -44,6 +44,7 @@ struct Outcome {
   Stiffness model;              ///< truth of the unfiltered network with lumped quadrature
   double seconds = 0;           ///< of stepping
   double seconds_harmonic = 0;  ///< to factor and solve the harmonic solution that a steady start needs
+  double seconds_by_hand = 0;   ///< of a run with a tolerance: stepping of the best settings found by hand that keep it
   double dt = 0, step_share = 0;
   std::int64_t steps = 0, bytes = 0, contacts = 0;
   std::string status = "done";  ///< or why there is no number

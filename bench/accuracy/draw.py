@@ -289,12 +289,13 @@ class Drawing:
                                   *cost(r)) for r in of("backend")]))
         parts.append(self.table("`[solver] tolerance`", ["scene", "f", "asked", "scaling", "precision", "geometry",
                                                          "\\|E\\*\\| predicted", "\\|E\\*\\| achieved",
-                                                         "φ achieved (rad)", "steps", "s", "planning s"],
+                                                         "φ achieved (rad)", "steps", "s", "planning s", "s / by hand"],
                                 [(r["scene"], f"{r['frequency_hz']:g}", f"{r['tolerance']:g}", scaled(r),
                                   r["precision"], r["geometry"],
                                   f"{(1 + r[E_STAR]) / (1 + r[OWN[E_STAR]]) - 1:+.3e}", f"{r[E_STAR]:+.3e}",
                                   f"{math.radians(r[PHASE]):+.2e}", int(r["steps"]), f"{r['seconds']:.3g}",
-                                  f"{r['seconds_harmonic']:.2g}") for r in of("tolerance")]))
+                                  f"{r['seconds_harmonic']:.2g}",
+                                  f"{r['seconds'] / r['seconds_by_hand']:.2f}") for r in of("tolerance")]))
         Path(f"{self.stem}-tables.md").write_text("\n".join(parts), encoding="utf-8")
 
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace macadam::accuracy {
 namespace {
@@ -52,14 +54,18 @@ struct Runner::Network {
 Runner::Runner(std::filesystem::path root, std::filesystem::path out) : root_(std::move(root)), out_(std::move(out)) {}
 Runner::~Runner() = default;
 
-/// The laws and materials of the demo for all three.
+/// The laws and materials of the demo for all.
 const Scene& Runner::scene(const std::string& name) {
   auto [at, fresh] = scenes_.try_emplace(name);
   if (fresh) {
     Scene& made = at->second = read_scene(root_ / "examples/demo/scene.toml");
     made.loading = {};
     made.solver = {};
-    if (name != "demo") {
+    if (name.starts_with("seed ")) {
+      made.specimen.seed = std::stoull(name.substr(5));
+      made.specimen.box.size = {0.012, 0.012, 0.016};
+      made.specimen.aggregate = {{2e-3, 4.75e-3, 0.25, std::nullopt}};
+    } else if (name != "demo") {
       made.specimen = {};
       made.specimen.file = root_ / "tests/data" / (name == "t8" ? "t8.csv" : "ss_full.csv.gz");
       made.specimen.box.size = name == "t8" ? Vec3d{0.008, 0.008, 0.011} : Vec3d{0.05, 0.05, 0.08};
@@ -175,7 +181,27 @@ std::vector<Outcome> Runner::run_asked(Case& c) {
   out.step_share = f.dt_s / (result.critical_dt_s * std::sqrt(f.density_scaling));
   out.bytes = result.bytes;
   out.contacts = static_cast<std::int64_t>(n.prepared.network.contacts.size());
+  out.seconds_by_hand = seconds_by_hand(c);
   return {out};
+}
+
+/// What somebody who knows the answer would find: single precision, fixed geometry, one cycle from the steady start, a
+/// step beyond what is proven, and the scaling raised until the error is just below what is asked.
+double Runner::seconds_by_hand(const Case& asked) {
+  Case hand = asked;
+  hand.tolerance = std::nullopt;
+  hand.precision = Precision::single;
+  hand.geometry = Geometry::fixed;
+  hand.step_share = 1.25;
+  double best = std::numeric_limits<double>::infinity();
+  for (; hand.density_scaling < 1e9; hand.density_scaling *= 1.08) {
+    const Outcome found = run(hand).back();
+    const double error = std::max(std::abs(found.found.e_star_pa / found.truth.e_star_pa - 1),
+                                  std::abs(found.found.phase_deg - found.truth.phase_deg) * std::numbers::pi / 180);
+    if (found.status != "done" || error > *asked.tolerance) break;
+    best = std::min(best, found.seconds);
+  }
+  return best;
 }
 
 }  // namespace macadam::accuracy

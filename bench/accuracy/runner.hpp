@@ -25,6 +25,7 @@ class Runner {
   const Scene& scene(const std::string& name);
   Network& network(const Case& settings);
   std::vector<Outcome> run_asked(Case& settings);
+  double seconds_by_hand(const Case& asked);
 
   std::filesystem::path root_, out_;
   std::map<std::string, Scene> scenes_;

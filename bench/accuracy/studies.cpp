@@ -195,12 +195,11 @@ class List {
 
   /// What `[solver] tolerance` chooses, and what comes of it.
   void tolerance() {
-    for (const char* scene : {"t8", "demo"}) {
-      const bool demo = scene[0] == 'd';
-      if (quick_ && demo) break;
-      for (const double frequency : {20.0, 2.0}) {
+    for (const char* scene : {"t8", "seed 101", "seed 102", "demo"}) {
+      if (quick_ && scene[0] != 't') break;
+      for (const double frequency : {2.0, 5.0, 10.0, 20.0}) {
         for (const double asked : {1e-2, 1e-3, 1e-4}) {
-          if (demo && asked < 1e-3) continue;
+          if (quick_ && asked < 1e-3) continue;
           add("tolerance", scene, frequency, 0).tolerance = asked;
         }
       }
