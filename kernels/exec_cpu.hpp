@@ -20,7 +20,8 @@ class ExecCpu {
  public:
   using Policy = P;
   using R = typename P::Particle;
-  static constexpr int lanes = PackItem::width;
+  using Item = PackItem<packet_width<P>>;
+  static constexpr int lanes = static_cast<int>(Item::lanes());
   static constexpr std::size_t tile_contacts = 1024;  ///< a tile's states (200 kB) fit a core's second-level cache
 
   ExecCpu(const ContactNetwork& network, const Layout& layout, int threads)
@@ -160,35 +161,20 @@ class ExecCpu {
       const std::uint32_t* end_a = exec.accumulators_.end_a[this->number].data();
       const std::uint32_t* end_b = exec.accumulators_.end_b[this->number].data();
       for (std::uint32_t packet = packets[tile]; packet < packets[tile + 1]; ++packet) {
-        const auto load = forces(PackItem{}, packet, motion);
+        const auto load = forces(Item{}, packet, motion);
         exec.add(load, end_a + packet * lanes, end_b + packet * lanes);
       }
     }
   };
 
-  /// Adds a packet's loads, contact by contact: one line a body.
+  /// Adds a packet's loads, contact by contact.
   template <class T>
   void add(const ContactLoad<T>& load, const std::uint32_t* end_a, const std::uint32_t* end_b) {
-    add_side<T>({load.force_a, load.moment_a}, end_a);
-    add_side<T>({-load.force_a, load.moment_b}, end_b);
-  }
-  template <class T>
-  void add_side(const Twist<T>& load, const std::uint32_t* end) {
-    using G = typename P::Geometry;
-    const T* words[8] = {&load.linear.x,  &load.linear.y,  &load.linear.z,  nullptr,
-                         &load.angular.x, &load.angular.y, &load.angular.z, nullptr};
-    Line<G> lines[8];
-    for (int w = 0; w < 8; ++w) {
-      if (words[w])
-        PackItem::to_line<G>(*words[w], lines[w]);
-      else
-        lines[w] = Line<G>{};
-    }
-    transpose<G>(lines);
-    for (int j = 0; j < lanes; ++j) {
-      auto& sum = *reinterpret_cast<Line<R>*>(sums_.data() + static_cast<std::size_t>(end[j]) * velocity_words);
-      sum += __builtin_convertvector(lines[j], Line<R>);
-    }
+    R *force = sums_.data(), *moment = force + velocity_words / 2;
+    Item::scatter_add(force, end_a, load.force_a);
+    Item::scatter_add(moment, end_a, load.moment_a);
+    Item::scatter_add(force, end_b, -load.force_a);
+    Item::scatter_add(moment, end_b, load.moment_b);
   }
 
   /// A body's own accumulator (walls have `none`) and its halo row.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file pack_item.hpp  The CPU's Item: a packet of eight contacts in SIMD registers (std::experimental::simd).
+/// \file pack_item.hpp  The CPU's Item: a packet of contacts in SIMD registers (std::experimental::simd).
 #pragma once
 
+#include <algorithm>
 #include <experimental/simd>
 
 #include "kernels/contact_forces.hpp"
@@ -11,8 +12,15 @@ namespace macadam::kernels {
 
 namespace stdx = std::experimental;
 
+/// Contacts a packet of precision P: what a register holds of the words that geometry is in, which most of a step
+/// works on, and a multiple of four, which is half a body's line.
+template <class P>
+inline constexpr std::size_t packet_width = std::clamp<std::size_t>(stdx::native_simd<typename P::Geometry>::size(), 4,
+                                                                    8);
+
+template <std::size_t width>
 struct PackItem {
-  static constexpr std::size_t width = 8;
+  static_assert(width == 4 || width == 8);
   template <class R>
   using Value = stdx::simd<R, stdx::simd_abi::deduce_t<R, width>>;
 
@@ -52,52 +60,82 @@ struct PackItem {
     return no;
   }
 
-  /// The same eight words as a vector of the compiler's, and back (a packet may be made of several registers).
-  template <class R>
-  static void to_line(const Value<R>& x, Line<R>& line) {
-    x.copy_to(reinterpret_cast<R*>(&line), stdx::vector_aligned);
-  }
-  template <class R>
-  static Value<R> to_pack(const Line<R>& line) {
-    return Value<R>(reinterpret_cast<const R*>(&line), stdx::vector_aligned);
-  }
-
   /// Velocity and spin of one body a lane.
   template <class R>
   static Twist<Value<R>> twist(const R* velocity, const std::int32_t* body) {
-    Line<R> r[8];
-    for (std::size_t j = 0; j < 8; ++j) {
-      r[j] = *reinterpret_cast<const Line<R>*>(velocity + static_cast<std::size_t>(body[j]) * velocity_words);
-    }
-    transpose<R>(r);
-    return {{to_pack<R>(r[0]), to_pack<R>(r[1]), to_pack<R>(r[2])},
-            {to_pack<R>(r[4]), to_pack<R>(r[5]), to_pack<R>(r[6])}};
+    return {gather<R>(velocity, body), gather<R>(velocity + velocity_words / 2, body)};
   }
 
   /// u of one body a lane, and u_b − u_a, subtracted before it is rounded to To; `u` points to the first body's.
   template <class To, class R>
   static Vec3<Value<To>> vector(const R* u, const std::int32_t* body) {
-    HalfLine<R> lines[8];
-    for (std::size_t j = 0; j < 8; ++j) lines[j] = half_line(u, body[j]);
-    return turned<To, R>(lines);
+    return gather<To>(u, body);
   }
   template <class To, class R>
   static Vec3<Value<To>> relative(const R* u, const std::int32_t* a, const std::int32_t* b) {
-    HalfLine<R> lines[8];
-    for (std::size_t j = 0; j < 8; ++j) lines[j] = half_line(u, b[j]) - half_line(u, a[j]);
-    return turned<To, R>(lines);
+    return gather<To>(u, b, a);
+  }
+
+  /// Adds one vector a lane to line `line[j]` of `sums`, which points to the first line's.
+  template <class R, class T>
+  static void scatter_add(R* sums, const std::uint32_t* line, const Vec3<T>& vector) {
+    using From = typename T::value_type;
+    if constexpr (one_register<From>) {
+      Words<From, width> words[4] = {to_words<From>(vector.x), to_words<From>(vector.y), to_words<From>(vector.z), {}};
+      HalfLine<From> half[width];
+      turn_back<From, width>(words, half);
+      for (std::size_t j = 0; j < width; ++j) {
+        *reinterpret_cast<HalfLine<R>*>(sums + line[j] * line_words) += __builtin_convertvector(half[j], HalfLine<R>);
+      }
+    } else {
+      const T* components[3] = {&vector.x, &vector.y, &vector.z};
+      for (std::size_t w = 0; w < 3; ++w) {
+        From words[width];
+        components[w]->copy_to(words, stdx::element_aligned);
+        for (std::size_t j = 0; j < width; ++j) sums[line[j] * line_words + w] += static_cast<R>(words[j]);
+      }
+    }
   }
 
  private:
+  static constexpr std::size_t line_words = 8;
+  static_assert(velocity_words == line_words && displacement_words == line_words);
+
+  /// Whether a packet of R is one register. gcc 12 keeps vectors wider than that in memory: then words go one by one.
   template <class R>
-  static HalfLine<R> half_line(const R* u, std::int32_t body) {
-    return *reinterpret_cast<const HalfLine<R>*>(u + static_cast<std::size_t>(body) * displacement_words);
+  static constexpr bool one_register = width * sizeof(R) <= sizeof(stdx::native_simd<R>);
+
+  /// The same words as a vector of the compiler's, and back.
+  template <class R>
+  static Words<R, width> to_words(const Value<R>& x) {
+    Words<R, width> words;
+    x.copy_to(reinterpret_cast<R*>(&words), stdx::vector_aligned);
+    return words;
   }
-  template <class To, class R>
-  static Vec3<Value<To>> turned(const HalfLine<R> (&lines)[8]) {
-    Line<R> words[3];
-    transpose_three<R>(lines, words);
-    return {convert<To>(to_pack<R>(words[0])), convert<To>(to_pack<R>(words[1])), convert<To>(to_pack<R>(words[2]))};
+  template <class R>
+  static Value<R> to_pack(const Words<R, width>& words) {
+    return Value<R>(reinterpret_cast<const R*>(&words), stdx::vector_aligned);
+  }
+
+  /// u of one body a lane, less u of the bodies `minus` where they are given.
+  template <class To, class R, class... Bodies>
+  static Vec3<Value<To>> gather(const R* u, const std::int32_t* body, Bodies... minus) {
+    auto line = [u](std::int32_t i) { return u + static_cast<std::size_t>(i) * line_words; };
+    if constexpr (one_register<To>) {
+      auto half_line = [&](std::int32_t i) { return *reinterpret_cast<const HalfLine<R>*>(line(i)); };
+      HalfLine<To> half[width];
+      for (std::size_t j = 0; j < width; ++j) {
+        half[j] = __builtin_convertvector((half_line(body[j]) - ... - half_line(minus[j])), HalfLine<To>);
+      }
+      Words<To, width> words[4];
+      turn<To, width>(half, words);
+      return {to_pack<To>(words[0]), to_pack<To>(words[1]), to_pack<To>(words[2])};
+    } else {
+      auto word = [&](std::size_t w) {
+        return Value<To>([&](auto j) { return static_cast<To>((line(body[j])[w] - ... - line(minus[j])[w])); });
+      };
+      return {word(0), word(1), word(2)};
+    }
   }
 };
 

@@ -1,63 +1,76 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file transpose.hpp  Eight lines of eight words turned in registers: bodies' records to SIMD packets and back.
+/// \file transpose.hpp  Half lines of bodies turned in registers: records of four words to SIMD packets and back.
 ///
 /// Gathering word by word costs a scalar load and an insertion a word, several times what the arithmetic of a contact
-/// does; a whole line a body and 24 shuffles cost a third of it.
+/// does; half lines and about two shuffles a packet cost a third of it.
 #pragma once
 
 #include <cstddef>
 
 namespace macadam::kernels {
 
-template <class R>
-struct LineOf {
-  typedef R type __attribute__((vector_size(8 * sizeof(R))));
+template <class R, std::size_t n>
+struct WordsOf {
+  typedef R type __attribute__((vector_size(n * sizeof(R))));
 };
-/// Eight words of R as one vector (gcc lowers it to what the processor has).
+/// n words of R as one vector of the compiler's, four or eight.
+template <class R, std::size_t n>
+using Words = typename WordsOf<R, n>::type;
+/// Half a body's line: v, ω, u or θ, and a word without meaning.
 template <class R>
-using Line = typename LineOf<R>::type;
+using HalfLine = Words<R, 4>;
 
-template <class R>
-struct HalfLineOf {
-  typedef R type __attribute__((vector_size(4 * sizeof(R))));
-};
-/// Four words of R as one vector.
-template <class R>
-using HalfLine = typename HalfLineOf<R>::type;
-
-/// lines[i][j] ↔ lines[j][i], by swapping blocks of one, two and four words.
-template <class R>
-inline __attribute__((always_inline)) void transpose(Line<R> (&r)[8]) {
-  for (int i = 0; i < 8; i += 2) {
-    const Line<R> a = r[i], b = r[i + 1];
-    r[i] = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
-    r[i + 1] = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-  }
-  for (int k = 0; k < 4; ++k) {
-    const int i = k / 2 * 4 + k % 2;
-    const Line<R> a = r[i], b = r[i + 2];
-    r[i] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
-    r[i + 2] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
-  }
-  for (int i = 0; i < 4; ++i) {
-    const Line<R> a = r[i], b = r[i + 4];
-    r[i] = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
-    r[i + 4] = __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+/// In every block of four words: i, j, k, l, where 0…3 are words of a's block and 4…7 of b's.
+template <int i, int j, int k, int l, class V>
+inline __attribute__((always_inline)) V pick(const V& a, const V& b) {
+  if constexpr (sizeof(V) == 4 * sizeof(a[0])) {
+    return __builtin_shufflevector(a, b, i, j, k, l);
+  } else {
+    constexpr auto at = [](int w) { return w < 4 ? w : w + 4; };
+    return __builtin_shufflevector(a, b, at(i), at(j), at(k), at(l), at(i) + 4, at(j) + 4, at(k) + 4, at(l) + 4);
   }
 }
 
-/// The first three words of eight half lines, as three lines.
-template <class R>
-inline __attribute__((always_inline)) void transpose_three(const HalfLine<R> (&half)[8], Line<R> (&out)[3]) {
-  Line<R> r[4];  // lines j and j + 4 side by side
-  for (int j = 0; j < 4; ++j) r[j] = __builtin_shufflevector(half[j], half[j + 4], 0, 1, 2, 3, 4, 5, 6, 7);
-  const Line<R> a = __builtin_shufflevector(r[0], r[1], 0, 8, 2, 10, 4, 12, 6, 14);
-  const Line<R> b = __builtin_shufflevector(r[0], r[1], 1, 9, 3, 11, 5, 13, 7, 15);
-  const Line<R> c = __builtin_shufflevector(r[2], r[3], 0, 8, 2, 10, 4, 12, 6, 14);
-  const Line<R> d = __builtin_shufflevector(r[2], r[3], 1, 9, 3, 11, 5, 13, 7, 15);
-  out[0] = __builtin_shufflevector(a, c, 0, 1, 8, 9, 4, 5, 12, 13);
-  out[1] = __builtin_shufflevector(b, d, 0, 1, 8, 9, 4, 5, 12, 13);
-  out[2] = __builtin_shufflevector(a, c, 2, 3, 10, 11, 6, 7, 14, 15);
+/// In every block: r[i][j] ↔ r[j][i]. Each pick is one instruction, floats and doubles being interleaved differently.
+template <class V>
+inline __attribute__((always_inline)) void transpose(V (&r)[4]) {
+  if constexpr (sizeof(r[0][0]) == 4) {
+    const V a = pick<0, 4, 1, 5>(r[0], r[1]), b = pick<2, 6, 3, 7>(r[0], r[1]);
+    const V c = pick<0, 4, 1, 5>(r[2], r[3]), d = pick<2, 6, 3, 7>(r[2], r[3]);
+    r[0] = pick<0, 1, 4, 5>(a, c), r[1] = pick<2, 3, 6, 7>(a, c);
+    r[2] = pick<0, 1, 4, 5>(b, d), r[3] = pick<2, 3, 6, 7>(b, d);
+  } else {
+    const V a = pick<0, 4, 2, 6>(r[0], r[1]), b = pick<1, 5, 3, 7>(r[0], r[1]);
+    const V c = pick<0, 4, 2, 6>(r[2], r[3]), d = pick<1, 5, 3, 7>(r[2], r[3]);
+    r[0] = pick<0, 1, 4, 5>(a, c), r[1] = pick<0, 1, 4, 5>(b, d);
+    r[2] = pick<2, 3, 6, 7>(a, c), r[3] = pick<2, 3, 6, 7>(b, d);
+  }
+}
+
+/// Word w of all half lines in words[w].
+template <class R, std::size_t lanes>
+inline __attribute__((always_inline)) void turn(const HalfLine<R> (&half)[lanes], Words<R, lanes> (&words)[4]) {
+  for (std::size_t j = 0; j < 4; ++j) {
+    if constexpr (lanes == 4)
+      words[j] = half[j];
+    else
+      words[j] = __builtin_shufflevector(half[j], half[j + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  transpose(words);
+}
+
+/// The half lines of which words[w] holds word w.
+template <class R, std::size_t lanes>
+inline __attribute__((always_inline)) void turn_back(Words<R, lanes> (&words)[4], HalfLine<R> (&half)[lanes]) {
+  transpose(words);
+  for (std::size_t j = 0; j < 4; ++j) {
+    if constexpr (lanes == 4) {
+      half[j] = words[j];
+    } else {
+      half[j] = __builtin_shufflevector(words[j], words[j], 0, 1, 2, 3);
+      half[j + 4] = __builtin_shufflevector(words[j], words[j], 4, 5, 6, 7);
+    }
+  }
 }
 
 }  // namespace macadam::kernels
