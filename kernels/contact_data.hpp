@@ -126,9 +126,9 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
     word(n_y) = static_cast<Geo>(c.n.y);
     word(n_z) = static_cast<Geo>(c.n.z);
     if (options.geometry == Geometry::updated) word(distance) = static_cast<Geo>(c.distance);
+    const Vec3d from = options.start && real && shape.frame_words > 0 ? carried_to_start(c, *options.start) : c.s;
+    const double s[3] = {from.x, from.y, from.z};
     for (int k = 0; k < shape.frame_words && k < 3; ++k) {
-      const Vec3d from = options.start && real ? carried_to_start(c, *options.start) : c.s;
-      const double s[3] = {from.x, from.y, from.z};
       out.frame[(packet * static_cast<std::size_t>(shape.frame_words) + static_cast<std::size_t>(k)) * lanes + lane] =
           static_cast<typename P::State>(s[k]);
     }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -110,27 +111,82 @@ TEST_F(Tolerance, GivenSettingsWin) {
   EXPECT_EQ(json.at("results").at(0).at("start"), "steady");
   EXPECT_EQ(json.at("solver").at("tolerance"), 1e-2);
   EXPECT_FALSE(json.at("solver").at("decisions").empty());
-  EXPECT_FALSE(json.at("solver").at("skips").empty());
+  EXPECT_FALSE(json.at("skips").empty());
 }
 
-// Local damping is not linear: a ramp from rest, a scaling from the wave speed, no comparison; and it is said.
-TEST_F(Tolerance, WithoutAHarmonicSolutionABoundDecides) {
+bool says(const RunResult& result, const std::string& what) {
+  return std::any_of(result.decisions.begin(), result.decisions.end(),
+                     [&](const std::string& d) { return d.find(what) != std::string::npos; });
+}
+
+// Local damping is not linear: a ramp from rest, although a steady start was asked; and it is said.
+TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.loading.frequencies = {20};
   scene.loading.start = Start::steady;
-  const double predicted = run_it(scene).frequencies[0].density_scaling;
   scene.solver.damping_kind = Damping::local;
   scene.solver.damping = 0.02;
   const RunResult result = run_it(scene);
   const FrequencyResult& f = result.frequencies[0];
   EXPECT_EQ(f.start, Start::rest);
-  EXPECT_FALSE(f.achieved);
-  EXPECT_GE(f.cycles, 3);
-  EXPECT_LE(f.density_scaling, predicted);
-  EXPECT_GT(f.density_scaling, predicted / 30);
-  EXPECT_NE(result.decisions.at(1).find("local damping is not linear"), std::string::npos) << result.decisions.at(1);
-  // the bound kept what it promised, local damping aside
-  EXPECT_NEAR(f.stiffness.e_star_pa, 11.69667e9, 0.02 * 11.69667e9);
+  EXPECT_GE(f.cycles, 4);
+  EXPECT_TRUE(f.kept.value());
+  EXPECT_TRUE(says(result, "not linear: local damping"));
+  EXPECT_TRUE(says(result, "from rest, not steady as asked,"));
+}
+
+// One point a facet and no shear: particles turn freely, and the stiffness is singular.
+TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
+  Scene scene = scene_of(t8(), 1e-2);
+  scene.loading.frequencies = {20};
+  scene.network.quadrature = Quadrature::one_point;
+  for (auto& law : scene.laws) std::visit([](auto& l) { l.alpha = 0; }, *law);
+  const RunResult result = run_it(scene);
+  const FrequencyResult& f = result.frequencies[0];
+  EXPECT_EQ(f.start, Start::rest);
+  EXPECT_FALSE(f.achieved || f.predicted || f.kept);
+  EXPECT_GT(f.density_scaling, 100);
+  EXPECT_TRUE(says(result, "no harmonic solution"));
+  EXPECT_EQ(result.form, ContactForm::points);
+}
+
+// What the scene gives may not keep the tolerance: it is said.
+TEST_F(Tolerance, AMissIsSaid) {
+  Scene scene = scene_of(t8(), 1e-3);
+  scene.loading.frequencies = {20};
+  scene.solver.density_scaling = std::vector<double>{5e4};
+  EXPECT_FALSE(run_it(scene).frequencies[0].kept.value());
+  EXPECT_EQ(summary().at("results").at(0).at("tolerance_kept"), false);
+}
+
+TEST_F(Tolerance, AGivenStepHasTheScalingThatItNeeds) {
+  Scene scene = scene_of(t8(), 1e-2);
+  scene.loading.frequencies = {20};
+  scene.solver.time_step = 5e-6;
+  const FrequencyResult f = run_it(scene).frequencies[0];
+  EXPECT_TRUE(f.kept.value());
+  EXPECT_LT(f.density_scaling, 1e4);
+  EXPECT_NEAR(f.dt_s, 5e-6, 5e-7);
+}
+
+// Large strains: the run keeps its geometry up to date and says that the harmonic solution does not.
+TEST_F(Tolerance, LargeStrainsAreNotLinear) {
+  Scene scene = scene_of(t8(), 1e-3);
+  scene.loading.frequencies = {20};
+  scene.loading.strain_amplitude = 0.01;
+  const RunResult result = run_it(scene);
+  EXPECT_EQ(result.geometry, Geometry::updated);
+  EXPECT_TRUE(says(result, "not linear at this strain"));
+}
+
+// A ramp that leaves no cycle to fit makes the run longer.
+TEST_F(Tolerance, TheFittedCyclesLieAfterTheRamp) {
+  Scene scene = scene_of(t8(), 1e-2);
+  scene.loading.frequencies = {20};
+  scene.solver.tolerance = std::nullopt;
+  scene.solver.density_scaling = std::vector<double>{5e4};
+  scene.loading.ramp_cycles = 4;
+  EXPECT_EQ(run_it(scene).frequencies[0].cycles, 6);
 }
 
 // Only the fitted cycles are observed where nobody wants the response; the answer is the same.

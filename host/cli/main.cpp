@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "host/cli/progress_line.hpp"
 #include "macadam/macadam.hpp"
@@ -60,7 +59,7 @@ void print_results(const RunResult& result) {
   const bool stepped = !result.frequencies.empty() && result.frequencies.front().method == SolverMethod::explicit_;
   const bool known = stepped && result.frequencies.front().achieved;
   if (stepped) {
-    fmt::print(" {:>11} {:>9} {:>9} {:>10} {:>9}\n", known ? "err |E*|" : "d|E*| cycle", known ? "err phi" : "d phi",
+    fmt::print(" {:>11} {:>9} {:>9} {:>10} {:>9}\n", known ? "err |E*|" : "d|E*| cycle", known ? "err (rad)" : "d phi",
                "scaling", "steps", "time (s)");
   } else {
     fmt::print(" {:>9} {:>10} {:>11} {:>9}\n", "residual", "iterations", "held force", "time (s)");
@@ -69,14 +68,17 @@ void print_results(const RunResult& result) {
     fmt::print("{:>8g} {:>11.5f} {:>9.4f}", f.frequency_hz, f.stiffness.e_star_pa / 1e9, f.stiffness.phase_deg);
     if (f.cyclic) {
       const double e_star = f.achieved ? f.achieved->e_star : f.cyclic->change_e_star;
-      const double phase = f.achieved ? f.achieved->phase_rad * 180 / std::numbers::pi : f.cyclic->change_phase_deg;
+      const double phase = f.achieved ? f.achieved->phase_rad : f.cyclic->change_phase_deg;
       fmt::print(" {:>11.1e} {:>9.1e} {:>9.5g} {:>10} {:>9.1f}\n", e_star, phase, f.density_scaling, f.steps,
                  f.seconds);
     } else {
       fmt::print(" {:>9.1e} {:>10} {:>11.1e} {:>9.1f}\n", f.residual, f.iterations, f.held_force, f.seconds);
     }
   }
-  if (known) fmt::print("err: against the harmonic solution at true mass, |E*| relative, phi in degrees\n");
+  if (known) fmt::print("err: against the harmonic solution at true mass, |E*| relative, phi in radians\n");
+  for (const FrequencyResult& f : result.frequencies) {
+    if (f.kept && !*f.kept) fmt::print("warning: {} Hz: the tolerance was not kept\n", f.frequency_hz);
+  }
 }
 
 void run_command(const Arguments& arguments) {

@@ -125,13 +125,14 @@ void check_together(const Scene& scene, const Section& root) {
 LoadingSpec read_loading(const Section& section) {
   constexpr Rule strain{[](double v) { return v > 0 && v < 1; }, "a strain above 0 and below 1"};
   constexpr std::int64_t most = 1'000'000;
+  constexpr Rule ramp{[](double v) { return v >= 0 && v <= most; }, "0 to 1,000,000 cycles"};
   LoadingSpec spec;
   section.read({{"kind", Need::required, [](const Value& v) { v.choice({"cyclic"}); }},
                 {"frequencies", Need::required, into(spec.frequencies, frequency, positive)},
                 {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain)},
                 {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}})},
                 {"cycles", Need::optional, into(spec.cycles, 1, most)},
-                {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, non_negative)},
+                {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp)},
                 {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most)},
                 {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most)}});
   if (spec.frequencies.empty()) section.refuse("frequencies", "none", "at least one");

@@ -9,13 +9,13 @@
 
 namespace macadam {
 
-ErrorEstimate inertia_error(const Stiffness& found, const Stiffness& expected) {
+ErrorEstimate difference(const Stiffness& found, const Stiffness& expected) {
   return {found.e_star_pa / expected.e_star_pa - 1, (found.phase_deg - expected.phase_deg) * std::numbers::pi / 180};
 }
 
 double largest(const ErrorEstimate& error) { return std::max(std::abs(error.e_star), std::abs(error.phase_rad)); }
 
-double inertia_bound(const Scene& scene, const Preparation& prepared, double frequency) {
+double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency) {
   const double omega = 2 * std::numbers::pi * frequency;
   double softest = std::numeric_limits<double>::infinity();
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -25,7 +25,7 @@ double inertia_bound(const Scene& scene, const Preparation& prepared, double fre
   }
   const double height = prepared.specimen.box.size.z;
   const double density = std::max(scene.materials.aggregate, scene.materials.mastic);
-  return omega * omega * height * height * density / (3 * softest);
+  return omega * omega * height * height * density / softest;  // 3 · E = softest
 }
 
 // Upper envelopes, about twice what bench/accuracy measured (bench/results/accuracy.csv), of |E*| and φ in radians.
@@ -40,9 +40,11 @@ double single_precision_error(std::int64_t steps) {
 // t8: 1.2·ε² at strains of 1e-3, 3e-3 and 1e-2.
 double fixed_geometry_error(double strain) { return 3 * strain * strain; }
 
-// With a ramp of one cycle: 4 cycles come within 4e-5, 6 within 1.3e-5, 12 within 2.3e-6 (t8 and demo, 2 and 20 Hz), a
-// twentieth of the tolerance, because inertia takes the most of it. Without a ramp nothing damps the waves of the
-// start, which leave 1e-5 to 1e-3 at random, however many cycles.
-int cycles_from_rest(double tolerance) { return tolerance >= 1e-2 ? 4 : tolerance >= 1e-3 ? 6 : 12; }
+// With a ramp of one cycle: 4 cycles come within 4e-5, 6 within 1.3e-5, 12 within 2.3e-6 (t8 and demo, 2 and 20 Hz):
+// as n^−2.6. It may be a fortieth of the tolerance. Without a ramp nothing damps the waves of the start, which leave
+// 1e-5 to 1e-3 at random, however many cycles.
+int cycles_from_rest(double tolerance) {
+  return std::max(4, static_cast<int>(std::ceil(4 * std::pow(4e-5 / (tolerance / 40), 1 / 2.6))));
+}
 
 }  // namespace macadam

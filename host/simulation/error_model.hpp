@@ -13,17 +13,21 @@ namespace macadam {
 /// Particles whose stiffness is factored unasked: memory grows as about n^(4/3), 2 GB for 35,760.
 inline constexpr std::size_t largest_harmonic = 100'000;
 
-/// What the inertia of the first stiffness costs against the second.
-ErrorEstimate inertia_error(const Stiffness& found, const Stiffness& expected);
+/// What is found against what is expected.
+ErrorEstimate difference(const Stiffness& found, const Stiffness& expected);
 /// The larger of |E*|'s and φ's.
 double largest(const ErrorEstimate& error);
 
-/// Bound of what true mass costs: a bar of height H driven at one end has E·kH·cot(kH) ≈ E·(1 − (kH)²/3), with
-/// k² = ω²·ρ/E; E is not below the softest contact's |k*(ω)|, ρ not above the heaviest material's.
-double inertia_bound(const Scene& scene, const Preparation& prepared, double frequency);
+/// What inertia costs per unit of density scaling, not known exactly: a bar of height H driven at one end has
+/// E·kH·cot(kH) ≈ E·(1 − (kH)²/3), with k² = ω²·ρ/E. E is taken as a third of the softest contact's |k*(ω)| (mastic
+/// alone has 0.6 of it, mixtures more than all of it), ρ as the heaviest material's.
+double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency);
 
 /// Drift of single-precision chain states over so many steps.
 double single_precision_error(std::int64_t steps);
+
+/// Of `mixed`, however many steps: single-precision geometry and gathered velocities.
+inline constexpr double mixed_precision_error = 4e-7;
 
 /// Normals and arms of the start kept under this strain.
 double fixed_geometry_error(double strain);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "host/simulation/error_model.hpp"
 #include "host/simulation/solution.hpp"
@@ -15,15 +14,9 @@
 namespace macadam {
 namespace {
 
-/// Shares of the tolerance: inertia is predicted by a solution and so may take most of it; the rest are estimates.
-/// Without a solution it is a bound, and the start from rest takes its share.
-constexpr double inertia_share = 0.9, inertia_bound_share = 0.5, precision_share = 0.05, geometry_share = 0.02;
-
-double geometric_mean(const std::vector<double>& values) {
-  double sum = 0;
-  for (const double v : values) sum += std::log(v);
-  return std::exp(sum / static_cast<double>(values.size()));
-}
+/// Shares of the tolerance. Inertia is predicted by a solution and so takes the most of it; what it takes without one
+/// is an estimate. The rest is for rounding, geometry, start and time step.
+constexpr double inertia_share = 0.9, estimate_share = 0.5, precision_share = 0.05, geometry_share = 0.02;
 
 class Planner {
  public:
@@ -49,57 +42,56 @@ class Planner {
   }
   bool automatic() const { return scene_.solver.tolerance.has_value(); }
   double tolerance() const { return *scene_.solver.tolerance; }
+  double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
 
   void choose_form_and_geometry() {
     // one point has three chains, a facet six
     const bool one_point = scene_.network.quadrature == Quadrature::one_point;
     plan_.form = scene_.solver.form.value_or(one_point ? ContactForm::points : ContactForm::condensed);
-    if (scene_.solver.geometry || !automatic()) {
-      plan_.geometry = scene_.solver.geometry.value_or(Geometry::updated);
-      return;
+    plan_.geometry = scene_.solver.geometry.value_or(Geometry::updated);
+    if (!automatic()) return;
+    decide("form {}: both give the same to rounding", to_string(plan_.form));
+    const double strain = scene_.loading.strain_amplitude, error = fixed_geometry_error(strain);
+    if (!scene_.solver.geometry && error <= geometry_share * tolerance()) plan_.geometry = Geometry::fixed;
+    decide("geometry {}: at a strain of {:g}, that of the start changes |E*| by about {:.1e}",
+           to_string(plan_.geometry), strain, error);
+    if (error > geometry_share * tolerance()) {
+      decide("not linear at this strain: the harmonic solution, that of the start's geometry, differs by as much");
     }
-    const double error = fixed_geometry_error(scene_.loading.strain_amplitude);
-    plan_.geometry = error <= geometry_share * tolerance() ? Geometry::fixed : Geometry::updated;
-    decide("geometry {}: with fixed normals and arms a strain of {:g} costs about {:.1e}", to_string(plan_.geometry),
-           scene_.loading.strain_amplitude, error);
   }
 
-  /// Whether there is a harmonic solution to start from and to compare with; if not, why.
-  std::optional<std::string> why_not_linear() const {
-    if (scene_.solver.damping_kind == Damping::local) return "local damping is not linear";
+  /// Factors the stiffness where there is a harmonic solution; else `no_harmonic_` says why not.
+  void make_harmonic(bool asked) {
+    const std::size_t particles = prepared_.specimen.size();
     if (prepared_.loose_particles > 0) {
-      return fmt::format("{} particles are not joined to both walls, which makes the stiffness singular",
-                         prepared_.loose_particles);
+      no_harmonic_ = fmt::format("{} particles are not joined to both walls", prepared_.loose_particles);
+    } else if (particles > largest_harmonic && !asked) {
+      no_harmonic_ = fmt::format("the stiffness of more than {} particles is factored only for start = \"steady\"",
+                                 largest_harmonic);
+    } else {
+      if (progress_) progress_("harmonic: factoring", 0);
+      try {
+        harmonic_.emplace(prepared_.specimen, prepared_.network, scene_.laws, inertia_, HarmonicOptions{},
+                          geometric_mean(scene_.loading.frequencies));
+      } catch (const RunError& error) { no_harmonic_ = error.what(); }
     }
-    if (prepared_.specimen.size() > largest_harmonic) {
-      return fmt::format("{} particles are more than the {} whose stiffness is factored unasked",
-                         prepared_.specimen.size(), largest_harmonic);
-    }
-    return std::nullopt;
   }
 
   void choose_start() {
-    const bool asked = scene_.loading.start.has_value();
-    start_ = scene_.loading.start.value_or(automatic() && scene_.loading.ramp_cycles.value_or(0) == 0 ? Start::steady
-                                                                                                      : Start::rest);
+    const LoadingSpec& loading = scene_.loading;
+    const bool asked = loading.start == Start::steady;
+    start_ = loading.start.value_or(automatic() && loading.ramp_cycles.value_or(0) == 0 ? Start::steady : Start::rest);
     if (!automatic() && start_ == Start::rest) return;
-    if (start_ == Start::rest && !scene_.loading.ramp_cycles) {
-      ramp_ = 1;
-      decide("start from rest with a ramp of one cycle: without it, the waves of the start stay");
-    }
-    if (const auto why = why_not_linear()) {
-      if (start_ == Start::steady) {
-        start_ = Start::rest;
-        ramp_ = 1;
-        decide("start from rest with a ramp of one cycle{}: {}", asked ? ", not steady as asked" : "", *why);
-      }
-      return;
-    }
-    if (progress_) progress_("harmonic: factoring", 0);
-    harmonic_.emplace(prepared_.specimen, prepared_.network, scene_.laws, inertia_, HarmonicOptions{},
-                      geometric_mean(scene_.loading.frequencies));
-    if (start_ == Start::steady) {
-      decide("steady start from the harmonic solution{}", asked ? "" : ": the first cycle is periodic");
+    make_harmonic(asked);
+    const bool local = scene_.solver.damping_kind == Damping::local;
+    if (!harmonic_) decide("no harmonic solution: {}", no_harmonic_);
+    if (local) decide("not linear: local damping, whose own effect is not predicted");
+    if (start_ == Start::steady && harmonic_ && !local) {
+      decide("steady start from the harmonic solution: the first cycle is periodic");
+    } else {
+      ramp_ = loading.ramp_cycles.value_or(1);
+      decide("start from rest{} with a ramp, so that the start rings less", asked ? ", not steady as asked," : "");
+      start_ = Start::rest;
     }
   }
 
@@ -107,71 +99,86 @@ class Planner {
     const double frequency = scene_.loading.frequencies[i];
     if (progress_ && harmonic_) progress_(fmt::format("harmonic: {} Hz", frequency), 0);
     FrequencyPlan f;
-    if (harmonic_) f.known = harmonic_->solve(frequency, 1, viscous()).top;
+    f.start = start_;
     HarmonicResult scaled;
+    if (harmonic_) f.known = harmonic_->solve(frequency, 1).top;  // undamped: damping is no property of the specimen
     if (scene_.solver.density_scaling || !automatic()) {
       f.density_scaling = density_scaling_of(scene_.solver, i);
-      if (harmonic_) scaled = harmonic_->solve(frequency, f.density_scaling, viscous());
+    } else if (scene_.solver.time_step) {  // as little as the given step needs
+      f.density_scaling = std::max(1.0, std::pow(*scene_.solver.time_step / (safety() * plan_.critical.dt), 2));
     } else if (harmonic_) {
-      scaled = choose_scaling(frequency, f);
+      scaled = choose_scaling(frequency, *f.known, f.density_scaling);
     } else {
-      const double bound = inertia_bound(scene_, prepared_, frequency);
-      f.density_scaling = std::max(1.0, inertia_bound_share * tolerance() / bound);
-      decide(
-          "{} Hz: density scaling {:.4g}, whose inertia costs less than {:.1e} by the specimen's height and the "
-          "slowest wave",
-          frequency, f.density_scaling, f.density_scaling * bound);
+      f.density_scaling = std::max(1.0, estimate_share * tolerance() / inertia_estimate(scene_, prepared_, frequency));
     }
+    if (harmonic_ && scaled.motion.empty()) scaled = harmonic_->solve(frequency, f.density_scaling, viscous());
     choose_cycles(f);
-    f.start = start_;
     f.loading = make_loading(f, frequency);
     if (harmonic_) {
-      f.predicted = inertia_error(scaled.top, *f.known);
+      f.predicted = difference(scaled.top, *f.known);
       if (start_ == Start::steady) f.motion = std::move(scaled.motion);
     }
+    if (automatic()) say(f, frequency);
     plan_.frequencies.push_back(std::move(f));
   }
 
-  double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
-
-  /// The scaling whose inertia costs `inertia_share` of the tolerance, and its solution. Inertia grows as the scaling
-  /// while it is small, so that one or two corrections do.
-  HarmonicResult choose_scaling(double frequency, FrequencyPlan& f) {
-    const double wanted = inertia_share * tolerance();
-    double scaling =
-        std::max(1.0, wanted / (bound_over_error_ ? *bound_over_error_ * inertia_bound(scene_, prepared_, frequency)
-                                                  : inertia_bound(scene_, prepared_, frequency)));
-    for (int attempt = 0;; ++attempt) {
-      HarmonicResult solved = harmonic_->solve(frequency, scaling, viscous());
-      const double error = largest(inertia_error(solved.top, *f.known));
-      const bool fits = error <= 1.05 * wanted && (error >= 0.8 * wanted || scaling == 1);
-      if (scaling == 1 || fits || attempt == 4) {
-        f.density_scaling = scaling;
-        decide("{} Hz: density scaling {:.4g}, whose inertia costs {:.1e} by the harmonic solver", frequency, scaling,
-               error);
-        if (scaling > 1) { bound_over_error_ = error / (scaling * inertia_bound(scene_, prepared_, frequency)); }
-        return solved;
-      }
-      scaling = std::max(1.0, scaling * wanted / error);
+  void say(const FrequencyPlan& f, double frequency) {
+    const std::string error =
+        f.predicted
+            ? fmt::format("predicted error |E*| {:+.1e}, phi {:+.1e} rad", f.predicted->e_star, f.predicted->phase_rad)
+            : fmt::format("inertia costs about {:.1e} by the height and the slowest wave",
+                          f.density_scaling * inertia_estimate(scene_, prepared_, frequency));
+    decide("{} Hz: density scaling {:.4g}, {} cycle{} of {} steps of {:.3g} s: {}", frequency, f.density_scaling,
+           f.cycles, f.cycles == 1 ? "" : "s", f.loading.steps_per_period, f.loading.dt(), error);
+    if (f.loading.dt() > 1.2 * plan_.critical.dt * std::sqrt(f.density_scaling)) {
+      decide("{} Hz: the given step is {:.2f} of the one that is surely stable", frequency,
+             f.loading.dt() / (plan_.critical.dt * std::sqrt(f.density_scaling)));
     }
+  }
+
+  /// The largest scaling found whose inertia costs no more than `inertia_share` of the tolerance, and its solution. The
+  /// error grows as s − 1 while it is small, so that two or three solutions do.
+  HarmonicResult choose_scaling(double frequency, const Stiffness& known, double& scaling) {
+    const double wanted = inertia_share * tolerance(), estimate = inertia_estimate(scene_, prepared_, frequency);
+    HarmonicResult best;
+    scaling = 1;
+    double excess = 0.95 * wanted / (estimate * error_over_estimate_.value_or(1));
+    for (int attempt = 0; attempt < 6; ++attempt) {
+      try {
+        HarmonicResult solved = harmonic_->solve(frequency, 1 + excess, viscous());
+        const double error = largest(difference(solved.top, known));
+        if (error <= wanted && 1 + excess > scaling) {
+          best = std::move(solved);
+          scaling = 1 + excess;
+          if (error >= 0.85 * wanted) {
+            error_over_estimate_ = error / (excess * estimate);
+            break;
+          }
+        }
+        excess *= std::clamp(0.95 * wanted / error, 1e-3, 1e3);
+      } catch (const RunError&) { excess /= 10; }  // at a resonance of the scaled specimen
+    }
+    return best;
   }
 
   void choose_cycles(FrequencyPlan& f) {
     const LoadingSpec& loading = scene_.loading;
-    int standard = start_ == Start::steady ? 1 : 5;
-    if (automatic() && start_ == Start::rest) standard = cycles_from_rest(tolerance());
-    f.cycles = loading.cycles.value_or(
-        std::max(standard, static_cast<int>(std::ceil(ramp())) + loading.fit_cycles.value_or(1)));
+    const int standard = start_ == Start::steady ? 1 : automatic() ? cycles_from_rest(tolerance()) : 5;
+    f.cycles = loading.cycles.value_or(standard);
+    if (!loading.cycles) {
+      while (f.cycles - loading.fitted(f.cycles) < ramp()) ++f.cycles;
+    }
     f.fit_cycles = std::min(f.cycles, loading.fitted(f.cycles));
-    if (ramp() > f.cycles - f.fit_cycles) ramp_ = f.cycles - f.fit_cycles;
+    if (!loading.ramp_cycles) ramp_ = std::min(ramp_, static_cast<double>(f.cycles - f.fit_cycles));
   }
-  double ramp() const { return scene_.loading.ramp_cycles.value_or(ramp_); }
+  double ramp() const { return start_ == Start::steady ? 0 : scene_.loading.ramp_cycles.value_or(ramp_); }
+  double safety() const { return scene_.solver.safety.value_or(automatic() ? 0.95 : 0.8); }
 
   /// A whole number of samples a period, a whole number of steps a sample.
   loadings::Cyclic make_loading(const FrequencyPlan& f, double frequency) const {
     const LoadingSpec& spec = scene_.loading;
-    const double safety = scene_.solver.safety.value_or(automatic() ? 0.95 : 0.8);
-    const double step = scene_.solver.time_step.value_or(safety * plan_.critical.dt * std::sqrt(f.density_scaling));
+    double step = scene_.solver.time_step.value_or(safety() * plan_.critical.dt * std::sqrt(f.density_scaling));
+    if (viscous() > 0 && !scene_.solver.time_step) step = std::min(step, 1 / viscous());  // follow the decay
     const double wanted = 1 / (frequency * step * spec.samples_per_cycle);
     if (!(wanted < 1e12)) {
       throw RunError(fmt::format("the time step of {} s would take {} steps a cycle at {} Hz; raise density_scaling",
@@ -181,9 +188,7 @@ class Planner {
     loading.amplitude = spec.strain_amplitude * prepared_.specimen.box.size.z;
     loading.frequency = frequency;
     loading.steps_per_period = std::max<std::int64_t>(1, std::llround(std::ceil(wanted))) * spec.samples_per_cycle;
-    if (f.start == Start::rest) {
-      loading.ramp_steps = std::llround(ramp() * static_cast<double>(loading.steps_per_period));
-    }
+    loading.ramp_steps = std::llround(ramp() * static_cast<double>(loading.steps_per_period));
     return loading;
   }
 
@@ -197,8 +202,12 @@ class Planner {
     for (const FrequencyPlan& f : plan_.frequencies) {
       error = std::max(error, single_precision_error(f.cycles * f.loading.steps_per_period));
     }
-    plan_.precision = error <= precision_share * tolerance() ? Precision::single : Precision::mixed;
-    decide("precision {}: single would drift by about {:.1e}", to_string(plan_.precision), error);
+    const double share = precision_share * tolerance();
+    plan_.precision = error <= share                   ? Precision::single
+                      : mixed_precision_error <= share ? Precision::mixed
+                                                       : Precision::double_;
+    decide("precision {}: after so many steps single is off by about {:.1e}, mixed by {:.1e}",
+           to_string(plan_.precision), error, mixed_precision_error);
   }
 
   const Scene& scene_;
@@ -207,12 +216,19 @@ class Planner {
   const Progress& progress_;
   Plan plan_;
   std::optional<Harmonic> harmonic_;
-  std::optional<double> bound_over_error_;
+  std::string no_harmonic_;
+  std::optional<double> error_over_estimate_;  ///< of the last scaling that was chosen
   Start start_ = Start::rest;
-  double ramp_ = 0;
+  double ramp_ = 0;  ///< [cycles] where the scene gives none
 };
 
 }  // namespace
+
+double geometric_mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += std::log(v);
+  return std::exp(sum / static_cast<double>(values.size()));
+}
 
 Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress) {
   return Planner(scene, prepared, inertia, progress).make();

@@ -37,4 +37,7 @@ struct Plan {
 /// small.
 Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress);
 
+/// The frequency at which factors serve all of these best: halfway for a relaxation spectrum.
+double geometric_mean(const std::vector<double>& values);
+
 }  // namespace macadam

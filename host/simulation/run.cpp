@@ -11,6 +11,10 @@ namespace {
 
 /// What the command line may have combined.
 void require_backend_fits(const Scene& scene) {
+  if (scene.solver.method == SolverMethod::explicit_ && scene.solver.inertia) {
+    throw InputError(scene.file.string(), 0, "inertia", "true beside method \"explicit\", which always has inertia",
+                     "false, or method \"harmonic\"");
+  }
   if (scene.solver.method != SolverMethod::explicit_ || scene.solver.backend != Backend::reference) return;
   const auto refuse = [&](const char* what, const char* found, const char* expected) {
     throw InputError(scene.file.string(), 0, std::string(what) + " with backend reference", found, expected);

@@ -63,7 +63,8 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, co
   if (const auto n = prepared.network.dropped_gap; n > 0) {
     out.push_back({"open facets", fmt::format("{} wider than gap_max", n), "another model: compare without gap_max"});
   }
-  if (!scene.network.lateral_walls) out.push_back({"lateral walls", "the sides are free", none});
+  if (!scene.network.lateral_walls)
+    out.push_back({"lateral walls", "the sides are free", "free sides, as the scene has them"});
   if (!scene.output.response) {
     out.push_back(
         {"observation", "response.csv is not asked for: only the fitted cycles and the one before are observed", none});

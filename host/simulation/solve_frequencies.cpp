@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "host/simulation/plan.hpp"
 #include "host/simulation/solution.hpp"
 #include "macadam/harmonic.hpp"
 
@@ -14,14 +15,17 @@ void solve_frequencies(const Scene& scene, const Preparation& prepared, const Pr
                        RunResult& result) {
   const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
   const auto& frequencies = scene.loading.frequencies;
-  double log_sum = 0;  // the preconditioner is made at the geometric mean, halfway for a relaxation spectrum
-  for (const double f : frequencies) log_sum += std::log(f);
-  result.solver = scene.solver.inertia ? "harmonic, with inertia" : "harmonic, without inertia";
+  const SolverSpec& solver = scene.solver;
+  const double viscous = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
+  result.solver = solver.inertia ? "harmonic, with inertia" : "harmonic, without inertia";
+  if (viscous > 0) result.solver += " and viscous damping";
+  if (solver.damping_kind != Damping::none && viscous == 0) {
+    result.solver += fmt::format("; {} damping has no part in it", to_string(solver.damping_kind));
+  }
   save("running");
   if (progress) progress("harmonic: factoring", 0);
   const auto start = std::chrono::steady_clock::now();
-  Harmonic harmonic(prepared.specimen, prepared.network, scene.laws, inertia, {},
-                    std::exp(log_sum / static_cast<double>(frequencies.size())));
+  Harmonic harmonic(prepared.specimen, prepared.network, scene.laws, inertia, {}, geometric_mean(frequencies));
   result.seconds_factoring = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (std::size_t i = 0; i < frequencies.size(); ++i) {
     if (progress) {
@@ -30,7 +34,7 @@ void solve_frequencies(const Scene& scene, const Preparation& prepared, const Pr
     }
     FrequencyResult f;
     f.density_scaling = scene.solver.inertia ? density_scaling_of(scene.solver, i) : 0;
-    const HarmonicResult solved = harmonic.solve(frequencies[i], f.density_scaling);
+    const HarmonicResult solved = harmonic.solve(frequencies[i], f.density_scaling, viscous);
     f.frequency_hz = frequencies[i];
     f.method = SolverMethod::harmonic;
     f.stiffness = solved.top;

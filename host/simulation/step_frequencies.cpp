@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step_frequencies.cpp  The cyclic test stepped in time, one frequency after another, each from rest.
+// step_frequencies.cpp  The cyclic test stepped in time, one frequency after another.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -125,7 +125,8 @@ void step_frequencies(const Scene& scene, const Preparation& prepared, const std
     f.stiffness = f.cyclic->fit;
     f.residual = f.cyclic->fit_rms;
     f.predicted = p.predicted;
-    if (p.known) f.achieved = inertia_error(f.stiffness, *p.known);
+    if (p.known) f.achieved = difference(f.stiffness, *p.known);
+    if (p.known && scene.solver.tolerance) f.kept = largest(*f.achieved) <= *scene.solver.tolerance;
     f.seconds = seconds_since(start);
     result.frequencies.push_back(f);
   }

@@ -50,6 +50,7 @@ Json frequency_json(const FrequencyResult& f) {
     out["start"] = to_string(f.start);
     if (f.predicted) out["predicted_error"] = error_json(*f.predicted);
     if (f.achieved) out["difference_from_harmonic"] = error_json(*f.achieved);
+    if (f.kept) out["tolerance_kept"] = *f.kept;
   }
   if (f.bottom) {
     out["e_star_bottom_pa"] = f.bottom->e_star_pa;
@@ -81,10 +82,6 @@ Json solver_json(const Scene& scene, const RunResult& result) {
     out["strain_amplitude"] = scene.loading.strain_amplitude;
     out["tolerance"] = scene.solver.tolerance ? Json(*scene.solver.tolerance) : Json();
     out["decisions"] = result.decisions;
-    out["skips"] = Json::array();
-    for (const Skip& skip : result.skips) {
-      out["skips"].push_back({{"what", skip.what}, {"why", skip.why}, {"effect", skip.effect}});
-    }
     out["critical_particle"] = result.critical_particle;
     out["critical_dt_s"] = result.critical_dt_s;
     out["bytes"] = result.bytes;
@@ -132,6 +129,10 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
     solve += f.seconds;
   }
   out["solver"] = solver_json(scene, result);
+  out["skips"] = Json::array();
+  for (const Skip& skip : result.skips) {
+    out["skips"].push_back({{"what", skip.what}, {"why", skip.why}, {"effect", skip.effect}});
+  }
   out["timing_s"] = {{"specimen", prepared.seconds_specimen},
                      {"tessellation", prepared.seconds_tessellation},
                      {"network", prepared.seconds_network},

@@ -102,6 +102,10 @@ std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen,
                        std::to_string(network.count[p]) + " contacts but no law");
     }
   }
+  if (options.damping_kind == Damping::viscous && !(options.damping * options.dt < 2)) {
+    throw InputError("viscous damping: found beta * dt = " + std::to_string(options.damping * options.dt) +
+                     ", expected below 2 (a smaller time_step, or less damping)");
+  }
   if (options.start) require_start(specimen, network, laws, options);
   switch (select_backend(backend)) {
     case Backend::reference:

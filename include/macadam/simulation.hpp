@@ -51,6 +51,7 @@ struct FrequencyResult {
   std::int64_t steps = 0;              ///< explicit
   int cycles = 0;                      ///< explicit
   Start start = Start::rest;           ///< explicit
+  std::optional<bool> kept;  ///< explicit: the tolerance, where one was asked for and there is a harmonic solution
   std::optional<ErrorEstimate> predicted,
       achieved;                     ///< explicit: against the harmonic solution at true mass, if there is one
   std::optional<Stiffness> bottom;  ///< harmonic: from the reaction of the bottom wall
