@@ -49,7 +49,7 @@ class StepperImpl final : public Stepper {
               const StepperOptions& options)
       : options_(options),
         radius_(specimen.radius),
-        layout_(make_layout(specimen, network, Exec::lanes, Exec::tile_contacts)),
+        layout_(make_layout(specimen, network, Exec::lanes, tile_contacts(network))),
         exec_(network, layout_, options.threads) {
     std::vector<R> inverse(2 * (layout_.particles() + walls), R(0));
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
@@ -66,8 +66,10 @@ class StepperImpl final : public Stepper {
                options.dt,
                options.loading.has_value(),
                options.loading.value_or(loadings::Cyclic{})};
+    if constexpr (requires { exec_.set_options(options_, laws); }) exec_.set_options(options_, laws);
     for (const auto& group : layout_.groups)
       add_group(network, group, laws[static_cast<std::size_t>(group.pair)].value());
+    if constexpr (requires { exec_.prepare(motion_); }) exec_.prepare(motion_);
   }
 
   /// The step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
@@ -125,6 +127,9 @@ class StepperImpl final : public Stepper {
   }
 
   std::int64_t first_divergent() const override {
+    if constexpr (requires { exec_.first_divergent(radius_, options_.dt); }) {
+      return exec_.first_divergent(radius_, options_.dt);
+    }
     const auto v = exec_.velocities();
     std::int64_t first = -1;
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
@@ -147,6 +152,13 @@ class StepperImpl final : public Stepper {
   std::int64_t traffic() const override { return exec_.bytes() + exec_.state_bytes(); }
 
  private:
+  static std::size_t tile_contacts(const ContactNetwork& network) {
+    if constexpr (requires { Exec::tile_contacts_of(network); })
+      return Exec::tile_contacts_of(network);
+    else
+      return Exec::tile_contacts;
+  }
+
   void add_group(const ContactNetwork& network, const GroupLayout& group, const Law& law) {
     using State = typename P::State;
     std::visit(

@@ -6,6 +6,7 @@
 /// (The published Eq. 13 and 14 each carry a misprint.) Written in increments, because 1 − b_l/a_l is 1e-9…1e-6.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -28,6 +29,11 @@ struct GeneralisedKelvin {
 
   int units() const { return static_cast<int>(E.size()); }
   double instantaneous() const { return E_m; }
+  double shortest_time() const {
+    double out = std::numeric_limits<double>::infinity();
+    for (std::size_t l = 0; l < E.size(); ++l) out = std::min(out, C[l] / E[l]);
+    return out;
+  }
 
   /// 1/k*(ω) = 1/k_m + 1/(iω·η_m) + Σ 1/(k_l + iω·η_l)
   std::complex<double> stiffness(double omega) const {
@@ -74,6 +80,50 @@ struct GeneralisedKelvin {
     const double c = sum + 1 / E_m + flow;
     out.inv_c = static_cast<R>(1 / c);
     out.relax = static_cast<R>(2 * (sum + flow) / c);
+    return out;
+  }
+
+  /// M steps at once, where their loads change little. Over a step f moves by Δx/c + Σ r_l·x_l/c − (relax)·f (Eq. 13);
+  /// with the x_l of the middle of the block in place of each step's own,
+  ///   f(t+Δt) − f(t) = rate·Δx + drive − relax·(f(t) − f(start)),   drive = Σ r_l·x_l(middle)/c − relax·f(start).
+  /// The units then follow from the sum of f over the block, weighted alike: x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f).
+  /// Both errors are of second order in M·Δt over the times of the load and of the units.
+  struct Block {
+    double rate, relax;       ///< 1/c [Pa], (c + g)/c [1]
+    double recover[max_units];  ///< r_l                                   [1]
+    double ahead[max_units];    ///< (M/2)·2·Δt/(2·a_l·η_l): x_l gained by f to the middle [1/Pa]
+    double back[max_units];     ///< (M/2)·r_l: share of x_l lost to the middle          [1]
+    double lost[max_units];     ///< 1 − (1 − r_l)^M                       [1]
+    double gain[max_units];     ///< compliance times the mean of (1 − r_l)^k over k < M [1/Pa]
+    int n;
+    MACADAM_HD int units() const { return n; }
+
+    template <int L, class Units>
+    MACADAM_HD double drive(double f, Units&& x) const {
+      double past = 0;
+      for (int l = 0; l < (L >= 0 ? L : n); ++l) past += recover[l] * (x(l) + (ahead[l] * f - back[l] * x(l)));
+      return rate * past - relax * f;
+    }
+    /// `sum`: Σ (f' + f) over the steps of the block.
+    template <int L, class Units>
+    MACADAM_HD void settle(double, double sum, Units&& x) const {
+      for (int l = 0; l < (L >= 0 ? L : n); ++l) x(l) += gain[l] * sum - lost[l] * x(l);
+    }
+  };
+  Block block(double dt, int steps) const {
+    const Step<double> one = step<double>(dt);
+    Block out{};
+    out.rate = one.inv_c;
+    out.relax = one.relax;
+    out.n = one.n;
+    for (int l = 0; l < one.n; ++l) {
+      const double r = one.recover[l];
+      out.recover[l] = r;
+      out.ahead[l] = steps * one.compliance[l];
+      out.back[l] = 0.5 * steps * r;
+      out.lost[l] = -std::expm1(steps * std::log1p(-r));
+      out.gain[l] = one.compliance[l] * (r > 0 ? out.lost[l] / (steps * r) : 1.0);
+    }
     return out;
   }
 };
