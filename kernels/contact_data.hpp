@@ -31,12 +31,13 @@ struct ContactView {
   const Geometry* geometry;         ///< [packet][geometry_words][lane]; arms [m], moments over d [m] [m²] [m³]
   const Geometry* points;           ///< [row][point_words][lane]; s, t [m], A_J/d [m]; points form only
   const std::uint32_t* packet_row;  ///< [packet + 1]; points form only
-  State* chain;  ///< condensed [packet], points [row]: [components][1 + units][lane]; f [Pa·m], x_l [m]
+  State*
+      chain;  ///< condensed [packet], points [row]: [components][1 + units][lane]; f [Pa·m], x_l [m]; none: stateless
   State* frame;  ///< [packet][frame_words][lane]: ŝ and, in single, the spin not yet applied to it
   std::uint32_t packets;
   std::int32_t geometry_words;
   std::int32_t frame_words;
-  std::int32_t components;  ///< of the law: condensed 6 or 3, points 3 or 1 (no shear where α = 0)
+  std::int32_t components;  ///< of the law: condensed 6, 3 (no shear) or 1 (nor turns), points 3 or 1 (no shear)
   std::int32_t units;       ///< Kelvin units
   bool wall;                ///< body_b is a wall: its plane is the facet
   Geometry alpha;
@@ -72,7 +73,28 @@ constexpr std::int32_t frame_words_of(Geometry geometry) {
   return geometry == Geometry::fixed ? 0 : sizeof(typename P::State) == 8 ? 3 : 4;
 }
 
+/// The chain of displacement component `component` of point (s, t): a point follows the facet's rigid motion, and the
+/// law is linear. Of a condensed contact, (s, t) is the facet itself: `component` of the six.
+struct StartChain {
+  const double* six;  ///< of the contact: six chains of `words` numbers
+  std::size_t words;
+  double facet(int component, std::size_t word) const {
+    return six[static_cast<std::size_t>(component) * words + word];
+  }
+  double point(int component, std::size_t word, double s, double t) const {
+    switch (component) {
+      case 0:
+        return facet(0, word) + s * facet(1, word) + t * facet(2, word);
+      case 1:
+        return facet(3, word) - t * facet(5, word);
+      default:
+        return facet(4, word) + s * facet(5, word);
+    }
+  }
+};
+
 /// Fills the arrays of a group. Inert slots touch `body_a` of a real contact with zero arms and moments: they add zero.
+/// `options.skip_rotations` is taken as decided.
 template <class P>
 ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
                                const Law& law, const StepperOptions& options) {
@@ -86,7 +108,8 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
   shape.packets = static_cast<std::uint32_t>(group.packets());
   shape.geometry_words = options.geometry == Geometry::updated ? distance + 1 : distance;
   shape.frame_words = frame_words_of<P>(options.geometry);
-  shape.components = (alpha != 0 ? 2 : 1) * (by_points ? 1 : 3) + (by_points && alpha != 0 ? 1 : 0);
+  const bool shear = alpha != 0 || !options.skip_shear, turns = !options.skip_rotations;
+  shape.components = by_points ? (shear ? 3 : 1) : shear ? 6 : turns ? 3 : 1;
   shape.units = std::visit([](const auto& l) { return l.units(); }, law);
   shape.wall = group.pair == PairType::aw || group.pair == PairType::mw;
 
@@ -97,7 +120,11 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
   out.geometry.assign(slots * static_cast<std::size_t>(shape.geometry_words), Geo(0));
   out.frame.assign(slots * static_cast<std::size_t>(shape.frame_words), typename P::State(0));
   const std::size_t rows = by_points ? group.packet_row.back() : group.packets();
-  out.chain.assign(rows * static_cast<std::size_t>(shape.components * (1 + shape.units)) * lanes, typename P::State(0));
+  const bool stateless =
+      options.geometry == Geometry::fixed &&
+      std::visit([](const auto& l) { return decltype(l.template step<double>(1.0))::memoryless; }, law);
+  const auto words = static_cast<std::size_t>(1 + shape.units), components = static_cast<std::size_t>(shape.components);
+  out.chain.assign(stateless ? 0 : rows * components * words * lanes, typename P::State(0));
   if (by_points) {
     out.packet_row.assign(group.packet_row.begin(), group.packet_row.end());
     out.points.assign(rows * point_words * lanes, Geo(0));
@@ -127,12 +154,25 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
     word(arm_a) = static_cast<Geo>(c.arm_a);
     word(arm_b) = static_cast<Geo>(c.arm_b);
     const double moments[6] = {c.moments.a, c.moments.s, c.moments.t, c.moments.ss, c.moments.st, c.moments.tt};
-    for (int k = 0; k < 6; ++k) word(moment_0 + k) = static_cast<Geo>(moments[k] / c.distance);
+    for (int k = 0; k < (turns ? 6 : 1); ++k) word(moment_0 + k) = static_cast<Geo>(moments[k] / c.distance);
+    const StartChain start{
+        options.start && !stateless ? &options.start->chain[options.start->chain_begin[group.contact[slot]]] : nullptr,
+        words};
+    auto set_chain = [&](std::size_t row, auto&& value) {
+      for (std::size_t i = 0; start.six && i < components * words; ++i) {
+        out.chain[(row * components * words + i) * lanes + lane] =
+            static_cast<typename P::State>(value(static_cast<int>(i / words), i % words));
+      }
+    };
+    if (!by_points) set_chain(packet, [&](int component, std::size_t w) { return start.facet(component, w); });
     for (std::uint32_t j = 0; by_points && j < c.point_end - c.point_begin; ++j) {
       Geo* row = &out.points[(group.packet_row[packet] + j) * point_words * lanes];
       row[point_s * lanes + lane] = static_cast<Geo>(network.point_s[c.point_begin + j]);
       row[point_t * lanes + lane] = static_cast<Geo>(network.point_t[c.point_begin + j]);
       row[point_weight * lanes + lane] = static_cast<Geo>(network.point_area[c.point_begin + j] / c.distance);
+      set_chain(group.packet_row[packet] + j, [&](int component, std::size_t w) {
+        return start.point(component, w, network.point_s[c.point_begin + j], network.point_t[c.point_begin + j]);
+      });
     }
   }
   return out;

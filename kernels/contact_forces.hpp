@@ -11,19 +11,21 @@
 
 namespace macadam::kernels {
 
-/// Motion of the bodies, eight words a body so that one body is one cache line: v, –, ω, –; displacements four: u, –.
+/// Motion of the bodies, eight words a body so that one body is one cache line: v, –, ω, – and u, –, θ, –.
 template <class P>
 struct MotionView {
-  const typename P::Geometry* velocity;      ///< [body][8] at the half step [m/s, rad/s]
-  const typename P::Particle* displacement;  ///< [body][4] at the whole step [m]
+  const typename P::Geometry* velocity;  ///< [body][8] at the half step [m/s, rad/s]
+  const double* displacement;            ///< [body][8] at the whole step [m, rad]
 };
 inline constexpr int velocity_words = 8;
-inline constexpr int displacement_words = 4;
+inline constexpr int displacement_words = 8;
 
 /// The functor of one group: what may branch (form, geometry, law, units) is decided by its type.
 template <class P, class LawStep, int Units, ContactForm form, Geometry geometry>
 struct ContactForces {
   using Policy = P;
+  /// Whether f follows from the displacements of now: no state is read or written.
+  static constexpr bool stateless = LawStep::memoryless && geometry == Geometry::fixed;
   ContactView<P> view;
   LawStep law;
   typename P::State dt;  ///< [s]
@@ -35,29 +37,40 @@ struct ContactForces {
     using T = typename Item::template Value<typename P::Geometry>;
     const auto slot = static_cast<std::size_t>(packet) * item.lanes();
     const std::int32_t *ia = view.body_a + slot, *ib = view.body_b + slot;
-    const Twist<T> a = item.twist(motion.velocity, ia), b = item.twist(motion.velocity, ib);
     const auto* g = view.geometry + slot * static_cast<std::size_t>(view.geometry_words);
     auto word = [&](int w) { return item.load(g + static_cast<std::size_t>(w) * item.lanes()); };
 
     const Vec3<T> n0{word(n_x), word(n_y), word(n_z)};
     Placement<T> now, middle;  // where the load acts, and where the half-step velocities are seen
-    if constexpr (geometry == Geometry::fixed) {
-      now = middle = canonical_placement(n0, item.copysign_one(n0.z), word(arm_a), word(arm_b));
+    T u[6];                    // rates, or displacements where the contact is stateless
+    if constexpr (stateless) {
+      now = canonical_placement(n0, item.copysign_one(n0.z), word(arm_a), word(arm_b));
+      const auto* turn = motion.displacement + displacement_words / 2;
+      relative_rates(now, Twist<T>{{T(0), T(0), T(0)}, item.template vector<typename P::Geometry>(turn, ia)},
+                     Twist<T>{item.template relative<typename P::Geometry>(motion.displacement, ia, ib),
+                              item.template vector<typename P::Geometry>(turn, ib)},
+                     u);
     } else {
-      now.arm_a = word(arm_a);
-      now.arm_b = word(arm_b);
-      carry(item, packet, motion, ia, ib, a, b, n0, word(distance), now, middle);
+      const Twist<T> a = item.twist(motion.velocity, ia), b = item.twist(motion.velocity, ib);
+      if constexpr (geometry == Geometry::fixed) {
+        now = middle = canonical_placement(n0, item.copysign_one(n0.z), word(arm_a), word(arm_b));
+      } else {
+        now.arm_a = word(arm_a);
+        now.arm_b = word(arm_b);
+        carry(item, packet, motion, ia, ib, a, b, n0, word(distance), now, middle);
+      }
+      relative_rates(middle, a, b, u);
     }
-    T u[6];
-    relative_rates(middle, a, b, u);
 
     if constexpr (form == ContactForm::condensed) {
       T density[6] = {T(0), T(0), T(0), T(0), T(0), T(0)};
       typename P::State* chain = view.chain + slot * chain_words();
       if (view.components == 6)
         advance_chains<6>(item, u, chain, density);
-      else
+      else if (view.components == 3)
         advance_chains<3>(item, u, chain, density);
+      else
+        advance_chains<1>(item, u, chain, density);
       T m[6];
       for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
       return to_centres(now, condensed_load(density, T(view.alpha), m));
@@ -78,7 +91,7 @@ struct ContactForces {
   /// cannot move a load past a store that might be to the same place.
   template <int N, class Item, class T>
   MACADAM_HD void advance_chains(const Item& item, const T (&u)[6], typename P::State* chain, T (&density)[6]) const {
-    if constexpr (Units >= 0 && requires { Item::staged; }) {
+    if constexpr (!stateless && Units >= 0 && requires { Item::staged; }) {
       using S = typename P::State;
       S state[N][1 + Units];
       for (int c = 0; c < N; ++c) {
@@ -98,10 +111,13 @@ struct ContactForces {
     }
   }
 
-  /// Advances one chain by one displacement component and returns its f.
+  /// Advances one chain by one displacement component and returns its f; without a state, f of the displacement itself.
   template <class Item, class T>
   MACADAM_HD T advance(const Item& item, const T& rate, typename P::State* chain) const {
     using S = typename Item::template Value<typename P::State>;
+    if constexpr (stateless) {
+      return item.template convert<typename P::Geometry>(law.value(item.template convert<typename P::State>(rate)));
+    }
     const S dx = item.template convert<typename P::State>(rate) * S(dt);
     auto unit = [&](int l) -> decltype(auto) {
       return item.ref(chain + static_cast<std::size_t>(1 + l) * item.lanes());

@@ -20,7 +20,7 @@ struct SettleContact {
 
   /// `place`: where the contact is among the tiles', UINT32_MAX for none. `steps`: of the block that ends; 0: none.
   __device__ void operator()(std::uint32_t slot, uint2 place, float4* constant, float4* state,
-                             const Displacement<P>* now, const Displacement<P>* before, int steps,
+                             const double* now, const double* before, int steps,
                              const LoadRecords<typename P::Particle>& records, std::uint32_t record) const {
     if (place.x == UINT32_MAX) return;
     constexpr bool carried = geometry == Geometry::updated;
@@ -28,22 +28,6 @@ struct SettleContact {
     float change[6], sum[6];
     load_state(at(state, place.x, tile_states), change, sum);
     const int units = Units >= 0 ? Units : view.units;
-    double f[6] = {0, 0, 0, 0, 0, 0};
-    float drive[6] = {0, 0, 0, 0, 0, 0};
-    for (int c = 0; c < view.components; ++c) {
-      State* chain =
-          view.chain + (static_cast<std::size_t>(packet) * view.components + c) * (1 + units) * 32 + lane;
-      double x[Units >= 0 ? Units + 1 : laws::GeneralisedKelvin::max_units];
-      for (int l = 0; l < units; ++l) x[l] = chain[(1 + l) * 32];
-      const auto unit = [&](int l) -> double& { return x[l]; };
-      const double start = chain[0];
-      f[c] = start + change[c];
-      if (steps > 0) law.template settle<Units>(f[c], 2.0 * steps * start + sum[c], unit);
-      drive[c] = static_cast<float>(law.template drive<Units>(f[c], unit));
-      chain[0] = static_cast<State>(f[c]);
-      for (int l = 0; l < units; ++l) chain[(1 + l) * 32] = static_cast<State>(x[l]);
-    }
-
     const auto* g = view.geometry + static_cast<std::size_t>(packet) * view.geometry_words * 32 + lane;
     const auto word = [&](int k) { return static_cast<double>(g[k * 32]); };
     Placement<double> frame;
@@ -52,6 +36,29 @@ struct SettleContact {
       frame = carry(slot, n0, word(arm_a), word(arm_b), word(distance), now, before);
     else
       frame = canonical_placement(n0, ::copysign(1.0, n0.z), word(arm_a), word(arm_b));
+
+    double f[6] = {0, 0, 0, 0, 0, 0};
+    float drive[6] = {0, 0, 0, 0, 0, 0};
+    if (!view.chain) {  // f follows from the displacements of now
+      const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
+      double x[6];
+      relative_rates(frame, Twist<double>{{0, 0, 0}, vector(now, a, 4)},
+                     Twist<double>{vector(now, b, 0) - vector(now, a, 0), vector(now, b, 4)}, x);
+      for (int c = 0; c < view.components; ++c) f[c] = law.rate * x[c];
+    }
+    for (int c = 0; view.chain && c < view.components; ++c) {
+      State* chain =
+          view.chain + (static_cast<std::size_t>(packet) * view.components + c) * (1 + units) * 32 + lane;
+      double x[Units >= 0 ? Units + 1 : laws::GeneralisedKelvin::max_units];
+      for (int l = 0; l < units; ++l) x[l] = chain[(1 + l) * 32];
+      const auto unit = [&](int l) -> double& { return x[l]; };
+      const double start = chain[0];
+      f[c] = start + change[c];
+      if (steps > 0) law.template settle<Units>(2.0 * steps * start + sum[c], unit);
+      drive[c] = static_cast<float>(law.template drive<Units>(f[c], unit));
+      chain[0] = static_cast<State>(f[c]);
+      for (int l = 0; l < units; ++l) chain[(1 + l) * 32] = static_cast<State>(x[l]);
+    }
     double m[6];
     for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
     const auto load = to_centres(frame, condensed_load(f, static_cast<double>(view.alpha), m));
@@ -79,13 +86,14 @@ struct SettleContact {
     return words + static_cast<std::size_t>(place / 32) * count * 32 + place % 32;
   }
 
+  __device__ __forceinline__ static Vec3<double> vector(const double* u, std::int32_t body, int first) {
+    const double* w = u + static_cast<std::size_t>(body) * displacement_words + first;
+    return {w[0], w[1], w[2]};
+  }
+
   /// Eq. 5–6 over a block: as ContactForces::carry() over a step, with the motion since the last block.
   __device__ Placement<double> carry(std::uint32_t slot, const Vec3<double>& n0, double arm_a, double arm_b, double d0,
-                                     const Displacement<P>* now, const Displacement<P>* before) const {
-    const auto vector = [&](const Displacement<P>* u, std::int32_t body, int first) {
-      const auto* w = u + static_cast<std::size_t>(body) * displacement_words + first;
-      return Vec3<double>{w[0], w[1], w[2]};
-    };
+                                     const double* now, const double* before) const {
     const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
     const Vec3<double> branch = d0 * n0 + (vector(now, b, 0) - vector(now, a, 0));
     Placement<double> out{n0, {}, {}, arm_a, arm_b};
@@ -142,7 +150,7 @@ struct SettleGroups {
 template <class P, Geometry geometry>
 __global__ void __launch_bounds__(contact_threads)
     settle_contacts(const __grid_constant__ SettleGroups<P, geometry> groups, float4* constant, float4* state,
-                    const Displacement<P>* now, const Displacement<P>* before, int steps,
+                    const double* now, const double* before, int steps,
                     const LoadRecords<typename P::Particle> records) {
   using Groups = SettleGroups<P, geometry>;
   int number = 0;
@@ -166,14 +174,12 @@ __global__ void __launch_bounds__(contact_threads)
 template <class P>
 __global__ void __launch_bounds__(body_threads)
     sum_base(const LoadRecords<typename P::Particle> records, const std::uint32_t* long_body, std::uint32_t long_rows,
-             std::uint32_t bodies, typename P::Particle* base, const Displacement<P>* now, Displacement<P>* before) {
+             std::uint32_t bodies, typename P::Particle* base, const double* now, double* before) {
   using R = typename P::Particle;
   const unsigned w = threadIdx.x % velocity_words;
   const auto keep = [&](std::uint32_t body, R sum) {
     base[body * std::size_t{velocity_words} + w] = sum;
-    if (w < displacement_words) {
-      before[body * std::size_t{displacement_words} + w] = now[body * std::size_t{displacement_words} + w];
-    }
+    before[body * std::size_t{displacement_words} + w] = now[body * std::size_t{displacement_words} + w];
   };
   if (blockIdx.x < long_rows) {
     const std::uint32_t body = long_body[blockIdx.x];
@@ -185,30 +191,6 @@ __global__ void __launch_bounds__(body_threads)
   if (body >= bodies) return;
   const std::uint32_t begin = records.row_begin[body], end = records.row_begin[body + 1];
   if (end - begin <= long_row) keep(body, sum_words<R>(records, begin, end, 1, w));
-}
-
-/// Writes the changes of the loads on the walls since the block began, summed in fixed order: a block a wall.
-template <class R>
-__global__ void __launch_bounds__(body_threads)
-    add_wall_loads(const float4* wall_load, const std::uint32_t* wall_begin, const R* base, R* force) {
-  __shared__ R part[body_threads];
-  const unsigned w = threadIdx.x % velocity_words, lane = threadIdx.x / velocity_words;
-  const auto* words = reinterpret_cast<const float*>(wall_load);
-  R sum = 0;
-  for (std::uint32_t r = wall_begin[blockIdx.x] + lane; r < wall_begin[blockIdx.x + 1]; r += bodies_a_block)
-    sum += words[r * std::size_t{velocity_words} + w];
-  part[threadIdx.x] = sum;
-  __syncthreads();
-  if (lane > 0) return;
-  sum = base[blockIdx.x * velocity_words + w];
-  for (unsigned k = 0; k < bodies_a_block; ++k) sum += part[k * velocity_words + w];
-  force[blockIdx.x * velocity_words + w] = sum;
-}
-
-/// Velocities of the top wall at the steps first, first + 1, ….
-__global__ inline void tabulate_wall(loadings::Cyclic loading, std::int64_t first, std::uint32_t steps, double* out) {
-  const std::uint32_t k = blockIdx.x * blockDim.x + threadIdx.x;
-  if (k < steps) out[k] = loading.velocity(first + k);
 }
 
 }  // namespace macadam::kernels

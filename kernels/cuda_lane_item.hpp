@@ -54,6 +54,11 @@ struct LaneItem {
     return {load_vec3(v), load_vec3(v + 4)};
   }
   template <class To, class R>
+  __device__ __forceinline__ Vec3<To> vector(const R* displacement, const std::int32_t* body) const {
+    const Vec3<R> u = load_vec3(displacement + static_cast<std::size_t>(body[lane]) * displacement_words);
+    return {static_cast<To>(u.x), static_cast<To>(u.y), static_cast<To>(u.z)};
+  }
+  template <class To, class R>
   __device__ __forceinline__ Vec3<To> relative(const R* displacement, const std::int32_t* a,
                                                const std::int32_t* b) const {
     const Vec3<R> ua = load_vec3(displacement + static_cast<std::size_t>(a[lane]) * displacement_words);

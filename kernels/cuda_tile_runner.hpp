@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "kernels/cuda_blocks.hpp"
+#include "kernels/cuda_tile_limits.hpp"
 #include "kernels/cuda_tiles_resident.hpp"
 #include "kernels/cuda_tiles_streamed.hpp"
 
@@ -27,22 +28,6 @@ inline int block_steps(const StepperOptions& options, const std::array<std::opti
   const double steps = std::min(256.0, std::floor(shortest / (4000 * options.dt)));
   return steps < 4 ? 0 : static_cast<int>(steps);
 }
-
-/// Limits of the device that decide between the ways to run.
-struct DeviceLimits {
-  int multiprocessors = 0, shared = 0;
-  bool cooperative = false;
-  static DeviceLimits query() {
-    int device = 0, cooperative = 0;
-    DeviceLimits out;
-    check_cuda(cudaGetDevice(&device), "device");
-    check_cuda(cudaDeviceGetAttribute(&out.multiprocessors, cudaDevAttrMultiProcessorCount, device), "device");
-    check_cuda(cudaDeviceGetAttribute(&out.shared, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), "device");
-    check_cuda(cudaDeviceGetAttribute(&cooperative, cudaDevAttrCooperativeLaunch, device), "device");
-    out.cooperative = cooperative != 0;
-    return out;
-  }
-};
 
 template <class P>
 class TileRunner {
@@ -108,26 +93,25 @@ class TileRunner {
       out[tile_drive_b * 32] = {0, 0, bits(UINT32_MAX), bits(no_wall_row << 4)};
     }
     scene_.motion = motion;
-    scene_.tile = keep(plan_.tile);
-    scene_.body = keep(plan_.body);
-    scene_.row = reinterpret_cast<const uint2*>(keep(plan_.row));
-    scene_.diagonal = keep(plan_.diagonal);
-    scene_.halo = keep(plan_.halo);
+    scene_.tile = store_.keep(plan_.tile);
+    scene_.body = store_.keep(plan_.body);
+    scene_.row = reinterpret_cast<const uint2*>(store_.keep(plan_.row));
+    scene_.diagonal = store_.keep(plan_.diagonal);
+    scene_.halo = store_.keep(plan_.halo);
     constant_ = DeviceArray<float4>::of(constants_);
     scene_.constant = constant_.data();
-    scene_.state = zeros<float4>(plan_.contact.size() * tile_states);
-    scene_.base = base_ = zeros<R>((bodies_ + walls) * velocity_words);
-    scene_.force = zeros<R>((bodies_ + walls) * velocity_words);
-    scene_.wall_load = zeros<float4>(2 * (plan_.wall_begin.back() + 1));
-    scene_.exchange = zeros<float4>(4 * bodies_);
-    scene_.wall_velocity = wall_velocity_ = zeros<double>(table_steps);
-    before_ = zeros<Displacement<P>>((bodies_ + walls) * displacement_words);
-    wall_begin_ = keep(plan_.wall_begin);
-    long_body_ = keep(long_rows);
+    scene_.state = store_.template zeros<float4>(plan_.contact.size() * tile_states);
+    scene_.base = base_ = store_.template zeros<R>((bodies_ + walls) * velocity_words);
+    scene_.force = store_.template zeros<R>((bodies_ + walls) * velocity_words);
+    scene_.wall_load = store_.template zeros<float4>(2 * (plan_.wall_begin.back() + 1));
+    scene_.exchange = store_.template zeros<float4>(4 * bodies_);
+    scene_.wall_velocity = wall_velocity_ = store_.template zeros<double>(table_steps);
+    before_ = store_.template zeros<double>((bodies_ + walls) * displacement_words);
+    wall_begin_ = store_.keep(plan_.wall_begin);
+    long_body_ = store_.keep(long_rows);
     long_rows_ = static_cast<std::uint32_t>(long_rows.size());
-    records_ = {zeros<R>(records * velocity_words), row_begin, record};
-    settle_place_ = keep(places_);
-    bytes_ += static_cast<std::int64_t>(constant_.bytes());
+    records_ = {store_.template zeros<R>(records * velocity_words), row_begin, record};
+    settle_place_ = store_.keep(places_);
     constants_ = {};
     places_ = {};
     plan_.contact = {};
@@ -139,7 +123,7 @@ class TileRunner {
       if (done == table) {
         const auto n = static_cast<std::uint32_t>(std::min<std::int64_t>(steps - done, table_steps));
         if (scene_.motion.loaded) {
-          launch("wall", tabulate_wall, (n + 127) / 128, 128, 0, stream_, scene_.motion.loading, first + done, n,
+          launch("wall", tabulate_wall<loadings::Cyclic>, (n + 127) / 128, 128, 0, stream_, scene_.motion.loading, first + done, n,
                  wall_velocity_);
         }
         scene_.wall_velocity = wall_velocity_;
@@ -157,11 +141,12 @@ class TileRunner {
 
   /// Loads on all bodies now, [body][8]; walls are summed first.
   const R* forces() const {
-    launch("wall loads", add_wall_loads<R>, walls, body_threads, 0, stream_, scene_.wall_load, wall_begin_,
+    launch("wall loads", add_wall_loads<R, float>, walls, body_threads, 0, stream_, reinterpret_cast<const float*>(scene_.wall_load),
+           wall_begin_,
            base_ + bodies_ * velocity_words, scene_.force + bodies_ * velocity_words);
     return scene_.force;
   }
-  std::int64_t bytes() const { return bytes_; }
+  std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
 
  private:
   static constexpr std::int64_t table_steps = 4096;
@@ -171,27 +156,12 @@ class TileRunner {
     std::memcpy(&out, &x, sizeof out);
     return out;
   }
-  template <class Array>
-  auto keep(const Array& array) {
-    using T = typename Array::value_type;
-    auto copy = std::make_shared<DeviceArray<T>>(DeviceArray<T>::of(array));
-    owned_.push_back(copy);
-    bytes_ += static_cast<std::int64_t>(copy->bytes());
-    return copy->data();
-  }
-  template <class T>
-  T* zeros(std::size_t n) {
-    auto array = std::make_shared<DeviceArray<T>>(n);
-    owned_.push_back(array);
-    bytes_ += static_cast<std::int64_t>(array->bytes());
-    return array->data();
-  }
-
   /// Chooses the kernel by what the device has.
   void choose() {
     if (!plan_.fits) return;
     limits_ = DeviceLimits::query();
     scene_.most_bodies = plan_.most_bodies;
+    scene_.most_halo = plan_.most_halo;
     scene_.most_locals = plan_.most_locals;
     scene_.most_slots = plan_.most_slots;
     scene_.bodies = static_cast<std::uint32_t>(bodies_);
@@ -233,24 +203,18 @@ class TileRunner {
   template <int Resident, int Threads, bool carried>
   bool try_resident() {
     const auto kernel = run_resident<P, Resident, Threads, carried>;
-    if (!limits_.cooperative || plan_.tile.size() > static_cast<std::size_t>(limits_.multiprocessors)) return false;
     const auto needed = [&](std::uint32_t cached) {
-      return ResidentMemory<P>(plan_.most_bodies, plan_.most_locals, plan_.most_slots, cached, carried).total;
+      return ResidentMemory<P>(plan_.most_bodies, plan_.most_halo, plan_.most_locals, plan_.most_slots, cached, carried)
+          .total;
     };
     const auto limit = static_cast<std::uint32_t>(limits_.shared);
-    if (needed(0) > limit) return false;
     std::uint32_t cached = 0;
     while (cached < plan_.most_packets && needed(cached + 1) <= limit) ++cached;
     if (const char* wish = std::getenv("MACADAM_TILE_CACHED")) cached = std::min<std::uint32_t>(cached, std::atoi(wish));
     const std::uint32_t shared = needed(cached);
-    int fitting = 0;
-    check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared)),
-               "shared memory");
-    check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&fitting, kernel, Threads, shared), "occupancy");
-    if (fitting < 1) return false;
+    if (!fits_resident(limits_, kernel, plan_.tile.size(), Threads, shared)) return false;
     scene_.cached_packets = cached;
-    scene_.early = UINT32_MAX;
-    for (const Tile& tile : plan_.tile) scene_.early = std::min(scene_.early, tile.own_packets / (Threads / 32));
+    scene_.early = early_packets(plan_, Threads / 32);
     if (const char* wish = std::getenv("MACADAM_TILE_EARLY"))
       scene_.early = std::min<std::uint32_t>(scene_.early, std::atoi(wish));
     resident_ = true;
@@ -334,7 +298,7 @@ class TileRunner {
   std::uint32_t tag_ = 1;
   DeviceArray<float4> constant_;
   R* base_ = nullptr;
-  Displacement<P>* before_ = nullptr;
+  double* before_ = nullptr;
   double* wall_velocity_ = nullptr;
   const std::uint32_t *wall_begin_ = nullptr, *long_body_ = nullptr;
   const uint2* settle_place_ = nullptr;
@@ -343,8 +307,7 @@ class TileRunner {
   std::shared_ptr<void> settle_groups_;
   std::function<void(int)> settle_contacts_;
   std::function<void(std::uint32_t)> run_;
-  std::vector<std::shared_ptr<void>> owned_;
-  std::int64_t bytes_ = 0;
+  DeviceStore store_;
 };
 
 }  // namespace macadam::kernels

@@ -1,44 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file cuda_tiles_resident.hpp  Many steps in one launch, where every tile has a multiprocessor of its own.
-///
-/// Velocities cross between tiles through memory as words of 16 bytes, three numbers and the step's tag, written and read
-/// whole: a reader waits for the tag, so there is no barrier among blocks. Two sets of words take turns; a tile cannot be
-/// two steps ahead of a neighbour, because it waits for the neighbour's last step.
 #pragma once
 
+#include "kernels/cuda_tile_exchange.hpp"
 #include "kernels/cuda_tile_scene.hpp"
 
 namespace macadam::kernels {
-
-__device__ __forceinline__ void put_tagged(float4* to, float x, float y, float z, std::uint32_t tag) {
-#if __CUDA_ARCH__ >= 700
-  asm volatile(
-      "{ .reg .b128 r; .reg .b64 a, b; mov.b64 a, {%1, %2}; mov.b64 b, {%3, %4}; mov.b128 r, {a, b};"
-      " st.relaxed.gpu.global.b128 [%0], r; }" ::"l"(to),
-      "r"(__float_as_uint(x)), "r"(__float_as_uint(y)), "r"(__float_as_uint(z)), "r"(tag)
-      : "memory");
-#endif
-}
-__device__ __forceinline__ float4 get_tagged(const float4* from) {
-  std::uint32_t x = 0, y = 0, z = 0, w = 0;
-#if __CUDA_ARCH__ >= 700
-  asm volatile(
-      "{ .reg .b128 r; .reg .b64 a, b; ld.relaxed.gpu.global.b128 r, [%4]; mov.b128 {a, b}, r; mov.b64 {%0, %1}, a;"
-      " mov.b64 {%2, %3}, b; }"
-      : "=r"(x), "=r"(y), "=r"(z), "=r"(w)
-      : "l"(from)
-      : "memory");
-#endif
-  return {__uint_as_float(x), __uint_as_float(y), __uint_as_float(z), __uint_as_float(w)};
-}
 
 /// Places in shared memory; `total` bytes in all.
 template <class P>
 struct ResidentMemory {
   using R = typename P::Particle;
-  std::uint32_t velocity, spin, slots, own, base, inverse, displacement, halo, diagonal, row, law, cache, total;
+  std::uint32_t velocity, spin, slots, own, halo, diagonal, row, law, cache, total;
 
-  __host__ __device__ ResidentMemory(std::uint32_t bodies, std::uint32_t locals, std::uint32_t slot_count,
+  __host__ __device__ ResidentMemory(std::uint32_t bodies, std::uint32_t halo_count, std::uint32_t locals, std::uint32_t slot_count,
                                      std::uint32_t cached_packets, bool carried) {
     std::uint32_t at = 0;
     const auto take = [&](std::uint32_t bytes) {
@@ -52,10 +27,7 @@ struct ResidentMemory {
     cache = take(cached_packets * static_cast<std::uint32_t>(tile_constants(carried)) * 512);
     slots = take(24 * slot_count);
     own = take(6 * sizeof(R) * bodies);
-    base = take(6 * sizeof(R) * bodies);
-    inverse = take(2 * sizeof(R) * bodies);
-    displacement = take(displacement_components * sizeof(Displacement<P>) * bodies);
-    halo = take(4 * (locals - bodies));
+    halo = take(4 * halo_count);
     diagonal = take(4 * TilePlan::longest_short_row);
     row = take(8 * bodies);
     total = at;
@@ -68,13 +40,10 @@ __global__ void __launch_bounds__(Threads, 1)
     run_resident(const __grid_constant__ TileScene<P> s, std::uint32_t steps, std::uint32_t first_tag) {
   using R = typename P::Particle;
   extern __shared__ __align__(16) unsigned char shared[];
-  const ResidentMemory<P> m(s.most_bodies, s.most_locals, s.most_slots, s.cached_packets, carried);
+  const ResidentMemory<P> m(s.most_bodies, s.most_halo, s.most_locals, s.most_slots, s.cached_packets, carried);
   auto* v = reinterpret_cast<float4*>(shared + m.velocity);
   auto* w = reinterpret_cast<float4*>(shared + m.spin);
   auto* own = reinterpret_cast<R*>(shared + m.own);
-  auto* base = reinterpret_cast<R*>(shared + m.base);
-  auto* inverse = reinterpret_cast<R*>(shared + m.inverse);
-  auto* displacement = reinterpret_cast<Displacement<P>*>(shared + m.displacement);
   auto* halo = reinterpret_cast<std::int32_t*>(shared + m.halo);
   auto* diagonal = reinterpret_cast<std::uint32_t*>(shared + m.diagonal);
   auto* row = reinterpret_cast<uint2*>(shared + m.row);
@@ -87,16 +56,13 @@ __global__ void __launch_bounds__(Threads, 1)
   const Tile tile = s.tile[blockIdx.x];
   const std::uint32_t locals = tile.bodies + tile.halo + walls, stride = s.most_bodies;
   const std::int32_t* body = s.body + tile.first_body;
+  auto* exchange = static_cast<ulonglong2*>(s.exchange);
 
   for (std::uint32_t r = tid; r < tile.bodies; r += Threads) {
     const auto i = static_cast<std::size_t>(body[r]);
     for (int c = 0; c < 6; ++c) {
       own[c * stride + r] = s.motion.body.master[i * velocity_words + moving_word(c)];
-      base[c * stride + r] = s.base[i * velocity_words + moving_word(c)];
     }
-    for (int c = 0; c < displacement_components; ++c)
-      displacement[c * stride + r] = s.motion.body.displacement[i * displacement_words + moving_word(c)];
-    for (int c = 0; c < 2; ++c) inverse[c * stride + r] = s.motion.body.inverse[2 * i + c];
     row[r] = s.row[tile.first_body + r];
   }
   for (std::uint32_t h = tid; h < tile.halo; h += Threads) halo[h] = s.halo[tile.first_halo + h];
@@ -116,28 +82,41 @@ __global__ void __launch_bounds__(Threads, 1)
   }
 
   const auto top_wall = static_cast<std::size_t>(s.motion.body.particles) + 5;
-  Displacement<P> wall_at = s.motion.body.displacement[top_wall * displacement_words + 2];
+  double wall_at = s.motion.body.displacement[top_wall * displacement_words + 2];
+  // displacements stay in memory: they are not needed in a step, and their loads are asked for well before
+  const auto shift_of = [&](std::uint32_t r) {
+    return reinterpret_cast<double2*>(s.motion.body.displacement + static_cast<std::size_t>(body[r]) * displacement_words);
+  };
   const auto move = [&](std::uint32_t r, const R(&force)[6], std::uint32_t tag) {
+    const R* inverse = s.motion.body.inverse + 2 * static_cast<std::size_t>(body[r]);
     R x[6];
     for (int c = 0; c < 6; ++c) {
-      x[c] = s.motion.moved(own[c * stride + r], force[c], inverse[(c / 3) * stride + r]);
+      x[c] = s.motion.moved(own[c * stride + r], force[c], inverse[c / 3]);
       own[c * stride + r] = x[c];
     }
-    for (int c = 0; c < displacement_components; ++c) displacement[c * stride + r] += static_cast<R>(s.motion.dt) * x[c];
     const float y[6] = {float(x[0]), float(x[1]), float(x[2]), float(x[3]), float(x[4]), float(x[5])};
-    float4* to = s.exchange + 2 * (static_cast<std::size_t>(tag & 1) * s.bodies + tile.first_body + r);
-    put_tagged(to, y[0], y[1], y[2], tag);
-    put_tagged(to + 1, y[3], y[4], y[5], tag);
+    put_velocity(exchange + 2 * (static_cast<std::size_t>(tag & 1) * s.bodies + tile.first_body + r), y, tag);
     v[r] = {y[0], y[1], y[2], 0};
     w[r] = {y[3], y[4], y[5], 0};
   };
+  const auto shift = [&] {
+    const double dt = s.motion.dt;
+    for (std::uint32_t r = tid; r < tile.bodies; r += Threads) {
+      double2* u = shift_of(r);
+      double2 a = u[0], b = u[1], c = u[2], d = u[3];
+      a.x += dt * own[r], a.y += dt * own[stride + r], b.x += dt * own[2 * stride + r];
+      c.x += dt * own[3 * stride + r], c.y += dt * own[4 * stride + r], d.x += dt * own[5 * stride + r];
+      u[0] = a, u[1] = b, u[2] = c, u[3] = d;
+    }
+  };
+  const auto base = [&](std::uint32_t r, int c) {
+    return __ldg(s.base + static_cast<std::size_t>(body[r]) * velocity_words + moving_word(c));
+  };
   const auto receive = [&](std::uint32_t tag) {
-    const float4* from = s.exchange + 2 * static_cast<std::size_t>(tag & 1) * s.bodies;
+    const ulonglong2* from = exchange + 2 * static_cast<std::size_t>(tag & 1) * s.bodies;
     for (std::uint32_t h = tid; h < 2 * tile.halo; h += Threads) {
-      const float4* word = from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2;
-      float4 x = get_tagged(word);
-      while (__float_as_uint(x.w) != tag) x = get_tagged(word);
-      (h % 2 ? w : v)[tile.bodies + h / 2] = x;
+      const auto x = get_velocity_word<float>(from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2, tag);
+      (h % 2 ? w : v)[tile.bodies + h / 2] = {x.value[0], x.value[1], x.value[2], 0};
     }
   };
 
@@ -153,19 +132,20 @@ __global__ void __launch_bounds__(Threads, 1)
         move(r, force, tag);
       }
     } else {
-      slots.for_each_sum(tile, row, diagonal, [&](std::uint32_t r, const float(&extra)[6]) {
+      sum_rows<float>(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
         R force[6];
-        for (int c = 0; c < 6; ++c) force[c] = base[c * stride + r] + static_cast<R>(extra[c]);
+        for (int c = 0; c < 6; ++c) force[c] = base(r, c) + static_cast<R>(extra[c]);
         move(r, force, tag);
       });
     }
     if (tid == Threads - 1 && s.motion.loaded) {
       const R top = static_cast<R>(s.wall_velocity[k]);
       v[locals - 1] = {0, 0, static_cast<float>(top), 0};
-      wall_at += static_cast<R>(s.motion.dt) * top;
+      wall_at += s.motion.dt * top;
     }
     if (s.early == 0) receive(tag);
     __syncthreads();
+    shift();
     const auto step = [&](std::uint32_t packet, float(&df)[6], float(&both)[6]) {
       const float4* constant = packet < cached ? cache + packet * words * 32 + lane
                                                : constants + static_cast<std::size_t>(packet) * words * 32 + lane;
@@ -180,14 +160,13 @@ __global__ void __launch_bounds__(Threads, 1)
         __syncthreads();
       }
     };
-    std::uint32_t j = 0;
 #pragma unroll
-    for (; j < Resident; ++j) {
+    for (int j = 0; j < Resident; ++j) {
       exchange_before(j);
       const std::uint32_t packet = warp + j * warps;
       if (packet < tile.packets) step(packet, change[j], sum[j]);
     }
-    for (; j < (tile.packets + warps - 1) / warps; ++j) {
+    for (std::uint32_t j = Resident; j < (tile.packets + warps - 1) / warps; ++j) {
       exchange_before(j);
       const std::uint32_t packet = warp + j * warps;
       if (packet >= tile.packets) continue;
@@ -205,14 +184,12 @@ __global__ void __launch_bounds__(Threads, 1)
     const std::uint32_t packet = warp + j * warps;
     if (packet < tile.packets) store_state(states + packet * tile_states * 32 + lane, change[j], sum[j]);
   }
-  slots.for_each_sum(tile, row, diagonal, [&](std::uint32_t r, const float(&extra)[6]) {
+  sum_rows<float>(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
     const auto i = static_cast<std::size_t>(body[r]);
     for (int c = 0; c < 6; ++c) {
-      s.force[i * velocity_words + moving_word(c)] = base[c * stride + r] + static_cast<R>(extra[c]);
+      s.force[i * velocity_words + moving_word(c)] = base(r, c) + static_cast<R>(extra[c]);
       s.motion.body.master[i * velocity_words + moving_word(c)] = own[c * stride + r];
     }
-    for (int c = 0; c < displacement_components; ++c)
-      s.motion.body.displacement[i * displacement_words + moving_word(c)] = displacement[c * stride + r];
   });
   if (blockIdx.x == 0 && tid == Threads - 1 && s.motion.loaded) {
     s.motion.body.master[top_wall * velocity_words + 2] = static_cast<R>(s.wall_velocity[steps - 1]);

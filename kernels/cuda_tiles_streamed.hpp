@@ -13,7 +13,7 @@ namespace macadam::kernels {
 /// Where the velocities of step k of all bodies are, by first_body + rank.
 template <class P>
 __device__ __forceinline__ float4* velocities_of(const TileScene<P>& s, std::uint32_t k) {
-  return s.exchange + 2 * static_cast<std::size_t>(k & 1) * s.bodies;
+  return static_cast<float4*>(s.exchange) + 2 * static_cast<std::size_t>(k & 1) * s.bodies;
 }
 
 /// Moves body number `i`, at place `place`, under `force` at step k of the launch's block.
@@ -26,8 +26,8 @@ __device__ __forceinline__ void move_body(const TileScene<P>& s, std::size_t i, 
     R& v = s.motion.body.master[i * velocity_words + moving_word(c)];
     x[c] = v = s.motion.moved(v, force[c], s.motion.body.inverse[2 * i + c / 3]);
   }
-  for (int c = 0; c < displacement_components; ++c)
-    s.motion.body.displacement[i * displacement_words + moving_word(c)] += static_cast<R>(s.motion.dt) * x[c];
+  for (int c = 0; c < 6; ++c)
+    s.motion.body.displacement[i * displacement_words + moving_word(c)] += s.motion.dt * x[c];
   float4* to = velocities_of(s, k) + 2 * place;
   to[0] = {float(x[0]), float(x[1]), float(x[2]), 0};
   to[1] = {float(x[3]), float(x[4]), float(x[5]), 0};
@@ -40,7 +40,7 @@ __device__ __forceinline__ void move_wall(const TileScene<P>& s, std::uint32_t k
   const auto top = static_cast<std::size_t>(s.motion.body.particles) + 5;
   const R v = static_cast<R>(s.wall_velocity[k]);
   s.motion.body.master[top * velocity_words + 2] = v;
-  s.motion.body.displacement[top * displacement_words + 2] += static_cast<R>(s.motion.dt) * v;
+  s.motion.body.displacement[top * displacement_words + 2] += s.motion.dt * v;
 }
 
 /// Begins step k with the forces of now: the first of a launch sequence.
@@ -102,7 +102,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
     if (last) store_wall_load(s.wall_load, group, load);
   }
   __syncthreads();
-  slots.for_each_sum(tile, s.row + tile.first_body, s.diagonal + blockIdx.x * TilePlan::longest_short_row,
+  sum_rows<float>(tile, s.row + tile.first_body, s.diagonal + blockIdx.x * TilePlan::longest_short_row, slots,
                      [&](std::uint32_t r, const float(&extra)[6]) {
                        const std::size_t place = tile.first_body + r;
                        const auto i = static_cast<std::size_t>(s.body[place]);

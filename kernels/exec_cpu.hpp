@@ -29,7 +29,7 @@ class ExecCpu {
     const std::size_t bodies = layout.particles() + walls;
     sums_.assign(accumulators_.size() * velocity_words, R(0));
     master_.assign(bodies * velocity_words, R(0));
-    displacement_.assign(bodies * displacement_words, R(0));
+    displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
   }
 
@@ -123,7 +123,8 @@ class ExecCpu {
 
   /// Host copies of the bodies' arrays and back.
   std::vector<R> velocities() const { return {master_.begin(), master_.end()}; }
-  std::vector<R> displacements() const { return {displacement_.begin(), displacement_.end()}; }
+  std::vector<double> displacements() const { return {displacement_.begin(), displacement_.end()}; }
+  void set_displacements(const std::vector<double>& u) { std::copy(u.begin(), u.end(), displacement_.begin()); }
   void set_velocities(const std::vector<R>& v) {
     std::copy(v.begin(), v.end(), master_.begin());
     if constexpr (!std::is_same_v<typename P::Geometry, R>) {
@@ -136,7 +137,8 @@ class ExecCpu {
   }
   std::int64_t state_bytes() const { return state_bytes_; }
   std::int64_t bytes() const {
-    return bytes_ + static_cast<std::int64_t>((sums_.size() + master_.size() + displacement_.size()) * sizeof(R) +
+    return bytes_ + static_cast<std::int64_t>((sums_.size() + master_.size()) * sizeof(R) +
+                                              displacement_.size() * sizeof(double) +
                                               velocity_.size() * sizeof(typename P::Geometry));
   }
 
@@ -213,8 +215,9 @@ class ExecCpu {
   const Layout& layout_;
   TileAccumulators accumulators_;
   std::vector<std::unique_ptr<Group>> groups_;
-  AlignedVector<R> sums_, master_, displacement_;  // [accumulator][8], [body][8], [body][4]
-  AlignedVector<typename P::Geometry> velocity_;   // [body][8], where Geometry is not Particle
+  AlignedVector<R> sums_, master_;                // [accumulator][8], [body][8]
+  AlignedVector<double> displacement_;            // [body][8]
+  AlignedVector<typename P::Geometry> velocity_;  // [body][8], where Geometry is not Particle
   std::vector<R> inverse_;
   std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
   int threads_ = 1;

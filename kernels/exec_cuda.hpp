@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "kernels/cuda_chain_runner.hpp"
 #include "kernels/cuda_tile_runner.hpp"
 #include "kernels/layout.hpp"
 
@@ -54,11 +55,12 @@ class ExecCuda {
   /// Decides whether steps are taken in blocks.
   void set_options(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws) {
     dt_ = options.dt;
-    const bool can = !std::is_same_v<P, DoublePrecision> && options.form == ContactForm::condensed &&
-                     (options.geometry == Geometry::fixed || displacement_words == 8);
-    const int block = can ? block_steps(options, laws) : 0;
-    if constexpr (!std::is_same_v<P, DoublePrecision>) {
-      if (block > 0) tiles_ = std::make_unique<Tiles>(network_, layout_, options, block, stream_);
+    if (options.form == ContactForm::condensed) {
+      if constexpr (std::is_same_v<P, DoublePrecision>) {
+        tiles_ = std::make_unique<Tiles>(network_, layout_, options, laws, stream_);
+      } else if (const int block = block_steps(options, laws); block > 0) {
+        tiles_ = std::make_unique<Tiles>(network_, layout_, options, block, stream_);
+      }
       if (tiles_ && !tiles_->possible()) tiles_.reset();
     }
     if (!tiles_) records_ = DeviceArray<G>(record_count_ * velocity_words);
@@ -91,13 +93,11 @@ class ExecCuda {
 
   /// Ends the set-up.
   void prepare(const ParticleMotion<P>& motion) {
-    if constexpr (!std::is_same_v<P, DoublePrecision>) {
-      std::vector<std::uint32_t> long_rows;
-      for (std::size_t i = 0; i < bodies(); ++i) {
-        if (row_lengths_[i + 1] - row_lengths_[i] > long_row) long_rows.push_back(static_cast<std::uint32_t>(i));
-      }
-      if (tiles_) tiles_->prepare(motion, row_begin_.data(), place_.data(), record_count_, long_rows);
+    std::vector<std::uint32_t> long_rows;
+    for (std::size_t i = 0; i < bodies(); ++i) {
+      if (row_lengths_[i + 1] - row_lengths_[i] > long_row) long_rows.push_back(static_cast<std::uint32_t>(i));
     }
+    if (tiles_) tiles_->prepare(motion, row_begin_.data(), place_.data(), record_count_, long_rows);
     row_lengths_ = {};
   }
 
@@ -115,7 +115,7 @@ class ExecCuda {
   template <class F>
   void repeat(std::int64_t first, std::int64_t steps, F&& f) {
     if (tiles_) {
-      if constexpr (!std::is_same_v<P, DoublePrecision>) tiles_->run(first, steps);
+      tiles_->run(first, steps);
       check_cuda(cudaStreamSynchronize(stream_), "time steps");
       return;
     }
@@ -133,12 +133,7 @@ class ExecCuda {
   }
 
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
-    std::vector<R> words;
-    if (tiles_) {
-      if constexpr (!std::is_same_v<P, DoublePrecision>) words = tile_forces(first, count);
-    } else {
-      words = sums(first, count);
-    }
+    const std::vector<R> words = tiles_ ? tile_forces(first, count) : sums(first, count);
     std::vector<Twist<R>> out(count);
     for (std::size_t i = 0; i < count; ++i) {
       const R* w = &words[i * velocity_words];
@@ -147,7 +142,8 @@ class ExecCuda {
     return out;
   }
   std::vector<R> velocities() const { return master_.download(); }
-  auto displacements() const { return displacement_.download(); }
+  std::vector<double> displacements() const { return displacement_.download(); }
+  void set_displacements(const std::vector<double>& u) { displacement_.upload(u.data()); }
   void set_velocities(const std::vector<R>& v) {
     master_.upload(v.data());
     if constexpr (!std::is_same_v<G, R>) {
@@ -212,8 +208,7 @@ class ExecCuda {
 
   template <class LawStep, int Units, ContactForm form, Geometry geometry>
   void add_to_tiles(const ContactArrays<P>& arrays, const ContactForces<P, LawStep, Units, form, geometry>& forces) {
-    if constexpr (!std::is_same_v<P, DoublePrecision> && form == ContactForm::condensed &&
-                  (geometry == Geometry::fixed || displacement_words == 8)) {
+    if constexpr (form == ContactForm::condensed) {
       tiles_->template add_group<geometry>(groups_, arrays, forces.view, dt_);
     }
   }
@@ -285,14 +280,7 @@ class ExecCuda {
       return velocity_.data();
   }
 
-  using Displacement = std::remove_reference_t<decltype(*BodyView<P>::displacement)>;
-
-  /// Nothing in double precision, which takes no blocks.
-  struct NoTiles {
-    static std::string description() { return ""; }
-    static std::int64_t bytes() { return 0; }
-  };
-  using Tiles = std::conditional_t<std::is_same_v<P, DoublePrecision>, NoTiles, TileRunner<P>>;
+  using Tiles = std::conditional_t<std::is_same_v<P, DoublePrecision>, ChainRunner<P>, TileRunner<P>>;
 
   const ContactNetwork& network_;  // until prepare()
   const Layout& layout_;
@@ -303,7 +291,7 @@ class ExecCuda {
   cudaStream_t stream_ = nullptr;
   cudaGraphExec_t many_ = nullptr, one_ = nullptr;
   DeviceArray<R> master_, inverse_;
-  DeviceArray<Displacement> displacement_;
+  DeviceArray<double> displacement_;
   DeviceArray<G> velocity_, records_;
   DeviceArray<std::uint32_t> row_begin_, place_, long_body_;
   DeviceArray<std::int64_t> step_;

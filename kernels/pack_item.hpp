@@ -74,19 +74,29 @@ struct PackItem {
             {to_pack<R>(r[4]), to_pack<R>(r[5]), to_pack<R>(r[6])}};
   }
 
-  /// u_b − u_a, subtracted before it is rounded to To.
+  /// u of one body a lane, and u_b − u_a, subtracted before it is rounded to To; `u` points to the first body's.
   template <class To, class R>
-  static Vec3<Value<To>> relative(const R* displacement, const std::int32_t* a, const std::int32_t* b) {
-    HalfLine<R> difference[8];
-    for (std::size_t j = 0; j < 8; ++j) {
-      const auto line = [&](std::int32_t body) {
-        return *reinterpret_cast<const HalfLine<R>*>(displacement +
-                                                     static_cast<std::size_t>(body) * displacement_words);
-      };
-      difference[j] = line(b[j]) - line(a[j]);
-    }
+  static Vec3<Value<To>> vector(const R* u, const std::int32_t* body) {
+    HalfLine<R> lines[8];
+    for (std::size_t j = 0; j < 8; ++j) lines[j] = half_line(u, body[j]);
+    return turned<To, R>(lines);
+  }
+  template <class To, class R>
+  static Vec3<Value<To>> relative(const R* u, const std::int32_t* a, const std::int32_t* b) {
+    HalfLine<R> lines[8];
+    for (std::size_t j = 0; j < 8; ++j) lines[j] = half_line(u, b[j]) - half_line(u, a[j]);
+    return turned<To, R>(lines);
+  }
+
+ private:
+  template <class R>
+  static HalfLine<R> half_line(const R* u, std::int32_t body) {
+    return *reinterpret_cast<const HalfLine<R>*>(u + static_cast<std::size_t>(body) * displacement_words);
+  }
+  template <class To, class R>
+  static Vec3<Value<To>> turned(const HalfLine<R> (&lines)[8]) {
     Line<R> words[3];
-    transpose_three<R>(difference, words);
+    transpose_three<R>(lines, words);
     return {convert<To>(to_pack<R>(words[0])), convert<To>(to_pack<R>(words[1])), convert<To>(to_pack<R>(words[2]))};
   }
 };

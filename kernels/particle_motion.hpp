@@ -16,7 +16,7 @@ template <class P>
 struct BodyView {
   typename P::Geometry* velocity;       ///< [body][8] v [m/s], ω [rad/s]
   typename P::Particle* master;         ///< [body][8] likewise
-  typename P::Particle* displacement;   ///< [body][4] [m]
+  double* displacement;                 ///< [body][8] u [m], θ [rad]
   const typename P::Particle* inverse;  ///< [body][2] Δt/m [s/kg], Δt/I [s/(kg·m²)]; 0 for walls
   std::int32_t particles;
 };
@@ -33,10 +33,11 @@ struct ParticleMotion {
   bool loaded;
   loadings::Cyclic loading;
 
-  /// v ← v + Δt·(F + F_d)/m, u ← u + Δt·v for a particle; the top wall gets its velocity of step k, others rest.
+  /// v ← v + Δt·(F + F_d)/m, u ← u + Δt·v for a particle, likewise its spin and rotation; the top wall gets its
+  /// velocity of step k, others rest.
   MACADAM_HD void operator()(std::int32_t i, const Twist<R>& force, std::int64_t k) const {
     R* v = body.master + static_cast<std::size_t>(i) * velocity_words;
-    R* u = body.displacement + static_cast<std::size_t>(i) * displacement_words;
+    double* u = body.displacement + static_cast<std::size_t>(i) * displacement_words;
     if (i < body.particles) {
       const R by_mass = body.inverse[2 * i], by_inertia = body.inverse[2 * i + 1];
       v[0] = moved(v[0], force.linear.x, by_mass);
@@ -48,10 +49,7 @@ struct ParticleMotion {
     } else if (loaded && i == body.particles + 5) {
       v[2] = static_cast<R>(loading.velocity(k));
     }
-    const R step = static_cast<R>(dt);
-    u[0] += step * v[0];
-    u[1] += step * v[1];
-    u[2] += step * v[2];
+    for (const int w : {0, 1, 2, 4, 5, 6}) u[w] += dt * v[w];
     if constexpr (!std::is_same_v<typename P::Geometry, R>) {
       for (int w = 0; w < velocity_words; ++w) {
         body.velocity[static_cast<std::size_t>(i) * velocity_words + static_cast<std::size_t>(w)] =
@@ -71,9 +69,8 @@ struct ParticleMotion {
     }
     body.master[at] = v;
     if constexpr (!std::is_same_v<typename P::Geometry, R>) body.velocity[at] = static_cast<typename P::Geometry>(v);
-    if (w < displacement_words && w % 4 != 3) {
-      auto& u = body.displacement[static_cast<std::size_t>(i) * displacement_words + static_cast<std::size_t>(w)];
-      u += static_cast<R>(dt) * v;
+    if (w % 4 != 3) {
+      body.displacement[static_cast<std::size_t>(i) * displacement_words + static_cast<std::size_t>(w)] += dt * v;
     }
   }
 

@@ -7,7 +7,7 @@
 namespace macadam::kernels {
 
 /// State: chain states and carried frames. Geometry: normals, arms, moments, gathered velocities. Particle: master
-/// velocities, displacements and force sums.
+/// velocities and force sums. Displacements are double in all: they add up small steps.
 struct DoublePrecision {
   using State = double;
   using Geometry = double;

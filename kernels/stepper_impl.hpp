@@ -2,6 +2,7 @@
 /// \file stepper_impl.hpp  The step, for any executor. stepper_cpu_*.cpp and stepper_cuda_*.cu compile it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -47,7 +48,7 @@ class StepperImpl final : public Stepper {
   StepperImpl(const Specimen& specimen, const ContactNetwork& network,
               const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
               const StepperOptions& options)
-      : options_(options),
+      : options_(decided(options, network, laws)),
         radius_(specimen.radius),
         layout_(make_layout(specimen, network, Exec::lanes, tile_contacts(network))),
         exec_(network, layout_, options.threads) {
@@ -55,7 +56,9 @@ class StepperImpl final : public Stepper {
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
       const auto i = static_cast<std::size_t>(layout_.particle[b]);
       inverse[2 * b] = static_cast<R>(options.dt / (inertia.mass[i] * options.density_scaling));
-      inverse[2 * b + 1] = static_cast<R>(options.dt / (inertia.inertia[i] * options.density_scaling));
+      if (!options_.skip_rotations) {
+        inverse[2 * b + 1] = static_cast<R>(options.dt / (inertia.inertia[i] * options.density_scaling));
+      }
     }
     const double beta = options.damping_kind == Damping::viscous ? options.damping : 0;
     motion_ = {exec_.set_bodies(std::move(inverse)),
@@ -70,6 +73,8 @@ class StepperImpl final : public Stepper {
     for (const auto& group : layout_.groups)
       add_group(network, group, laws[static_cast<std::size_t>(group.pair)].value());
     if constexpr (requires { exec_.prepare(motion_); }) exec_.prepare(motion_);
+    if (options.start) start_from(*options.start);
+    options_.start = nullptr;
   }
 
   /// The step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
@@ -103,7 +108,8 @@ class StepperImpl final : public Stepper {
     const auto forces = exec_.forces(0, n);
     for (std::size_t b = 0; b < n; ++b) {
       const auto i = static_cast<std::size_t>(layout_.particle[b]);
-      const R *vb = &v[b * velocity_words], *ub = &u[b * displacement_words];
+      const R* vb = &v[b * velocity_words];
+      const double* ub = &u[b * displacement_words];
       const auto& f = forces[b];
       out.displacement[i] = {ub[0], ub[1], ub[2]};
       out.velocity[i] = {vb[0], vb[1], vb[2]};
@@ -115,6 +121,9 @@ class StepperImpl final : public Stepper {
   }
 
   void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) override {
+    if (options_.skip_rotations && largest(spin) > 0) {
+      throw InputError("a spin was given to particles that nothing can turn: set skip_rotations to false");
+    }
     std::vector<R> v = exec_.velocities();
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
       const auto i = static_cast<std::size_t>(layout_.particle[b]);
@@ -157,6 +166,45 @@ class StepperImpl final : public Stepper {
       return Exec::tile_contacts_of(network);
     else
       return Exec::tile_contacts;
+  }
+
+  /// Rotations are skipped only where nothing turns, at the start or later.
+  static StepperOptions decided(StepperOptions options, const ContactNetwork& network,
+                                const std::array<std::optional<Law>, pair_types>& laws) {
+    options.skip_rotations = options.skip_rotations && nothing_turns(network, laws);
+    if (options.loading && options.start && options.loading->ramp_steps > 0) {
+      throw InputError("a start in motion and a ramp of " + std::to_string(options.loading->ramp_steps) +
+                       " steps: expected one of them");
+    }
+    return options;
+  }
+  static double largest(const std::vector<Vec3d>& list) {
+    double out = 0;
+    for (const Vec3d& v : list) out = std::max(out, dot(v, v));
+    return out;
+  }
+
+  /// Takes the step from −1 to 0: forces of step −1 are not needed, as velocities are given half a step later.
+  void start_from(const StartState& start) {
+    std::vector<Vec3d> velocity = start.velocity, spin = start.spin;
+    for (auto* list : {&velocity, &spin}) {
+      for (Vec3d& v : *list) v = (1 / static_cast<double>(motion_.keep)) * v;  // the step damps them again
+    }
+    if (options_.skip_rotations) spin.assign(spin.size(), {});  // rounding of the solution
+    set_velocities(velocity, spin);
+    std::vector<double> u = exec_.displacements();
+    for (std::size_t b = 0; b < layout_.particles(); ++b) {
+      const auto i = static_cast<std::size_t>(layout_.particle[b]);
+      const Vec3d &at = start.displacement[i], &turn = start.rotation[i];
+      const double words[displacement_words] = {at.x, at.y, at.z, 0, turn.x, turn.y, turn.z, 0};
+      std::copy(words, words + displacement_words, &u[b * displacement_words]);
+    }
+    if (options_.loading) {
+      u[(layout_.particles() + 5) * displacement_words + 2] = options_.loading->displacement(-1);
+    }
+    exec_.set_displacements(u);
+    step_ = -1;
+    advance(1);
   }
 
   void add_group(const ContactNetwork& network, const GroupLayout& group, const Law& law) {

@@ -114,6 +114,7 @@ class Planner {
 
     add_contacts(t, tile, touches, halo, rank, diagonal);
     out_.most_bodies = std::max(out_.most_bodies, bodies);
+    out_.most_halo = std::max(out_.most_halo, tile.halo);
     out_.most_locals = std::max(out_.most_locals, bodies + tile.halo + walls);
     out_.most_slots = std::max(out_.most_slots, tile.slots);
     out_.most_packets = std::max(out_.most_packets, tile.packets);

@@ -44,7 +44,7 @@ class T8 : public testing::Test {
     scene.loading.cycles = cycles;
     scene.loading.fit_cycles = 2;
     scene.loading.samples_per_cycle = samples_per_cycle;
-    scene.solver.density_scaling = {density_scaling};
+    scene.solver.density_scaling = std::vector<double>{density_scaling};
     scene.solver.form = form;
     scene.solver.backend = Backend::cpu;
     scene.solver.threads = 1;  // the tests of this file run side by side

@@ -74,12 +74,19 @@ void print_results(const RunResult& result) {
 void run_command(const Arguments& arguments) {
   const Scene scene = scene_of(arguments);
   ProgressLine line;
-  const auto progress = [&](const std::string& stage, double share) { line.show(stage, share); };
-  const RunResult result = run(scene, arguments.out, progress, [&](const Preparation& prepared) {
+  Watcher watcher;
+  watcher.progress = [&](const std::string& stage, double share) { line.show(stage, share); };
+  watcher.prepared = [&](const Preparation& prepared) {
     line.clear();
     print_preparation(prepared);
     std::fflush(stdout);
-  });
+  };
+  watcher.planned = [&](const std::vector<std::string>& decisions) {
+    line.clear();
+    for (const std::string& decision : decisions) fmt::print("{}\n", decision);
+    std::fflush(stdout);
+  };
+  const RunResult result = run(scene, arguments.out, watcher);
   line.clear();
   print_results(result);
   fmt::print("\n{} | files in {}: summary.json specimen.csv{}{}\n", result.solver, arguments.out,

@@ -19,30 +19,44 @@ PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& l
   return out;
 }
 
-ContactOperator::Load ContactOperator::contact_load(const Contact& c, const PairStiffness& stiffness,
-                                                    const Vector& motion, Complex wall) const {
-  const Placement<double> placement{c.n, c.s, c.t, c.arm_a, c.arm_b};
-  const double m[6] = {c.moments.a / c.distance,  c.moments.s / c.distance,  c.moments.t / c.distance,
-                       c.moments.ss / c.distance, c.moments.st / c.distance, c.moments.tt / c.distance};
-  const auto pair = static_cast<std::size_t>(c.pair);
-  const Complex k = stiffness.k[pair];
-  auto twist = [&](std::int32_t end, auto part) -> Twist<double> {
+namespace {
+
+Placement<double> placement_of(const Contact& c) { return {c.n, c.s, c.t, c.arm_a, c.arm_b}; }
+
+}  // namespace
+
+std::array<Complex, 6> relative_motion(const Contact& c, const Vector& motion, Complex wall) {
+  const auto twist = [&](std::int32_t end, auto part) -> Twist<double> {
     if (end >= 0) {
       const Complex* x = &motion[6 * static_cast<std::size_t>(end)];
       return {{part(x[0]), part(x[1]), part(x[2])}, {part(x[3]), part(x[4]), part(x[5])}};
     }
     return {{0, 0, end == wall_z_hi ? part(wall) : 0.0}, {}};
   };
-  double u[2][6];
-  const auto real = [](Complex z) { return z.real(); };
-  const auto imag = [](Complex z) { return z.imag(); };
-  kernels::relative_rates(placement, twist(c.a, real), twist(c.b, real), u[0]);
-  kernels::relative_rates(placement, twist(c.a, imag), twist(c.b, imag), u[1]);
+  const auto rates = [&](double(&u)[6], auto part) {
+    kernels::relative_rates(placement_of(c), twist(c.a, part), twist(c.b, part), u);
+  };
+  double real[6], imag[6];
+  rates(real, [](Complex z) { return z.real(); });
+  rates(imag, [](Complex z) { return z.imag(); });
+  std::array<Complex, 6> out;
+  for (std::size_t i = 0; i < 6; ++i) out[i] = {real[i], imag[i]};
+  return out;
+}
+
+ContactOperator::Load ContactOperator::contact_load(const Contact& c, const PairStiffness& stiffness,
+                                                    const Vector& motion, Complex wall) const {
+  const std::array<Complex, 6> u = relative_motion(c, motion, wall);
+  const Placement<double> placement = placement_of(c);
+  const double m[6] = {c.moments.a / c.distance,  c.moments.s / c.distance,  c.moments.t / c.distance,
+                       c.moments.ss / c.distance, c.moments.st / c.distance, c.moments.tt / c.distance};
+  const auto pair = static_cast<std::size_t>(c.pair);
+  const Complex k = stiffness.k[pair];
   Load load{};
   for (int part = 0; part < 2; ++part) {
     double f[6];
-    for (int i = 0; i < 6; ++i) {
-      const Complex density = k * Complex(u[0][i], u[1][i]);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const Complex density = k * u[i];
       f[i] = part == 0 ? density.real() : density.imag();
     }
     const auto at = kernels::to_centres(placement, kernels::condensed_load(f, stiffness.alpha[pair], m));

@@ -26,6 +26,10 @@ struct WallForces {
   Complex bottom = 0, top = 0;
 };
 
+/// The six relative displacements (Eq. 8 about x0) of a contact while the particles move by `motion` and the top wall
+/// by `wall` along z.
+std::array<Complex, 6> relative_motion(const Contact& contact, const Vector& motion, Complex wall);
+
 class ContactOperator {
  public:
   ContactOperator(const ContactNetwork& network, std::size_t particles) : network_(network), particles_(particles) {}

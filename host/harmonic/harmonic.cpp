@@ -55,9 +55,10 @@ class Harmonic::Implementation {
     preconditioner_ = std::make_unique<Preconditioner>(network, specimen.size(), typical, pins_);
   }
 
-  HarmonicResult solve(double frequency, double density_scaling) {
+  HarmonicResult solve(double frequency, double density_scaling, double damping) {
     const auto start = std::chrono::steady_clock::now();
-    const double omega = 2 * std::numbers::pi * frequency, inertia = omega * omega * density_scaling;
+    const double omega = 2 * std::numbers::pi * frequency;
+    const Complex inertia = density_scaling * Complex(omega * omega, -omega * damping);
     const PairStiffness stiffness = pair_stiffness(laws_, omega);
     HarmonicResult out;
     out.frequency_hz = frequency;
@@ -66,8 +67,13 @@ class Harmonic::Implementation {
     contacts_.forces(stiffness, x, 1.0, right);  // of a unit displacement of the top wall
     const double scale = length(right);
     r = right;
+    if (frequency == last_frequency_) {  // another inertia at the same frequency: begin from what is near
+      x = last_;
+      apply(stiffness, inertia, x, q);
+      for (std::size_t i = 0; i < r.size(); ++i) r[i] -= q[i];
+    }
     Complex rho_before = 0;
-    double residual = 1;
+    double residual = length(r) / scale;
     // the recurrence drifts from the true residual by rounding: it is computed anew, and the recurrence restarted
     for (int restart = 0; restart < 4 && residual > options_.tolerance; ++restart) {
       for (int k = 0; residual > 0.3 * options_.tolerance && out.iterations < options_.max_iterations; ++k) {
@@ -105,10 +111,12 @@ class Harmonic::Implementation {
     const double to_modulus = box_.size.z / (box_.size.x * box_.size.y);  // stress per strain of a unit displacement
     out.top = modulus(to_modulus * walls.top);
     out.bottom = modulus(-to_modulus * walls.bottom);
-    if (inertia == 0) {
+    if (inertia == 0.0) {
       for (const Pin& pin : pins_) out.held_force += std::abs(pin.stiffness * x[pin.dof]);
       out.held_force /= std::abs(walls.top);
     }
+    last_ = x;
+    last_frequency_ = frequency;
     out.motion = std::move(x);
     out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return out;
@@ -117,11 +125,11 @@ class Harmonic::Implementation {
  private:
   static Stiffness modulus(Complex e) { return {std::abs(e), std::arg(e) * 180 / std::numbers::pi}; }
 
-  /// out = (K* − ω²M)·x, or (K* + pins)·x without inertia.
-  void apply(const PairStiffness& stiffness, double inertia, const Vector& x, Vector& out) const {
+  /// out = (K* − inertia·M)·x, or (K* + pins)·x without inertia.
+  void apply(const PairStiffness& stiffness, Complex inertia, const Vector& x, Vector& out) const {
     contacts_.forces(stiffness, x, 0.0, out);
     for (Complex& f : out) f = -f;
-    if (inertia == 0) {
+    if (inertia == 0.0) {
       for (const Pin& pin : pins_) out[pin.dof] += pin.stiffness * x[pin.dof];
       return;
     }
@@ -138,6 +146,8 @@ class Harmonic::Implementation {
   ContactOperator contacts_;
   std::vector<Pin> pins_;
   std::unique_ptr<Preconditioner> preconditioner_;
+  Vector last_;  ///< solution of last_frequency_
+  double last_frequency_ = -1;
 };
 
 Harmonic::Harmonic(const Specimen& specimen, const ContactNetwork& network,
@@ -146,8 +156,8 @@ Harmonic::Harmonic(const Specimen& specimen, const ContactNetwork& network,
     : implementation_(std::make_unique<Implementation>(specimen, network, laws, inertia, options, typical_frequency)) {}
 Harmonic::~Harmonic() = default;
 
-HarmonicResult Harmonic::solve(double frequency_hz, double density_scaling) {
-  return implementation_->solve(frequency_hz, density_scaling);
+HarmonicResult Harmonic::solve(double frequency_hz, double density_scaling, double viscous_damping) {
+  return implementation_->solve(frequency_hz, density_scaling, viscous_damping);
 }
 
 }  // namespace macadam

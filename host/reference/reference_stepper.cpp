@@ -52,6 +52,8 @@ class ReferenceStepper : public Stepper {
     for (const Contact& contact : network.contacts) {
       contacts_.push_back(make_reference_contact(network, contact, law(contact.pair).units.size()));
     }
+    if (options.start) start_from(*options.start);
+    options_.start = nullptr;
   }
 
   void advance(std::int64_t steps) override {
@@ -119,6 +121,45 @@ class ReferenceStepper : public Stepper {
   }
 
  private:
+  /// Sets the motion of step −1 and takes the step to 0. The force that step −1 would need is not known, nor needed:
+  /// the velocities are already those of half a step later.
+  void start_from(const StartState& start) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      Body& body = bodies_[i];
+      body.displacement = to_eigen(start.displacement[i]);
+      const double kept = options_.damping_kind == Damping::viscous
+                              ? (1 - options_.damping * options_.dt / 2) / (1 + options_.damping * options_.dt / 2)
+                              : 1;
+      body.velocity = to_eigen(start.velocity[i]) / kept;
+      body.spin = to_eigen(start.spin[i]) / kept;
+    }
+    if (options_.loading) walls_[wall_index(wall_z_hi)].displacement.z() = options_.loading->displacement(-1);
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const ReferenceLaw& law = this->law(contacts_[c].pair);
+      const std::size_t words = 1 + law.units.size();
+      const auto number = [&](std::size_t component, std::size_t word) {
+        return start.chain[start.chain_begin[c] + component * words + word];
+      };
+      for (ContactPoint& point : contacts_[c].points) {
+        for (std::size_t word = 0; word < words; ++word) {
+          const double along[3] = {number(0, word) + point.s * number(1, word) + point.t * number(2, word),
+                                   number(3, word) - point.t * number(5, word),
+                                   number(4, word) + point.s * number(5, word)};
+          for (int axis = 0; axis < 3; ++axis) {
+            const double scale = (axis == 0 ? 1.0 : law.alpha) * point.area / contacts_[c].initial_distance;
+            if (word == 0) {
+              point.chain[axis].force = scale * along[axis];
+            } else {
+              point.chain[axis].stretch[word - 1] = along[axis];
+            }
+          }
+        }
+      }
+    }
+    step_ = -1;
+    advance(1);
+  }
+
   const ReferenceLaw& law(PairType pair) const { return *laws_[static_cast<std::size_t>(pair)]; }
 
   /// m·dv/dt = F + F_d over one step, for forces and likewise for moments (Eq. 1, 2).

@@ -27,29 +27,30 @@ void read_damping(const Section& section, SolverSpec& spec) {
 }
 
 /// A number for all frequencies, or an array of one for each.
-void read_density_scaling(const Value& value, std::size_t frequencies, std::vector<double>& scaling) {
-  if (!value.is_array()) {
-    scaling = {value.number(ratio, positive)};
-    return;
-  }
-  scaling = value.numbers(ratio, positive);
+std::vector<double> read_density_scaling(const Value& value, std::size_t frequencies) {
+  if (!value.is_array()) return {value.number(ratio, positive)};
+  const std::vector<double> scaling = value.numbers(ratio, positive);
   if (scaling.size() != frequencies) {
     value.refuse(fmt::format("{} entries", scaling.size()),
                  fmt::format("a number, or an array of {}, one for each frequency", frequencies));
   }
+  return scaling;
 }
 
 }  // namespace
 
 SolverSpec read_solver(const Section& section, const LoadingSpec& loading) {
   constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a share of the critical step, above 0 and at most 1"};
+  // below 1e-7 the harmonic solution that everything is measured against has too few digits itself
+  constexpr Rule error{[](double v) { return v >= 1e-7 && v <= 0.1; }, "an error from 1e-7 to 0.1"};
   constexpr std::int64_t most_threads = 65'536;
   SolverSpec spec;
   section.read(
       {{"method", Need::optional,
         into<SolverMethod>(spec.method, {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}})},
+       {"tolerance", Need::optional, into(spec.tolerance, ratio, error)},
        {"density_scaling", Need::optional,
-        [&](const Value& v) { read_density_scaling(v, loading.frequencies.size(), spec.density_scaling); }},
+        [&](const Value& v) { spec.density_scaling = read_density_scaling(v, loading.frequencies.size()); }},
        {"safety", Need::optional, into(spec.safety, ratio, share)},
        {"time_step", Need::optional, into(spec.time_step, duration, positive)},
        {"damping_kind", Need::optional,
@@ -75,6 +76,10 @@ SolverSpec read_solver(const Section& section, const LoadingSpec& loading) {
   if (spec.inertia && spec.method == SolverMethod::explicit_) {
     section.refuse("inertia", "true beside method \"explicit\", which always has inertia",
                    "false, or method = \"harmonic\"");
+  }
+  if (spec.tolerance && spec.method == SolverMethod::harmonic) {
+    section.refuse("tolerance", "given beside method \"harmonic\", which has no such error",
+                   "none, or method = \"explicit\"");
   }
   // A fit of the fundamental with offset and trend is meaningless with fewer than eight samples a cycle, and a sample
   // takes a step.

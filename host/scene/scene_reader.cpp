@@ -124,13 +124,13 @@ LoadingSpec read_loading(const Section& section) {
   constexpr Rule strain{[](double v) { return v > 0 && v < 1; }, "a strain above 0 and below 1"};
   constexpr std::int64_t most = 1'000'000;
   LoadingSpec spec;
-  spec.fit_cycles = 0;  // until the number of cycles is known
   section.read({{"kind", Need::required, [](const Value& v) { v.choice({"cyclic"}); }},
                 {"frequencies", Need::required, into(spec.frequencies, frequency, positive)},
                 {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain)},
+                {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}})},
                 {"cycles", Need::optional, into(spec.cycles, 1, most)},
                 {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, non_negative)},
-                {"fit_cycles", Need::optional, into(spec.fit_cycles, 0, most)},
+                {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most)},
                 {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most)}});
   if (spec.frequencies.empty()) section.refuse("frequencies", "none", "at least one");
   std::vector<double> sorted = spec.frequencies;
@@ -138,19 +138,27 @@ LoadingSpec read_loading(const Section& section) {
   if (const auto twin = std::adjacent_find(sorted.begin(), sorted.end()); twin != sorted.end()) {
     section.refuse("frequencies", fmt::format("{} Hz twice", *twin), "each frequency once");
   }
-  if (spec.fit_cycles > spec.cycles) {
-    section.refuse("fit_cycles", fmt::format("{}", spec.fit_cycles), fmt::format("at most cycles, {}", spec.cycles));
+  if (spec.start == Start::steady && spec.ramp_cycles.value_or(0) > 0) {
+    section.refuse("ramp_cycles", fmt::format("{} beside start = \"steady\"", *spec.ramp_cycles),
+                   "0: a steady start is in motion at once");
   }
-  if (spec.fit_cycles == 0) spec.fit_cycles = spec.cycles >= 4 ? 2 : 1;
-  if (spec.ramp_cycles > spec.cycles - spec.fit_cycles) {
-    section.refuse("ramp_cycles", fmt::format("{}", spec.ramp_cycles),
-                   fmt::format("at most {}: the last {} of {} cycles are fitted", spec.cycles - spec.fit_cycles,
-                               spec.fit_cycles, spec.cycles));
+  if (spec.cycles && spec.fit_cycles.value_or(1) > *spec.cycles) {
+    section.refuse("fit_cycles", fmt::format("{}", *spec.fit_cycles), fmt::format("at most cycles, {}", *spec.cycles));
+  }
+  if (spec.cycles && spec.ramp_cycles) {
+    const int fitted = spec.fitted(*spec.cycles);
+    if (*spec.ramp_cycles > *spec.cycles - fitted) {
+      section.refuse(
+          "ramp_cycles", fmt::format("{}", *spec.ramp_cycles),
+          fmt::format("at most {}: the last {} of {} cycles are fitted", *spec.cycles - fitted, fitted, *spec.cycles));
+    }
   }
   return spec;
 }
 
 }  // namespace scene
+
+const char* to_string(Start start) { return start == Start::steady ? "steady" : "rest"; }
 
 Scene read_scene(const std::filesystem::path& file) {
   using namespace scene;

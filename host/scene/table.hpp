@@ -124,9 +124,6 @@ template <class Integer>
 Reader into(Integer& target, std::int64_t min, std::int64_t max = std::numeric_limits<std::int64_t>::max()) {
   return [&target, min, max](const Value& value) { target = static_cast<Integer>(value.integer(min, max)); };
 }
-inline Reader into(std::optional<std::int64_t>& target, std::int64_t min, std::int64_t max) {
-  return [&target, min, max](const Value& value) { target = value.integer(min, max); };
-}
 inline Reader into(bool& target) {
   return [&target](const Value& value) { target = value.boolean(); };
 }
@@ -136,6 +133,18 @@ Reader into(Enum& target, std::vector<std::pair<std::string, Enum>> names) {
     std::vector<std::string> words;
     for (const auto& [word, meaning] : names) words.push_back(word);
     target = names[value.choice(words)].second;
+  };
+}
+template <class Integer>
+Reader into(std::optional<Integer>& target, std::int64_t min, std::int64_t max) {
+  return [&target, min, max](const Value& value) { target = static_cast<Integer>(value.integer(min, max)); };
+}
+template <class Enum>
+Reader into(std::optional<Enum>& target, std::vector<std::pair<std::string, Enum>> names) {
+  return [&target, names = std::move(names)](const Value& value) {
+    Enum found{};
+    into<Enum>(found, names)(value);
+    target = found;
   };
 }
 /// @}

@@ -15,14 +15,15 @@ void require_backend_fits(const Scene& scene) {
   const auto refuse = [&](const char* what, const char* found, const char* expected) {
     throw InputError(scene.file.string(), 0, std::string(what) + " with backend reference", found, expected);
   };
-  if (scene.solver.precision != Precision::double_) refuse("precision", to_string(scene.solver.precision), "double");
+  if (scene.solver.precision.value_or(Precision::double_) != Precision::double_) {
+    refuse("precision", to_string(*scene.solver.precision), "double");
+  }
   if (scene.network.quadrature == Quadrature::exact) refuse("quadrature", "exact", "lumped: it works per point");
 }
 
 }  // namespace
 
-RunResult run(const Scene& scene, const std::filesystem::path& out, const Progress& progress,
-              const std::function<void(const Preparation&)>& on_prepared) {
+RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher) {
   require_backend_fits(scene);
   RunResult result;
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
@@ -32,18 +33,18 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Progre
        {"response.csv", "contacts.csv", "summary.json"}) {  // none of another run may stay beside ours
     if (std::filesystem::is_regular_file(out / name)) std::filesystem::remove(out / name);
   }
-  const Preparation prepared = prepare(scene, progress);
+  const Preparation prepared = prepare(scene, watcher.progress);
   write_preparation(scene, prepared, out);
-  if (on_prepared) on_prepared(prepared);
+  if (watcher.prepared) watcher.prepared(prepared);
 
   const Saving save = [&](const std::string& status) {
     write_whole(out / "summary.json", summary_json(scene, prepared, result, status));
   };
   try {
     if (stepped) {
-      step_frequencies(scene, prepared, out / "response.csv", progress, save, result);
+      step_frequencies(scene, prepared, out / "response.csv", watcher, save, result);
     } else {
-      solve_frequencies(scene, prepared, progress, save, result);
+      solve_frequencies(scene, prepared, watcher.progress, save, result);
     }
   } catch (const std::exception& error) {
     try {

@@ -16,13 +16,13 @@ using Saving = std::function<void(const std::string& status)>;
 /// Steps every frequency in time; each sample goes to `response` and each finished frequency into `result` at once.
 /// \throws DivergenceError naming the particle that left the range of sense first.
 void step_frequencies(const Scene& scene, const Preparation& prepared, const std::filesystem::path& response,
-                      const Progress& progress, const Saving& save, RunResult& result);
+                      const Watcher& watcher, const Saving& save, RunResult& result);
 
 /// Solves every frequency's steady state (method "harmonic"). \throws as Harmonic does.
 void solve_frequencies(const Scene& scene, const Preparation& prepared, const Progress& progress, const Saving& save,
                        RunResult& result);
 
-/// Density scaling of a frequency of the scene.
+/// Density scaling that the scene gives for a frequency; 1 where it gives none.
 double density_scaling_of(const SolverSpec& solver, std::size_t frequency);
 
 }  // namespace macadam

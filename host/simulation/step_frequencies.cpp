@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "host/results/files.hpp"
+#include "host/simulation/error_model.hpp"
+#include "host/simulation/plan.hpp"
 #include "host/simulation/solution.hpp"
 #include "macadam/error.hpp"
 #include "macadam/stepper.hpp"
@@ -16,28 +18,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// The steps of one cyclic test: a whole number of samples a period, a whole number of steps a sample.
-loadings::Cyclic make_loading(const Scene& scene, const Specimen& specimen, double frequency, double largest_step) {
-  const LoadingSpec& spec = scene.loading;
-  const double wanted = 1 / (frequency * largest_step * spec.samples_per_cycle);
-  if (!(wanted < 1e12)) {
-    throw RunError(fmt::format("the time step of {} s would take {} steps a cycle at {} Hz; raise density_scaling",
-                               largest_step, wanted * spec.samples_per_cycle, frequency));
-  }
-  loadings::Cyclic loading;
-  loading.amplitude = spec.strain_amplitude * specimen.box.size.z;
-  loading.frequency = frequency;
-  loading.steps_per_period = std::max<std::int64_t>(1, std::llround(std::ceil(wanted))) * spec.samples_per_cycle;
-  loading.ramp_steps = std::llround(spec.ramp_cycles * static_cast<double>(loading.steps_per_period));
-  return loading;
-}
-
 /// Runs one frequency; every sample goes to `writer` at once.
 /// \throws DivergenceError naming the particle that left the range of sense first.
-CyclicResult run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, const loadings::Cyclic& loading,
+CyclicResult run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, const FrequencyPlan& plan,
                         ResponseWriter& writer, const std::function<void(std::int64_t)>& stepped) {
+  const loadings::Cyclic& loading = plan.loading;
   const int per_cycle = scene.loading.samples_per_cycle;
-  const std::int64_t samples_wanted = static_cast<std::int64_t>(scene.loading.cycles) * per_cycle;
+  const std::int64_t samples_wanted = static_cast<std::int64_t>(plan.cycles) * per_cycle;
   const std::int64_t stride = loading.steps_per_period / per_cycle;
   const double area = specimen.box.size.x * specimen.box.size.y, height = specimen.box.size.z;
   std::vector<ResponseSample> samples;
@@ -59,15 +46,15 @@ CyclicResult run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& s
     writer.add(samples.back());
     stepped(k * stride);
   }
-  return evaluate_cyclic(samples, loading.frequency, scene.loading.fit_cycles);
+  return evaluate_cyclic(samples, loading.frequency, plan.fit_cycles);
 }
 
 /// What all frequencies have in common.
-StepperOptions common_options(const SolverSpec& solver) {
+StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
   StepperOptions options;
-  options.form = solver.form;
-  options.geometry = solver.geometry;
-  options.precision = solver.precision;
+  options.form = plan.form;
+  options.geometry = plan.geometry;
+  options.precision = plan.precision;
   options.damping_kind = solver.damping_kind;
   options.damping = solver.damping;
   options.threads = solver.threads;
@@ -77,43 +64,62 @@ StepperOptions common_options(const SolverSpec& solver) {
 }  // namespace
 
 double density_scaling_of(const SolverSpec& solver, std::size_t frequency) {
-  return solver.density_scaling[solver.density_scaling.size() == 1 ? 0 : frequency];
+  if (!solver.density_scaling) return 1;
+  return (*solver.density_scaling)[solver.density_scaling->size() == 1 ? 0 : frequency];
 }
 
 void step_frequencies(const Scene& scene, const Preparation& prepared, const std::filesystem::path& response,
-                      const Progress& progress, const Saving& save, RunResult& result) {
+                      const Watcher& watcher, const Saving& save, RunResult& result) {
+  const auto planning = Clock::now();
   const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
-  StepperOptions options = common_options(scene.solver);
-  const CriticalStep unscaled = critical_step(prepared.network, scene.laws, inertia, options);
-  result.critical_particle = unscaled.particle;
-  result.critical_dt_s = unscaled.dt;
+  const Plan plan = make_plan(scene, prepared, inertia, watcher.progress);
+  result.decisions = plan.decisions;
+  result.form = plan.form;
+  result.geometry = plan.geometry;
+  result.precision = plan.precision;
+  result.critical_particle = plan.critical.particle;
+  result.critical_dt_s = plan.critical.dt;
+  result.seconds_planning = seconds_since(planning);
+  if (watcher.planned) watcher.planned(plan.decisions);
+  StepperOptions options = common_options(plan, scene.solver);
   ResponseWriter writer(response);
-  const auto& frequencies = scene.loading.frequencies;
-  for (std::size_t i = 0; i < frequencies.size(); ++i) {
+  for (std::size_t i = 0; i < plan.frequencies.size(); ++i) {
     const auto start = Clock::now();
+    const FrequencyPlan& p = plan.frequencies[i];
     FrequencyResult f;
-    f.frequency_hz = frequencies[i];
-    f.density_scaling = options.density_scaling = density_scaling_of(scene.solver, i);
-    const double critical = scene.solver.safety * unscaled.dt * std::sqrt(f.density_scaling);
-    options.loading = make_loading(scene, prepared.specimen, f.frequency_hz, scene.solver.time_step.value_or(critical));
-    f.dt_s = options.dt = options.loading->dt();
-    f.steps = options.loading->steps_per_period * scene.loading.cycles;
-    const auto stepper =
-        make_stepper(result.backend, prepared.specimen, prepared.network, scene.laws, inertia, options);
+    f.frequency_hz = p.loading.frequency;
+    f.density_scaling = options.density_scaling = p.density_scaling;
+    options.loading = p.loading;
+    f.dt_s = options.dt = p.loading.dt();
+    f.cycles = p.cycles;
+    f.start = p.start;
+    f.steps = p.loading.steps_per_period * p.cycles;
+    std::unique_ptr<Stepper> stepper;
+    {
+      StartState state;
+      if (p.start == Start::steady) {
+        state = steady_start(prepared.network, scene.laws, p.motion, p.loading);
+        options.start = &state;
+      }
+      stepper = make_stepper(result.backend, prepared.specimen, prepared.network, scene.laws, inertia, options);
+      options.start = nullptr;
+    }
     result.solver = stepper->description();
     result.bytes = stepper->bytes();
     save("running");
     const auto stepped = [&](std::int64_t done) {
-      if (!progress || done == 0) return;
+      if (!watcher.progress || done == 0) return;
       const auto steps = static_cast<double>(done);
-      progress(fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}, {:.0f} steps/s", f.frequency_hz, i + 1,
-                           frequencies.size(), steps / static_cast<double>(options.loading->steps_per_period),
-                           scene.loading.cycles, steps / seconds_since(start)),
-               steps / static_cast<double>(f.steps));
+      watcher.progress(fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}, {:.0f} steps/s", f.frequency_hz, i + 1,
+                                   plan.frequencies.size(), steps / static_cast<double>(p.loading.steps_per_period),
+                                   p.cycles, steps / seconds_since(start)),
+                       steps / static_cast<double>(f.steps));
     };
-    f.cyclic = run_cyclic(scene, prepared.specimen, *stepper, *options.loading, writer, stepped);
+    f.cyclic = run_cyclic(scene, prepared.specimen, *stepper, p, writer, stepped);
     f.stiffness = f.cyclic->fit;
     f.residual = f.cyclic->fit_rms;
+    f.predicted = p.predicted;
+    if (p.known) f.achieved = inertia_error(f.stiffness, *p.known);
     f.seconds = seconds_since(start);
     result.frequencies.push_back(f);
   }

@@ -29,6 +29,8 @@ Json volume_fractions(const Specimen& specimen, const Tessellation& tessellation
 
 const char* to_string(SolverMethod method) { return method == SolverMethod::harmonic ? "harmonic" : "explicit"; }
 
+Json error_json(const ErrorEstimate& error) { return {{"e_star", error.e_star}, {"phase_rad", error.phase_rad}}; }
+
 Json frequency_json(const FrequencyResult& f) {
   Json out = {{"frequency_hz", f.frequency_hz},
               {"e_star_pa", f.stiffness.e_star_pa},
@@ -44,6 +46,10 @@ Json frequency_json(const FrequencyResult& f) {
     out["change_phase_deg"] = f.cyclic->change_phase_deg;
     out["dt_s"] = f.dt_s;
     out["steps"] = f.steps;
+    out["cycles"] = f.cycles;
+    out["start"] = to_string(f.start);
+    if (f.predicted) out["predicted_error"] = error_json(*f.predicted);
+    if (f.achieved) out["difference_from_harmonic"] = error_json(*f.achieved);
   }
   if (f.bottom) {
     out["e_star_bottom_pa"] = f.bottom->e_star_pa;
@@ -64,16 +70,17 @@ Json solver_json(const Scene& scene, const RunResult& result) {
               {"dt_s", last_step},
               {"steps", stepped ? Json(steps) : Json()},
               {"backend", stepped ? Json(to_string(result.backend)) : Json()},
-              {"precision", stepped ? to_string(scene.solver.precision) : "double"},
+              {"precision", stepped ? to_string(result.precision) : "double"},
               {"description", result.solver},
               {"quadrature", scene.network.quadrature == Quadrature::exact ? "exact" : "lumped"},
               {"reaction", "top wall"}};
   if (stepped) {
-    out["form"] = to_string(scene.solver.form);
-    out["geometry"] = to_string(scene.solver.geometry);
+    out["form"] = to_string(result.form);
+    out["geometry"] = to_string(result.geometry);
     out["damping"] = {{"kind", to_string(scene.solver.damping_kind)}, {"value", scene.solver.damping}};
     out["strain_amplitude"] = scene.loading.strain_amplitude;
-    out["cycles"] = scene.loading.cycles;
+    out["tolerance"] = scene.solver.tolerance ? Json(*scene.solver.tolerance) : Json();
+    out["decisions"] = result.decisions;
     out["critical_particle"] = result.critical_particle;
     out["critical_dt_s"] = result.critical_dt_s;
     out["bytes"] = result.bytes;
@@ -115,7 +122,7 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                        {"relaxation_iterations", prepared.relaxation_iterations}};
   }
   out["results"] = Json::array();
-  double solve = result.seconds_factoring;
+  double solve = result.seconds_factoring + result.seconds_planning;
   for (const FrequencyResult& f : result.frequencies) {
     out["results"].push_back(frequency_json(f));
     solve += f.seconds;

@@ -46,13 +46,20 @@ class Harmonic {
            const HarmonicOptions& options, double typical_frequency);
   ~Harmonic();
 
-  /// Without inertia where `density_scaling` is 0; else with −ω²M times it, as an explicit run of that scaling has.
+  /// Without inertia where `density_scaling` is 0; else with −ω²M times it, as an explicit run of that scaling has, and
+  /// with viscous damping β, (−ω² + iωβ)·M, likewise scaled.
   /// \throws RunError when the residual does not come down to the tolerance.
-  HarmonicResult solve(double frequency_hz, double density_scaling = 0);
+  HarmonicResult solve(double frequency_hz, double density_scaling = 0, double viscous_damping = 0);
 
  private:
   class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
+
+/// The state from which an explicit run is periodic at once: that of `motion` (HarmonicResult::motion, solved with the
+/// inertia and damping of the run) under the loading, whose ramp is not there. A chain is f = k*(ω)·x, x_l = f/(k_l +
+/// iω·η_l).
+StartState steady_start(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
+                        const std::vector<std::complex<double>>& motion, const loadings::Cyclic& loading);
 
 }  // namespace macadam

@@ -25,29 +25,38 @@ struct Materials {
 /// One law for each pair type; empty where the scene gives none.
 using LawTable = std::array<std::optional<Law>, pair_types>;
 
-/// `[loading]`, kind "cyclic".
+/// `rest`: from zero displacement. `steady`: from the harmonic solution, so that the first cycle is periodic already.
+enum class Start : std::uint8_t { rest, steady };
+const char* to_string(Start);
+
+/// `[loading]`, kind "cyclic". What is empty was not given: make_plan() decides it.
 struct LoadingSpec {
   std::vector<double> frequencies;  ///< [Hz]
   double strain_amplitude = 1e-4;   ///< of the height
-  int cycles = 5;
-  double ramp_cycles = 0;       ///< smooth start over so many cycles, ≤ cycles − fit_cycles
-  int fit_cycles = 2;           ///< last cycles that are fitted (a scene without the key: 2 where cycles ≥ 4, else 1)
-  int samples_per_cycle = 500;  ///< points of response.csv in a cycle
+  std::optional<Start> start;
+  std::optional<int> cycles;
+  std::optional<double> ramp_cycles;  ///< smooth start over so many cycles, ≤ cycles − fit_cycles
+  std::optional<int> fit_cycles;      ///< last cycles that are fitted
+  int samples_per_cycle = 500;        ///< points of response.csv in a cycle
+
+  /// Last cycles that are fitted of so many: as given, else two of four or more, else one.
+  int fitted(int of_cycles) const { return fit_cycles.value_or(of_cycles >= 4 ? 2 : 1); }
 };
 
 enum class SolverMethod : std::uint8_t { explicit_, harmonic };
 
-/// `[solver]`.
+/// `[solver]`. What is empty was not given: make_plan() decides it.
 struct SolverSpec {
   SolverMethod method = SolverMethod::explicit_;
-  std::vector<double> density_scaling{1.0};  ///< one, or one a frequency
-  double safety = 0.8;                       ///< share of the computed critical step
-  std::optional<double> time_step;           ///< [s]: given instead of computed
+  std::optional<double> tolerance;                     ///< largest error of |E*| (relative) and φ [rad]; explicit only
+  std::optional<std::vector<double>> density_scaling;  ///< one, or one a frequency
+  std::optional<double> safety;                        ///< share of the computed critical step
+  std::optional<double> time_step;                     ///< [s]: given instead of computed
   Damping damping_kind = Damping::none;
   double damping = 0;  ///< χ of local damping, or β [1/s] of viscous damping
-  ContactForm form = ContactForm::condensed;
-  Geometry geometry = Geometry::updated;
-  Precision precision = Precision::double_;
+  std::optional<ContactForm> form;
+  std::optional<Geometry> geometry;
+  std::optional<Precision> precision;
   Backend backend = Backend::automatic;
   int threads = 0;       ///< 0: OpenMP's choice
   bool inertia = false;  ///< harmonic only: include −ω²M, times density_scaling

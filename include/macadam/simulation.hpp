@@ -27,6 +27,11 @@ struct Preparation {
   double seconds_specimen = 0, seconds_tessellation = 0, seconds_network = 0;
 };
 
+/// An error of |E*| (relative) and of φ [rad], with signs.
+struct ErrorEstimate {
+  double e_star = 0, phase_rad = 0;
+};
+
 /// One frequency's outcome.
 struct FrequencyResult {
   double frequency_hz = 0;
@@ -38,15 +43,24 @@ struct FrequencyResult {
   std::optional<CyclicResult> cyclic;  ///< explicit: fit, peaks, steadiness
   double dt_s = 0;                     ///< explicit
   std::int64_t steps = 0;              ///< explicit
-  std::optional<Stiffness> bottom;     ///< harmonic: from the reaction of the bottom wall
-  int iterations = 0;                  ///< harmonic
-  double held_force = 0;               ///< harmonic: force that holds free rigid motions / reaction
+  int cycles = 0;                      ///< explicit
+  Start start = Start::rest;           ///< explicit
+  std::optional<ErrorEstimate> predicted,
+      achieved;                     ///< explicit: against the harmonic solution at true mass, if there is one
+  std::optional<Stiffness> bottom;  ///< harmonic: from the reaction of the bottom wall
+  int iterations = 0;               ///< harmonic
+  double held_force = 0;            ///< harmonic: force that holds free rigid motions / reaction
 };
 
 /// Outcome of a run.
 struct RunResult {
   std::vector<FrequencyResult> frequencies;
-  double seconds_factoring = 0;          ///< harmonic: wall time before the first frequency
+  double seconds_factoring = 0;        ///< harmonic: wall time before the first frequency
+  double seconds_planning = 0;         ///< explicit: wall time before the first stepper, harmonic solutions included
+  std::vector<std::string> decisions;  ///< explicit: what the scene left open, and what was chosen why
+  ContactForm form = ContactForm::condensed;  ///< explicit: that ran, likewise the next two
+  Geometry geometry = Geometry::updated;
+  Precision precision = Precision::double_;
   std::string solver;                    ///< what ran, in words: Stepper::description(), or "harmonic, …"
   Backend backend = Backend::automatic;  ///< explicit: that ran
   std::int64_t bytes = 0;                ///< explicit: Stepper::bytes()
@@ -63,11 +77,16 @@ Preparation prepare(const Scene& scene, const Progress& progress = {});
 /// Writes specimen.csv, contacts.csv (where the scene asks) and summary.json without results.
 void write_preparation(const Scene& scene, const Preparation& preparation, const std::filesystem::path& out);
 
+/// What a run tells as it goes; any may be empty.
+struct Watcher {
+  Progress progress;
+  std::function<void(const Preparation&)> prepared;              ///< once the specimen's files are written
+  std::function<void(const std::vector<std::string>&)> planned;  ///< decisions, before the first step
+};
+
 /// The whole job: prepare, step every frequency, write every file. response.csv and summary.json are complete up to the
 /// last finished sample and frequency whatever happens later.
 /// \throws InputError, RunError (DivergenceError names particle and time).
-/// `prepared`, if given, is called once the specimen's files are written and before the first step.
-RunResult run(const Scene& scene, const std::filesystem::path& out, const Progress& progress = {},
-              const std::function<void(const Preparation&)>& prepared = {});
+RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {});
 
 }  // namespace macadam

@@ -17,6 +17,18 @@
 
 namespace macadam {
 
+/// A state of motion to start from, given one step before the start: the stepper takes that step when it is made, which
+/// gives it the forces of step 0. Shear histories lie in the frames of the undeformed contacts.
+struct StartState {
+  std::vector<Vec3d> displacement, rotation;  ///< at step −1, specimen order [m] [rad]
+  std::vector<Vec3d> velocity, spin;          ///< half a step before step 0 [m/s] [rad/s]
+  /// Chains of the six relative displacements of each contact (Eq. 8 about x0: opening, its slopes along s and t, slips
+  /// along s and t, twist) at step −1, network order: contact c has six chains of 1 + units numbers from chain_begin[c]
+  /// on: f per unit of area over distance, then x_l. [Pa·m or Pa, m or 1]
+  std::vector<double> chain;
+  std::vector<std::size_t> chain_begin;
+};
+
 /// What the stepper is told once, before the loop.
 struct StepperOptions {
   double dt = 0;  ///< [s]
@@ -26,8 +38,11 @@ struct StepperOptions {
   Damping damping_kind = Damping::none;
   double damping = 0;                       ///< χ, or β [1/s]
   double density_scaling = 1;               ///< multiplies mass and inertia
+  bool skip_shear = true;                   ///< no shear chains where α = 0
+  bool skip_rotations = true;               ///< no rotations where nothing_turns()
   int threads = 0;                          ///< cpu: 0 is OpenMP's choice; results do not depend on it
   std::optional<loadings::Cyclic> loading;  ///< drives the top wall along z; its dt() must equal dt. None: walls rest
+  const StartState* start = nullptr;        ///< read by make_stepper() only; a loading must then be without a ramp
 };
 
 /// Mass and moment of inertia of every particle, density scaling not included.
@@ -41,7 +56,7 @@ Inertia make_inertia(const Specimen& specimen, double density_aggregate, double 
 
 /// Motion of all particles, specimen order.
 struct ParticleState {
-  std::vector<Vec3d> displacement;  ///< since the start, at the whole step [m]
+  std::vector<Vec3d> displacement;  ///< since the undeformed specimen, at the whole step [m]
   std::vector<Vec3d> velocity;      ///< at the last half step [m/s]
   std::vector<Vec3d> spin;          ///< angular velocity at the last half step [rad/s]
   std::vector<Vec3d> force;         ///< sum over contacts at the whole step, damping not included [N]
@@ -85,6 +100,10 @@ class Stepper {
   /// Bytes that a step moves at the least: states read and written, all else read once. 0 where nobody counts.
   virtual std::int64_t traffic() const { return 0; }
 };
+
+/// Whether no motion of the particles can turn any of them: no shear stiffness anywhere, and every facet's centroid on
+/// the line of its centres (first moments below 1e-12 of area × size, which is rounding).
+bool nothing_turns(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws);
 
 /// Makes the stepper of a backend (`automatic` is resolved first).
 /// \throws RunError when the backend is not there; InputError when an option does not fit the backend.

@@ -20,10 +20,16 @@ struct Elastic {
   double instantaneous() const { return E; }
   double shortest_time() const { return std::numeric_limits<double>::infinity(); }
   std::complex<double> stiffness(double) const { return E; }
+  std::complex<double> unit_compliance(int, double) const { return 0; }
 
   template <class R>
   struct Step {
+    static constexpr bool memoryless = true;
     R E;
+    template <class S>
+    MACADAM_HD S value(S x) const {
+      return S(E) * x;
+    }
     MACADAM_HD int units() const { return 0; }
     template <int L, class S, class Units>
     MACADAM_HD S advance(S f, S dx, Units&&) const {
@@ -44,7 +50,7 @@ struct Elastic {
       return 0;
     }
     template <int L, class Units>
-    MACADAM_HD void settle(double, double, Units&&) const {}
+    MACADAM_HD void settle(double, Units&&) const {}
   };
   Block block(double, int) const { return {E, 0}; }
 };

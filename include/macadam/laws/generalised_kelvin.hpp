@@ -40,12 +40,18 @@ struct GeneralisedKelvin {
     const std::complex<double> i(0, 1);
     std::complex<double> compliance = 1 / E_m;
     if (std::isfinite(C_m)) compliance += 1.0 / (i * omega * C_m);
-    for (std::size_t l = 0; l < E.size(); ++l) compliance += 1.0 / (E[l] + i * omega * C[l]);
+    for (int l = 0; l < units(); ++l) compliance += unit_compliance(l, omega);
     return 1.0 / compliance;
+  }
+  /// x_l/f = 1/(k_l + iω·η_l)
+  std::complex<double> unit_compliance(int l, double omega) const {
+    const auto unit = static_cast<std::size_t>(l);
+    return 1.0 / std::complex<double>(E[unit], omega * C[unit]);
   }
 
   template <class R>
   struct Step {
+    static constexpr bool memoryless = false;
     R inv_c;                  ///< 1/c                          [Pa]
     R relax;                  ///< (c + g)/c                    [1]
     R recover[max_units];     ///< 1 − b_l/a_l                  [1]
@@ -76,10 +82,10 @@ struct GeneralisedKelvin {
       out.compliance[l] = static_cast<R>(dt / (2 * a * C[l]));
       sum += dt / (2 * a * C[l]);
     }
-    const double flow = std::isfinite(C_m) ? dt / (2 * C_m) : 0.0;
-    const double c = sum + 1 / E_m + flow;
-    out.inv_c = static_cast<R>(1 / c);
-    out.relax = static_cast<R>(2 * (sum + flow) / c);
+    if (std::isfinite(C_m)) sum += dt / (2 * C_m);
+    const double inv_c = E_m / (1 + E_m * sum);  // exactly E_m where nothing flows
+    out.inv_c = static_cast<R>(inv_c);
+    out.relax = static_cast<R>(2 * sum * inv_c);
     return out;
   }
 
@@ -106,7 +112,7 @@ struct GeneralisedKelvin {
     }
     /// `sum`: Σ (f' + f) over the steps of the block.
     template <int L, class Units>
-    MACADAM_HD void settle(double, double sum, Units&& x) const {
+    MACADAM_HD void settle(double sum, Units&& x) const {
       for (int l = 0; l < (L >= 0 ? L : n); ++l) x(l) += gain[l] * sum - lost[l] * x(l);
     }
   };

@@ -12,11 +12,13 @@
 ///   - `int units() const` — extra state numbers a component besides f (Kelvin units);
 ///   - `double instantaneous() const` — stiffness of an infinitely fast displacement [Pa], for the critical step;
 ///   - `std::complex<double> stiffness(double omega) const` — exact complex stiffness at ω [Pa];
+///   - `std::complex<double> unit_compliance(int l, double omega) const` — x_l per unit of f at ω [1/Pa], l < units();
 ///   - `template <class R> struct Step` — coefficients of one time step in precision R, made by
 ///     `template <class R> Step<R> step(double dt) const` (computed in double, then rounded once), with
 ///     `template <int L, class S, class Units> S advance(S f, S dx, Units&& x) const` — returns f(t+Δt) for the
 ///     displacement increment dx and updates the unit states x(0)…x(L−1) (references). L = −1: the number of units is
-///     only known at run time.
+///     only known at run time. `static constexpr bool memoryless` says whether f is a function of x alone; then
+///     `template <class S> S value(S x) const` is that function, and a contact of fixed geometry needs no state.
 /// Laws own no memory, know no arrays and no threads. Add one: a header here, a line in all.hpp, its second writing in
 /// host/reference, a test.
 #pragma once

@@ -30,19 +30,21 @@ struct Cyclic {
   MACADAM_HD double velocity(std::int64_t k) const {
     const double half_step = 3.14159265358979323846 / static_cast<double>(steps_per_period);
     double v = 2 * ramp(k, 1) * std::sin(half_step) * std::cos(phase(k, 1));
-    if (k < ramp_steps) {  // sin at the middle times the rise of r over the step; exact to second order in Δt
+    if (ramping(k)) {  // sin at the middle times the rise of r over the step; exact to second order in Δt
       v += (ramp(k + 1, 0) - ramp(k, 0)) * std::sin(phase(k, 1));
     }
     return -amplitude * v / dt();
   }
 
  private:
+  /// A steady start looks one step back, to k = −1: there is no ramp before the start.
+  MACADAM_HD bool ramping(std::int64_t k) const { return k >= 0 && k < ramp_steps; }
   MACADAM_HD double phase(std::int64_t k, int half) const {
     const double in_period = static_cast<double>(k % steps_per_period) + 0.5 * half;
     return 6.28318530717958647693 * (in_period / static_cast<double>(steps_per_period));
   }
   MACADAM_HD double ramp(std::int64_t k, int half) const {
-    if (k >= ramp_steps) return 1.0;
+    if (!ramping(k)) return 1.0;
     const double s =
         std::sin(1.57079632679489661923 * ((static_cast<double>(k) + 0.5 * half) / static_cast<double>(ramp_steps)));
     return s * s;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// steady_start.cpp  A complex motion seen one step before t = 0, with the chains that belong to it.
+#include <numbers>
+
+#include "host/harmonic/contact_operator.hpp"
+
+namespace macadam {
+
+using namespace harmonic;
+
+StartState steady_start(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
+                        const std::vector<std::complex<double>>& motion, const loadings::Cyclic& loading) {
+  const double omega = 2 * std::numbers::pi * loading.frequency, dt = loading.dt();
+  // the wall moves by −A·sin ωt = Im(−A·e^{iωt}), and so does all else with its own factor
+  const Complex before = -loading.amplitude * std::polar(1.0, -omega * dt);
+  const Complex rate =
+      -loading.amplitude * Complex(2 * std::pow(std::sin(omega * dt / 2), 2), std::sin(omega * dt)) / dt;
+  StartState out;
+  const std::size_t particles = motion.size() / 6;
+  for (std::size_t i = 0; i < particles; ++i) {
+    const Complex* m = &motion[6 * i];
+    const auto vector = [](Complex factor, const Complex* three) {
+      return Vec3d{(factor * three[0]).imag(), (factor * three[1]).imag(), (factor * three[2]).imag()};
+    };
+    out.displacement.push_back(vector(before, m));
+    out.rotation.push_back(vector(before, m + 3));
+    out.velocity.push_back(vector(rate, m));
+    out.spin.push_back(vector(rate, m + 3));
+  }
+  for (const Contact& c : network.contacts) {
+    out.chain_begin.push_back(out.chain.size());
+    const std::array<Complex, 6> rates = relative_motion(c, motion, 1.0);
+    std::visit(
+        [&](const auto& law) {
+          for (const Complex& x : rates) {
+            const Complex f = before * law.stiffness(omega) * x;
+            out.chain.push_back(f.imag());
+            for (int l = 0; l < law.units(); ++l) out.chain.push_back((f * law.unit_compliance(l, omega)).imag());
+          }
+        },
+        *laws[static_cast<std::size_t>(c.pair)]);
+  }
+  return out;
+}
+
+}  // namespace macadam
