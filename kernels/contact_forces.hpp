@@ -119,12 +119,21 @@ struct ContactForces {
       return item.template convert<typename P::Geometry>(law.value(item.template convert<typename P::State>(rate)));
     }
     const S dx = item.template convert<typename P::State>(rate) * S(dt);
-    auto unit = [&](int l) -> decltype(auto) {
-      return item.ref(chain + static_cast<std::size_t>(1 + l) * item.lanes());
-    };
-    const S f = law.template advance<Units>(item.load(chain), dx, unit);
-    item.store(chain, f);
-    return item.template convert<typename P::Geometry>(f);
+    const auto place = [&](int l) { return chain + static_cast<std::size_t>(1 + l) * item.lanes(); };
+    if constexpr (Units >= 0 && requires { Item::staged; }) {
+      S x[Units + 1];
+      const S before = item.load(chain);
+      for (int l = 0; l < Units; ++l) x[l] = item.load(place(l));
+      const S f = law.template advance<Units>(before, dx, [&](int l) -> S& { return x[l]; });
+      item.store(chain, f);
+      for (int l = 0; l < Units; ++l) item.store(place(l), x[l]);
+      return static_cast<T>(f);
+    } else {
+      auto unit = [&](int l) -> decltype(auto) { return item.ref(place(l)); };
+      const S f = law.template advance<Units>(item.load(chain), dx, unit);
+      item.store(chain, f);
+      return item.template convert<typename P::Geometry>(f);
+    }
   }
 
   /// Sums the loads of the contact points (Eq. 3, 4): each has its own chains.

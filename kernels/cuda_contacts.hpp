@@ -39,6 +39,9 @@ struct LoadRecords {
 
 inline constexpr unsigned contact_threads = 128;
 
+/// Asks for a line of memory to be brought into the second-level cache.
+__device__ __forceinline__ void prefetch(const void* line) { asm volatile("prefetch.global.L2 [%0];" ::"l"(line)); }
+
 /// The functors of all groups, by value: they reach the kernel as its parameters.
 template <class P, ContactForm form, Geometry geometry>
 struct ContactGroups {
@@ -94,6 +97,16 @@ __global__ void __launch_bounds__(contact_threads)
   const std::uint32_t slot = (blockIdx.x - group.first_block) * contact_threads + threadIdx.x;
   if (slot >= group.slots) return;
   ContactGroups<P, form, geometry>::visit(group, [&](const auto& forces) {
+    // a warp's states are one run of memory: asked for now, they are near when kinematics is done
+    if constexpr (form == ContactForm::condensed && !std::decay_t<decltype(forces)>::stateless) {
+      const auto& view = forces.view;
+      const auto bytes = static_cast<std::uint32_t>(view.components * (1 + view.units) * 32 * sizeof(typename P::State));
+      const char* chain = reinterpret_cast<const char*>(view.chain) + std::size_t{slot / 32} * bytes;
+      for (std::uint32_t at = slot % 32 * 128; at < bytes; at += 32 * 128) prefetch(chain + at);
+      const auto words = static_cast<std::uint32_t>(view.geometry_words * 32 * sizeof(typename P::Geometry));
+      const char* facets = reinterpret_cast<const char*>(view.geometry) + std::size_t{slot / 32} * words;
+      for (std::uint32_t at = slot % 32 * 128; at < words; at += 32 * 128) prefetch(facets + at);
+    }
     records.store(group.first_slot + slot, forces(LaneItem{slot % 32}, slot / 32, motion));
   });
 }

@@ -26,13 +26,14 @@ struct LaneItem {
   static constexpr bool staged = true;  ///< all chains of a contact are loaded before the first is stored
 
   MACADAM_HD static constexpr std::size_t lanes() { return 32; }
+  // contacts pass by once a step: they leave the cache to the bodies and the records
   template <class R>
-  MACADAM_HD R load(const R* p) const {
-    return p[lane];
+  __device__ __forceinline__ R load(const R* p) const {
+    return __ldcs(p + lane);
   }
   template <class R>
-  MACADAM_HD void store(R* p, R x) const {
-    p[lane] = x;
+  __device__ __forceinline__ void store(R* p, R x) const {
+    __stcs(p + lane, x);
   }
   template <class R>
   MACADAM_HD R& ref(R* p) const {

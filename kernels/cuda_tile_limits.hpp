@@ -45,13 +45,6 @@ bool fits_resident(const DeviceLimits& limits, void (*kernel)(Parameters...), st
   return fitting > 0;
 }
 
-/// Packets that each of a tile's warps can step before it needs velocities from other tiles.
-inline std::uint32_t early_packets(const TilePlan& plan, std::uint32_t warps) {
-  std::uint32_t out = UINT32_MAX;
-  for (const Tile& tile : plan.tile) out = std::min(out, tile.own_packets / warps);
-  return out;
-}
-
 /// Device arrays of any types that live as long as this.
 class DeviceStore {
  public:
@@ -80,9 +73,9 @@ class DeviceStore {
 };
 
 /// Writes the loads on the walls, base plus the sum of `wall_load` in fixed order: a block a wall.
-template <class R, class T>
+template <class R>
 __global__ void __launch_bounds__(body_threads)
-    add_wall_loads(const T* wall_load, const std::uint32_t* wall_begin, const R* base, R* force) {
+    add_wall_loads(const float* wall_load, const std::uint32_t* wall_begin, const R* base, R* force) {
   __shared__ R part[body_threads];
   const unsigned w = threadIdx.x % velocity_words, lane = threadIdx.x / velocity_words;
   R sum = 0;
@@ -97,8 +90,7 @@ __global__ void __launch_bounds__(body_threads)
 }
 
 /// Velocities of the top wall at the steps first, first + 1, ….
-template <class Loading>
-__global__ void tabulate_wall(Loading loading, std::int64_t first, std::uint32_t steps, double* out) {
+__global__ inline void tabulate_wall(loadings::Cyclic loading, std::int64_t first, std::uint32_t steps, double* out) {
   const std::uint32_t k = blockIdx.x * blockDim.x + threadIdx.x;
   if (k < steps) out[k] = loading.velocity(first + k);
 }

@@ -104,7 +104,7 @@ class TileRunner {
     scene_.base = base_ = store_.template zeros<R>((bodies_ + walls) * velocity_words);
     scene_.force = store_.template zeros<R>((bodies_ + walls) * velocity_words);
     scene_.wall_load = store_.template zeros<float4>(2 * (plan_.wall_begin.back() + 1));
-    scene_.exchange = store_.template zeros<float4>(4 * bodies_);
+    scene_.exchange = store_.template zeros<ulonglong2>(4 * bodies_);
     scene_.wall_velocity = wall_velocity_ = store_.template zeros<double>(table_steps);
     before_ = store_.template zeros<double>((bodies_ + walls) * displacement_words);
     wall_begin_ = store_.keep(plan_.wall_begin);
@@ -123,7 +123,7 @@ class TileRunner {
       if (done == table) {
         const auto n = static_cast<std::uint32_t>(std::min<std::int64_t>(steps - done, table_steps));
         if (scene_.motion.loaded) {
-          launch("wall", tabulate_wall<loadings::Cyclic>, (n + 127) / 128, 128, 0, stream_, scene_.motion.loading, first + done, n,
+          launch("wall", tabulate_wall, (n + 127) / 128, 128, 0, stream_, scene_.motion.loading, first + done, n,
                  wall_velocity_);
         }
         scene_.wall_velocity = wall_velocity_;
@@ -141,10 +141,15 @@ class TileRunner {
 
   /// Loads on all bodies now, [body][8]; walls are summed first.
   const R* forces() const {
-    launch("wall loads", add_wall_loads<R, float>, walls, body_threads, 0, stream_, reinterpret_cast<const float*>(scene_.wall_load),
+    launch("wall loads", add_wall_loads<R>, walls, body_threads, 0, stream_, reinterpret_cast<const float*>(scene_.wall_load),
            wall_begin_,
            base_ + bodies_ * velocity_words, scene_.force + bodies_ * velocity_words);
     return scene_.force;
+  }
+  /// Bytes of contacts that a step moves at the least: states read and written, constants and base loads read.
+  std::int64_t traffic() const {
+    const std::size_t states = constant_.size() / static_cast<std::size_t>(tile_constants(carried_)) * tile_states;
+    return static_cast<std::int64_t>(constant_.bytes() + 2 * states * sizeof(float4) + bodies_ * velocity_words * sizeof(R));
   }
   std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
 
@@ -166,33 +171,7 @@ class TileRunner {
     scene_.most_slots = plan_.most_slots;
     scene_.bodies = static_cast<std::uint32_t>(bodies_);
     const auto pick = [&](auto carried) {
-      const auto variant = [&](auto resident, auto threads) {
-        return try_resident<decltype(resident)::value, decltype(threads)::value, decltype(carried)::value>();
-      };
-      const char* wish = std::getenv("MACADAM_TILE_VARIANT");
-      const int want = wish ? std::atoi(wish) : 0;
-      using std::integral_constant;
-      const auto number = [](auto n) { return n; };
-      (void)number;
-      switch (want) {
-        case 1:
-          if (variant(integral_constant<int, 0>{}, integral_constant<int, 512>{})) return;
-          break;
-        case 2:
-          if (variant(integral_constant<int, 5>{}, integral_constant<int, 512>{})) return;
-          break;
-        case 3:
-          if (variant(integral_constant<int, 4>{}, integral_constant<int, 576>{})) return;
-          break;
-        case 4:
-          if (variant(integral_constant<int, 3>{}, integral_constant<int, 768>{})) return;
-          break;
-        case 9:
-          break;
-        default:
-          if (variant(integral_constant<int, 4>{}, integral_constant<int, 512>{})) return;
-      }
-      use_streamed<decltype(carried)::value>();
+      if (!try_resident<decltype(carried)::value>()) use_streamed<decltype(carried)::value>();
     };
     if (carried_)
       pick(std::true_type{});
@@ -200,24 +179,28 @@ class TileRunner {
       pick(std::false_type{});
   }
 
-  template <int Resident, int Threads, bool carried>
+  template <bool carried>
   bool try_resident() {
+    constexpr int Resident = 4, Threads = 512;  // all registers: a contact's state takes twelve
     const auto kernel = run_resident<P, Resident, Threads, carried>;
+    const auto limit = static_cast<std::uint32_t>(limits_.shared);
+    bool roomy = true;
     const auto needed = [&](std::uint32_t cached) {
-      return ResidentMemory<P>(plan_.most_bodies, plan_.most_halo, plan_.most_locals, plan_.most_slots, cached, carried)
+      return ResidentMemory<P>(plan_.most_bodies, plan_.most_halo, plan_.most_locals, plan_.most_slots, cached, carried,
+                               roomy)
           .total;
     };
-    const auto limit = static_cast<std::uint32_t>(limits_.shared);
+    roomy = needed(0) <= limit;
     std::uint32_t cached = 0;
     while (cached < plan_.most_packets && needed(cached + 1) <= limit) ++cached;
-    if (const char* wish = std::getenv("MACADAM_TILE_CACHED")) cached = std::min<std::uint32_t>(cached, std::atoi(wish));
     const std::uint32_t shared = needed(cached);
     if (!fits_resident(limits_, kernel, plan_.tile.size(), Threads, shared)) return false;
     scene_.cached_packets = cached;
-    scene_.early = early_packets(plan_, Threads / 32);
-    if (const char* wish = std::getenv("MACADAM_TILE_EARLY"))
-      scene_.early = std::min<std::uint32_t>(scene_.early, std::atoi(wish));
     resident_ = true;
+    if (!roomy) {
+      const std::size_t bytes = plan_.tile.size() * ResidentMemory<P>::rest_bytes(plan_.most_bodies);
+      scene_.rest = store_.template zeros<unsigned char>(bytes);
+    }
     const auto blocks = static_cast<unsigned>(plan_.tile.size());
     run_ = [this, kernel, shared, blocks](std::uint32_t steps) {
       void* arguments[] = {&scene_, &steps, &tag_};

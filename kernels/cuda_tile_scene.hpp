@@ -44,13 +44,13 @@ struct TileScene {
   float4* state;
   const R* base;                ///< [body][8] loads at the block's beginning [N, N·m]
   R* force;                     ///< [body][8] loads now
-  void* wall_load;              ///< [wall row][8] float in blocks, else R: change of the loads on the walls since the block's beginning
-  void* exchange;               ///< [2][body] velocities of even and odd steps, 32 bytes a body in single precision
+  float4* wall_load;            ///< [wall row][2] change of the loads on the walls since the block's beginning
+  ulonglong2* exchange;         ///< [2][body] velocities of even and odd steps, 32 bytes a body in single precision
   const double* wall_velocity;  ///< [step of the launch] of the top wall [m/s]
   ParticleMotion<P> motion;
   float4 law[pair_types];       ///< rate·Δt, relax, α, –
+  unsigned char* rest;          ///< [tile] what has no room in shared memory; null where all has
   std::uint32_t most_bodies, most_halo, most_locals, most_slots, cached_packets;
-  std::uint32_t early;  ///< packets of a warp before velocities from other tiles are needed
   std::uint32_t bodies;
 };
 
@@ -110,12 +110,12 @@ struct TileSlots {
 };
 
 /// Calls f(rank, sum of its slots) for all own bodies: a warp a long row, from the last warp on, a thread a short one.
-template <class T, class Slots, class F>
+template <class F>
 __device__ __forceinline__ void sum_rows(const Tile& tile, const uint2* row, const std::uint32_t* diagonal,
-                                         const Slots& slots, F&& f) {
+                                         const TileSlots& slots, F&& f) {
   const unsigned warp = threadIdx.x / 32, lane = threadIdx.x % 32, warps = blockDim.x / 32;
   for (std::uint32_t r = warps - 1 - warp; r < tile.long_rows; r += warps) {
-    T sum[6] = {0, 0, 0, 0, 0, 0};
+    float sum[6] = {0, 0, 0, 0, 0, 0};
     const uint2 place = row[r];
     for (std::uint32_t e = lane; e < place.x; e += 32) slots.add(place.y + e, sum);
 #pragma unroll
@@ -126,7 +126,7 @@ __device__ __forceinline__ void sum_rows(const Tile& tile, const uint2* row, con
     if (lane == 0) f(r, sum);
   }
   for (std::uint32_t r = tile.long_rows + threadIdx.x; r < tile.bodies; r += blockDim.x) {
-    T sum[6] = {0, 0, 0, 0, 0, 0};
+    float sum[6] = {0, 0, 0, 0, 0, 0};
     const std::uint32_t n = row[r].x;
 #pragma unroll 4
     for (std::uint32_t e = 0; e < n; ++e) slots.add(diagonal[e] + r, sum);
@@ -149,11 +149,10 @@ __device__ __forceinline__ void store_state(float4* state, const float (&change)
   state[tile_sum * 32] = {sum[2], sum[3], sum[4], sum[5]};
 }
 
-__device__ __forceinline__ void store_wall_load(void* to, std::uint32_t group,
+__device__ __forceinline__ void store_wall_load(float4* wall_load, std::uint32_t group,
                                                 const ContactLoad<float>& load) {
   const std::uint32_t row = group >> 4;
   if (row == no_wall_row) return;
-  auto* wall_load = static_cast<float4*>(to);
   wall_load[2 * row] = {-load.force_a.x, -load.force_a.y, -load.force_a.z, 0};
   wall_load[2 * row + 1] = {load.moment_b.x, load.moment_b.y, load.moment_b.z, 0};
 }

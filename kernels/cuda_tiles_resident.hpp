@@ -11,10 +11,15 @@ namespace macadam::kernels {
 template <class P>
 struct ResidentMemory {
   using R = typename P::Particle;
-  std::uint32_t velocity, spin, slots, own, halo, diagonal, row, law, cache, total;
+  std::uint32_t velocity, spin, slots, own, rest, halo, diagonal, row, law, cache, total;
+
+  /// Base loads, displacements, Δt/m and Δt/I: in memory where there is no room for them.
+  __host__ __device__ static constexpr std::uint32_t rest_bytes(std::uint32_t bodies) {
+    return bodies * static_cast<std::uint32_t>(6 * sizeof(double) + 8 * sizeof(R));
+  }
 
   __host__ __device__ ResidentMemory(std::uint32_t bodies, std::uint32_t halo_count, std::uint32_t locals, std::uint32_t slot_count,
-                                     std::uint32_t cached_packets, bool carried) {
+                                     std::uint32_t cached_packets, bool carried, bool roomy) {
     std::uint32_t at = 0;
     const auto take = [&](std::uint32_t bytes) {
       const std::uint32_t here = at;
@@ -27,6 +32,7 @@ struct ResidentMemory {
     cache = take(cached_packets * static_cast<std::uint32_t>(tile_constants(carried)) * 512);
     slots = take(24 * slot_count);
     own = take(6 * sizeof(R) * bodies);
+    rest = take(roomy ? rest_bytes(bodies) : 0);
     halo = take(4 * halo_count);
     diagonal = take(4 * TilePlan::longest_short_row);
     row = take(8 * bodies);
@@ -40,10 +46,15 @@ __global__ void __launch_bounds__(Threads, 1)
     run_resident(const __grid_constant__ TileScene<P> s, std::uint32_t steps, std::uint32_t first_tag) {
   using R = typename P::Particle;
   extern __shared__ __align__(16) unsigned char shared[];
-  const ResidentMemory<P> m(s.most_bodies, s.most_halo, s.most_locals, s.most_slots, s.cached_packets, carried);
+  const ResidentMemory<P> m(s.most_bodies, s.most_halo, s.most_locals, s.most_slots, s.cached_packets, carried,
+                            s.rest == nullptr);
   auto* v = reinterpret_cast<float4*>(shared + m.velocity);
   auto* w = reinterpret_cast<float4*>(shared + m.spin);
   auto* own = reinterpret_cast<R*>(shared + m.own);
+  auto* displacement = reinterpret_cast<double*>(
+      s.rest ? s.rest + std::size_t{blockIdx.x} * ResidentMemory<P>::rest_bytes(s.most_bodies) : shared + m.rest);
+  auto* base = reinterpret_cast<R*>(displacement + 6 * s.most_bodies);
+  auto* inverse = base + 6 * s.most_bodies;
   auto* halo = reinterpret_cast<std::int32_t*>(shared + m.halo);
   auto* diagonal = reinterpret_cast<std::uint32_t*>(shared + m.diagonal);
   auto* row = reinterpret_cast<uint2*>(shared + m.row);
@@ -56,13 +67,15 @@ __global__ void __launch_bounds__(Threads, 1)
   const Tile tile = s.tile[blockIdx.x];
   const std::uint32_t locals = tile.bodies + tile.halo + walls, stride = s.most_bodies;
   const std::int32_t* body = s.body + tile.first_body;
-  auto* exchange = static_cast<ulonglong2*>(s.exchange);
 
   for (std::uint32_t r = tid; r < tile.bodies; r += Threads) {
     const auto i = static_cast<std::size_t>(body[r]);
     for (int c = 0; c < 6; ++c) {
       own[c * stride + r] = s.motion.body.master[i * velocity_words + moving_word(c)];
+      base[c * stride + r] = s.base[i * velocity_words + moving_word(c)];
+      displacement[c * stride + r] = s.motion.body.displacement[i * displacement_words + moving_word(c)];
     }
+    for (int c = 0; c < 2; ++c) inverse[c * stride + r] = s.motion.body.inverse[2 * i + c];
     row[r] = s.row[tile.first_body + r];
   }
   for (std::uint32_t h = tid; h < tile.halo; h += Threads) halo[h] = s.halo[tile.first_halo + h];
@@ -83,40 +96,23 @@ __global__ void __launch_bounds__(Threads, 1)
 
   const auto top_wall = static_cast<std::size_t>(s.motion.body.particles) + 5;
   double wall_at = s.motion.body.displacement[top_wall * displacement_words + 2];
-  // displacements stay in memory: they are not needed in a step, and their loads are asked for well before
-  const auto shift_of = [&](std::uint32_t r) {
-    return reinterpret_cast<double2*>(s.motion.body.displacement + static_cast<std::size_t>(body[r]) * displacement_words);
-  };
   const auto move = [&](std::uint32_t r, const R(&force)[6], std::uint32_t tag) {
-    const R* inverse = s.motion.body.inverse + 2 * static_cast<std::size_t>(body[r]);
     R x[6];
     for (int c = 0; c < 6; ++c) {
-      x[c] = s.motion.moved(own[c * stride + r], force[c], inverse[c / 3]);
+      x[c] = s.motion.moved(own[c * stride + r], force[c], inverse[c / 3 * stride + r]);
       own[c * stride + r] = x[c];
     }
     const float y[6] = {float(x[0]), float(x[1]), float(x[2]), float(x[3]), float(x[4]), float(x[5])};
-    put_velocity(exchange + 2 * (static_cast<std::size_t>(tag & 1) * s.bodies + tile.first_body + r), y, tag);
+    put_velocity(s.exchange + 2 * (static_cast<std::size_t>(tag & 1) * s.bodies + tile.first_body + r), y, tag);
     v[r] = {y[0], y[1], y[2], 0};
     w[r] = {y[3], y[4], y[5], 0};
-  };
-  const auto shift = [&] {
-    const double dt = s.motion.dt;
-    for (std::uint32_t r = tid; r < tile.bodies; r += Threads) {
-      double2* u = shift_of(r);
-      double2 a = u[0], b = u[1], c = u[2], d = u[3];
-      a.x += dt * own[r], a.y += dt * own[stride + r], b.x += dt * own[2 * stride + r];
-      c.x += dt * own[3 * stride + r], c.y += dt * own[4 * stride + r], d.x += dt * own[5 * stride + r];
-      u[0] = a, u[1] = b, u[2] = c, u[3] = d;
-    }
-  };
-  const auto base = [&](std::uint32_t r, int c) {
-    return __ldg(s.base + static_cast<std::size_t>(body[r]) * velocity_words + moving_word(c));
+    for (int c = 0; c < 6; ++c) displacement[c * stride + r] += s.motion.dt * x[c];
   };
   const auto receive = [&](std::uint32_t tag) {
-    const ulonglong2* from = exchange + 2 * static_cast<std::size_t>(tag & 1) * s.bodies;
+    const ulonglong2* from = s.exchange + 2 * static_cast<std::size_t>(tag & 1) * s.bodies;
     for (std::uint32_t h = tid; h < 2 * tile.halo; h += Threads) {
-      const auto x = get_velocity_word<float>(from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2, tag);
-      (h % 2 ? w : v)[tile.bodies + h / 2] = {x.value[0], x.value[1], x.value[2], 0};
+      (h % 2 ? w : v)[tile.bodies + h / 2] =
+          wait_for_word(from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2, tag);
     }
   };
 
@@ -132,9 +128,9 @@ __global__ void __launch_bounds__(Threads, 1)
         move(r, force, tag);
       }
     } else {
-      sum_rows<float>(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
+      sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
         R force[6];
-        for (int c = 0; c < 6; ++c) force[c] = base(r, c) + static_cast<R>(extra[c]);
+        for (int c = 0; c < 6; ++c) force[c] = base[c * stride + r] + static_cast<R>(extra[c]);
         move(r, force, tag);
       });
     }
@@ -143,9 +139,8 @@ __global__ void __launch_bounds__(Threads, 1)
       v[locals - 1] = {0, 0, static_cast<float>(top), 0};
       wall_at += s.motion.dt * top;
     }
-    if (s.early == 0) receive(tag);
+    receive(tag);
     __syncthreads();
-    shift();
     const auto step = [&](std::uint32_t packet, float(&df)[6], float(&both)[6]) {
       const float4* constant = packet < cached ? cache + packet * words * 32 + lane
                                                : constants + static_cast<std::size_t>(packet) * words * 32 + lane;
@@ -154,20 +149,12 @@ __global__ void __launch_bounds__(Threads, 1)
       slots.put(places, load);
       if (last) store_wall_load(s.wall_load, group, load);
     };
-    const auto exchange_before = [&](std::uint32_t j) {
-      if (j > 0 && j == s.early) {
-        receive(tag);
-        __syncthreads();
-      }
-    };
 #pragma unroll
     for (int j = 0; j < Resident; ++j) {
-      exchange_before(j);
       const std::uint32_t packet = warp + j * warps;
       if (packet < tile.packets) step(packet, change[j], sum[j]);
     }
     for (std::uint32_t j = Resident; j < (tile.packets + warps - 1) / warps; ++j) {
-      exchange_before(j);
       const std::uint32_t packet = warp + j * warps;
       if (packet >= tile.packets) continue;
       float df[6], both[6];
@@ -184,11 +171,12 @@ __global__ void __launch_bounds__(Threads, 1)
     const std::uint32_t packet = warp + j * warps;
     if (packet < tile.packets) store_state(states + packet * tile_states * 32 + lane, change[j], sum[j]);
   }
-  sum_rows<float>(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
+  sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
     const auto i = static_cast<std::size_t>(body[r]);
     for (int c = 0; c < 6; ++c) {
-      s.force[i * velocity_words + moving_word(c)] = base(r, c) + static_cast<R>(extra[c]);
+      s.force[i * velocity_words + moving_word(c)] = base[c * stride + r] + static_cast<R>(extra[c]);
       s.motion.body.master[i * velocity_words + moving_word(c)] = own[c * stride + r];
+      s.motion.body.displacement[i * displacement_words + moving_word(c)] = displacement[c * stride + r];
     }
   });
   if (blockIdx.x == 0 && tid == Threads - 1 && s.motion.loaded) {

@@ -13,7 +13,7 @@ namespace macadam::kernels {
 /// Where the velocities of step k of all bodies are, by first_body + rank.
 template <class P>
 __device__ __forceinline__ float4* velocities_of(const TileScene<P>& s, std::uint32_t k) {
-  return static_cast<float4*>(s.exchange) + 2 * static_cast<std::size_t>(k & 1) * s.bodies;
+  return reinterpret_cast<float4*>(s.exchange) + 2 * static_cast<std::size_t>(k & 1) * s.bodies;
 }
 
 /// Moves body number `i`, at place `place`, under `force` at step k of the launch's block.
@@ -102,7 +102,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
     if (last) store_wall_load(s.wall_load, group, load);
   }
   __syncthreads();
-  sum_rows<float>(tile, s.row + tile.first_body, s.diagonal + blockIdx.x * TilePlan::longest_short_row, slots,
+  sum_rows(tile, s.row + tile.first_body, s.diagonal + blockIdx.x * TilePlan::longest_short_row, slots,
                      [&](std::uint32_t r, const float(&extra)[6]) {
                        const std::size_t place = tile.first_body + r;
                        const auto i = static_cast<std::size_t>(s.body[place]);

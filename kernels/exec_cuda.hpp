@@ -9,7 +9,6 @@
 #include <memory>
 #include <string>
 
-#include "kernels/cuda_chain_runner.hpp"
 #include "kernels/cuda_tile_runner.hpp"
 #include "kernels/layout.hpp"
 
@@ -23,14 +22,16 @@ class ExecCuda {
   using R = typename P::Particle;
   using G = typename P::Geometry;
   static constexpr int lanes = 32;
+  static constexpr bool blocks = !std::is_same_v<P, DoublePrecision>;  ///< steps may be taken in blocks
 
   /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that several tiles share one.
+  /// A contact takes some 75 bytes of shared memory there: two slots of loads and its share of the bodies.
   static std::size_t tile_contacts_of(const ContactNetwork& network) {
-    constexpr std::size_t least = 128, most = 3500, streamed = 1000;
-    const auto chips = static_cast<std::size_t>(DeviceLimits::query().multiprocessors);
+    const DeviceLimits limits = DeviceLimits::query();
+    const auto chips = static_cast<std::size_t>(limits.multiprocessors), shared = static_cast<std::size_t>(limits.shared);
     const std::size_t contacts = network.contacts.size();
-    if (contacts > most * chips) return streamed;
-    return std::max(least, contacts / (chips + 1) + 1);
+    if (contacts > shared / 75 * chips) return std::min<std::size_t>(1000, shared / 100);
+    return std::max<std::size_t>(128, contacts / (chips + 1) + 1);
   }
 
   ExecCuda(const ContactNetwork& network, const Layout& layout, int)
@@ -55,12 +56,9 @@ class ExecCuda {
   /// Decides whether steps are taken in blocks.
   void set_options(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws) {
     dt_ = options.dt;
-    if (options.form == ContactForm::condensed) {
-      if constexpr (std::is_same_v<P, DoublePrecision>) {
-        tiles_ = std::make_unique<Tiles>(network_, layout_, options, laws, stream_);
-      } else if (const int block = block_steps(options, laws); block > 0) {
-        tiles_ = std::make_unique<Tiles>(network_, layout_, options, block, stream_);
-      }
+    if constexpr (blocks) {
+      const int block = options.form == ContactForm::condensed ? block_steps(options, laws) : 0;
+      if (block > 0) tiles_ = std::make_unique<TileRunner<P>>(network_, layout_, options, block, stream_);
       if (tiles_ && !tiles_->possible()) tiles_.reset();
     }
     if (!tiles_) records_ = DeviceArray<G>(record_count_ * velocity_words);
@@ -173,7 +171,12 @@ class ExecCuda {
     check_cuda(cudaGetDeviceProperties(&properties, 0), "device properties");
     return std::string("cuda, ") + properties.name + ", " + (tiles_ ? tiles_->description() : "two kernels a step");
   }
-  std::int64_t state_bytes() const { return state_bytes_; }
+  /// Bytes that a step moves at the least.
+  std::int64_t traffic() const {
+    const std::size_t bodies = 2 * (master_.bytes() + displacement_.bytes() + velocity_.bytes()) + inverse_.bytes();
+    if (tiles_) return tiles_->traffic() + static_cast<std::int64_t>(bodies);
+    return bytes_ + state_bytes_ + static_cast<std::int64_t>(bodies + 2 * records_.bytes() + place_.bytes());
+  }
   std::int64_t bytes() const {
     return bytes_ + static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() +
                                               velocity_.bytes() + records_.bytes() + place_.bytes()) +
@@ -280,14 +283,25 @@ class ExecCuda {
       return velocity_.data();
   }
 
-  using Tiles = std::conditional_t<std::is_same_v<P, DoublePrecision>, ChainRunner<P>, TileRunner<P>>;
+  /// Nothing in double precision, which takes no blocks.
+  struct NoTiles {
+    void run(std::int64_t, std::int64_t) {}
+    template <class... Any>
+    void prepare(Any&&...) {}
+    template <Geometry, class... Any>
+    void add_group(Any&&...) {}
+    const R* forces() const { return nullptr; }
+    std::string description() const { return ""; }
+    std::int64_t bytes() const { return 0; }
+    std::int64_t traffic() const { return 0; }
+  };
 
   const ContactNetwork& network_;  // until prepare()
   const Layout& layout_;
   double dt_ = 0;
   std::size_t record_count_ = 0;
   std::vector<std::uint32_t> row_lengths_;
-  std::unique_ptr<Tiles> tiles_;
+  std::unique_ptr<std::conditional_t<blocks, TileRunner<P>, NoTiles>> tiles_;
   cudaStream_t stream_ = nullptr;
   cudaGraphExec_t many_ = nullptr, one_ = nullptr;
   DeviceArray<R> master_, inverse_;

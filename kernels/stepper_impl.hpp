@@ -158,7 +158,12 @@ class StepperImpl final : public Stepper {
            to_string(options_.geometry);
   }
   std::int64_t bytes() const override { return exec_.bytes(); }
-  std::int64_t traffic() const override { return exec_.bytes() + exec_.state_bytes(); }
+  std::int64_t traffic() const override {
+    if constexpr (requires { exec_.traffic(); })
+      return exec_.traffic();
+    else
+      return exec_.bytes() + exec_.state_bytes();
+  }
 
  private:
   static std::size_t tile_contacts(const ContactNetwork& network) {

@@ -72,7 +72,7 @@ class Planner {
     const auto first = static_cast<std::uint32_t>(layout_.tile_body[static_cast<std::size_t>(t)]);
     const auto bodies = static_cast<std::uint32_t>(layout_.tile_body[static_cast<std::size_t>(t) + 1]) - first;
     Tile tile{first, bodies, static_cast<std::uint32_t>(out_.halo.size()), 0,
-              static_cast<std::uint32_t>(out_.packets()), 0, 0, 0, 0};
+              static_cast<std::uint32_t>(out_.packets()), 0, 0, 0};
 
     std::vector<std::uint32_t> length(bodies, 0), rank(bodies), order(bodies);
     std::vector<std::int32_t> halo;
@@ -170,8 +170,6 @@ class Planner {
       out_.contact.push_back(none);
     }
     tile.packets = static_cast<std::uint32_t>(out_.packets()) - tile.first_packet;
-    const auto own = std::count_if(entries.begin(), entries.end(), [](const Entry& e) { return !e.shared; });
-    tile.own_packets = entries.size() == static_cast<std::size_t>(own) ? tile.packets : static_cast<std::uint32_t>(own) / 32;
   }
 
   const ContactNetwork& network_;

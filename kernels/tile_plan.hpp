@@ -18,7 +18,6 @@ struct Tile {
   std::uint32_t first_body, bodies;
   std::uint32_t first_halo, halo;
   std::uint32_t first_packet, packets;
-  std::uint32_t own_packets;  ///< the first packets, whose contacts touch no particle of another tile
   std::uint32_t long_rows;  ///< the first ranks: their slots follow one another; of all others, slot e of rank r is at
                             ///< diagonal[e] + r
   std::uint32_t slots;
@@ -34,14 +33,14 @@ struct TileContact {
 };
 
 struct TilePlan {
-  static constexpr std::uint32_t longest_short_row = 48;
+  static constexpr std::uint32_t longest_short_row = 32;
   static constexpr std::uint16_t no_slot = UINT16_MAX;
   std::vector<Tile> tile;
   std::vector<std::int32_t> body;           ///< [first_body + rank] body
   std::vector<std::uint32_t> row;           ///< [first_body + rank][2] slots of the row, first slot of a long row
   std::vector<std::uint32_t> diagonal;      ///< [tile][longest_short_row]
   std::vector<std::int32_t> halo;           ///< [first_halo + …] first_body + rank in its own tile
-  std::vector<TileContact> contact;         ///< [packet][32]; a tile's own contacts first, then those it shares
+  std::vector<TileContact> contact;         ///< [packet][32]
   std::vector<std::uint32_t> wall_begin;    ///< [wall + 1] of wall rows
   std::uint32_t most_bodies = 0, most_halo = 0, most_locals = 0, most_slots = 0, most_packets = 0;
   std::size_t packets() const { return contact.size() / 32; }
