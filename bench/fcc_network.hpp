@@ -10,8 +10,8 @@
 
 namespace macadam::bench {
 
-/// About `particles` spheres, 1 mm apart; pair types in the proportions of the paper's specimen. Condensed form only: the
-/// facets have no points.
+/// About `particles` spheres, 1 mm apart; pair types in the proportions of the paper's specimen. Condensed form only:
+/// the facets have no points.
 inline test::TestScene fcc_scene(std::size_t particles) {
   test::TestScene out;
   const auto n = static_cast<std::int32_t>(std::llround(std::cbrt(static_cast<double>(particles) / 4)));
@@ -29,8 +29,8 @@ inline test::TestScene fcc_scene(std::size_t particles) {
     for (int y = 0; y < side; ++y) {
       for (int x = (y + z) % 2; x < side; x += 2) {
         at(x, y, z) = static_cast<std::int32_t>(s.size());
-        s.centre.push_back({(x + 0.5) * cell / 2 + jitter(), (y + 0.5) * cell / 2 + jitter(),
-                            (z + 0.5) * cell / 2 + jitter()});
+        s.centre.push_back(
+            {(x + 0.5) * cell / 2 + jitter(), (y + 0.5) * cell / 2 + jitter(), (z + 0.5) * cell / 2 + jitter()});
         s.radius.push_back(0.5e-3);
         s.phase.push_back(Phase::mastic);
         s.body.push_back(-1);
@@ -57,7 +57,8 @@ inline test::TestScene fcc_scene(std::size_t particles) {
           canonical_frame(c.n, c.s, c.t);
           c.arm_a = c.arm_b = 0.5 * c.distance;
           c.area = 0.7e-6;
-          c.moments = {c.area, 0.02e-3 * c.area, -0.03e-3 * c.area, 0.06e-6 * c.area, 0.01e-6 * c.area, 0.06e-6 * c.area};
+          c.moments = {c.area,           0.02e-3 * c.area, -0.03e-3 * c.area,
+                       0.06e-6 * c.area, 0.01e-6 * c.area, 0.06e-6 * c.area};
           ++network.count[static_cast<std::size_t>(c.pair)];
           ++network.row_begin[static_cast<std::size_t>(c.a) + 1];
           ++network.row_begin[static_cast<std::size_t>(c.b) + 1];

@@ -3,9 +3,9 @@
 //
 //   gpu_step_bench [--large] [--huge] [--csv FILE] [FILTER]
 //
-// Rows whose name contains FILTER, or all. --large adds a million particles, --huge ten million. Every time is the median
-// of seven runs of at least 50 ms of steps at 20 Hz and true mass, everything in motion. `copy` is the bandwidth of a
-// copy within the device's memory in the same run, bytes read plus written.
+// Rows whose name contains FILTER, or all. --large adds a million particles, --huge ten million. Every time is the
+// median of seven runs of at least 50 ms of steps at 20 Hz and true mass, everything in motion. `copy` is the bandwidth
+// of a copy within the device's memory in the same run, bytes read plus written.
 #include <cuda_runtime.h>
 #include <fmt/format.h>
 
@@ -77,7 +77,8 @@ class Table {
     check(cudaDriverGetVersion(&driver));
     check(cudaDeviceGetAttribute(&clock, cudaDevAttrClockRate, 0));
     fmt::print("{}, {} multiprocessors, {} MB L2, up to {} MHz, driver for CUDA {}.{}, copy {:.2f} TB/s\n", p.name,
-               p.multiProcessorCount, p.l2CacheSize >> 20, clock / 1000, driver / 1000, driver % 1000 / 10, copy_ / 1e12);
+               p.multiProcessorCount, p.l2CacheSize >> 20, clock / 1000, driver / 1000, driver % 1000 / 10,
+               copy_ / 1e12);
     fmt::print("{:44} {:>10} {:>12} {:>10} {:>8}  {}\n", "step", "us", "contacts/s", "B/contact", "of copy", "path");
     if (!csv.empty()) csv_.open(csv);
     if (csv_) csv_ << "step,us,contacts_per_s,bytes_per_contact,share_of_copy,path\n";
@@ -85,8 +86,8 @@ class Table {
 
   void run(const std::string& scene_name, const std::function<const test::TestScene&()>& make, const Row& row,
            double frequency = 20) {
-    const std::string name = fmt::format("{}/{}/{}/{}", scene_name, to_string(row.form), to_string(row.precision),
-                                         to_string(row.geometry));
+    const std::string name =
+        fmt::format("{}/{}/{}/{}", scene_name, to_string(row.form), to_string(row.precision), to_string(row.geometry));
     if (name.find(filter_) == std::string::npos) return;
     const test::TestScene& scene = make();
     StepperOptions options;
@@ -98,8 +99,7 @@ class Table {
     loading.steps_per_period = std::llround(std::ceil(1 / (frequency * dt)));
     options.loading = loading;
     options.dt = loading.dt();
-    const auto stepper =
-        make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+    const auto stepper = make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options);
     std::mt19937 random(2);
     std::vector<Vec3d> v(scene.specimen.size()), w(scene.specimen.size());
     const auto draw = [&](double most) { return most * (static_cast<double>(random()) / 4294967296.0 - 0.5); };

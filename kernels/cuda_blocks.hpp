@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_blocks.hpp  Between two blocks of steps: chains are settled in full precision, and the next block prepared.
+/// \file cuda_blocks.hpp  Between two blocks of steps: chains are settled in full precision, and the next block
+/// prepared.
 #pragma once
 
 #include <algorithm>
@@ -19,9 +20,9 @@ struct SettleContact {
   Block law;
 
   /// `place`: where the contact is among the tiles', UINT32_MAX for none. `steps`: of the block that ends; 0: none.
-  __device__ void operator()(std::uint32_t slot, uint2 place, float4* constant, float4* state,
-                             const double* now, const double* before, int steps,
-                             const LoadRecords<typename P::Particle>& records, std::uint32_t record) const {
+  __device__ void operator()(std::uint32_t slot, uint2 place, float4* constant, float4* state, const double* now,
+                             const double* before, int steps, const LoadRecords<typename P::Particle>& records,
+                             std::uint32_t record) const {
     if (place.x == UINT32_MAX) return;
     constexpr bool carried = geometry == Geometry::updated;
     const std::uint32_t lane = slot % 32, packet = slot / 32;
@@ -47,8 +48,7 @@ struct SettleContact {
       for (int c = 0; c < view.components; ++c) f[c] = law.rate * x[c];
     }
     for (int c = 0; view.chain && c < view.components; ++c) {
-      State* chain =
-          view.chain + (static_cast<std::size_t>(packet) * view.components + c) * (1 + units) * 32 + lane;
+      State* chain = view.chain + (static_cast<std::size_t>(packet) * view.components + c) * (1 + units) * 32 + lane;
       double x[Units >= 0 ? Units + 1 : laws::GeneralisedKelvin::max_units];
       for (int l = 0; l < units; ++l) x[l] = chain[(1 + l) * 32];
       const auto unit = [&](int l) -> double& { return x[l]; };

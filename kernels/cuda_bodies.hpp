@@ -17,7 +17,8 @@ __device__ __forceinline__ R sum_words(const LoadRecords<T>& records, std::uint3
   R sum = 0;
   const T* words = records.words + w;
 #pragma unroll 4
-  for (std::uint32_t r = first; r < end; r += stride) sum += __ldg(words + static_cast<std::size_t>(r) * velocity_words);
+  for (std::uint32_t r = first; r < end; r += stride)
+    sum += __ldg(words + static_cast<std::size_t>(r) * velocity_words);
   return sum;
 }
 
@@ -39,8 +40,8 @@ __device__ R sum_by_block(const LoadRecords<T>& records, std::uint32_t body) {
 /// Moves all bodies. The first `long_rows` blocks have one body each, walls included.
 template <class P>
 __global__ void __launch_bounds__(body_threads)
-    step_bodies(const ParticleMotion<P> motion, const LoadRecords<typename P::Geometry> records, const std::uint32_t* long_body,
-                std::uint32_t long_rows, const std::int64_t* step) {
+    step_bodies(const ParticleMotion<P> motion, const LoadRecords<typename P::Geometry> records,
+                const std::uint32_t* long_body, std::uint32_t long_rows, const std::int64_t* step) {
   const int w = static_cast<int>(threadIdx.x % velocity_words);
   const auto particles = static_cast<std::uint32_t>(motion.body.particles);
   if (blockIdx.x < long_rows) {

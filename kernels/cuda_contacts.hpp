@@ -13,8 +13,8 @@
 
 namespace macadam::kernels {
 
-/// Where the loads of a contact go: eight words a record, so that one record is one sector; the records of a body follow
-/// one another.
+/// Where the loads of a contact go: eight words a record, so that one record is one sector; the records of a body
+/// follow one another.
 template <class T>
 struct LoadRecords {
   T* words;                        ///< [record][8] force, –, moment, – [N, N·m]
@@ -100,7 +100,8 @@ __global__ void __launch_bounds__(contact_threads)
     // a warp's states are one run of memory: asked for now, they are near when kinematics is done
     if constexpr (form == ContactForm::condensed && !std::decay_t<decltype(forces)>::stateless) {
       const auto& view = forces.view;
-      const auto bytes = static_cast<std::uint32_t>(view.components * (1 + view.units) * 32 * sizeof(typename P::State));
+      const auto bytes =
+          static_cast<std::uint32_t>(view.components * (1 + view.units) * 32 * sizeof(typename P::State));
       const char* chain = reinterpret_cast<const char*>(view.chain) + std::size_t{slot / 32} * bytes;
       for (std::uint32_t at = slot % 32 * 128; at < bytes; at += 32 * 128) prefetch(chain + at);
       const auto words = static_cast<std::uint32_t>(view.geometry_words * 32 * sizeof(typename P::Geometry));

@@ -41,7 +41,8 @@ __device__ __forceinline__ void put_velocity(ulonglong2* to, const float (&y)[6]
 __device__ __forceinline__ float4 wait_for_word(const ulonglong2* from, std::uint32_t tag) {
   ulonglong2 word = get_word(from);
   while (static_cast<std::uint32_t>(word.y >> 32) != tag) word = get_word(from);
-  return {__uint_as_float(static_cast<std::uint32_t>(word.x)), __uint_as_float(static_cast<std::uint32_t>(word.x >> 32)),
+  return {__uint_as_float(static_cast<std::uint32_t>(word.x)),
+          __uint_as_float(static_cast<std::uint32_t>(word.x >> 32)),
           __uint_as_float(static_cast<std::uint32_t>(word.y)), 0};
 }
 

@@ -15,20 +15,25 @@
 namespace macadam::kernels {
 
 /// Steps of a block: a 4,000th of the shortest time in the load or the laws, so that what a block neglects, of second
-/// order in it, is below 1e-6. 0: blocks would be too short to pay, or nothing says how fast the load changes.
-inline int block_steps(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws) {
+/// order in it, is below 1e-6; and so few that at the specimen's strain a carried normal turns by less than 1e-6 in it.
+/// 0: blocks would be too short to pay, or nothing says how fast the load changes. `height`: of the specimen [m].
+inline int block_steps(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
+                       double height) {
   if (!options.loading) return 0;
+  constexpr double pi = std::numbers::pi;
   double shortest = 1 / options.loading->frequency;
+  if (options.geometry == Geometry::updated) {
+    const double strain_rate = std::abs(options.loading->amplitude) / height * 2 * pi * options.loading->frequency;
+    if (strain_rate > 0) shortest = std::min(shortest, 4000 * 1e-6 / strain_rate);
+  }
   for (const auto& law : laws) {
-    if (law) {
-      const double time = std::visit([](const auto& l) { return l.shortest_time(); }, *law);
-      shortest = std::min(shortest, 2 * std::numbers::pi * time);
-    }
+    if (law) shortest = std::min(shortest, 2 * pi * std::visit([](const auto& l) { return l.shortest_time(); }, *law));
   }
   const double steps = std::min(256.0, std::floor(shortest / (4000 * options.dt)));
   return steps < 4 ? 0 : static_cast<int>(steps);
 }
 
+/// Runs a scene in blocks of steps; made once, before the first step.
 template <class P>
 class TileRunner {
  public:
@@ -61,8 +66,9 @@ class TileRunner {
     const auto g = static_cast<std::uint32_t>(number);
     std::visit(
         [&](const auto& law) {
-          scene_.law[number] = {static_cast<float>(law.block(dt, block_).rate * dt),
-                                static_cast<float>(law.block(dt, block_).relax), static_cast<float>(view.alpha), 0};
+          const auto block = law.block(dt, block_);
+          scene_.law[number] = {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
+                                static_cast<float>(view.alpha), static_cast<float>(block.follow)};
         },
         arrays.law);
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
@@ -130,7 +136,8 @@ class TileRunner {
         table += n;
       }
       if (in_block_ == block_ || !begun_) settle();
-      const auto n = static_cast<std::uint32_t>(std::min<std::int64_t>({block_ - in_block_, steps - done, table - done}));
+      const auto n =
+          static_cast<std::uint32_t>(std::min<std::int64_t>({block_ - in_block_, steps - done, table - done}));
       run_(n);
       scene_.wall_velocity += n;
       tag_ += n;
@@ -141,15 +148,16 @@ class TileRunner {
 
   /// Loads on all bodies now, [body][8]; walls are summed first.
   const R* forces() const {
-    launch("wall loads", add_wall_loads<R>, walls, body_threads, 0, stream_, reinterpret_cast<const float*>(scene_.wall_load),
-           wall_begin_,
-           base_ + bodies_ * velocity_words, scene_.force + bodies_ * velocity_words);
+    launch("wall loads", add_wall_loads<R>, walls, body_threads, 0, stream_,
+           reinterpret_cast<const float*>(scene_.wall_load), wall_begin_, base_ + bodies_ * velocity_words,
+           scene_.force + bodies_ * velocity_words);
     return scene_.force;
   }
   /// Bytes of contacts that a step moves at the least: states read and written, constants and base loads read.
   std::int64_t traffic() const {
     const std::size_t states = constant_.size() / static_cast<std::size_t>(tile_constants(carried_)) * tile_states;
-    return static_cast<std::int64_t>(constant_.bytes() + 2 * states * sizeof(float4) + bodies_ * velocity_words * sizeof(R));
+    return static_cast<std::int64_t>(constant_.bytes() + 2 * states * sizeof(float4) +
+                                     bodies_ * velocity_words * sizeof(R));
   }
   std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
 
@@ -255,10 +263,10 @@ class TileRunner {
   /// Ends a block, if one has begun, and begins the next.
   void settle() {
     if (!begun_) {
-      check_cuda(cudaMemcpyAsync(before_, scene_.motion.body.displacement,
-                                 (bodies_ + walls) * displacement_words * sizeof(*before_), cudaMemcpyDeviceToDevice,
-                                 stream_),
-                 "first block");
+      check_cuda(
+          cudaMemcpyAsync(before_, scene_.motion.body.displacement,
+                          (bodies_ + walls) * displacement_words * sizeof(*before_), cudaMemcpyDeviceToDevice, stream_),
+          "first block");
     }
     settle_contacts_(begun_ ? in_block_ : 0);
     launch("base loads", sum_base<P>, long_rows_ + (bodies_ + walls + bodies_a_block - 1) / bodies_a_block,

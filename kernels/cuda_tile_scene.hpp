@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file cuda_tile_scene.hpp  One step of a contact within a block of steps, and what a tile keeps in shared memory.
 ///
-/// Within a block of M steps a contact carries, for each of its six displacement components, the change δf of f since the
-/// block began and the sum of f' + f − 2F, in single precision; `drive` holds what the past still does. The loads of the
-/// F at the block's beginning are part of the bodies' `base` loads. Chains are settled after every block
+/// Within a block of M steps a contact carries, for each of its six displacement components, the change δf of f since
+/// the block began and the sum of f' + f − 2F, in single precision; `drive` holds what the past still does. The loads
+/// of the F at the block's beginning are part of the bodies' `base` loads. Chains are settled after every block
 /// (cuda_blocks.hpp).
 #pragma once
 
@@ -48,18 +48,17 @@ struct TileScene {
   ulonglong2* exchange;         ///< [2][body] velocities of even and odd steps, 32 bytes a body in single precision
   const double* wall_velocity;  ///< [step of the launch] of the top wall [m/s]
   ParticleMotion<P> motion;
-  float4 law[pair_types];       ///< rate·Δt, relax, α, –
-  unsigned char* rest;          ///< [tile] what has no room in shared memory; null where all has
+  float4 law[pair_types];  ///< rate·Δt, relax, α, follow
+  unsigned char* rest;     ///< [tile] what has no room in shared memory; null where all has
   std::uint32_t most_bodies, most_halo, most_locals, most_slots, cached_packets;
   std::uint32_t bodies;
 };
 
 /// Steps one contact; `v` and `w` are the tables of velocities and spins. Returns the change of its loads.
 template <bool carried>
-__device__ __forceinline__ ContactLoad<float> step_in_block(const float4* constant, const float4* law,
-                                                            const float4* v, const float4* w, float (&change)[6],
-                                                            float (&sum)[6], std::uint32_t& slots,
-                                                            std::uint32_t& group) {
+__device__ __forceinline__ ContactLoad<float> step_in_block(const float4* constant, const float4* law, const float4* v,
+                                                            const float4* w, float (&change)[6], float (&sum)[6],
+                                                            std::uint32_t& slots, std::uint32_t& group) {
   const float4 c0 = constant[tile_normal * 32], c1 = constant[tile_moment_a * 32], c2 = constant[tile_moment_b * 32];
   const float4 c3 = constant[tile_drive_a * 32], c4 = constant[tile_drive_b * 32];
   const auto locals = __float_as_uint(c2.w);
@@ -81,7 +80,7 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const float4* consta
 #pragma unroll
   for (int c = 0; c < 6; ++c) {
     const float before = change[c];
-    change[c] += l.x * u[c] + (drive[c] - l.y * before);
+    change[c] += l.x * u[c] + (drive[c] + l.w * sum[c] - l.y * before);
     sum[c] += change[c] + before;
   }
   const float moments[6] = {c1.y, c1.z, c1.w, c2.x, c2.y, c2.z};

@@ -18,8 +18,8 @@ struct ResidentMemory {
     return bodies * static_cast<std::uint32_t>(6 * sizeof(double) + 8 * sizeof(R));
   }
 
-  __host__ __device__ ResidentMemory(std::uint32_t bodies, std::uint32_t halo_count, std::uint32_t locals, std::uint32_t slot_count,
-                                     std::uint32_t cached_packets, bool carried, bool roomy) {
+  __host__ __device__ ResidentMemory(std::uint32_t bodies, std::uint32_t halo_count, std::uint32_t locals,
+                                     std::uint32_t slot_count, std::uint32_t cached_packets, bool carried, bool roomy) {
     std::uint32_t at = 0;
     const auto take = [&](std::uint32_t bytes) {
       const std::uint32_t here = at;

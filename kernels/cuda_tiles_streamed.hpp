@@ -2,8 +2,8 @@
 /// \file cuda_tiles_streamed.hpp  One launch a step for any number of tiles: states stream through.
 ///
 /// A launch takes the velocities of the step, steps all contacts, sums the loads, and moves the bodies on to the next
-/// step's velocities, which go to the other one of two sets. The first step of a block is begun, and the last one ended,
-/// by flags.
+/// step's velocities, which go to the other one of two sets. The first step of a block is begun, and the last one
+/// ended, by flags.
 #pragma once
 
 #include "kernels/cuda_tile_scene.hpp"
@@ -26,8 +26,7 @@ __device__ __forceinline__ void move_body(const TileScene<P>& s, std::size_t i, 
     R& v = s.motion.body.master[i * velocity_words + moving_word(c)];
     x[c] = v = s.motion.moved(v, force[c], s.motion.body.inverse[2 * i + c / 3]);
   }
-  for (int c = 0; c < 6; ++c)
-    s.motion.body.displacement[i * displacement_words + moving_word(c)] += s.motion.dt * x[c];
+  for (int c = 0; c < 6; ++c) s.motion.body.displacement[i * displacement_words + moving_word(c)] += s.motion.dt * x[c];
   float4* to = velocities_of(s, k) + 2 * place;
   to[0] = {float(x[0]), float(x[1]), float(x[2]), 0};
   to[1] = {float(x[3]), float(x[4]), float(x[5]), 0};
@@ -80,8 +79,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
   for (std::uint32_t r = tid; r < 2 * tile.bodies; r += Threads)
     (r % 2 ? w : v)[r / 2] = from[2 * static_cast<std::size_t>(tile.first_body) + r];
   for (std::uint32_t h = tid; h < 2 * tile.halo; h += Threads) {
-    (h % 2 ? w : v)[tile.bodies + h / 2] =
-        from[2 * static_cast<std::size_t>(s.halo[tile.first_halo + h / 2]) + h % 2];
+    (h % 2 ? w : v)[tile.bodies + h / 2] = from[2 * static_cast<std::size_t>(s.halo[tile.first_halo + h / 2]) + h % 2];
   }
   if (tid < walls) {
     const std::uint32_t at = tile.bodies + tile.halo + tid;
@@ -103,16 +101,16 @@ __global__ void __launch_bounds__(Threads, Blocks)
   }
   __syncthreads();
   sum_rows(tile, s.row + tile.first_body, s.diagonal + blockIdx.x * TilePlan::longest_short_row, slots,
-                     [&](std::uint32_t r, const float(&extra)[6]) {
-                       const std::size_t place = tile.first_body + r;
-                       const auto i = static_cast<std::size_t>(s.body[place]);
-                       R force[6];
-                       for (int c = 0; c < 6; ++c) {
-                         force[c] = s.base[i * velocity_words + moving_word(c)] + static_cast<R>(extra[c]);
-                         if (last) s.force[i * velocity_words + moving_word(c)] = force[c];
-                       }
-                       if (!last) move_body(s, i, place, force, k + 1);
-                     });
+           [&](std::uint32_t r, const float(&extra)[6]) {
+             const std::size_t place = tile.first_body + r;
+             const auto i = static_cast<std::size_t>(s.body[place]);
+             R force[6];
+             for (int c = 0; c < 6; ++c) {
+               force[c] = s.base[i * velocity_words + moving_word(c)] + static_cast<R>(extra[c]);
+               if (last) s.force[i * velocity_words + moving_word(c)] = force[c];
+             }
+             if (!last) move_body(s, i, place, force, k + 1);
+           });
   if (!last && blockIdx.x == 0 && tid == 0 && s.motion.loaded) move_wall(s, k + 1);
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cuda.hpp  How the step runs on a CUDA device: two kernels a step, queued as graphs of many steps.
+/// \file exec_cuda.hpp  How the step runs on a CUDA device: in blocks of steps over tiles (cuda_tile_runner.hpp), or
+/// two kernels a step, queued as graphs of many steps.
 ///
-/// Every contact writes its two ends' loads to records of its own, which lie in the order of the bodies; a body sums its
-/// run of records in fixed order. No floating-point atomics, so the same device gives the same bits every run.
+/// The latter serves any form, law and precision: every contact writes its two ends' loads to records of its own, which
+/// lie in the order of the bodies; a body sums its run of records in fixed order. No floating-point atomics anywhere,
+/// so the same device gives the same bits every run.
 #pragma once
 
 #include <functional>
@@ -24,11 +26,12 @@ class ExecCuda {
   static constexpr int lanes = 32;
   static constexpr bool blocks = !std::is_same_v<P, DoublePrecision>;  ///< steps may be taken in blocks
 
-  /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that several tiles share one.
-  /// A contact takes some 75 bytes of shared memory there: two slots of loads and its share of the bodies.
+  /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that several tiles share
+  /// one. A contact takes some 75 bytes of shared memory there: two slots of loads and its share of the bodies.
   static std::size_t tile_contacts_of(const ContactNetwork& network) {
     const DeviceLimits limits = DeviceLimits::query();
-    const auto chips = static_cast<std::size_t>(limits.multiprocessors), shared = static_cast<std::size_t>(limits.shared);
+    const auto chips = static_cast<std::size_t>(limits.multiprocessors),
+               shared = static_cast<std::size_t>(limits.shared);
     const std::size_t contacts = network.contacts.size();
     if (contacts > shared / 75 * chips) return std::min<std::size_t>(1000, shared / 100);
     return std::max<std::size_t>(128, contacts / (chips + 1) + 1);
@@ -53,11 +56,12 @@ class ExecCuda {
     cudaStreamDestroy(stream_);
   }
 
-  /// Decides whether steps are taken in blocks.
-  void set_options(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws) {
+  /// Decides whether steps are taken in blocks. `height`: of the specimen [m].
+  void set_options(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
+                   double height) {
     dt_ = options.dt;
     if constexpr (blocks) {
-      const int block = options.form == ContactForm::condensed ? block_steps(options, laws) : 0;
+      const int block = options.form == ContactForm::condensed ? block_steps(options, laws, height) : 0;
       if (block > 0) tiles_ = std::make_unique<TileRunner<P>>(network_, layout_, options, block, stream_);
       if (tiles_ && !tiles_->possible()) tiles_.reset();
     }
@@ -76,7 +80,7 @@ class ExecCuda {
     const auto slots = static_cast<std::uint32_t>(arrays.body_a.size());
     forces.view = arrays.shape;
     arrays.for_each_array(forces.view, [&](auto, auto, auto& array, auto& pointer) {
-      pointer = keep(array);
+      pointer = store_.keep(array);
       const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
       bytes_ += size;
       if (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) state_bytes_ += size;
@@ -119,9 +123,10 @@ class ExecCuda {
     }
     step_.upload(&first);
     const auto queue = [&](cudaGraphExec_t& graph, std::int64_t n) {
-      if (!graph) graph = record([&] {
-        for (std::int64_t k = 0; k < n; ++k) f(*this, k);
-      });
+      if (!graph)
+        graph = record([&] {
+          for (std::int64_t k = 0; k < n; ++k) f(*this, k);
+        });
       check_cuda(cudaGraphLaunch(graph, stream_), "time steps");
       steps -= n;
     };
@@ -178,8 +183,9 @@ class ExecCuda {
     return bytes_ + state_bytes_ + static_cast<std::int64_t>(bodies + 2 * records_.bytes() + place_.bytes());
   }
   std::int64_t bytes() const {
-    return bytes_ + static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() +
-                                              velocity_.bytes() + records_.bytes() + place_.bytes()) +
+    return bytes_ +
+           static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() + velocity_.bytes() +
+                                     records_.bytes() + place_.bytes()) +
            (tiles_ ? tiles_->bytes() : 0);
   }
 
@@ -187,15 +193,6 @@ class ExecCuda {
   static constexpr std::int64_t steps_a_graph = 64;
 
   std::size_t bodies() const { return layout_.particles() + walls; }
-
-  /// Copies an array to the device for as long as this lives.
-  template <class Array>
-  auto keep(const Array& array) {
-    using T = typename Array::value_type;
-    auto copy = std::make_shared<DeviceArray<T>>(DeviceArray<T>::of(array));
-    owned_.push_back(copy);
-    return copy->data();
-  }
 
   template <class LawStep, int Units, ContactForm form, Geometry geometry>
   void add_to_launch(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t slots) {
@@ -312,7 +309,7 @@ class ExecCuda {
   mutable DeviceArray<std::uint32_t> divergent_;
   mutable DeviceArray<double> radius_;
   mutable DeviceArray<std::int32_t> particle_;
-  std::vector<std::shared_ptr<void>> owned_;
+  DeviceStore store_;
   std::shared_ptr<void> launch_;  ///< ContactGroups of this form and geometry
   std::function<void()> step_contacts_;
   int groups_ = 0;

@@ -69,7 +69,8 @@ class StepperImpl final : public Stepper {
                options.dt,
                options.loading.has_value(),
                options.loading.value_or(loadings::Cyclic{})};
-    if constexpr (requires { exec_.set_options(options_, laws); }) exec_.set_options(options_, laws);
+    const double height = specimen.box.size.z;
+    if constexpr (requires { exec_.set_options(options_, laws, height); }) exec_.set_options(options_, laws, height);
     for (const auto& group : layout_.groups)
       add_group(network, group, laws[static_cast<std::size_t>(group.pair)].value());
     if constexpr (requires { exec_.prepare(motion_); }) exec_.prepare(motion_);

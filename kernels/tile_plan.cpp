@@ -71,8 +71,9 @@ class Planner {
     auto& touches = touches_[static_cast<std::size_t>(t)];
     const auto first = static_cast<std::uint32_t>(layout_.tile_body[static_cast<std::size_t>(t)]);
     const auto bodies = static_cast<std::uint32_t>(layout_.tile_body[static_cast<std::size_t>(t) + 1]) - first;
-    Tile tile{first, bodies, static_cast<std::uint32_t>(out_.halo.size()), 0,
-              static_cast<std::uint32_t>(out_.packets()), 0, 0, 0};
+    Tile tile{
+        first, bodies, static_cast<std::uint32_t>(out_.halo.size()), 0, static_cast<std::uint32_t>(out_.packets()), 0,
+        0,     0};
 
     std::vector<std::uint32_t> length(bodies, 0), rank(bodies), order(bodies);
     std::vector<std::int32_t> halo;
@@ -138,8 +139,7 @@ class Planner {
         return tile.bodies + tile.halo + static_cast<std::uint32_t>(at(body) - layout_.particles());
       }
       if (owns(t, body)) return rank[at(body) - tile.first_body];
-      return tile.bodies +
-             static_cast<std::uint32_t>(std::lower_bound(halo.begin(), halo.end(), body) - halo.begin());
+      return tile.bodies + static_cast<std::uint32_t>(std::lower_bound(halo.begin(), halo.end(), body) - halo.begin());
     };
     const auto slot = [&](std::uint32_t r) -> std::uint32_t {
       const std::uint32_t e = filled[r]++;
@@ -147,8 +147,12 @@ class Planner {
     };
     std::vector<Entry> entries;
     for (const Touch& touch : touches) {
-      TileContact c{touch.group_slot, static_cast<std::uint16_t>(local(touch.a)),
-                    static_cast<std::uint16_t>(local(touch.b)), TilePlan::no_slot, TilePlan::no_slot, touch.group,
+      TileContact c{touch.group_slot,
+                    static_cast<std::uint16_t>(local(touch.a)),
+                    static_cast<std::uint16_t>(local(touch.b)),
+                    TilePlan::no_slot,
+                    TilePlan::no_slot,
+                    touch.group,
                     touch.wall_row};
       const bool own_a = owns(t, touch.a), own_b = owns(t, touch.b);
       const std::uint32_t r = own_a ? c.local_a : c.local_b;

@@ -25,23 +25,23 @@ struct Tile {
 
 /// One contact as a tile computes it.
 struct TileContact {
-  std::uint32_t group_slot = UINT32_MAX;     ///< slot in its group; inert: UINT32_MAX
-  std::uint16_t local_a = 0, local_b = 0;    ///< places in the table of velocities
-  std::uint16_t slot_a = 0, slot_b = 0;      ///< of loads; no_slot where the body is not the tile's
+  std::uint32_t group_slot = UINT32_MAX;   ///< slot in its group; inert: UINT32_MAX
+  std::uint16_t local_a = 0, local_b = 0;  ///< places in the table of velocities
+  std::uint16_t slot_a = 0, slot_b = 0;    ///< of loads; no_slot where the body is not the tile's
   std::uint32_t group = 0;
-  std::uint32_t wall_row = UINT32_MAX;       ///< number among the wall contacts, which follow one another wall by wall
+  std::uint32_t wall_row = UINT32_MAX;  ///< number among the wall contacts, which follow one another wall by wall
 };
 
 struct TilePlan {
   static constexpr std::uint32_t longest_short_row = 32;
   static constexpr std::uint16_t no_slot = UINT16_MAX;
   std::vector<Tile> tile;
-  std::vector<std::int32_t> body;           ///< [first_body + rank] body
-  std::vector<std::uint32_t> row;           ///< [first_body + rank][2] slots of the row, first slot of a long row
-  std::vector<std::uint32_t> diagonal;      ///< [tile][longest_short_row]
-  std::vector<std::int32_t> halo;           ///< [first_halo + …] first_body + rank in its own tile
-  std::vector<TileContact> contact;         ///< [packet][32]
-  std::vector<std::uint32_t> wall_begin;    ///< [wall + 1] of wall rows
+  std::vector<std::int32_t> body;         ///< [first_body + rank] body
+  std::vector<std::uint32_t> row;         ///< [first_body + rank][2] slots of the row, first slot of a long row
+  std::vector<std::uint32_t> diagonal;    ///< [tile][longest_short_row]
+  std::vector<std::int32_t> halo;         ///< [first_halo + …] first_body + rank in its own tile
+  std::vector<TileContact> contact;       ///< [packet][32]
+  std::vector<std::uint32_t> wall_begin;  ///< [wall + 1] of wall rows
   std::uint32_t most_bodies = 0, most_halo = 0, most_locals = 0, most_slots = 0, most_packets = 0;
   std::size_t packets() const { return contact.size() / 32; }
   /// Whether all local numbers fit their 16 bits.

@@ -43,8 +43,7 @@ struct Elastic {
 
   /// Nothing flows: a block of steps is as exact as the steps.
   struct Block {
-    double rate, relax;
-    MACADAM_HD int units() const { return 0; }
+    double rate, relax, follow;
     template <int L, class Units>
     MACADAM_HD double drive(double, Units&&) const {
       return 0;
@@ -52,7 +51,7 @@ struct Elastic {
     template <int L, class Units>
     MACADAM_HD void settle(double, Units&&) const {}
   };
-  Block block(double, int) const { return {E, 0}; }
+  Block block(double, int) const { return {E, 0, 0}; }
 };
 
 }  // namespace macadam::laws

@@ -29,8 +29,9 @@ struct GeneralisedKelvin {
 
   int units() const { return static_cast<int>(E.size()); }
   double instantaneous() const { return E_m; }
+  /// min C/E over all units, Maxwell's included [s]
   double shortest_time() const {
-    double out = std::numeric_limits<double>::infinity();
+    double out = C_m / E_m;
     for (std::size_t l = 0; l < E.size(); ++l) out = std::min(out, C[l] / E[l]);
     return out;
   }
@@ -89,21 +90,23 @@ struct GeneralisedKelvin {
     return out;
   }
 
-  /// M steps at once, where their loads change little. Over a step f moves by Δx/c + Σ r_l·x_l/c − (relax)·f (Eq. 13);
-  /// with the x_l of the middle of the block in place of each step's own,
-  ///   f(t+Δt) − f(t) = rate·Δx + drive − relax·(f(t) − f(start)),   drive = Σ r_l·x_l(middle)/c − relax·f(start).
-  /// The units then follow from the sum of f over the block, weighted alike: x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f).
-  /// Both errors are of second order in M·Δt over the times of the load and of the units.
+  /// M steps as one block, in which f changes little. x_l at step k of the block is x_l at its beginning, its own loss,
+  /// and what f gave; the first two and the part of f at the beginning are taken at the mean step (M − 1)/2, the part
+  /// of the change δf of f since then exactly, by the sum s of δf' + δf over the steps so far:
+  ///   δf(t+Δt) = δf(t) + rate·Δx + drive + follow·s − relax·δf(t)   (Eq. 13),
+  ///   drive = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
+  /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with one weight for all steps in Eq. 14. What is neglected
+  /// has no mean over a block and is of second order in M·Δt over the times of the load and of the units.
   struct Block {
-    double rate, relax;       ///< 1/c [Pa], (c + g)/c [1]
-    double recover[max_units];  ///< r_l                                   [1]
-    double ahead[max_units];    ///< (M/2)·2·Δt/(2·a_l·η_l): x_l gained by f to the middle [1/Pa]
-    double back[max_units];     ///< (M/2)·r_l: share of x_l lost to the middle          [1]
-    double lost[max_units];     ///< 1 − (1 − r_l)^M                       [1]
-    double gain[max_units];     ///< compliance times the mean of (1 − r_l)^k over k < M [1/Pa]
+    double rate, relax, follow;  ///< 1/c [Pa], (c + g)/c [1], [1]
+    double recover[max_units];   ///< r_l [1]
+    double ahead[max_units];     ///< (M − 1)·Δt/(2·a_l·η_l): what f adds to x_l up to the middle [1/Pa]
+    double back[max_units];      ///< (M − 1)/2·r_l: what x_l loses of itself up to the middle [1]
+    double lost[max_units];      ///< 1 − (1 − r_l)^M [1]
+    double gain[max_units];      ///< Δt/(2·a_l·η_l) times the mean of (1 − r_l)^k over k < M [1/Pa]
     int n;
-    MACADAM_HD int units() const { return n; }
 
+    /// Change of f in a step at rest, from f and x_l at the beginning of the block.
     template <int L, class Units>
     MACADAM_HD double drive(double f, Units&& x) const {
       double past = 0;
@@ -125,8 +128,9 @@ struct GeneralisedKelvin {
     for (int l = 0; l < one.n; ++l) {
       const double r = one.recover[l];
       out.recover[l] = r;
-      out.ahead[l] = steps * one.compliance[l];
-      out.back[l] = 0.5 * steps * r;
+      out.follow += out.rate * r * one.compliance[l];
+      out.ahead[l] = (steps - 1) * one.compliance[l];
+      out.back[l] = 0.5 * (steps - 1) * r;
       out.lost[l] = -std::expm1(steps * std::log1p(-r));
       out.gain[l] = one.compliance[l] * (r > 0 ? out.lost[l] / (steps * r) : 1.0);
     }
