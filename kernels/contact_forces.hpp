@@ -63,12 +63,14 @@ struct ContactForces {
     }
 
     if constexpr (form == ContactForm::condensed) {
-      T density[6];
+      T density[6] = {T(0), T(0), T(0), T(0), T(0), T(0)};
       typename P::State* chain = view.chain + slot * chain_words();
-      for (int c = 0; c < 6; ++c) {
-        density[c] =
-            c < view.components ? advance(item, u[c], chain + chain_stride(item) * static_cast<std::size_t>(c)) : T(0);
-      }
+      if (view.components == 6)
+        advance_chains<6>(item, u, chain, density);
+      else if (view.components == 3)
+        advance_chains<3>(item, u, chain, density);
+      else
+        advance_chains<1>(item, u, chain, density);
       T m[6];
       for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
       return to_centres(now, condensed_load(density, T(view.alpha), m));
@@ -78,10 +80,35 @@ struct ContactForces {
   }
 
  private:
-  MACADAM_HD std::size_t chain_words() const { return static_cast<std::size_t>(view.components * (1 + view.units)); }
+  MACADAM_HD int units() const { return Units >= 0 ? Units : view.units; }
+  MACADAM_HD std::size_t chain_words() const { return static_cast<std::size_t>(view.components * (1 + units())); }
   template <class Item>
   MACADAM_HD std::size_t chain_stride(const Item& item) const {
-    return static_cast<std::size_t>(1 + view.units) * item.lanes();
+    return static_cast<std::size_t>(1 + units()) * item.lanes();
+  }
+
+  /// Advances the first N chains of a contact. A thread that handles one contact first loads all of them: a compiler
+  /// cannot move a load past a store that might be to the same place.
+  template <int N, class Item, class T>
+  MACADAM_HD void advance_chains(const Item& item, const T (&u)[6], typename P::State* chain, T (&density)[6]) const {
+    if constexpr (!stateless && Units >= 0 && requires { Item::staged; }) {
+      using S = typename P::State;
+      S state[N][1 + Units];
+      for (int c = 0; c < N; ++c) {
+        for (int l = 0; l <= Units; ++l) state[c][l] = item.load(chain + (c * (1 + Units) + l) * item.lanes());
+      }
+      for (int c = 0; c < N; ++c) {
+        auto unit = [&](int l) -> S& { return state[c][1 + l]; };
+        state[c][0] = law.template advance<Units>(state[c][0], S(u[c]) * dt, unit);
+        density[c] = static_cast<T>(state[c][0]);
+      }
+      for (int c = 0; c < N; ++c) {
+        for (int l = 0; l <= Units; ++l) item.store(chain + (c * (1 + Units) + l) * item.lanes(), state[c][l]);
+      }
+    } else {
+      for (int c = 0; c < N; ++c)
+        density[c] = advance(item, u[c], chain + chain_stride(item) * static_cast<std::size_t>(c));
+    }
   }
 
   /// Advances one chain by one displacement component and returns its f; without a state, f of the displacement itself.
@@ -92,12 +119,21 @@ struct ContactForces {
       return item.template convert<typename P::Geometry>(law.value(item.template convert<typename P::State>(rate)));
     }
     const S dx = item.template convert<typename P::State>(rate) * S(dt);
-    auto unit = [&](int l) -> decltype(auto) {
-      return item.ref(chain + static_cast<std::size_t>(1 + l) * item.lanes());
-    };
-    const S f = law.template advance<Units>(item.load(chain), dx, unit);
-    item.store(chain, f);
-    return item.template convert<typename P::Geometry>(f);
+    const auto place = [&](int l) { return chain + static_cast<std::size_t>(1 + l) * item.lanes(); };
+    if constexpr (Units >= 0 && requires { Item::staged; }) {
+      S x[Units + 1];
+      const S before = item.load(chain);
+      for (int l = 0; l < Units; ++l) x[l] = item.load(place(l));
+      const S f = law.template advance<Units>(before, dx, [&](int l) -> S& { return x[l]; });
+      item.store(chain, f);
+      for (int l = 0; l < Units; ++l) item.store(place(l), x[l]);
+      return static_cast<T>(f);
+    } else {
+      auto unit = [&](int l) -> decltype(auto) { return item.ref(place(l)); };
+      const S f = law.template advance<Units>(item.load(chain), dx, unit);
+      item.store(chain, f);
+      return item.template convert<typename P::Geometry>(f);
+    }
   }
 
   /// Sums the loads of the contact points (Eq. 3, 4): each has its own chains.
@@ -197,6 +233,7 @@ struct ContactForces {
                                                    item.template convert<To>(v.z)};
   }
 
+ public:
   /// 1/√x by its series about 1: exact to rounding for |1 − x| < 1e-3 in double, and never NaN for a finite x.
   template <class S>
   MACADAM_HD static S inverse_root_near_one(const S& x) {

@@ -1,150 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cuda.hpp  How the step runs on a CUDA device: a thread a contact, a thread a body, sums over fixed rows.
+/// \file exec_cuda.hpp  How the step runs on a CUDA device: in blocks of steps over tiles (cuda_tile_runner.hpp), or
+/// two kernels a step, queued as graphs of many steps.
 ///
-/// Every contact writes its two ends' loads to records of its own; a body sums its row of records in fixed order. No
-/// atomics, so the same device gives the same bits every run.
+/// The latter serves any form, law and precision: every contact writes its two ends' loads to records of its own, which
+/// lie in the order of the bodies; a body sums its run of records in fixed order. No floating-point atomics anywhere,
+/// so the same device gives the same bits every run.
 #pragma once
 
-#include <cuda_runtime.h>
-#include <thrust/copy.h>
-#include <thrust/device_vector.h>
-#include <thrust/fill.h>
-
+#include <functional>
 #include <memory>
 #include <string>
 
-#include "kernels/contact_forces.hpp"
+#include "kernels/cuda_tile_runner.hpp"
 #include "kernels/layout.hpp"
-#include "kernels/particle_motion.hpp"
-#include "macadam/error.hpp"
 
 namespace macadam::kernels {
-
-/// \throws RunError naming what was done and what CUDA says.
-inline void check_cuda(cudaError_t status, const char* what) {
-  if (status != cudaSuccess) throw RunError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
-}
-
-/// Runs body(i) for i < n.
-template <class Body>
-__global__ void for_each_index(Body body, std::uint32_t n) {
-  const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
-  if (i < n) body(i);
-}
-
-/// The only launch: skips empty ranges and checks every time.
-template <class Body>
-void launch(const char* name, std::uint32_t n, const Body& body) {
-  if (n == 0) return;
-  constexpr unsigned threads = 128;
-  for_each_index<<<(n + threads - 1) / threads, threads>>>(body, n);
-  check_cuda(cudaGetLastError(), name);
-}
-
-/// One contact of a packet of 32.
-struct LaneItem {
-  std::uint32_t lane;
-  template <class R>
-  using Value = R;
-
-  MACADAM_HD static constexpr std::size_t lanes() { return 32; }
-  template <class R>
-  MACADAM_HD R load(const R* p) const {
-    return p[lane];
-  }
-  template <class R>
-  MACADAM_HD void store(R* p, R x) const {
-    p[lane] = x;
-  }
-  template <class R>
-  MACADAM_HD R& ref(R* p) const {
-    return p[lane];
-  }
-  template <class To, class From>
-  MACADAM_HD static To convert(From x) {
-    return static_cast<To>(x);
-  }
-  MACADAM_HD static double copysign_one(double z) { return ::copysign(1.0, z); }
-  MACADAM_HD static float copysign_one(float z) { return ::copysignf(1.0f, z); }
-  template <class T>
-  MACADAM_HD static T select(bool mask, T yes, T no) {
-    return mask ? yes : no;
-  }
-  template <class R>
-  MACADAM_HD Twist<R> twist(const R* velocity, const std::int32_t* body) const {
-    const R* v = velocity + static_cast<std::size_t>(body[lane]) * velocity_words;
-    return {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}};
-  }
-  template <class To, class R>
-  MACADAM_HD Vec3<To> vector(const R* displacement, const std::int32_t* body) const {
-    const R* u = displacement + static_cast<std::size_t>(body[lane]) * displacement_words;
-    return {static_cast<To>(u[0]), static_cast<To>(u[1]), static_cast<To>(u[2])};
-  }
-  template <class To, class R>
-  MACADAM_HD Vec3<To> relative(const R* displacement, const std::int32_t* a, const std::int32_t* b) const {
-    const R* ua = displacement + static_cast<std::size_t>(a[lane]) * displacement_words;
-    const R* ub = displacement + static_cast<std::size_t>(b[lane]) * displacement_words;
-    return {static_cast<To>(ub[0] - ua[0]), static_cast<To>(ub[1] - ua[1]), static_cast<To>(ub[2] - ua[2])};
-  }
-};
-
-/// Records of loads: slot s of all groups has its A end at 2s and its B end at 2s + 1, eight words each.
-template <class P>
-struct LoadRecords {
-  typename P::Geometry* words;
-  const std::uint32_t* row_begin;  ///< [body + 1]
-  const std::uint32_t* row;        ///< record numbers
-
-  MACADAM_HD Twist<typename P::Particle> sum(std::int32_t body) const {
-    Twist<typename P::Particle> total{};
-    for (std::uint32_t r = row_begin[body]; r < row_begin[body + 1]; ++r) {
-      const auto* w = words + static_cast<std::size_t>(row[r]) * velocity_words;
-      total.linear += {w[0], w[1], w[2]};
-      total.angular += {w[4], w[5], w[6]};
-    }
-    return total;
-  }
-};
-
-/// Steps contact `slot` and writes its record.
-template <class Forces>
-struct StepContact {
-  using P = typename Forces::Policy;
-  Forces forces;
-  MotionView<P> motion;
-  typename P::Geometry* records;  ///< of this group's first slot
-
-  __device__ void operator()(std::uint32_t slot) const {
-    const auto load = forces(LaneItem{slot % 32}, slot / 32, motion);
-    auto* a = records + static_cast<std::size_t>(slot) * 2 * velocity_words;
-    auto* b = a + velocity_words;
-    a[0] = load.force_a.x, a[1] = load.force_a.y, a[2] = load.force_a.z;
-    a[4] = load.moment_a.x, a[5] = load.moment_a.y, a[6] = load.moment_a.z;
-    b[0] = -load.force_a.x, b[1] = -load.force_a.y, b[2] = -load.force_a.z;
-    b[4] = load.moment_b.x, b[5] = load.moment_b.y, b[6] = load.moment_b.z;
-  }
-};
-
-/// Moves one body.
-template <class P>
-struct StepBody {
-  ParticleMotion<P> motion;
-  LoadRecords<P> records;
-  std::int64_t k;
-  __device__ void operator()(std::uint32_t body) const {
-    const auto i = static_cast<std::int32_t>(body);
-    motion(i, i < motion.body.particles ? records.sum(i) : Twist<typename P::Particle>{}, k);
-  }
-};
-
-/// Writes the summed load of one body.
-template <class P>
-struct SumBody {
-  LoadRecords<P> records;
-  Twist<typename P::Particle>* out;
-  std::int32_t first;
-  __device__ void operator()(std::uint32_t i) const { out[i] = records.sum(first + static_cast<std::int32_t>(i)); }
-};
 
 /// Owns the arrays of a scene on the device and runs bodies and contacts over them.
 template <class P>
@@ -152,155 +22,298 @@ class ExecCuda {
  public:
   using Policy = P;
   using R = typename P::Particle;
+  using G = typename P::Geometry;
   static constexpr int lanes = 32;
-  static constexpr std::size_t tile_contacts = 4096;  ///< only the order matters here
+  static constexpr bool blocks = !std::is_same_v<P, DoublePrecision>;  ///< steps may be taken in blocks
 
-  ExecCuda(const ContactNetwork& network, const Layout& layout, int) : layout_(layout) {
-    const std::size_t bodies = layout.particles() + walls;
-    master_.assign(bodies * velocity_words, R(0));
-    displacement_.assign(bodies * displacement_words, 0.0);
-    if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
+  /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that several tiles share
+  /// one. A contact takes some 75 bytes of shared memory there: two slots of loads and its share of the bodies.
+  static std::size_t tile_contacts_of(const ContactNetwork& network) {
+    const DeviceLimits limits = DeviceLimits::query();
+    const auto chips = static_cast<std::size_t>(limits.multiprocessors),
+               shared = static_cast<std::size_t>(limits.shared);
+    const std::size_t contacts = network.contacts.size();
+    if (contacts > shared / 75 * chips) return std::min<std::size_t>(1000, shared / 100);
+    return std::max<std::size_t>(128, contacts / (chips + 1) + 1);
+  }
+
+  ExecCuda(const ContactNetwork& network, const Layout& layout, int)
+      : network_(network),
+        layout_(layout),
+        master_(bodies() * velocity_words),
+        displacement_(bodies() * displacement_words),
+        velocity_(std::is_same_v<G, R> ? 0 : bodies() * velocity_words),
+        step_(1),
+        divergent_(1) {
+    check_cuda(cudaStreamCreate(&stream_), "stream");
     make_rows(network);
+  }
+  ExecCuda(const ExecCuda&) = delete;
+  ~ExecCuda() {
+    for (auto* graph : {many_, one_}) {
+      if (graph) cudaGraphExecDestroy(graph);
+    }
+    cudaStreamDestroy(stream_);
+  }
+
+  /// Decides whether steps are taken in blocks. `height`: of the specimen [m].
+  void set_options(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
+                   double height) {
+    dt_ = options.dt;
+    if constexpr (blocks) {
+      const int block = options.form == ContactForm::condensed ? block_steps(options, laws, height) : 0;
+      if (block > 0) tiles_ = std::make_unique<TileRunner<P>>(network_, layout_, options, block, stream_);
+      if (tiles_ && !tiles_->possible()) tiles_.reset();
+    }
+    if (!tiles_) records_ = DeviceArray<G>(record_count_ * velocity_words);
   }
 
   BodyView<P> set_bodies(const std::vector<R>& inverse) {
-    inverse_ = inverse;
-    return {gathered(), raw(master_), raw(displacement_), raw(inverse_),
+    inverse_ = DeviceArray<R>::of(inverse);
+    return {gathered(), master_.data(), displacement_.data(), inverse_.data(),
             static_cast<std::int32_t>(layout_.particles())};
   }
 
+  /// Takes a group: its arrays, and the functor that steps its contacts.
   template <class Forces>
   void add_group(ContactArrays<P> arrays, Forces forces) {
-    auto group = std::make_unique<GroupOf<Forces>>();
-    group->slots = static_cast<std::uint32_t>(arrays.body_a.size());
-    group->forces = forces;
-    group->forces.view = arrays.shape;
-    arrays.for_each_array(group->forces.view, [&](auto, auto, auto& array, auto& pointer) {
-      pointer = group->storage.add(array);
+    const auto slots = static_cast<std::uint32_t>(arrays.body_a.size());
+    forces.view = arrays.shape;
+    arrays.for_each_array(forces.view, [&](auto, auto, auto& array, auto& pointer) {
+      pointer = store_.keep(array);
       const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
       bytes_ += size;
       if (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) state_bytes_ += size;
     });
-    group->first_slot = groups_.empty() ? 0 : groups_.back()->first_slot + groups_.back()->slots;
-    groups_.push_back(std::move(group));
+    if (tiles_)
+      add_to_tiles(arrays, forces);
+    else
+      add_to_launch(forces, slots);
+    slots_ += slots;
+    ++groups_;
   }
 
-  void bodies(const ParticleMotion<P>& motion, std::int64_t k) {
-    launch("bodies", static_cast<std::uint32_t>(layout_.particles() + walls), StepBody<P>{motion, records(), k});
+  /// Ends the set-up.
+  void prepare(const ParticleMotion<P>& motion) {
+    std::vector<std::uint32_t> long_rows;
+    for (std::size_t i = 0; i < bodies(); ++i) {
+      if (row_lengths_[i + 1] - row_lengths_[i] > long_row) long_rows.push_back(static_cast<std::uint32_t>(i));
+    }
+    if (tiles_) tiles_->prepare(motion, row_begin_.data(), place_.data(), record_count_, long_rows);
+    row_lengths_ = {};
+  }
+
+  void bodies(const ParticleMotion<P>& motion, std::int64_t) {
+    const std::size_t blocks = long_body_.size() + (bodies() + bodies_a_block - 1) / bodies_a_block;
+    launch("bodies", step_bodies<P>, blocks, body_threads, 0, stream_, motion, records(), long_body_.data(),
+           static_cast<std::uint32_t>(long_body_.size()), step_.data());
   }
   void contacts() {
-    for (const auto& group : groups_) group->run({gathered(), raw(displacement_)}, raw(records_));
+    if (step_contacts_) step_contacts_();
   }
 
-  /// Queues all steps and waits for them, so that a failing kernel is reported here.
+  /// Queues all steps, as graphs of many, and waits for them, so that a failing kernel is reported here. The number of
+  /// the step is counted on the device.
   template <class F>
   void repeat(std::int64_t first, std::int64_t steps, F&& f) {
-    for (std::int64_t k = first; k < first + steps; ++k) f(*this, k);
-    check_cuda(cudaDeviceSynchronize(), "time steps");
+    if (tiles_) {
+      tiles_->run(first, steps);
+      check_cuda(cudaStreamSynchronize(stream_), "time steps");
+      return;
+    }
+    step_.upload(&first);
+    const auto queue = [&](cudaGraphExec_t& graph, std::int64_t n) {
+      if (!graph)
+        graph = record([&] {
+          for (std::int64_t k = 0; k < n; ++k) f(*this, k);
+        });
+      check_cuda(cudaGraphLaunch(graph, stream_), "time steps");
+      steps -= n;
+    };
+    while (steps >= steps_a_graph) queue(many_, steps_a_graph);
+    while (steps > 0) queue(one_, 1);
+    check_cuda(cudaStreamSynchronize(stream_), "time steps");
   }
 
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
-    thrust::device_vector<Twist<R>> sums(count);
-    launch("sums", static_cast<std::uint32_t>(count),
-           SumBody<P>{records(), thrust::raw_pointer_cast(sums.data()), first});
-    return to_host(sums);
+    const std::vector<R> words = tiles_ ? tile_forces(first, count) : sums(first, count);
+    std::vector<Twist<R>> out(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const R* w = &words[i * velocity_words];
+      out[i] = {{w[0], w[1], w[2]}, {w[4], w[5], w[6]}};
+    }
+    return out;
   }
-  std::vector<R> velocities() const { return to_host(master_); }
-  std::vector<double> displacements() const { return to_host(displacement_); }
-  void set_displacements(const std::vector<double>& u) { displacement_ = u; }
+  std::vector<R> velocities() const { return master_.download(); }
+  std::vector<double> displacements() const { return displacement_.download(); }
+  void set_displacements(const std::vector<double>& u) { displacement_.upload(u.data()); }
   void set_velocities(const std::vector<R>& v) {
-    master_ = v;
-    if constexpr (!std::is_same_v<typename P::Geometry, R>) thrust::copy(v.begin(), v.end(), velocity_.begin());
+    master_.upload(v.data());
+    if constexpr (!std::is_same_v<G, R>) {
+      const std::vector<G> rounded(v.begin(), v.end());
+      velocity_.upload(rounded.data());
+    }
+  }
+
+  /// As Stepper::first_divergent(), found on the device. `radius` in specimen order.
+  std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
+    if (radius_.size() == 0) {
+      std::vector<double> sorted;
+      for (const auto i : layout_.particle) sorted.push_back(radius[static_cast<std::size_t>(i)]);
+      radius_ = DeviceArray<double>::of(sorted);
+      particle_ = DeviceArray<std::int32_t>::of(layout_.particle);
+    }
+    check_cuda(cudaMemsetAsync(divergent_.data(), 0xff, divergent_.bytes(), stream_), "divergence");
+    launch("divergence", find_divergent<P>, (layout_.particles() + 127) / 128, 128, 0, stream_, master_.data(),
+           particle_.data(), radius_.data(), dt, static_cast<std::int32_t>(layout_.particles()), divergent_.data());
+    check_cuda(cudaStreamSynchronize(stream_), "divergence");
+    const std::uint32_t first = divergent_.download()[0];
+    return first == UINT32_MAX ? -1 : static_cast<std::int64_t>(first);
   }
 
   std::string description() const {
     cudaDeviceProp properties{};
     check_cuda(cudaGetDeviceProperties(&properties, 0), "device properties");
-    return std::string("cuda, ") + properties.name;
+    return std::string("cuda, ") + properties.name + ", " + (tiles_ ? tiles_->description() : "two kernels a step");
   }
-  std::int64_t state_bytes() const { return state_bytes_; }
+  /// Bytes that a step moves at the least.
+  std::int64_t traffic() const {
+    const std::size_t bodies = 2 * (master_.bytes() + displacement_.bytes() + velocity_.bytes()) + inverse_.bytes();
+    if (tiles_) return tiles_->traffic() + static_cast<std::int64_t>(bodies);
+    return bytes_ + state_bytes_ + static_cast<std::int64_t>(bodies + 2 * records_.bytes() + place_.bytes());
+  }
   std::int64_t bytes() const {
-    return bytes_ + static_cast<std::int64_t>(master_.size() * sizeof(R) + displacement_.size() * sizeof(double) +
-                                              (velocity_.size() + records_.size()) * sizeof(typename P::Geometry));
+    return bytes_ +
+           static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() + velocity_.bytes() +
+                                     records_.bytes() + place_.bytes()) +
+           (tiles_ ? tiles_->bytes() : 0);
   }
 
  private:
-  /// Device copies of a group's arrays, whatever their types.
-  struct Storage {
-    std::vector<std::shared_ptr<void>> owned;
-    template <class Array>
-    auto add(const Array& array) {
-      using T = typename Array::value_type;
-      auto copy = std::make_shared<thrust::device_vector<T>>(array.begin(), array.end());
-      owned.push_back(copy);
-      return thrust::raw_pointer_cast(copy->data());
-    }
-  };
-  struct Group {
-    virtual ~Group() = default;
-    virtual void run(const MotionView<P>& motion, typename P::Geometry* records) const = 0;
-    std::uint32_t slots = 0, first_slot = 0;
-    Storage storage;
-  };
-  template <class Forces>
-  struct GroupOf final : Group {
-    Forces forces;
-    void run(const MotionView<P>& motion, typename P::Geometry* records) const override {
-      launch("contacts", this->slots,
-             StepContact<Forces>{forces, motion,
-                                 records + static_cast<std::size_t>(this->first_slot) * 2 * velocity_words});
-    }
-  };
+  static constexpr std::int64_t steps_a_graph = 64;
 
-  void make_rows(const ContactNetwork& network) {
-    std::vector<std::vector<std::uint32_t>> rows(layout_.particles() + walls);
-    std::uint32_t slot = 0;
-    for (const auto& group : layout_.groups) {
-      for (const std::uint32_t c : group.contact) {
-        if (c != inert) {
-          rows[static_cast<std::size_t>(layout_.body_of(network.contacts[c].a))].push_back(2 * slot);
-          rows[static_cast<std::size_t>(layout_.body_of(network.contacts[c].b))].push_back(2 * slot + 1);
-        }
-        ++slot;
-      }
-    }
-    std::vector<std::uint32_t> begin{0}, flat;
-    for (const auto& r : rows) {
-      flat.insert(flat.end(), r.begin(), r.end());
-      begin.push_back(static_cast<std::uint32_t>(flat.size()));
-    }
-    row_begin_ = begin;
-    row_ = flat;
-    records_.assign(static_cast<std::size_t>(slot) * 2 * velocity_words, 0);
+  std::size_t bodies() const { return layout_.particles() + walls; }
+
+  template <class LawStep, int Units, ContactForm form, Geometry geometry>
+  void add_to_launch(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t slots) {
+    using Groups = ContactGroups<P, form, geometry>;
+    if (!launch_) launch_ = std::make_shared<Groups>();
+    auto groups = std::static_pointer_cast<Groups>(launch_);
+    blocks_ = groups->add(groups_, blocks_, slots_, slots, forces);
+    step_contacts_ = [this, groups] {
+      launch("contacts", step_contacts<P, form, geometry>, blocks_, contact_threads, 0, stream_, *groups,
+             MotionView<P>{gathered(), displacement_.data()}, records(), step_.data());
+    };
   }
 
-  LoadRecords<P> records() const {
-    auto* words = const_cast<typename P::Geometry*>(thrust::raw_pointer_cast(records_.data()));
-    return {words, thrust::raw_pointer_cast(row_begin_.data()), thrust::raw_pointer_cast(row_.data())};
+  template <class LawStep, int Units, ContactForm form, Geometry geometry>
+  void add_to_tiles(const ContactArrays<P>& arrays, const ContactForces<P, LawStep, Units, form, geometry>& forces) {
+    if constexpr (form == ContactForm::condensed) {
+      tiles_->template add_group<geometry>(groups_, arrays, forces.view, dt_);
+    }
   }
-  typename P::Geometry* gathered() {
-    if constexpr (std::is_same_v<typename P::Geometry, R>)
-      return raw(master_);
-    else
-      return raw(velocity_);
+
+  std::vector<R> sums(std::int32_t first, std::size_t count) const {
+    DeviceArray<R> out(count * velocity_words);
+    launch("sums", sum_loads<R, G>, count, body_threads, 0, stream_, records(), out.data(),
+           static_cast<std::uint32_t>(first));
+    check_cuda(cudaStreamSynchronize(stream_), "sums");
+    return out.download();
   }
-  template <class T>
-  static T* raw(thrust::device_vector<T>& v) {
-    return thrust::raw_pointer_cast(v.data());
-  }
-  template <class T>
-  static std::vector<T> to_host(const thrust::device_vector<T>& v) {
-    std::vector<T> out(v.size());
-    thrust::copy(v.begin(), v.end(), out.begin());
+  std::vector<R> tile_forces(std::int32_t first, std::size_t count) const {
+    std::vector<R> out(count * velocity_words);
+    check_cuda(cudaMemcpyAsync(out.data(), tiles_->forces() + static_cast<std::size_t>(first) * velocity_words,
+                               out.size() * sizeof(R), cudaMemcpyDeviceToHost, stream_),
+               "sums");
+    check_cuda(cudaStreamSynchronize(stream_), "sums");
     return out;
   }
 
+  template <class F>
+  cudaGraphExec_t record(F&& f) {
+    cudaGraph_t graph = nullptr;
+    cudaGraphExec_t out = nullptr;
+    check_cuda(cudaStreamBeginCapture(stream_, cudaStreamCaptureModeThreadLocal), "graph");
+    f();
+    check_cuda(cudaStreamEndCapture(stream_, &graph), "graph");
+    check_cuda(cudaGraphInstantiate(&out, graph, 0), "graph");
+    check_cuda(cudaGraphDestroy(graph), "graph");
+    return out;
+  }
+
+  /// Gives every end of a contact its record.
+  void make_rows(const ContactNetwork& network) {
+    std::vector<std::uint32_t> begin(bodies() + 1, 0), place;
+    const auto for_each_slot = [&](auto&& f) {
+      for (const auto& group : layout_.groups) {
+        for (const std::uint32_t c : group.contact) f(c);
+      }
+    };
+    const auto body_of = [&](std::int32_t end) { return static_cast<std::size_t>(layout_.body_of(end)); };
+    for_each_slot([&](std::uint32_t c) {
+      if (c == inert) return;
+      ++begin[body_of(network.contacts[c].a) + 1];
+      ++begin[body_of(network.contacts[c].b) + 1];
+    });
+    std::vector<std::uint32_t> long_body;
+    for (std::size_t i = 0; i < bodies(); ++i) {
+      if (begin[i + 1] > long_row && i < layout_.particles()) long_body.push_back(static_cast<std::uint32_t>(i));
+      begin[i + 1] += begin[i];
+    }
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for_each_slot([&](std::uint32_t c) {
+      place.push_back(c == inert ? UINT32_MAX : next[body_of(network.contacts[c].a)]++);
+      place.push_back(c == inert ? UINT32_MAX : next[body_of(network.contacts[c].b)]++);
+    });
+    row_begin_ = DeviceArray<std::uint32_t>::of(begin);
+    place_ = DeviceArray<std::uint32_t>::of(place);
+    long_body_ = DeviceArray<std::uint32_t>::of(long_body);
+    record_count_ = begin.back();
+    row_lengths_ = begin;
+  }
+
+  LoadRecords<G> records() const { return {records_.data(), row_begin_.data(), place_.data()}; }
+  G* gathered() const {
+    if constexpr (std::is_same_v<G, R>)
+      return master_.data();
+    else
+      return velocity_.data();
+  }
+
+  /// Nothing in double precision, which takes no blocks.
+  struct NoTiles {
+    void run(std::int64_t, std::int64_t) {}
+    template <class... Any>
+    void prepare(Any&&...) {}
+    template <Geometry, class... Any>
+    void add_group(Any&&...) {}
+    const R* forces() const { return nullptr; }
+    std::string description() const { return ""; }
+    std::int64_t bytes() const { return 0; }
+    std::int64_t traffic() const { return 0; }
+  };
+
+  const ContactNetwork& network_;  // until prepare()
   const Layout& layout_;
-  std::vector<std::unique_ptr<Group>> groups_;
-  thrust::device_vector<R> master_, inverse_;
-  thrust::device_vector<double> displacement_;
-  thrust::device_vector<typename P::Geometry> velocity_, records_;
-  thrust::device_vector<std::uint32_t> row_begin_, row_;
+  double dt_ = 0;
+  std::size_t record_count_ = 0;
+  std::vector<std::uint32_t> row_lengths_;
+  std::unique_ptr<std::conditional_t<blocks, TileRunner<P>, NoTiles>> tiles_;
+  cudaStream_t stream_ = nullptr;
+  cudaGraphExec_t many_ = nullptr, one_ = nullptr;
+  DeviceArray<R> master_, inverse_;
+  DeviceArray<double> displacement_;
+  DeviceArray<G> velocity_, records_;
+  DeviceArray<std::uint32_t> row_begin_, place_, long_body_;
+  DeviceArray<std::int64_t> step_;
+  mutable DeviceArray<std::uint32_t> divergent_;
+  mutable DeviceArray<double> radius_;
+  mutable DeviceArray<std::int32_t> particle_;
+  DeviceStore store_;
+  std::shared_ptr<void> launch_;  ///< ContactGroups of this form and geometry
+  std::function<void()> step_contacts_;
+  int groups_ = 0;
+  std::uint32_t slots_ = 0, blocks_ = 0;
   std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
 };
 

@@ -58,7 +58,23 @@ struct ParticleMotion {
     }
   }
 
- private:
+  /// The same for word w of [v, –, ω, –] alone, with word w of force and moment: a thread a word.
+  MACADAM_HD void word(std::int32_t i, int w, R force, std::int64_t k) const {
+    const auto at = static_cast<std::size_t>(i) * velocity_words + static_cast<std::size_t>(w);
+    R v = body.master[at];
+    if (i < body.particles) {
+      v = moved(v, force, body.inverse[2 * i + w / 4]);
+    } else if (loaded && i == body.particles + 5 && w == 2) {
+      v = static_cast<R>(loading.velocity(k));
+    }
+    body.master[at] = v;
+    if constexpr (!std::is_same_v<typename P::Geometry, R>) body.velocity[at] = static_cast<typename P::Geometry>(v);
+    if (w % 4 != 3) {
+      body.displacement[static_cast<std::size_t>(i) * displacement_words + static_cast<std::size_t>(w)] += dt * v;
+    }
+  }
+
+  /// v half a step later.
   MACADAM_HD R moved(R v, R f, R inverse) const {
     if (damping == Damping::local) {
       const R drag = chi * (f < 0 ? -f : f);  // F_d = −χ·|F|·sign(v)

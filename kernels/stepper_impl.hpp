@@ -50,7 +50,7 @@ class StepperImpl final : public Stepper {
               const StepperOptions& options)
       : options_(decided(options, network, laws)),
         radius_(specimen.radius),
-        layout_(make_layout(specimen, network, Exec::lanes, Exec::tile_contacts)),
+        layout_(make_layout(specimen, network, Exec::lanes, tile_contacts(network))),
         exec_(network, layout_, options.threads) {
     std::vector<R> inverse(2 * (layout_.particles() + walls), R(0));
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
@@ -69,8 +69,11 @@ class StepperImpl final : public Stepper {
                options.dt,
                options.loading.has_value(),
                options.loading.value_or(loadings::Cyclic{})};
+    const double height = specimen.box.size.z;
+    if constexpr (requires { exec_.set_options(options_, laws, height); }) exec_.set_options(options_, laws, height);
     for (const auto& group : layout_.groups)
       add_group(network, group, laws[static_cast<std::size_t>(group.pair)].value());
+    if constexpr (requires { exec_.prepare(motion_); }) exec_.prepare(motion_);
     if (options.start) start_from(*options.start);
     options_.start = nullptr;
   }
@@ -134,6 +137,9 @@ class StepperImpl final : public Stepper {
   }
 
   std::int64_t first_divergent() const override {
+    if constexpr (requires { exec_.first_divergent(radius_, options_.dt); }) {
+      return exec_.first_divergent(radius_, options_.dt);
+    }
     const auto v = exec_.velocities();
     std::int64_t first = -1;
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
@@ -153,9 +159,21 @@ class StepperImpl final : public Stepper {
            to_string(options_.geometry);
   }
   std::int64_t bytes() const override { return exec_.bytes(); }
-  std::int64_t traffic() const override { return exec_.bytes() + exec_.state_bytes(); }
+  std::int64_t traffic() const override {
+    if constexpr (requires { exec_.traffic(); })
+      return exec_.traffic();
+    else
+      return exec_.bytes() + exec_.state_bytes();
+  }
 
  private:
+  static std::size_t tile_contacts(const ContactNetwork& network) {
+    if constexpr (requires { Exec::tile_contacts_of(network); })
+      return Exec::tile_contacts_of(network);
+    else
+      return Exec::tile_contacts;
+  }
+
   /// Rotations are skipped only where nothing turns, at the start or later.
   static StepperOptions decided(StepperOptions options, const ContactNetwork& network,
                                 const std::array<std::optional<Law>, pair_types>& laws) {

@@ -274,6 +274,67 @@ TEST(Step, TheNumberOfUnitsMayBeKnownToTheCompiler) {
 }
 
 // 1 − b/a formed in single precision would be 0 or 1.2e-7 here. Rounded once from double it is good to 6e-8.
+/// f over `cycles` of a sine, in blocks of `block` steps; the largest difference from steps taken one by one, over the
+/// largest f. `Real` is what δf and the sum are carried in.
+template <class Real, class L>
+double block_error(const L& law, double frequency, int steps_per_cycle, int block, int cycles) {
+  const double dt = 1 / (frequency * steps_per_cycle);
+  Element<L> exact(law, dt);
+  const auto blocks = law.block(dt, block);
+  std::vector<double> x(static_cast<std::size_t>(law.units()), 0.0);
+  const auto unit = [&](int l) -> double& { return x[static_cast<std::size_t>(l)]; };
+  const Real rate = static_cast<Real>(blocks.rate), relax = static_cast<Real>(blocks.relax);
+  const Real follow = static_cast<Real>(blocks.follow);
+  Real change = 0, sum = 0, drive = 0;
+  double f = 0, error = 0, most = 0;
+  for (int k = 0; k < cycles * steps_per_cycle; ++k) {
+    if (k % block == 0) {
+      const double start = f;
+      f += static_cast<double>(change);
+      if (k > 0) blocks.template settle<-1>(2.0 * block * start + static_cast<double>(sum), unit);
+      drive = static_cast<Real>(blocks.template drive<-1>(f, unit));
+      change = sum = 0;
+    }
+    const double phase = 2 * pi * (k % steps_per_cycle) / steps_per_cycle, next = phase + 2 * pi / steps_per_cycle;
+    const double dx = 2 * std::cos((phase + next) / 2) * std::sin(pi / steps_per_cycle);
+    const Real before = change;
+    change += rate * static_cast<Real>(dx) + (drive + follow * sum - relax * before);
+    sum += change + before;
+    const double expected = exact.advance(dx);
+    error = std::max(error, std::abs(f + static_cast<double>(change) - expected));
+    most = std::max(most, std::abs(expected));
+  }
+  return error / most;
+}
+
+TEST(Block, ConvergesAtSecondOrder) {
+  for (const auto& law : {test::mastic_am1(), test::mastic_am2()}) {
+    for (const double frequency : {2.0, 20.0}) {
+      const double coarse = block_error<double>(law, frequency, 20000, 40, 1);
+      const double fine = block_error<double>(law, frequency, 20000, 20, 1);
+      EXPECT_LT(fine, coarse / 3.5) << frequency << " Hz, " << law.units() << " units";
+    }
+  }
+}
+
+/// A block of a 4,000th of the period, or of 2π times the shortest time of the law where that is less: what f misses
+/// within a block is a saw-tooth of at most (2π/4000)²/8 = 3e-7. In single precision δf, at most 2π/4000 of f, and the
+/// drive round by 2^-24 of themselves: a random walk over the 4,000 blocks of a period, and of their steps, stays
+/// below.
+TEST(Block, IsExactEnoughAtAFourThousandthOfTheShortestTime) {
+  for (const auto& law : {test::mastic_am1(), test::mastic_am2()}) {
+    for (const double frequency : {2.0, 20.0}) {
+      const double shortest = std::min(1 / frequency, 2 * pi * law.shortest_time());
+      const int block = static_cast<int>(shortest * frequency * 400000 / 4000);
+      EXPECT_LT(block_error<double>(law, frequency, 400000, block, 2), 3e-7);
+      EXPECT_LT(block_error<float>(law, frequency, 400000, block, 2), 3e-7);
+    }
+  }
+  EXPECT_LT(block_error<double>(Elastic{1e10, 0}, 20, 4000, 100, 2), 1e-13);
+  EXPECT_EQ((Elastic{1e10, 0}).shortest_time(), infinity);
+  EXPECT_DOUBLE_EQ(test::mastic_am1().shortest_time(), 1.114e9 / 4.308e10);
+}
+
 TEST(Step, SinglePrecisionCoefficientsDoNotCancel) {
   const auto step = GeneralisedKelvin{1, 1, {1, 10}, {1, 1}}.step<float>(1e-9);
   EXPECT_NEAR(step.recover[0], 1e-9, 1e-16);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <complex>
+#include <limits>
 
 #include "macadam/laws/law.hpp"
 #include "macadam/numeric.hpp"
@@ -17,6 +18,7 @@ struct Elastic {
 
   int units() const { return 0; }
   double instantaneous() const { return E; }
+  double shortest_time() const { return std::numeric_limits<double>::infinity(); }
   std::complex<double> stiffness(double) const { return E; }
   std::complex<double> unit_compliance(int, double) const { return 0; }
 
@@ -38,6 +40,18 @@ struct Elastic {
   Step<R> step(double) const {
     return {static_cast<R>(E)};
   }
+
+  /// Nothing flows: a block of steps is as exact as the steps.
+  struct Block {
+    double rate, relax, follow;
+    template <int L, class Units>
+    MACADAM_HD double drive(double, Units&&) const {
+      return 0;
+    }
+    template <int L, class Units>
+    MACADAM_HD void settle(double, Units&&) const {}
+  };
+  Block block(double, int) const { return {E, 0, 0}; }
 };
 
 }  // namespace macadam::laws

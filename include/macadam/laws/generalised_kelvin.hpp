@@ -6,6 +6,7 @@
 /// (The published Eq. 13 and 14 each carry a misprint.) Written in increments, because 1 − b_l/a_l is 1e-9…1e-6.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -28,6 +29,12 @@ struct GeneralisedKelvin {
 
   int units() const { return static_cast<int>(E.size()); }
   double instantaneous() const { return E_m; }
+  /// min C/E over all units, Maxwell's included [s]
+  double shortest_time() const {
+    double out = C_m / E_m;
+    for (std::size_t l = 0; l < E.size(); ++l) out = std::min(out, C[l] / E[l]);
+    return out;
+  }
 
   /// 1/k*(ω) = 1/k_m + 1/(iω·η_m) + Σ 1/(k_l + iω·η_l)
   std::complex<double> stiffness(double omega) const {
@@ -80,6 +87,53 @@ struct GeneralisedKelvin {
     const double inv_c = E_m / (1 + E_m * sum);  // exactly E_m where nothing flows
     out.inv_c = static_cast<R>(inv_c);
     out.relax = static_cast<R>(2 * sum * inv_c);
+    return out;
+  }
+
+  /// M steps as one block, in which f changes little. x_l at step k of the block is x_l at its beginning, its own loss,
+  /// and what f gave; the first two and the part of f at the beginning are taken at the mean step (M − 1)/2, the part
+  /// of the change δf of f since then exactly, by the sum s of δf' + δf over the steps so far:
+  ///   δf(t+Δt) = δf(t) + rate·Δx + drive + follow·s − relax·δf(t)   (Eq. 13),
+  ///   drive = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
+  /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with one weight for all steps in Eq. 14. What is neglected
+  /// has no mean over a block and is of second order in M·Δt over the times of the load and of the units.
+  struct Block {
+    double rate, relax, follow;  ///< 1/c [Pa], (c + g)/c [1], [1]
+    double recover[max_units];   ///< r_l [1]
+    double ahead[max_units];     ///< (M − 1)·Δt/(2·a_l·η_l): what f adds to x_l up to the middle [1/Pa]
+    double back[max_units];      ///< (M − 1)/2·r_l: what x_l loses of itself up to the middle [1]
+    double lost[max_units];      ///< 1 − (1 − r_l)^M [1]
+    double gain[max_units];      ///< Δt/(2·a_l·η_l) times the mean of (1 − r_l)^k over k < M [1/Pa]
+    int n;
+
+    /// Change of f in a step at rest, from f and x_l at the beginning of the block.
+    template <int L, class Units>
+    MACADAM_HD double drive(double f, Units&& x) const {
+      double past = 0;
+      for (int l = 0; l < (L >= 0 ? L : n); ++l) past += recover[l] * (x(l) + (ahead[l] * f - back[l] * x(l)));
+      return rate * past - relax * f;
+    }
+    /// `sum`: Σ (f' + f) over the steps of the block.
+    template <int L, class Units>
+    MACADAM_HD void settle(double sum, Units&& x) const {
+      for (int l = 0; l < (L >= 0 ? L : n); ++l) x(l) += gain[l] * sum - lost[l] * x(l);
+    }
+  };
+  Block block(double dt, int steps) const {
+    const Step<double> one = step<double>(dt);
+    Block out{};
+    out.rate = one.inv_c;
+    out.relax = one.relax;
+    out.n = one.n;
+    for (int l = 0; l < one.n; ++l) {
+      const double r = one.recover[l];
+      out.recover[l] = r;
+      out.follow += out.rate * r * one.compliance[l];
+      out.ahead[l] = (steps - 1) * one.compliance[l];
+      out.back[l] = 0.5 * (steps - 1) * r;
+      out.lost[l] = -std::expm1(steps * std::log1p(-r));
+      out.gain[l] = one.compliance[l] * (r > 0 ? out.lost[l] / (steps * r) : 1.0);
+    }
     return out;
   }
 };

@@ -19,6 +19,14 @@
 ///     displacement increment dx and updates the unit states x(0)…x(L−1) (references). L = −1: the number of units is
 ///     only known at run time. `static constexpr bool memoryless` says whether f is a function of x alone; then
 ///     `template <class S> S value(S x) const` is that function, and a contact of fixed geometry needs no state.
+///   - `double shortest_time() const` — the shortest of its relaxation or retardation times [s], ∞ for none;
+///   - `struct Block` — M steps taken as one block in which f changes little, made by
+///     `Block block(double dt, int M) const` (all double): members `rate`, `relax`, `follow` and functions
+///     `template <int L, class Units> double drive(double f, Units&& x) const` and
+///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
+///     follows δf' = δf + rate·dx + drive + follow·s − relax·δf, with the drive of f and x(l) at its beginning and s
+///     the sum of δf' + δf over its steps so far; at its end settle() takes Σ (f' + f) and updates x(l). What is
+///     neglected is of second order in the block's length and has no mean over it.
 /// Laws own no memory, know no arrays and no threads. Add one: a header here, a line in all.hpp, its second writing in
 /// host/reference, a test.
 #pragma once

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_blocks.hpp  Between two blocks of steps: chains are settled in full precision, and the next block
+/// prepared.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+
+#include "kernels/cuda_bodies.hpp"
+#include "kernels/cuda_tile_scene.hpp"
+
+namespace macadam::kernels {
+
+/// Settles the contacts of one group.
+template <class P, class Block, int Units, Geometry geometry>
+struct SettleContact {
+  using State = typename P::State;
+  using Forces = ContactForces<P, typename laws::Elastic::Step<State>, 0, ContactForm::condensed, geometry>;
+  ContactView<P> view;
+  Block law;
+
+  /// `place`: where the contact is among the tiles', UINT32_MAX for none. `steps`: of the block that ends; 0: none.
+  __device__ void operator()(std::uint32_t slot, uint2 place, float4* constant, float4* state, const double* now,
+                             const double* before, int steps, const LoadRecords<typename P::Particle>& records,
+                             std::uint32_t record) const {
+    if (place.x == UINT32_MAX) return;
+    constexpr bool carried = geometry == Geometry::updated;
+    const std::uint32_t lane = slot % 32, packet = slot / 32;
+    float change[6], sum[6];
+    load_state(at(state, place.x, tile_states), change, sum);
+    const int units = Units >= 0 ? Units : view.units;
+    const auto* g = view.geometry + static_cast<std::size_t>(packet) * view.geometry_words * 32 + lane;
+    const auto word = [&](int k) { return static_cast<double>(g[k * 32]); };
+    Placement<double> frame;
+    const Vec3<double> n0{word(n_x), word(n_y), word(n_z)};
+    if constexpr (carried)
+      frame = carry(slot, n0, word(arm_a), word(arm_b), word(distance), now, before);
+    else
+      frame = canonical_placement(n0, ::copysign(1.0, n0.z), word(arm_a), word(arm_b));
+
+    double f[6] = {0, 0, 0, 0, 0, 0};
+    float drive[6] = {0, 0, 0, 0, 0, 0};
+    if (!view.chain) {  // f follows from the displacements of now
+      const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
+      double x[6];
+      relative_rates(frame, Twist<double>{{0, 0, 0}, vector(now, a, 4)},
+                     Twist<double>{vector(now, b, 0) - vector(now, a, 0), vector(now, b, 4)}, x);
+      for (int c = 0; c < view.components; ++c) f[c] = law.rate * x[c];
+    }
+    for (int c = 0; view.chain && c < view.components; ++c) {
+      State* chain = view.chain + (static_cast<std::size_t>(packet) * view.components + c) * (1 + units) * 32 + lane;
+      double x[Units >= 0 ? Units + 1 : laws::GeneralisedKelvin::max_units];
+      for (int l = 0; l < units; ++l) x[l] = chain[(1 + l) * 32];
+      const auto unit = [&](int l) -> double& { return x[l]; };
+      const double start = chain[0];
+      f[c] = start + change[c];
+      if (steps > 0) law.template settle<Units>(2.0 * steps * start + sum[c], unit);
+      drive[c] = static_cast<float>(law.template drive<Units>(f[c], unit));
+      chain[0] = static_cast<State>(f[c]);
+      for (int l = 0; l < units; ++l) chain[(1 + l) * 32] = static_cast<State>(x[l]);
+    }
+    double m[6];
+    for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
+    const auto load = to_centres(frame, condensed_load(f, static_cast<double>(view.alpha), m));
+    using R = typename P::Particle;
+    const auto rounded = [](const Vec3<double>& a) { return Vec3<R>{R(a.x), R(a.y), R(a.z)}; };
+    records.store(record, ContactLoad<R>{rounded(load.force_a), rounded(load.moment_a), rounded(load.moment_b)});
+
+    const float none[6] = {0, 0, 0, 0, 0, 0};
+    for (const std::uint32_t p : {place.x, place.y}) {
+      if (p == UINT32_MAX) continue;
+      store_state(at(state, p, tile_states), none, none);
+      float4* out = at(constant, p, tile_constants(carried));
+      out[tile_drive_a * 32] = {drive[0], drive[1], drive[2], drive[3]};
+      *reinterpret_cast<float2*>(out + tile_drive_b * 32) = {drive[4], drive[5]};
+      if constexpr (carried) {
+        out[tile_normal * 32] = {float(frame.n.x), float(frame.n.y), float(frame.n.z), float(frame.arm_a)};
+        out[tile_moment_a * 32].x = float(frame.arm_b);
+        out[tile_tangent * 32] = {float(frame.s.x), float(frame.s.y), float(frame.s.z), 0};
+      }
+    }
+  }
+
+ private:
+  __device__ __forceinline__ static float4* at(float4* words, std::uint32_t place, int count) {
+    return words + static_cast<std::size_t>(place / 32) * count * 32 + place % 32;
+  }
+
+  __device__ __forceinline__ static Vec3<double> vector(const double* u, std::int32_t body, int first) {
+    const double* w = u + static_cast<std::size_t>(body) * displacement_words + first;
+    return {w[0], w[1], w[2]};
+  }
+
+  /// Eq. 5–6 over a block: as ContactForces::carry() over a step, with the motion since the last block.
+  __device__ Placement<double> carry(std::uint32_t slot, const Vec3<double>& n0, double arm_a, double arm_b, double d0,
+                                     const double* now, const double* before) const {
+    const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
+    const Vec3<double> branch = d0 * n0 + (vector(now, b, 0) - vector(now, a, 0));
+    Placement<double> out{n0, {}, {}, arm_a, arm_b};
+    Vec3<double> n_before = n0;
+    if (view.wall) {
+      out.arm_a = dot(branch, n0);
+    } else {
+      const Vec3<double> branch_before = d0 * n0 + (vector(before, b, 0) - vector(before, a, 0));
+      const double d = norm(branch);
+      out.n = (1 / d) * branch;
+      n_before = (1 / norm(branch_before)) * branch_before;
+      out.arm_a += 0.5 * (d - d0);
+      out.arm_b += 0.5 * (d - d0);
+    }
+    const Vec3<double> turned = (vector(now, a, 4) - vector(before, a, 4)) + (vector(now, b, 4) - vector(before, b, 4));
+    const double spin = 0.25 * dot(turned, n_before + out.n);
+    State* stored = view.frame + static_cast<std::size_t>(slot / 32) * view.frame_words * 32 + slot % 32;
+    using D = ContactForces<DoublePrecision, laws::Elastic::Step<double>, 0, ContactForm::condensed, geometry>;
+    const Vec3<double> old{stored[0], stored[32], stored[64]};
+    if constexpr (sizeof(State) == 8) {
+      out.s = D::spun(D::swung(old, n_before, out.n), out.n, spin);
+      stored[0] = out.s.x, stored[32] = out.s.y, stored[64] = out.s.z;
+    } else {  // ŝ is rewritten only when it has moved by more than single precision can lose
+      const double pending = stored[96];
+      const Vec3<double> then = D::spun(D::swung(old, n_before, n_before), n_before, pending);
+      out.s = D::spun(D::swung(then, n_before, out.n), out.n, spin);
+      const double tilt = dot(old, out.n), angle = pending + spin;
+      if (tilt * tilt + angle * angle > 1e-6) {
+        stored[0] = float(out.s.x), stored[32] = float(out.s.y), stored[64] = float(out.s.z), stored[96] = 0;
+      } else {
+        stored[96] = static_cast<State>(angle);
+      }
+    }
+    out.t = cross(out.n, out.s);
+    return out;
+  }
+};
+
+/// The settling functors of all groups.
+template <class P, Geometry geometry>
+struct SettleGroups {
+  using Elastic = SettleContact<P, laws::Elastic::Block, 0, geometry>;
+  using KelvinThree = SettleContact<P, laws::GeneralisedKelvin::Block, 3, geometry>;
+  using KelvinAny = SettleContact<P, laws::GeneralisedKelvin::Block, -1, geometry>;
+  struct Group {
+    std::uint32_t first_block = UINT32_MAX, first_slot = 0, slots = 0;
+    int kind = 0;
+    alignas(8) unsigned char functor[std::max({sizeof(Elastic), sizeof(KelvinThree), sizeof(KelvinAny)})] = {};
+  };
+  Group group[pair_types];
+  const uint2* place;  ///< [slot of all groups] among the tiles' contacts
+};
+
+template <class P, Geometry geometry>
+__global__ void __launch_bounds__(contact_threads)
+    settle_contacts(const __grid_constant__ SettleGroups<P, geometry> groups, float4* constant, float4* state,
+                    const double* now, const double* before, int steps,
+                    const LoadRecords<typename P::Particle> records) {
+  using Groups = SettleGroups<P, geometry>;
+  int number = 0;
+  while (number + 1 < pair_types && groups.group[number + 1].first_block <= blockIdx.x) ++number;
+  const auto& group = groups.group[number];
+  const std::uint32_t slot = (blockIdx.x - group.first_block) * contact_threads + threadIdx.x;
+  if (slot >= group.slots) return;
+  const auto settle = [&](const auto& functor) {
+    const std::uint32_t record = group.first_slot + slot;
+    functor(slot, groups.place[record], constant, state, now, before, steps, records, record);
+  };
+  if (group.kind == 0)
+    settle(*reinterpret_cast<const typename Groups::Elastic*>(group.functor));
+  else if (group.kind == 1)
+    settle(*reinterpret_cast<const typename Groups::KelvinThree*>(group.functor));
+  else
+    settle(*reinterpret_cast<const typename Groups::KelvinAny*>(group.functor));
+}
+
+/// Sums the base loads of all bodies, walls included, and keeps where the block begins. Long rows as in step_bodies().
+template <class P>
+__global__ void __launch_bounds__(body_threads)
+    sum_base(const LoadRecords<typename P::Particle> records, const std::uint32_t* long_body, std::uint32_t long_rows,
+             std::uint32_t bodies, typename P::Particle* base, const double* now, double* before) {
+  using R = typename P::Particle;
+  const unsigned w = threadIdx.x % velocity_words;
+  const auto keep = [&](std::uint32_t body, R sum) {
+    base[body * std::size_t{velocity_words} + w] = sum;
+    before[body * std::size_t{displacement_words} + w] = now[body * std::size_t{displacement_words} + w];
+  };
+  if (blockIdx.x < long_rows) {
+    const std::uint32_t body = long_body[blockIdx.x];
+    const R sum = sum_by_block<R>(records, body);
+    if (threadIdx.x < velocity_words) keep(body, sum);
+    return;
+  }
+  const std::uint32_t body = (blockIdx.x - long_rows) * bodies_a_block + threadIdx.x / velocity_words;
+  if (body >= bodies) return;
+  const std::uint32_t begin = records.row_begin[body], end = records.row_begin[body + 1];
+  if (end - begin <= long_row) keep(body, sum_words<R>(records, begin, end, 1, w));
+}
+
+}  // namespace macadam::kernels

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_bodies.hpp  Sums of loads in fixed order, and the motion of the bodies: eight threads a body, one a word.
+#pragma once
+
+#include "kernels/cuda_contacts.hpp"
+#include "kernels/particle_motion.hpp"
+
+namespace macadam::kernels {
+
+inline constexpr unsigned body_threads = 256, bodies_a_block = body_threads / velocity_words;
+inline constexpr std::uint32_t long_row = 64;  ///< a longer row of records has a block of its own
+
+/// Word w of the sum of records first, first + stride, … < end, added up in R.
+template <class R, class T>
+__device__ __forceinline__ R sum_words(const LoadRecords<T>& records, std::uint32_t first, std::uint32_t end,
+                                       std::uint32_t stride, unsigned w) {
+  R sum = 0;
+  const T* words = records.words + w;
+#pragma unroll 4
+  for (std::uint32_t r = first; r < end; r += stride)
+    sum += __ldg(words + static_cast<std::size_t>(r) * velocity_words);
+  return sum;
+}
+
+/// Word w = threadIdx.x % 8 of the load of one body, by a whole block; right in the first eight threads.
+template <class R, class T>
+__device__ R sum_by_block(const LoadRecords<T>& records, std::uint32_t body) {
+  __shared__ R part[body_threads];
+  const unsigned w = threadIdx.x % velocity_words, lane = threadIdx.x / velocity_words;
+  part[threadIdx.x] =
+      sum_words<R>(records, records.row_begin[body] + lane, records.row_begin[body + 1], bodies_a_block, w);
+  __syncthreads();
+  R sum = 0;
+  if (lane == 0) {
+    for (unsigned k = 0; k < bodies_a_block; ++k) sum += part[k * velocity_words + w];
+  }
+  return sum;
+}
+
+/// Moves all bodies. The first `long_rows` blocks have one body each, walls included.
+template <class P>
+__global__ void __launch_bounds__(body_threads)
+    step_bodies(const ParticleMotion<P> motion, const LoadRecords<typename P::Geometry> records,
+                const std::uint32_t* long_body, std::uint32_t long_rows, const std::int64_t* step) {
+  const int w = static_cast<int>(threadIdx.x % velocity_words);
+  const auto particles = static_cast<std::uint32_t>(motion.body.particles);
+  if (blockIdx.x < long_rows) {
+    const std::uint32_t body = long_body[blockIdx.x];
+    const auto force = sum_by_block<typename P::Particle>(records, body);
+    if (threadIdx.x < velocity_words) motion.word(static_cast<std::int32_t>(body), w, force, *step);
+    return;
+  }
+  const std::uint32_t body = (blockIdx.x - long_rows) * bodies_a_block + threadIdx.x / velocity_words;
+  if (body >= particles + walls) return;
+  typename P::Particle force = 0;
+  if (body < particles) {
+    const std::uint32_t begin = records.row_begin[body], end = records.row_begin[body + 1];
+    if (end - begin > long_row) return;
+    force = sum_words<typename P::Particle>(records, begin, end, 1, static_cast<unsigned>(w));
+  }
+  motion.word(static_cast<std::int32_t>(body), w, force, *step);
+}
+
+/// Writes the summed loads of the bodies first + blockIdx.x, eight words each.
+template <class R, class T>
+__global__ void __launch_bounds__(body_threads) sum_loads(const LoadRecords<T> records, R* out, std::uint32_t first) {
+  const R sum = sum_by_block<R>(records, first + blockIdx.x);
+  if (threadIdx.x < velocity_words) out[blockIdx.x * velocity_words + threadIdx.x] = sum;
+}
+
+/// The least number (specimen order) of a particle that moves more than its radius or turns more than one in a step, or
+/// not finitely.
+template <class P>
+__global__ void find_divergent(const typename P::Particle* master, const std::int32_t* particle, const double* radius,
+                               double dt, std::int32_t particles, std::uint32_t* first) {
+  const auto i = static_cast<std::int32_t>(blockIdx.x * blockDim.x + threadIdx.x);
+  if (i >= particles) return;
+  const auto* w = master + static_cast<std::size_t>(i) * velocity_words;
+  const double travel = dt * sqrt(double(w[0]) * w[0] + double(w[1]) * w[1] + double(w[2]) * w[2]);
+  const double turn = dt * sqrt(double(w[4]) * w[4] + double(w[5]) * w[5] + double(w[6]) * w[6]);
+  if (!(travel <= radius[i] && turn <= 1.0)) atomicMin(first, static_cast<std::uint32_t>(particle[i]));
+}
+
+}  // namespace macadam::kernels

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_launch.hpp  Errors of the CUDA runtime, and arrays that live on the device.
+#pragma once
+
+#include <cuda_runtime.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "macadam/error.hpp"
+
+namespace macadam::kernels {
+
+/// \throws RunError naming what was done and what CUDA says.
+inline void check_cuda(cudaError_t status, const char* what) {
+  if (status != cudaSuccess) throw RunError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
+}
+
+/// Launches a kernel in the default stream and checks the launch; an empty grid is no launch.
+template <class... Parameters, class... Arguments>
+void launch(const char* name, void (*kernel)(Parameters...), std::size_t blocks, unsigned threads, std::size_t shared,
+            cudaStream_t stream, Arguments&&... arguments) {
+  if (blocks == 0) return;
+  kernel<<<static_cast<unsigned>(blocks), threads, shared, stream>>>(std::forward<Arguments>(arguments)...);
+  check_cuda(cudaGetLastError(), name);
+}
+
+/// An array on the device, zero at first, from its making to its end.
+template <class T>
+class DeviceArray {
+ public:
+  DeviceArray() = default;
+  explicit DeviceArray(std::size_t size) : size_(size) {
+    if (size == 0) return;
+    if (const cudaError_t status = cudaMalloc(&data_, bytes()); status != cudaSuccess) {
+      cudaGetLastError();
+      std::size_t free = 0, total = 0;
+      cudaMemGetInfo(&free, &total);
+      throw RunError("CUDA: the device has " + std::to_string(free >> 20) + " of " + std::to_string(total >> 20) +
+                     " MiB left, and the next array needs " + std::to_string(bytes() >> 20) +
+                     " MiB: " + cudaGetErrorString(status));
+    }
+    check_cuda(cudaMemset(data_, 0, bytes()), "clearing an array");
+  }
+  template <class Array>
+  static DeviceArray of(const Array& host) {
+    DeviceArray out(host.size());
+    out.upload(host.data());
+    return out;
+  }
+  DeviceArray(DeviceArray&& other) noexcept : data_(std::exchange(other.data_, nullptr)), size_(other.size_) {}
+  DeviceArray& operator=(DeviceArray&& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    return *this;
+  }
+  ~DeviceArray() { cudaFree(data_); }
+
+  void upload(const T* host) {
+    if (size_ > 0) check_cuda(cudaMemcpy(data_, host, bytes(), cudaMemcpyHostToDevice), "copy to the device");
+  }
+  std::vector<T> download() const {
+    std::vector<T> out(size_);
+    if (size_ > 0) check_cuda(cudaMemcpy(out.data(), data_, bytes(), cudaMemcpyDeviceToHost), "copy from the device");
+    return out;
+  }
+  T* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  std::size_t bytes() const { return size_ * sizeof(T); }
+
+ private:
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_tile_limits.hpp  What decides between the ways to run: limits of the device, never its name.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+
+#include "kernels/cuda_bodies.hpp"
+#include "kernels/tile_plan.hpp"
+
+namespace macadam::kernels {
+
+/// Limits of the device in use.
+struct DeviceLimits {
+  int multiprocessors = 0, shared = 0;  ///< shared memory that a block may ask for [byte]
+  bool cooperative = false;             ///< blocks of a launch may wait for one another
+  bool whole_words = false;             ///< words of 16 bytes are written and read whole
+
+  static DeviceLimits query() {
+    int device = 0, cooperative = 0, major = 0;
+    DeviceLimits out;
+    check_cuda(cudaGetDevice(&device), "device");
+    check_cuda(cudaDeviceGetAttribute(&out.multiprocessors, cudaDevAttrMultiProcessorCount, device), "device");
+    check_cuda(cudaDeviceGetAttribute(&out.shared, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), "device");
+    check_cuda(cudaDeviceGetAttribute(&cooperative, cudaDevAttrCooperativeLaunch, device), "device");
+    check_cuda(cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, device), "device");
+    out.cooperative = cooperative != 0;
+    out.whole_words = major >= 7;
+    return out;
+  }
+};
+
+/// Whether all blocks of a kernel can be on the device at once, one a multiprocessor; sets its shared memory if so.
+template <class... Parameters>
+bool fits_resident(const DeviceLimits& limits, void (*kernel)(Parameters...), std::size_t blocks, int threads,
+                   std::uint32_t shared) {
+  if (!limits.cooperative || !limits.whole_words || blocks > static_cast<std::size_t>(limits.multiprocessors)) {
+    return false;
+  }
+  if (shared > static_cast<std::uint32_t>(limits.shared)) return false;
+  int fitting = 0;
+  check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared)),
+             "shared memory");
+  check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&fitting, kernel, threads, shared), "occupancy");
+  return fitting > 0;
+}
+
+/// Device arrays of any types that live as long as this.
+class DeviceStore {
+ public:
+  /// A copy of a host array.
+  template <class Array>
+  auto keep(const Array& array) {
+    using T = typename Array::value_type;
+    return own(DeviceArray<T>::of(array));
+  }
+  template <class T>
+  T* zeros(std::size_t n) {
+    return own(DeviceArray<T>(n));
+  }
+  std::int64_t bytes() const { return bytes_; }
+
+ private:
+  template <class T>
+  T* own(DeviceArray<T> array) {
+    bytes_ += static_cast<std::int64_t>(array.bytes());
+    auto kept = std::make_shared<DeviceArray<T>>(std::move(array));
+    owned_.push_back(kept);
+    return kept->data();
+  }
+  std::vector<std::shared_ptr<void>> owned_;
+  std::int64_t bytes_ = 0;
+};
+
+/// Writes the loads on the walls, base plus the sum of `wall_load` in fixed order: a block a wall.
+template <class R>
+__global__ void __launch_bounds__(body_threads)
+    add_wall_loads(const float* wall_load, const std::uint32_t* wall_begin, const R* base, R* force) {
+  __shared__ R part[body_threads];
+  const unsigned w = threadIdx.x % velocity_words, lane = threadIdx.x / velocity_words;
+  R sum = 0;
+  for (std::uint32_t r = wall_begin[blockIdx.x] + lane; r < wall_begin[blockIdx.x + 1]; r += bodies_a_block)
+    sum += wall_load[r * std::size_t{velocity_words} + w];
+  part[threadIdx.x] = sum;
+  __syncthreads();
+  if (lane > 0) return;
+  sum = base[blockIdx.x * velocity_words + w];
+  for (unsigned k = 0; k < bodies_a_block; ++k) sum += part[k * velocity_words + w];
+  force[blockIdx.x * velocity_words + w] = sum;
+}
+
+/// Velocities of the top wall at the steps first, first + 1, ….
+__global__ inline void tabulate_wall(loadings::Cyclic loading, std::int64_t first, std::uint32_t steps, double* out) {
+  const std::uint32_t k = blockIdx.x * blockDim.x + threadIdx.x;
+  if (k < steps) out[k] = loading.velocity(first + k);
+}
+
+}  // namespace macadam::kernels

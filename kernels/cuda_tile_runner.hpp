@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_tile_runner.hpp  Runs blocks of steps over tiles: condensed contacts in mixed and single precision.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <numbers>
+
+#include "kernels/cuda_blocks.hpp"
+#include "kernels/cuda_tile_limits.hpp"
+#include "kernels/cuda_tiles_resident.hpp"
+#include "kernels/cuda_tiles_streamed.hpp"
+
+namespace macadam::kernels {
+
+/// Steps of a block: a 4,000th of the shortest time in the load or the laws, so that what a block neglects, of second
+/// order in it, is below 1e-6; and so few that at the specimen's strain a carried normal turns by less than 1e-6 in it.
+/// 0: blocks would be too short to pay, or nothing says how fast the load changes. `height`: of the specimen [m].
+inline int block_steps(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
+                       double height) {
+  if (!options.loading) return 0;
+  constexpr double pi = std::numbers::pi;
+  double shortest = 1 / options.loading->frequency;
+  if (options.geometry == Geometry::updated) {
+    const double strain_rate = std::abs(options.loading->amplitude) / height * 2 * pi * options.loading->frequency;
+    if (strain_rate > 0) shortest = std::min(shortest, 4000 * 1e-6 / strain_rate);
+  }
+  for (const auto& law : laws) {
+    if (law) shortest = std::min(shortest, 2 * pi * std::visit([](const auto& l) { return l.shortest_time(); }, *law));
+  }
+  const double steps = std::min(256.0, std::floor(shortest / (4000 * options.dt)));
+  return steps < 4 ? 0 : static_cast<int>(steps);
+}
+
+/// Runs a scene in blocks of steps; made once, before the first step.
+template <class P>
+class TileRunner {
+ public:
+  using R = typename P::Particle;
+
+  TileRunner(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, int block,
+             cudaStream_t stream)
+      : plan_(plan_tiles(network, layout)),
+        carried_(options.geometry == Geometry::updated),
+        block_(block),
+        bodies_(layout.particles()),
+        stream_(stream),
+        constants_(plan_.contact.size() * static_cast<std::size_t>(tile_constants(carried_))) {
+    choose();
+    std::size_t slots = 0;
+    for (const auto& group : layout.groups) {
+      group_slot_.push_back(slots);
+      slots += group.contact.size();
+    }
+    places_.assign(slots, uint2{UINT32_MAX, UINT32_MAX});
+  }
+
+  /// Whether this device can run the scene so.
+  bool possible() const { return static_cast<bool>(run_); }
+  std::string description() const { return resident_ ? "tiles on the chip" : "tiles streamed"; }
+
+  /// Takes group `number`; `view` points to device arrays.
+  template <Geometry geometry>
+  void add_group(int number, const ContactArrays<P>& arrays, const ContactView<P>& view, double dt) {
+    const auto g = static_cast<std::uint32_t>(number);
+    std::visit(
+        [&](const auto& law) {
+          const auto block = law.block(dt, block_);
+          scene_.law[number] = {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
+                                static_cast<float>(view.alpha), static_cast<float>(block.follow)};
+        },
+        arrays.law);
+    for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
+      const TileContact& c = plan_.contact[i];
+      if (c.group_slot == UINT32_MAX || c.group != g) continue;
+      auto& place = places_[group_slot_[g] + c.group_slot];
+      (place.x == UINT32_MAX ? place.x : place.y) = static_cast<std::uint32_t>(i);
+      const auto words = static_cast<std::size_t>(view.geometry_words);
+      const auto* geo = &arrays.geometry[c.group_slot / 32 * words * 32 + c.group_slot % 32];
+      const auto word = [&](int w) { return static_cast<float>(geo[w * 32]); };
+      float4* out = &constants_[i / 32 * static_cast<std::size_t>(tile_constants(carried_)) * 32 + i % 32];
+      out[tile_normal * 32] = {word(n_x), word(n_y), word(n_z), word(arm_a)};
+      out[tile_moment_a * 32] = {word(arm_b), word(moment_0), word(moment_0 + 1), word(moment_0 + 2)};
+      out[tile_moment_b * 32] = {word(moment_0 + 3), word(moment_0 + 4), word(moment_0 + 5),
+                                 bits(c.local_a | static_cast<std::uint32_t>(c.local_b) << 16)};
+      out[tile_drive_b * 32] = {0, 0, bits(c.slot_a | static_cast<std::uint32_t>(c.slot_b) << 16),
+                                bits(g | std::min(c.wall_row, no_wall_row) << 4)};
+    }
+    add_to_settle<geometry>(number, arrays, view, dt);
+  }
+
+  /// Ends the set-up: `motion`, and the rows of records as ExecCuda keeps them.
+  void prepare(const ParticleMotion<P>& motion, const std::uint32_t* row_begin, const std::uint32_t* record,
+               std::size_t records, const std::vector<std::uint32_t>& long_rows) {
+    for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
+      if (plan_.contact[i].group_slot != UINT32_MAX) continue;  // inert: adds nothing to nobody
+      float4* out = &constants_[i / 32 * static_cast<std::size_t>(tile_constants(carried_)) * 32 + i % 32];
+      out[tile_drive_b * 32] = {0, 0, bits(UINT32_MAX), bits(no_wall_row << 4)};
+    }
+    scene_.motion = motion;
+    scene_.tile = store_.keep(plan_.tile);
+    scene_.body = store_.keep(plan_.body);
+    scene_.row = reinterpret_cast<const uint2*>(store_.keep(plan_.row));
+    scene_.diagonal = store_.keep(plan_.diagonal);
+    scene_.halo = store_.keep(plan_.halo);
+    constant_ = DeviceArray<float4>::of(constants_);
+    scene_.constant = constant_.data();
+    scene_.state = store_.template zeros<float4>(plan_.contact.size() * tile_states);
+    scene_.base = base_ = store_.template zeros<R>((bodies_ + walls) * velocity_words);
+    scene_.force = store_.template zeros<R>((bodies_ + walls) * velocity_words);
+    scene_.wall_load = store_.template zeros<float4>(2 * (plan_.wall_begin.back() + 1));
+    scene_.exchange = store_.template zeros<ulonglong2>(4 * bodies_);
+    scene_.wall_velocity = wall_velocity_ = store_.template zeros<double>(table_steps);
+    before_ = store_.template zeros<double>((bodies_ + walls) * displacement_words);
+    wall_begin_ = store_.keep(plan_.wall_begin);
+    long_body_ = store_.keep(long_rows);
+    long_rows_ = static_cast<std::uint32_t>(long_rows.size());
+    records_ = {store_.template zeros<R>(records * velocity_words), row_begin, record};
+    settle_place_ = store_.keep(places_);
+    constants_ = {};
+    places_ = {};
+    plan_.contact = {};
+  }
+
+  /// Queues steps first … first + steps − 1.
+  void run(std::int64_t first, std::int64_t steps) {
+    for (std::int64_t done = 0, table = 0; done < steps;) {
+      if (done == table) {
+        const auto n = static_cast<std::uint32_t>(std::min<std::int64_t>(steps - done, table_steps));
+        if (scene_.motion.loaded) {
+          launch("wall", tabulate_wall, (n + 127) / 128, 128, 0, stream_, scene_.motion.loading, first + done, n,
+                 wall_velocity_);
+        }
+        scene_.wall_velocity = wall_velocity_;
+        table += n;
+      }
+      if (in_block_ == block_ || !begun_) settle();
+      const auto n =
+          static_cast<std::uint32_t>(std::min<std::int64_t>({block_ - in_block_, steps - done, table - done}));
+      run_(n);
+      scene_.wall_velocity += n;
+      tag_ += n;
+      in_block_ += static_cast<int>(n);
+      done += n;
+    }
+  }
+
+  /// Loads on all bodies now, [body][8]; walls are summed first.
+  const R* forces() const {
+    launch("wall loads", add_wall_loads<R>, walls, body_threads, 0, stream_,
+           reinterpret_cast<const float*>(scene_.wall_load), wall_begin_, base_ + bodies_ * velocity_words,
+           scene_.force + bodies_ * velocity_words);
+    return scene_.force;
+  }
+  /// Bytes of contacts that a step moves at the least: states read and written, constants and base loads read.
+  std::int64_t traffic() const {
+    const std::size_t states = constant_.size() / static_cast<std::size_t>(tile_constants(carried_)) * tile_states;
+    return static_cast<std::int64_t>(constant_.bytes() + 2 * states * sizeof(float4) +
+                                     bodies_ * velocity_words * sizeof(R));
+  }
+  std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
+
+ private:
+  static constexpr std::int64_t table_steps = 4096;
+
+  static float bits(std::uint32_t x) {
+    float out = 0;
+    std::memcpy(&out, &x, sizeof out);
+    return out;
+  }
+  /// Chooses the kernel by what the device has.
+  void choose() {
+    if (!plan_.fits) return;
+    limits_ = DeviceLimits::query();
+    scene_.most_bodies = plan_.most_bodies;
+    scene_.most_halo = plan_.most_halo;
+    scene_.most_locals = plan_.most_locals;
+    scene_.most_slots = plan_.most_slots;
+    scene_.bodies = static_cast<std::uint32_t>(bodies_);
+    const auto pick = [&](auto carried) {
+      if (!try_resident<decltype(carried)::value>()) use_streamed<decltype(carried)::value>();
+    };
+    if (carried_)
+      pick(std::true_type{});
+    else
+      pick(std::false_type{});
+  }
+
+  template <bool carried>
+  bool try_resident() {
+    constexpr int Resident = 4, Threads = 512;  // all registers: a contact's state takes twelve
+    const auto kernel = run_resident<P, Resident, Threads, carried>;
+    const auto limit = static_cast<std::uint32_t>(limits_.shared);
+    bool roomy = true;
+    const auto needed = [&](std::uint32_t cached) {
+      return ResidentMemory<P>(plan_.most_bodies, plan_.most_halo, plan_.most_locals, plan_.most_slots, cached, carried,
+                               roomy)
+          .total;
+    };
+    roomy = needed(0) <= limit;
+    std::uint32_t cached = 0;
+    while (cached < plan_.most_packets && needed(cached + 1) <= limit) ++cached;
+    const std::uint32_t shared = needed(cached);
+    if (!fits_resident(limits_, kernel, plan_.tile.size(), Threads, shared)) return false;
+    scene_.cached_packets = cached;
+    resident_ = true;
+    if (!roomy) {
+      const std::size_t bytes = plan_.tile.size() * ResidentMemory<P>::rest_bytes(plan_.most_bodies);
+      scene_.rest = store_.template zeros<unsigned char>(bytes);
+    }
+    const auto blocks = static_cast<unsigned>(plan_.tile.size());
+    run_ = [this, kernel, shared, blocks](std::uint32_t steps) {
+      void* arguments[] = {&scene_, &steps, &tag_};
+      check_cuda(cudaLaunchCooperativeKernel(kernel, blocks, Threads, arguments, shared, stream_), "time steps");
+    };
+    return true;
+  }
+
+  template <bool carried>
+  void use_streamed() {
+    constexpr int threads = 256, per_multiprocessor = 2;
+    const auto kernel = run_streamed<P, threads, per_multiprocessor, carried>;
+    const std::uint32_t shared = StreamedMemory(plan_.most_locals, plan_.most_slots).total;
+    if (shared > static_cast<std::uint32_t>(limits_.shared)) return;
+    check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared)),
+               "shared memory");
+    const std::size_t blocks = plan_.tile.size();
+    run_ = [this, kernel, shared, blocks](std::uint32_t steps) {
+      launch("time steps", begin_streamed<P>, (bodies_ + 127) / 128, 128, 0, stream_, scene_, 0u);
+      for (std::uint32_t k = 0; k < steps; ++k)
+        launch("time steps", kernel, blocks, threads, shared, stream_, scene_, k, k + 1 == steps);
+    };
+  }
+
+  template <Geometry geometry>
+  void add_to_settle(int number, const ContactArrays<P>& arrays, const ContactView<P>& view, double dt) {
+    using Groups = SettleGroups<P, geometry>;
+    if (!settle_groups_) settle_groups_ = std::make_shared<Groups>();
+    auto groups = std::static_pointer_cast<Groups>(settle_groups_);
+    auto& g = groups->group[number];
+    g.first_block = settle_blocks_;
+    g.first_slot = static_cast<std::uint32_t>(group_slot_[static_cast<std::size_t>(number)]);
+    g.slots = static_cast<std::uint32_t>(arrays.body_a.size());
+    settle_blocks_ += (g.slots + contact_threads - 1) / contact_threads;
+    const auto put = [&](int kind, const auto& functor) {
+      g.kind = kind;
+      std::memcpy(g.functor, &functor, sizeof functor);
+    };
+    if (const auto* elastic = std::get_if<laws::Elastic>(&arrays.law))
+      put(0, typename Groups::Elastic{view, elastic->block(dt, block_)});
+    else if (const auto& kelvin = std::get<laws::GeneralisedKelvin>(arrays.law); kelvin.units() == 3)
+      put(1, typename Groups::KelvinThree{view, kelvin.block(dt, block_)});
+    else
+      put(2, typename Groups::KelvinAny{view, kelvin.block(dt, block_)});
+    settle_contacts_ = [this, groups](int steps) {
+      groups->place = settle_place_;
+      launch("settling", settle_contacts<P, geometry>, settle_blocks_, contact_threads, 0, stream_, *groups,
+             constant_.data(), scene_.state, scene_.motion.body.displacement, before_, steps, records_);
+    };
+  }
+
+  /// Ends a block, if one has begun, and begins the next.
+  void settle() {
+    if (!begun_) {
+      check_cuda(
+          cudaMemcpyAsync(before_, scene_.motion.body.displacement,
+                          (bodies_ + walls) * displacement_words * sizeof(*before_), cudaMemcpyDeviceToDevice, stream_),
+          "first block");
+    }
+    settle_contacts_(begun_ ? in_block_ : 0);
+    launch("base loads", sum_base<P>, long_rows_ + (bodies_ + walls + bodies_a_block - 1) / bodies_a_block,
+           body_threads, 0, stream_, records_, long_body_, long_rows_, static_cast<std::uint32_t>(bodies_ + walls),
+           base_, scene_.motion.body.displacement, before_);
+    begun_ = true;
+    in_block_ = 0;
+  }
+
+  TilePlan plan_;
+  bool carried_, resident_ = false, begun_ = false;
+  int block_, in_block_ = 0;
+  std::size_t bodies_;
+  cudaStream_t stream_;
+  DeviceLimits limits_;
+  std::vector<float4> constants_;
+  std::vector<uint2> places_;
+  std::vector<std::size_t> group_slot_;
+  TileScene<P> scene_{};
+  std::uint32_t tag_ = 1;
+  DeviceArray<float4> constant_;
+  R* base_ = nullptr;
+  double* before_ = nullptr;
+  double* wall_velocity_ = nullptr;
+  const std::uint32_t *wall_begin_ = nullptr, *long_body_ = nullptr;
+  const uint2* settle_place_ = nullptr;
+  std::uint32_t long_rows_ = 0, settle_blocks_ = 0;
+  LoadRecords<R> records_{};
+  std::shared_ptr<void> settle_groups_;
+  std::function<void(int)> settle_contacts_;
+  std::function<void(std::uint32_t)> run_;
+  DeviceStore store_;
+};
+
+}  // namespace macadam::kernels

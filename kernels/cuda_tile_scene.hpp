@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_tile_scene.hpp  One step of a contact within a block of steps, and what a tile keeps in shared memory.
+///
+/// Within a block of M steps a contact carries, for each of its six displacement components, the change δf of f since
+/// the block began and the sum of f' + f − 2F, in single precision; `drive` holds what the past still does. The loads
+/// of the F at the block's beginning are part of the bodies' `base` loads. Chains are settled after every block
+/// (cuda_blocks.hpp).
+#pragma once
+
+#include <type_traits>
+
+#include "kernels/contact_kinematics.hpp"
+#include "kernels/cuda_launch.hpp"
+#include "kernels/particle_motion.hpp"
+#include "kernels/precision.hpp"
+#include "kernels/tile_plan.hpp"
+
+namespace macadam::kernels {
+
+/// Words of 16 bytes of a contact, [packet][word][lane].
+enum TileConstant {
+  tile_normal,    ///< n, arm_a
+  tile_moment_a,  ///< arm_b, moments 0…2
+  tile_moment_b,  ///< moments 3…5, local_a | local_b << 16
+  tile_drive_a,   ///< drive of components 0…3
+  tile_drive_b,   ///< drive of components 4, 5, slot_a | slot_b << 16, group | wall row << 4
+  tile_tangent,   ///< s, –; updated geometry only
+};
+enum TileState { tile_change, tile_both, tile_sum, tile_states };  ///< δf 0…3; δf 4, 5, sum 0, 1; sum 2…5
+inline constexpr std::uint32_t no_wall_row = (1u << 28) - 1;
+
+__host__ __device__ constexpr int tile_constants(bool carried) { return carried ? tile_tangent + 1 : tile_tangent; }
+
+/// Everything that a kernel over tiles gets.
+template <class P>
+struct TileScene {
+  using R = typename P::Particle;
+  const Tile* tile;
+  const std::int32_t* body;       ///< [first_body + rank]
+  const uint2* row;               ///< [first_body + rank]
+  const std::uint32_t* diagonal;  ///< [tile][longest_short_row]
+  const std::int32_t* halo;
+  const float4* constant;
+  float4* state;
+  const R* base;                ///< [body][8] loads at the block's beginning [N, N·m]
+  R* force;                     ///< [body][8] loads now
+  float4* wall_load;            ///< [wall row][2] change of the loads on the walls since the block's beginning
+  ulonglong2* exchange;         ///< [2][body] velocities of even and odd steps, 32 bytes a body in single precision
+  const double* wall_velocity;  ///< [step of the launch] of the top wall [m/s]
+  ParticleMotion<P> motion;
+  float4 law[pair_types];  ///< rate·Δt, relax, α, follow
+  unsigned char* rest;     ///< [tile] what has no room in shared memory; null where all has
+  std::uint32_t most_bodies, most_halo, most_locals, most_slots, cached_packets;
+  std::uint32_t bodies;
+};
+
+/// Steps one contact; `v` and `w` are the tables of velocities and spins. Returns the change of its loads.
+template <bool carried>
+__device__ __forceinline__ ContactLoad<float> step_in_block(const float4* constant, const float4* law, const float4* v,
+                                                            const float4* w, float (&change)[6], float (&sum)[6],
+                                                            std::uint32_t& slots, std::uint32_t& group) {
+  const float4 c0 = constant[tile_normal * 32], c1 = constant[tile_moment_a * 32], c2 = constant[tile_moment_b * 32];
+  const float4 c3 = constant[tile_drive_a * 32], c4 = constant[tile_drive_b * 32];
+  const auto locals = __float_as_uint(c2.w);
+  slots = __float_as_uint(c4.z), group = __float_as_uint(c4.w);
+  const float4 va = v[locals & 0xffff], wa = w[locals & 0xffff], vb = v[locals >> 16], wb = w[locals >> 16];
+  const Vec3<float> n{c0.x, c0.y, c0.z};
+  Placement<float> f;
+  if constexpr (carried) {
+    const float4 c5 = constant[tile_tangent * 32];
+    f = {n, {c5.x, c5.y, c5.z}, cross(n, Vec3<float>{c5.x, c5.y, c5.z}), c0.w, c1.x};
+  } else {
+    f = canonical_placement(n, copysignf(1.0f, n.z), c0.w, c1.x);
+  }
+  float u[6];
+  relative_rates(f, Twist<float>{{va.x, va.y, va.z}, {wa.x, wa.y, wa.z}},
+                 Twist<float>{{vb.x, vb.y, vb.z}, {wb.x, wb.y, wb.z}}, u);
+  const float4 l = law[group & 15];
+  const float drive[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
+#pragma unroll
+  for (int c = 0; c < 6; ++c) {
+    const float before = change[c];
+    change[c] += l.x * u[c] + (drive[c] + l.w * sum[c] - l.y * before);
+    sum[c] += change[c] + before;
+  }
+  const float moments[6] = {c1.y, c1.z, c1.w, c2.x, c2.y, c2.z};
+  return to_centres(f, condensed_load(change, l.z, moments));
+}
+
+/// Slots of loads in shared memory, three planes of two words.
+struct TileSlots {
+  float2* plane;
+  std::uint32_t size;
+
+  __device__ __forceinline__ void put(std::uint32_t slot, const Vec3<float>& force, const Vec3<float>& moment) const {
+    if (slot == TilePlan::no_slot) return;
+    plane[slot] = {force.x, force.y};
+    plane[size + slot] = {force.z, moment.x};
+    plane[2 * size + slot] = {moment.y, moment.z};
+  }
+  __device__ __forceinline__ void add(std::uint32_t slot, float (&f)[6]) const {
+    const float2 a = plane[slot], b = plane[size + slot], c = plane[2 * size + slot];
+    f[0] += a.x, f[1] += a.y, f[2] += b.x, f[3] += b.y, f[4] += c.x, f[5] += c.y;
+  }
+  __device__ __forceinline__ void put(std::uint32_t slots, const ContactLoad<float>& load) const {
+    put(slots & 0xffff, load.force_a, load.moment_a);
+    put(slots >> 16, -load.force_a, load.moment_b);
+  }
+};
+
+/// Calls f(rank, sum of its slots) for all own bodies: a warp a long row, from the last warp on, a thread a short one.
+template <class F>
+__device__ __forceinline__ void sum_rows(const Tile& tile, const uint2* row, const std::uint32_t* diagonal,
+                                         const TileSlots& slots, F&& f) {
+  const unsigned warp = threadIdx.x / 32, lane = threadIdx.x % 32, warps = blockDim.x / 32;
+  for (std::uint32_t r = warps - 1 - warp; r < tile.long_rows; r += warps) {
+    float sum[6] = {0, 0, 0, 0, 0, 0};
+    const uint2 place = row[r];
+    for (std::uint32_t e = lane; e < place.x; e += 32) slots.add(place.y + e, sum);
+#pragma unroll
+    for (int c = 0; c < 6; ++c) {
+#pragma unroll
+      for (int k = 16; k > 0; k /= 2) sum[c] += __shfl_xor_sync(0xffffffff, sum[c], k);
+    }
+    if (lane == 0) f(r, sum);
+  }
+  for (std::uint32_t r = tile.long_rows + threadIdx.x; r < tile.bodies; r += blockDim.x) {
+    float sum[6] = {0, 0, 0, 0, 0, 0};
+    const std::uint32_t n = row[r].x;
+#pragma unroll 4
+    for (std::uint32_t e = 0; e < n; ++e) slots.add(diagonal[e] + r, sum);
+    f(r, sum);
+  }
+}
+
+/// Words of a velocity array that move: v and ω without their pads.
+__host__ __device__ constexpr int moving_word(int c) { return c < 3 ? c : c + 1; }
+
+/// A state of a contact in registers, from and to memory.
+__device__ __forceinline__ void load_state(const float4* state, float (&change)[6], float (&sum)[6]) {
+  const float4 a = state[tile_change * 32], b = state[tile_both * 32], c = state[tile_sum * 32];
+  change[0] = a.x, change[1] = a.y, change[2] = a.z, change[3] = a.w, change[4] = b.x, change[5] = b.y;
+  sum[0] = b.z, sum[1] = b.w, sum[2] = c.x, sum[3] = c.y, sum[4] = c.z, sum[5] = c.w;
+}
+__device__ __forceinline__ void store_state(float4* state, const float (&change)[6], const float (&sum)[6]) {
+  state[tile_change * 32] = {change[0], change[1], change[2], change[3]};
+  state[tile_both * 32] = {change[4], change[5], sum[0], sum[1]};
+  state[tile_sum * 32] = {sum[2], sum[3], sum[4], sum[5]};
+}
+
+__device__ __forceinline__ void store_wall_load(float4* wall_load, std::uint32_t group,
+                                                const ContactLoad<float>& load) {
+  const std::uint32_t row = group >> 4;
+  if (row == no_wall_row) return;
+  wall_load[2 * row] = {-load.force_a.x, -load.force_a.y, -load.force_a.z, 0};
+  wall_load[2 * row + 1] = {load.moment_b.x, load.moment_b.y, load.moment_b.z, 0};
+}
+
+}  // namespace macadam::kernels

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_tiles_streamed.hpp  One launch a step for any number of tiles: states stream through.
+///
+/// A launch takes the velocities of the step, steps all contacts, sums the loads, and moves the bodies on to the next
+/// step's velocities, which go to the other one of two sets. The first step of a block is begun, and the last one
+/// ended, by flags.
+#pragma once
+
+#include "kernels/cuda_tile_scene.hpp"
+
+namespace macadam::kernels {
+
+/// Where the velocities of step k of all bodies are, by first_body + rank.
+template <class P>
+__device__ __forceinline__ float4* velocities_of(const TileScene<P>& s, std::uint32_t k) {
+  return reinterpret_cast<float4*>(s.exchange) + 2 * static_cast<std::size_t>(k & 1) * s.bodies;
+}
+
+/// Moves body number `i`, at place `place`, under `force` at step k of the launch's block.
+template <class P>
+__device__ __forceinline__ void move_body(const TileScene<P>& s, std::size_t i, std::size_t place,
+                                          const typename P::Particle (&force)[6], std::uint32_t k) {
+  using R = typename P::Particle;
+  R x[6];
+  for (int c = 0; c < 6; ++c) {
+    R& v = s.motion.body.master[i * velocity_words + moving_word(c)];
+    x[c] = v = s.motion.moved(v, force[c], s.motion.body.inverse[2 * i + c / 3]);
+  }
+  for (int c = 0; c < 6; ++c) s.motion.body.displacement[i * displacement_words + moving_word(c)] += s.motion.dt * x[c];
+  float4* to = velocities_of(s, k) + 2 * place;
+  to[0] = {float(x[0]), float(x[1]), float(x[2]), 0};
+  to[1] = {float(x[3]), float(x[4]), float(x[5]), 0};
+}
+
+/// Moves the top wall.
+template <class P>
+__device__ __forceinline__ void move_wall(const TileScene<P>& s, std::uint32_t k) {
+  using R = typename P::Particle;
+  const auto top = static_cast<std::size_t>(s.motion.body.particles) + 5;
+  const R v = static_cast<R>(s.wall_velocity[k]);
+  s.motion.body.master[top * velocity_words + 2] = v;
+  s.motion.body.displacement[top * displacement_words + 2] += s.motion.dt * v;
+}
+
+/// Begins step k with the forces of now: the first of a launch sequence.
+template <class P>
+__global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k) {
+  using R = typename P::Particle;
+  const std::uint32_t place = blockIdx.x * blockDim.x + threadIdx.x;
+  if (place == 0 && s.motion.loaded) move_wall(s, k);
+  if (place >= s.bodies) return;
+  const auto i = static_cast<std::size_t>(s.body[place]);
+  R force[6];
+  for (int c = 0; c < 6; ++c) force[c] = s.force[i * velocity_words + moving_word(c)];
+  move_body(s, i, place, force, k);
+}
+
+struct StreamedMemory {
+  std::uint32_t spin, slots, total;
+  __host__ __device__ StreamedMemory(std::uint32_t locals, std::uint32_t slot_count)
+      : spin(16 * locals), slots(32 * locals), total(32 * locals + 24 * slot_count) {}
+};
+
+/// The contacts of step k, and then the motion of step k + 1, or `last`: the forces of now.
+template <class P, int Threads, int Blocks, bool carried>
+__global__ void __launch_bounds__(Threads, Blocks)
+    run_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k, bool last) {
+  using R = typename P::Particle;
+  extern __shared__ __align__(16) unsigned char shared[];
+  const StreamedMemory m(s.most_locals, s.most_slots);
+  auto* v = reinterpret_cast<float4*>(shared);
+  auto* w = reinterpret_cast<float4*>(shared + m.spin);
+  const TileSlots slots{reinterpret_cast<float2*>(shared + m.slots), s.most_slots};
+  const unsigned tid = threadIdx.x, lane = tid % 32, warp = tid / 32;
+  constexpr unsigned warps = Threads / 32;
+  constexpr std::uint32_t words = tile_constants(carried);
+  const Tile tile = s.tile[blockIdx.x];
+  const float4* from = velocities_of(s, k);
+  for (std::uint32_t r = tid; r < 2 * tile.bodies; r += Threads)
+    (r % 2 ? w : v)[r / 2] = from[2 * static_cast<std::size_t>(tile.first_body) + r];
+  for (std::uint32_t h = tid; h < 2 * tile.halo; h += Threads) {
+    (h % 2 ? w : v)[tile.bodies + h / 2] = from[2 * static_cast<std::size_t>(s.halo[tile.first_halo + h / 2]) + h % 2];
+  }
+  if (tid < walls) {
+    const std::uint32_t at = tile.bodies + tile.halo + tid;
+    w[at] = {0, 0, 0, 0};
+    v[at] = {0, 0, tid == 5 && s.motion.loaded ? static_cast<float>(static_cast<R>(s.wall_velocity[k])) : 0.0f, 0};
+  }
+  __syncthreads();
+  for (std::uint32_t packet = warp; packet < tile.packets; packet += warps) {
+    const std::size_t at = tile.first_packet + packet;
+    float4* state = s.state + at * tile_states * 32 + lane;
+    float change[6], sum[6];
+    load_state(state, change, sum);
+    std::uint32_t places, group;
+    const auto load =
+        step_in_block<carried>(s.constant + at * words * 32 + lane, s.law, v, w, change, sum, places, group);
+    store_state(state, change, sum);
+    slots.put(places, load);
+    if (last) store_wall_load(s.wall_load, group, load);
+  }
+  __syncthreads();
+  sum_rows(tile, s.row + tile.first_body, s.diagonal + blockIdx.x * TilePlan::longest_short_row, slots,
+           [&](std::uint32_t r, const float(&extra)[6]) {
+             const std::size_t place = tile.first_body + r;
+             const auto i = static_cast<std::size_t>(s.body[place]);
+             R force[6];
+             for (int c = 0; c < 6; ++c) {
+               force[c] = s.base[i * velocity_words + moving_word(c)] + static_cast<R>(extra[c]);
+               if (last) s.force[i * velocity_words + moving_word(c)] = force[c];
+             }
+             if (!last) move_body(s, i, place, force, k + 1);
+           });
+  if (!last && blockIdx.x == 0 && tid == 0 && s.motion.loaded) move_wall(s, k + 1);
+}
+
+}  // namespace macadam::kernels

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file tile_plan.hpp  Who computes what where a block of threads owns a box of particles (a tile of the layout).
+///
+/// A tile computes every contact that touches one of its particles: a contact across a box's face is computed by both
+/// sides, from the same numbers in the same way, so only velocities cross. The particles of a tile are ranked by their
+/// number of contacts; each has a row of slots for the loads of its contacts, which it sums in fixed order.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/layout.hpp"
+
+namespace macadam::kernels {
+
+/// A tile. Its table of velocities holds its own particles by rank, then the halo, then the six walls.
+struct Tile {
+  std::uint32_t first_body, bodies;
+  std::uint32_t first_halo, halo;
+  std::uint32_t first_packet, packets;
+  std::uint32_t long_rows;  ///< the first ranks: their slots follow one another; of all others, slot e of rank r is at
+                            ///< diagonal[e] + r
+  std::uint32_t slots;
+};
+
+/// One contact as a tile computes it.
+struct TileContact {
+  std::uint32_t group_slot = UINT32_MAX;   ///< slot in its group; inert: UINT32_MAX
+  std::uint16_t local_a = 0, local_b = 0;  ///< places in the table of velocities
+  std::uint16_t slot_a = 0, slot_b = 0;    ///< of loads; no_slot where the body is not the tile's
+  std::uint32_t group = 0;
+  std::uint32_t wall_row = UINT32_MAX;  ///< number among the wall contacts, which follow one another wall by wall
+};
+
+struct TilePlan {
+  static constexpr std::uint32_t longest_short_row = 32;
+  static constexpr std::uint16_t no_slot = UINT16_MAX;
+  std::vector<Tile> tile;
+  std::vector<std::int32_t> body;         ///< [first_body + rank] body
+  std::vector<std::uint32_t> row;         ///< [first_body + rank][2] slots of the row, first slot of a long row
+  std::vector<std::uint32_t> diagonal;    ///< [tile][longest_short_row]
+  std::vector<std::int32_t> halo;         ///< [first_halo + …] first_body + rank in its own tile
+  std::vector<TileContact> contact;       ///< [packet][32]
+  std::vector<std::uint32_t> wall_begin;  ///< [wall + 1] of wall rows
+  std::uint32_t most_bodies = 0, most_halo = 0, most_locals = 0, most_slots = 0, most_packets = 0;
+  std::size_t packets() const { return contact.size() / 32; }
+  /// Whether all local numbers fit their 16 bits.
+  bool fits = true;
+};
+
+/// Plans the tiles of a layout with 32 lanes.
+TilePlan plan_tiles(const ContactNetwork& network, const Layout& layout);
+
+}  // namespace macadam::kernels
