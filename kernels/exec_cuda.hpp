@@ -16,6 +16,7 @@
 #include "kernels/contact_forces.hpp"
 #include "kernels/layout.hpp"
 #include "kernels/particle_motion.hpp"
+#include "kernels/state_list.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::kernels {
@@ -161,6 +162,10 @@ class ExecCuda {
     displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
     make_rows(network);
+    add_state("records", "N, N m", records_);
+    add_state("velocity", "m/s, rad/s", master_);
+    add_state("displacement", "m, rad", displacement_);
+    add_state("gathered_velocity", "m/s, rad/s", velocity_);
   }
 
   BodyView<P> set_bodies(const std::vector<R>& inverse) {
@@ -175,11 +180,15 @@ class ExecCuda {
     group->slots = static_cast<std::uint32_t>(arrays.body_a.size());
     group->forces = forces;
     group->forces.view = arrays.shape;
-    arrays.for_each_array(group->forces.view, [&](auto, auto, auto& array, auto& pointer) {
-      pointer = group->storage.add(array);
+    arrays.for_each_array(group->forces.view, [&](auto name, auto unit, auto& array, auto& pointer) {
+      auto& copy = group->storage.add(array);
+      pointer = raw(copy);
       const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
       bytes_ += size;
-      if (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) state_bytes_ += size;
+      if constexpr (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) {
+        state_bytes_ += size;
+        add_state(std::string(name) + "_" + to_string(layout_.groups[groups_.size()].pair), unit, copy);
+      }
     });
     group->first_slot = groups_.empty() ? 0 : groups_.back()->first_slot + groups_.back()->slots;
     groups_.push_back(std::move(group));
@@ -213,6 +222,9 @@ class ExecCuda {
     if constexpr (!std::is_same_v<typename P::Geometry, R>) thrust::copy(v.begin(), v.end(), velocity_.begin());
   }
 
+  /// Everything that a step changes.
+  const StateList& states() const { return states_; }
+
   std::string description() const {
     cudaDeviceProp properties{};
     check_cuda(cudaGetDeviceProperties(&properties, 0), "device properties");
@@ -229,11 +241,11 @@ class ExecCuda {
   struct Storage {
     std::vector<std::shared_ptr<void>> owned;
     template <class Array>
-    auto add(const Array& array) {
+    auto& add(const Array& array) {
       using T = typename Array::value_type;
       auto copy = std::make_shared<thrust::device_vector<T>>(array.begin(), array.end());
       owned.push_back(copy);
-      return thrust::raw_pointer_cast(copy->data());
+      return *copy;
     }
   };
   struct Group {
@@ -251,6 +263,14 @@ class ExecCuda {
                                  records + static_cast<std::size_t>(this->first_slot) * 2 * velocity_words});
     }
   };
+
+  /// The array must stay where it is.
+  template <class T>
+  void add_state(const std::string& name, const std::string& unit, thrust::device_vector<T>& array) {
+    states_.add<T>(
+        name, unit, array.size(), [&array] { return to_host(array); },
+        [&array](const std::vector<T>& values) { thrust::copy(values.begin(), values.end(), array.begin()); });
+  }
 
   void make_rows(const ContactNetwork& network) {
     std::vector<std::vector<std::uint32_t>> rows(layout_.particles() + walls);
@@ -296,6 +316,7 @@ class ExecCuda {
   }
 
   const Layout& layout_;
+  StateList states_;
   std::vector<std::unique_ptr<Group>> groups_;
   thrust::device_vector<R> master_, inverse_;
   thrust::device_vector<double> displacement_;
