@@ -10,6 +10,7 @@
 #include "kernels/barrier.hpp"
 #include "kernels/pack_item.hpp"
 #include "kernels/particle_motion.hpp"
+#include "kernels/state_list.hpp"
 #include "kernels/tile_accumulators.hpp"
 
 namespace macadam::kernels {
@@ -32,6 +33,10 @@ class ExecCpu {
     master_.assign(bodies * velocity_words, R(0));
     displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
+    add_state("sums", "N, N m", sums_);
+    add_state("velocity", "m/s, rad/s", master_);
+    add_state("displacement", "m, rad", displacement_);
+    add_state("gathered_velocity", "m/s, rad/s", velocity_);
   }
 
   /// Takes Δt/m and Δt/I of every body and returns the view of all body arrays.
@@ -46,11 +51,14 @@ class ExecCpu {
   void add_group(ContactArrays<P> arrays, Forces forces) {
     auto group = std::make_unique<GroupOf<Forces>>(std::move(arrays), forces);
     group->number = groups_.size();
-    group->arrays.for_each_array(group->forces.view, [this](auto, auto, auto& array, auto& pointer) {
+    group->arrays.for_each_array(group->forces.view, [&](auto name, auto unit, auto& array, auto& pointer) {
       pointer = array.data();
       const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
       bytes_ += size;
-      if (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) state_bytes_ += size;
+      if constexpr (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) {
+        state_bytes_ += size;
+        add_state(std::string(name) + "_" + to_string(layout_.groups[group->number].pair), unit, array);
+      }
     });
     groups_.push_back(std::move(group));
   }
@@ -133,6 +141,9 @@ class ExecCpu {
     }
   }
 
+  /// Everything that a step changes.
+  const StateList& states() const { return states_; }
+
   std::string description() const {
     return "cpu, " + std::to_string(threads_) + (threads_ == 1 ? " thread" : " threads");
   }
@@ -144,6 +155,14 @@ class ExecCpu {
   }
 
  private:
+  /// The array must stay where it is.
+  template <class T>
+  void add_state(const std::string& name, const std::string& unit, AlignedVector<T>& array) {
+    states_.add<T>(
+        name, unit, array.size(), [&array] { return std::vector<T>(array.begin(), array.end()); },
+        [&array](const std::vector<T>& values) { std::copy(values.begin(), values.end(), array.begin()); });
+  }
+
   struct Group {
     virtual ~Group() = default;
     virtual void run(ExecCpu& exec, std::size_t tile, const MotionView<P>& motion) = 0;
@@ -205,6 +224,7 @@ class ExecCpu {
   AlignedVector<double> displacement_;            // [body][8]
   AlignedVector<typename P::Geometry> velocity_;  // [body][8], where Geometry is not Particle
   std::vector<R> inverse_;
+  StateList states_;
   std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
   int threads_ = 1;
 };

@@ -13,6 +13,7 @@
 
 #include "kernels/cuda_tile_runner.hpp"
 #include "kernels/layout.hpp"
+#include "kernels/state_list.hpp"
 
 namespace macadam::kernels {
 
@@ -182,6 +183,9 @@ class ExecCuda {
     if (tiles_) return tiles_->traffic() + static_cast<std::int64_t>(bodies);
     return bytes_ + state_bytes_ + static_cast<std::int64_t>(bodies + 2 * records_.bytes() + place_.bytes());
   }
+  /// Not yet: a run on the device keeps no checkpoints. \throws RunError always.
+  const StateList& states() const { throw RunError("backend cuda keeps no checkpoints"); }
+
   std::int64_t bytes() const {
     return bytes_ +
            static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() + velocity_.bytes() +
@@ -289,6 +293,9 @@ class ExecCuda {
     void add_group(Any&&...) {}
     const R* forces() const { return nullptr; }
     std::string description() const { return ""; }
+    /// Not yet: a run on the device keeps no checkpoints. \throws RunError always.
+    const StateList& states() const { throw RunError("backend cuda keeps no checkpoints"); }
+
     std::int64_t bytes() const { return 0; }
     std::int64_t traffic() const { return 0; }
   };

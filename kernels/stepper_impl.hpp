@@ -136,6 +136,32 @@ class StepperImpl final : public Stepper {
     exec_.set_velocities(v);
   }
 
+  std::vector<StateArray> state() const override {
+    std::vector<StateArray> out{{"step", "1", std::vector{step_}}, {"layout", "1", order()}};
+    for (StateArray& array : exec_.states().copy()) out.push_back(std::move(array));
+    return out;
+  }
+
+  void set_state(const std::vector<StateArray>& arrays) override {
+    const auto integers = [&](const char* name) {
+      for (const StateArray& array : arrays) {
+        const auto* values = std::get_if<std::vector<std::int64_t>>(&array.values);
+        if (array.name == name && values) return *values;
+      }
+      return std::vector<std::int64_t>();
+    };
+    const std::vector<std::int64_t> step = integers("step");
+    if (step.size() != 1) throw RunError("state: found no number of the step, expected one");
+    if (integers("layout") != order()) {
+      throw RunError(
+          "state: found contacts in another order, expected that of this program on this processor (packet width, "
+          "tiles "
+          "and bodies)");
+    }
+    exec_.states().replace(arrays);
+    step_ = step.front();
+  }
+
   std::int64_t first_divergent() const override {
     if constexpr (requires { exec_.first_divergent(radius_, options_.dt); }) {
       return exec_.first_divergent(radius_, options_.dt);
@@ -184,6 +210,11 @@ class StepperImpl final : public Stepper {
     double out = 0;
     for (const Vec3d& v : list) out = std::max(out, dot(v, v));
     return out;
+  }
+
+  /// What the order of all arrays rests on besides the scene.
+  std::vector<std::int64_t> order() const {
+    return {layout_.lanes, static_cast<std::int64_t>(layout_.tiles()), static_cast<std::int64_t>(layout_.particles())};
   }
 
   /// Takes the step from −1 to 0: forces of step −1 are not needed, as velocities are given half a step later.

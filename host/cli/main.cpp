@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <csignal>
 
 #include "host/cli/progress_line.hpp"
 #include "macadam/macadam.hpp"
@@ -18,7 +19,16 @@ struct Arguments {
   std::optional<Precision> precision;
   std::optional<SolverMethod> method;
   std::optional<int> threads;
+  bool resume = false;
 };
+
+/// Set by the first Ctrl-C or SIGTERM once the stepping begins; the second ends the program as it would any other.
+volatile std::sig_atomic_t stop_asked = 0;
+extern "C" void ask_to_stop(int) {
+  stop_asked = 1;
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
 
 void print_preparation(const Preparation& p) {
   if (!p.composition.empty()) {
@@ -96,8 +106,13 @@ void run_command(const Arguments& arguments) {
     for (const std::string& decision : planned.decisions) fmt::print("{}\n", decision);
     for (const Skip& skip : planned.skips) fmt::print("skips {}: {}\n", skip.what, skip.why);
     std::fflush(stdout);
+    // until now there is nothing to keep, and an older checkpoint is whole
+    for (const int number : {SIGINT, SIGTERM}) {
+      if (std::signal(number, ask_to_stop) == SIG_IGN) std::signal(number, SIG_IGN);
+    }
   };
-  const RunResult result = run(scene, arguments.out, watcher);
+  watcher.stop = [] { return stop_asked != 0; };
+  const RunResult result = run(scene, arguments.out, watcher, arguments.resume);
   line.clear();
   print_results(result);
   fmt::print("\n{} | files in {}: summary.json specimen.csv{}{}\n", result.solver, arguments.out,
@@ -162,6 +177,7 @@ int main_function(int argc, char** argv) {
                                                                               {"harmonic", SolverMethod::harmonic}}));
   run_app->add_option("--threads", arguments.threads, "cpu threads; results do not depend on it")
       ->check(CLI::Range(1, 1024));
+  run_app->add_flag("--resume", arguments.resume, "go on from the checkpoint that an interrupted run left in DIR");
   auto* specimen_app = app.add_subcommand("specimen", "build the specimen and its contact network only");
   add_job_options(*specimen_app, arguments);
   auto* info_app = app.add_subcommand("info", "version, backends and devices");

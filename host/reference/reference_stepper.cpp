@@ -6,6 +6,7 @@
 
 #include "host/reference/reference_contact.hpp"
 #include "host/reference/reference_input.hpp"
+#include "macadam/error.hpp"
 
 namespace macadam {
 namespace reference {
@@ -97,6 +98,9 @@ class ReferenceStepper : public Stepper {
     }
   }
 
+  std::vector<StateArray> state() const override { refuse_checkpoints(); }
+  void set_state(const std::vector<StateArray>&) override { refuse_checkpoints(); }
+
   std::int64_t first_divergent() const override {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Body& b = bodies_[i];
@@ -121,6 +125,8 @@ class ReferenceStepper : public Stepper {
   }
 
  private:
+  [[noreturn]] static void refuse_checkpoints() { throw RunError("backend reference keeps no checkpoints"); }
+
   /// Sets the motion of step −1 and takes the step to 0. The force that step −1 would need is not known, nor needed:
   /// the velocities are already those of half a step later.
   void start_from(const StartState& start) {

@@ -51,8 +51,7 @@ void check_line_lengths(const std::string& text, const std::string& file) {
   }
 }
 
-toml::table parse_toml(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+toml::table parse_toml(const std::filesystem::path& file, const std::string& text) {
   check_line_lengths(text, file.string());
   try {
     return toml::parse(text, file.string());
@@ -165,10 +164,11 @@ const char* to_string(Start start) { return start == Start::steady ? "steady" : 
 
 Scene read_scene(const std::filesystem::path& file) {
   using namespace scene;
-  const toml::table table = parse_toml(file);
-  const Section root(file.string(), 0, "", "", table);
   Scene out;
   out.file = file;
+  out.text = read_text(file);
+  const toml::table table = parse_toml(file, out.text);
+  const Section root(file.string(), 0, "", "", table);
   const std::filesystem::path folder = file.parent_path();
   root.read({{"specimen", Need::required, [&](const Value& v) { out.specimen = read_specimen(v.section(), folder); }},
              {"materials", Need::required, [&](const Value& v) { out.materials = read_materials(v.section()); }},
@@ -178,7 +178,8 @@ Scene read_scene(const std::filesystem::path& file) {
              {"solver", Need::optional, [&](const Value& v) { out.solver = read_solver(v.section(), out.loading); }},
              {"output", Need::optional, [&](const Value& v) {
                 v.section().read({{"contacts", Need::optional, into(out.output.contacts)},
-                                  {"response", Need::optional, into(out.output.response)}});
+                                  {"response", Need::optional, into(out.output.response)},
+                                  {"checkpoint", Need::optional, into(out.output.checkpoint, duration, non_negative)}});
               }}});
   check_together(out, root);
   return out;

@@ -16,7 +16,8 @@ constexpr Unit viscosities[] = {{"Pa s", 0},      {"kPa s", 3},      {"MPa s", 6
 constexpr Unit densities[] = {{"kg/m3", 0},      {"g/cm3", 3},      {"t/m3", 3},      {"kg/m^3", 0}, {"g/cm^3", 3},
                               {"kg/m\u00b3", 0}, {"g/cm\u00b3", 3}, {"t/m\u00b3", 3}, {"t/m^3", 3}};
 constexpr Unit frequencies[] = {{"Hz", 0}, {"mHz", -3}, {"kHz", 3}};
-constexpr Unit durations[] = {{"s", 0}, {"ms", -3}, {"us", -6}, {"\u00b5s", -6}, {"\u03bcs", -6}, {"ns", -9}};
+constexpr Unit durations[] = {{"s", 0},        {"ms", -3}, {"us", -6},     {"\u00b5s", -6},
+                              {"\u03bcs", -6}, {"ns", -9}, {"min", 0, 60}, {"h", 0, 3600}};
 constexpr Unit rates[] = {{"1/s", 0}, {"s^-1", 0}, {"1/ms", 3}};
 constexpr Unit ratios[] = {{"%", -2}};
 
@@ -71,7 +72,9 @@ std::optional<double> parse(std::string_view text, const Quantity& quantity) {
   const auto count = static_cast<std::size_t>(end - text.data());
   const std::string_view digits = text.substr(0, count), name = trimmed(text.substr(count));
   for (const Unit& unit : quantity.units) {
-    if (name == unit.name) return scaled(digits, unit.exponent);
+    if (name != unit.name) continue;
+    const std::optional<double> value = scaled(digits, unit.exponent);
+    return value ? unit.factor * *value : value;
   }
   return {};
 }

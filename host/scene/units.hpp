@@ -9,10 +9,10 @@
 
 namespace macadam::scene {
 
-/// A unit as a power of ten of the SI unit.
+/// A unit as a power of ten of the SI unit, times a whole number.
 struct Unit {
   std::string_view name;
-  int exponent;
+  int exponent, factor = 1;
 };
 
 /// A physical dimension: what it is called and which units it may come in, the SI unit first.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // run.cpp  The main job: prepares a scene, solves its frequencies, and leaves whole files whatever happens.
+#include <fmt/format.h>
+
 #include "host/results/files.hpp"
 #include "host/simulation/solution.hpp"
 #include "host/simulation/summary.hpp"
@@ -25,19 +27,35 @@ void require_backend_fits(const Scene& scene) {
   if (scene.network.quadrature == Quadrature::exact) refuse("quadrature", "exact", "lumped: it works per point");
 }
 
+/// Whoever asks for checkpoints is told at once that there will be none.
+void require_checkpoints(const Scene& scene, Backend backend, bool resume) {
+  std::string why_not;
+  if (keeps_checkpoints(scene, backend, &why_not)) return;
+  if (resume) throw InputError(scene.file.string() + ": cannot be resumed: " + why_not);
+  if (scene.solver.method == SolverMethod::explicit_ && backend != Backend::cuda &&
+      scene.output.checkpoint.value_or(0) > 0) {
+    throw InputError(scene.file.string(), 0, "checkpoint in [output]", fmt::format("{} s", *scene.output.checkpoint),
+                     "0: " + why_not);
+  }
+}
+
 }  // namespace
 
-RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher) {
+RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher, bool resume) {
   require_backend_fits(scene);
   RunResult result;
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
   if (stepped) result.backend = select_backend(scene.solver.backend);  // before any work: cuda may not be there
+  require_checkpoints(scene, result.backend, resume);
+  std::optional<RunState> resumed;
+  if (resume) resumed = read_run_state(out / checkpoint_name, scene, result.backend);
   make_result_folder(out);
   for (const char* name :
        {"response.csv", "contacts.csv", "summary.json"}) {  // none of another run may stay beside ours
     if (std::filesystem::is_regular_file(out / name)) std::filesystem::remove(out / name);
   }
   const Preparation prepared = prepare(scene, watcher.progress);
+  if (resumed) require_same_specimen(out / checkpoint_name, *resumed, prepared);
   write_preparation(scene, prepared, out);
   if (watcher.prepared) watcher.prepared(prepared);
 
@@ -46,18 +64,21 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   };
   try {
     if (stepped) {
-      step_frequencies(scene, prepared, out / "response.csv", watcher, save, result);
+      step_frequencies(scene, prepared, out, watcher, save, std::move(resumed), result);
     } else {
       solve_frequencies(scene, prepared, watcher.progress, save, result);
     }
   } catch (const std::exception& error) {
+    const bool interrupted = dynamic_cast<const InterruptedError*>(&error) != nullptr;
     try {
-      save(std::string("failed: ") + error.what());
+      save(interrupted ? "interrupted" : std::string("failed: ") + error.what());
     } catch (const RunError&) {  // a full disk may be why we are here: the first error is the one to tell
     }
     throw;
   }
   save("done");
+  std::error_code gone;  // a checkpoint that cannot be removed costs disk space only
+  std::filesystem::remove(out / checkpoint_name, gone);
   return result;
 }
 

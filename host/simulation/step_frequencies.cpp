@@ -2,10 +2,14 @@
 // step_frequencies.cpp  The cyclic test stepped in time, one frequency after another.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "host/results/files.hpp"
+#include "host/simulation/checkpoints.hpp"
 #include "host/simulation/error_model.hpp"
 #include "host/simulation/plan.hpp"
 #include "host/simulation/skips.hpp"
@@ -19,20 +23,46 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Runs one frequency; every sample goes to `writer` at once. Without one, only the cycles that are fitted and the one
-/// before, which shows the change from cycle to cycle, are observed.
-/// \throws DivergenceError naming the particle that left the range of sense first.
-CyclicResult run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, const FrequencyPlan& plan,
-                        ResponseWriter* writer, const std::function<void(std::int64_t)>& stepped) {
+/// Advances in pieces of some tenths of a second, so that a signal is answered soon however long a step takes. The bits
+/// do not depend on where a run is cut.
+class Pieces {
+ public:
+  /// Goes from one step to another and calls look() after each piece, once at least.
+  void advance(Stepper& stepper, std::int64_t from, std::int64_t to, const std::function<void()>& look) {
+    do {
+      const auto start = Clock::now();
+      const std::int64_t piece = std::min(piece_, to - from);
+      if (piece > 0) stepper.advance(piece);
+      from += piece;
+      const double seconds = seconds_since(start);
+      if (piece == piece_ && seconds < 0.1) piece_ *= 2;
+      if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);
+      look();
+    } while (from < to);
+  }
+
+ private:
+  std::int64_t piece_ = 16;
+};
+
+/// Runs one frequency from where the stepper stands; every sample goes to `samples` and `writer` at once. Without a
+/// writer, only the cycles that are fitted and the one before, which shows the change from cycle to cycle, are
+/// observed. `look` is called between steps, before the sample of the step that was reached is taken. \throws
+/// DivergenceError naming the particle that left the range of sense first.
+void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, const FrequencyPlan& plan,
+                std::vector<ResponseSample>& samples, ResponseWriter* writer, const std::function<void()>& look,
+                const std::function<void(std::int64_t)>& stepped) {
   const loadings::Cyclic& loading = plan.loading;
   const int per_cycle = scene.loading.samples_per_cycle;
   const std::int64_t samples_wanted = static_cast<std::int64_t>(plan.cycles) * per_cycle;
   const std::int64_t stride = loading.steps_per_period / per_cycle;
   const double area = specimen.box.size.x * specimen.box.size.y, height = specimen.box.size.z;
   const std::int64_t first = writer ? 0 : std::int64_t{std::max(0, plan.cycles - plan.fit_cycles - 1)} * per_cycle;
-  std::vector<ResponseSample> samples;
-  for (std::int64_t k = 0; k <= samples_wanted; ++k) {
-    if (k > 0) stepper.advance(stride);
+  Pieces pieces;
+  std::int64_t step = stepper.observe().step;
+  for (std::int64_t k = (step + stride - 1) / stride; k <= samples_wanted; ++k) {
+    pieces.advance(stepper, step, k * stride, look);
+    step = k * stride;
     if (k < first && k % per_cycle != 0) continue;
     const Observation now = stepper.observe();
     const double stress = -now.wall_force[5].z / area;  // particles pull a wall that moves away from them
@@ -48,9 +78,32 @@ CyclicResult run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& s
     }
     if (k >= first) samples.push_back({loading.frequency, now.time, now.wall_displacement / height, stress});
     if (writer) writer->add(samples.back());
-    stepped(k * stride);
+    stepped(step);
   }
-  return evaluate_cyclic(samples, loading.frequency, plan.fit_cycles);
+}
+
+/// What a finished frequency says.
+FrequencyResult finished(const FrequencyPlan& plan, const std::vector<ResponseSample>& samples, double seconds,
+                         std::optional<double> tolerance) {
+  const double frequency = plan.loading.frequency;
+  std::vector<ResponseSample> own;
+  std::copy_if(samples.begin(), samples.end(), std::back_inserter(own),
+               [&](const ResponseSample& s) { return s.frequency_hz == frequency; });
+  FrequencyResult f;
+  f.frequency_hz = frequency;
+  f.density_scaling = plan.density_scaling;
+  f.dt_s = plan.loading.dt();
+  f.cycles = plan.cycles;
+  f.start = plan.start;
+  f.steps = plan.loading.steps_per_period * plan.cycles;
+  f.cyclic = evaluate_cyclic(own, frequency, plan.fit_cycles);
+  f.stiffness = f.cyclic->fit;
+  f.residual = f.cyclic->fit_rms;
+  f.predicted = plan.predicted;
+  if (plan.known) f.achieved = difference(f.stiffness, *plan.known);
+  if (plan.known && tolerance) f.kept = largest(*f.achieved) <= *tolerance;
+  f.seconds = seconds;
+  return f;
 }
 
 /// What all frequencies have in common.
@@ -65,6 +118,39 @@ StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
   return options;
 }
 
+/// The stepper of one frequency: from rest, from the steady state, or, where there is one, from a checkpoint's state.
+std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepared, const Inertia& inertia,
+                                    Backend backend, const Plan& plan, const FrequencyPlan& p,
+                                    const std::vector<StateArray>& from) {
+  StepperOptions options = common_options(plan, scene.solver);
+  options.density_scaling = p.density_scaling;
+  options.loading = p.loading;
+  options.dt = p.loading.dt();
+  StartState start;
+  if (p.start == Start::steady && from.empty()) {
+    start = steady_start(prepared.network, scene.laws, p.motion, p.loading);
+    options.start = &start;
+  }
+  auto stepper = make_stepper(backend, prepared.specimen, prepared.network, scene.laws, inertia, options);
+  if (!from.empty()) stepper->set_state(from);
+  return stepper;
+}
+
+/// What is known before the first step, and the frequencies that a checkpoint has finished.
+void begin(const Scene& scene, const Preparation& prepared, const RunState& at, RunResult& result) {
+  result.decisions = at.plan.decisions;
+  result.form = at.plan.form;
+  result.geometry = at.plan.geometry;
+  result.precision = at.plan.precision;
+  result.critical_particle = at.plan.critical.particle;
+  result.critical_dt_s = at.plan.critical.dt;
+  result.seconds_planning = at.seconds_planning;
+  result.skips = find_skips(scene, prepared, at.plan);
+  for (std::size_t i = 0; i < at.seconds.size(); ++i) {
+    result.frequencies.push_back(finished(at.plan.frequencies[i], at.samples, at.seconds[i], scene.solver.tolerance));
+  }
+}
+
 }  // namespace
 
 double density_scaling_of(const SolverSpec& solver, std::size_t frequency) {
@@ -72,63 +158,50 @@ double density_scaling_of(const SolverSpec& solver, std::size_t frequency) {
   return (*solver.density_scaling)[solver.density_scaling->size() == 1 ? 0 : frequency];
 }
 
-void step_frequencies(const Scene& scene, const Preparation& prepared, const std::filesystem::path& response,
-                      const Watcher& watcher, const Saving& save, RunResult& result) {
+void step_frequencies(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
+                      const Watcher& watcher, const Saving& save, std::optional<RunState> resumed, RunResult& result) {
   const auto planning = Clock::now();
   const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
-  const Plan plan = make_plan(scene, prepared, inertia, watcher.progress);
-  result.decisions = plan.decisions;
-  result.form = plan.form;
-  result.geometry = plan.geometry;
-  result.precision = plan.precision;
-  result.critical_particle = plan.critical.particle;
-  result.critical_dt_s = plan.critical.dt;
-  result.seconds_planning = seconds_since(planning);
-  result.skips = find_skips(scene, prepared, plan);
+  RunState at;
+  if (resumed) {
+    at = *std::move(resumed);
+  } else {
+    at.plan = make_plan(scene, prepared, inertia, watcher.progress);
+    at.seconds_planning = seconds_since(planning);
+  }
+  const Plan& plan = at.plan;
+  begin(scene, prepared, at, result);
   if (watcher.planned) watcher.planned(result);
-  StepperOptions options = common_options(plan, scene.solver);
+  Checkpoints checkpoints(out / checkpoint_name, scene, prepared, result.backend, watcher.stop);
   std::optional<ResponseWriter> writer;
-  if (scene.output.response) writer.emplace(response);
-  for (std::size_t i = 0; i < plan.frequencies.size(); ++i) {
+  if (scene.output.response) {
+    writer.emplace(out / "response.csv");
+    for (const ResponseSample& s : at.samples) writer->add(s);  // none is lost or doubled, whatever became of the file
+  }
+  for (std::size_t i = at.seconds.size(); i < plan.frequencies.size(); ++i) {
     const auto start = Clock::now();
+    const double before = std::exchange(at.seconds_running, 0);
     const FrequencyPlan& p = plan.frequencies[i];
-    FrequencyResult f;
-    f.frequency_hz = p.loading.frequency;
-    f.density_scaling = options.density_scaling = p.density_scaling;
-    options.loading = p.loading;
-    f.dt_s = options.dt = p.loading.dt();
-    f.cycles = p.cycles;
-    f.start = p.start;
-    f.steps = p.loading.steps_per_period * p.cycles;
-    std::unique_ptr<Stepper> stepper;
-    {
-      StartState state;
-      if (p.start == Start::steady) {
-        state = steady_start(prepared.network, scene.laws, p.motion, p.loading);
-        options.start = &state;
-      }
-      stepper = make_stepper(result.backend, prepared.specimen, prepared.network, scene.laws, inertia, options);
-      options.start = nullptr;
-    }
+    const auto stepper = stepper_of(scene, prepared, inertia, result.backend, plan, p, std::exchange(at.state, {}));
     result.solver = stepper->description();
     result.bytes = stepper->bytes();
     save("running");
+    const double per_cycle = static_cast<double>(p.loading.steps_per_period);
+    const std::int64_t begun = stepper->observe().step;
+    const auto look = [&] {
+      checkpoints.look(at, before + seconds_since(start), *stepper, fmt::format("{} Hz", p.loading.frequency));
+    };
     const auto stepped = [&](std::int64_t done) {
       if (!watcher.progress || done == 0) return;
       const auto steps = static_cast<double>(done);
-      watcher.progress(fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}, {:.0f} steps/s", f.frequency_hz, i + 1,
-                                   plan.frequencies.size(), steps / static_cast<double>(p.loading.steps_per_period),
-                                   p.cycles, steps / seconds_since(start)),
-                       steps / static_cast<double>(f.steps));
+      watcher.progress(fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}, {:.0f} steps/s", p.loading.frequency, i + 1,
+                                   plan.frequencies.size(), steps / per_cycle, p.cycles,
+                                   static_cast<double>(done - begun) / seconds_since(start)),
+                       steps / (per_cycle * p.cycles));
     };
-    f.cyclic = run_cyclic(scene, prepared.specimen, *stepper, p, writer ? &*writer : nullptr, stepped);
-    f.stiffness = f.cyclic->fit;
-    f.residual = f.cyclic->fit_rms;
-    f.predicted = p.predicted;
-    if (p.known) f.achieved = difference(f.stiffness, *p.known);
-    if (p.known && scene.solver.tolerance) f.kept = largest(*f.achieved) <= *scene.solver.tolerance;
-    f.seconds = seconds_since(start);
-    result.frequencies.push_back(f);
+    run_cyclic(scene, prepared.specimen, *stepper, p, at.samples, writer ? &*writer : nullptr, look, stepped);
+    at.seconds.push_back(before + seconds_since(start));
+    result.frequencies.push_back(finished(p, at.samples, at.seconds.back(), scene.solver.tolerance));
   }
 }
 

@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// The whole text. `status` is "prepared", "running", "done" or "failed: …".
+/// The whole text. `status` is "prepared", "running", "interrupted", "done" or "failed: …".
 std::string summary_json(const Scene& scene, const Preparation& preparation, const RunResult& result,
                          const std::string& status);
 

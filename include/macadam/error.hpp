@@ -32,6 +32,12 @@ class RunError : public Error {
   using Error::Error;
 };
 
+/// The run was asked to stop, by a signal for instance; the message says where its checkpoint is.
+class InterruptedError : public RunError {
+ public:
+  using RunError::RunError;
+};
+
 /// A time step diverged: the first particle that left the range of sense, and when.
 class DivergenceError : public RunError {
  public:

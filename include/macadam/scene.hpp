@@ -66,11 +66,14 @@ struct SolverSpec {
 struct OutputSpec {
   bool contacts = false;  ///< write contacts.csv
   bool response = true;   ///< write response.csv; without it only what the result needs is observed
+  /// Wall time between two checkpoints [s], 0: when interrupted only; 600 s where the scene gives none.
+  std::optional<double> checkpoint;
 };
 
 /// A whole scene. `file` is where it came from; relative paths in it have been resolved.
 struct Scene {
   std::filesystem::path file;
+  std::string text;  ///< of the file; a checkpoint belongs to it. Empty for a scene that was not read from one
   SpecimenSpec specimen;
   Materials materials;
   LawTable laws;

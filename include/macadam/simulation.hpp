@@ -90,11 +90,16 @@ struct Watcher {
   Progress progress;
   std::function<void(const Preparation&)> prepared;  ///< once the specimen's files are written
   std::function<void(const RunResult&)> planned;     ///< decisions, before the first step
+  /// Asked before each sample and within a second between samples: true ends the run with a checkpoint.
+  std::function<bool()> stop;
 };
 
 /// The whole job: prepare, step every frequency, write every file. response.csv and summary.json are complete up to the
-/// last finished sample and frequency whatever happens later.
-/// \throws InputError, RunError (DivergenceError names particle and time).
-RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {});
+/// last finished sample and frequency whatever happens later. A stepped run of a scene that was read from a file leaves
+/// `checkpoint.h5` as it goes (OutputSpec::checkpoint), replaced by a rename and removed when all is done; backend
+/// reference keeps none. `resume` goes on from it to the same bits as a run that was never interrupted.
+/// \throws InputError, also for a checkpoint that is not there, damaged, or of another scene, version, backend or
+/// precision; InterruptedError; RunError (DivergenceError names particle and time).
+RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
 
 }  // namespace macadam

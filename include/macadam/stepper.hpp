@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "macadam/backend.hpp"
@@ -18,7 +19,8 @@
 namespace macadam {
 
 /// A state of motion to start from, given one step before the start: the stepper takes that step when it is made, which
-/// gives it the forces of step 0. Frames of updated geometry are those of the undeformed contacts, carried there at once.
+/// gives it the forces of step 0. Frames of updated geometry are those of the undeformed contacts, carried there at
+/// once.
 struct StartState {
   std::vector<Vec3d> displacement, rotation;  ///< at step −1, specimen order [m] [rad]
   std::vector<Vec3d> velocity, spin;          ///< half a step before step 0 [m/s] [rad/s]
@@ -71,6 +73,13 @@ struct Observation {
   std::array<Vec3d, 6> wall_force{};  ///< on the walls −x +x −y +y −z +z by the particles [N]
 };
 
+/// One array of a stepper's state, in the private order of its backend.
+struct StateArray {
+  using Values = std::variant<std::vector<float>, std::vector<double>, std::vector<std::int64_t>>;
+  std::string name, unit;
+  Values values;
+};
+
 /// Steps a network in time (leapfrog: velocities at half steps, displacements and forces at whole steps).
 class Stepper {
  public:
@@ -87,6 +96,13 @@ class Stepper {
 
   /// Sets the half-step velocities and spins (specimen order), e.g. for free assemblies in tests.
   virtual void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) = 0;
+
+  /// Everything that advance() changes. A stepper made of the same scene and options by the same program, given this by
+  /// set_state(), goes on to the same bits. \throws RunError for backend reference, which keeps no checkpoints.
+  virtual std::vector<StateArray> state() const = 0;
+
+  /// Puts back what state() gave, or changes nothing. \throws RunError naming the array that does not fit; as state().
+  virtual void set_state(const std::vector<StateArray>& arrays) = 0;
 
   /// First particle (specimen order) whose motion is not finite or exceeds its radius in a step; −1 if none.
   virtual std::int64_t first_divergent() const = 0;

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file checkpoint.hpp  A checkpoint as a file: texts and arrays by name in HDF5, whole or not there.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "macadam/stepper.hpp"
+
+namespace macadam {
+
+/// What is written and read; it knows nothing of what the names mean.
+struct Checkpoint {
+  std::map<std::string, std::string> texts;
+  std::vector<StateArray> arrays;  ///< names without '/', each once; order is not kept
+};
+
+/// Replaces a checkpoint by a rename, once the new one is on the disk: a kill at any moment leaves the old one or the
+/// new one. HDF5's user block, the first 512 bytes, holds the length and a checksum, as text. \throws RunError.
+void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
+
+/// \throws InputError naming the file: not there, no checkpoint, cut off, damaged.
+Checkpoint read_checkpoint(const std::filesystem::path& file);
+
+}  // namespace macadam

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file checkpoints.hpp  Where a stepped run stands, when it is written down, and to which run that belongs.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/results/checkpoint.hpp"
+#include "host/simulation/plan.hpp"
+
+namespace macadam {
+
+/// All that a stepped run needs to go on to the same bits. The results of finished frequencies follow from plan and
+/// samples.
+struct RunState {
+  Plan plan;  ///< decided once: the harmonic solutions that it rests on are not needed again
+  double seconds_planning = 0;
+  std::vector<double> seconds;          ///< wall time of each finished frequency
+  double seconds_running = 0;           ///< of the one that runs, until now
+  std::vector<ResponseSample> samples;  ///< of all frequencies until now
+  std::vector<StateArray> state;        ///< Stepper::state() of the one that runs; read from a checkpoint only
+  std::string specimen;                 ///< fingerprint; read from a checkpoint only
+};
+
+/// The checkpoint's name in the folder of the results.
+inline constexpr const char* checkpoint_name = "checkpoint.h5";
+
+/// Whether runs of this scene keep checkpoints; `why_not` (optional) says why they do not.
+bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not = nullptr);
+
+/// Reads a checkpoint of this scene on this backend.
+/// \throws InputError as read_checkpoint(), and naming what differs: scene (with the first line that does), version,
+/// backend, precision, form or geometry.
+RunState read_run_state(const std::filesystem::path& file, const Scene& scene, Backend backend);
+
+/// \throws InputError when the checkpoint's particles and contacts were others (its specimen file was changed).
+void require_same_specimen(const std::filesystem::path& file, const RunState& state, const Preparation& prepared);
+
+/// Writes checkpoints of one run where they are due.
+class Checkpoints {
+ public:
+  Checkpoints(const std::filesystem::path& file, const Scene& scene, const Preparation& prepared, Backend backend,
+              std::function<bool()> stop);
+
+  /// Looks whether it is time or the run is to stop; `where` is for the message.
+  /// \throws InterruptedError when it was to stop, with the checkpoint written.
+  void look(const RunState& at, double seconds_running, const Stepper& stepper, const std::string& where);
+
+ private:
+  void write(const RunState& at, double seconds_running, const Stepper& stepper) const;
+
+  using Clock = std::chrono::steady_clock;
+  std::filesystem::path file_;
+  const Scene& scene_;
+  const Preparation& prepared_;
+  Backend backend_;
+  std::function<bool()> stop_;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace macadam

@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// checkpoint_test.cpp  A run in pieces gives the bits of a run in one; no other checkpoint is taken for its own.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "general_laws.hpp"
+#include "host/results/checkpoint.hpp"
+#include "test_scenes.hpp"
+
+namespace macadam::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  EXPECT_TRUE(in) << file;
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+/// Whether two states are the same to the bit; NaN would be too.
+bool same_bits(const std::vector<StateArray>& a, const std::vector<StateArray>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const bool same = std::visit(
+        [&](const auto& list) {
+          const auto* other = std::get_if<std::decay_t<decltype(list)>>(&b[i].values);
+          return other && other->size() == list.size() &&
+                 std::memcmp(other->data(), list.data(), list.size() * sizeof(list[0])) == 0;
+        },
+        a[i].values);
+    if (!same || a[i].name != b[i].name) return false;
+  }
+  return true;
+}
+
+std::string message_of(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const Error& error) { return error.what(); }
+  return "nothing was thrown";
+}
+#define EXPECT_HAS(text, part) EXPECT_NE(std::string(text).find(part), std::string::npos) << text
+
+// ---- A stepper's state ----
+
+using Case = std::tuple<Backend, Precision, ContactForm, Geometry>;
+class StepperState : public testing::TestWithParam<Case> {
+ protected:
+  StepperState() : scene_(make_scene(random_specimen(21))), options_(shaking_options(scene_)) {
+    std::tie(backend_, options_.precision, options_.form, options_.geometry) = GetParam();
+  }
+  std::unique_ptr<Stepper> stepper(const StepperOptions& options) const {
+    return make_stepper(backend_, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
+  }
+  TestScene scene_;
+  StepperOptions options_;
+  Backend backend_{};
+};
+
+INSTANTIATE_TEST_SUITE_P(All, StepperState,
+                         testing::Combine(testing::ValuesIn(tested_backends()),
+                                          testing::Values(Precision::double_, Precision::mixed, Precision::single),
+                                          testing::Values(ContactForm::condensed, ContactForm::points),
+                                          testing::Values(Geometry::updated, Geometry::fixed)),
+                         [](const testing::TestParamInfo<Case>& info) {
+                           return fmt::format("{}_{}_{}_{}", to_string(std::get<0>(info.param)),
+                                              to_string(std::get<1>(info.param)), to_string(std::get<2>(info.param)),
+                                              to_string(std::get<3>(info.param)));
+                         });
+
+TEST_P(StepperState, GoesOnToTheSameBits) {
+  for (const bool general : {false, true}) {
+    if (general) scene_.laws = general_laws(scene_.laws, 5);
+    const auto whole = stepper(options_), first = stepper(options_), second = stepper(options_);
+    whole->advance(200);
+    first->advance(77);
+    const std::vector<StateArray> state = first->state();
+    EXPECT_FALSE(same_bits(state, whole->state()));
+    second->advance(5);  // whatever it did before
+    second->set_state(state);
+    EXPECT_TRUE(same_bits(second->state(), state));
+    second->advance(123);
+    EXPECT_TRUE(same_bits(second->state(), whole->state()));
+    EXPECT_EQ(second->observe().step, 200);
+    EXPECT_EQ(second->observe().wall_force[5].z, whole->observe().wall_force[5].z);
+    const ParticleState a = whole->particles(), b = second->particles();
+    for (std::size_t i = 0; i < a.velocity.size(); ++i) {
+      ASSERT_EQ(a.force[i].x, b.force[i].x);
+      ASSERT_EQ(a.spin[i].y, b.spin[i].y);
+      ASSERT_EQ(a.displacement[i].z, b.displacement[i].z);
+    }
+    for (std::size_t k = 0; k < state.size(); ++k) {
+      if (state[k].name == "layout" || state[k].name == "gathered_velocity")
+        continue;                             // the step makes the latter anew
+      std::vector<StateArray> other = state;  // each array matters: the comparison finds one that was forgotten
+      std::visit([](auto& list) { std::fill(list.begin(), list.end(), 0); }, other[k].values);
+      second->set_state(other);
+      second->advance(123);
+      EXPECT_FALSE(same_bits(second->state(), whole->state())) << state[k].name;
+    }
+    second->set_state(state);
+    second->advance(123);
+    for (std::size_t k = 0; k < state.size(); ++k) {
+      std::vector<StateArray> less = state;
+      less.erase(less.begin() + static_cast<std::ptrdiff_t>(k));
+      EXPECT_THROW(second->set_state(less), RunError) << state[k].name;
+    }
+    EXPECT_TRUE(same_bits(second->state(), whole->state())) << "a refused state was set in part";
+  }
+}
+
+TEST_P(StepperState, OfAnotherPrecisionIsRefused) {
+  StepperOptions other = options_;
+  other.precision = options_.precision == Precision::single ? Precision::double_ : Precision::single;
+  const std::vector<StateArray> state = stepper(options_)->state();
+  const auto stranger = stepper(other);
+  EXPECT_HAS(message_of([&] { stranger->set_state(state); }), "precision");
+}
+
+TEST(ReferenceState, IsNotKept) {
+  const TestScene scene = make_scene(random_specimen(1, 2, 2, 2));
+  const auto stepper = make_stepper(Backend::reference, scene.specimen, scene.network, scene.laws, scene.inertia,
+                                    shaking_options(scene));
+  EXPECT_HAS(message_of([&] { stepper->state(); }), "reference keeps no checkpoints");
+  EXPECT_THROW(stepper->set_state({}), RunError);
+}
+
+// ---- Whole runs ----
+
+constexpr const char* contacts = R"(
+[materials.aggregate]
+density = 2630.0
+[materials.mastic]
+density = 2110.0
+[[contacts]]
+pair = "M-M"
+law = "generalised_kelvin"
+E_m = 1.115e10
+C_m = 2.515e9
+E = [3.799e8, 1.600e9, 4.308e10]
+C = [8.950e9, 5.695e9, 1.114e9]
+alpha = 0.10
+[[contacts]]
+pair = "M-A"
+law = "generalised_kelvin"
+E_m = 3.511e10
+C_m = 7.921e9
+E = [1.197e9, 5.039e9, 1.357e11]
+C = [2.819e10, 1.794e10, 3.510e9]
+alpha = 0.10
+[[contacts]]
+pair = "A-A"
+law = "elastic"
+E = 1.151e11
+alpha = 0.05
+[[contacts]]
+pair = "A-W"
+law = "elastic"
+E = 1.151e11
+[[contacts]]
+pair = "M-W"
+law = "elastic"
+E = 3.511e10
+)";
+
+constexpr const char* steady = "frequencies = [10.0, 20.0]\nstart = \"steady\"\nsamples_per_cycle = 40\n";
+constexpr const char* rest = "frequencies = [20.0]\ncycles = 3\nramp_cycles = 1\nsamples_per_cycle = 40\n";
+
+class CheckpointedRun : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / fmt::format("macadam_checkpoint_{}_{}",
+                                                         testing::UnitTest::GetInstance()->current_test_info()->name(),
+                                                         getpid());
+    fs::create_directories(folder_);
+    fs::copy_file(MACADAM_TEST_DATA "/t8.csv", folder_ / "t8.csv");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  Scene scene(const std::string& loading, const std::string& solver = "density_scaling = 1e5\n",
+              const std::string& output = "") const {
+    write(folder_ / "scene.toml",
+          "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n[loading]\nkind = \"cyclic\"\n" + loading +
+              "[solver]\nbackend = \"cpu\"\n" + solver + "[output]\n" + output + contacts);
+    return read_scene(folder_ / "scene.toml");
+  }
+  fs::path out(const std::string& name) const { return folder_ / name; }
+  fs::path file(const std::string& name) const { return out(name) / "checkpoint.h5"; }
+
+  /// Runs until `stop` was asked so many times. Whether it was interrupted.
+  bool run_until(const Scene& scene, const std::string& name, int asked, bool resume) const {
+    Watcher watcher;
+    int count = 0;
+    watcher.stop = [&] { return ++count >= asked; };
+    try {
+      run(scene, out(name), watcher, resume);
+      return false;
+    } catch (const InterruptedError& error) {
+      EXPECT_HAS(error.what(), "--resume");
+      EXPECT_HAS(error.what(), file(name).string());
+      EXPECT_EQ(summary(name).at("status"), "interrupted");
+      EXPECT_TRUE(fs::exists(file(name)));
+      return true;
+    }
+  }
+  nlohmann::json summary(const std::string& name) const {
+    return nlohmann::json::parse(read(out(name) / "summary.json"));
+  }
+  /// Without the times that a run took.
+  nlohmann::json timeless(const std::string& name) const {
+    nlohmann::json all = summary(name);
+    all.erase("timing_s");
+    for (auto& result : all.at("results")) result.erase("solve_s");
+    return all;
+  }
+  void expect_same(const std::string& name, const std::string& expected) const {
+    EXPECT_EQ(timeless(name), timeless(expected));
+    EXPECT_EQ(summary(name).at("status"), "done");
+    const bool response = fs::exists(out(expected) / "response.csv");
+    ASSERT_EQ(fs::exists(out(name) / "response.csv"), response);
+    if (response) { EXPECT_TRUE(read(out(name) / "response.csv") == read(out(expected) / "response.csv")); }
+    EXPECT_FALSE(fs::exists(file(name)));
+    EXPECT_FALSE(fs::exists(out(name) / "checkpoint.h5.part"));
+  }
+  std::string refusal(const Scene& scene, const std::string& name) const {
+    const std::string message = message_of([&] { run(scene, out(name), {}, true); });
+    EXPECT_THROW(run(scene, out(name), {}, true), InputError);
+    EXPECT_HAS(message, file(name).string());
+    return message;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(CheckpointedRun, InPiecesGivesTheBitsOfOne) {
+  // at 1e5 a sample takes some ten steps, at 1e3 some hundred, so that it is cut between samples as well
+  for (const char* loading : {steady, rest}) {
+    for (const char* solver : {"density_scaling = 1e5\n", "density_scaling = 1e3\nprecision = \"mixed\"\n"}) {
+      for (const char* output : {"", "response = false\n"}) {
+        SCOPED_TRACE(std::string(loading) + solver + output);
+        const Scene scene = this->scene(loading, solver, output);
+        fs::remove_all(out("one"));
+        fs::remove_all(out("pieces"));
+        run(scene, out("one"));
+        int interrupted = 0;
+        for (const int asked : {1, 2, 30, 3, 21, 15, 1000000}) {
+          interrupted += run_until(scene, "pieces", asked, interrupted > 0);
+          // whatever became of it: the next piece writes it anew
+          if (interrupted == 3 && *output == 0) write(out("pieces") / "response.csv", "frequency_hz,time_s\n1,2\n");
+        }
+        EXPECT_EQ(interrupted, 6);
+        expect_same("pieces", "one");
+      }
+    }
+  }
+}
+
+// A copy made while the run goes on is what a kill at that moment would have left.
+TEST_F(CheckpointedRun, KeepsCheckpointsByTheClock) {
+  const Scene scene = this->scene(steady, "density_scaling = 1e4\n", "checkpoint = \"1 ms\"\n");
+  int copies = 0;
+  Watcher watcher;
+  watcher.progress = [&](const std::string& stage, double share) {
+    if (stage.find("2 of 2") == std::string::npos || share < 0.5 || copies > 0 || !fs::exists(file("one"))) return;
+    ++copies;
+    fs::copy(out("one"), out("killed"), fs::copy_options::recursive);
+  };
+  run(scene, out("one"), watcher);
+  ASSERT_EQ(copies, 1);
+  write(out("killed") / "checkpoint.h5.part", "of a kill in the middle of the next");
+  EXPECT_EQ(summary("killed").at("status"), "running");
+  run(scene, out("killed"), {}, true);
+  fs::remove(out("killed") / "checkpoint.h5.part");
+  expect_same("killed", "one");
+
+  const Scene seldom = this->scene(steady, "density_scaling = 1e5\n", "checkpoint = 0\n");
+  watcher.progress = [&](const std::string&, double) { EXPECT_FALSE(fs::exists(file("none"))); };
+  run(seldom, out("none"), watcher);
+}
+
+TEST_F(CheckpointedRun, AnythingElseIsRefusedAndNamed) {
+  const Scene scene = this->scene(steady);
+  EXPECT_HAS(refusal(scene, "nowhere"), "no such file");
+  ASSERT_TRUE(run_until(scene, "out", 20, false));
+  const std::string kept = read(file("out")), response = read(out("out") / "response.csv");
+
+  Scene other = this->scene(std::string(steady) + "strain_amplitude = 2e-4\n");
+  EXPECT_HAS(refusal(other, "out"), "another scene: found line 9: [solver], expected line 9: strain_amplitude = 2e-4");
+  other = scene;
+  other.solver.precision = Precision::single;
+  EXPECT_HAS(refusal(other, "out"), "another precision: found not given, expected single");
+  other = scene;
+  other.solver.form = ContactForm::points;
+  EXPECT_HAS(refusal(other, "out"), "another form: found not given, expected points");
+  other = scene;
+  other.solver.backend = Backend::reference;
+  EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "backend reference keeps no checkpoints");
+  other = scene;
+  other.solver.method = SolverMethod::harmonic;
+  EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "method harmonic keeps no checkpoints");
+  other = scene;
+  other.text.clear();
+  EXPECT_HAS(message_of([&] { run(other, out("out"), {}, true); }), "not read from a file");
+
+  const auto changed = [&](const std::string& text, const std::string& value) {
+    write(file("out"), kept);
+    Checkpoint checkpoint = read_checkpoint(file("out"));
+    EXPECT_EQ(checkpoint.texts.count(text), 1u);
+    checkpoint.texts[text] = value;
+    write_checkpoint(file("out"), checkpoint);
+    return refusal(scene, "out");
+  };
+  EXPECT_HAS(changed("version", "0.0.7"), std::string("another version: found 0.0.7, expected ") + version());
+  EXPECT_HAS(changed("backend", "cuda"), "another backend: found cuda, expected cpu");
+  EXPECT_HAS(changed("plan", "{\"seconds\": "), "checkpoint: found ");
+  EXPECT_HAS(changed("plan", "[]"), "checkpoint: found ");
+
+  write(file("out"), kept);
+  const std::string before = read(folder_ / "t8.csv");
+  std::string particles = before;
+  const auto digit = before.find(",mastic") - 1;
+  particles[digit] = particles[digit] == '1' ? '2' : '1';  // the last digit of a radius
+  write(folder_ / "t8.csv", particles);
+  EXPECT_HAS(refusal(scene, "out"), "another specimen: found 175 particles");
+  write(folder_ / "t8.csv", before);
+
+  EXPECT_TRUE(read(file("out")) == kept);
+  run(scene, out("out"), {}, true);  // nothing of that has harmed it
+  run(scene, out("one"));
+  expect_same("out", "one");
+}
+
+TEST_F(CheckpointedRun, DamagedFilesAreRefused) {
+  const Scene scene = this->scene(rest);
+  ASSERT_TRUE(run_until(scene, "out", 20, false));
+  const std::string kept = read(file("out"));
+  ASSERT_GT(kept.size(), 10000u);
+  for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{100}, std::size_t{512}, std::size_t{700},
+                                   kept.size() / 2, kept.size() - 1}) {
+    write(file("out"), kept.substr(0, length));
+    EXPECT_HAS(refusal(scene, "out"), length < 100 ? "another kind of file" : "cut off or damaged");
+  }
+  write(file("out"), kept + "x");
+  EXPECT_HAS(refusal(scene, "out"), "cut off or damaged");
+  write(file("out"), "frequency_hz,time_s\n");
+  EXPECT_HAS(refusal(scene, "out"), "another kind of file");
+  std::mt19937 random(7);
+  for (int k = 0; k < 50; ++k) {
+    std::string damaged = kept;
+    const std::size_t at = 512 + random() % (kept.size() - 512);
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << random() % 8));
+    write(file("out"), damaged);
+    EXPECT_HAS(message_of([&] { read_checkpoint(file("out")); }), "damaged");
+  }
+  // good checksum, no checkpoint within
+  write(file("out"), kept);
+  write_checkpoint(file("out"), {});
+  EXPECT_HAS(refusal(scene, "out"), "checkpoint of another");
+}
+
+TEST_F(CheckpointedRun, AKillWhileWritingLeavesTheOldOrTheNewOne) {
+  Checkpoint checkpoint;
+  checkpoint.texts["text"] = "a\nb\n";
+  checkpoint.arrays.push_back({"numbers", "m", std::vector<double>(100000, 0.1)});
+  const fs::path file = folder_ / "checkpoint.h5";
+  write_checkpoint(file, checkpoint);
+  for (int k = 0; k < 20; ++k) {
+    const pid_t child = fork();
+    if (child == 0) {
+      for (;;) write_checkpoint(file, checkpoint);
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(3000 + 700 * k));
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    const Checkpoint found = read_checkpoint(file);
+    EXPECT_EQ(found.texts, checkpoint.texts);
+    EXPECT_TRUE(same_bits(found.arrays, checkpoint.arrays));
+    EXPECT_EQ(found.arrays[0].unit, "m");
+  }
+  EXPECT_HAS(message_of([&] { write_checkpoint(folder_ / "no" / "checkpoint.h5", checkpoint); }), "cannot be written");
+}
+
+TEST_F(CheckpointedRun, SceneSaysHowOftenAndTheReferenceRefuses) {
+  EXPECT_FALSE(scene(rest).output.checkpoint);
+  EXPECT_EQ(scene(rest, "", "checkpoint = \"10 min\"\n").output.checkpoint, 600.0);
+  EXPECT_EQ(scene(rest, "", "checkpoint = \"1.5 h\"\n").output.checkpoint, 5400.0);
+  EXPECT_EQ(scene(rest, "", "checkpoint = 0\n").output.checkpoint, 0.0);
+  EXPECT_THROW(scene(rest, "", "checkpoint = -1\n"), InputError);
+  Scene asked = scene(rest, "", "checkpoint = \"1 min\"\n");
+  asked.solver.backend = Backend::reference;
+  EXPECT_HAS(message_of([&] { run(asked, out("out")); }), "reference keeps no checkpoints");
+  EXPECT_FALSE(fs::exists(out("out")));  // said at once
+}
+
+// The program itself, with the signals of a terminal and of a queueing system.
+TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
+  scene(rest, "density_scaling = 3e2\nthreads = 1\n");
+  const auto start = [&](const std::string& name, bool resume) {
+    const pid_t child = fork();
+    if (child == 0) {
+      const std::string to = out(name).string(), scene = (folder_ / "scene.toml").string();
+      for (const int number : {SIGINT, SIGTERM}) signal(number, SIG_DFL);  // who runs tests may ignore them
+      if (!freopen((folder_ / "stdout.txt").c_str(), "w", stdout)) _exit(99);
+      if (!freopen((folder_ / "stderr.txt").c_str(), "w", stderr)) _exit(99);
+      execl(MACADAM_PROGRAM, MACADAM_PROGRAM, "run", scene.c_str(), "--out", to.c_str(), resume ? "--resume" : nullptr,
+            nullptr);
+      _exit(99);
+    }
+    return child;
+  };
+  const auto end_of = [](pid_t child) {
+    int status = -1;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  };
+  const auto size_of = [&](const std::string& name) {
+    std::error_code error;
+    const auto size = fs::file_size(out(name) / "response.csv", error);
+    return error ? std::uintmax_t{0} : size;
+  };
+  ASSERT_EQ(end_of(start("one", false)), 0) << read(folder_ / "stderr.txt");
+  const std::uintmax_t whole = size_of("one");
+  bool resume = false;
+  for (const int signal : {SIGTERM, SIGINT}) {
+    const std::uintmax_t wanted = size_of("out") + whole / 6;  // more than it writes anew before the first step
+    const pid_t child = start("out", resume);
+    while (size_of("out") < wanted && waitpid(child, nullptr, WNOHANG) == 0) usleep(1000);
+    ASSERT_EQ(kill(child, signal), 0) << "it was done before it could be interrupted";
+    ASSERT_EQ(end_of(child), 1) << read(folder_ / "stderr.txt");
+    EXPECT_HAS(read(folder_ / "stderr.txt"), "--resume");
+    EXPECT_EQ(summary("out").at("status"), "interrupted");
+    EXPECT_TRUE(fs::exists(file("out")));
+    EXPECT_LT(size_of("out"), whole);
+    resume = true;
+  }
+  ASSERT_EQ(end_of(start("out", true)), 0) << read(folder_ / "stderr.txt");
+  expect_same("out", "one");
+  EXPECT_EQ(end_of(start("out", true)), 2);
+  EXPECT_HAS(read(folder_ / "stderr.txt"), "no such file");
+}
+
+}  // namespace
+}  // namespace macadam::test
