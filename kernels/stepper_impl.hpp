@@ -154,9 +154,9 @@ class StepperImpl final : public Stepper {
     if (step.size() != 1) throw RunError("state: found no number of the step, expected one");
     if (integers("layout") != order()) {
       throw RunError(
-          "state: found contacts in another order, expected that of this program on this processor (packet width, "
-          "tiles "
-          "and bodies)");
+          "state: found contacts in another order, expected that of this program, precision and processor (packet "
+          "width, "
+          "tiles and bodies)");
     }
     exec_.states().replace(arrays);
     step_ = step.front();
