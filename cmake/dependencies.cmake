@@ -30,7 +30,7 @@ if(NOT MACADAM_CUDA STREQUAL "OFF")
   endif()
   check_language(CUDA)
   if(CMAKE_CUDA_COMPILER)
-    if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES)
+    if(NOT DEFINED CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
       set(CMAKE_CUDA_ARCHITECTURES "75-virtual;90-real")  # made for sm_90; the driver compiles for any other from 7.5 on
     endif()
     enable_language(CUDA)
