@@ -20,9 +20,9 @@ struct Fundamental {
   double rms = 0;              ///< of what the fit leaves
 };
 
-/// Least squares of offset + trend·t + fundamental + second harmonic, so that drift and start-up offsets do not leak into
-/// the phasor. The second harmonic is there because it is not orthogonal to the trend: unfitted, h of it over one cycle
-/// would make −0.78·h of fundamental. Few samples do without it.
+/// Least squares of offset + trend·t + fundamental + second harmonic, so that drift and start-up offsets do not leak
+/// into the phasor. The second harmonic is there because it is not orthogonal to the trend: unfitted, h of it over one
+/// cycle would make −0.78·h of fundamental. Few samples do without it.
 template <class Value>
 Fundamental fit(std::span<const ResponseSample> samples, double frequency, Value value) {
   const auto n = static_cast<Eigen::Index>(samples.size());

@@ -32,9 +32,9 @@ struct CyclicResult {
   double change_phase_deg = 0;  ///< φ likewise, difference
 };
 
-/// Fits offset + trend + fundamental + second harmonic to strain and stress over the last `fit_cycles` whole cycles (least squares) and
-/// reads Eq. 24–25 off the last cycle (parabolic peaks).
-/// \throws InputError when the samples hold less than one cycle.
+/// Fits offset + trend + fundamental + second harmonic to strain and stress over the last `fit_cycles` whole cycles
+/// (least squares) and reads Eq. 24–25 off the last cycle (parabolic peaks). \throws InputError when the samples hold
+/// less than one cycle.
 CyclicResult evaluate_cyclic(std::span<const ResponseSample> samples, double frequency, int fit_cycles);
 
 }  // namespace macadam
