@@ -8,172 +8,16 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <thread>
 
-#include "general_laws.hpp"
 #include "host/results/checkpoint.hpp"
+#include "test_files.hpp"
 #include "test_scenes.hpp"
 
 namespace macadam::test {
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  EXPECT_TRUE(in) << file;
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
-
-/// Whether two states are the same to the bit; NaN would be too.
-bool same_bits(const std::vector<StateArray>& a, const std::vector<StateArray>& b) {
-  if (a.size() != b.size()) return false;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const bool same = std::visit(
-        [&](const auto& list) {
-          const auto* other = std::get_if<std::decay_t<decltype(list)>>(&b[i].values);
-          return other && other->size() == list.size() &&
-                 std::memcmp(other->data(), list.data(), list.size() * sizeof(list[0])) == 0;
-        },
-        a[i].values);
-    if (!same || a[i].name != b[i].name) return false;
-  }
-  return true;
-}
-
-std::string message_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& error) { return error.what(); }
-  return "nothing was thrown";
-}
-#define EXPECT_HAS(text, part) EXPECT_NE(std::string(text).find(part), std::string::npos) << text
-
-// ---- A stepper's state ----
-
-using Case = std::tuple<Backend, Precision, ContactForm, Geometry>;
-class StepperState : public testing::TestWithParam<Case> {
- protected:
-  StepperState() : scene_(make_scene(random_specimen(21))), options_(shaking_options(scene_)) {
-    std::tie(backend_, options_.precision, options_.form, options_.geometry) = GetParam();
-  }
-  std::unique_ptr<Stepper> stepper(const StepperOptions& options) const {
-    return make_stepper(backend_, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
-  }
-  TestScene scene_;
-  StepperOptions options_;
-  Backend backend_{};
-};
-
-INSTANTIATE_TEST_SUITE_P(All, StepperState,
-                         testing::Combine(testing::ValuesIn(tested_backends()),
-                                          testing::Values(Precision::double_, Precision::mixed, Precision::single),
-                                          testing::Values(ContactForm::condensed, ContactForm::points),
-                                          testing::Values(Geometry::updated, Geometry::fixed)),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           return fmt::format("{}_{}_{}_{}", to_string(std::get<0>(info.param)),
-                                              to_string(std::get<1>(info.param)), to_string(std::get<2>(info.param)),
-                                              to_string(std::get<3>(info.param)));
-                         });
-
-TEST_P(StepperState, GoesOnToTheSameBits) {
-  for (const bool general : {false, true}) {
-    if (general) scene_.laws = general_laws(scene_.laws, 5);
-    const auto whole = stepper(options_), first = stepper(options_), second = stepper(options_);
-    whole->advance(200);
-    first->advance(77);
-    const std::vector<StateArray> state = first->state();
-    EXPECT_FALSE(same_bits(state, whole->state()));
-    second->advance(5);  // whatever it did before
-    second->set_state(state);
-    EXPECT_TRUE(same_bits(second->state(), state));
-    second->advance(123);
-    EXPECT_TRUE(same_bits(second->state(), whole->state()));
-    EXPECT_EQ(second->observe().step, 200);
-    EXPECT_EQ(second->observe().wall_force[5].z, whole->observe().wall_force[5].z);
-    const ParticleState a = whole->particles(), b = second->particles();
-    for (std::size_t i = 0; i < a.velocity.size(); ++i) {
-      ASSERT_EQ(a.force[i].x, b.force[i].x);
-      ASSERT_EQ(a.spin[i].y, b.spin[i].y);
-      ASSERT_EQ(a.displacement[i].z, b.displacement[i].z);
-    }
-    for (std::size_t k = 0; k < state.size(); ++k) {
-      if (state[k].name == "layout" || state[k].name == "gathered_velocity")
-        continue;                             // the step makes the latter anew
-      std::vector<StateArray> other = state;  // each array matters: the comparison finds one that was forgotten
-      std::visit([](auto& list) { std::fill(list.begin(), list.end(), 0); }, other[k].values);
-      second->set_state(other);
-      second->advance(123);
-      EXPECT_FALSE(same_bits(second->state(), whole->state())) << state[k].name;
-    }
-    second->set_state(state);
-    second->advance(123);
-    for (std::size_t k = 0; k < state.size(); ++k) {
-      std::vector<StateArray> less = state;
-      less.erase(less.begin() + static_cast<std::ptrdiff_t>(k));
-      EXPECT_THROW(second->set_state(less), RunError) << state[k].name;
-    }
-    EXPECT_TRUE(same_bits(second->state(), whole->state())) << "a refused state was set in part";
-  }
-}
-
-TEST_P(StepperState, OfAnotherPrecisionIsRefused) {
-  StepperOptions other = options_;
-  other.precision = options_.precision == Precision::single ? Precision::double_ : Precision::single;
-  const std::vector<StateArray> state = stepper(options_)->state();
-  const auto stranger = stepper(other);
-  EXPECT_HAS(message_of([&] { stranger->set_state(state); }), "precision");
-}
-
-TEST(ReferenceState, IsNotKept) {
-  const TestScene scene = make_scene(random_specimen(1, 2, 2, 2));
-  const auto stepper = make_stepper(Backend::reference, scene.specimen, scene.network, scene.laws, scene.inertia,
-                                    shaking_options(scene));
-  EXPECT_HAS(message_of([&] { stepper->state(); }), "reference keeps no checkpoints");
-  EXPECT_THROW(stepper->set_state({}), RunError);
-}
-
-// ---- Whole runs ----
-
-constexpr const char* contacts = R"(
-[materials.aggregate]
-density = 2630.0
-[materials.mastic]
-density = 2110.0
-[[contacts]]
-pair = "M-M"
-law = "generalised_kelvin"
-E_m = 1.115e10
-C_m = 2.515e9
-E = [3.799e8, 1.600e9, 4.308e10]
-C = [8.950e9, 5.695e9, 1.114e9]
-alpha = 0.10
-[[contacts]]
-pair = "M-A"
-law = "generalised_kelvin"
-E_m = 3.511e10
-C_m = 7.921e9
-E = [1.197e9, 5.039e9, 1.357e11]
-C = [2.819e10, 1.794e10, 3.510e9]
-alpha = 0.10
-[[contacts]]
-pair = "A-A"
-law = "elastic"
-E = 1.151e11
-alpha = 0.05
-[[contacts]]
-pair = "A-W"
-law = "elastic"
-E = 1.151e11
-[[contacts]]
-pair = "M-W"
-law = "elastic"
-E = 3.511e10
-)";
 
 constexpr const char* steady = "frequencies = [10.0, 20.0]\nstart = \"steady\"\nsamples_per_cycle = 40\n";
 constexpr const char* rest = "frequencies = [20.0]\ncycles = 3\nramp_cycles = 1\nsamples_per_cycle = 40\n";
@@ -181,9 +25,7 @@ constexpr const char* rest = "frequencies = [20.0]\ncycles = 3\nramp_cycles = 1\
 class CheckpointedRun : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / fmt::format("macadam_checkpoint_{}_{}",
-                                                         testing::UnitTest::GetInstance()->current_test_info()->name(),
-                                                         getpid());
+    folder_ = fs::path(testing::TempDir()) / fmt::format("macadam_checkpoint_{}", getpid());
     fs::create_directories(folder_);
     fs::copy_file(MACADAM_TEST_DATA "/t8.csv", folder_ / "t8.csv");
   }
@@ -193,7 +35,7 @@ class CheckpointedRun : public testing::Test {
               const std::string& output = "") const {
     write(folder_ / "scene.toml",
           "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n[loading]\nkind = \"cyclic\"\n" + loading +
-              "[solver]\nbackend = \"cpu\"\n" + solver + "[output]\n" + output + contacts);
+              "[solver]\nbackend = \"cpu\"\n" + solver + "[output]\n" + output + am1_contacts);
     return read_scene(folder_ / "scene.toml");
   }
   fs::path out(const std::string& name) const { return folder_ / name; }
@@ -244,28 +86,36 @@ class CheckpointedRun : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(CheckpointedRun, InPiecesGivesTheBitsOfOne) {
-  // at 1e5 a sample takes some ten steps, at 1e3 some hundred, so that it is cut between samples as well
-  for (const char* loading : {steady, rest}) {
-    for (const char* solver : {"density_scaling = 1e5\n", "density_scaling = 1e3\nprecision = \"mixed\"\n"}) {
-      for (const char* output : {"", "response = false\n"}) {
-        SCOPED_TRACE(std::string(loading) + solver + output);
-        const Scene scene = this->scene(loading, solver, output);
-        fs::remove_all(out("one"));
-        fs::remove_all(out("pieces"));
-        run(scene, out("one"));
-        int interrupted = 0;
-        for (const int asked : {1, 2, 30, 3, 21, 15, 1000000}) {
-          interrupted += run_until(scene, "pieces", asked, interrupted > 0);
-          // whatever became of it: the next piece writes it anew
-          if (interrupted == 3 && *output == 0) write(out("pieces") / "response.csv", "frequency_hz,time_s\n1,2\n");
-        }
-        EXPECT_EQ(interrupted, 6);
-        expect_same("pieces", "one");
-      }
-    }
+/// Loading, solver and output of a scene.
+struct InPieces : CheckpointedRun, testing::WithParamInterface<std::tuple<const char*, const char*, const char*>> {
+  static std::string name_of(const testing::TestParamInfo<ParamType>& info) {
+    const auto& [loading, solver, output] = info.param;
+    return fmt::format("{}_{}_{}", loading == steady ? "steady" : "rest",
+                       std::strstr(solver, "mixed") ? "mixed" : "double", *output ? "alone" : "with_response");
   }
+};
+
+TEST_P(InPieces, GivesTheBitsOfOne) {
+  const auto [loading, solver, output] = GetParam();
+  const Scene scene = this->scene(loading, solver, output);
+  run(scene, out("one"));
+  int interrupted = 0;
+  for (const int asked : {1, 2, 30, 3, 21, 15, 1000000}) {
+    interrupted += run_until(scene, "pieces", asked, interrupted > 0);
+    // whatever became of it: the next piece writes it anew
+    if (interrupted == 3 && *output == 0) write(out("pieces") / "response.csv", "frequency_hz,time_s\n1,2\n");
+  }
+  EXPECT_EQ(interrupted, 6);
+  expect_same("pieces", "one");
 }
+
+// at 1e5 a sample takes some ten steps, at 1e4 some thirty, so that it is cut between samples as well
+INSTANTIATE_TEST_SUITE_P(CheckpointedRun, InPieces,
+                         testing::Combine(testing::Values(steady, rest),
+                                          testing::Values("density_scaling = 1e5\n",
+                                                          "density_scaling = 1e4\nprecision = \"mixed\"\n"),
+                                          testing::Values("", "response = false\n")),
+                         InPieces::name_of);
 
 // A copy made while the run goes on is what a kill at that moment would have left.
 TEST_F(CheckpointedRun, KeepsCheckpointsByTheClock) {
@@ -406,7 +256,7 @@ TEST_F(CheckpointedRun, SceneSaysHowOftenAndTheReferenceRefuses) {
 
 // The program itself, with the signals of a terminal and of a queueing system.
 TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
-  scene(rest, "density_scaling = 3e2\nthreads = 1\n");
+  scene(rest, long_tests ? "density_scaling = 3e2\nthreads = 1\n" : "density_scaling = 3e3\nthreads = 1\n");
   const auto start = [&](const std::string& name, bool resume) {
     const pid_t child = fork();
     if (child == 0) {

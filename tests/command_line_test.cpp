@@ -13,60 +13,13 @@
 #include <regex>
 #include <sstream>
 
-#include "macadam/macadam.hpp"
+#include "test_files.hpp"
 
 namespace macadam::test {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// Laws of binder AM1 and densities.
-constexpr const char* materials = R"(
-[materials.aggregate]
-density = 2630.0
-[materials.mastic]
-density = 2110.0
-[[contacts]]
-pair = "M-M"
-law = "generalised_kelvin"
-E_m = 1.115e10
-C_m = 2.515e9
-E = [3.799e8, 1.600e9, 4.308e10]
-C = [8.950e9, 5.695e9, 1.114e9]
-alpha = 0.10
-[[contacts]]
-pair = "M-A"
-law = "generalised_kelvin"
-E_m = 3.511e10
-C_m = 7.921e9
-E = [1.197e9, 5.039e9, 1.357e11]
-C = [2.819e10, 1.794e10, 3.510e9]
-alpha = 0.10
-[[contacts]]
-pair = "A-A"
-law = "elastic"
-E = 1.151e11
-alpha = 0.05
-[[contacts]]
-pair = "A-W"
-law = "elastic"
-E = 1.151e11
-alpha = 0.0
-[[contacts]]
-pair = "M-W"
-law = "elastic"
-E = 3.511e10
-alpha = 0.0
-)";
-
 /// One cycle of 500 steps at 20 Hz.
 constexpr const char* quick = "density_scaling = 1e6\n";
-
-std::string read(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  EXPECT_TRUE(in) << file;
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> out;
@@ -108,7 +61,7 @@ class CommandLine : public testing::Test {
     std::ofstream(file) << "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n"
                         << "[loading]\nkind = \"cyclic\"\nfrequencies = [20.0]\ncycles = 1\n"
                         << "[solver]\n"
-                        << solver << more << materials;
+                        << solver << more << am1_contacts;
     return file;
   }
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "long_tests.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"
 
@@ -259,6 +260,7 @@ TEST(Generate, ImpossibleRecipesAreRefused) {
 }
 
 TEST(GenerateLarge, PaperSpecimen) {
+  if (!test::long_tests) GTEST_SKIP() << "35,760 particles";
   SpecimenSpec spec;
   spec.box = {{0.05, 0.05, 0.08}};
   spec.aggregate = {

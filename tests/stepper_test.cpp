@@ -98,10 +98,10 @@ TEST_P(StepperAgainstReference, SlowLoadUnderWaves) {
   loading.frequency = 100;
   loading.steps_per_period = static_cast<std::int64_t>(1 / (loading.frequency * options.dt)) + 1;
   options.dt = loading.dt();
-  compare(scene, options, 1000);
+  compare(scene, options, long_tests ? 1000 : 200);
   options.damping_kind = Damping::viscous;
   options.damping = 5e4;
-  compare(scene, options, 300);
+  compare(scene, options, long_tests ? 300 : 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, StepperAgainstReference,

@@ -4,17 +4,11 @@
 
 #include <random>
 
+#include "long_tests.hpp"
 #include "macadam/macadam.hpp"
 #include "test_networks.hpp"
 
 namespace macadam::test {
-
-/// Whether runs of very many steps are worth their time: not in sanitizer and coverage builds.
-#ifdef MACADAM_LONG_TESTS
-inline constexpr bool long_tests = true;
-#else
-inline constexpr bool long_tests = false;
-#endif
 
 /// Everything a stepper needs.
 struct TestScene {

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// stepper_state_test.cpp  A stepper set to another's state goes on to the same bits.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include "general_laws.hpp"
+#include "test_files.hpp"
+#include "test_scenes.hpp"
+
+namespace macadam::test {
+namespace {
+
+using Case = std::tuple<Backend, Precision, ContactForm, Geometry>;
+class StepperState : public testing::TestWithParam<Case> {
+ protected:
+  StepperState() : scene_(make_scene(random_specimen(21))), options_(shaking_options(scene_)) {
+    std::tie(backend_, options_.precision, options_.form, options_.geometry) = GetParam();
+  }
+  std::unique_ptr<Stepper> stepper(const StepperOptions& options) const {
+    return make_stepper(backend_, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
+  }
+  TestScene scene_;
+  StepperOptions options_;
+  Backend backend_{};
+};
+
+INSTANTIATE_TEST_SUITE_P(All, StepperState,
+                         testing::Combine(testing::ValuesIn(tested_backends()),
+                                          testing::Values(Precision::double_, Precision::mixed, Precision::single),
+                                          testing::Values(ContactForm::condensed, ContactForm::points),
+                                          testing::Values(Geometry::updated, Geometry::fixed)),
+                         [](const testing::TestParamInfo<Case>& info) {
+                           return fmt::format("{}_{}_{}_{}", to_string(std::get<0>(info.param)),
+                                              to_string(std::get<1>(info.param)), to_string(std::get<2>(info.param)),
+                                              to_string(std::get<3>(info.param)));
+                         });
+
+TEST_P(StepperState, GoesOnToTheSameBits) {
+  for (const bool general : {false, true}) {
+    if (general) scene_.laws = general_laws(scene_.laws, 5);
+    const auto whole = stepper(options_), first = stepper(options_), second = stepper(options_);
+    whole->advance(200);
+    first->advance(77);
+    const std::vector<StateArray> state = first->state();
+    EXPECT_FALSE(same_bits(state, whole->state()));
+    second->advance(5);  // whatever it did before
+    second->set_state(state);
+    EXPECT_TRUE(same_bits(second->state(), state));
+    second->advance(123);
+    EXPECT_TRUE(same_bits(second->state(), whole->state()));
+    EXPECT_EQ(second->observe().step, 200);
+    EXPECT_EQ(second->observe().wall_force[5].z, whole->observe().wall_force[5].z);
+    const ParticleState a = whole->particles(), b = second->particles();
+    for (std::size_t i = 0; i < a.velocity.size(); ++i) {
+      ASSERT_EQ(a.force[i].x, b.force[i].x);
+      ASSERT_EQ(a.spin[i].y, b.spin[i].y);
+      ASSERT_EQ(a.displacement[i].z, b.displacement[i].z);
+    }
+    for (std::size_t k = 0; k < state.size(); ++k) {
+      if (state[k].name == "layout" || state[k].name == "gathered_velocity")
+        continue;                             // the step makes the latter anew
+      std::vector<StateArray> other = state;  // each array matters: the comparison finds one that was forgotten
+      std::visit([](auto& list) { std::fill(list.begin(), list.end(), 0); }, other[k].values);
+      second->set_state(other);
+      second->advance(123);
+      EXPECT_FALSE(same_bits(second->state(), whole->state())) << state[k].name;
+    }
+    second->set_state(state);
+    second->advance(123);
+    for (std::size_t k = 0; k < state.size(); ++k) {
+      std::vector<StateArray> less = state;
+      less.erase(less.begin() + static_cast<std::ptrdiff_t>(k));
+      EXPECT_THROW(second->set_state(less), RunError) << state[k].name;
+    }
+    EXPECT_TRUE(same_bits(second->state(), whole->state())) << "a refused state was set in part";
+  }
+}
+
+TEST_P(StepperState, OfAnotherPrecisionIsRefused) {
+  StepperOptions other = options_;
+  other.precision = options_.precision == Precision::single ? Precision::double_ : Precision::single;
+  const std::vector<StateArray> state = stepper(options_)->state();
+  const auto stranger = stepper(other);
+  EXPECT_HAS(message_of([&] { stranger->set_state(state); }), "precision");
+}
+
+TEST(ReferenceState, IsNotKept) {
+  const TestScene scene = make_scene(random_specimen(1, 2, 2, 2));
+  const auto stepper = make_stepper(Backend::reference, scene.specimen, scene.network, scene.laws, scene.inertia,
+                                    shaking_options(scene));
+  EXPECT_HAS(message_of([&] { stepper->state(); }), "reference keeps no checkpoints");
+  EXPECT_THROW(stepper->set_state({}), RunError);
+}
+
+}  // namespace
+}  // namespace macadam::test
