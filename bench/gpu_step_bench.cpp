@@ -79,9 +79,11 @@ class Table {
     fmt::print("{}, {} multiprocessors, {} MB L2, up to {} MHz, driver for CUDA {}.{}, copy {:.2f} TB/s\n", p.name,
                p.multiProcessorCount, p.l2CacheSize >> 20, clock / 1000, driver / 1000, driver % 1000 / 10,
                copy_ / 1e12);
-    fmt::print("{:44} {:>10} {:>12} {:>10} {:>8}  {}\n", "step", "us", "contacts/s", "B/contact", "of copy", "path");
+    fmt::print("{:44} {:>10} {:>12} {:>10} {:>8} {:>8}  {}\n", "step", "us", "contacts/s", "B/contact", "of copy",
+               "B held", "path");
     if (!csv.empty()) csv_.open(csv);
-    if (csv_) csv_ << "step,us,contacts_per_s,bytes_per_contact,share_of_copy,path\n";
+    if (csv_)
+      csv_ << "step,particles,contacts,us,contacts_per_s,bytes_per_contact,share_of_copy,held_bytes_per_contact,path\n";
   }
 
   void run(const std::string& scene_name, const std::function<const test::TestScene&()>& make, const Row& row,
@@ -116,12 +118,13 @@ class Table {
     const double contacts = static_cast<double>(scene.network.contacts.size());
     const double bytes = static_cast<double>(stepper->traffic());
     const double share = bytes / (us * 1e-6) / copy_;
-    fmt::print("{:44} {:10.2f} {:12.3e} {:10.0f} {:8.2f}  {}\n", name, us, contacts / (us * 1e-6), bytes / contacts,
-               share, stepper->description());
+    const double held = static_cast<double>(stepper->bytes()) / contacts;
+    fmt::print("{:44} {:10.2f} {:12.3e} {:10.0f} {:8.2f} {:8.0f}  {}\n", name, us, contacts / (us * 1e-6),
+               bytes / contacts, share, held, stepper->description());
     std::fflush(stdout);
     if (csv_) {
-      csv_ << fmt::format("{},{:.3f},{:.4g},{:.1f},{:.3f},\"{}\"\n", name, us, contacts / (us * 1e-6), bytes / contacts,
-                          share, stepper->description());
+      csv_ << fmt::format("\"{}\",{},{},{:.3f},{:.4g},{:.1f},{:.3f},{:.1f},\"{}\"\n", name, scene.specimen.size(),
+                          contacts, us, contacts / (us * 1e-6), bytes / contacts, share, held, stepper->description());
       csv_.flush();
     }
   }
@@ -165,6 +168,12 @@ void run_all(Table& table, bool large, bool huge) {
   table.run("fcc 62,950", fcc(62950), {condensed, mixed, fixed});
   table.run("fcc 62,950", fcc(62950), {condensed, full, fixed});
   scene.reset();
+  for (const auto& [size, number] : {std::pair{"fcc 1e3", 1000}, {"fcc 1e4", 10000}, {"fcc 1e5", 100000}}) {
+    const auto scene_of = fcc(static_cast<std::size_t>(number));
+    for (const Precision p : {single, mixed, full}) table.run(size, scene_of, {condensed, p, fixed});
+    table.run(size, scene_of, {points, full, fixed});
+    scene.reset();
+  }
   if (large) {
     for (const Precision p : {single, mixed, full}) table.run("fcc 1e6", fcc(1000000), {condensed, p, fixed});
     scene.reset();

@@ -74,42 +74,65 @@ constexpr std::int32_t frame_words_of(Geometry geometry) {
   return geometry == Geometry::fixed ? 0 : sizeof(typename P::State) == 8 ? 3 : 4;
 }
 
+/// How long the arrays of a group are.
+template <class P>
+struct GroupShape {
+  ContactView<P> view{};  ///< numbers alone
+  bool by_points, stateless;
+  std::size_t slots, lanes, rows;  ///< rows: of chains, one a packet or one a point
+
+  /// `options.skip_rotations` is taken as decided.
+  GroupShape(const Layout& layout, const GroupLayout& group, const Law& law, const StepperOptions& options)
+      : by_points(options.form == ContactForm::points),
+        stateless(options.geometry == Geometry::fixed &&
+                  std::visit([](const auto& l) { return decltype(l.template step<double>(1.0))::memoryless; }, law)),
+        slots(group.contact.size()),
+        lanes(static_cast<std::size_t>(layout.lanes)),
+        rows(by_points ? group.packet_row.back() : group.packets()) {
+    const double alpha = std::visit([](const auto& l) { return l.alpha; }, law);
+    const bool shear = alpha != 0 || !options.skip_shear, turns = !options.skip_rotations;
+    view.alpha = static_cast<typename P::Geometry>(alpha);
+    view.packets = static_cast<std::uint32_t>(group.packets());
+    view.geometry_words = options.geometry == Geometry::updated ? distance + 1 : distance;
+    view.frame_words = frame_words_of<P>(options.geometry);
+    view.components = by_points ? (shear ? 3 : 1) : shear ? 6 : turns ? 3 : 1;
+    view.units = std::visit([](const auto& l) { return l.units(); }, law);
+    view.wall = group.pair == PairType::aw || group.pair == PairType::mw;
+  }
+  std::size_t geometry() const { return slots * static_cast<std::size_t>(view.geometry_words); }
+  std::size_t frame() const { return slots * static_cast<std::size_t>(view.frame_words); }
+  std::size_t chain() const {
+    return stateless ? 0 : rows * lanes * static_cast<std::size_t>(view.components * (1 + view.units));
+  }
+  std::size_t points() const { return by_points ? rows * lanes * point_words : 0; }
+  std::size_t packet_row() const { return by_points ? slots / lanes + 1 : 0; }
+  /// Of all arrays of the group.
+  std::size_t bytes() const {
+    return 2 * slots * sizeof(std::int32_t) + (geometry() + points()) * sizeof(typename P::Geometry) +
+           (chain() + frame()) * sizeof(typename P::State) + packet_row() * sizeof(std::uint32_t);
+  }
+};
+
 /// Fills the arrays of a group. Inert slots touch `body_a` of a real contact with zero arms and moments: they add zero.
 /// `options.skip_rotations` is taken as decided.
 template <class P>
 ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
                                const Law& law, const StepperOptions& options) {
   using Geo = typename P::Geometry;
-  const bool by_points = options.form == ContactForm::points;
+  const GroupShape<P> sizes(layout, group, law, options);
   ContactArrays<P> out;
   out.law = law;
-  auto& shape = out.shape;
-  const double alpha = std::visit([](const auto& l) { return l.alpha; }, law);
-  shape.alpha = static_cast<Geo>(alpha);
-  shape.packets = static_cast<std::uint32_t>(group.packets());
-  shape.geometry_words = options.geometry == Geometry::updated ? distance + 1 : distance;
-  shape.frame_words = frame_words_of<P>(options.geometry);
-  const bool shear = alpha != 0 || !options.skip_shear, turns = !options.skip_rotations;
-  shape.components = by_points ? (shear ? 3 : 1) : shear ? 6 : turns ? 3 : 1;
-  shape.units = std::visit([](const auto& l) { return l.units(); }, law);
-  shape.wall = group.pair == PairType::aw || group.pair == PairType::mw;
-
-  const auto lanes = static_cast<std::size_t>(layout.lanes);
-  const std::size_t slots = group.contact.size();
+  const auto& shape = out.shape = sizes.view;
+  const bool turns = !options.skip_rotations, by_points = sizes.by_points, stateless = sizes.stateless;
+  const std::size_t slots = sizes.slots, lanes = sizes.lanes;
+  const auto words = static_cast<std::size_t>(1 + shape.units), components = static_cast<std::size_t>(shape.components);
   out.body_a.resize(slots);
   out.body_b.resize(slots);
-  out.geometry.assign(slots * static_cast<std::size_t>(shape.geometry_words), Geo(0));
-  out.frame.assign(slots * static_cast<std::size_t>(shape.frame_words), typename P::State(0));
-  const std::size_t rows = by_points ? group.packet_row.back() : group.packets();
-  const bool stateless =
-      options.geometry == Geometry::fixed &&
-      std::visit([](const auto& l) { return decltype(l.template step<double>(1.0))::memoryless; }, law);
-  const auto words = static_cast<std::size_t>(1 + shape.units), components = static_cast<std::size_t>(shape.components);
-  out.chain.assign(stateless ? 0 : rows * components * words * lanes, typename P::State(0));
-  if (by_points) {
-    out.packet_row.assign(group.packet_row.begin(), group.packet_row.end());
-    out.points.assign(rows * point_words * lanes, Geo(0));
-  }
+  out.geometry.assign(sizes.geometry(), Geo(0));
+  out.frame.assign(sizes.frame(), typename P::State(0));
+  out.chain.assign(sizes.chain(), typename P::State(0));
+  out.points.assign(sizes.points(), Geo(0));
+  if (by_points) out.packet_row.assign(group.packet_row.begin(), group.packet_row.end());
 
   for (std::size_t slot = 0; slot < slots; ++slot) {
     const std::size_t packet = slot / lanes, lane = slot % lanes;

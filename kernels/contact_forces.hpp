@@ -6,6 +6,8 @@
 /// writes 6·(1 + L) states and reads 11 or 12 words of geometry and two bodies.
 #pragma once
 
+#include <type_traits>
+
 #include "kernels/contact_data.hpp"
 #include "kernels/contact_kinematics.hpp"
 
@@ -26,19 +28,24 @@ struct ContactForces {
   using Policy = P;
   /// Whether f follows from the displacements of now: no state is read or written.
   static constexpr bool stateless = LawStep::memoryless && geometry == Geometry::fixed;
+  /// What a contact computes in. Rounding a force that follows from the place alone makes the same error on every visit
+  /// to it: nothing is forgotten, and energy drifts. So that force is as precise as a state.
+  using Work = std::conditional_t<stateless, typename P::State, typename P::Geometry>;
   ContactView<P> view;
   LawStep law;
   typename P::State dt;  ///< [s]
 
   /// Steps the contacts of `item` and returns their loads.
   template <class Item>
-  MACADAM_HD ContactLoad<typename Item::template Value<typename P::Geometry>> operator()(
-      const Item& item, std::uint32_t packet, const MotionView<P>& motion) const {
-    using T = typename Item::template Value<typename P::Geometry>;
+  MACADAM_HD ContactLoad<typename Item::template Value<Work>> operator()(const Item& item, std::uint32_t packet,
+                                                                         const MotionView<P>& motion) const {
+    using T = typename Item::template Value<Work>;
     const auto slot = static_cast<std::size_t>(packet) * item.lanes();
     const std::int32_t *ia = view.body_a + slot, *ib = view.body_b + slot;
     const auto* g = view.geometry + slot * static_cast<std::size_t>(view.geometry_words);
-    auto word = [&](int w) { return item.load(g + static_cast<std::size_t>(w) * item.lanes()); };
+    auto word = [&](int w) {
+      return item.template convert<Work>(item.load(g + static_cast<std::size_t>(w) * item.lanes()));
+    };
 
     const Vec3<T> n0{word(n_x), word(n_y), word(n_z)};
     Placement<T> now, middle;  // where the load acts, and where the half-step velocities are seen
@@ -46,10 +53,9 @@ struct ContactForces {
     if constexpr (stateless) {
       now = canonical_placement(n0, item.copysign_one(n0.z), word(arm_a), word(arm_b));
       const auto* turn = motion.displacement + displacement_words / 2;
-      relative_rates(now, Twist<T>{{T(0), T(0), T(0)}, item.template vector<typename P::Geometry>(turn, ia)},
-                     Twist<T>{item.template relative<typename P::Geometry>(motion.displacement, ia, ib),
-                              item.template vector<typename P::Geometry>(turn, ib)},
-                     u);
+      relative_rates(
+          now, Twist<T>{{T(0), T(0), T(0)}, item.template vector<Work>(turn, ia)},
+          Twist<T>{item.template relative<Work>(motion.displacement, ia, ib), item.template vector<Work>(turn, ib)}, u);
     } else {
       const Twist<T> a = item.twist(motion.velocity, ia), b = item.twist(motion.velocity, ib);
       if constexpr (geometry == Geometry::fixed) {
@@ -115,9 +121,7 @@ struct ContactForces {
   template <class Item, class T>
   MACADAM_HD T advance(const Item& item, const T& rate, typename P::State* chain) const {
     using S = typename Item::template Value<typename P::State>;
-    if constexpr (stateless) {
-      return item.template convert<typename P::Geometry>(law.value(item.template convert<typename P::State>(rate)));
-    }
+    if constexpr (stateless) { return law.value(rate); }
     const S dx = item.template convert<typename P::State>(rate) * S(dt);
     const auto place = [&](int l) { return chain + static_cast<std::size_t>(1 + l) * item.lanes(); };
     if constexpr (Units >= 0 && requires { Item::staged; }) {
@@ -132,7 +136,7 @@ struct ContactForces {
       auto unit = [&](int l) -> decltype(auto) { return item.ref(place(l)); };
       const S f = law.template advance<Units>(item.load(chain), dx, unit);
       item.store(chain, f);
-      return item.template convert<typename P::Geometry>(f);
+      return item.template convert<Work>(f);
     }
   }
 
@@ -142,8 +146,8 @@ struct ContactForces {
     FacetLoad<T> load{T(0), T(0), T(0), T(0), T(0), T(0)};
     for (std::uint32_t row = view.packet_row[packet]; row < view.packet_row[packet + 1]; ++row) {
       const auto* point = view.points + static_cast<std::size_t>(row) * point_words * item.lanes();
-      const T s = item.load(point + point_s * item.lanes()), t = item.load(point + point_t * item.lanes());
-      const T weight = item.load(point + point_weight * item.lanes());
+      const auto of = [&](std::size_t w) { return item.template convert<Work>(item.load(point + w * item.lanes())); };
+      const T s = of(point_s), t = of(point_t), weight = of(point_weight);
       typename P::State* chain = view.chain + static_cast<std::size_t>(row) * chain_words() * item.lanes();
       const T n = weight * advance(item, u[0] + s * u[1] + t * u[2], chain);
       load.n += n;

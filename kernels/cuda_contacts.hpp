@@ -29,11 +29,13 @@ struct LoadRecords {
     auto* out = reinterpret_cast<double2*>(to);
     out[0] = {f.x, f.y}, out[1] = {f.z, 0}, out[2] = {m.x, m.y}, out[3] = {m.z, 0};
   }
-  __device__ __forceinline__ void store(std::uint32_t slot, const ContactLoad<T>& load) const {
+  template <class U>
+  __device__ __forceinline__ void store(std::uint32_t slot, const ContactLoad<U>& load) const {
     const uint2 to = __ldg(reinterpret_cast<const uint2*>(place) + slot);
     if (to.x == UINT32_MAX) return;
-    store(words + static_cast<std::size_t>(to.x) * velocity_words, load.force_a, load.moment_a);
-    store(words + static_cast<std::size_t>(to.y) * velocity_words, -load.force_a, load.moment_b);
+    const auto rounded = [](const Vec3<U>& v) { return Vec3<T>{T(v.x), T(v.y), T(v.z)}; };
+    store(words + static_cast<std::size_t>(to.x) * velocity_words, rounded(load.force_a), rounded(load.moment_a));
+    store(words + static_cast<std::size_t>(to.y) * velocity_words, rounded(-load.force_a), rounded(load.moment_b));
   }
 };
 

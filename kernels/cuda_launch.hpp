@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/state_list.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::kernels {
@@ -75,5 +76,21 @@ class DeviceArray {
   T* data_ = nullptr;
   std::size_t size_ = 0;
 };
+
+/// Adds an array on the device, which must stay where it is, to what a checkpoint copies and replaces.
+template <class T>
+void add_device_state(StateList& states, const std::string& name, const std::string& unit, T* data, std::size_t size) {
+  const std::size_t bytes = size * sizeof(T);
+  states.add<T>(
+      name, unit, size,
+      [=] {
+        std::vector<T> out(size);
+        check_cuda(cudaMemcpy(out.data(), data, bytes, cudaMemcpyDeviceToHost), "copy of the state");
+        return out;
+      },
+      [=](const std::vector<T>& values) {
+        check_cuda(cudaMemcpy(data, values.data(), bytes, cudaMemcpyHostToDevice), "setting the state");
+      });
+}
 
 }  // namespace macadam::kernels

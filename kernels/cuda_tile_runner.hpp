@@ -106,10 +106,12 @@ class TileRunner {
     scene_.halo = store_.keep(plan_.halo);
     constant_ = DeviceArray<float4>::of(constants_);
     scene_.constant = constant_.data();
-    scene_.state = store_.template zeros<float4>(plan_.contact.size() * tile_states);
+    state_count_ = plan_.contact.size() * tile_states;
+    scene_.state = store_.template zeros<float4>(state_count_);
     scene_.base = base_ = store_.template zeros<R>((bodies_ + walls) * velocity_words);
     scene_.force = store_.template zeros<R>((bodies_ + walls) * velocity_words);
-    scene_.wall_load = store_.template zeros<float4>(2 * (plan_.wall_begin.back() + 1));
+    wall_load_count_ = 2 * (plan_.wall_begin.back() + 1);
+    scene_.wall_load = store_.template zeros<float4>(wall_load_count_);
     scene_.exchange = store_.template zeros<ulonglong2>(4 * bodies_);
     scene_.wall_velocity = wall_velocity_ = store_.template zeros<double>(table_steps);
     before_ = store_.template zeros<double>((bodies_ + walls) * displacement_words);
@@ -121,6 +123,37 @@ class TileRunner {
     constants_ = {};
     places_ = {};
     plan_.contact = {};
+  }
+
+  /// Of all that prepare() will keep on the device, but for some bytes a tile.
+  std::size_t bytes_to_come(std::size_t records) const {
+    const std::size_t loads = 2 * velocity_words * sizeof(R) + displacement_words * sizeof(double);
+    return constants_.size() * sizeof(float4) + plan_.contact.size() * tile_states * sizeof(float4) +
+           (bodies_ + walls) * loads + records * velocity_words * sizeof(R) + bodies_ * 4 * sizeof(ulonglong2) +
+           places_.size() * sizeof(uint2) + (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4;
+  }
+
+  /// Adds what a block in progress keeps besides the chains.
+  void add_states(StateList& states) {
+    const auto words = [](auto* data) { return reinterpret_cast<float*>(data); };
+    const std::size_t loads = (bodies_ + walls) * velocity_words;
+    add_device_state(states, "tile_constants", "1, m, m2, m3, m", words(constant_.data()), 4 * constant_.size());
+    add_device_state(states, "tile_states", "Pa m", words(scene_.state), 4 * state_count_);
+    add_device_state(states, "base_loads", "N, N m", base_, loads);
+    add_device_state(states, "forces", "N, N m", scene_.force, loads);
+    add_device_state(states, "wall_loads", "N, N m", words(scene_.wall_load), 4 * wall_load_count_);
+    if (carried_) {
+      add_device_state(states, "displacement_at_block", "m, rad", before_, (bodies_ + walls) * displacement_words);
+    }
+    states.add<std::int64_t>(
+        "block", "1", 2,
+        [this] {
+          return std::vector<std::int64_t>{begun_, in_block_};
+        },
+        [this](const std::vector<std::int64_t>& values) {
+          begun_ = values[0] != 0;
+          in_block_ = static_cast<int>(values[1]);
+        });
   }
 
   /// Queues steps first … first + steps − 1.
@@ -279,7 +312,7 @@ class TileRunner {
   TilePlan plan_;
   bool carried_, resident_ = false, begun_ = false;
   int block_, in_block_ = 0;
-  std::size_t bodies_;
+  std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;
   cudaStream_t stream_;
   DeviceLimits limits_;
   std::vector<float4> constants_;

@@ -11,6 +11,7 @@
 #include "kernels/pack_item.hpp"
 #include "kernels/particle_motion.hpp"
 #include "kernels/state_list.hpp"
+#include "kernels/thread_choice.hpp"
 #include "kernels/tile_accumulators.hpp"
 
 namespace macadam::kernels {
@@ -26,8 +27,10 @@ class ExecCpu {
   static constexpr std::size_t tile_contacts = 1024;  ///< a tile's states (200 kB) fit a core's second-level cache
 
   ExecCpu(const ContactNetwork& network, const Layout& layout, int threads)
-      : layout_(layout), accumulators_(network, layout) {
-    threads_ = std::min(threads > 0 ? threads : omp_get_max_threads(), static_cast<int>(layout.tiles()));
+      : layout_(layout),
+        accumulators_(network, layout),
+        threads_(std::min(threads > 0 ? threads : omp_get_max_threads(), static_cast<int>(layout.tiles()))),
+        choice_(threads_, threads > 0) {
     const std::size_t bodies = layout.particles() + walls;
     sums_.assign(accumulators_.size() * velocity_words, R(0));
     master_.assign(bodies * velocity_words, R(0));
@@ -105,14 +108,14 @@ class ExecCpu {
   /// Calls f(team, k) for k = first … first + steps − 1 on every thread.
   template <class F>
   void repeat(std::int64_t first, std::int64_t steps, F&& f) {
-    Barrier barrier;
-#pragma omp parallel num_threads(threads_)
-    {
-#pragma omp single  // OpenMP may give fewer threads than asked
-      barrier.set_threads(static_cast<unsigned>(omp_get_num_threads()));
-      const Team team{*this, static_cast<std::size_t>(omp_get_thread_num()),
-                      static_cast<std::size_t>(omp_get_num_threads()), barrier};
-      for (std::int64_t k = first; k < first + steps; ++k) f(team, k);
+    while (steps > 0) {
+      const ThreadChoice::Next next = choice_.next();
+      const std::int64_t n = std::min(steps, next.steps);
+      const double start = omp_get_wtime();
+      repeat(next.threads, first, n, f);
+      choice_.took(n, omp_get_wtime() - start);
+      first += n;
+      steps -= n;
     }
   }
 
@@ -155,6 +158,19 @@ class ExecCpu {
   }
 
  private:
+  template <class F>
+  void repeat(int threads, std::int64_t first, std::int64_t steps, F&& f) {
+    Barrier barrier;
+#pragma omp parallel num_threads(threads)
+    {
+#pragma omp single  // OpenMP may give fewer threads than asked
+      barrier.set_threads(static_cast<unsigned>(omp_get_num_threads()));
+      const Team team{*this, static_cast<std::size_t>(omp_get_thread_num()),
+                      static_cast<std::size_t>(omp_get_num_threads()), barrier};
+      for (std::int64_t k = first; k < first + steps; ++k) f(team, k);
+    }
+  }
+
   /// The array must stay where it is.
   template <class T>
   void add_state(const std::string& name, const std::string& unit, AlignedVector<T>& array) {
@@ -226,7 +242,8 @@ class ExecCpu {
   std::vector<R> inverse_;
   StateList states_;
   std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
-  int threads_ = 1;
+  int threads_;
+  ThreadChoice choice_;
 };
 
 }  // namespace macadam::kernels

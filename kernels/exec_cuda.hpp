@@ -57,15 +57,18 @@ class ExecCuda {
     cudaStreamDestroy(stream_);
   }
 
-  /// Decides whether steps are taken in blocks. `height`: of the specimen [m].
-  void set_options(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
-                   double height) {
+  /// Decides whether steps are taken in blocks. `height`: of the specimen [m]; `group_bytes`: of the groups to come.
+  /// \throws RunError where the device has not enough memory for all that is to come.
+  void set_options(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws, double height,
+                   std::size_t group_bytes) {
     dt_ = options.dt;
     if constexpr (blocks) {
       const int block = options.form == ContactForm::condensed ? block_steps(options, laws, height) : 0;
       if (block > 0) tiles_ = std::make_unique<TileRunner<P>>(network_, layout_, options, block, stream_);
       if (tiles_ && !tiles_->possible()) tiles_.reset();
     }
+    const std::size_t records = record_count_ * velocity_words * sizeof(G);
+    require_memory(group_bytes + (tiles_ ? tiles_->bytes_to_come(record_count_) : records));
     if (!tiles_) records_ = DeviceArray<G>(record_count_ * velocity_words);
   }
 
@@ -80,11 +83,15 @@ class ExecCuda {
   void add_group(ContactArrays<P> arrays, Forces forces) {
     const auto slots = static_cast<std::uint32_t>(arrays.body_a.size());
     forces.view = arrays.shape;
-    arrays.for_each_array(forces.view, [&](auto, auto, auto& array, auto& pointer) {
+    arrays.for_each_array(forces.view, [&](auto name, auto unit, auto& array, auto& pointer) {
       pointer = store_.keep(array);
       const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
       bytes_ += size;
-      if (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) state_bytes_ += size;
+      if constexpr (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) {
+        state_bytes_ += size;
+        const char* pair = to_string(layout_.groups[static_cast<std::size_t>(groups_)].pair);
+        add_device_state(states_, std::string(name) + "_" + pair, unit, pointer, array.size());
+      }
     });
     if (tiles_)
       add_to_tiles(arrays, forces);
@@ -102,6 +109,14 @@ class ExecCuda {
     }
     if (tiles_) tiles_->prepare(motion, row_begin_.data(), place_.data(), record_count_, long_rows);
     row_lengths_ = {};
+    const auto add = [&](const char* name, const char* unit, const auto& array) {
+      add_device_state(states_, name, unit, array.data(), array.size());
+    };
+    add("velocity", "m/s, rad/s", master_);
+    add("displacement", "m, rad", displacement_);
+    add("gathered_velocity", "m/s, rad/s", velocity_);
+    add("loads", "N, N m", records_);
+    if (tiles_) tiles_->add_states(states_);
   }
 
   void bodies(const ParticleMotion<P>& motion, std::int64_t) {
@@ -183,8 +198,8 @@ class ExecCuda {
     if (tiles_) return tiles_->traffic() + static_cast<std::int64_t>(bodies);
     return bytes_ + state_bytes_ + static_cast<std::int64_t>(bodies + 2 * records_.bytes() + place_.bytes());
   }
-  /// Not yet: a run on the device keeps no checkpoints. \throws RunError always.
-  const StateList& states() const { throw RunError("backend cuda keeps no checkpoints"); }
+  /// Everything that a step changes.
+  const StateList& states() const { return states_; }
 
   std::int64_t bytes() const {
     return bytes_ +
@@ -197,6 +212,16 @@ class ExecCuda {
   static constexpr std::int64_t steps_a_graph = 64;
 
   std::size_t bodies() const { return layout_.particles() + walls; }
+
+  void require_memory(std::size_t needed) const {
+    std::size_t free = 0, total = 0;
+    check_cuda(cudaMemGetInfo(&free, &total), "memory");
+    if (needed <= free) return;
+    const auto mib = [](std::size_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; };
+    throw RunError("CUDA: the scene of " + std::to_string(layout_.particles()) + " particles and " +
+                   std::to_string(network_.contacts.size()) + " contacts needs another " + mib(needed) +
+                   " on the device: found " + mib(free) + " free of " + mib(total));
+  }
 
   template <class LawStep, int Units, ContactForm form, Geometry geometry>
   void add_to_launch(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t slots) {
@@ -293,9 +318,8 @@ class ExecCuda {
     void add_group(Any&&...) {}
     const R* forces() const { return nullptr; }
     std::string description() const { return ""; }
-    /// Not yet: a run on the device keeps no checkpoints. \throws RunError always.
-    const StateList& states() const { throw RunError("backend cuda keeps no checkpoints"); }
-
+    void add_states(StateList&) {}
+    std::size_t bytes_to_come(std::size_t) const { return 0; }
     std::int64_t bytes() const { return 0; }
     std::int64_t traffic() const { return 0; }
   };
@@ -317,6 +341,7 @@ class ExecCuda {
   mutable DeviceArray<double> radius_;
   mutable DeviceArray<std::int32_t> particle_;
   DeviceStore store_;
+  StateList states_;
   std::shared_ptr<void> launch_;  ///< ContactGroups of this form and geometry
   std::function<void()> step_contacts_;
   int groups_ = 0;

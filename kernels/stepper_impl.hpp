@@ -70,7 +70,12 @@ class StepperImpl final : public Stepper {
                options.loading.has_value(),
                options.loading.value_or(loadings::Cyclic{})};
     const double height = specimen.box.size.z;
-    if constexpr (requires { exec_.set_options(options_, laws, height); }) exec_.set_options(options_, laws, height);
+    std::size_t bytes = 0;
+    for (const auto& group : layout_.groups)
+      bytes += GroupShape<P>(layout_, group, laws[static_cast<std::size_t>(group.pair)].value(), options_).bytes();
+    if constexpr (requires { exec_.set_options(options_, laws, height, bytes); }) {
+      exec_.set_options(options_, laws, height, bytes);
+    }
     for (const auto& group : layout_.groups)
       add_group(network, group, laws[static_cast<std::size_t>(group.pair)].value());
     if constexpr (requires { exec_.prepare(motion_); }) exec_.prepare(motion_);
@@ -154,9 +159,8 @@ class StepperImpl final : public Stepper {
     if (step.size() != 1) throw RunError("state: found no number of the step, expected one");
     if (integers("layout") != order()) {
       throw RunError(
-          "state: found contacts in another order, expected that of this program, precision and processor (packet "
-          "width, "
-          "tiles and bodies)");
+          "state: found contacts in another order, expected that of this program, precision and processor or device "
+          "(packet width, tiles and bodies)");
     }
     exec_.states().replace(arrays);
     step_ = step.front();

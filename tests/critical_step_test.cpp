@@ -51,7 +51,7 @@ ContactNetwork with_exact_points(const ContactNetwork& network) {
 // The bound takes twice the energy of a particle's own block; a mode reaches it only where neighbours move exactly
 // against each other, so the computed step is below the true one, by 1.4 on dense specimens.
 TEST(CriticalStep, IsBelowTheTrueLimitAndAboveHalfOfIt) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()) + 100;
+  const unsigned seed = test_seed() + 99;
   double sum = 0;
   for (unsigned k = 0; k < 10; ++k) {
     SCOPED_TRACE(fmt::format("specimen seed {}", seed + k));

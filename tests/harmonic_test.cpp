@@ -92,7 +92,7 @@ Complex dense_modulus(const TestScene& scene, double frequency, double density_s
 }
 
 TEST(Harmonic, AgreesWithADenseSolutionOnFreshSpecimens) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()) + 1;
+  const unsigned seed = test_seed();
   for (const Quadrature quadrature : {Quadrature::lumped, Quadrature::exact}) {
     NetworkSpec spec;
     spec.quadrature = quadrature;

@@ -55,12 +55,12 @@ class StepperAgainstReference : public testing::TestWithParam<Case> {
 };
 
 TEST_P(StepperAgainstReference, ThousandStepsOfFreshSpecimens) {
-  const auto seed = static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()) + 1;
+  const unsigned seed = test_seed();
   for (unsigned k = 0; k < 2; ++k) {
     SCOPED_TRACE("specimen seed " + std::to_string(seed + k));
     const TestScene scene = make_scene(random_specimen(seed + k));
     for (int pair = 0; pair < pair_types; ++pair) EXPECT_GT(scene.network.count[static_cast<std::size_t>(pair)], 0);
-    compare(scene, shaking_options(scene), 1000);
+    compare(scene, shaking_options(scene), long_tests ? 1000 : 200);
   }
 }
 
@@ -90,14 +90,9 @@ TEST_P(StepperAgainstReference, DampingScalingAndLateralWalls) {
   compare(scene, options, 20);
 }
 
-/// A slow load: a backend may take many steps before it settles what changes slowly.
 TEST_P(StepperAgainstReference, SlowLoadUnderWaves) {
   const TestScene scene = make_scene(random_specimen(13, 6, 6, 7));
-  StepperOptions options = shaking_options(scene);
-  loadings::Cyclic& loading = *options.loading;
-  loading.frequency = 100;
-  loading.steps_per_period = static_cast<std::int64_t>(1 / (loading.frequency * options.dt)) + 1;
-  options.dt = loading.dt();
+  StepperOptions options = slow_options(scene);
   compare(scene, options, long_tests ? 1000 : 200);
   options.damping_kind = Damping::viscous;
   options.damping = 5e4;

@@ -2,6 +2,7 @@
 /// \file test_scenes.hpp  Random specimens with their networks, laws and masses, fresh for every seed.
 #pragma once
 
+#include <cstdlib>
 #include <random>
 
 #include "long_tests.hpp"
@@ -9,6 +10,12 @@
 #include "test_networks.hpp"
 
 namespace macadam::test {
+
+/// The first seed of specimens that nobody has seen before: MACADAM_TEST_SEED of the environment, or 1.
+inline unsigned test_seed() {
+  const char* asked = std::getenv("MACADAM_TEST_SEED");
+  return asked ? static_cast<unsigned>(std::strtoul(asked, nullptr, 10)) : 1;
+}
 
 /// Everything a stepper needs.
 struct TestScene {
@@ -73,6 +80,16 @@ inline StepperOptions shaking_options(const TestScene& scene) {
   loading.steps_per_period = static_cast<std::int64_t>(1 / (loading.frequency * dt)) + 1;
   loading.ramp_steps = 100;
   out.loading = loading;
+  out.dt = loading.dt();
+  return out;
+}
+
+/// The same with a load of 100 Hz: a backend may take many steps before it settles what changes slowly.
+inline StepperOptions slow_options(const TestScene& scene) {
+  StepperOptions out = shaking_options(scene);
+  loadings::Cyclic& loading = *out.loading;
+  loading.frequency = 100;
+  loading.steps_per_period = static_cast<std::int64_t>(1 / (loading.frequency * out.dt)) + 1;
   out.dt = loading.dt();
   return out;
 }

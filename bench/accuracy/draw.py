@@ -295,7 +295,8 @@ class Drawing:
                                   f"{(1 + r[E_STAR]) / (1 + r[OWN[E_STAR]]) - 1:+.3e}", f"{r[E_STAR]:+.3e}",
                                   f"{math.radians(r[PHASE]):+.2e}", int(r["steps"]), f"{r['seconds']:.3g}",
                                   f"{r['seconds_harmonic']:.2g}",
-                                  f"{r['seconds'] / r['seconds_by_hand']:.2f}") for r in of("tolerance")]))
+                                  f"{r['seconds'] / r['seconds_by_hand']:.2f}" if math.isfinite(r["seconds_by_hand"])
+                                  else "none found") for r in of("tolerance")]))
         Path(f"{self.stem}-tables.md").write_text("\n".join(parts), encoding="utf-8")
 
 

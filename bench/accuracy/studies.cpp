@@ -100,7 +100,7 @@ class List {
       for (const double scaling : {1e5, 1e4, 1e3}) {
         if (!quick_ || scaling == 1e4) rest("t8", frequency, heavier * scaling, cycles);
       }
-      if (!quick_) rest("demo", frequency, heavier * 1e4, {1, 2, 3, 4, 5, 6, 7, 8});
+      if (!quick_) rest("demo", frequency, heavier * 1e4, {1, 2, 3, 4, 5, 6, 7, 8, 10, 12});
     }
   }
   void rest(const char* scene, double frequency, double scaling, const std::vector<int>& cycles) {

@@ -152,7 +152,7 @@ void all() {
     c = compare({scene, smooth, options}, {scene, smooth, kept});
     row("shear where α = 0", "full, AM1 with α = 0, fixed", c, velocities(c));
     c = compare({scene, scene.laws, options}, {scene, scene.laws, updated});
-    row("geometry update", "full, AM1", c, velocities(c) + "; 1e-8 of \\|E\\*\\| at a strain of 1e-4");
+    row("geometry update", "full, AM1", c, velocities(c) + "; \\|E\\*\\|: [accuracy.md](accuracy.md)");
     NetworkSpec spec;
     spec.area_min = 0.026;
     const TestScene filtered = full(spec);

@@ -5,6 +5,8 @@
 // parts at one frequency, its eigenvalues gather about a few such ratios: some ten iterations do.
 #include "macadam/harmonic.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -102,9 +104,10 @@ class Harmonic::Implementation {
     }
     out.residual = residual;
     if (!(residual <= options_.tolerance)) {
-      throw RunError("harmonic: residual " + std::to_string(residual) + " after " + std::to_string(out.iterations) +
-                     " iterations at " + std::to_string(frequency) + " Hz, expected at most " +
-                     std::to_string(options_.tolerance) + " (near a resonance, or a nearly singular stiffness)");
+      throw RunError(fmt::format(
+          "harmonic: residual {:.1e} after {} iterations at {:g} Hz, expected at most {:.1e} (near a resonance, or a "
+          "nearly singular stiffness)",
+          residual, out.iterations, frequency, options_.tolerance));
     }
 
     const WallForces walls = contacts_.wall_forces(stiffness, x, 1.0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rigid_motions.cpp  Free motions as the null space of the walls' stiffness on six rigid
-// motions.
+// rigid_motions.cpp  Free motions as the null space of the walls' stiffness on six rigid motions.
 #include "host/harmonic/rigid_motions.hpp"
 
 #include <Eigen/Eigenvalues>

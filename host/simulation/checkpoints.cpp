@@ -31,7 +31,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Stiffness, e_star_pa, phase_deg)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorEstimate, e_star, phase_rad)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrequencyPlan, loading, density_scaling, start, cycles, fit_cycles, known, predicted)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Plan, form, geometry, precision, critical, frequencies, decisions)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Plan, form, geometry, precision, geometry_error, critical, frequencies, decisions)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, plan, seconds_planning, seconds, seconds_running)
 
 namespace {
@@ -90,7 +90,6 @@ std::pair<std::string, std::string> first_difference(const std::string& found, c
 bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not) {
   const char* why = scene.solver.method == SolverMethod::harmonic ? "method harmonic"
                     : backend == Backend::reference               ? "backend reference"
-                    : backend == Backend::cuda                    ? "backend cuda"
                     : scene.text.empty()                          ? "a scene that was not read from a file"
                                                                   : nullptr;
   if (why && why_not) *why_not = std::string(why) + " keeps no checkpoints";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file error_model.hpp  What settings cost in |E*| (relative) and φ [rad]: bounds, and figures measured by
-/// bench/accuracy.
+/// \file error_model.hpp  What settings cost in |E*| (relative) and φ [rad]: an estimate for inertia, and upper
+/// envelopes of what bench/accuracy measured.
 #pragma once
 
 #include <cstddef>

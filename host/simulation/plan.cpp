@@ -30,6 +30,9 @@ class Planner {
     options.damping = scene_.solver.damping;
     plan_.critical = critical_step(prepared_.network, scene_.laws, inertia_, options);
     choose_start();
+    if (scene_.solver.time_step && scene_.solver.safety && (!automatic() || scene_.solver.density_scaling)) {
+      decide("safety has no part in it: time_step is given");
+    }
     for (std::size_t i = 0; i < scene_.loading.frequencies.size(); ++i) plan_frequency(i);
     choose_precision();
     return std::move(plan_);
@@ -49,15 +52,16 @@ class Planner {
     const bool one_point = scene_.network.quadrature == Quadrature::one_point;
     plan_.form = scene_.solver.form.value_or(one_point ? ContactForm::points : ContactForm::condensed);
     plan_.geometry = scene_.solver.geometry.value_or(Geometry::updated);
-    if (!automatic()) return;
-    decide("form {}: both give the same to rounding", to_string(plan_.form));
     const double strain = scene_.loading.strain_amplitude, error = fixed_geometry_error(strain);
-    if (!scene_.solver.geometry && error <= geometry_share * tolerance()) plan_.geometry = Geometry::fixed;
-    decide("geometry {}: at a strain of {:g}, that of the start changes |E*| by about {:.1e}",
-           to_string(plan_.geometry), strain, error);
-    if (error > geometry_share * tolerance()) {
-      decide("not linear at this strain: the harmonic solution, that of the start's geometry, differs by as much");
+    if (automatic()) {
+      decide("form {}: both give the same to rounding", to_string(plan_.form));
+      if (!scene_.solver.geometry && error <= geometry_share * tolerance()) plan_.geometry = Geometry::fixed;
+      decide("geometry {}: at a strain of {:g}, that of the start changes |E*| by at most about {:.1e}",
+             to_string(plan_.geometry), strain, error);
     }
+    const bool fixed = plan_.geometry == Geometry::fixed;
+    if (fixed) plan_.geometry_error = error;
+    nonlinear_ = fixed ? 0 : error;
   }
 
   /// Factors the stiffness where there is a harmonic solution; else `no_harmonic_` says why not.
@@ -82,16 +86,32 @@ class Planner {
     const bool asked = loading.start == Start::steady;
     start_ = loading.start.value_or(automatic() && loading.ramp_cycles.value_or(0) == 0 ? Start::steady : Start::rest);
     if (!automatic() && start_ == Start::rest) return;
+    ramp_ = 1;
     make_harmonic(asked);
-    const bool local = scene_.solver.damping_kind == Damping::local;
     if (!harmonic_) decide("no harmonic solution: {}", no_harmonic_);
+    const bool local = scene_.solver.damping_kind == Damping::local;
     if (local) decide("not linear: local damping, whose own effect is not predicted");
-    if (start_ == Start::steady && harmonic_ && !local) {
+    const bool large = nonlinear_ > (automatic() ? 0.1 * tolerance() : 1e-4);
+    if (large) {
+      decide("not linear at this strain: the harmonic solution, that of the start's geometry, differs by up to {:.1e}",
+             nonlinear_);
+    }
+    if (start_ == Start::steady && harmonic_ && !local && !large) {
       decide("steady start from the harmonic solution: the first cycle is periodic");
     } else {
-      ramp_ = loading.ramp_cycles.value_or(1);
-      decide("start from rest{} with a ramp, so that the start rings less", asked ? ", not steady as asked," : "");
+      decide("start from rest{}", asked ? ", not steady as asked" : "");
       start_ = Start::rest;
+    }
+  }
+
+  /// None where there is none, or none is found, which is said.
+  std::optional<HarmonicResult> solution(double frequency, double scaling, double damping) {
+    if (!harmonic_) return {};
+    try {
+      return harmonic_->solve(frequency, scaling, damping);
+    } catch (const RunError& error) {
+      decide("{} Hz: {}", frequency, error.what());
+      return {};
     }
   }
 
@@ -99,48 +119,57 @@ class Planner {
     const double frequency = scene_.loading.frequencies[i];
     if (progress_ && harmonic_) progress_(fmt::format("harmonic: {} Hz", frequency), 0);
     FrequencyPlan f;
-    f.start = start_;
-    HarmonicResult scaled;
-    if (harmonic_) f.known = harmonic_->solve(frequency, 1).top;  // undamped: damping is no property of the specimen
+    // undamped: damping is no property of the specimen
+    if (const auto solved = solution(frequency, 1, 0)) f.known = solved->top;
+    std::optional<HarmonicResult> scaled;
     if (scene_.solver.density_scaling || !automatic()) {
       f.density_scaling = density_scaling_of(scene_.solver, i);
     } else if (scene_.solver.time_step) {  // as little as the given step needs
       f.density_scaling = std::max(1.0, std::pow(*scene_.solver.time_step / (safety() * plan_.critical.dt), 2));
-    } else if (harmonic_) {
+    } else if (f.known) {
       scaled = choose_scaling(frequency, *f.known, f.density_scaling);
     } else {
       f.density_scaling = std::max(1.0, estimate_share * tolerance() / inertia_estimate(scene_, prepared_, frequency));
     }
-    if (harmonic_ && scaled.motion.empty()) scaled = harmonic_->solve(frequency, f.density_scaling, viscous());
-    choose_cycles(f);
-    f.loading = make_loading(f, frequency);
-    if (harmonic_) {
-      f.predicted = difference(scaled.top, *f.known);
-      if (start_ == Start::steady) f.motion = std::move(scaled.motion);
-    }
-    if (automatic()) say(f, frequency);
+    if (!scaled) scaled = solution(frequency, f.density_scaling, viscous());
+    f.start = scaled ? start_ : Start::rest;
+    const double ramp = choose_cycles(f);
+    f.loading = make_loading(f, frequency, ramp);
+    if (scaled && f.known) f.predicted = difference(scaled->top, *f.known);
+    if (automatic() && nonlinear_ > tolerance()) f.known.reset(), f.predicted.reset();  // no measure of such strains
+    if (f.start == Start::steady) f.motion = std::move(scaled->motion);
+    say(f, frequency, ramp);
     plan_.frequencies.push_back(std::move(f));
   }
 
-  void say(const FrequencyPlan& f, double frequency) {
-    const std::string error =
-        f.predicted
-            ? fmt::format("predicted error |E*| {:+.1e}, phi {:+.1e} rad", f.predicted->e_star, f.predicted->phase_rad)
-            : fmt::format("inertia costs about {:.1e} by the height and the slowest wave",
-                          f.density_scaling * inertia_estimate(scene_, prepared_, frequency));
-    decide("{} Hz: density scaling {:.4g}, {} cycle{} of {} steps of {:.3g} s: {}", frequency, f.density_scaling,
-           f.cycles, f.cycles == 1 ? "" : "s", f.loading.steps_per_period, f.loading.dt(), error);
-    if (f.loading.dt() > 1.2 * plan_.critical.dt * std::sqrt(f.density_scaling)) {
-      decide("{} Hz: the given step is {:.2f} of the one that is surely stable", frequency,
-             f.loading.dt() / (plan_.critical.dt * std::sqrt(f.density_scaling)));
+  void say(const FrequencyPlan& f, double frequency, double ramp) {
+    if (automatic()) {
+      std::string error;
+      if (f.predicted) {
+        error =
+            fmt::format("predicted error |E*| {:+.1e}, phi {:+.1e} rad", f.predicted->e_star, f.predicted->phase_rad);
+      } else {
+        error = fmt::format("inertia costs about {:.1e} by the height and the slowest wave",
+                            f.density_scaling * inertia_estimate(scene_, prepared_, frequency));
+      }
+      if (f.predicted && largest(*f.predicted) + plan_.geometry_error > tolerance()) error += ", more than is asked";
+      decide("{} Hz: density scaling {:.4g}, {} cycle{} of {} steps of {:.3g} s: {}", frequency, f.density_scaling,
+             f.cycles, f.cycles == 1 ? "" : "s", f.loading.steps_per_period, f.loading.dt(), error);
     }
+    if (f.start == Start::rest && ramp_ > 0) {
+      decide("{} Hz: {}", frequency,
+             ramp > 0 ? fmt::format("a ramp of {:g} cycle{}, so that the start rings less", ramp, ramp == 1 ? "" : "s")
+                      : "no ramp: waves of the start stay, which leave 1e-5 to 1e-3 at random");
+    }
+    const double share = f.loading.dt() / (plan_.critical.dt * std::sqrt(f.density_scaling));
+    if (share > 1) decide("{} Hz: the given step is {:.2f} of the largest that is surely stable", frequency, share);
   }
 
   /// The largest scaling found whose inertia costs no more than `inertia_share` of the tolerance, and its solution. The
   /// error grows as s − 1 while it is small, so that two or three solutions do.
-  HarmonicResult choose_scaling(double frequency, const Stiffness& known, double& scaling) {
+  std::optional<HarmonicResult> choose_scaling(double frequency, const Stiffness& known, double& scaling) {
     const double wanted = inertia_share * tolerance(), estimate = inertia_estimate(scene_, prepared_, frequency);
-    HarmonicResult best;
+    std::optional<HarmonicResult> best;
     scaling = 1;
     double excess = 0.95 * wanted / (estimate * error_over_estimate_.value_or(1));
     for (int attempt = 0; attempt < 6; ++attempt) {
@@ -161,21 +190,22 @@ class Planner {
     return best;
   }
 
-  void choose_cycles(FrequencyPlan& f) {
+  /// Also returns the cycles of the ramp.
+  double choose_cycles(FrequencyPlan& f) const {
     const LoadingSpec& loading = scene_.loading;
-    const int standard = start_ == Start::steady ? 1 : automatic() ? cycles_from_rest(tolerance()) : 5;
-    f.cycles = loading.cycles.value_or(standard);
+    const bool steady = f.start == Start::steady;
+    const double ramp = steady ? 0 : loading.ramp_cycles.value_or(ramp_);
+    f.cycles = loading.cycles.value_or(steady ? 1 : automatic() ? cycles_from_rest(tolerance()) : 5);
     if (!loading.cycles) {
-      while (f.cycles - loading.fitted(f.cycles) < ramp()) ++f.cycles;
+      while (f.cycles - loading.fitted(f.cycles) < ramp) ++f.cycles;
     }
     f.fit_cycles = std::min(f.cycles, loading.fitted(f.cycles));
-    if (!loading.ramp_cycles) ramp_ = std::min(ramp_, static_cast<double>(f.cycles - f.fit_cycles));
+    return loading.ramp_cycles ? ramp : std::min(ramp, static_cast<double>(f.cycles - f.fit_cycles));
   }
-  double ramp() const { return start_ == Start::steady ? 0 : scene_.loading.ramp_cycles.value_or(ramp_); }
   double safety() const { return scene_.solver.safety.value_or(automatic() ? 0.95 : 0.8); }
 
   /// A whole number of samples a period, a whole number of steps a sample.
-  loadings::Cyclic make_loading(const FrequencyPlan& f, double frequency) const {
+  loadings::Cyclic make_loading(const FrequencyPlan& f, double frequency, double ramp) const {
     const LoadingSpec& spec = scene_.loading;
     double step = scene_.solver.time_step.value_or(safety() * plan_.critical.dt * std::sqrt(f.density_scaling));
     if (viscous() > 0 && !scene_.solver.time_step) step = std::min(step, 1 / viscous());  // follow the decay
@@ -188,7 +218,7 @@ class Planner {
     loading.amplitude = spec.strain_amplitude * prepared_.specimen.box.size.z;
     loading.frequency = frequency;
     loading.steps_per_period = std::max<std::int64_t>(1, std::llround(std::ceil(wanted))) * spec.samples_per_cycle;
-    loading.ramp_steps = std::llround(ramp() * static_cast<double>(loading.steps_per_period));
+    loading.ramp_steps = std::llround(ramp * static_cast<double>(loading.steps_per_period));
     return loading;
   }
 
@@ -206,7 +236,7 @@ class Planner {
     plan_.precision = error <= share                   ? Precision::single
                       : mixed_precision_error <= share ? Precision::mixed
                                                        : Precision::double_;
-    decide("precision {}: after so many steps single is off by about {:.1e}, mixed by {:.1e}",
+    decide("precision {}: after so many steps single is off by at most about {:.1e}, mixed by {:.1e}",
            to_string(plan_.precision), error, mixed_precision_error);
   }
 
@@ -219,7 +249,8 @@ class Planner {
   std::string no_harmonic_;
   std::optional<double> error_over_estimate_;  ///< of the last scaling that was chosen
   Start start_ = Start::rest;
-  double ramp_ = 0;  ///< [cycles] where the scene gives none
+  double ramp_ = 0;       ///< [cycles] from rest where the scene gives none
+  double nonlinear_ = 0;  ///< what the strain changes of |E*| that the harmonic solution does not see
 };
 
 }  // namespace

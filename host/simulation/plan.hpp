@@ -27,7 +27,8 @@ struct Plan {
   ContactForm form = ContactForm::condensed;
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
-  CriticalStep critical;  ///< at true mass
+  double geometry_error = 0;  ///< of |E*|, at most about, by the geometry of the start
+  CriticalStep critical;      ///< at true mass
   std::vector<FrequencyPlan> frequencies;
   std::vector<std::string> decisions;  ///< what was chosen and why, a sentence each
 };

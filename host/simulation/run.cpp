@@ -32,8 +32,7 @@ void require_checkpoints(const Scene& scene, Backend backend, bool resume) {
   std::string why_not;
   if (keeps_checkpoints(scene, backend, &why_not)) return;
   if (resume) throw InputError(scene.file.string() + ": cannot be resumed: " + why_not);
-  if (scene.solver.method == SolverMethod::explicit_ && backend != Backend::cuda &&
-      scene.output.checkpoint.value_or(0) > 0) {
+  if (scene.solver.method == SolverMethod::explicit_ && scene.output.checkpoint.value_or(0) > 0) {
     throw InputError(scene.file.string(), 0, "checkpoint in [output]", fmt::format("{} s", *scene.output.checkpoint),
                      "0: " + why_not);
   }

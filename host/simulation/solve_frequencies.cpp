@@ -10,6 +10,29 @@
 #include "macadam/harmonic.hpp"
 
 namespace macadam {
+namespace {
+
+/// What the scene gives that only a stepped run takes.
+std::string unused_settings(const Scene& scene) {
+  const SolverSpec& s = scene.solver;
+  const LoadingSpec& l = scene.loading;
+  std::string out;
+  for (const auto& [given, name] : {std::pair{s.tolerance.has_value(), "tolerance"},
+                                    {s.density_scaling && !s.inertia, "density_scaling"},
+                                    {s.safety.has_value(), "safety"},
+                                    {s.time_step.has_value(), "time_step"},
+                                    {s.form.has_value(), "form"},
+                                    {s.geometry.has_value(), "geometry"},
+                                    {s.precision.has_value(), "precision"},
+                                    {l.start.has_value(), "start"},
+                                    {l.cycles.has_value(), "cycles"},
+                                    {l.ramp_cycles.has_value(), "ramp_cycles"}}) {
+    if (given) out += (out.empty() ? "" : ", ") + std::string(name);
+  }
+  return out;
+}
+
+}  // namespace
 
 void solve_frequencies(const Scene& scene, const Preparation& prepared, const Progress& progress, const Saving& save,
                        RunResult& result) {
@@ -21,6 +44,9 @@ void solve_frequencies(const Scene& scene, const Preparation& prepared, const Pr
   if (viscous > 0) result.solver += " and viscous damping";
   if (solver.damping_kind != Damping::none && viscous == 0) {
     result.solver += fmt::format("; {} damping has no part in it", to_string(solver.damping_kind));
+  }
+  if (const std::string unused = unused_settings(scene); !unused.empty()) {
+    result.decisions.push_back("method harmonic has no use for " + unused + " of the scene");
   }
   save("running");
   if (progress) progress("harmonic: factoring", 0);

@@ -83,8 +83,9 @@ void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, 
 }
 
 /// What a finished frequency says.
-FrequencyResult finished(const FrequencyPlan& plan, const std::vector<ResponseSample>& samples, double seconds,
-                         std::optional<double> tolerance) {
+FrequencyResult finished(const Plan& whole, std::size_t number, const std::vector<ResponseSample>& samples,
+                         double seconds, std::optional<double> tolerance) {
+  const FrequencyPlan& plan = whole.frequencies[number];
   const double frequency = plan.loading.frequency;
   std::vector<ResponseSample> own;
   std::copy_if(samples.begin(), samples.end(), std::back_inserter(own),
@@ -101,7 +102,7 @@ FrequencyResult finished(const FrequencyPlan& plan, const std::vector<ResponseSa
   f.residual = f.cyclic->fit_rms;
   f.predicted = plan.predicted;
   if (plan.known) f.achieved = difference(f.stiffness, *plan.known);
-  if (plan.known && tolerance) f.kept = largest(*f.achieved) <= *tolerance;
+  if (plan.known && tolerance) f.kept = largest(*f.achieved) + whole.geometry_error <= *tolerance;
   f.seconds = seconds;
   return f;
 }
@@ -147,7 +148,7 @@ void begin(const Scene& scene, const Preparation& prepared, const RunState& at, 
   result.seconds_planning = at.seconds_planning;
   result.skips = find_skips(scene, prepared, at.plan);
   for (std::size_t i = 0; i < at.seconds.size(); ++i) {
-    result.frequencies.push_back(finished(at.plan.frequencies[i], at.samples, at.seconds[i], scene.solver.tolerance));
+    result.frequencies.push_back(finished(at.plan, i, at.samples, at.seconds[i], scene.solver.tolerance));
   }
 }
 
@@ -201,7 +202,7 @@ void step_frequencies(const Scene& scene, const Preparation& prepared, const std
     };
     run_cyclic(scene, prepared.specimen, *stepper, p, at.samples, writer ? &*writer : nullptr, look, stepped);
     at.seconds.push_back(before + seconds_since(start));
-    result.frequencies.push_back(finished(p, at.samples, at.seconds.back(), scene.solver.tolerance));
+    result.frequencies.push_back(finished(plan, i, at.samples, at.seconds.back(), scene.solver.tolerance));
   }
 }
 

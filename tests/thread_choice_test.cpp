@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// thread_choice_test.cpp  Fed with times of steps, the choice takes what is faster, and notices a change.
+#include "kernels/thread_choice.hpp"
+
+#include <gtest/gtest.h>
+
+namespace macadam::kernels {
+namespace {
+
+/// Plays `seconds` of stepping where a step takes so long with all threads and with one. The share of time on one.
+double play(ThreadChoice& choice, double all, double one, double seconds) {
+  double on_one = 0, total = 0;
+  while (total < seconds) {
+    const ThreadChoice::Next next = choice.next();
+    const double took = static_cast<double>(next.steps) * (next.threads == 1 ? one : all);
+    choice.took(next.steps, took);
+    total += took;
+    if (next.threads == 1) on_one += took;
+  }
+  return on_one / total;
+}
+
+TEST(ThreadChoice, KeepsAllThreadsOnAQuietMachine) {
+  ThreadChoice choice(4, false);
+  EXPECT_LT(play(choice, 1e-5, 3e-5, 100), 0.005);
+}
+
+TEST(ThreadChoice, TakesOneWhileOthersWantTheCores) {
+  ThreadChoice choice(2, false);
+  play(choice, 1e-4, 2e-4, 30);
+  EXPECT_GT(play(choice, 2e-3, 4e-4, 30), 0.9);    // beside a build
+  EXPECT_LT(play(choice, 1e-4, 2e-4, 120), 0.55);  // it is over: noticed within a minute
+  EXPECT_LT(play(choice, 1e-4, 2e-4, 30), 0.01);
+}
+
+TEST(ThreadChoice, AskedForIsTaken) {
+  ThreadChoice fixed(2, true), single(1, false);
+  EXPECT_EQ(play(fixed, 1, 1e-3, 1e19), 0);
+  EXPECT_EQ(single.next().threads, 1);
+  EXPECT_EQ(single.next().steps, INT64_MAX);
+}
+
+}  // namespace
+}  // namespace macadam::kernels
