@@ -140,7 +140,7 @@ class TileRunner {
     add_device_state(states, "tile_constants", "1, m, m2, m3, m", words(constant_.data()), 4 * constant_.size());
     add_device_state(states, "tile_states", "Pa m", words(scene_.state), 4 * state_count_);
     add_device_state(states, "base_loads", "N, N m", base_, loads);
-    add_device_state(states, "forces", "N, N m", scene_.force, loads);
+    add_device_state(states, "forces", "N, N m", scene_.force, bodies_ * velocity_words);  // walls': forces() sums them
     add_device_state(states, "wall_loads", "N, N m", words(scene_.wall_load), 4 * wall_load_count_);
     if (carried_) {
       add_device_state(states, "displacement_at_block", "m, rad", before_, (bodies_ + walls) * displacement_words);

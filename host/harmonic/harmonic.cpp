@@ -53,8 +53,8 @@ class Harmonic::Implementation {
       : box_(specimen.box), laws_(laws), inertia_(inertia), options_(options), contacts_(network, specimen.size()) {
     require_laws_of(network, laws);
     const PairStiffness typical = pair_stiffness(laws, 2 * std::numbers::pi * typical_frequency);
-    pins_ = pins_of_free_motions(specimen, network, typical);
-    preconditioner_ = std::make_unique<Preconditioner>(network, specimen.size(), typical, pins_);
+    free_ = find_free_motions(specimen, network, typical, inertia);
+    preconditioner_ = std::make_unique<Preconditioner>(network, specimen.size(), typical, free_.pins);
   }
 
   HarmonicResult solve(double frequency, double density_scaling, double damping) {
@@ -71,6 +71,7 @@ class Harmonic::Implementation {
     r = right;
     if (frequency == last_frequency_) {  // another inertia at the same frequency: begin from what is near
       x = last_;
+      if (inertia != 0.0) remove_free_motions(x);
       apply(stiffness, inertia, x, q);
       for (std::size_t i = 0; i < r.size(); ++i) r[i] -= q[i];
     }
@@ -80,6 +81,7 @@ class Harmonic::Implementation {
     for (int restart = 0; restart < 4 && residual > options_.tolerance; ++restart) {
       for (int k = 0; residual > 0.3 * options_.tolerance && out.iterations < options_.max_iterations; ++k) {
         preconditioner_->solve(r, z);
+        if (inertia != 0.0) remove_free_motions(z);
         const Complex rho = product(r, z);
         if (k == 0) {
           p = z;
@@ -115,7 +117,7 @@ class Harmonic::Implementation {
     out.top = modulus(to_modulus * walls.top);
     out.bottom = modulus(-to_modulus * walls.bottom);
     if (inertia == 0.0) {
-      for (const Pin& pin : pins_) out.held_force += std::abs(pin.stiffness * x[pin.dof]);
+      for (const Pin& pin : free_.pins) out.held_force += std::abs(pin.stiffness * x[pin.dof]);
       out.held_force /= std::abs(walls.top);
     }
     last_ = x;
@@ -133,12 +135,20 @@ class Harmonic::Implementation {
     contacts_.forces(stiffness, x, 0.0, out);
     for (Complex& f : out) f = -f;
     if (inertia == 0.0) {
-      for (const Pin& pin : pins_) out[pin.dof] += pin.stiffness * x[pin.dof];
+      for (const Pin& pin : free_.pins) out[pin.dof] += pin.stiffness * x[pin.dof];
       return;
     }
     // free motions then carry their own inertia and need no pins
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      out[i] -= inertia * (i % 6 < 3 ? inertia_.mass[i / 6] : inertia_.inertia[i / 6]) * x[i];
+    for (std::size_t i = 0; i < x.size(); ++i) { out[i] -= inertia * inertia_at(inertia_, i) * x[i]; }
+  }
+
+  /// The load is in equilibrium, so that with inertia nothing moves freely. The preconditioner, which has pins in place
+  /// of that inertia, would have to find this out: it takes three times the iterations.
+  void remove_free_motions(Vector& x) const {
+    for (const std::vector<double>& motion : free_.motions) {
+      Complex share = 0;
+      for (std::size_t i = 0; i < x.size(); ++i) share += motion[i] * inertia_at(inertia_, i) * x[i];
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] -= share * motion[i];
     }
   }
 
@@ -147,7 +157,7 @@ class Harmonic::Implementation {
   Inertia inertia_;
   HarmonicOptions options_;
   ContactOperator contacts_;
-  std::vector<Pin> pins_;
+  FreeMotions free_;
   std::unique_ptr<Preconditioner> preconditioner_;
   Vector last_;  ///< solution of last_frequency_
   double last_frequency_ = -1;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <cmath>
 
 #include "host/network/clusters.hpp"
 #include "host/network/contact_stiffness.hpp"
@@ -23,11 +24,27 @@ Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
   return out;
 }
 
+/// Makes the last of the motions orthonormal to those before.
+void orthonormalise(std::vector<std::vector<double>>& motions, const Inertia& inertia) {
+  const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * inertia_at(inertia, i) * b[i];
+    return sum;
+  };
+  std::vector<double>& last = motions.back();
+  for (std::size_t m = 0; m + 1 < motions.size(); ++m) {
+    const double share = product(motions[m], last);
+    for (std::size_t i = 0; i < last.size(); ++i) last[i] -= share * motions[m][i];
+  }
+  const double norm = std::sqrt(product(last, last));
+  for (double& v : last) v /= norm;
+}
+
 }  // namespace
 
-std::vector<Pin> pins_of_free_motions(const Specimen& specimen, const ContactNetwork& network,
-                                      const PairStiffness& stiffness) {
-  std::vector<Pin> pins;
+FreeMotions find_free_motions(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& stiffness,
+                              const Inertia& inertia) {
+  FreeMotions out;
   for (const Cluster& cluster : find_clusters(network, specimen.size())) {
     if (!cluster.spans()) {
       throw InputError("harmonic: the stiffness is singular: found " + describe(cluster) +
@@ -58,10 +75,16 @@ std::vector<Pin> pins_of_free_motions(const Specimen& specimen, const ContactNet
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots(motion);
     for (int m = 0; m < free; ++m) {
       const auto column = static_cast<std::size_t>(pivots.colsPermutation().indices()(m));
-      pins.push_back({6 * static_cast<std::size_t>(members[column / 3]) + column % 3, largest});
+      out.pins.push_back({6 * static_cast<std::size_t>(members[column / 3]) + column % 3, largest});
+      std::vector<double>& whole = out.motions.emplace_back(6 * specimen.size(), 0.0);
+      for (const std::int32_t particle : members) {
+        Eigen::Map<Eigen::Matrix<double, 6, 1>> at(&whole[6 * static_cast<std::size_t>(particle)]);
+        at = rigid(specimen, particle) * modes.eigenvectors().col(m);
+      }
+      orthonormalise(out.motions, inertia);
     }
   }
-  return pins;
+  return out;
 }
 
 }  // namespace macadam::harmonic

@@ -6,13 +6,26 @@
 
 #include "host/harmonic/stiffness_matrix.hpp"
 #include "macadam/specimen.hpp"
+#include "macadam/stepper.hpp"
 
 namespace macadam::harmonic {
 
-/// Pins on as many degrees of freedom as the specimen has free rigid motions (three between frictionless walls: x, y
-/// and yaw), chosen so that they hold nothing else: a load in equilibrium leaves them without force. \throws InputError
-/// naming the particles of a cluster that does not touch both walls: nothing says where it is.
-std::vector<Pin> pins_of_free_motions(const Specimen& specimen, const ContactNetwork& network,
-                                      const PairStiffness& stiffness);
+/// Mass or moment of inertia of degree of freedom 6·particle + component.
+inline double inertia_at(const Inertia& inertia, std::size_t dof) {
+  return dof % 6 < 3 ? inertia.mass[dof / 6] : inertia.inertia[dof / 6];
+}
+
+/// The free rigid motions (three between frictionless walls: x, y and yaw).
+struct FreeMotions {
+  /// On as many degrees of freedom, so chosen that they hold nothing else: a load in equilibrium leaves them without
+  /// force.
+  std::vector<Pin> pins;
+  /// [motion][6·particle + component], orthonormal with respect to masses and moments of inertia [1/√kg].
+  std::vector<std::vector<double>> motions;
+};
+
+/// \throws InputError naming the particles of a cluster that does not touch both walls: nothing says where it is.
+FreeMotions find_free_motions(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& stiffness,
+                              const Inertia& inertia);
 
 }  // namespace macadam::harmonic
