@@ -9,32 +9,8 @@
 
 #include "macadam/error.hpp"
 
-// OpenBLAS's own, where the BLAS is that one
-extern "C" {
-__attribute__((weak)) void openblas_set_num_threads(int);
-__attribute__((weak)) int openblas_get_num_threads();
-}
-
 namespace macadam::harmonic {
 namespace {
-
-/// Keeps the BLAS to so many threads while it lives. CHOLMOD hands it many small blocks: on sixteen cores all threads
-/// took six times as long to meet as two did to compute.
-class BlasThreads {
- public:
-  explicit BlasThreads(int most) {
-    if (!openblas_set_num_threads || !openblas_get_num_threads) return;
-    before_ = openblas_get_num_threads();
-    if (before_ > most) openblas_set_num_threads(most);
-  }
-  ~BlasThreads() {
-    if (before_ > 0) openblas_set_num_threads(before_);
-  }
-  BlasThreads(const BlasThreads&) = delete;
-
- private:
-  int before_ = 0;
-};
 
 std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::size_t particles) {
   std::vector<idx_t> begin{0}, neighbour;
@@ -108,7 +84,6 @@ Preconditioner::Preconditioner(const ContactNetwork& network, std::size_t partic
   f.common.method[0].ordering = CHOLMOD_NATURAL;  // already ordered; postordering keeps the fill
   f.common.supernodal = CHOLMOD_SUPERNODAL;
   f.common.print = 0;
-  const BlasThreads threads(4);
   f.factor = cholmod_analyze(&sparse, &f.common);
   if (f.factor) cholmod_factorize(&sparse, f.factor, &f.common);
   f.require("factoring the stiffness", particles);
@@ -134,7 +109,6 @@ void Preconditioner::solve(const Vector& in, Vector& out) const {
     right[row] = in[i].real();
     right[n + row] = in[i].imag();
   }
-  const BlasThreads one(1);  // two right-hand sides: bound by memory
   cholmod_solve2(CHOLMOD_A, f.factor, f.right, nullptr, &f.x, nullptr, &f.work_y, &f.work_e, &f.common);
   f.require("solving", n / 6);
   const auto* x = static_cast<const double*>(f.x->x);
