@@ -116,7 +116,7 @@ class Drawing:
     def drift_differences(self):
         """(row, difference from double) at the same settings; from the harmonic solution where double was not run."""
         rows = done(select(self.rows, study="drift"))
-        key = lambda r: (r["frequency_hz"], r["density_scaling"], r["cycles"])  # noqa: E731
+        key = lambda r: (r["frequency_hz"], r["density_scaling"], r["cycles"], r["geometry"])  # noqa: E731
         double = {key(r): r for r in rows if r["precision"] == "double"}
         for r in rows:
             if r["precision"] == "double":
@@ -137,10 +137,15 @@ class Drawing:
                                                (20.0, True, "x--", "20 Hz, 1 to 16 cycles")):
                     line = sorted((r["steps"], abs(d[error])) for r, d in pairs
                                   if r["precision"] == precision and r["frequency_hz"] == f and d[error] != 0
+                                  and r["geometry"] == "fixed"
                                   and ((r["density_scaling"] == 1e3 and r["cycles"] > 1) if cycles
                                        else r["cycles"] == 1))
                     if line:
                         ax.plot(*zip(*line), mark, color=COLOUR[precision], label=f"{precision}, {label}", ms=5, lw=1)
+                updated = [(r["steps"], abs(d[error])) for r, d in pairs
+                           if r["precision"] == precision and r["geometry"] == "updated"]
+                if updated:
+                    ax.plot(*zip(*updated), "D", color=COLOUR[precision], mfc="none", ms=7, label=f"{precision}, updated")
             ax.axhline(LIMIT[error], color="0.4", ls=":", label="asked of mixed")
             ax.set(xscale="log", yscale="log", xlabel="steps", ylabel=LABEL[error].replace("error", "difference"))
             bottom, top = ax.get_ylim()

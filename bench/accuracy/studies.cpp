@@ -84,6 +84,12 @@ class List {
       }
     }
     if (quick_) return;
+    for (const double frequency : {20.0, 2.0}) {
+      for (const Precision precision : precisions) {
+        Case& c = add("drift", "t8", frequency, frequency == 2 ? 10 : 1);
+        c.precision = precision, c.geometry = Geometry::updated;
+      }
+    }
     for (const Precision precision : precisions) {  // many cycles of large steps
       Case& c = add("drift", "t8", 20, 1e3);
       c.precision = precision, c.cycles = {1, 2, 4, 8, 16};

@@ -26,8 +26,8 @@ double inertia_estimate(const Scene& scene, const Preparation& prepared, double 
 /// Drift of single-precision chain states over so many steps.
 double single_precision_error(std::int64_t steps);
 
-/// Of `mixed`, however many steps: single-precision geometry and gathered velocities.
-inline constexpr double mixed_precision_error = 4e-7;
+/// Of `mixed`, however many steps (6e-7 was measured): single-precision geometry and gathered velocities.
+inline constexpr double mixed_precision_error = 1.2e-6;
 
 /// Normals and arms of the start kept under this strain.
 double fixed_geometry_error(double strain);
