@@ -193,7 +193,8 @@ class Drawing:
                     unstable = [r["step_share"] for r in some if r["status"] == "diverged"]
                     if unstable:
                         ax.axvline(min(unstable), color=line.get_color(), ls=":", lw=1)
-            ax.plot([], [], ":", color="0.4", label="first step that diverges")
+            if any(r["status"] == "diverged" for r in rows):
+                ax.plot([], [], ":", color="0.4", label="first step that diverges")
             ax.set(yscale="log", xlabel="step / computed critical step", ylabel=LABEL[error])
         axes[0].legend(**BELOW)
         self.save(figure, "step-share")
