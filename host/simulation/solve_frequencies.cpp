@@ -45,9 +45,7 @@ void solve_frequencies(const Scene& scene, const Preparation& prepared, const Pr
   if (solver.damping_kind != Damping::none && viscous == 0) {
     result.solver += fmt::format("; {} damping has no part in it", to_string(solver.damping_kind));
   }
-  if (const std::string unused = unused_settings(scene); !unused.empty()) {
-    result.decisions.push_back("method harmonic has no use for " + unused + " of the scene");
-  }
+  if (const std::string unused = unused_settings(scene); !unused.empty()) { result.solver += "; no use for " + unused; }
   save("running");
   if (progress) progress("harmonic: factoring", 0);
   const auto start = std::chrono::steady_clock::now();
