@@ -4,15 +4,12 @@ add_library(macadam_options INTERFACE)
 target_include_directories(macadam_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra>)
 if(MACADAM_SANITIZE)
-  # What a bad pointer does, AddressSanitizer sees by itself: asking before every access whether it is null, aligned and
-  # within its object doubles the code that templates of Eigen make.
   target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${MACADAM_SANITIZE}
-                                                   -fno-sanitize=null,alignment,object-size
                                                    -fno-sanitize-recover=all -fno-omit-frame-pointer>)
   target_link_options(macadam_options INTERFACE -fsanitize=${MACADAM_SANITIZE})
   # The step's inlined packets have thousands of temporaries: watching each on the stack takes gcc ten minutes a file.
   # Its arrays are on the heap, where every access is still checked.
-  set(MACADAM_SANITIZE_STEP "--param=asan-stack=0")
+  set(MACADAM_SANITIZE_STEP "--param=asan-stack=0;-fno-sanitize=null,alignment,object-size")
 endif()
 if(MACADAM_COVERAGE)
   # Of the library only, and counted without atomics, which made a step of two threads ten times slower: a lost count

@@ -70,10 +70,10 @@ class StepperImpl final : public Stepper {
                options.loading.has_value(),
                options.loading.value_or(loadings::Cyclic{})};
     const double height = specimen.box.size.z;
-    std::size_t bytes = 0;
-    for (const auto& group : layout_.groups)
-      bytes += GroupShape<P>(layout_, group, laws[static_cast<std::size_t>(group.pair)].value(), options_).bytes();
-    if constexpr (requires { exec_.set_options(options_, laws, height, bytes); }) {
+    if constexpr (requires { exec_.set_options(options_, laws, height, std::size_t{}); }) {
+      std::size_t bytes = 0;
+      for (const auto& group : layout_.groups)
+        bytes += GroupShape<P>(layout_, group, laws[static_cast<std::size_t>(group.pair)].value(), options_).bytes();
       exec_.set_options(options_, laws, height, bytes);
     }
     for (const auto& group : layout_.groups)

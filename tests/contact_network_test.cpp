@@ -246,6 +246,7 @@ TEST_F(RandomNetwork, Filters) {
     if (f.b >= 0) mean += f.area, ++particle_facets;
   mean /= static_cast<double>(particle_facets);
   const double gap_max = 0.4, area_min = 0.1;
+  double lost = 0, kept = 0;
   for (const Facet& f : tessellation.facets) {
     if (f.b < 0) {
       ++on_walls;
@@ -256,7 +257,9 @@ TEST_F(RandomNetwork, Filters) {
     if (gap > gap_max * sum / 2)
       ++wide;
     else if (f.area < area_min * mean)
-      ++small;
+      ++small, lost += f.area;
+    else
+      kept += f.area;
   }
   ASSERT_GT(wide, 0);
   ASSERT_GT(small, 0);
@@ -264,6 +267,7 @@ TEST_F(RandomNetwork, Filters) {
   const ContactNetwork n = build_network(specimen, tessellation, spec);
   EXPECT_EQ(n.dropped_gap, wide);
   EXPECT_EQ(n.dropped_area, small);
+  EXPECT_DOUBLE_EQ(n.dropped_share, lost / (lost + kept));
   EXPECT_EQ(static_cast<std::int64_t>(n.contacts.size()), particle_facets + on_walls - wide - small);
 }
 

@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "host/reference/reference_spectrum.hpp"
-#include "test_scenes.hpp"
+#include "stepper_cases.hpp"
 
 namespace macadam::test {
 namespace {
@@ -90,10 +90,7 @@ INSTANTIATE_TEST_SUITE_P(All, LoadedLattice,
                          testing::Combine(testing::ValuesIn(tested_backends()),
                                           testing::Values(ContactForm::condensed, ContactForm::points),
                                           testing::Values(Geometry::updated, Geometry::fixed)),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           return fmt::format("{}_{}_{}", to_string(std::get<0>(info.param)),
-                                              to_string(std::get<1>(info.param)), to_string(std::get<2>(info.param)));
-                         });
+                         [](const auto& info) { return name_of_case(info); });
 
 // A bar of height H held below and driven above at ω has the modulus E·κ/tan κ = E·(1 − κ²/3 − κ⁴/45 …) with
 // κ = ω·H·√(ρ/E): inertia alone parts it from E, by the square of the frequency. A column of n spheres has its mass at

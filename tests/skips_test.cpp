@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "general_laws.hpp"
-#include "test_scenes.hpp"
+#include "stepper_cases.hpp"
 
 namespace macadam::test {
 namespace {
@@ -36,10 +36,7 @@ INSTANTIATE_TEST_SUITE_P(All, Skips,
                          testing::Combine(testing::ValuesIn(tested_backends()),
                                           testing::Values(Precision::double_, Precision::mixed, Precision::single),
                                           testing::Values(ContactForm::condensed, ContactForm::points)),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           return fmt::format("{}_{}_{}", to_string(std::get<0>(info.param)),
-                                              to_string(std::get<1>(info.param)), to_string(std::get<2>(info.param)));
-                         });
+                         [](const auto& info) { return name_of_case(info); });
 
 Laws elastic_laws() {
   Laws laws;
@@ -129,6 +126,26 @@ TEST(NothingTurns, ASpinIsRefusedWhereRotationsAreSkipped) {
   options.skip_rotations = false;
   EXPECT_NO_THROW(make_stepper(Backend::cpu, scene.specimen, scene.network, laws, scene.inertia, options)
                       ->set_velocities(still, spin));
+}
+
+/// Tiny facets carry about what their area says, the smaller the truer: the effect that the program states.
+TEST(TinyFacets, TheirShareOfTheAreaIsTheOrderOfTheirStiffness) {
+  const Specimen specimen = read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}});
+  const auto modulus = [](const TestScene& scene) {
+    return Harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, 20).solve(20, 0).top.e_star_pa;
+  };
+  const double whole = modulus(make_scene(specimen));
+  for (const double area_min : {0.001, 0.01, 0.026, 0.1}) {
+    NetworkSpec spec;
+    spec.area_min = area_min;
+    const TestScene scene = make_scene(specimen, spec);
+    ASSERT_GT(scene.network.dropped_area, 0);
+    const double ratio = (1 - modulus(scene) / whole) / scene.network.dropped_share;
+    fmt::print("area_min {}: share {:.1e}, loss of |E*| over it {:.2f}\n", area_min, scene.network.dropped_share,
+               ratio);
+    EXPECT_GT(ratio, 0.3);
+    EXPECT_LT(ratio, 3);
+  }
 }
 
 // One point a facet: three chains there against six on the facet.

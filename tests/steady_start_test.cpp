@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "test_scenes.hpp"
+#include "stepper_cases.hpp"
 
 namespace macadam::test {
 namespace {
@@ -53,19 +53,10 @@ void expect_periodic(const Stiffness& error) {  // the bars of a cycle from the 
   fmt::print("|E*| {:.1e}, phase {:.1e} deg\n", error.e_star_pa, error.phase_deg);
 }
 
-using Case = std::tuple<Backend, Precision, ContactForm, Geometry>;
+using Case = StepperCase;
 class SteadyStart : public testing::TestWithParam<Case> {};
 
-INSTANTIATE_TEST_SUITE_P(All, SteadyStart,
-                         testing::Combine(testing::ValuesIn(tested_backends()),
-                                          testing::Values(Precision::double_, Precision::mixed, Precision::single),
-                                          testing::Values(ContactForm::condensed, ContactForm::points),
-                                          testing::Values(Geometry::updated, Geometry::fixed)),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           return fmt::format("{}_{}_{}_{}", to_string(std::get<0>(info.param)),
-                                              to_string(std::get<1>(info.param)), to_string(std::get<2>(info.param)),
-                                              to_string(std::get<3>(info.param)));
-                         });
+INSTANTIATE_TEST_SUITE_P(All, SteadyStart, all_stepper_cases(), [](const auto& info) { return name_of_case(info); });
 
 TEST_P(SteadyStart, OneCycleOfT8) {
   StepperOptions options;

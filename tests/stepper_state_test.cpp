@@ -6,12 +6,12 @@
 
 #include "general_laws.hpp"
 #include "test_files.hpp"
-#include "test_scenes.hpp"
+#include "stepper_cases.hpp"
 
 namespace macadam::test {
 namespace {
 
-using Case = std::tuple<Backend, Precision, ContactForm, Geometry>;
+using Case = StepperCase;
 class StepperState : public testing::TestWithParam<Case> {
  protected:
   StepperState() : scene_(make_scene(random_specimen(21))), options_(shaking_options(scene_)) {
@@ -25,16 +25,7 @@ class StepperState : public testing::TestWithParam<Case> {
   Backend backend_{};
 };
 
-INSTANTIATE_TEST_SUITE_P(All, StepperState,
-                         testing::Combine(testing::ValuesIn(tested_backends()),
-                                          testing::Values(Precision::double_, Precision::mixed, Precision::single),
-                                          testing::Values(ContactForm::condensed, ContactForm::points),
-                                          testing::Values(Geometry::updated, Geometry::fixed)),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           return fmt::format("{}_{}_{}_{}", to_string(std::get<0>(info.param)),
-                                              to_string(std::get<1>(info.param)), to_string(std::get<2>(info.param)),
-                                              to_string(std::get<3>(info.param)));
-                         });
+INSTANTIATE_TEST_SUITE_P(All, StepperState, all_stepper_cases(), [](const auto& info) { return name_of_case(info); });
 
 TEST_P(StepperState, GoesOnToTheSameBits) {
   const auto check = [&](const char* what, const StepperOptions& options) {

@@ -4,18 +4,12 @@
 
 #include <tuple>
 
-#include "test_scenes.hpp"
+#include "stepper_cases.hpp"
 
 namespace macadam::test {
 namespace {
 
-using Case = std::tuple<Backend, Precision, ContactForm, Geometry>;
-
-std::string name_of(const testing::TestParamInfo<Case>& info) {
-  const auto& [backend, precision, form, geometry] = info.param;
-  return std::string(to_string(backend)) + "_" + to_string(precision) + "_" + to_string(form) + "_" +
-         to_string(geometry);
-}
+using Case = StepperCase;
 
 class StepperAgainstReference : public testing::TestWithParam<Case> {
  protected:
@@ -99,12 +93,8 @@ TEST_P(StepperAgainstReference, SlowLoadUnderWaves) {
   compare(scene, options, long_tests ? 300 : 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, StepperAgainstReference,
-                         testing::Combine(testing::ValuesIn(tested_backends()),
-                                          testing::Values(Precision::double_, Precision::mixed, Precision::single),
-                                          testing::Values(ContactForm::condensed, ContactForm::points),
-                                          testing::Values(Geometry::updated, Geometry::fixed)),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(All, StepperAgainstReference, all_stepper_cases(),
+                         [](const auto& info) { return name_of_case(info); });
 
 /// Large finite turns: the carried frame must follow them, not only small strain.
 TEST_P(StepperAgainstReference, FreeAssemblyThatTumbles) {

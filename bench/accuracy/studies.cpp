@@ -86,7 +86,7 @@ class List {
     if (quick_) return;
     for (const double frequency : {20.0, 2.0}) {
       for (const Precision precision : precisions) {
-        Case& c = add("drift", "t8", frequency, frequency == 2 ? 10 : 1);
+        Case& c = add("drift", "t8", frequency, 1);
         c.precision = precision, c.geometry = Geometry::updated;
       }
     }

@@ -177,17 +177,19 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
   check_input(specimen, tessellation, spec);
   ContactNetwork out;
   const double smallest = spec.area_min.value_or(0) * mean_facet_area(tessellation);
+  double dropped = 0, kept = 0;
   const auto wanted = [&](const Facet& f) {
     if (f.b < 0) return f.b <= wall_z_lo ? spec.bottom_top_walls : spec.lateral_walls;
     const double radii = specimen.radius[f.a] + specimen.radius[f.b];
     const double gap = norm(specimen.centre[f.b] - specimen.centre[f.a]) - radii;
     if (spec.gap_max && gap > *spec.gap_max * 0.5 * radii) return ++out.dropped_gap, false;
-    if (f.area < smallest) return ++out.dropped_area, false;
+    if (f.area < smallest) return ++out.dropped_area, dropped += f.area, false;
     return true;
   };
   double difference = 0, total = 0;
   for (const Facet& f : tessellation.facets) {
     if (!wanted(f)) continue;
+    if (f.b >= 0) kept += f.area;
     Contact c = geometry(specimen, f);
     if (spec.quadrature == Quadrature::one_point) {
       c.moments = add_one_point(specimen, f, c, out);
@@ -200,6 +202,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
     ++out.count[static_cast<std::size_t>(c.pair)];
     out.contacts.push_back(c);
   }
+  if (dropped > 0) out.dropped_share = dropped / (dropped + kept);
   if (out.contacts.empty())
     throw InputError("network", 0, "contacts",
                      fmt::format("none left of {} facets ({} dropped by gap_max, {} by area_min)",

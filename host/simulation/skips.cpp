@@ -58,7 +58,9 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, co
     out.push_back({"second moments", "a facet has one point: three chains in place of six", "rounding"});
   }
   if (const auto n = prepared.network.dropped_area; n > 0) {
-    out.push_back({"tiny facets", fmt::format("{} below area_min", n), "another model: compare without area_min"});
+    out.push_back({"tiny facets", fmt::format("{} below area_min", n),
+                   fmt::format("of the order of {:.0e} of |E*|: their share of the facets' area",
+                               prepared.network.dropped_share)});
   }
   if (const auto n = prepared.network.dropped_gap; n > 0) {
     out.push_back({"open facets", fmt::format("{} wider than gap_max", n), "another model: compare without gap_max"});

@@ -57,6 +57,7 @@ struct ContactNetwork {
   std::vector<std::uint32_t> row_begin;  ///< particle i's contacts are rows[row_begin[i] … row_begin[i+1])
   std::vector<std::uint32_t> rows;       ///< contact numbers, ascending in a row
   std::int64_t dropped_gap = 0, dropped_area = 0;
+  double dropped_share = 0;                      ///< what area_min dropped of the area of all facets between particles
   std::array<std::int64_t, pair_types> count{};  ///< contacts by PairType
   double second_moment_difference = 0;           ///< Σ|lumped − exact| / Σ exact of ss + tt over all contacts
 
