@@ -79,11 +79,12 @@ class Table {
     fmt::print("{}, {} multiprocessors, {} MB L2, up to {} MHz, driver for CUDA {}.{}, copy {:.2f} TB/s\n", p.name,
                p.multiProcessorCount, p.l2CacheSize >> 20, clock / 1000, driver / 1000, driver % 1000 / 10,
                copy_ / 1e12);
-    fmt::print("{:44} {:>10} {:>12} {:>10} {:>8} {:>8}  {}\n", "step", "us", "contacts/s", "B/contact", "of copy",
-               "B held", "path");
+    fmt::print("{:44} {:>10} {:>12} {:>10} {:>8} {:>8} {:>24}  {}\n", "step", "us", "contacts/s", "B/contact",
+               "of copy", "B held", "registers (occupancy)", "path");
     if (!csv.empty()) csv_.open(csv);
     if (csv_)
-      csv_ << "step,particles,contacts,us,contacts_per_s,bytes_per_contact,share_of_copy,held_bytes_per_contact,path\n";
+      csv_ << "step,particles,contacts,us,contacts_per_s,bytes_per_contact,share_of_copy,held_bytes_per_contact,"
+              "registers (occupancy),path\n";
   }
 
   void run(const std::string& scene_name, const std::function<const test::TestScene&()>& make, const Row& row,
@@ -119,12 +120,16 @@ class Table {
     const double bytes = static_cast<double>(stepper->traffic());
     const double share = bytes / (us * 1e-6) / copy_;
     const double held = static_cast<double>(stepper->bytes()) / contacts;
-    fmt::print("{:44} {:10.2f} {:12.3e} {:10.0f} {:8.2f} {:8.0f}  {}\n", name, us, contacts / (us * 1e-6),
-               bytes / contacts, share, held, stepper->description());
+    std::string use;
+    for (const KernelUse& k : stepper->kernels())
+      use += fmt::format("{}{} ({:.2f})", use.empty() ? "" : " ", k.registers, k.occupancy);
+    fmt::print("{:44} {:10.2f} {:12.3e} {:10.0f} {:8.2f} {:8.0f} {:>24}  {}\n", name, us, contacts / (us * 1e-6),
+               bytes / contacts, share, held, use, stepper->description());
     std::fflush(stdout);
     if (csv_) {
-      csv_ << fmt::format("\"{}\",{},{},{:.3f},{:.4g},{:.1f},{:.3f},{:.1f},\"{}\"\n", name, scene.specimen.size(),
-                          contacts, us, contacts / (us * 1e-6), bytes / contacts, share, held, stepper->description());
+      csv_ << fmt::format("\"{}\",{},{},{:.3f},{:.4g},{:.1f},{:.3f},{:.1f},{},\"{}\"\n", name, scene.specimen.size(),
+                          contacts, us, contacts / (us * 1e-6), bytes / contacts, share, held, use,
+                          stepper->description());
       csv_.flush();
     }
   }
@@ -134,6 +139,18 @@ class Table {
   double copy_;
   std::ofstream csv_;
 };
+
+/// The paper's laws with so many Kelvin units, of the same sum of compliances.
+test::Laws laws_of_units(int units) {
+  test::Laws laws = test::am1_laws();
+  for (auto& law : laws) {
+    auto* kelvin = law ? std::get_if<laws::GeneralisedKelvin>(&*law) : nullptr;
+    if (!kelvin) continue;
+    kelvin->E.assign(static_cast<std::size_t>(units), units * kelvin->E.front());
+    kelvin->C.assign(static_cast<std::size_t>(units), units * kelvin->C.front());
+  }
+  return laws;
+}
 
 void run_all(Table& table, bool large, bool huge) {
   constexpr auto condensed = ContactForm::condensed, points = ContactForm::points;
@@ -164,6 +181,11 @@ void run_all(Table& table, bool large, bool huge) {
   });
   table.run("full, elastic", elastic, {condensed, mixed, fixed});
   scene.reset();
+  for (const int units : {0, 1, 2, 4, 5, 6}) {
+    table.run(fmt::format("full, {} units", units), keep([&, units] { return specimen(laws_of_units(units)); }),
+              {condensed, full, fixed});
+    scene.reset();
+  }
   const auto fcc = [&](std::size_t n) { return keep([n] { return fcc_scene(n); }); };
   table.run("fcc 62,950", fcc(62950), {condensed, mixed, fixed});
   table.run("fcc 62,950", fcc(62950), {condensed, full, fixed});

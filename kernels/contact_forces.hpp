@@ -22,7 +22,8 @@ struct MotionView {
 inline constexpr int velocity_words = 8;
 inline constexpr int displacement_words = 8;
 
-/// The functor of one group: what may branch (form, geometry, law, units) is decided by its type.
+/// The functor of one group: what may branch (form, geometry, law, units) is decided by its type. `Units`: 0 or 3
+/// Kelvin units exactly; 5: at most five, with room in registers for all; −1: any number.
 template <class P, class LawStep, int Units, ContactForm form, Geometry geometry>
 struct ContactForces {
   using Policy = P;
@@ -86,7 +87,7 @@ struct ContactForces {
   }
 
  private:
-  MACADAM_HD int units() const { return Units >= 0 ? Units : view.units; }
+  MACADAM_HD int units() const { return Units == 0 || Units == 3 ? Units : view.units; }
   MACADAM_HD std::size_t chain_words() const { return static_cast<std::size_t>(view.components * (1 + units())); }
   template <class Item>
   MACADAM_HD std::size_t chain_stride(const Item& item) const {
@@ -99,9 +100,10 @@ struct ContactForces {
   MACADAM_HD void advance_chains(const Item& item, const T (&u)[6], typename P::State* chain, T (&density)[6]) const {
     if constexpr (!stateless && Units >= 0 && requires { Item::staged; }) {
       using S = typename P::State;
-      S state[N][1 + Units];
+      S state[N][1 + Units];  // units that the law has not: zero displacement and coefficients
+      const auto place = [&](int c, int l) { return chain + (c * (1 + units()) + l) * item.lanes(); };
       for (int c = 0; c < N; ++c) {
-        for (int l = 0; l <= Units; ++l) state[c][l] = item.load(chain + (c * (1 + Units) + l) * item.lanes());
+        for (int l = 0; l <= Units; ++l) state[c][l] = l <= units() ? item.load(place(c, l)) : S(0);
       }
       for (int c = 0; c < N; ++c) {
         auto unit = [&](int l) -> S& { return state[c][1 + l]; };
@@ -109,7 +111,9 @@ struct ContactForces {
         density[c] = static_cast<T>(state[c][0]);
       }
       for (int c = 0; c < N; ++c) {
-        for (int l = 0; l <= Units; ++l) item.store(chain + (c * (1 + Units) + l) * item.lanes(), state[c][l]);
+        for (int l = 0; l <= Units; ++l) {
+          if (l <= units()) item.store(place(c, l), state[c][l]);
+        }
       }
     } else {
       for (int c = 0; c < N; ++c)
@@ -127,10 +131,12 @@ struct ContactForces {
     if constexpr (Units >= 0 && requires { Item::staged; }) {
       S x[Units + 1];
       const S before = item.load(chain);
-      for (int l = 0; l < Units; ++l) x[l] = item.load(place(l));
+      for (int l = 0; l < Units; ++l) x[l] = l < units() ? item.load(place(l)) : S(0);
       const S f = law.template advance<Units>(before, dx, [&](int l) -> S& { return x[l]; });
       item.store(chain, f);
-      for (int l = 0; l < Units; ++l) item.store(place(l), x[l]);
+      for (int l = 0; l < Units; ++l) {
+        if (l < units()) item.store(place(l), x[l]);
+      }
       return static_cast<T>(f);
     } else {
       auto unit = [&](int l) -> decltype(auto) { return item.ref(place(l)); };

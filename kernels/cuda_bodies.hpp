@@ -10,15 +10,24 @@ namespace macadam::kernels {
 inline constexpr unsigned body_threads = 256, bodies_a_block = body_threads / velocity_words;
 inline constexpr std::uint32_t long_row = 64;  ///< a longer row of records has a block of its own
 
-/// Word w of the sum of records first, first + stride, … < end, added up in R.
+/// Word w of [force, –, moment, –] of the sum of records first, first + stride, … < end, added up in R.
 template <class R, class T>
 __device__ __forceinline__ R sum_words(const LoadRecords<T>& records, std::uint32_t first, std::uint32_t end,
                                        std::uint32_t stride, unsigned w) {
+  constexpr unsigned batch = 8;  // records asked for at once: a row has twelve or so
   R sum = 0;
-  const T* words = records.words + w;
-#pragma unroll 4
-  for (std::uint32_t r = first; r < end; r += stride)
-    sum += __ldg(words + static_cast<std::size_t>(r) * velocity_words);
+  if (w % 4 == 3) return sum;
+  const T* words = records.words + (w - w / 4);
+  for (std::uint32_t r = first; r < end; r += batch * stride) {
+    T part[batch];
+#pragma unroll
+    for (unsigned k = 0; k < batch; ++k) {
+      const std::uint32_t at = r + k * stride;
+      part[k] = at < end ? __ldg(words + static_cast<std::size_t>(at) * record_words) : T(0);
+    }
+#pragma unroll
+    for (unsigned k = 0; k < batch; ++k) sum += part[k];
+  }
   return sum;
 }
 
@@ -66,19 +75,6 @@ template <class R, class T>
 __global__ void __launch_bounds__(body_threads) sum_loads(const LoadRecords<T> records, R* out, std::uint32_t first) {
   const R sum = sum_by_block<R>(records, first + blockIdx.x);
   if (threadIdx.x < velocity_words) out[blockIdx.x * velocity_words + threadIdx.x] = sum;
-}
-
-/// The least number (specimen order) of a particle that moves more than its radius or turns more than one in a step, or
-/// not finitely.
-template <class P>
-__global__ void find_divergent(const typename P::Particle* master, const std::int32_t* particle, const double* radius,
-                               double dt, std::int32_t particles, std::uint32_t* first) {
-  const auto i = static_cast<std::int32_t>(blockIdx.x * blockDim.x + threadIdx.x);
-  if (i >= particles) return;
-  const auto* w = master + static_cast<std::size_t>(i) * velocity_words;
-  const double travel = dt * sqrt(double(w[0]) * w[0] + double(w[1]) * w[1] + double(w[2]) * w[2]);
-  const double turn = dt * sqrt(double(w[4]) * w[4] + double(w[5]) * w[5] + double(w[6]) * w[6]);
-  if (!(travel <= radius[i] && turn <= 1.0)) atomicMin(first, static_cast<std::uint32_t>(particle[i]));
 }
 
 }  // namespace macadam::kernels

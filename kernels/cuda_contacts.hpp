@@ -3,115 +3,170 @@
 /// warp does two things.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
+#include <functional>
+#include <map>
+#include <memory>
 #include <type_traits>
 
-#include <algorithm>
 #include "kernels/cuda_lane_item.hpp"
 #include "kernels/cuda_launch.hpp"
 #include "macadam/laws/all.hpp"
 
 namespace macadam::kernels {
 
-/// Where the loads of a contact go: eight words a record, so that one record is one sector; the records of a body
-/// follow one another.
+inline constexpr unsigned contact_threads = 128, contact_blocks = 4;  ///< a multiprocessor has so many at the least
+
+inline constexpr unsigned record_words = 6;
+
+/// Where the loads of a contact go: the records of a body follow one another.
 template <class T>
 struct LoadRecords {
-  T* words;                        ///< [record][8] force, –, moment, – [N, N·m]
+  T* words;                        ///< [record][6] force, moment [N, N·m]
   const std::uint32_t* row_begin;  ///< [body + 1]
   const std::uint32_t* place;      ///< [slot][2] records of the A and the B end; UINT32_MAX in an inert slot
 
-  __device__ __forceinline__ static void store(float* to, const Vec3<float>& f, const Vec3<float>& m) {
-    reinterpret_cast<float4*>(to)[0] = {f.x, f.y, f.z, 0};
-    reinterpret_cast<float4*>(to)[1] = {m.x, m.y, m.z, 0};
+  using Two = std::conditional_t<sizeof(T) == 8, double2, float2>;
+  static constexpr unsigned parts = record_words / 2;  ///< of a record, in which it is written
+
+  template <class U>
+  __device__ __forceinline__ static void store(Two* to, const Vec3<U>& force, const Vec3<U>& moment) {
+    to[0] = {T(force.x), T(force.y)};
+    to[1] = {T(force.z), T(moment.x)};
+    to[2] = {T(moment.y), T(moment.z)};
   }
-  __device__ __forceinline__ static void store(double* to, const Vec3<double>& f, const Vec3<double>& m) {
-    auto* out = reinterpret_cast<double2*>(to);
-    out[0] = {f.x, f.y}, out[1] = {f.z, 0}, out[2] = {m.x, m.y}, out[3] = {m.z, 0};
+  __device__ __forceinline__ Two* record(std::uint32_t number) const {
+    return reinterpret_cast<Two*>(words) + static_cast<std::size_t>(number) * parts;
   }
+  __device__ __forceinline__ uint2 places(std::uint32_t slot) const {
+    return __ldg(reinterpret_cast<const uint2*>(place) + slot);
+  }
+
   template <class U>
   __device__ __forceinline__ void store(std::uint32_t slot, const ContactLoad<U>& load) const {
-    const uint2 to = __ldg(reinterpret_cast<const uint2*>(place) + slot);
+    const uint2 to = places(slot);
     if (to.x == UINT32_MAX) return;
-    const auto rounded = [](const Vec3<U>& v) { return Vec3<T>{T(v.x), T(v.y), T(v.z)}; };
-    store(words + static_cast<std::size_t>(to.x) * velocity_words, rounded(load.force_a), rounded(load.moment_a));
-    store(words + static_cast<std::size_t>(to.y) * velocity_words, rounded(-load.force_a), rounded(load.moment_b));
+    store(record(to.x), load.force_a, load.moment_a);
+    store(record(to.y), -load.force_a, load.moment_b);
+  }
+  /// As store(), by all threads of a warp together: the records are turned in shared memory, so that neighbouring
+  /// threads write one record and memory receives whole sectors.
+  template <class U>
+  __device__ __forceinline__ void store_by_warp(std::uint32_t slot, const ContactLoad<U>& load) const {
+    __shared__ Two turned[contact_threads][parts];
+    const uint2 to = places(slot);
+    const unsigned lane = threadIdx.x % 32, first = threadIdx.x - lane;
+    const auto write = [&](std::uint32_t mine, const Vec3<U>& force, const Vec3<U>& moment) {
+      __syncwarp();
+      store(turned[threadIdx.x], force, moment);
+      __syncwarp();
+#pragma unroll
+      for (unsigned k = 0; k < parts; ++k) {
+        const unsigned of = (32 * k + lane) / parts, part = (32 * k + lane) % parts;
+        const std::uint32_t number = __shfl_sync(0xffffffff, mine, static_cast<int>(of));
+        if (number != UINT32_MAX) record(number)[part] = turned[first + of][part];
+      }
+    };
+    write(to.x, load.force_a, load.moment_a);
+    write(to.y, -load.force_a, load.moment_b);
   }
 };
 
-inline constexpr unsigned contact_threads = 128;
-
-/// Asks for a line of memory to be brought into the second-level cache.
-__device__ __forceinline__ void prefetch(const void* line) { asm volatile("prefetch.global.L2 [%0];" ::"l"(line)); }
-
-/// The functors of all groups, by value: they reach the kernel as its parameters.
-template <class P, ContactForm form, Geometry geometry>
+/// The functors of the groups of a launch, by value: they reach the kernel as its parameters. `Units` as ContactForces
+/// has it; elastic groups may go with any.
+template <class P, ContactForm form, Geometry geometry, int Units>
 struct ContactGroups {
-  template <class Step, int Units>
-  using Of = ContactForces<P, Step, Units, form, geometry>;
   using State = typename P::State;
-  using Elastic = Of<laws::Elastic::Step<State>, 0>;
-  using KelvinThree = Of<laws::GeneralisedKelvin::Step<State>, 3>;
-  using KelvinAny = Of<laws::GeneralisedKelvin::Step<State>, -1>;
+  using Elastic = ContactForces<P, laws::Elastic::Step<State>, 0, form, geometry>;
+  using Kelvin = ContactForces<P, laws::GeneralisedKelvin::Step<State>, Units, form, geometry>;
   struct Group {
     std::uint32_t first_block = UINT32_MAX;  ///< of this group
     std::uint32_t first_slot = 0, slots = 0;
-    int kind = 0;
-    alignas(8) unsigned char functor[std::max({sizeof(Elastic), sizeof(KelvinThree), sizeof(KelvinAny)})] = {};
+    bool elastic = false;
+    alignas(8) unsigned char functor[std::max(sizeof(Elastic), sizeof(Kelvin))] = {};
   };
   Group group[pair_types];
+  int groups = 0;
+  std::uint32_t blocks = 0;  ///< of all groups
 
+  /// Adds a group behind the ones before.
   template <class Forces>
-  static constexpr int kind_of() {
-    return std::is_same_v<Forces, Elastic> ? 0 : std::is_same_v<Forces, KelvinThree> ? 1 : 2;
-  }
-  /// Adds a group behind the ones before; returns the blocks of all.
-  template <class Forces>
-  std::uint32_t add(int number, std::uint32_t first_block, std::uint32_t first_slot, std::uint32_t slots,
-                    const Forces& forces) {
-    static_assert(kind_of<Forces>() != 2 || std::is_same_v<Forces, KelvinAny>, "a law without a kernel");
-    Group& g = group[number];
-    g.first_block = first_block, g.first_slot = first_slot, g.slots = slots, g.kind = kind_of<Forces>();
+  void add(std::uint32_t first_slot, std::uint32_t slots, const Forces& forces) {
+    static_assert(std::is_same_v<Forces, Elastic> || std::is_same_v<Forces, Kelvin>, "a law without a kernel");
+    Group& g = group[groups++];
+    g.first_block = blocks, g.first_slot = first_slot, g.slots = slots, g.elastic = std::is_same_v<Forces, Elastic>;
     std::memcpy(g.functor, &forces, sizeof forces);
-    return first_block + (slots + contact_threads - 1) / contact_threads;
+    blocks += (slots + contact_threads - 1) / contact_threads;
   }
   /// Calls f(functor) of a group.
   template <class F>
   __device__ __forceinline__ static void visit(const Group& g, F&& f) {
-    if (g.kind == 0)
+    if (g.elastic)
       f(*reinterpret_cast<const Elastic*>(g.functor));
-    else if (g.kind == 1)
-      f(*reinterpret_cast<const KelvinThree*>(g.functor));
     else
-      f(*reinterpret_cast<const KelvinAny*>(g.functor));
+      f(*reinterpret_cast<const Kelvin*>(g.functor));
   }
 };
 
-/// Steps every contact and writes its loads. The last thing a step does: it counts the step.
-template <class P, ContactForm form, Geometry geometry>
-__global__ void __launch_bounds__(contact_threads)
-    step_contacts(const __grid_constant__ ContactGroups<P, form, geometry> groups, const MotionView<P> motion,
+/// Steps every contact of a launch and writes its loads; counts the step where `step` is given.
+template <class P, ContactForm form, Geometry geometry, int Units>
+__global__ void __launch_bounds__(contact_threads, contact_blocks)
+    step_contacts(const __grid_constant__ ContactGroups<P, form, geometry, Units> groups, const MotionView<P> motion,
                   const LoadRecords<typename P::Geometry> records, std::int64_t* step) {
-  if (blockIdx.x == 0 && threadIdx.x == 0) ++*step;
+  if (step && blockIdx.x == 0 && threadIdx.x == 0) ++*step;
   int number = 0;
-  while (number + 1 < pair_types && groups.group[number + 1].first_block <= blockIdx.x) ++number;
+  while (number + 1 < groups.groups && groups.group[number + 1].first_block <= blockIdx.x) ++number;
   const auto& group = groups.group[number];
   const std::uint32_t slot = (blockIdx.x - group.first_block) * contact_threads + threadIdx.x;
-  if (slot >= group.slots) return;
-  ContactGroups<P, form, geometry>::visit(group, [&](const auto& forces) {
-    // a warp's states are one run of memory: asked for now, they are near when kinematics is done
-    if constexpr (form == ContactForm::condensed && !std::decay_t<decltype(forces)>::stateless) {
-      const auto& view = forces.view;
-      const auto bytes =
-          static_cast<std::uint32_t>(view.components * (1 + view.units) * 32 * sizeof(typename P::State));
-      const char* chain = reinterpret_cast<const char*>(view.chain) + std::size_t{slot / 32} * bytes;
-      for (std::uint32_t at = slot % 32 * 128; at < bytes; at += 32 * 128) prefetch(chain + at);
-      const auto words = static_cast<std::uint32_t>(view.geometry_words * 32 * sizeof(typename P::Geometry));
-      const char* facets = reinterpret_cast<const char*>(view.geometry) + std::size_t{slot / 32} * words;
-      for (std::uint32_t at = slot % 32 * 128; at < words; at += 32 * 128) prefetch(facets + at);
-    }
-    records.store(group.first_slot + slot, forces(LaneItem{slot % 32}, slot / 32, motion));
+  if (slot >= group.slots) return;  // a whole warp
+  ContactGroups<P, form, geometry, Units>::visit(group, [&](const auto& forces) {
+    records.store_by_warp(group.first_slot + slot, forces(LaneItem{slot % 32}, slot / 32, motion));
   });
 }
+
+/// The launches of a step over all contacts: one for each number of Kelvin units that has code of its own.
+template <class P>
+class ContactLaunches {
+ public:
+  using Records = LoadRecords<typename P::Geometry>;
+
+  /// Adds a group whose first contact is `first_slot` of all.
+  template <class LawStep, int Units, ContactForm form, Geometry geometry>
+  void add(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t first_slot,
+           std::uint32_t slots) {
+    constexpr int units = LawStep::memoryless ? 3 : Units;  // most scenes then have one launch
+    using Groups = ContactGroups<P, form, geometry, units>;
+    Launch& to = launches_[units];
+    if (!to.groups) to.groups = std::make_shared<Groups>();
+    auto groups = std::static_pointer_cast<Groups>(to.groups);
+    groups->add(first_slot, slots, forces);
+    to.run = [groups](cudaStream_t stream, const MotionView<P>& motion, const Records& records, std::int64_t* step) {
+      launch("contacts", step_contacts<P, form, geometry, units>, groups->blocks, contact_threads, 0, stream, *groups,
+             motion, records, step);
+    };
+    to.use = kernel_use("contacts", step_contacts<P, form, geometry, units>, contact_threads, 0);
+  }
+  /// Steps all contacts and counts the step.
+  void run(cudaStream_t stream, const MotionView<P>& motion, const Records& records, std::int64_t* step) const {
+    for (const auto& [units, to] : launches_) {
+      to.run(stream, motion, records, step);
+      step = nullptr;
+    }
+  }
+  std::vector<KernelUse> kernels() const {
+    std::vector<KernelUse> out;
+    for (const auto& [units, to] : launches_) out.push_back(to.use);
+    return out;
+  }
+
+ private:
+  struct Launch {
+    std::shared_ptr<void> groups;
+    KernelUse use;
+    std::function<void(cudaStream_t, const MotionView<P>&, const Records&, std::int64_t*)> run;
+  };
+  std::map<int, Launch> launches_;
+};
 
 }  // namespace macadam::kernels

@@ -12,6 +12,7 @@
 
 #include "kernels/state_list.hpp"
 #include "macadam/error.hpp"
+#include "macadam/stepper.hpp"
 
 namespace macadam::kernels {
 
@@ -27,6 +28,18 @@ void launch(const char* name, void (*kernel)(Parameters...), std::size_t blocks,
   if (blocks == 0) return;
   kernel<<<static_cast<unsigned>(blocks), threads, shared, stream>>>(std::forward<Arguments>(arguments)...);
   check_cuda(cudaGetLastError(), name);
+}
+
+/// What a launch of a kernel takes of a multiprocessor. `shared`: dynamic shared memory [bytes].
+template <class... Parameters>
+KernelUse kernel_use(const char* name, void (*kernel)(Parameters...), unsigned threads, std::size_t shared) {
+  cudaFuncAttributes attributes{};
+  check_cuda(cudaFuncGetAttributes(&attributes, kernel), name);
+  int blocks = 0, most_threads = 0;
+  check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, static_cast<int>(threads), shared), name);
+  check_cuda(cudaDeviceGetAttribute(&most_threads, cudaDevAttrMaxThreadsPerMultiProcessor, 0), name);
+  return {name, attributes.numRegs, static_cast<std::int64_t>(attributes.sharedSizeBytes + shared),
+          static_cast<double>(blocks) * threads / most_threads};
 }
 
 /// An array on the device, zero at first, from its making to its end.

@@ -59,6 +59,7 @@ class TileRunner {
   /// Whether this device can run the scene so.
   bool possible() const { return static_cast<bool>(run_); }
   std::string description() const { return resident_ ? "tiles on the chip" : "tiles streamed"; }
+  std::vector<KernelUse> kernels() const { return {use_}; }
 
   /// Takes group `number`; `view` points to device arrays.
   template <Geometry geometry>
@@ -118,7 +119,7 @@ class TileRunner {
     wall_begin_ = store_.keep(plan_.wall_begin);
     long_body_ = store_.keep(long_rows);
     long_rows_ = static_cast<std::uint32_t>(long_rows.size());
-    records_ = {store_.template zeros<R>(records * velocity_words), row_begin, record};
+    records_ = {store_.template zeros<R>(records * record_words), row_begin, record};
     settle_place_ = store_.keep(places_);
     constants_ = {};
     places_ = {};
@@ -129,7 +130,7 @@ class TileRunner {
   std::size_t bytes_to_come(std::size_t records) const {
     const std::size_t loads = 2 * velocity_words * sizeof(R) + displacement_words * sizeof(double);
     return constants_.size() * sizeof(float4) + plan_.contact.size() * tile_states * sizeof(float4) +
-           (bodies_ + walls) * loads + records * velocity_words * sizeof(R) + bodies_ * 4 * sizeof(ulonglong2) +
+           (bodies_ + walls) * loads + records * record_words * sizeof(R) + bodies_ * 4 * sizeof(ulonglong2) +
            places_.size() * sizeof(uint2) + (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4;
   }
 
@@ -242,6 +243,7 @@ class TileRunner {
       const std::size_t bytes = plan_.tile.size() * ResidentMemory<P>::rest_bytes(plan_.most_bodies);
       scene_.rest = store_.template zeros<unsigned char>(bytes);
     }
+    use_ = kernel_use("tiles on the chip", kernel, Threads, shared);
     const auto blocks = static_cast<unsigned>(plan_.tile.size());
     run_ = [this, kernel, shared, blocks](std::uint32_t steps) {
       void* arguments[] = {&scene_, &steps, &tag_};
@@ -258,6 +260,7 @@ class TileRunner {
     if (shared > static_cast<std::uint32_t>(limits_.shared)) return;
     check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared)),
                "shared memory");
+    use_ = kernel_use("tiles streamed", kernel, threads, shared);
     const std::size_t blocks = plan_.tile.size();
     run_ = [this, kernel, shared, blocks](std::uint32_t steps) {
       launch("time steps", begin_streamed<P>, (bodies_ + 127) / 128, 128, 0, stream_, scene_, 0u);
@@ -331,6 +334,7 @@ class TileRunner {
   std::shared_ptr<void> settle_groups_;
   std::function<void(int)> settle_contacts_;
   std::function<void(std::uint32_t)> run_;
+  KernelUse use_;
   DeviceStore store_;
 };
 

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "kernels/cuda_divergence.hpp"
 #include "kernels/cuda_tile_runner.hpp"
 #include "kernels/layout.hpp"
 #include "kernels/state_list.hpp"
@@ -25,6 +26,7 @@ class ExecCuda {
   using R = typename P::Particle;
   using G = typename P::Geometry;
   static constexpr int lanes = 32;
+  static constexpr bool room_for_five = true;  ///< Kelvin units in registers, beside exactly three
   static constexpr bool blocks = !std::is_same_v<P, DoublePrecision>;  ///< steps may be taken in blocks
 
   /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that several tiles share
@@ -44,8 +46,7 @@ class ExecCuda {
         master_(bodies() * velocity_words),
         displacement_(bodies() * displacement_words),
         velocity_(std::is_same_v<G, R> ? 0 : bodies() * velocity_words),
-        step_(1),
-        divergent_(1) {
+        step_(1) {
     check_cuda(cudaStreamCreate(&stream_), "stream");
     make_rows(network);
   }
@@ -67,9 +68,9 @@ class ExecCuda {
       if (block > 0) tiles_ = std::make_unique<TileRunner<P>>(network_, layout_, options, block, stream_);
       if (tiles_ && !tiles_->possible()) tiles_.reset();
     }
-    const std::size_t records = record_count_ * velocity_words * sizeof(G);
+    const std::size_t records = record_count_ * record_words * sizeof(G);
     require_memory(group_bytes + (tiles_ ? tiles_->bytes_to_come(record_count_) : records));
-    if (!tiles_) records_ = DeviceArray<G>(record_count_ * velocity_words);
+    if (!tiles_) records_ = DeviceArray<G>(record_count_ * record_words);
   }
 
   BodyView<P> set_bodies(const std::vector<R>& inverse) {
@@ -96,7 +97,7 @@ class ExecCuda {
     if (tiles_)
       add_to_tiles(arrays, forces);
     else
-      add_to_launch(forces, slots);
+      contacts_.add(forces, slots_, slots);
     slots_ += slots;
     ++groups_;
   }
@@ -124,9 +125,7 @@ class ExecCuda {
     launch("bodies", step_bodies<P>, blocks, body_threads, 0, stream_, motion, records(), long_body_.data(),
            static_cast<std::uint32_t>(long_body_.size()), step_.data());
   }
-  void contacts() {
-    if (step_contacts_) step_contacts_();
-  }
+  void contacts() { contacts_.run(stream_, {gathered(), displacement_.data()}, records(), step_.data()); }
 
   /// Queues all steps, as graphs of many, and waits for them, so that a failing kernel is reported here. The number of
   /// the step is counted on the device.
@@ -171,26 +170,23 @@ class ExecCuda {
     }
   }
 
-  /// As Stepper::first_divergent(), found on the device. `radius` in specimen order.
+  /// As Stepper::first_divergent(). `radius` in specimen order.
   std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
-    if (radius_.size() == 0) {
-      std::vector<double> sorted;
-      for (const auto i : layout_.particle) sorted.push_back(radius[static_cast<std::size_t>(i)]);
-      radius_ = DeviceArray<double>::of(sorted);
-      particle_ = DeviceArray<std::int32_t>::of(layout_.particle);
-    }
-    check_cuda(cudaMemsetAsync(divergent_.data(), 0xff, divergent_.bytes(), stream_), "divergence");
-    launch("divergence", find_divergent<P>, (layout_.particles() + 127) / 128, 128, 0, stream_, master_.data(),
-           particle_.data(), radius_.data(), dt, static_cast<std::int32_t>(layout_.particles()), divergent_.data());
-    check_cuda(cudaStreamSynchronize(stream_), "divergence");
-    const std::uint32_t first = divergent_.download()[0];
-    return first == UINT32_MAX ? -1 : static_cast<std::int64_t>(first);
+    if (!divergence_) divergence_ = std::make_unique<DivergenceSearch<P>>(layout_, radius);
+    return divergence_->first(master_.data(), dt, stream_);
   }
 
   std::string description() const {
     cudaDeviceProp properties{};
     check_cuda(cudaGetDeviceProperties(&properties, 0), "device properties");
     return std::string("cuda, ") + properties.name + ", " + (tiles_ ? tiles_->description() : "two kernels a step");
+  }
+  /// The kernels of a step.
+  std::vector<KernelUse> kernels() const {
+    if (tiles_) return tiles_->kernels();
+    std::vector<KernelUse> out = contacts_.kernels();
+    out.push_back(kernel_use("bodies", step_bodies<P>, body_threads, 0));
+    return out;
   }
   /// Bytes that a step moves at the least.
   std::int64_t traffic() const {
@@ -221,18 +217,6 @@ class ExecCuda {
     throw RunError("CUDA: the scene of " + std::to_string(layout_.particles()) + " particles and " +
                    std::to_string(network_.contacts.size()) + " contacts needs another " + mib(needed) +
                    " on the device: found " + mib(free) + " free of " + mib(total));
-  }
-
-  template <class LawStep, int Units, ContactForm form, Geometry geometry>
-  void add_to_launch(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t slots) {
-    using Groups = ContactGroups<P, form, geometry>;
-    if (!launch_) launch_ = std::make_shared<Groups>();
-    auto groups = std::static_pointer_cast<Groups>(launch_);
-    blocks_ = groups->add(groups_, blocks_, slots_, slots, forces);
-    step_contacts_ = [this, groups] {
-      launch("contacts", step_contacts<P, form, geometry>, blocks_, contact_threads, 0, stream_, *groups,
-             MotionView<P>{gathered(), displacement_.data()}, records(), step_.data());
-    };
   }
 
   template <class LawStep, int Units, ContactForm form, Geometry geometry>
@@ -318,6 +302,7 @@ class ExecCuda {
     void add_group(Any&&...) {}
     const R* forces() const { return nullptr; }
     std::string description() const { return ""; }
+    std::vector<KernelUse> kernels() const { return {}; }
     void add_states(StateList&) {}
     std::size_t bytes_to_come(std::size_t) const { return 0; }
     std::int64_t bytes() const { return 0; }
@@ -337,15 +322,12 @@ class ExecCuda {
   DeviceArray<G> velocity_, records_;
   DeviceArray<std::uint32_t> row_begin_, place_, long_body_;
   DeviceArray<std::int64_t> step_;
-  mutable DeviceArray<std::uint32_t> divergent_;
-  mutable DeviceArray<double> radius_;
-  mutable DeviceArray<std::int32_t> particle_;
+  mutable std::unique_ptr<DivergenceSearch<P>> divergence_;  // made when first asked
   DeviceStore store_;
   StateList states_;
-  std::shared_ptr<void> launch_;  ///< ContactGroups of this form and geometry
-  std::function<void()> step_contacts_;
+  ContactLaunches<P> contacts_;
   int groups_ = 0;
-  std::uint32_t slots_ = 0, blocks_ = 0;
+  std::uint32_t slots_ = 0;
   std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
 };
 

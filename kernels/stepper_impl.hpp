@@ -25,16 +25,18 @@ void dispatch(decltype(First) value, F&& f) {
     f(std::integral_constant<decltype(First), Second>{});
 }
 
-/// Calls f(step coefficients, units as a constant) for a law; units beyond the compiled ones run as −1 (any number).
-template <class R, class F>
+/// Calls f(step coefficients, Units of ContactForces as a constant) for a law.
+template <class R, bool room_for_five, class F>
 void dispatch_units(const laws::Elastic& law, double dt, F&& f) {
   f(law.step<R>(dt), std::integral_constant<int, 0>{});
 }
-template <class R, class F>
+template <class R, bool room_for_five, class F>
 void dispatch_units(const laws::GeneralisedKelvin& law, double dt, F&& f) {
   const auto step = law.step<R>(dt);
   if (law.units() == 3)
     f(step, std::integral_constant<int, 3>{});
+  else if (room_for_five && law.units() <= 5)
+    f(step, std::integral_constant < int, room_for_five ? 5 : -1 > {});
   else
     f(step, std::integral_constant<int, -1>{});
 }
@@ -188,6 +190,12 @@ class StepperImpl final : public Stepper {
     return exec_.description() + ", " + to_string(P::value) + ", " + to_string(options_.form) + ", geometry " +
            to_string(options_.geometry);
   }
+  std::vector<KernelUse> kernels() const override {
+    if constexpr (requires { exec_.kernels(); })
+      return exec_.kernels();
+    else
+      return {};
+  }
   std::int64_t bytes() const override { return exec_.bytes(); }
   std::int64_t traffic() const override {
     if constexpr (requires { exec_.traffic(); })
@@ -248,7 +256,8 @@ class StepperImpl final : public Stepper {
     using State = typename P::State;
     std::visit(
         [&](const auto& l) {
-          dispatch_units<State>(l, options_.dt, [&](const auto& step, auto units) {
+          constexpr bool five = requires { Exec::room_for_five; };
+          dispatch_units<State, five>(l, options_.dt, [&](const auto& step, auto units) {
             dispatch<ContactForm::condensed, ContactForm::points>(options_.form, [&](auto form) {
               dispatch<Geometry::updated, Geometry::fixed>(options_.geometry, [&](auto geometry) {
                 exec_.add_group(fill_contacts<P>(network, layout_, group, law, options_),

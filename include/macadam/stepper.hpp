@@ -80,6 +80,14 @@ struct StateArray {
   Values values;
 };
 
+/// What a kernel of the step takes of a multiprocessor of a device.
+struct KernelUse {
+  std::string name;
+  int registers = 0;              ///< a thread
+  std::int64_t shared_bytes = 0;  ///< a block
+  double occupancy = 0;           ///< threads that fit over the most that a multiprocessor can have
+};
+
 /// Steps a network in time (leapfrog: velocities at half steps, displacements and forces at whole steps).
 class Stepper {
  public:
@@ -109,6 +117,9 @@ class Stepper {
 
   /// The backend, precision and form that run, in words, e.g. `"cpu, double, condensed, 2 threads"`.
   virtual std::string description() const = 0;
+
+  /// The kernels that advance() launches every step; none where the step runs on the processor.
+  virtual std::vector<KernelUse> kernels() const { return {}; }
 
   /// Bytes of state and geometry held for the step.
   virtual std::int64_t bytes() const = 0;
