@@ -89,7 +89,7 @@ TEST_F(CommandLine, HelpOnEachCommand) {
   const std::map<std::string, std::vector<std::string>> expected{
       {"", {"run", "specimen", "info"}},
       {"run", {"--out", "--backend", "--precision", "--threads", "scene"}},
-      {"specimen", {"--out", "scene"}},
+      {"specimen", {"--out", "scene", "--section"}},
       {"info", {"--help"}}};
   for (const auto& [command, words] : expected) {
     const Outcome help = macadam(command + " --help");
@@ -162,6 +162,28 @@ TEST_F(CommandLine, SpecimenWritesParticlesAndContacts) {
   for (const auto& [pair, number] : summary.at("contacts").items()) count += number.get<std::size_t>();
   EXPECT_EQ(contacts.size(), count + 1);
   EXPECT_FALSE(fs::exists(folder_ / "made/here/response.csv"));
+}
+
+TEST_F(CommandLine, SpecimenIsCutByPlanes) {
+  write_scene();
+  const std::string job = "specimen --section x=0.004 " + path("scene.toml") + " --out " + path("out");
+  const Outcome outcome = macadam(job + " --section 'z=2.50 mm'");
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_TRUE(contains(outcome.out, "section z=0.0025 m: ")) << outcome.out;
+  EXPECT_TRUE(contains(outcome.out, "of the area is aggregate")) << outcome.out;
+  for (const char* name : {"section_x_0.004.csv", "section_z_0.0025.csv"}) {
+    const auto section = lines_of(read(folder_ / "out" / name));
+    EXPECT_EQ(section[0], "particle,phase,body,x,y,z");
+    EXPECT_GT(section.size(), 100u);
+  }
+  fs::remove_all(folder_ / "out");
+  for (const char* plane : {"x=0.009", "y=-0.001", "w=0.001", "x=left", "x", "z=11"}) {
+    const Outcome bad = macadam(job + " --section " + plane);
+    EXPECT_EQ(bad.code, 2) << plane;
+    EXPECT_TRUE(contains(bad.err, "section")) << bad.err;
+    EXPECT_TRUE(contains(bad.err, "expected")) << bad.err;
+    EXPECT_FALSE(fs::exists(folder_ / "out")) << plane;
+  }
 }
 
 TEST_F(CommandLine, RunWritesItsFilesWithoutProgressText) {

@@ -43,12 +43,22 @@ TEST_P(ExampleScene, HasEveryLaw) {
   EXPECT_NO_THROW(require_laws(scene, specimen, network));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scene, ExampleScene, ::testing::Values("demo", "ac14_ss_am1", "ac14_ss_am2", "mastic"));
+INSTANTIATE_TEST_SUITE_P(Scene, ExampleScene,
+                         ::testing::Values("demo", "ac14_ss_am1", "ac14_ss_am2", "ac14_ms_poly_coarse",
+                                           "ac14_ms_poly_fine", "ac14_ms_ico_coarse", "ac14_ms_ico_fine",
+                                           "ac14_ms_design", "mastic"));
 
 /// The M–A row of Table 4 is δ times the M–M row, to half a unit of the fourth digit of each: at most 5e-4, twice. A
 /// digit mistyped in an example shows here.
 TEST(ExampleScenes, TheMasticAggregateLawIsDeltaTimesTheMasticLaw) {
-  for (const auto& [folder, delta] : {std::pair{"ac14_ss_am1", 3.15}, {"ac14_ss_am2", 6.75}, {"demo", 3.15}}) {
+  for (const auto& [folder, delta] : {std::pair{"ac14_ss_am1", 3.15},
+                                      {"ac14_ss_am2", 6.75},
+                                      {"ac14_ms_poly_coarse", 3.15},
+                                      {"ac14_ms_poly_fine", 3.15},
+                                      {"ac14_ms_ico_coarse", 3.15},
+                                      {"ac14_ms_ico_fine", 3.15},
+                                      {"ac14_ms_design", 3.15},
+                                      {"demo", 3.15}}) {
     const Scene scene = read_scene(fs::path(MACADAM_EXAMPLES) / folder / "scene.toml");
     const auto& mm = std::get<laws::GeneralisedKelvin>(*scene.laws[int(PairType::mm)]);
     const auto& ma = std::get<laws::GeneralisedKelvin>(*scene.laws[int(PairType::ma)]);

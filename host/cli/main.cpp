@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// main.cpp  The command line: macadam run | specimen | info. Exit code 0 done, 1 the run failed, 2 the input is wrong.
+// main.cpp  The command line: macadam run | specimen | shapes | info. Exit code 0 done, 1 the run failed, 2 the input
+// is wrong.
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -7,6 +8,7 @@
 #include <csignal>
 
 #include "host/cli/progress_line.hpp"
+#include "host/cli/shapes_command.hpp"
 #include "macadam/macadam.hpp"
 
 namespace macadam {
@@ -19,7 +21,9 @@ struct Arguments {
   std::optional<Precision> precision;
   std::optional<SolverMethod> method;
   std::optional<int> threads;
+  std::optional<std::uint64_t> seed;
   bool resume = false;
+  std::vector<std::string> sections;
 };
 
 /// Set by the first Ctrl-C or SIGTERM once the stepping begins; the second ends the program as it would any other.
@@ -61,6 +65,11 @@ Scene scene_of(const Arguments& arguments) {
   if (arguments.backend) scene.solver.backend = *arguments.backend;
   if (arguments.precision) scene.solver.precision = *arguments.precision;
   if (arguments.threads) scene.solver.threads = *arguments.threads;
+  if (arguments.seed && scene.specimen.file) throw InputError("--seed: the scene takes its specimen from a file");
+  if (arguments.seed) {
+    scene.specimen.seed = *arguments.seed;
+    scene.text += fmt::format("\n# --seed {}", *arguments.seed);  // a checkpoint belongs to the text
+  }
   return scene;
 }
 
@@ -120,8 +129,23 @@ void run_command(const Arguments& arguments) {
              scene.output.contacts ? " contacts.csv" : "");
 }
 
+/// Writes what a plane cuts and says how much of it is aggregate.
+void write_section(const Preparation& prepared, const SectionPlane& plane, const std::filesystem::path& out) {
+  const CrossSection section = cut(prepared.specimen, prepared.tessellation, plane);
+  write_cross_section_csv(out / section_file_name(plane), prepared.specimen, section);
+  double all = 0, aggregate = 0;
+  for (const SectionCell& cell : section.cells) {
+    all += cell.area;
+    if (prepared.specimen.phase[cell.particle] == Phase::aggregate) aggregate += cell.area;
+  }
+  fmt::print("section {}={} m: {} cells, {:.2f} % of the area is aggregate\n", plane.axis, plane.position,
+             section.cells.size(), 100 * aggregate / all);
+}
+
 void specimen_command(const Arguments& arguments) {
   const Scene scene = scene_of(arguments);
+  std::vector<SectionPlane> planes;  // a wrong one is refused before the work
+  for (const std::string& text : arguments.sections) planes.push_back(read_section_plane(text, scene.specimen.box));
   ProgressLine line;
   const Preparation prepared = prepare(scene, [&](const std::string& stage, double share) { line.show(stage, share); });
   write_preparation(scene, prepared, arguments.out);
@@ -130,6 +154,7 @@ void specimen_command(const Arguments& arguments) {
   const TessellationInvariants i = measure_invariants(prepared.specimen, prepared.tessellation);
   fmt::print("tessellation errors: volume {:.1e}, closure {:.1e}, flatness {:.1e}, power {:.1e}, walls {:.1e}\n",
              i.volume, i.closure, i.flatness, i.power, i.walls);
+  for (const SectionPlane& plane : planes) write_section(prepared, plane, arguments.out);
   fmt::print("files in {}\n", arguments.out);
 }
 
@@ -152,6 +177,7 @@ void info_command() {
 void add_job_options(CLI::App& command, Arguments& arguments) {
   command.add_option("scene", arguments.scene, "scene file (TOML)")->required();
   command.add_option("--out", arguments.out, "folder of the results; made if it is not there")->required();
+  command.add_option("--seed", arguments.seed, "instead of the scene's: another specimen of the same mixture");
 }
 
 }  // namespace
@@ -180,12 +206,15 @@ int main_function(int argc, char** argv) {
   run_app->add_flag("--resume", arguments.resume, "go on from the checkpoint that an interrupted run left in DIR");
   auto* specimen_app = app.add_subcommand("specimen", "build the specimen and its contact network only");
   add_job_options(*specimen_app, arguments);
+  specimen_app
+      ->add_option("--section", arguments.sections,
+                   "cut the cells by a plane, such as x=0.025 or \"z=40 mm\"; may be given several times")
+      ->allow_extra_args(false);  // what follows is the scene
+  add_shapes_command(app);
   auto* info_app = app.add_subcommand("info", "version, backends and devices");
 
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : 2; }
-  try {
+    app.parse(argc, argv);  // runs the commands that have callbacks
     if (*run_app)
       run_command(arguments);
     else if (*specimen_app)
@@ -193,7 +222,7 @@ int main_function(int argc, char** argv) {
     else if (*info_app)
       info_command();
     return 0;
-  } catch (const InputError& error) {
+  } catch (const CLI::ParseError& error) { return app.exit(error) == 0 ? 0 : 2; } catch (const InputError& error) {
     fmt::print(stderr, "macadam: {}\n", error.what());
     return 2;
   } catch (const std::bad_alloc&) {

@@ -16,16 +16,6 @@ constexpr std::int64_t most_particles = 100'000'000;
 
 double sphere_volume(double diameter) { return std::numbers::pi / 6 * diameter * diameter * diameter; }
 
-/// `[min, max]` with 0 < min ≤ max.
-Reader range_into(double& low, double& high) {
-  return [&low, &high](const Value& value) {
-    const std::vector<double> range = value.numbers(length, positive);
-    if (range.size() != 2) value.refuse(fmt::format("{} entries", range.size()), "two, [min, max]");
-    if (range[0] > range[1]) value.refuse(fmt::format("[{}, {}] m", range[0], range[1]), "min not above max");
-    low = range[0], high = range[1];
-  };
-}
-
 Reader box_into(Box& box) {
   return [&box](const Value& value) {
     const std::vector<double> edges = value.numbers(length, positive);
@@ -131,6 +121,15 @@ void need_possible(const Section& section, const SpecimenSpec& spec) {
 
 }  // namespace
 
+Reader range_into(double& low, double& high) {
+  return [&low, &high](const Value& value) {
+    const std::vector<double> range = value.numbers(length, positive);
+    if (range.size() != 2) value.refuse(fmt::format("{} entries", range.size()), "two, [min, max]");
+    if (range[0] > range[1]) value.refuse(fmt::format("[{}, {}] m", range[0], range[1]), "min not above max");
+    low = range[0], high = range[1];
+  };
+}
+
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder) {
   SpecimenSpec spec;
   const auto read_file = [&](const Value& value) {
@@ -153,15 +152,20 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
                 {"fix_aggregates", Need::optional, into(spec.fix_aggregates)},
                 {"attempts", Need::optional, into(spec.attempts, 1)},
                 {"aggregate", Need::optional, read_classes},
+                {"shapes", Need::optional, [&](const Value& v) { spec.shapes = read_shapes(v.section(), folder); }},
                 {"mastic", Need::optional, [&](const Value& v) { spec.mastic = read_mastic(v.section(), spec.box); }}});
   if (spec.file) {
-    for (const char* key : {"aggregate", "mastic", "seed", "size_law", "fix_aggregates", "attempts"}) {
+    for (const char* key : {"aggregate", "shapes", "mastic", "seed", "size_law", "fix_aggregates", "attempts"}) {
       if (section.has(key)) section.refuse(key, "this key of the generator beside file", "one of the two");
     }
   } else if (spec.aggregate.empty() && !spec.mastic) {
     section.refuse("file", "neither a file nor aggregate or mastic to generate", "one of the two");
   } else {
     need_possible(section, spec);
+    if (spec.shapes && spec.aggregate.empty())
+      section.refuse("shapes", "shapes without aggregates", "[[specimen.aggregate]] with sieves of the shapes' D^I");
+    if (spec.shapes && !spec.fix_aggregates)
+      section.refuse("fix_aggregates", "false with shapes", "true, as the spheres of a shape would part");
   }
   return spec;
 }

@@ -11,6 +11,13 @@ namespace macadam::scene {
 /// \throws InputError
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder);
 
+/// Reads `[specimen.shapes]`; paths are taken from `folder`.
+/// \throws InputError
+ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folder);
+
+/// A reader of `[min, max]` [m] with 0 < min ≤ max.
+Reader range_into(double& low, double& high);
+
 /// Reads every `[[contacts]]`.
 /// \throws InputError
 LawTable read_contacts(const std::vector<Section>& sections);

@@ -34,6 +34,7 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
       GeneratedSpecimen made = generate_specimen(scene.specimen, report);
       out.specimen = std::move(made.specimen);
       out.composition = std::move(made.composition);
+      out.aggregates = std::move(made.aggregates);
       out.relaxation_iterations = made.relaxation_iterations;
     }
   });
@@ -59,6 +60,8 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
 void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out) {
   make_result_folder(out);
   write_specimen_csv(out / "specimen.csv", prepared.specimen);
+  if (!prepared.aggregates.empty())
+    write_aggregates_csv(out / "aggregates.csv", prepared.aggregates, prepared.composition);
   if (scene.output.contacts) write_contacts_csv(out / "contacts.csv", prepared.network);
   write_whole(out / "summary.json", summary_json(scene, prepared, {}, "prepared"));
 }

@@ -34,16 +34,6 @@ std::string percent(double share) {
   return text;
 }
 
-/// A class of the recipe, aggregate or mastic, with what is known of its volume.
-struct Request {
-  std::string name;
-  SizeRange range;
-  std::optional<std::int64_t> count;
-  double volume = 0;  ///< [m³]
-
-  double counted_volume() const { return static_cast<double>(*count) * range.mean_volume(); }
-};
-
 void check_range(const std::string& name, double min, double max) {
   if (!(std::isfinite(min) && std::isfinite(max) && min > 0 && min <= max))
     refuse(name + ": sizes", shown(min) + " to " + shown(max) + " m", "0 < smallest <= largest");
@@ -54,7 +44,7 @@ void check_count(const std::string& name, std::int64_t count) {
     refuse(name + ": count", std::to_string(count), "0 to " + std::to_string(most_spheres));
 }
 
-Request request_of(const AggregateClass& c, const SpecimenSpec& spec) {
+ClassRequest request_of(const AggregateClass& c, const SpecimenSpec& spec) {
   const std::string name = millimetres(c.sieve_min) + "-" + millimetres(c.sieve_max) + " mm";
   check_range("aggregate class " + name, c.sieve_min, c.sieve_max);
   if (c.volume_fraction.has_value() == c.count.has_value())
@@ -63,42 +53,22 @@ Request request_of(const AggregateClass& c, const SpecimenSpec& spec) {
   if (c.count) check_count("aggregate class " + name, *c.count);
   if (c.volume_fraction && !(*c.volume_fraction >= 0 && *c.volume_fraction <= 1))
     refuse("aggregate class " + name + ": volume_fraction", shown(*c.volume_fraction), "0 to 1");
-  return {name, {spec.size_law, c.sieve_min, c.sieve_max}, c.count};
+  return {name, {spec.size_law, c.sieve_min, c.sieve_max}, 1, c.count};
 }
 
-Request request_of(const MasticSpec& m) {
+ClassRequest request_of(const MasticSpec& m) {
   check_range("mastic", m.radius_min, m.radius_max);
   if (m.porosity.has_value() == m.count.has_value())
     refuse("mastic", m.count ? "both porosity and count" : "neither porosity nor count", "one of them");
   if (m.count) check_count("mastic", *m.count);
   if (m.porosity && !(std::isfinite(*m.porosity) && *m.porosity < 1))
     refuse("mastic: porosity", shown(*m.porosity), "a number below 1");
-  return {"mastic", {SizeLaw::uniform, 2 * m.radius_min, 2 * m.radius_max}, m.count};
-}
-
-/// Number of spheres of a class: given, or the one that comes nearest to the class's volume with the law's mean.
-std::int64_t number_of_spheres(const Request& r, double box_volume) {
-  if (r.count) return *r.count;
-  const double most = std::floor(r.volume / sphere_volume(r.range.min) * (1 + 1e-12));
-  const double least = std::ceil(r.volume / sphere_volume(r.range.max) * (1 - 1e-12));
-  const double mean = std::round(r.volume / r.range.mean_volume());
-  if (!(mean <= static_cast<double>(most_spheres)))
-    refuse(r.name + ": number of spheres for its volume", shown(mean), "at most " + std::to_string(most_spheres));
-  if (least <= most) return static_cast<std::int64_t>(std::clamp(mean, least, most));
-  // No number of spheres between the sieves has exactly this volume: `most` smaller than it or `least` beyond it.
-  const double below = r.volume - most * sphere_volume(r.range.max);
-  const double above = least * sphere_volume(r.range.min) - r.volume;
-  if (std::min(below, above) > tolerance * box_volume)
-    refuse(r.name + ": volume", percent(r.volume / box_volume) + " of the box",
-           percent(most * sphere_volume(r.range.max) / box_volume) + " (" + shown(most) + " spheres) or " +
-               percent(least * sphere_volume(r.range.min) / box_volume) + " (" + shown(least) +
-               " spheres), or wider sieves, or a larger box");
-  return static_cast<std::int64_t>(below <= above ? most : least);
+  return {"mastic", {SizeLaw::uniform, 2 * m.radius_min, 2 * m.radius_max}, 1, m.count};
 }
 
 /// Volume of everything solid [m³], the reference of the volume fractions.
-double solid_volume(const SpecimenSpec& spec, const std::vector<Request>& aggregate,
-                    const std::optional<Request>& mastic) {
+double solid_volume(const SpecimenSpec& spec, const std::vector<ClassRequest>& aggregate,
+                    const std::optional<ClassRequest>& mastic) {
   if (!mastic) return spec.box.volume();
   if (spec.mastic->porosity) return (1 - *spec.mastic->porosity) * spec.box.volume();
   double counted = mastic->counted_volume(), fractions = 0;
@@ -112,8 +82,8 @@ double solid_volume(const SpecimenSpec& spec, const std::vector<Request>& aggreg
   return counted / (1 - fractions);
 }
 
-Population draw(const Request& r, double box_volume, RandomStream random) {
-  const std::int64_t n = number_of_spheres(r, box_volume);
+Population draw(const ClassRequest& r, double box_volume, RandomStream random) {
+  const std::int64_t n = r.number(box_volume);
   Population p{{r.name, n, n, r.volume / box_volume, 0}, draw_diameters(r.range, n, r.volume, random)};
   for (double& size : p.radius) {
     p.row.fraction += sphere_volume(size) / box_volume;
@@ -124,51 +94,99 @@ Population draw(const Request& r, double box_volume, RandomStream random) {
 
 }  // namespace
 
-Composition compose(const SpecimenSpec& spec) {
+std::int64_t ClassRequest::number(double box_volume) const {
+  if (count) return *count;
+  const double smallest = form * sphere_volume(range.min), largest = form * sphere_volume(range.max);
+  const double most = std::floor(volume / smallest * (1 + 1e-12));
+  const double least = std::ceil(volume / largest * (1 - 1e-12));
+  const double mean = std::round(volume / (form * range.mean_volume()));
+  if (!(mean <= static_cast<double>(most_spheres)))
+    refuse(name + ": number of spheres for its volume", shown(mean), "at most " + std::to_string(most_spheres));
+  if (least <= most) return static_cast<std::int64_t>(std::clamp(mean, least, most));
+  // No number of spheres between the sieves has exactly this volume: `most` smaller than it or `least` beyond it.
+  const double below = volume - most * largest;
+  const double above = least * smallest - volume;
+  if (std::min(below, above) > tolerance * box_volume)
+    refuse(name + ": volume", percent(volume / box_volume) + " of the box",
+           percent(most * largest / box_volume) + " (" + shown(most) + " spheres) or " +
+               percent(least * smallest / box_volume) + " (" + shown(least) +
+               " spheres), or wider sieves, or a larger box");
+  return static_cast<std::int64_t>(below <= above ? most : least);
+}
+
+Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const SizeRange&)>& form) {
   const Vec3d l = spec.box.size;
   for (double edge : {l.x, l.y, l.z})
     if (!(std::isfinite(edge) && edge > 0)) refuse("box: edge", shown(edge), "a finite positive length");
   if (spec.attempts < 1) refuse("attempts", std::to_string(spec.attempts), "at least 1");
 
-  std::vector<Request> aggregate;
-  for (const AggregateClass& c : spec.aggregate) aggregate.push_back(request_of(c, spec));
-  std::optional<Request> mastic;
-  if (spec.mastic) mastic = request_of(*spec.mastic);
+  Recipe recipe;
+  for (const AggregateClass& c : spec.aggregate) {
+    recipe.aggregate.push_back(request_of(c, spec));
+    if (form) recipe.aggregate.back().form = form(recipe.aggregate.back().range);
+  }
+  if (spec.mastic) recipe.mastic = request_of(*spec.mastic);
 
-  const double solid = solid_volume(spec, aggregate, mastic), box = spec.box.volume();
+  const double solid = solid_volume(spec, recipe.aggregate, recipe.mastic), box = spec.box.volume();
   double of_aggregates = 0;
-  for (std::size_t k = 0; k < aggregate.size(); ++k) {
-    Request& r = aggregate[k];
+  for (std::size_t k = 0; k < recipe.aggregate.size(); ++k) {
+    ClassRequest& r = recipe.aggregate[k];
     r.volume = r.count ? r.counted_volume() : *spec.aggregate[k].volume_fraction * solid;
     of_aggregates += r.volume;
   }
   if (of_aggregates > box)
     refuse("aggregate: volume", percent(of_aggregates / box) + " of the box", "less than the box: they do not overlap");
-  if (mastic) {
-    mastic->volume = mastic->count ? mastic->counted_volume() : solid - of_aggregates;
-    if (!(mastic->volume >= 0))
+  if (recipe.mastic) {
+    recipe.mastic->volume = recipe.mastic->count ? recipe.mastic->counted_volume() : solid - of_aggregates;
+    if (!(recipe.mastic->volume >= 0))
       refuse("aggregate: volume", percent(of_aggregates / box) + " of the box",
              "at most the solid volume that the porosity leaves, " + percent(solid / box) + " of the box");
   }
+  return recipe;
+}
 
+void require_fit(const std::string& size_class, double largest, const Box& box) {
+  const double edge = std::min({box.size.x, box.size.y, box.size.z});
+  if (largest > edge)
+    refuse("aggregate class " + size_class + ": largest diameter", millimetres(largest) + " mm",
+           "at most the shortest edge of the box, " + millimetres(edge) + " mm");
+}
+
+Composition compose(const SpecimenSpec& spec) {
+  const Recipe recipe = solve_recipe(spec);
+  const double box = spec.box.volume();
   Composition result;
-  const double smallest_edge = std::min({l.x, l.y, l.z});
   double total = 0;
-  for (std::size_t k = 0; k < aggregate.size(); ++k) {
-    result.aggregate.push_back(draw(aggregate[k], box, RandomStream(spec.seed, 100 + k)));
+  for (std::size_t k = 0; k < recipe.aggregate.size(); ++k) {
+    result.aggregate.push_back(draw(recipe.aggregate[k], box, RandomStream(spec.seed, 100 + k)));
     const Population& p = result.aggregate.back();
     total += static_cast<double>(p.row.count);
-    if (!p.radius.empty() && 2 * p.radius.front() > smallest_edge)
-      refuse("aggregate class " + p.row.name + ": largest diameter", millimetres(2 * p.radius.front()) + " mm",
-             "at most the shortest edge of the box, " + millimetres(smallest_edge) + " mm");
+    if (!p.radius.empty()) require_fit(p.row.name, 2 * p.radius.front(), spec.box);
   }
-  if (mastic) {
-    result.mastic.push_back(draw(*mastic, box, RandomStream(spec.seed, 1)));
+  if (recipe.mastic) {
+    result.mastic.push_back(draw(*recipe.mastic, box, RandomStream(spec.seed, 1)));
     total += static_cast<double>(result.mastic.back().row.count);
   }
   if (!(total >= 1 && total <= static_cast<double>(most_spheres)))
     refuse("particles", shown(total), "1 to " + std::to_string(most_spheres));
   return result;
+}
+
+std::vector<Population> compose_mastic(const SpecimenSpec& spec, double aggregate_volume) {
+  if (!spec.mastic) return {};
+  SpecimenSpec rest;  // the same mastic where the aggregates are nothing but less room
+  rest.box = spec.box;
+  rest.seed = spec.seed;
+  rest.mastic = spec.mastic;
+  if (rest.mastic->porosity) {
+    const double mastic = (1 - *spec.mastic->porosity) * spec.box.volume() - aggregate_volume;
+    if (!(mastic > 0))
+      refuse(
+          "aggregate: volume", percent(aggregate_volume / spec.box.volume()) + " of the box",
+          "at most the solid volume that the porosity leaves, " + percent(1 - *spec.mastic->porosity) + " of the box");
+    rest.mastic->porosity = 1 - mastic / spec.box.volume();
+  }
+  return compose(rest).mastic;
 }
 
 }  // namespace macadam

@@ -6,6 +6,8 @@
 #include "host/specimen/composition.hpp"
 #include "host/specimen/placement.hpp"
 #include "host/specimen/relaxation.hpp"
+#include "host/specimen/shaped_aggregates.hpp"
+#include "host/specimen/size_law.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"
 
@@ -22,6 +24,53 @@ double smallest_aggregate(const Composition& composition, const Box& box) {
   for (const Population& p : composition.aggregate)
     if (!p.radius.empty()) smallest = std::min(smallest, p.radius.back());
   return smallest;
+}
+
+void describe(Specimen& specimen, const std::vector<std::int32_t>& size_class, std::vector<Aggregate>& out) {
+  for (std::size_t k = 0; k < size_class.size(); ++k) {
+    Aggregate a;
+    a.body = specimen.body[k];
+    a.size_class = size_class[k];
+    a.shape = "sphere";
+    a.size = a.d_long = a.d_short = 2 * specimen.radius[k];
+    a.volume = sphere_volume(a.size);
+    a.centre = specimen.centre[k];
+    out.push_back(a);
+  }
+}
+
+/// Aggregates that are single spheres, and the mastic.
+Placement with_spheres(const SpecimenSpec& spec, GeneratedSpecimen& result,
+                       const std::function<void(double share)>& progress) {
+  const Composition composition = compose(spec);
+  for (const auto* populations : {&composition.aggregate, &composition.mastic})
+    for (const Population& p : *populations) result.composition.push_back(p.row);
+  Placement placement(result.specimen, smallest_aggregate(composition, spec.box), spec.attempts,
+                      RandomStream(spec.seed, placement_stream));
+  describe(result.specimen, placement.place_aggregates(composition.aggregate, progress), result.aggregates);
+  for (const Population& p : composition.mastic) placement.place_mastic(p);
+  return placement;
+}
+
+/// Aggregates of real shape, and the mastic.
+Placement with_shapes(const SpecimenSpec& spec, GeneratedSpecimen& result,
+                      const std::function<void(const char* stage, double share)>& progress) {
+  if (!spec.fix_aggregates)
+    throw InputError("specimen", 0, "fix_aggregates", "false", "true, as the spheres of a shape would part");
+  ShapedAggregates shaped = make_shaped_aggregates(spec, progress);
+  result.composition = shaped.row;
+  Placement placement(result.specimen, shaped.smallest_radius(), spec.attempts,
+                      RandomStream(spec.seed, placement_stream), shaped.inside);
+  for (std::size_t k = 0; k < shaped.spheres.size(); ++k) {
+    for (std::size_t i = 0; i < shaped.spheres[k].size(); ++i)
+      placement.add_aggregate(shaped.spheres[k].centre[i], shaped.spheres[k].radius[i], shaped.aggregate[k].body);
+  }
+  for (const Population& p : compose_mastic(spec, shaped.volume())) {
+    result.composition.push_back(p.row);
+    placement.place_mastic(p);
+  }
+  result.aggregates = std::move(shaped.aggregate);
+  return placement;
 }
 
 /// Gives hidden mastic a new random place.
@@ -50,17 +99,11 @@ GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
     };
   };
 
-  const Composition composition = compose(spec);
   GeneratedSpecimen result;
   Specimen& specimen = result.specimen;
   specimen.box = spec.box;
-  for (const auto* populations : {&composition.aggregate, &composition.mastic})
-    for (const Population& p : *populations) result.composition.push_back(p.row);
-
-  Placement placement(specimen, smallest_aggregate(composition, spec.box), spec.attempts,
-                      RandomStream(spec.seed, placement_stream));
-  placement.place_aggregates(composition.aggregate, report("placing aggregates"));
-  for (const Population& p : composition.mastic) placement.place_mastic(p);
+  Placement placement =
+      spec.shapes ? with_shapes(spec, result, progress) : with_spheres(spec, result, report("placing aggregates"));
 
   std::vector<std::int32_t> hidden;
   for (int round = 0; round < most_rounds; ++round) {
@@ -70,7 +113,10 @@ GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
     if (hidden.empty()) break;
   }
   if (!hidden.empty()) give_up(hidden);
-  if (!spec.fix_aggregates) result.residual_overlap = largest_aggregate_overlap(specimen);
+  if (!spec.fix_aggregates) {
+    for (Aggregate& a : result.aggregates) a.centre = specimen.centre[static_cast<std::size_t>(a.body)];
+    result.residual_overlap = largest_aggregate_overlap(specimen);
+  }
   validate(specimen, "generated specimen");
   return result;
 }

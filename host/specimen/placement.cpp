@@ -53,31 +53,43 @@ std::string no_room(const Population& c, std::size_t placed, std::int64_t attemp
 
 }  // namespace
 
-Placement::Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random)
-    : specimen_(specimen), grid_(specimen.box, smallest), attempts_(attempts), random_(random) {}
+Placement::Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random,
+                     std::function<bool(const Vec3d&)> taken)
+    : specimen_(specimen),
+      grid_(specimen.box, smallest),
+      attempts_(attempts),
+      random_(random),
+      taken_(std::move(taken)) {}
 
-void Placement::place_aggregates(const std::vector<Population>& classes,
-                                 const std::function<void(double share)>& progress) {
+std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Population>& classes,
+                                                      const std::function<void(double share)>& progress) {
   const std::vector<Waiting> all = largest_first(classes);
+  std::vector<std::int32_t> size_class;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const std::optional<Vec3d> centre = position_for(all[k].radius);
     if (!centre) throw RunError(no_room(classes[all[k].population], all[k].rank, attempts_));
-    // Later spheres are no larger: they look for this one from at most twice its radius away.
-    grid_.insert(static_cast<std::int32_t>(specimen_.size()), *centre, 2 * all[k].radius);
-    add(*centre, all[k].radius, Phase::aggregate);
+    add_aggregate(*centre, all[k].radius, static_cast<std::int32_t>(specimen_.size()));
+    size_class.push_back(static_cast<std::int32_t>(all[k].population));
     if (k % 64 == 0) progress(static_cast<double>(k) / static_cast<double>(all.size()));
   }
   progress(1);
+  return size_class;
+}
+
+void Placement::add_aggregate(const Vec3d& centre, double radius, std::int32_t body) {
+  // Later spheres are no larger: they look for this one from at most twice its radius away.
+  grid_.insert(static_cast<std::int32_t>(specimen_.size()), centre, 2 * radius);
+  add(centre, radius, Phase::aggregate, body);
 }
 
 void Placement::place_mastic(const Population& mastic) {
-  for (double radius : mastic.radius) add(point_outside_aggregates(), radius, Phase::mastic);
+  for (double radius : mastic.radius) add(point_outside_aggregates(), radius, Phase::mastic, -1);
 }
 
 Vec3d Placement::point_outside_aggregates() {
   for (std::int64_t k = 0; k < attempts_; ++k) {
     const Vec3d point = random_point({0, 0, 0}, specimen_.box.size);
-    if (clear_of_placed(point, 0)) return point;
+    if (clear_of_placed(point, 0) && !(taken_ && taken_(point))) return point;
   }
   throw RunError("no room for mastic outside the aggregates in " + std::to_string(attempts_) +
                  " attempts; ask for less aggregate");
@@ -136,8 +148,8 @@ std::vector<std::size_t> Placement::open_cells(double radius) const {
   return open;
 }
 
-void Placement::add(const Vec3d& centre, double radius, Phase phase) {
-  specimen_.body.push_back(phase == Phase::aggregate ? static_cast<std::int32_t>(specimen_.size()) : -1);
+void Placement::add(const Vec3d& centre, double radius, Phase phase, std::int32_t body) {
+  specimen_.body.push_back(body);
   specimen_.centre.push_back(centre);
   specimen_.radius.push_back(radius);
   specimen_.phase.push_back(phase);

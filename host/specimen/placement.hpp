@@ -16,12 +16,18 @@ namespace macadam {
 /// Places spheres one by one, uniformly over the room that is left to each.
 class Placement {
  public:
-  /// `specimen` receives the spheres and must outlive this; `smallest` is the smallest aggregate radius [m].
-  Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random);
+  /// `specimen` receives the spheres and must outlive this; `smallest` is the smallest aggregate radius [m]; `taken`
+  /// tells of points where nothing else may be.
+  Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random,
+            std::function<bool(const Vec3d&)> taken = {});
 
-  /// Adds all aggregates, largest first over all classes, inside the box and clear of each other.
-  /// \throws RunError naming the class that found no room, and how much of it had.
-  void place_aggregates(const std::vector<Population>& classes, const std::function<void(double share)>& progress);
+  /// Adds all aggregates, largest first over all classes, inside the box and clear of each other; returns the class of
+  /// each. \throws RunError naming the class that found no room, and how much of it had.
+  std::vector<std::int32_t> place_aggregates(const std::vector<Population>& classes,
+                                             const std::function<void(double share)>& progress);
+
+  /// Adds a sphere of aggregate number `body` where it is.
+  void add_aggregate(const Vec3d& centre, double radius, std::int32_t body);
 
   /// Adds the mastic with centres outside the aggregates; mastic spheres may overlap anything.
   void place_mastic(const Population& mastic);
@@ -35,12 +41,13 @@ class Placement {
   Vec3d random_point(const Vec3d& low, const Vec3d& high);
   bool clear_of_placed(const Vec3d& point, double distance) const;
   std::vector<std::size_t> open_cells(double radius) const;
-  void add(const Vec3d& centre, double radius, Phase phase);
+  void add(const Vec3d& centre, double radius, Phase phase, std::int32_t body);
 
   Specimen& specimen_;
   SphereGrid grid_;
   std::int64_t attempts_;
   RandomStream random_;
+  std::function<bool(const Vec3d&)> taken_;
 };
 
 }  // namespace macadam

@@ -17,6 +17,7 @@ constexpr double first_step = 0.1, longest_step = 0.3;
 constexpr double longest_move = 0.1;        // of the mean mastic radius, in one iteration
 constexpr double skin_share = 0.5;          // of the mean mastic radius
 constexpr double aggregate_stiffness = 20;  // free aggregates: they must not give way to each other as mastic does
+constexpr double wall_stiffness = 10;       // of a wall other than the box: what it holds may press hard against it
 constexpr int most_iterations = 3000, stall_window = 50;
 constexpr double stalled = 5e-4;  // relative fall of the energy in one window
 
@@ -26,8 +27,9 @@ struct Dots {
 
 class Relaxation {
  public:
-  Relaxation(Specimen& specimen, bool fix_aggregates)
+  Relaxation(Specimen& specimen, bool fix_aggregates, const Wall& wall)
       : s_(specimen),
+        wall_(wall),
         first_mastic_(std::find(s_.phase.begin(), s_.phase.end(), Phase::mastic) - s_.phase.begin()),
         first_(fix_aggregates ? first_mastic_ : 0),
         unit_(mean_radius()),
@@ -93,12 +95,19 @@ class Relaxation {
         // A pair of two moving spheres is met from both sides.
         energy += (static_cast<std::size_t>(j) >= first_ ? 0.25 : 0.5) * k * overlap * overlap;
       }
-      const auto wall = [&](double& component, double position, double length) {
+      const auto side = [&](double& component, double position, double length) {
         const double low = std::max(0.0, r - position), high = std::max(0.0, r - (length - position));
         component += k_wall * (low - high);
         energy += 0.5 * k_wall * (low * low + high * high);
       };
-      wall(force.x, c.x, s_.box.size.x), wall(force.y, c.y, s_.box.size.y), wall(force.z, c.z, s_.box.size.z);
+      side(force.x, c.x, s_.box.size.x), side(force.y, c.y, s_.box.size.y), side(force.z, c.z, s_.box.size.z);
+      if (wall_) {
+        const auto [depth, inward] = wall_(c, r);
+        if (const double overlap = r - depth; overlap > 0) {
+          force += (wall_stiffness * overlap) * inward;
+          energy += 0.5 * wall_stiffness * overlap * overlap;
+        }
+      }
       acceleration_[i] = (1 / mass(i)) * force;
       energy_[i] = energy;
     }
@@ -145,6 +154,7 @@ class Relaxation {
   }
 
   Specimen& s_;
+  const Wall& wall_;
   std::size_t first_mastic_, first_;  ///< first mastic sphere, first sphere that moves
   double unit_;                       ///< mean radius of the mastic [m]
   Neighbours neighbours_;
@@ -155,8 +165,9 @@ class Relaxation {
 
 }  // namespace
 
-int relax(Specimen& specimen, bool fix_aggregates, const std::function<void(double share)>& progress) {
-  const int iterations = Relaxation(specimen, fix_aggregates).run(progress);
+int relax(Specimen& specimen, bool fix_aggregates, const std::function<void(double share)>& progress,
+          const Wall& wall) {
+  const int iterations = Relaxation(specimen, fix_aggregates, wall).run(progress);
   progress(1);
   return iterations;
 }

@@ -8,10 +8,21 @@
 
 namespace macadam {
 
+/// How deep a point lies below a wall [m], negative beyond it, and the unit vector away from the wall.
+struct WallDepth {
+  double depth;
+  Vec3d inward;
+};
+
+/// A wall of any shape: tells how deep a point lies; where that is more than `reach` [m], any depth above `reach` will
+/// do.
+using Wall = std::function<WallDepth(const Vec3d& point, double reach)>;
+
 /// Moves the mastic (and the aggregates, unless held) downhill in the energy ½·k·overlap² of all pairs and walls until
-/// the energy has stalled. Aggregates stand before the mastic in `specimen`. The same input gives the same bits for
-/// any number of threads. Returns the iterations taken.
-int relax(Specimen& specimen, bool fix_aggregates, const std::function<void(double share)>& progress);
+/// the energy has stalled. The walls are the box and, if given, `wall`, which yields less. Aggregates stand before the
+/// mastic in `specimen`. The same input gives the same bits for any number of threads. Returns the iterations taken.
+int relax(Specimen& specimen, bool fix_aggregates, const std::function<void(double share)>& progress,
+          const Wall& wall = {});
 
 /// Largest overlap of two aggregates [m], 0 if there is none.
 double largest_aggregate_overlap(const Specimen& specimen);

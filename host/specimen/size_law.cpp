@@ -44,6 +44,11 @@ double SizeRange::mean_volume() const {
 }
 
 std::vector<double> draw_diameters(const SizeRange& range, std::int64_t count, double volume, RandomStream& random) {
+  return draw_sizes(range, count, volume, random, [](std::size_t, double d) { return sphere_volume(d); });
+}
+
+std::vector<double> draw_sizes(const SizeRange& range, std::int64_t count, double volume, RandomStream& random,
+                               const std::function<double(std::size_t i, double d)>& volume_of) {
   const auto n = static_cast<std::size_t>(count);
   std::vector<double> log_share(n), diameter(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -52,7 +57,7 @@ std::vector<double> draw_diameters(const SizeRange& range, std::int64_t count, d
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
       diameter[n - 1 - i] = range.quantile(std::exp(t * log_share[i]));
-      sum += sphere_volume(diameter[n - 1 - i]);
+      sum += volume_of(n - 1 - i, diameter[n - 1 - i]);
     }
     return sum;
   };

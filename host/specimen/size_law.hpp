@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "host/specimen/random_stream.hpp"
@@ -30,5 +31,10 @@ struct SizeRange {
 /// allows; else as near as it allows. One draw from each of `count` equal shares of the law keeps the sample close to
 /// the law; what is left of the sum is removed by bending the shares, u → u^t with t near 1, which keeps the range.
 std::vector<double> draw_diameters(const SizeRange& range, std::int64_t count, double volume, RandomStream& random);
+
+/// The same for bodies of any form: `volume_of(i, d)` [m³] is that of entry i of the result with the size d, and grows
+/// with d; where it jumps, the sum may miss `volume` by one jump.
+std::vector<double> draw_sizes(const SizeRange& range, std::int64_t count, double volume, RandomStream& random,
+                               const std::function<double(std::size_t i, double d)>& volume_of);
 
 }  // namespace macadam

@@ -18,7 +18,8 @@ namespace macadam {
 /// Particles, cells and contacts of a scene, with what their making took.
 struct Preparation {
   Specimen specimen;
-  std::vector<CompositionRow> composition;  ///< empty for specimens read from a file
+  std::vector<CompositionRow> composition;  ///< empty for specimens read from a file, likewise the next
+  std::vector<Aggregate> aggregates;
   Tessellation tessellation;
   ContactNetwork network;
   std::int64_t loose_particles = 0;  ///< in clusters that do not touch both walls: they carry nothing

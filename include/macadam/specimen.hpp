@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "macadam/numeric.hpp"
+#include "macadam/shape.hpp"
 
 namespace macadam {
 
@@ -67,12 +68,35 @@ struct MasticSpec {
   std::optional<std::int64_t> count;      ///< … the number of mastic spheres
 };
 
+/// How places of shaped aggregates are found.
+enum class PlacementMethod : std::uint8_t {
+  insertion,  ///< one by one at random, largest first, each where it touches none before it (the paper's)
+  packing     ///< all at once: grown from a smaller scale while overlaps push them apart; reaches higher fractions
+};
+
+/// Aggregates of real shape, each a deformable cluster of spheres, in place of single spheres. An aggregate's size, by
+/// which sieves part and classes are drawn, is then its D^I.
+struct ShapeSpec {
+  enum class Library : std::uint8_t {
+    aggregates,   ///< generate_shape_library()
+    icosahedron,  ///< subdivided_icosahedron()
+    folder        ///< every surface of a folder
+  };
+  Library library = Library::aggregates;
+  std::filesystem::path folder;  ///< of surfaces, any unit of length; with Library::folder
+  FillSpec fill;                 ///< its seed is not used: every aggregate has one of its own
+  PlacementMethod placement = PlacementMethod::packing;
+  bool allow_short = false;  ///< insertion: classes that find no more room stay short of what was asked
+  double gap = 0.01;         ///< packing: least distance of two surfaces, over the smaller one's D^I
+};
+
 /// Everything needed to obtain a specimen: a file, or a recipe for the generator.
 struct SpecimenSpec {
   std::optional<std::filesystem::path> file;
   Box box;
   std::uint64_t seed = 1;
   std::vector<AggregateClass> aggregate;  ///< any order; placed largest first
+  std::optional<ShapeSpec> shapes;        ///< none: aggregates are single spheres
   std::optional<MasticSpec> mastic;
   SizeLaw size_law = SizeLaw::log_uniform;
   bool fix_aggregates = true;         ///< hold the aggregates while the mastic relaxes (moves |E*| by 6–7 % if not)
@@ -83,23 +107,43 @@ struct SpecimenSpec {
 struct CompositionRow {
   std::string name;  ///< e.g. `"12.5-19 mm"` or `"mastic"`
   std::int64_t count_asked = 0, count = 0;
-  double fraction_asked = 0, fraction = 0;  ///< Σ sphere volumes / box volume
+  double fraction_asked = 0, fraction = 0;  ///< Σ volumes (of the shapes, or of single spheres) / box volume
+};
+
+/// One aggregate of a generated specimen.
+struct Aggregate {
+  std::int32_t body = 0;           ///< Specimen::body of its spheres
+  std::int32_t size_class = 0;     ///< number of its class in the recipe's order
+  std::string shape;               ///< name of its template, `"sphere"` where a single sphere stands for it
+  double size = 0;                 ///< D^I [m]
+  double d_long = 0, d_short = 0;  ///< D^L, D^S of the shape [m]
+  Vec3d axis_long{};               ///< unit vector along D^L; 0 for a sphere
+  double volume = 0;               ///< of the shape, or of the single sphere [m³]
+  std::int64_t spheres = 1;
+  Vec3d centre{};  ///< of its volume [m]
 };
 
 /// A generated specimen with the report of its making.
 struct GeneratedSpecimen {
   Specimen specimen;
   std::vector<CompositionRow> composition;
+  std::vector<Aggregate> aggregates;  ///< in the order of their spheres
   int relaxation_iterations = 0;
   double residual_overlap = 0;  ///< largest aggregate–aggregate overlap after relaxation [m]; 0 where they are held
 };
 
-/// Generates a single-sphere specimen: aggregates largest first without overlap and inside the box, then mastic to the
-/// porosity or count, then relaxation until the spheres are evenly spread and every one has a Laguerre cell.
+/// Generates a specimen: aggregates largest first without overlap and inside the box (single spheres, or shapes filled
+/// with spheres), then mastic to the porosity or count, then relaxation until the spheres are evenly spread and every
+/// one has a Laguerre cell.
 /// The same spec (seed included) gives the same bits. `progress`, if given, receives (stage, share done 0…1).
 /// \throws InputError for impossible specs; RunError when a class cannot be placed, saying how much was.
 GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
                                     const std::function<void(const char* stage, double share)>& progress = {});
+
+/// Writes `body,size_class,class,shape,size,d_long,d_short,axis_x,axis_y,axis_z,volume,spheres,x,y,z` (SI units), a
+/// line an aggregate; `classes` are the composition's names. \throws RunError when the file cannot be written.
+void write_aggregates_csv(const std::filesystem::path& file, const std::vector<Aggregate>& aggregates,
+                          const std::vector<CompositionRow>& classes);
 
 /// Numbers (specimen order) of particles whose Laguerre cell inside the box is empty. Declared here because the
 /// generator asks; the tessellation answers.

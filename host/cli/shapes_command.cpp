@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// shapes_command.cpp  macadam shapes measure | check | repair: surfaces in, verdicts and tables out.
+#include "host/cli/shapes_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+
+#include "host/cli/shapes_fill.hpp"
+#include "host/cli/shapes_generate.hpp"
+#include "host/results/files.hpp"
+#include "host/shapes/statistics.hpp"
+#include "host/shapes/surface_files.hpp"
+#include "macadam/error.hpp"
+#include "macadam/shape.hpp"
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::vector<std::string> paths;
+  std::string out;
+  double scale = 1;
+  bool repair = false;
+};
+
+/// Files as they are named, and of a folder those with a surface's ending, by name.
+std::vector<fs::path> files_of(const std::vector<std::string>& paths) {
+  std::vector<fs::path> files;
+  for (const fs::path path : paths) {
+    if (!fs::is_directory(path)) {
+      files.push_back(path);
+      continue;
+    }
+    const std::vector<fs::path> inside = surface_files_in(path);
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  return files;
+}
+
+/// What became of one file: a value, or why not.
+template <class T>
+struct Outcome {
+  T value{};
+  std::string note;  ///< printed with the file's name
+  std::exception_ptr error;
+};
+
+/// Does `work` for each file, on all cores; nothing that one throws stops the others.
+template <class T, class Work>
+std::vector<Outcome<T>> for_each_file(const std::vector<fs::path>& files, Work&& work) {
+  std::vector<Outcome<T>> outcomes(files.size());
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    try {
+      work(files[i], outcomes[i]);
+    } catch (...) { outcomes[i].error = std::current_exception(); }
+  }
+  return outcomes;
+}
+
+/// Throws what the files' errors were, all of them in one message if it was the input's fault.
+template <class T>
+void throw_errors(const std::vector<Outcome<T>>& outcomes) {
+  std::string messages;
+  std::size_t faulty = 0;
+  for (const Outcome<T>& outcome : outcomes) {
+    if (!outcome.error) continue;
+    try {
+      std::rethrow_exception(outcome.error);
+    } catch (const InputError& error) {
+      messages += fmt::format("\n  {}", error.what());
+      ++faulty;
+    }
+  }
+  if (faulty == 0) return;
+  throw InputError(fmt::format("{} of {} files are no good shapes:{}", faulty, outcomes.size(), messages));
+}
+
+void measure(const Arguments& arguments) {
+  const std::vector<fs::path> files = files_of(arguments.paths);
+  const auto outcomes = for_each_file<ShapeMeasure>(files, [&](const fs::path& file, Outcome<ShapeMeasure>& outcome) {
+    Surface surface = read_surface(file, arguments.scale);
+    surface.name = file.string();  // in messages
+    if (arguments.repair && !check_surface(surface).good()) surface = repair_surface(surface, &outcome.note);
+    outcome.value = measure_shape(surface);
+  });
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!outcomes[i].note.empty()) fmt::print("{}: repaired: {}\n", files[i].string(), outcomes[i].note);
+  }
+  throw_errors(outcomes);
+  std::vector<std::string> names;
+  std::vector<ShapeMeasure> shapes;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    names.push_back(files[i].stem().string());
+    shapes.push_back(outcomes[i].value);
+  }
+  const fs::path out = arguments.out;
+  make_result_folder(out);
+  write_whole(out / "shapes.csv", shapes_csv(names, shapes));
+  write_whole(out / "statistics.csv", statistics_csv(shapes));
+  write_whole(out / "correlation.csv", correlation_csv(shapes));
+  fmt::print("{}", statistics_text(shapes));
+  if (std::any_of(shapes.begin(), shapes.end(), [](const ShapeMeasure& m) { return m.d_long > 1; })) {
+    fmt::print("warning: aggregates of more than 1 m; files in millimetres want --scale 1e-3\n");
+  }
+  fmt::print("\nfiles in {}: shapes.csv statistics.csv correlation.csv\n", arguments.out);
+}
+
+void check(const Arguments& arguments) {
+  const std::vector<fs::path> files = files_of(arguments.paths);
+  const auto outcomes = for_each_file<bool>(files, [&](const fs::path& file, Outcome<bool>& outcome) {
+    const SurfaceVerdict verdict = check_surface(read_surface(file));
+    outcome.note = verdict.text();
+    outcome.value = verdict.good();
+  });
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!outcomes[i].error) fmt::print("{}: {}\n", files[i].string(), outcomes[i].note);
+  }
+  std::fflush(stdout);
+  throw_errors(outcomes);
+  const auto good = std::count_if(outcomes.begin(), outcomes.end(), [](const auto& o) { return o.value; });
+  if (const auto all = std::ssize(files); good < all) {
+    throw InputError(fmt::format("{} of {} surfaces are not fit for measuring and filling", all - good, all));
+  }
+}
+
+void repair(const Arguments& arguments) {
+  const fs::path file = arguments.paths.front();
+  Surface surface = read_surface(file);
+  surface.name = file.string();  // in messages
+  std::string what;
+  surface = repair_surface(surface, &what);
+  write_surface(arguments.out, surface);
+  fmt::print("{}: {}\n", file.string(), what);
+  fmt::print("{}: {} points, {} facets\n", arguments.out, surface.points.size(), surface.facets.size());
+}
+
+}  // namespace
+
+void add_shapes_command(CLI::App& app) {
+  CLI::App& shapes = *app.add_subcommand("shapes", "shapes of aggregates: closed triangulated surfaces");
+  shapes.require_subcommand(1);
+  const auto arguments = std::make_shared<Arguments>();
+  const auto add_paths = [&](CLI::App& command) {
+    command.add_option("paths", arguments->paths, "STL, OFF, PLY or OBJ files, or folders of them")->required();
+  };
+
+  CLI::App& measure_app = *shapes.add_subcommand("measure", "dimensions, volume, area and shape indices of each");
+  add_paths(measure_app);
+  measure_app.add_option("--out", arguments->out, "folder of the tables; made if it is not there")->required();
+  measure_app.add_option("--scale", arguments->scale, "metres per unit of the files, e.g. 1e-3 for millimetres");
+  measure_app.add_flag("--repair", arguments->repair, "repair faulty surfaces before measuring them");
+  measure_app.callback([arguments] { measure(*arguments); });
+
+  CLI::App& check_app = *shapes.add_subcommand("check", "what is wrong with each, and where");
+  add_paths(check_app);
+  check_app.callback([arguments] { check(*arguments); });
+
+  CLI::App& repair_app = *shapes.add_subcommand("repair", "make one fit for measuring and filling");
+  repair_app.add_option("file", arguments->paths, "STL, OFF, PLY or OBJ file")->required()->expected(1);
+  repair_app.add_option("--out", arguments->out, "file to write; its ending is the format")->required();
+  repair_app.callback([arguments] { repair(*arguments); });
+
+  // Commands with files of their own add themselves here, a line each.
+  add_shapes_fill(shapes);
+  add_shapes_generate(shapes);
+}
+
+}  // namespace macadam

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// shapes_fill.cpp  macadam shapes fill FILE --radius MIN[,MAX] --out DIR
+#include "host/cli/shapes_fill.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <memory>
+
+#include "host/results/files.hpp"
+#include "host/scene/units.hpp"
+#include "macadam/macadam.hpp"
+#include "macadam/shape.hpp"
+
+namespace macadam {
+namespace {
+
+struct Arguments {
+  std::string file, out, circumscribed;
+  std::vector<std::string> radius;
+  double scale = 1;
+  FillSpec spec;
+};
+
+/// "0.75 mm", or a bare number of metres.
+double length_of(const std::string& text, const std::string& option) {
+  double metres = 0;
+  const char* end = text.data() + text.size();
+  if (const auto [stop, error] = std::from_chars(text.data(), end, metres); error == std::errc{} && stop == end)
+    return metres;
+  if (const auto value = scene::parse(text, scene::length)) return *value;
+  throw InputError("command line", 0, option, "\"" + text + "\"", scene::accepted(scene::length));
+}
+
+std::string spheres_csv(const MultiSphere& cluster) {
+  std::string text = "x,y,z,radius\n";
+  for (std::size_t i = 0; i < cluster.size(); ++i) {
+    const Vec3d& c = cluster.centre[i];
+    text += fmt::format("{},{},{},{}\n", c.x, c.y, c.z, cluster.radius[i]);
+  }
+  return text;
+}
+
+/// Every sphere as a subdivided icosahedron, in one surface: any viewer of meshes shows it.
+Surface drawn(const MultiSphere& cluster) {
+  Surface all{"spheres", {}, {}};
+  for (std::size_t i = 0; i < cluster.size(); ++i) {
+    const Surface ball = subdivided_icosahedron(cluster.radius[i]);
+    const auto first = static_cast<std::int32_t>(all.points.size());
+    for (const Vec3d& p : ball.points) all.points.push_back(cluster.centre[i] + p);
+    for (const auto& f : ball.facets) all.facets.push_back({first + f[0], first + f[1], first + f[2]});
+  }
+  return all;
+}
+
+void print_report(const Surface& surface, const MultiSphere& cluster, const FillReport& r) {
+  const ShapeMeasure m = measure_shape(surface);
+  const auto [low, high] = std::minmax_element(cluster.radius.begin(), cluster.radius.end());
+  fmt::print("{}: {} sphere{} of {:.4g} to {:.4g} mm\n", surface.name, cluster.size(), cluster.size() == 1 ? "" : "s",
+             1e3 * *low, 1e3 * *high);
+  fmt::print("{:<26} {:>10} {:>10}\n", "", "shape", "spheres");
+  const auto row = [](const char* what, double shape, double spheres) {
+    fmt::print("{:<26} {:>10.4g} {:>10.4g}\n", what, shape, spheres);
+  };
+  row("volume, sum (mm3)", 1e9 * m.volume, 1e9 * r.sphere_volume);
+  row("D^L (mm)", 1e3 * m.d_long, 1e3 * r.d_long);
+  row("D^I (mm)", 1e3 * m.d_intermediate, 1e3 * r.d_intermediate);
+  row("D^S (mm)", 1e3 * m.d_short, 1e3 * r.d_short);
+  fmt::print("covered {:.2f} % of the shape, {:.2f} % outside it, largest overlap {:.1f} % of the radii's sum\n",
+             100 * r.covered, 100 * r.outside, 100 * r.largest_overlap);
+  fmt::print("surface deviation {:.4g} mm on average, {:.4g} mm at most\n", 1e3 * r.deviation_mean,
+             1e3 * r.deviation_largest);
+}
+
+void fill_command(Arguments arguments) {
+  FillSpec& spec = arguments.spec;
+  spec.radius_min = length_of(arguments.radius.front(), "--radius");
+  spec.radius_max = length_of(arguments.radius.back(), "--radius");
+  Surface surface = read_surface(arguments.file, arguments.scale);
+  if (!arguments.circumscribed.empty()) {
+    const double radius = length_of(arguments.circumscribed, "--circumscribed");
+    if (!(radius > 0))
+      throw InputError("command line", 0, "--circumscribed", "\"" + arguments.circumscribed + "\"",
+                       "a positive length");
+    const double factor = 2 * radius / measure_shape(surface).d_intermediate;
+    for (Vec3d& p : surface.points) p = factor * p;
+  }
+  const MultiSphere cluster = fill_shape(surface, spec);
+  const std::filesystem::path out = arguments.out;
+  make_result_folder(out);
+  write_whole(out / "spheres.csv", spheres_csv(cluster));
+  write_surface(out / "spheres.obj", drawn(cluster));
+  write_surface(out / "shape.obj", surface);
+  print_report(surface, cluster, measure_fill(surface, cluster));
+  fmt::print("files in {}: spheres.csv spheres.obj shape.obj (metres)\n", arguments.out);
+}
+
+}  // namespace
+
+void add_shapes_fill(CLI::App& shapes) {
+  const auto arguments = std::make_shared<Arguments>();
+  FillSpec& spec = arguments->spec;
+  CLI::App* fill = shapes.add_subcommand("fill", "fill a shape with spheres");
+  fill->add_option("file", arguments->file, "closed surface (STL, OFF, PLY or OBJ)")->required();
+  fill->add_option("--radius", arguments->radius, "of the spheres, or the least and the greatest: \"0.75 mm,1 mm\"")
+      ->required()
+      ->delimiter(',')
+      ->expected(1, 2);
+  fill->add_option("--porosity", spec.porosity, "1 - sum of the spheres' volumes / volume of the shape")
+      ->capture_default_str();
+  fill->add_option("--least", spec.least, "fewer spheres than this: a single one")->capture_default_str();
+  fill->add_option("--single", spec.single, "radius of a single sphere: intermediate (D^I/2), circumscribed or volume")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, SingleSphere>{{"intermediate", SingleSphere::intermediate},
+                                                                      {"circumscribed", SingleSphere::circumscribed},
+                                                                      {"volume", SingleSphere::volume}}));
+  fill->add_option("--seed", spec.seed, "another number, other spheres")->capture_default_str();
+  fill->add_option("--circumscribed", arguments->circumscribed, "scale the shape to D^I/2 of this: \"6.295 mm\"");
+  fill->add_option("--scale", arguments->scale, "metres a unit of the file: 1e-3 for millimetres")
+      ->capture_default_str();
+  fill->add_option("--out", arguments->out, "folder of the results; made if it is not there")->required();
+  fill->callback([arguments] { fill_command(*arguments); });
+}
+
+}  // namespace macadam

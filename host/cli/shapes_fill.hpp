@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file shapes_fill.hpp  `macadam shapes fill`: one shape filled with spheres.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace macadam {
+
+/// Adds `fill` to the command `shapes`; it runs when the command line is parsed.
+void add_shapes_fill(CLI::App& shapes);
+
+}  // namespace macadam

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// equal_points.cpp  Points sorted by coordinates lie beside their equals.
+#include "host/shapes/equal_points.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace macadam {
+
+std::vector<std::int32_t> first_of_equal(const std::vector<Vec3d>& points) {
+  std::vector<std::int32_t> order(points.size()), first(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](std::int32_t i) { return std::tie(points[i].x, points[i].y, points[i].z); };
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const bool same = k > 0 && key(order[k]) == key(order[k - 1]);
+    first[order[k]] = same ? first[order[k - 1]] : order[k];
+  }
+  return first;
+}
+
+void join_equal_points(Surface& surface) {
+  const std::vector<std::int32_t> first = first_of_equal(surface.points);
+  std::vector<std::int32_t> number(surface.points.size(), -1);
+  for (auto& facet : surface.facets) {
+    for (std::int32_t& p : facet) number[p = first[p]] = 0;
+  }
+  std::int32_t kept = 0;
+  for (std::size_t p = 0; p < number.size(); ++p) {
+    if (number[p] < 0) continue;
+    surface.points[kept] = surface.points[p];
+    number[p] = kept++;
+  }
+  surface.points.resize(kept);
+  for (auto& facet : surface.facets) {
+    for (std::int32_t& p : facet) p = number[p];
+  }
+}
+
+}  // namespace macadam

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// pose.cpp  Rotation by a unit quaternion without forming its matrix.
+#include "macadam/shape.hpp"
+
+namespace macadam {
+
+Vec3d Pose::operator()(const Vec3d& x) const {
+  const Vec3d v{turn[1], turn[2], turn[3]};
+  const Vec3d t = 2.0 * cross(v, x);
+  return centre + scale * (x + turn[0] * t + cross(v, t));
+}
+
+}  // namespace macadam

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file stabbing.hpp  Which intervals hold which positions, without trying every pair.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace macadam {
+
+struct Interval {
+  double low, high;
+};
+
+/// Calls found(interval number, position number) wherever low − tolerance ≤ position ≤ high + tolerance. Positions come
+/// in ascending order, each with its intervals in an order that depends on the numbers alone.
+template <class Found>
+void stab(const std::vector<Interval>& intervals, const std::vector<double>& positions, double tolerance,
+          Found&& found) {
+  std::vector<std::size_t> begins(intervals.size()), order(positions.size()), open;
+  std::iota(begins.begin(), begins.end(), std::size_t{0});
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(begins.begin(), begins.end(),
+                   [&](std::size_t a, std::size_t b) { return intervals[a].low < intervals[b].low; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return positions[a] < positions[b]; });
+  std::size_t next = 0;
+  for (const std::size_t p : order) {
+    for (; next < begins.size() && intervals[begins[next]].low - tolerance <= positions[p]; ++next) {
+      open.push_back(begins[next]);
+    }
+    std::erase_if(open, [&](std::size_t i) { return intervals[i].high + tolerance < positions[p]; });
+    for (const std::size_t i : open) found(i, p);
+  }
+}
+
+}  // namespace macadam

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// surface_check.cpp  Every fault of a surface, with the facets where it is.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "host/shapes/self_intersection.hpp"
+#include "host/shapes/surface_numbers.hpp"
+
+namespace macadam {
+namespace {
+
+using Facets = std::vector<std::int32_t>;
+
+/// Sets that are joined pair by pair; each is known by one of its members.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  std::int32_t find(std::int32_t i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void join(std::int32_t i, std::int32_t j) { parent_[find(i)] = find(j); }
+
+ private:
+  std::vector<std::int32_t> parent_;
+};
+
+/// One side of a facet: from its corner number `corner` (0, 1, 2) to the next.
+struct Side {
+  std::int32_t low, high, facet, corner;  // low < high: the edge's points
+  bool up;                                // runs from low to high
+};
+
+class Check {
+ public:
+  explicit Check(const Surface& surface) : surface_(surface), degenerate_(surface.facets.size()) {
+    verdict_.degenerate = find_degenerate();
+    collect_sides();
+  }
+
+  SurfaceVerdict operator()() {
+    faulty_edges();
+    pinched_points();
+    pieces();
+    misoriented();
+    verdict_.self_intersecting = self_intersecting_facets(surface_, degenerate_);
+    verdict_.inside_out = verdict_.open.empty() && verdict_.non_manifold.empty() && verdict_.misoriented.empty() &&
+                          signed_volume(surface_) < 0;
+    for (Facets* facets : {&verdict_.non_manifold, &verdict_.open, &verdict_.misoriented}) {
+      std::sort(facets->begin(), facets->end());
+      facets->erase(std::unique(facets->begin(), facets->end()), facets->end());
+    }
+    return verdict_;
+  }
+
+ private:
+  Facets find_degenerate() {
+    Facets found;
+    const double rounding = coordinate_rounding(surface_.points);
+    for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
+      const auto [a, b, c] = surface_.facets[f];
+      const Vec3d &p = surface_.points[a], &q = surface_.points[b], &r = surface_.points[c];
+      const double longest = std::max({norm(q - p), norm(r - q), norm(p - r)});
+      // its height is within the rounding of its corners
+      degenerate_[f] = a == b || b == c || c == a || norm(cross(q - p, r - p)) <= longest * rounding;
+      if (degenerate_[f]) found.push_back(static_cast<std::int32_t>(f));
+    }
+    return found;
+  }
+
+  /// Sides sorted so that those of one edge follow each other; edges_[k] is where edge k begins.
+  void collect_sides() {
+    for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
+      const auto [a, b, c] = surface_.facets[f];
+      if (a == b || b == c || c == a) continue;  // its neighbours meet each other
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t from = surface_.facets[f][k], to = surface_.facets[f][(k + 1) % 3];
+        sides_.push_back({std::min(from, to), std::max(from, to), static_cast<std::int32_t>(f), k, from < to});
+      }
+    }
+    const auto edge_of = [](const Side& s) { return std::pair(s.low, s.high); };
+    std::stable_sort(sides_.begin(), sides_.end(),
+                     [&](const Side& a, const Side& b) { return edge_of(a) < edge_of(b); });
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      if (i == 0 || edge_of(sides_[i]) != edge_of(sides_[i - 1])) edges_.push_back(i);
+    }
+    edges_.push_back(sides_.size());
+  }
+
+  /// Calls visit(first side, one past the last side) for each edge.
+  template <class Visit>
+  void each_edge(Visit&& visit) const {
+    for (std::size_t e = 0; e + 1 < edges_.size(); ++e) visit(&sides_[edges_[e]], sides_.data() + edges_[e + 1]);
+  }
+
+  void faulty_edges() {
+    each_edge([&](const Side* first, const Side* last) {
+      if (last - first == 1) verdict_.open.push_back(first->facet);
+      for (const Side* s = first; last - first > 2 && s != last; ++s) verdict_.non_manifold.push_back(s->facet);
+    });
+  }
+
+  /// Around a sound point the facets hang together by their edges; around a pinched one they form two fans or more.
+  void pinched_points() {
+    DisjointSets corners(3 * surface_.facets.size());
+    each_edge([&](const Side* first, const Side* last) {
+      for (const Side* s = first + 1; s < last; ++s) {
+        for (const bool low : {true, false}) corners.join(corner_at(*first, low), corner_at(*s, low));
+      }
+    });
+    Facets fan(surface_.points.size(), -1);
+    std::vector<bool> pinched(surface_.points.size(), false);
+    const auto each_corner = [&](auto&& visit) {
+      for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
+        for (int k = 0; k < 3 && !degenerate_[f]; ++k) visit(static_cast<std::int32_t>(f), k, surface_.facets[f][k]);
+      }
+    };
+    each_corner([&](std::int32_t f, int k, std::int32_t point) {
+      const std::int32_t root = corners.find(3 * f + k);
+      if (fan[point] < 0) fan[point] = root;
+      if (fan[point] != root) pinched[point] = true;
+    });
+    each_corner([&](std::int32_t f, int, std::int32_t point) {
+      if (pinched[point]) verdict_.non_manifold.push_back(f);
+    });
+  }
+
+  /// The corner of the side's facet at the lower or the higher point of the edge.
+  static std::int32_t corner_at(const Side& s, bool low) {
+    return 3 * s.facet + (s.up == low ? s.corner : (s.corner + 1) % 3);
+  }
+
+  void pieces() {
+    DisjointSets points(surface_.points.size());
+    for (const auto& f : surface_.facets) points.join(f[0], f[1]), points.join(f[1], f[2]);
+    std::vector<bool> seen(surface_.points.size(), false);
+    for (const auto& f : surface_.facets) {
+      const std::int32_t root = points.find(f[0]);
+      if (!seen[root]) ++verdict_.pieces;
+      seen[root] = true;
+    }
+  }
+
+  /// Facets are sorted into two sides, A and B, so that neighbours on one side agree; the smaller side is at fault.
+  void misoriented() {
+    struct Neighbour {
+      std::int32_t facet;
+      bool agrees;
+    };
+    std::vector<std::vector<Neighbour>> neighbours(surface_.facets.size());
+    each_edge([&](const Side* first, const Side* last) {
+      if (last - first != 2) return;
+      const bool agrees = first[0].up != first[1].up;
+      neighbours[first[0].facet].push_back({first[1].facet, agrees});
+      neighbours[first[1].facet].push_back({first[0].facet, agrees});
+    });
+    std::vector<int> side_of(surface_.facets.size(), -1);
+    for (std::size_t start = 0; start < side_of.size(); ++start) {
+      if (side_of[start] >= 0) continue;
+      Facets patch{static_cast<std::int32_t>(start)}, one_sided;
+      side_of[start] = 0;
+      std::array<std::int64_t, 2> count{};
+      for (std::size_t i = 0; i < patch.size(); ++i) {  // patch grows
+        const std::int32_t f = patch[i];
+        ++count[side_of[f]];
+        for (const auto& [g, agrees] : neighbours[f]) {
+          const int expected = agrees ? side_of[f] : 1 - side_of[f];
+          if (side_of[g] < 0) side_of[g] = expected, patch.push_back(g);
+          if (side_of[g] != expected) one_sided.push_back(f);  // as on a Möbius strip: no orientation suits both
+        }
+      }
+      const int minority = count[1] <= count[0] ? 1 : 0;
+      std::copy_if(patch.begin(), patch.end(), std::back_inserter(verdict_.misoriented),
+                   [&](std::int32_t f) { return side_of[f] == minority; });
+      std::copy(one_sided.begin(), one_sided.end(), std::back_inserter(verdict_.misoriented));
+    }
+  }
+
+  const Surface& surface_;
+  std::vector<bool> degenerate_;
+  std::vector<Side> sides_;
+  std::vector<std::size_t> edges_;
+  SurfaceVerdict verdict_;
+};
+
+}  // namespace
+
+SurfaceVerdict check_surface(const Surface& surface) {
+  require_sound_numbers(surface);
+  return Check(surface)();
+}
+
+bool SurfaceVerdict::good() const {
+  return degenerate.empty() && non_manifold.empty() && open.empty() && misoriented.empty() &&
+         self_intersecting.empty() && pieces == 1 && !inside_out;
+}
+
+std::string SurfaceVerdict::text() const {
+  if (good()) return "closed";
+  std::string text;
+  const auto add = [&](const std::string& fault) { text += (text.empty() ? "" : "; ") + fault; };
+  const auto add_facets = [&](const char* fault, const Facets& facets) {
+    if (facets.empty()) return;
+    constexpr std::size_t shown = 8;
+    const auto end = facets.begin() + std::min(facets.size(), shown);
+    add(fmt::format("{} {} facet{} ({}{})", fault, facets.size(), facets.size() == 1 ? "" : "s",
+                    fmt::join(facets.begin(), end, ", "), facets.size() > shown ? ", …" : ""));
+  };
+  add_facets("degenerate at", degenerate);
+  add_facets("non-manifold at", non_manifold);
+  add_facets("open at", open);
+  add_facets("misoriented at", misoriented);
+  add_facets("self-intersecting at", self_intersecting);
+  if (pieces != 1) add(fmt::format("{} pieces", pieces));
+  if (inside_out) add("inside out");
+  return text;
+}
+
+}  // namespace macadam

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// aggregates_csv.cpp  One line an aggregate. fmt's "{}" prints the shortest digits that round-trip a double.
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "host/results/files.hpp"
+#include "macadam/specimen.hpp"
+
+namespace macadam {
+
+void write_aggregates_csv(const std::filesystem::path& file, const std::vector<Aggregate>& aggregates,
+                          const std::vector<CompositionRow>& classes) {
+  fmt::memory_buffer text;
+  auto to = std::back_inserter(text);
+  fmt::format_to(to, "body,size_class,class,shape,size,d_long,d_short,axis_x,axis_y,axis_z,volume,spheres,x,y,z\n");
+  for (const Aggregate& a : aggregates) {
+    fmt::format_to(to, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", a.body, a.size_class,
+                   classes.at(static_cast<std::size_t>(a.size_class)).name, a.shape, a.size, a.d_long, a.d_short,
+                   a.axis_long.x, a.axis_long.y, a.axis_long.z, a.volume, a.spheres, a.centre.x, a.centre.y,
+                   a.centre.z);
+  }
+  write_whole(file, fmt::to_string(text));
+}
+
+}  // namespace macadam

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file shape_composition.cpp  Sizes and templates of shaped aggregates whose volumes sum to those of their classes.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/specimen/composition.hpp"
+#include "host/specimen/shape_placement.hpp"
+#include "host/specimen/specimen_check.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr double close_enough = 1e-3;  // of the class's volume
+constexpr double tolerance = 0.002;    // of the box: beyond it a class is not what was asked
+constexpr int most_draws = 200;        // of templates for one class
+constexpr int size_shares = 64;        // of a size law, for means over it
+
+/// Random streams of the classes; those of spheres begin at 100 (composition.cpp).
+constexpr std::uint64_t first_stream = 10'000;
+
+class Composer {
+ public:
+  Composer(const std::vector<ShapeTemplate>& shapes, const std::function<bool(int, double)>& is_sphere)
+      : shapes_(shapes), is_sphere_(is_sphere) {}
+
+  bool sphere(int shape, double size) const { return is_sphere_ && is_sphere_(shape, size); }
+  double volume(int shape, double size) const { return aggregate_volume(shapes_[shape], size, sphere(shape, size)); }
+
+  /// Mean volume of the templates' copies over that of spheres of the same sizes.
+  double form(const SizeRange& range) const {
+    double bodies = 0, spheres = 0;
+    for (int k = 0; k < size_shares; ++k) {
+      const double size = range.quantile((k + 0.5) / size_shares);
+      spheres += static_cast<double>(shapes_.size()) * sphere_volume(size);
+      for (int shape = 0; shape < static_cast<int>(shapes_.size()); ++shape) bodies += volume(shape, size);
+    }
+    return bodies / spheres;
+  }
+
+  /// Templates at random, then sizes that give the class its volume. Few bodies of unlucky templates may not: others
+  /// are drawn then, of one more and of one less too where the number is free.
+  std::vector<AggregateRequest> draw(const ClassRequest& request, int size_class, std::int64_t count,
+                                     RandomStream random) const {
+    std::vector<AggregateRequest> best;
+    double best_miss = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < most_draws && best_miss > close_enough * request.volume; ++k) {
+      const std::int64_t n = request.count ? count : std::max<std::int64_t>(0, count + (k + 1) % 3 - 1);
+      std::vector<AggregateRequest> drawn(static_cast<std::size_t>(n));
+      for (AggregateRequest& r : drawn) r = {size_class, static_cast<int>(random.index(shapes_.size())), 0, false};
+      const std::vector<double> size = draw_sizes(request.range, n, request.volume, random,
+                                                  [&](std::size_t i, double d) { return volume(drawn[i].shape, d); });
+      double sum = 0;
+      for (std::size_t i = 0; i < drawn.size(); ++i) {
+        drawn[i].size = size[i], drawn[i].sphere = sphere(drawn[i].shape, size[i]);
+        sum += volume(drawn[i].shape, size[i]);
+      }
+      if (std::abs(sum - request.volume) >= best_miss) continue;
+      best_miss = std::abs(sum - request.volume);
+      best = std::move(drawn);
+    }
+    return best;
+  }
+
+ private:
+  const std::vector<ShapeTemplate>& shapes_;
+  const std::function<bool(int, double)>& is_sphere_;
+};
+
+}  // namespace
+
+double aggregate_volume(const ShapeTemplate& shape, double size, bool sphere) {
+  const double scale = size / shape.d_intermediate;
+  return sphere ? sphere_volume(size) : scale * scale * scale * shape.volume;
+}
+
+ShapeComposition compose_shapes(const SpecimenSpec& spec, const std::vector<ShapeTemplate>& shapes,
+                                const std::function<bool(int shape, double size)>& is_sphere) {
+  if (shapes.empty()) throw InputError("specimen", 0, "shapes of the aggregates", "none", "at least one");
+  const Composer composer(shapes, is_sphere);
+  const Recipe recipe = solve_recipe(spec, [&](const SizeRange& range) { return composer.form(range); });
+  const double box = spec.box.volume();
+  ShapeComposition result;
+  for (std::size_t k = 0; k < recipe.aggregate.size(); ++k) {
+    const ClassRequest& request = recipe.aggregate[k];
+    const auto drawn =
+        composer.draw(request, static_cast<int>(k), request.number(box), RandomStream(spec.seed, first_stream + k));
+    const auto count = static_cast<std::int64_t>(drawn.size());
+    CompositionRow row{request.name, count, count, request.volume / box, 0};
+    for (const AggregateRequest& r : drawn) row.fraction += composer.volume(r.shape, r.size) / box;
+    if (!request.count && std::abs(row.fraction - row.fraction_asked) > tolerance)
+      throw InputError(
+          "specimen", 0, request.name + ": share of the box", shown(row.fraction_asked),
+          shown(row.fraction) + " (the nearest found with these shapes), or wider sieves, or a larger box");
+    if (!drawn.empty()) require_fit(request.name, drawn.front().size, spec.box);
+    result.row.push_back(row);
+    result.aggregate.insert(result.aggregate.end(), drawn.begin(), drawn.end());
+  }
+  std::stable_sort(result.aggregate.begin(), result.aggregate.end(),
+                   [](const AggregateRequest& a, const AggregateRequest& b) { return a.size > b.size; });
+  return result;
+}
+
+}  // namespace macadam

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file shape_packing.cpp  Overlaps pushed apart, with momentum; growth whenever they are small.
+#include "host/specimen/shape_packing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/specimen/neighbours.hpp"
+
+namespace macadam {
+namespace {
+
+// Contacts have the stiffness 1 and the smallest body the mass 1. Some twelve contacts act on a body, with levers too,
+// so stiffness over mass reaches about 50; a step with momentum is stable below 2·(1 + momentum)/step.
+constexpr double step = 0.06, momentum = 0.95;
+constexpr double longest_move = 0.02;  // of the smallest body's D^I, in one iteration
+constexpr double skin_share = 0.2;     // of the same
+// Contacts are measured in gaps. While the bodies grow they may overlap somewhat, as long as they are not so deep in
+// each other that they could leave on the wrong side; in the end they may take half of the gap.
+constexpr double settled = 0.5, growing = 4;
+constexpr double growth_a_gap = 0.15;  // of size, in one iteration, over the gap
+constexpr int most_idle = 2000;        // iterations without growth before the bodies count as jammed
+constexpr int most_rounds = 40;        // of freeing those that the samples take for free and the exact test does not
+constexpr double freeing = 1.4;        // what their gaps are widened by, each time
+
+struct Motion {
+  Vec3d shift{}, spin{};  ///< of the centre, and of the rotation times the body's lever: both lengths
+};
+
+struct PairContact {
+  std::int32_t a, b;
+  ShapeContact contact;
+  double look_at;  ///< travel of both bodies at which they may have come into contact
+};
+
+class Packing {
+ public:
+  Packing(const Box& box, std::vector<ShapeBody>& bodies, double from, const PackingGap& gap)
+      : box_(box),
+        bodies_(bodies),
+        gap_(gap),
+        grown_(from),
+        smallest_(smallest(bodies)),
+        proxies_(proxies(box, bodies)),
+        neighbours_(proxies_, smallest_, skin_share * smallest_),
+        extra_(bodies.size(), 1),
+        travel_(bodies.size()),
+        motion_(bodies.size()),
+        push_(bodies.size()),
+        walls_(bodies.size()) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const double ratio = bodies_[i].size / smallest_;
+      mass_.push_back(ratio * ratio);  // the number of contacts that a body may have grows with its area
+      lever_.push_back(proxies_.radius[i] / 2);
+    }
+    list_pairs();
+    grow(0);
+  }
+
+  double run(const std::function<void(double)>& progress) {
+    const double begun = grown_;
+    int rounds = 0;
+    for (int idle = 0; idle < most_idle; ++idle) {
+      find_contacts();
+      if (deepest() < (grown_ < 1 ? growing : settled)) {
+        idle = 0;
+        if (grown_ < 1) {
+          grow(growth_a_gap * gap_.share);
+          progress((grown_ - begun) / (1 - begun));
+        } else if (widen_gaps_of_overlaps() == 0) {
+          return 1;
+        } else if (++rounds > most_rounds) {
+          break;
+        }
+      }
+      gather();
+      move();
+    }
+    return std::min(grown_, 1 - 1e-6);  // full size with overlaps is no packing
+  }
+
+ private:
+  static double smallest(const std::vector<ShapeBody>& bodies) {
+    double size = bodies.front().size;
+    for (const ShapeBody& b : bodies) size = std::min(size, b.size);
+    return size;
+  }
+
+  /// The balls that hold the bodies at full size, for lists of neighbours.
+  static Specimen proxies(const Box& box, const std::vector<ShapeBody>& bodies) {
+    Specimen s{box, {}, {}, {}, {}};
+    for (const ShapeBody& b : bodies) {
+      s.centre.push_back(b.centre);
+      s.radius.push_back(ShapeBody(*b.geometry, b.size, b.sphere).radius());
+    }
+    return s;
+  }
+
+  double gap(std::size_t i) const { return extra_[i] * std::max(gap_.share * bodies_[i].size, gap_.least); }
+  double gap(const PairContact& p) const { return std::min(gap(p.a), gap(p.b)); }
+
+  void grow(double step) {
+    grown_ = std::min(1.0, grown_ * (1 + step));
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      ShapeBody& b = bodies_[i];
+      const double before = b.radius();
+      b.scale = grown_ * b.size / b.geometry->shape.d_intermediate;
+      travel_[i] += b.radius() - before;
+    }
+  }
+
+  void list_pairs() {
+    listed_at_ = proxies_.centre;
+    pairs_.clear();
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      for (std::int32_t j : neighbours_.of(i))
+        if (j > static_cast<std::int32_t>(i)) pairs_.push_back({static_cast<std::int32_t>(i), j, {}, 0});
+  }
+
+  void find_contacts() {
+    const auto pairs = static_cast<std::int64_t>(pairs_.size()), bodies = static_cast<std::int64_t>(bodies_.size());
+#pragma omp parallel if (bodies_.size() >= parallel_from)
+    {
+#pragma omp for schedule(dynamic, 64) nowait
+      for (std::int64_t k = 0; k < pairs; ++k) {
+        PairContact& p = pairs_[k];
+        const double travel = travel_[p.a] + travel_[p.b];
+        if (travel < p.look_at) continue;
+        p.contact = contact(bodies_[p.a], bodies_[p.b], gap(p));
+        p.look_at = travel + p.contact.clear;
+      }
+#pragma omp for schedule(dynamic, 64)
+      for (std::int64_t i = 0; i < bodies; ++i) walls_[i] = wall_contact(bodies_[i], box_, gap(i));
+    }
+  }
+
+  /// The deepest contact, over its gap.
+  double deepest() const {
+    double worst = 0;
+    for (const PairContact& p : pairs_) worst = std::max(worst, p.contact.depth / gap(p));
+    for (std::size_t i = 0; i < walls_.size(); ++i) worst = std::max(worst, walls_[i].depth / gap(i));
+    return worst;
+  }
+
+  // The sums run over the contacts in order, on one thread: the same bits for any number of threads.
+  void gather() {
+    std::fill(push_.begin(), push_.end(), Motion{});
+    const auto push = [&](std::size_t i, const ShapeContact& c, double sign) {
+      const Vec3d force = (sign * c.depth) * c.normal;
+      push_[i].shift += force;
+      push_[i].spin += (1 / lever_[i]) * cross(c.point - bodies_[i].centre, force);
+    };
+    for (const PairContact& p : pairs_)
+      if (p.contact.depth > 0) push(p.a, p.contact, 1), push(p.b, p.contact, -1);
+    for (std::size_t i = 0; i < walls_.size(); ++i) {
+      if (walls_[i].depth > 0) push(i, walls_[i], 1);
+      push_[i].shift = (1 / mass_[i]) * push_[i].shift;
+      push_[i].spin = (1 / mass_[i]) * push_[i].spin;
+    }
+  }
+
+  /// Whom the exact test finds in touch gets a wider gap.
+  int widen_gaps_of_overlaps() {
+    const auto pairs = static_cast<std::int64_t>(pairs_.size());
+    std::vector<std::uint8_t> touch(pairs_.size());
+#pragma omp parallel for schedule(dynamic, 64) if (bodies_.size() >= parallel_from)
+    for (std::int64_t k = 0; k < pairs; ++k) touch[k] = overlap(bodies_[pairs_[k].a], bodies_[pairs_[k].b]);
+    for (std::size_t k = 0; k < pairs_.size(); ++k)
+      if (touch[k]) extra_[pairs_[k].a] *= freeing, extra_[pairs_[k].b] *= freeing;
+    const auto touching = std::count(touch.begin(), touch.end(), 1);
+    if (touching > 0)
+      for (PairContact& p : pairs_) p.look_at = 0;  // clearances were measured beyond the old gaps
+    return static_cast<int>(touching);
+  }
+
+  void move() {
+    const double most = longest_move * smallest_, far = 0.5 * skin_share * smallest_;
+    bool stale = false;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      Motion& v = motion_[i];
+      v.shift = momentum * v.shift + step * push_[i].shift;
+      v.spin = momentum * v.spin + step * push_[i].spin;
+      const double way = std::sqrt(dot(v.shift, v.shift) + dot(v.spin, v.spin));
+      if (way > most) v.shift = (most / way) * v.shift, v.spin = (most / way) * v.spin;
+      ShapeBody& b = bodies_[i];
+      b.centre += v.shift;
+      travel_[i] += norm(v.shift);
+      if (!b.sphere) {
+        const Vec3d angle = (1 / lever_[i]) * v.spin;
+        b.set_turn(turned(b.turn, angle));
+        travel_[i] += norm(angle) * b.radius();
+      }
+      proxies_.centre[i] = b.centre;
+      const Vec3d moved = b.centre - listed_at_[i];
+      stale = stale || dot(moved, moved) > far * far;
+    }
+    if (!stale) return;
+    neighbours_.rebuild();
+    list_pairs();
+  }
+
+  const Box& box_;
+  std::vector<ShapeBody>& bodies_;
+  PackingGap gap_;
+  double grown_, smallest_;
+  Specimen proxies_;
+  Neighbours neighbours_;
+  std::vector<Vec3d> listed_at_;
+  std::vector<PairContact> pairs_;
+  std::vector<double> extra_, mass_, lever_;
+  std::vector<double> travel_;  ///< no point of a body has moved farther since the beginning [m]
+  std::vector<Motion> motion_, push_;
+  std::vector<ShapeContact> walls_;
+};
+
+}  // namespace
+
+double pack(const Box& box, std::vector<ShapeBody>& bodies, double from, const PackingGap& gap,
+            const std::function<void(double share)>& progress) {
+  return bodies.empty() ? 1 : Packing(box, bodies, from, gap).run(progress);
+}
+
+}  // namespace macadam

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// shaped_aggregates.cpp  Templates of a library, a place for each aggregate, spheres in each.
+#include "host/specimen/shaped_aggregates.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+
+#include "host/shapes/fill.hpp"
+#include "host/specimen/shape_placement.hpp"
+#include "host/specimen/sphere_grid.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+std::vector<Surface> surfaces_of(const ShapeSpec& spec) {
+  switch (spec.library) {
+    case ShapeSpec::Library::aggregates:
+      return generate_shape_library();
+    case ShapeSpec::Library::icosahedron:
+      return {subdivided_icosahedron()};
+    case ShapeSpec::Library::folder:
+      break;
+  }
+  return read_shape_library(spec.folder);
+}
+
+/// A template with all that its copies need.
+struct Shape {
+  ShapeTemplate placed;
+  ShapeMeasure measure;
+  ShapeFiller filler;
+
+  explicit Shape(const Surface& surface)
+      : placed(shape_template(surface)), measure(measure_shape(placed.surface)), filler(placed.surface) {}
+};
+
+/// f(k) for k < n on all threads, and the first exception, by k, of those thrown.
+template <class F>
+void for_each_in_parallel(std::size_t n, F&& f) {
+  std::vector<std::exception_ptr> thrown(n);
+#pragma omp parallel for schedule(dynamic)
+  for (std::size_t k = 0; k < n; ++k) {
+    try {
+      f(k);
+    } catch (...) { thrown[k] = std::current_exception(); }
+  }
+  for (const std::exception_ptr& e : thrown) {
+    if (e) std::rethrow_exception(e);
+  }
+}
+
+/// The inverse of a motion.
+Vec3d back(const Pose& pose, const Vec3d& point) {
+  const auto& q = pose.turn;
+  return Pose{{}, {q[0], -q[1], -q[2], -q[3]}, 1 / pose.scale}(point - pose.centre);
+}
+
+/// Which shapes a point is in.
+class Inside {
+ public:
+  Inside(const Box& box, std::vector<std::shared_ptr<const Shape>> shapes, std::vector<PlacedAggregate> placed)
+      : shapes_(std::move(shapes)), placed_(std::move(placed)), grid_(box, smallest_edge(box) / 20) {
+    for (std::size_t k = 0; k < placed_.size(); ++k) {
+      const PlacedAggregate& a = placed_[k];
+      if (!a.sphere) grid_.insert(static_cast<std::int32_t>(k), a.pose.centre, a.pose.scale * shape(a).measure.d_long);
+    }
+  }
+  bool operator()(const Vec3d& point) const {
+    const auto& near = grid_.near(grid_.cell_of(point));
+    return std::any_of(near.begin(), near.end(), [&](std::int32_t k) {
+      const PlacedAggregate& a = placed_[static_cast<std::size_t>(k)];
+      return shape(a).filler.contains(back(a.pose, point));
+    });
+  }
+
+ private:
+  static double smallest_edge(const Box& box) { return std::min({box.size.x, box.size.y, box.size.z}); }
+  const Shape& shape(const PlacedAggregate& a) const { return *shapes_[static_cast<std::size_t>(a.shape)]; }
+
+  std::vector<std::shared_ptr<const Shape>> shapes_;
+  std::vector<PlacedAggregate> placed_;
+  SphereGrid grid_;
+};
+
+Aggregate described(const PlacedAggregate& placed, const Shape& shape, std::int32_t body) {
+  Aggregate out;
+  out.body = body;
+  out.size_class = placed.size_class;
+  out.centre = placed.pose.centre;
+  out.size = placed.pose.scale * shape.measure.d_intermediate;
+  out.volume = aggregate_volume(shape.placed, out.size, placed.sphere);
+  out.shape = placed.sphere ? "sphere" : shape.placed.surface.name;
+  out.d_long = placed.sphere ? out.size : placed.pose.scale * shape.measure.d_long;
+  out.d_short = placed.sphere ? out.size : placed.pose.scale * shape.measure.d_short;
+  if (!placed.sphere) out.axis_long = Pose{{}, placed.pose.turn, 1}(shape.measure.axis_long);
+  return out;
+}
+
+}  // namespace
+
+double ShapedAggregates::volume() const {
+  double sum = 0;
+  for (const Aggregate& a : aggregate) sum += a.volume;
+  return sum;
+}
+double ShapedAggregates::smallest_radius() const {
+  double out = INFINITY;
+  for (const MultiSphere& s : spheres) out = std::min(out, *std::min_element(s.radius.begin(), s.radius.end()));
+  return out;
+}
+
+ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
+                                        const std::function<void(const char* stage, double share)>& progress) {
+  const ShapeSpec& how = spec.shapes.value();
+  const std::vector<Surface> surfaces = surfaces_of(how);
+  std::vector<std::shared_ptr<const Shape>> shapes(surfaces.size());
+  for_each_in_parallel(shapes.size(), [&](std::size_t k) { shapes[k] = std::make_shared<const Shape>(surfaces[k]); });
+
+  std::vector<ShapeTemplate> templates;
+  for (const auto& shape : shapes) templates.push_back(shape->placed);
+  const auto is_sphere = [&](int shape, double size) {
+    const Shape& s = *shapes[static_cast<std::size_t>(shape)];
+    return s.filler.spheres(size / s.measure.d_intermediate, how.fill) < how.fill.least;
+  };
+  ShapePlacementSpec search;
+  search.method = how.placement;
+  search.attempts = spec.attempts;
+  search.allow_short = how.allow_short;
+  search.gap = how.gap;
+  search.seed = spec.seed;
+  ShapePlacement placed =
+      place_shapes(spec.box, templates, compose_shapes(spec, templates, is_sphere), search, progress);
+
+  ShapedAggregates out;
+  out.row = std::move(placed.row);
+  const std::size_t n = placed.aggregate.size();
+  out.spheres.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const PlacedAggregate& a = placed.aggregate[k];
+    out.aggregate.push_back(described(a, *shapes[static_cast<std::size_t>(a.shape)], static_cast<std::int32_t>(k)));
+  }
+  if (progress) progress("filling aggregates", 0);
+  for_each_in_parallel(n, [&](std::size_t k) {
+    const PlacedAggregate& a = placed.aggregate[k];
+    if (a.sphere) {
+      out.spheres[k] = {{a.pose.centre}, {out.aggregate[k].size / 2}};
+      return;
+    }
+    FillSpec fill = how.fill;
+    fill.seed = spec.seed * 1'000'003 + k;
+    MultiSphere& spheres = out.spheres[k] = shapes[static_cast<std::size_t>(a.shape)]->filler.fill(a.pose.scale, fill);
+    for (Vec3d& c : spheres.centre) c = Pose{a.pose.centre, a.pose.turn, 1}(c);
+    out.aggregate[k].spheres = static_cast<std::int64_t>(spheres.size());
+  });
+  out.inside = Inside(spec.box, std::move(shapes), std::move(placed.aggregate));
+  return out;
+}
+
+}  // namespace macadam

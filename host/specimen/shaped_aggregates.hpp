@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file shaped_aggregates.hpp  The aggregates of a recipe with shapes: drawn, placed, and filled with spheres.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "macadam/specimen.hpp"
+
+namespace macadam {
+
+/// Aggregates in their places, largest first. All vectors but `row` have one entry an aggregate.
+struct ShapedAggregates {
+  std::vector<Aggregate> aggregate;
+  std::vector<MultiSphere> spheres;  ///< in the specimen's box
+  std::vector<CompositionRow> row;   ///< one a class
+  /// Whether a point of the box lies in a shape; single spheres do not count.
+  std::function<bool(const Vec3d&)> inside;
+
+  double volume() const;  ///< of all [m³]
+  double smallest_radius() const;
+};
+
+/// Follows `spec.shapes`, which must be there. The same spec gives the same bits, for any number of threads.
+/// \throws InputError for an impossible recipe or a faulty surface; RunError where aggregates find no room.
+ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
+                                        const std::function<void(const char* stage, double share)>& progress);
+
+}  // namespace macadam

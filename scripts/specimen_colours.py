@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What draw-section and draw-specimen share: colours of mastic, size classes and single spheres."""
+import colorsys
+import csv
+
+import numpy as np
+
+MASTIC = (0.40, 0.53, 0.76)
+CLASSES = [(0.33, 0.62, 0.36), (0.62, 0.62, 0.62), (0.90, 0.72, 0.33), (0.80, 0.40, 0.32), (0.60, 0.45, 0.70),
+           (0.35, 0.68, 0.68), (0.85, 0.55, 0.65), (0.55, 0.45, 0.35)]
+
+
+def size_classes(file):
+    """Size class of each body; empty where there is no such file."""
+    if not file.is_file():
+        return {}
+    rows = csv.DictReader(open(file, encoding="utf-8"))
+    return {int(row["body"]): int(row["size_class"]) for row in rows}
+
+
+def colour(classes, body, particle):
+    """Of one sphere of an aggregate: its class's hue, or one of its body's own; its own shade."""
+    base = CLASSES[classes.get(body, 0) % len(CLASSES)] if classes else CLASSES[body % len(CLASSES)]
+    hue, lightness, saturation = colorsys.rgb_to_hls(*base)
+    of_body = (body * 0.6180339887) % 1 - 0.5  # the golden ratio: neighbours in number are far apart in shade
+    of_particle = (particle * 0.7548776662) % 1 - 0.5
+    lightness = min(0.92, max(0.12, lightness * (1 + 0.24 * of_body + 0.20 * of_particle)))
+    return colorsys.hls_to_rgb(hue, lightness, saturation)
+
+
+def colours(classes, phase, body, particle):
+    """Of many spheres, as an array of three columns."""
+    return np.array([MASTIC if p == "mastic" else colour(classes, b, i) for p, b, i in zip(phase, body, particle)])

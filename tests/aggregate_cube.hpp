@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file aggregate_cube.hpp  A cube of one aggregate between two walls, from which the paper has its inner contact
+/// moduli.
+#pragma once
+
+#include "macadam/shape.hpp"
+#include "test_scenes.hpp"
+#include "test_surfaces.hpp"
+
+namespace macadam::test {
+
+/// Spheres that fill aggregates, with the paper's modulus of the contacts among them.
+struct InnerSpheres {
+  const char* name;
+  double radius_min, radius_max;  ///< [m]
+  double contact_modulus;         ///< [Pa]
+};
+inline constexpr InnerSpheres fine_spheres{"fine", 0.75e-3, 1e-3, 1.125e11};
+inline constexpr InnerSpheres coarse_spheres{"coarse", 1e-3, 2e-3, 1.116e11};
+inline constexpr double inner_alpha = 0.05;
+inline constexpr double cube_edge = 20e-3;              ///< [m]
+inline constexpr double aggregate_modulus = 60e9;       ///< of the rock [Pa]
+inline constexpr double paper_wall_modulus = 1.151e11;  ///< of A–W contacts [Pa]
+
+/// `shape`: fill_shape() of the cube's surface; `recipe`: the generator's, as for mastic.
+enum class CubeFilling : std::uint8_t { shape, recipe };
+inline const char* to_string(CubeFilling filling) { return filling == CubeFilling::shape ? "shape" : "recipe"; }
+
+inline Specimen aggregate_cube(const InnerSpheres& spheres, CubeFilling filling, double porosity, std::uint64_t seed,
+                               double edge = cube_edge) {
+  Specimen out;
+  if (filling == CubeFilling::shape) {
+    FillSpec spec;
+    spec.radius_min = spheres.radius_min, spec.radius_max = spheres.radius_max;
+    spec.porosity = porosity, spec.seed = seed;
+    MultiSphere cluster = fill_shape(box_surface(edge, edge, edge), spec);
+    out.box.size = {edge, edge, edge};
+    out.centre = std::move(cluster.centre), out.radius = std::move(cluster.radius);
+  } else {
+    SpecimenSpec spec;
+    spec.box.size = {edge, edge, edge};
+    spec.seed = seed;
+    spec.mastic = {spheres.radius_min, spheres.radius_max, porosity, {}};
+    out = generate_specimen(spec).specimen;
+  }
+  out.phase.assign(out.centre.size(), Phase::aggregate);
+  out.body.assign(out.centre.size(), 0);
+  return out;
+}
+
+/// Elastic constants of a specimen under uniaxial compression.
+struct CubeModulus {
+  double walls = 0;    ///< stress over the strain between the walls [Pa]
+  double gauge = 0;    ///< stress over the strain of the middle 60 % of the height [Pa]
+  double poisson = 0;  ///< of the middle 60 %
+};
+
+/// Slope of a component of the displacements over the same component of the places, by least squares over particles
+/// in the middle 60 % of the height; per unit displacement of the top wall.
+inline double gauge_strain(const Specimen& s, const HarmonicResult& result, int component) {
+  const double Vec3d::*axis[] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
+  double n = 0, x = 0, u = 0, xx = 0, xu = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (std::abs(s.centre[i].z / s.box.size.z - 0.5) > 0.3) continue;
+    const double at = s.centre[i].*axis[component], moved = result.motion[6 * i + component].real();
+    n += 1, x += at, u += moved, xx += at * at, xu += at * moved;
+  }
+  return (n * xu - x * u) / (n * xx - x * x);
+}
+
+/// Static answer of a specimen of one aggregate with elastic contacts; the walls hold it without friction.
+inline CubeModulus cube_modulus(const Specimen& specimen, const laws::Elastic& inner,
+                                double wall_modulus = paper_wall_modulus, bool lateral_walls = false) {
+  Laws laws;
+  laws[static_cast<std::size_t>(PairType::inner)] = inner;
+  laws[static_cast<std::size_t>(PairType::aw)] = laws::Elastic{wall_modulus, 0};
+  NetworkSpec network;
+  network.lateral_walls = lateral_walls;
+  const TestScene scene = make_scene(specimen, network, laws);
+  const HarmonicResult r = Harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, 1).solve(1);
+  const double strain = gauge_strain(specimen, r, 2), height = specimen.box.size.z;
+  return {r.top.e_star_pa, r.top.e_star_pa / (height * strain),
+          -0.5 * (gauge_strain(specimen, r, 0) + gauge_strain(specimen, r, 1)) / strain};
+}
+
+/// Young's modulus over the contact modulus where every sphere moved with the mean strain and facets lay in all
+/// directions alike: Σ A·d = 3V gives K = E/3, G = (2 + 3α)·E/10, and 9KG/(3K + G). Relaxation makes it less.
+inline double uniform_strain_modulus(double alpha) {
+  const double k = 1.0 / 3, g = (2 + 3 * alpha) / 10;
+  return 9 * k * g / (3 * k + g);
+}
+
+}  // namespace macadam::test

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file scene_shapes_test.cpp  `[specimen.shapes]` is read to the right SI values, and refused where it is wrong.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "test_files.hpp"
+
+namespace macadam::test {
+namespace {
+
+class SceneShapes : public testing::Test {
+ protected:
+  SceneShapes() : folder_(fs::path(testing::TempDir()) / fmt::format("macadam_shapes_{}", ::getpid())) {
+    fs::create_directories(folder_ / "mine");
+  }
+  ~SceneShapes() override { fs::remove_all(folder_); }
+
+  Scene scene(const std::string& shapes, const std::string& specimen = "") const {
+    write(folder_ / "scene.toml", "[specimen]\nbox = [0.05, 0.05, 0.08]\n" + specimen +
+                                      "[[specimen.aggregate]]\nsieve = [0.002, 0.008]\ncount = 10\n" + shapes +
+                                      "[specimen.mastic]\nradius = [0.001, 0.002]\nporosity = 0.05\n" + am1_contacts +
+                                      "[loading]\nkind = \"cyclic\"\nfrequencies = [10.0]\n");
+    return read_scene(folder_ / "scene.toml");
+  }
+  std::string refused(const std::string& shapes, const std::string& specimen = "") const {
+    return message_of([&] { scene(shapes, specimen); });
+  }
+  fs::path folder_;
+};
+
+TEST_F(SceneShapes, AreReadInSIUnits) {
+  const ShapeSpec spec = *scene(R"([specimen.shapes]
+library = "icosahedron"
+radius = ["0.75 mm", "1.5 mm"]
+porosity = "3 %"
+least = 5
+single = "volume"
+placement = "insertion"
+allow_short = true
+)")
+                              .specimen.shapes;
+  EXPECT_EQ(spec.library, ShapeSpec::Library::icosahedron);
+  EXPECT_EQ(spec.fill.radius_min, 0.75e-3);
+  EXPECT_EQ(spec.fill.radius_max, 1.5e-3);
+  EXPECT_EQ(spec.fill.porosity, 0.03);
+  EXPECT_EQ(spec.fill.least, 5);
+  EXPECT_EQ(spec.fill.single, SingleSphere::volume);
+  EXPECT_EQ(spec.placement, PlacementMethod::insertion);
+  EXPECT_TRUE(spec.allow_short);
+}
+
+TEST_F(SceneShapes, HaveDefaults) {
+  const ShapeSpec spec = *scene("[specimen.shapes]\nradius = [0.001, 0.002]\n").specimen.shapes;
+  EXPECT_EQ(spec.library, ShapeSpec::Library::aggregates);
+  EXPECT_EQ(spec.fill.porosity, FillSpec{}.porosity);
+  EXPECT_EQ(spec.fill.least, 8);
+  EXPECT_EQ(spec.fill.single, SingleSphere::intermediate);
+  EXPECT_EQ(spec.placement, PlacementMethod::packing);
+  EXPECT_FALSE(spec.allow_short);
+  EXPECT_FALSE(scene("").specimen.shapes);
+}
+
+TEST_F(SceneShapes, MayComeFromAFolderBesideTheScene) {
+  const ShapeSpec spec = *scene("[specimen.shapes]\nradius = [0.001, 0.002]\nlibrary = \"mine\"\n").specimen.shapes;
+  EXPECT_EQ(spec.library, ShapeSpec::Library::folder);
+  EXPECT_EQ(spec.folder, folder_ / "mine");
+}
+
+TEST_F(SceneShapes, AreRefusedAtTheirLine) {
+  const std::string start = "[specimen.shapes]\nradius = [0.001, 0.002]\n";
+  EXPECT_HAS(refused("[specimen.shapes]\nleast = 3\n"), "radius");
+  EXPECT_HAS(refused("[specimen.shapes]\nradius = [0.002, 0.001]\n"), "min not above max");
+  EXPECT_HAS(refused(start + "library = \"yours\"\n"), "no folder");
+  EXPECT_HAS(refused(start + "libary = \"mine\"\n"), "library");
+  EXPECT_HAS(refused(start + "porosity = 1.0\n"), "porosity");
+  EXPECT_HAS(refused(start + "least = 0\n"), "least");
+  EXPECT_HAS(refused(start + "single = \"large\"\n"), "single");
+  EXPECT_HAS(refused(start + "allow_short = true\n"), "insertion");
+  EXPECT_HAS(refused(start + "placement = \"insertion\"\ngap = 0.1\n"), "packing");
+  EXPECT_HAS(refused(start, "fix_aggregates = false\n"), "fix_aggregates");
+  EXPECT_HAS(refused(start + "gap = 0.9\n"), ":8:");
+}
+
+}  // namespace
+}  // namespace macadam::test

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// shape_library_test.cpp  The aggregates that ship with the program, and the generator that made them.
+#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <omp.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "long_tests.hpp"
+#include "macadam/error.hpp"
+#include "macadam/shape.hpp"
+
+namespace macadam::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int shipped_shapes = 82;
+
+std::vector<Surface> read_folder(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == ".off") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<Surface> shapes;
+  for (const fs::path& file : files) shapes.push_back(read_surface(file));
+  return shapes;
+}
+
+const std::vector<Surface>& shipped() {
+  static const std::vector<Surface> shapes = read_folder(MACADAM_EXAMPLES "/shapes");
+  return shapes;
+}
+
+const std::vector<ShapeMeasure>& measures() {
+  static const std::vector<ShapeMeasure> all = [] {
+    std::vector<ShapeMeasure> m;
+    for (const Surface& s : shipped()) m.push_back(measure_shape(s));
+    return m;
+  }();
+  return all;
+}
+
+void expect_same(const Surface& a, const Surface& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.facets, b.facets) << a.name;
+  const auto equal = [](const Vec3d& p, const Vec3d& q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
+  EXPECT_TRUE(std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), equal)) << a.name;
+}
+
+using Property = std::function<double(const ShapeMeasure&)>;
+
+/// EN 933-3 and EN 933-4 begin at 4 mm.
+bool standardised(const ShapeMeasure& m) { return m.d_intermediate >= 4e-3; }
+bool any(const ShapeMeasure&) { return true; }
+
+std::vector<double> values(const Property& property, bool (*counts)(const ShapeMeasure&) = any) {
+  std::vector<double> v;
+  for (const ShapeMeasure& m : measures()) {
+    if (counts(m)) v.push_back(property(m));
+  }
+  return v;
+}
+
+double average(const std::vector<double>& v) {
+  double sum = 0;
+  for (const double x : v) sum += x;
+  return sum / static_cast<double>(v.size());
+}
+
+double correlation(const Property& a, const Property& b, bool (*counts)(const ShapeMeasure&) = any) {
+  const std::vector<double> x = values(a, counts), y = values(b, counts);
+  const double mx = average(x), my = average(y);
+  double xx = 0, xy = 0, yy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += (x[i] - mx) * (x[i] - mx);
+    xy += (x[i] - mx) * (y[i] - my);
+    yy += (y[i] - my) * (y[i] - my);
+  }
+  return xy / std::sqrt(xx * yy);
+}
+
+const Property d_long = [](const ShapeMeasure& m) { return m.d_long; };
+const Property d_intermediate = [](const ShapeMeasure& m) { return m.d_intermediate; };
+const Property d_short = [](const ShapeMeasure& m) { return m.d_short; };
+const Property volume = [](const ShapeMeasure& m) { return m.volume; };
+const Property area = [](const ShapeMeasure& m) { return m.area; };
+const Property shape_index = [](const ShapeMeasure& m) { return m.shape_index(); };
+const Property flatness = [](const ShapeMeasure& m) { return m.flatness(); };
+const Property flakiness = [](const ShapeMeasure& m) { return m.flakiness(); };
+const Property elongation = [](const ShapeMeasure& m) { return m.elongation(); };
+const Property sphericity_true = [](const ShapeMeasure& m) { return m.sphericity_true; };
+const Property sphericity_working = [](const ShapeMeasure& m) { return m.sphericity_working(); };
+
+/// A row of Table 1: the average within `share` of the paper's; the range covers the paper's to the two decimals that
+/// the paper prints, and goes no more than 5 % beyond: no outliers.
+void expect_ratio(const char* name, const std::vector<double>& v, double low, double mean, double high) {
+  EXPECT_NEAR(average(v), mean, 0.05 * mean) << name;
+  const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
+  EXPECT_LT(*least, low + 0.005) << name;
+  EXPECT_GT(*greatest, high - 0.005) << name;
+  EXPECT_GT(*least, 0.95 * low) << name;
+  EXPECT_LT(*greatest, 1.05 * high) << name;
+}
+
+TEST(ShapeLibrary, FilesAreWhatTheGeneratorMakes) {
+  if (!long_tests) GTEST_SKIP() << "6 s, ten times that in this build";
+  const std::vector<Surface> made = generate_shape_library();
+  ASSERT_EQ(shipped().size(), made.size());
+  for (std::size_t i = 0; i < made.size(); ++i) expect_same(shipped()[i], made[i]);
+}
+
+TEST(ShapeLibrary, SameBitsForAnyNumberOfThreadsAndOtherShapesForOtherSeeds) {
+  omp_set_num_threads(1);
+  const std::vector<Surface> one = generate_shape_library(5, 4);
+  omp_set_num_threads(3);
+  const std::vector<Surface> three = generate_shape_library(5, 4), other = generate_shape_library(6, 4);
+  ASSERT_EQ(one.size(), 4u);
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    expect_same(one[i], three[i]);
+    EXPECT_TRUE(check_surface(other[i]).good()) << check_surface(other[i]).text();
+    EXPECT_NE(one[i].facets, other[i].facets);
+  }
+}
+
+TEST(ShapeLibrary, NumberOfShapesIsChecked) {
+  EXPECT_THROW(generate_shape_library(1, 0), InputError);
+  EXPECT_THROW(generate_shape_library(1, -3), InputError);
+  EXPECT_THROW(generate_shape_library(1, 1'000'000'000), InputError);
+  EXPECT_EQ(generate_shape_library(1, 1).front().name, "aggregate_01");
+}
+
+TEST(ShapeLibrary, ShapesAreClosedOrientedAndWithoutSelfIntersections) {
+  ASSERT_EQ(shipped().size(), static_cast<std::size_t>(shipped_shapes));
+  for (const Surface& s : shipped()) {
+    const SurfaceVerdict verdict = check_surface(s);
+    EXPECT_TRUE(verdict.good()) << s.name << ": " << verdict.text();
+    EXPECT_EQ(s.facets.size(), 2 * s.points.size() - 4) << s.name << ": a sphere's topology";
+  }
+}
+
+TEST(ShapeLibrary, PointsAndFacetsLieInThePapersRange) {
+  const auto points = values([](const ShapeMeasure& m) { return double(m.points); });
+  const auto facets = values([](const ShapeMeasure& m) { return double(m.facets); });
+  for (const double n : points) EXPECT_TRUE(n >= 25 && n <= 411) << n;
+  for (const double n : facets) EXPECT_TRUE(n >= 46 && n <= 818) << n;
+  EXPECT_NEAR(average(points), 167, 0.05 * 167);
+  EXPECT_NEAR(average(facets), 330, 0.05 * 330);
+  EXPECT_EQ(std::count_if(facets.begin(), facets.end(), [](double n) { return n < 100; }), 9);
+}
+
+TEST(ShapeLibrary, SieveClassesHoldAsManyAsThePapers) {
+  std::map<double, int> found;  // by the upper sieve [mm]
+  for (const ShapeMeasure& m : measures()) ++found[1e3 * sieve_class(m.d_intermediate)[1]];
+  const std::vector<std::pair<double, int>> expected{{0.5, 1},  {1, 6},   {2, 17},   {4, 27},
+                                                     {6.3, 14}, {10, 12}, {12.5, 4}, {16, 1}};
+  ASSERT_EQ(found.size(), expected.size());
+  auto row = found.begin();
+  for (const auto& [sieve, shapes] : expected) {
+    EXPECT_NEAR(row->first, sieve, 1e-9);
+    EXPECT_EQ(row->second, shapes) << sieve << " mm";
+    ++row;
+  }
+}
+
+TEST(ShapeLibrary, RatiosHaveTheStatisticsOfTable1) {
+  expect_ratio("SI", values(shape_index, standardised), 1.50, 2.55, 4.68);
+  expect_ratio("F", values(flatness), 0.37, 0.64, 0.91);
+  expect_ratio("Fl", values(flakiness, standardised), 0.31, 0.57, 0.85);
+  expect_ratio("E", values(elongation), 0.39, 0.70, 0.97);
+  expect_ratio("psi^w", values(sphericity_true), 0.73, 0.86, 0.96);
+  expect_ratio("psi^A", values(sphericity_working), 0.68, 0.85, 0.94);
+}
+
+TEST(ShapeLibrary, DimensionsHaveTheStatisticsOfTable1) {
+  struct Row {
+    const char* name;
+    const Property& property;
+    double low, mean, high;
+  };
+  for (const auto& [name, property, low, mean, high] :
+       {Row{"D^L", d_long, 1.02e-3, 5.95e-3, 18.66e-3}, Row{"D^I", d_intermediate, 0.48e-3, 3.94e-3, 12.59e-3},
+        Row{"D^S", d_short, 0.32e-3, 2.56e-3, 8.83e-3}, Row{"V", volume, 0.07e-9, 84.23e-9, 851.22e-9},
+        Row{"A", area, 1.05e-6, 80.60e-6, 511.19e-6}}) {
+    const std::vector<double> v = values(property);
+    EXPECT_NEAR(average(v), mean, 0.05 * mean) << name;
+    const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
+    EXPECT_NEAR(*least, low, 0.1 * low) << name;  // of one shape
+    EXPECT_NEAR(*greatest, high, 0.1 * high) << name;
+  }
+}
+
+TEST(ShapeLibrary, CorrelationsAreThoseOfTable2InKind) {
+  struct Entry {
+    const Property &a, &b;
+    double paper;
+  };
+  // 0.2: what a coefficient of 31 to 82 independent pairs is uncertain by, 1/√n, or more
+  for (const auto& [a, b, paper] :
+       {Entry{d_long, d_intermediate, 0.96}, Entry{d_long, d_short, 0.92}, Entry{d_long, volume, 0.87},
+        Entry{d_intermediate, area, 0.95}, Entry{volume, area, 0.98}, Entry{flatness, d_short, 0.38},
+        Entry{elongation, d_long, -0.31}, Entry{elongation, flatness, -0.32}, Entry{sphericity_true, d_long, -0.34},
+        Entry{sphericity_true, flatness, 0.55}, Entry{sphericity_true, elongation, 0.51},
+        Entry{sphericity_working, flatness, 0.76}, Entry{sphericity_working, elongation, 0.33},
+        Entry{sphericity_working, sphericity_true, 0.89}}) {
+    EXPECT_NEAR(correlation(a, b), paper, 0.2);
+  }
+  for (const auto& [a, b, paper] :
+       {Entry{shape_index, d_long, -0.24}, Entry{shape_index, d_intermediate, -0.28},
+        Entry{shape_index, d_short, -0.71}, Entry{shape_index, flatness, -0.83}, Entry{flakiness, d_long, 0.25},
+        Entry{flakiness, d_short, 0.62}, Entry{flakiness, shape_index, -0.79}, Entry{flakiness, flatness, 0.97},
+        Entry{elongation, shape_index, -0.16}, Entry{elongation, flakiness, -0.39},
+        Entry{sphericity_true, shape_index, -0.89}, Entry{sphericity_working, shape_index, -0.98}}) {
+    EXPECT_NEAR(correlation(a, b, standardised), paper, 0.2);
+  }
+}
+
+/// Volume of the tetrahedron of the origin and three unit vectors with these cosines between them.
+double unit_tetrahedron(double a, double b, double c) {
+  return std::sqrt(1 + 2 * a * b * c - a * a - b * b - c * c) / 6;
+}
+
+TEST(SubdividedIcosahedron, HasItsPointsOnTheSphereAndItsVolume) {
+  const double radius = 6.295e-3;
+  const Surface s = subdivided_icosahedron(radius);
+  EXPECT_EQ(s.points.size(), 42u);
+  EXPECT_EQ(s.facets.size(), 80u);
+  EXPECT_TRUE(check_surface(s).good()) << check_surface(s).text();
+  const double rounding = 8 * std::numeric_limits<double>::epsilon();
+  for (const Vec3d& p : s.points) EXPECT_NEAR(norm(p), radius, rounding * radius);
+  // Of each of the 20 triangles: the middle one, between three middles of edges 36° apart, and three at its corners.
+  const double between_corners = 1 / std::sqrt(5.0), between_middles = std::numbers::phi / 2;
+  const double corner_to_middle = std::sqrt((1 + between_corners) / 2);
+  const double exact = 20 * unit_tetrahedron(between_middles, between_middles, between_middles) +
+                       60 * unit_tetrahedron(corner_to_middle, corner_to_middle, between_middles);
+  const ShapeMeasure m = measure_shape(s);
+  EXPECT_NEAR(m.volume / std::pow(radius, 3), exact, 1e-13);  // 80 terms of O(0.05), each rounded a few times
+  EXPECT_NEAR(m.d_long, 2 * radius, rounding * radius);
+  EXPECT_NEAR(m.radius_bounding, radius, 1e-12 * radius);
+}
+
+TEST(SubdividedIcosahedron, IsTheOneThatShips) {
+  const std::vector<Surface> files = read_folder(MACADAM_EXAMPLES "/icosahedron");
+  ASSERT_EQ(files.size(), 1u);
+  expect_same(files.front(), subdivided_icosahedron(6.295e-3));
+}
+
+TEST(SubdividedIcosahedron, RadiusIsChecked) {
+  for (const double r : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    EXPECT_THROW(subdivided_icosahedron(r), InputError) << r;
+}
+
+int program(const std::string& arguments) {
+  const int status =
+      std::system(fmt::format("'{}' shapes generate {} >/dev/null 2>&1", MACADAM_PROGRAM, arguments).c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(ShapesGenerate, WritesWhatTheLibraryMakes) {
+  const fs::path folder = fs::path(testing::TempDir()) / fmt::format("macadam_shapes_generate_{}", getpid());
+  ASSERT_EQ(program(fmt::format("--out '{}' --seed 3 --count 2", (folder / "two").string())), 0);
+  const std::vector<Surface> files = read_folder(folder / "two"), made = generate_shape_library(3, 2);
+  ASSERT_EQ(files.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) expect_same(files[i], made[i]);
+  ASSERT_EQ(program(fmt::format("--out '{}' --icosahedron 0.25", (folder / "ball").string())), 0);
+  expect_same(read_folder(folder / "ball").at(0), subdivided_icosahedron(0.25));
+  EXPECT_EQ(program(fmt::format("--out '{}' --count 0", folder.string())), 2);
+  EXPECT_EQ(program(fmt::format("--out '{}' --icosahedron -1", folder.string())), 2);
+  EXPECT_EQ(program(fmt::format("--out '{}' --count 2 --icosahedron 1", folder.string())), 2);
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace macadam::test

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file shape_placement_test.cpp  Shaped aggregates: overlaps, composition, insertion and packing in small boxes.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "host/specimen/shape_body.hpp"
+#include "long_tests.hpp"
+#include "macadam/error.hpp"
+#include "shape_tests.hpp"
+
+namespace macadam {
+namespace {
+
+using test::brute_overlap;
+
+std::vector<ShapeTemplate> stones() {
+  std::vector<ShapeTemplate> shapes;
+  for (std::uint64_t k = 1; k <= 3; ++k) shapes.push_back(shape_template(test::stone(k, 1)));
+  return shapes;
+}
+
+/// A box of 20 mm with two classes that together fill `share` of it.
+SpecimenSpec small_mix(double share) {
+  SpecimenSpec spec;
+  spec.box = {{0.02, 0.02, 0.02}};
+  spec.aggregate = {{0.002, 0.00475, share / 2, {}}, {0.00475, 0.008, share / 2, {}}};
+  return spec;
+}
+
+bool small_ones(int, double size) { return size < 0.0026; }
+
+bool same_bits(const ShapePlacement& a, const ShapePlacement& b) {
+  const auto same = [](const PlacedAggregate& p, const PlacedAggregate& q) {
+    const Vec3d c = p.pose.centre, d = q.pose.centre;
+    return p.size_class == q.size_class && p.shape == q.shape && p.sphere == q.sphere && c.x == d.x && c.y == d.y &&
+           c.z == d.z && p.pose.turn == q.pose.turn && p.pose.scale == q.pose.scale;
+  };
+  return std::equal(a.aggregate.begin(), a.aggregate.end(), b.aggregate.begin(), b.aggregate.end(), same);
+}
+
+/// All inside the box, no two with a common point, by the second writing.
+void expect_sound(const Box& box, const ShapePlacement& p, const std::vector<ShapeTemplate>& shapes) {
+  double radius = 0;
+  for (const ShapeTemplate& t : shapes)
+    for (const Vec3d& x : t.surface.points) radius = std::max(radius, norm(x) / t.d_intermediate);
+  const auto reach = [&](const PlacedAggregate& a) { return a.pose.scale * shapes[a.shape].d_intermediate * radius; };
+  for (std::size_t i = 0; i < p.aggregate.size(); ++i) {
+    const PlacedAggregate& a = p.aggregate[i];
+    const double r = a.sphere ? a.pose.scale * shapes[a.shape].d_intermediate / 2 : 0;
+    std::vector<Vec3d> points = test::placed_surface(a, shapes).points;
+    if (a.sphere) points = {a.pose.centre};
+    for (const Vec3d& x : points) {
+      // 1e-15 m: rounding of a position in a box of some centimetres, a few times over
+      EXPECT_GE(std::min({x.x, x.y, x.z}), r - 1e-15) << i;
+      EXPECT_GE(std::min({box.size.x - x.x, box.size.y - x.y, box.size.z - x.z}), r - 1e-15) << i;
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const PlacedAggregate& b = p.aggregate[j];
+      if (norm(a.pose.centre - b.pose.centre) > reach(a) + reach(b)) continue;
+      EXPECT_FALSE(brute_overlap(a, b, shapes)) << i << " and " << j;
+    }
+  }
+}
+
+template <class Run>
+std::string message_of(const Run& run) {
+  try {
+    run();
+  } catch (const Error& error) { return error.what(); }
+  return "(accepted)";
+}
+
+TEST(ShapeBody, OverlapAgreesWithEveryEdgeAgainstEveryFacet) {
+  const std::vector<ShapeTemplate> shapes = stones();
+  std::vector<std::unique_ptr<ShapeGeometry>> geometries;
+  for (const ShapeTemplate& t : shapes) geometries.push_back(std::make_unique<ShapeGeometry>(t));
+  RandomStream random(1, 1);
+  int together = 0;
+  constexpr int pairs = 400;
+  for (int k = 0; k < pairs; ++k) {
+    PlacedAggregate placed[2];
+    ShapeBody body[2];
+    for (int i = 0; i < 2; ++i) {
+      placed[i] = {0, static_cast<int>(random.index(3)), random.uniform() < 0.2, {}};
+      const double size = random.uniform() < 0.3 ? 0.003 : 0.012;  // small ones are sometimes wholly inside
+      body[i] = ShapeBody(*geometries[placed[i].shape], size, placed[i].sphere);
+      body[i].set_turn(random_turn(random));
+      body[i].centre = {random.uniform(0, 0.011), random.uniform(0, 0.011), random.uniform(0, 0.011)};
+      placed[i].pose = {body[i].centre, body[i].turn, body[i].scale};
+    }
+    EXPECT_EQ(overlap(body[0], body[1]), brute_overlap(placed[0], placed[1], shapes)) << k;
+    together += overlap(body[0], body[1]);
+    EXPECT_EQ(overlap(body[0], body[1]), overlap(body[1], body[0])) << k;
+  }
+  EXPECT_GT(together, pairs / 5);
+  EXPECT_LT(together, 4 * pairs / 5);
+}
+
+TEST(ShapeBody, FieldBoundsTheTrueDistance) {
+  const ShapeTemplate shape = shape_template(test::stone(2, 1));
+  const ShapeGeometry geometry(shape);
+  RandomStream random(3, 1);
+  for (int k = 0; k < 2000; ++k) {
+    const Vec3d p{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)};
+    const double exact = test::signed_distance(shape.surface, p);
+    // Node values are floats of distances below 4: 24 bits.
+    EXPECT_LE(geometry.field.at_least(p), exact + 4 * 0x1p-24) << k;
+    EXPECT_GE(geometry.field.at_most(p), exact - 4 * 0x1p-24) << k;
+    EXPECT_EQ(geometry.solid.contains(p), exact <= 0) << k;
+    EXPECT_NEAR(geometry.solid.distance(p), std::abs(exact), 1e-14) << k;  // a few roundings of numbers below 4
+  }
+}
+
+TEST(ShapeComposition, ClassesHaveTheirVolumes) {
+  const std::vector<ShapeTemplate> shapes = stones();
+  const SpecimenSpec spec = small_mix(0.5);
+  const ShapeComposition c = compose_shapes(spec, shapes, small_ones);
+  ASSERT_EQ(c.row.size(), 2u);
+  double sum[2] = {};
+  for (const AggregateRequest& r : c.aggregate) {
+    sum[r.size_class] += aggregate_volume(shapes[r.shape], r.size, r.sphere) / spec.box.volume();
+    EXPECT_EQ(r.sphere, r.size < 0.0026);
+    EXPECT_GE(r.size, r.size_class == 0 ? 0.002 : 0.00475);
+    EXPECT_LE(r.size, r.size_class == 0 ? 0.00475 : 0.008);
+  }
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_NEAR(sum[k], 0.25, 0.25 * 1e-3) << k;         // promised
+    EXPECT_NEAR(sum[k], c.row[k].fraction, 1e-12) << k;  // sums of a hundred terms
+    EXPECT_NEAR(c.row[k].fraction_asked, 0.25, 1e-15) << k;
+  }
+  EXPECT_TRUE(std::is_sorted(c.aggregate.begin(), c.aggregate.end(),
+                             [](const AggregateRequest& a, const AggregateRequest& b) { return a.size > b.size; }));
+}
+
+TEST(ShapeComposition, FractionsAreOfTheSolidVolume) {
+  SpecimenSpec spec = small_mix(0.5);
+  spec.mastic = MasticSpec{0.00075, 0.001, 0.05, {}};
+  const ShapeComposition c = compose_shapes(spec, stones(), {});
+  EXPECT_NEAR(c.row[0].fraction_asked, 0.95 * 0.25, 1e-15);
+  EXPECT_NEAR(c.row[0].fraction, 0.95 * 0.25, 0.25 * 1e-3);
+}
+
+TEST(ShapeComposition, CountsAreKept) {
+  SpecimenSpec spec = small_mix(0);
+  spec.aggregate = {{0.002, 0.00475, {}, 17}};
+  const ShapeComposition c = compose_shapes(spec, stones(), small_ones);
+  EXPECT_EQ(c.aggregate.size(), 17u);
+  EXPECT_EQ(c.row[0].count, 17);
+}
+
+TEST(ShapePlacement, BothMethodsKeepThemApartAndInside) {
+  const std::vector<ShapeTemplate> shapes = stones();
+  for (const auto& [method, share] : {std::pair{PlacementMethod::insertion, 0.3}, {PlacementMethod::packing, 0.5}}) {
+    const SpecimenSpec spec = small_mix(share);
+    const ShapeComposition c = compose_shapes(spec, shapes, small_ones);
+    ShapePlacementSpec how;
+    how.method = method;
+    const ShapePlacement p = place_shapes(spec.box, shapes, c, how);
+    ASSERT_EQ(p.aggregate.size(), c.aggregate.size());
+    expect_sound(spec.box, p, shapes);
+    for (int k = 0; k < 2; ++k) EXPECT_NEAR(p.row[k].fraction, c.row[k].fraction, 1e-12);
+    for (std::size_t k = 0; k < p.aggregate.size(); ++k) {
+      const AggregateRequest& r = c.aggregate[k];
+      EXPECT_EQ(p.aggregate[k].shape, r.shape);
+      EXPECT_EQ(p.aggregate[k].sphere, r.sphere);
+      EXPECT_NEAR(p.aggregate[k].pose.scale * shapes[r.shape].d_intermediate, r.size, 1e-15);
+    }
+  }
+}
+
+TEST(ShapePlacement, SameBitsForAnyNumberOfThreadsOthersForAnotherSeed) {
+  const std::vector<ShapeTemplate> shapes = stones();
+  SpecimenSpec spec = small_mix(0.3);
+  spec.box = {{0.035, 0.035, 0.035}};
+  spec.aggregate[0].sieve_max = 0.0025;
+  const ShapeComposition c = compose_shapes(spec, shapes, small_ones);
+  ASSERT_GT(c.aggregate.size(), 1000u);  // fewer are left to one thread
+  const int threads = omp_get_max_threads();
+  for (const PlacementMethod method : {PlacementMethod::insertion, PlacementMethod::packing}) {
+    ShapePlacementSpec how;
+    how.method = method, how.allow_short = true, how.attempts = 1000;
+    omp_set_num_threads(1);
+    const ShapePlacement one = place_shapes(spec.box, shapes, c, how);
+    omp_set_num_threads(2);
+    EXPECT_TRUE(same_bits(one, place_shapes(spec.box, shapes, c, how)));
+    how.seed = 2;
+    EXPECT_FALSE(same_bits(one, place_shapes(spec.box, shapes, c, how)));
+  }
+  omp_set_num_threads(threads);
+}
+
+TEST(ShapePlacement, FailedInsertionSaysHowFarItGot) {
+  const std::vector<ShapeTemplate> shapes = stones();
+  const SpecimenSpec spec = small_mix(0.7);
+  const ShapeComposition c = compose_shapes(spec, shapes, {});
+  ShapePlacementSpec how;
+  how.method = PlacementMethod::insertion, how.attempts = 3000;
+  const std::string message = message_of([&] { place_shapes(spec.box, shapes, c, how); });
+  EXPECT_NE(message.find("no room for aggregate"), std::string::npos) << message;
+  EXPECT_NE(message.find("of class 4.75-8 mm"), std::string::npos) << message;
+  EXPECT_NE(message.find("% of the class's volume"), std::string::npos) << message;
+
+  how.allow_short = true;
+  const ShapePlacement p = place_shapes(spec.box, shapes, c, how);
+  expect_sound(spec.box, p, shapes);
+  EXPECT_LT(p.row[1].count, p.row[1].count_asked);
+  EXPECT_LT(p.row[1].fraction, p.row[1].fraction_asked);
+  EXPECT_GT(p.row[1].fraction, 0.1);
+}
+
+TEST(ShapePlacement, JammedPackingSaysWhere) {
+  const std::vector<ShapeTemplate> shapes = stones();
+  SpecimenSpec spec = small_mix(0.9);
+  spec.box = {{0.012, 0.012, 0.012}};
+  spec.aggregate = {{0.005, 0.006, 0.85, {}}};
+  const std::string message = message_of([&] { place_shapes(spec.box, shapes, compose_shapes(spec, shapes, {}), {}); });
+  EXPECT_NE(message.find("jammed at"), std::string::npos) << message;
+  EXPECT_NE(message.find("85 % asked"), std::string::npos) << message;
+}
+
+TEST(ShapePlacement, SizesAndSettingsOutOfRangeAreRefused) {
+  const std::vector<ShapeTemplate> shapes = stones();
+  const Box box = small_mix(0).box;
+  const ShapeComposition good{{{"all", 1, 1, 0.1, 0.1}}, {{0, 0, 0.004, false}}};
+  const auto message = [&](const ShapeComposition& c, const ShapePlacementSpec& how) {
+    return message_of([&] { place_shapes(box, shapes, c, how); });
+  };
+  EXPECT_EQ(message(good, {}), "(accepted)");
+  for (const AggregateRequest bad :
+       {AggregateRequest{0, 3, 0.004}, {0, -1, 0.004}, {1, 0, 0.004}, {0, 0, -1.0}, {0, 0, std::nan("")}}) {
+    ShapeComposition c = good;
+    c.aggregate[0] = bad;
+    EXPECT_NE(message(c, {}).find("expected"), std::string::npos);
+  }
+  for (const auto& spoil : {+[](ShapePlacementSpec& s) { s.attempts = 0; }, +[](ShapePlacementSpec& s) { s.gap = 0; },
+                            +[](ShapePlacementSpec& s) { s.gap_least = -1; }}) {
+    ShapePlacementSpec how;
+    spoil(how);
+    EXPECT_NE(message(good, how).find("expected"), std::string::npos);
+  }
+  ShapeComposition vast = good;
+  vast.aggregate[0].size = 0.1;
+  EXPECT_NE(message(vast, {}).find("jammed"), std::string::npos);
+  ShapePlacementSpec one_by_one;
+  one_by_one.method = PlacementMethod::insertion, one_by_one.attempts = 100;
+  EXPECT_NE(message(vast, one_by_one).find("no room"), std::string::npos);
+  EXPECT_EQ(message({}, {}), "(accepted)");
+  EXPECT_THROW(compose_shapes(small_mix(0.1), {}, {}), InputError);
+}
+
+TEST(ShapePlacement, DirectionsStayEvenAndClassesMixed) {
+  const std::vector<ShapeTemplate> shapes = stones();
+  SpecimenSpec spec = small_mix(0.45);
+  spec.box = {{0.03, 0.03, 0.03}};
+  for (std::uint64_t seed = 1; seed <= (test::long_tests ? 3 : 1); ++seed) {
+    spec.seed = seed;
+    ShapePlacementSpec how;
+    how.seed = seed;
+    const ShapePlacement p = place_shapes(spec.box, shapes, compose_shapes(spec, shapes, {}), how);
+    ASSERT_GT(p.aggregate.size(), 300u);
+    EXPECT_GT(test::evenness_of_directions(p.aggregate, shapes), 0.01) << seed;
+    double height = 0, count = 0;
+    for (const PlacedAggregate& a : p.aggregate)
+      if (a.size_class == 0) height += a.pose.centre.z, count += 1;
+    // The mean of n even heights has the deviation L/√(12·n); four of these.
+    EXPECT_NEAR(height / count, 0.015, 4 * 0.03 / std::sqrt(12 * count)) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace macadam

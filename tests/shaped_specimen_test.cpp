@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file shaped_specimen_test.cpp  Specimens of shaped aggregates: clusters of spheres in their places, mastic outside
+/// them, contacts by what meets.
+#include <fmt/format.h>
+#include <omp.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <map>
+
+#include "test_files.hpp"
+
+namespace macadam::test {
+namespace {
+
+/// A few shapes of the examples: preparing all 82 takes longer than these tests.
+fs::path few_shapes() {
+  const fs::path folder = fs::path(testing::TempDir()) / fmt::format("macadam_few_shapes_{}", ::getpid());
+  if (fs::create_directories(folder)) {
+    for (const char* number : {"07", "19", "28", "41", "66"}) {
+      const std::string name = fmt::format("aggregate_{}.off", number);
+      fs::copy_file(fs::path(MACADAM_EXAMPLES) / "shapes" / name, folder / name);
+    }
+    static const struct Remover {
+      fs::path folder;
+      ~Remover() { fs::remove_all(folder); }
+    } remover{folder};
+  }
+  return folder;
+}
+
+SpecimenSpec recipe(ShapeSpec::Library library, PlacementMethod placement = PlacementMethod::insertion) {
+  SpecimenSpec spec;
+  spec.box = {{0.022, 0.022, 0.024}};
+  spec.seed = 3;
+  spec.aggregate = {{4.75e-3, 9.5e-3, std::nullopt, 6}, {2e-3, 4.75e-3, std::nullopt, 40}};
+  spec.mastic = {0.75e-3, 1e-3, 0.05, std::nullopt};
+  spec.shapes.emplace();
+  spec.shapes->library = library;
+  if (library == ShapeSpec::Library::folder) spec.shapes->folder = few_shapes();
+  spec.shapes->placement = placement;
+  spec.shapes->fill.radius_min = 0.75e-3;
+  spec.shapes->fill.radius_max = 1e-3;
+  spec.shapes->fill.porosity = 0;
+  return spec;
+}
+
+/// Made once for all tests that only look at it.
+const GeneratedSpecimen& made_of(ShapeSpec::Library library) {
+  static std::map<ShapeSpec::Library, GeneratedSpecimen> made;
+  const auto found = made.find(library);
+  return found != made.end() ? found->second : made[library] = generate_specimen(recipe(library));
+}
+
+class ShapedSpecimen : public testing::TestWithParam<ShapeSpec::Library> {
+ protected:
+  const GeneratedSpecimen& made_ = made_of(GetParam());
+};
+INSTANTIATE_TEST_SUITE_P(All, ShapedSpecimen,
+                         testing::Values(ShapeSpec::Library::folder, ShapeSpec::Library::icosahedron),
+                         [](const auto& info) {
+                           return info.param == ShapeSpec::Library::folder ? "aggregates" : "icosahedron";
+                         });
+
+TEST_P(ShapedSpecimen, AggregatesAreTheSpheresOfTheirBodies) {
+  const Specimen& s = made_.specimen;
+  const std::vector<AggregateClass> classes = recipe(GetParam()).aggregate;
+  ASSERT_EQ(made_.aggregates.size(), 46);
+  std::map<std::int32_t, std::int64_t> spheres;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    EXPECT_EQ(s.phase[i] == Phase::mastic, s.body[i] == -1);
+    if (s.body[i] >= 0) ++spheres[s.body[i]];
+  }
+  std::int64_t clusters = 0, single = 0;
+  std::vector<double> volume(2, 0.0);
+  for (const Aggregate& a : made_.aggregates) {
+    EXPECT_EQ(spheres[a.body], a.spheres);
+    (a.spheres > 1 ? clusters : single) += 1;
+    EXPECT_EQ(a.spheres == 1, a.shape == "sphere");
+    if (a.spheres > 1) {
+      EXPECT_GE(a.spheres, 8);
+      EXPECT_NEAR(norm(a.axis_long), 1, 1e-12);
+    }
+    const AggregateClass& c = classes[static_cast<std::size_t>(a.size_class)];
+    EXPECT_GE(a.size, c.sieve_min * (1 - 1e-12));
+    EXPECT_LE(a.size, c.sieve_max * (1 + 1e-12));
+    volume[static_cast<std::size_t>(a.size_class)] += a.volume;
+  }
+  EXPECT_GT(clusters, 0);
+  EXPECT_GT(single, 0);
+  ASSERT_EQ(made_.composition.size(), 3);
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(made_.composition[k].fraction, volume[k] / s.box.volume(), 1e-12) << made_.composition[k].name;
+}
+
+TEST_P(ShapedSpecimen, SpheresOfAnAggregateStayTogether) {
+  std::map<std::int32_t, const Aggregate*> of;
+  for (const Aggregate& a : made_.aggregates) of[a.body] = &a;
+  const Specimen& s = made_.specimen;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (s.body[i] < 0) continue;
+    const Aggregate& a = *of.at(s.body[i]);
+    // no point of a shape is farther from a point within than D^L; spheres are pressed into it by a part of a radius
+    EXPECT_LE(norm(s.centre[i] - a.centre) + s.radius[i], a.d_long + 0.3 * s.radius[i]) << i;
+  }
+}
+
+TEST_P(ShapedSpecimen, MasticLeavesTheShapesAndFillsThePorosity) {
+  const Specimen& s = made_.specimen;
+  double solid = 0;
+  for (const Aggregate& a : made_.aggregates) solid += a.volume;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (s.phase[i] == Phase::mastic) solid += 4 * M_PI / 3 * std::pow(s.radius[i], 3);
+  }
+  const double sphere = 4 * M_PI / 3 * std::pow(1e-3, 3);  // a number of spheres is whole
+  EXPECT_NEAR(solid, 0.95 * s.box.volume(), sphere);
+  EXPECT_TRUE(particles_without_cell(s).empty());
+}
+
+TEST_P(ShapedSpecimen, ContactsAreInnerWithinABodyAndNowhereElse) {
+  const Specimen& s = made_.specimen;
+  const ContactNetwork network = build_network(s, tessellate(s));
+  for (const Contact& c : network.contacts) {
+    if (c.b < 0) continue;
+    const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
+    const bool both = s.phase[a] == Phase::aggregate && s.phase[b] == Phase::aggregate;
+    EXPECT_EQ(c.pair == PairType::inner, both && s.body[a] == s.body[b]);
+    EXPECT_EQ(c.pair == PairType::aa, both && s.body[a] != s.body[b]);
+  }
+  EXPECT_GT(network.count[static_cast<std::size_t>(PairType::inner)], 0);
+}
+
+TEST_P(ShapedSpecimen, SameSeedSameBitsForAnyNumberOfThreads) {
+  const int before = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const Specimen one = generate_specimen(recipe(GetParam())).specimen;
+  omp_set_num_threads(before);
+  ASSERT_EQ(one.size(), made_.specimen.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    ASSERT_EQ(one.centre[i].x, made_.specimen.centre[i].x) << i;
+    ASSERT_EQ(one.radius[i], made_.specimen.radius[i]) << i;
+  }
+}
+
+TEST(ShapedSpecimens, AreWrittenALineAnAggregate) {
+  const GeneratedSpecimen& made = made_of(ShapeSpec::Library::icosahedron);
+  const fs::path file = fs::path(testing::TempDir()) / fmt::format("aggregates_{}.csv", ::getpid());
+  write_aggregates_csv(file, made.aggregates, made.composition);
+  const std::string text = read(file);
+  fs::remove(file);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 47);
+  EXPECT_NE(text.find("4.75-9.5 mm"), std::string::npos);
+}
+
+TEST(ShapedSpecimens, OfAnotherSeedAreOthers) {
+  SpecimenSpec other = recipe(ShapeSpec::Library::icosahedron);
+  other.seed = 4;
+  EXPECT_NE(generate_specimen(other).specimen.centre[0].x,
+            made_of(ShapeSpec::Library::icosahedron).specimen.centre[0].x);
+}
+
+TEST(ShapedSpecimens, MayNotLetTheirSpheresGo) {
+  SpecimenSpec spec = recipe(ShapeSpec::Library::icosahedron);
+  spec.fix_aggregates = false;
+  EXPECT_THROW(generate_specimen(spec), InputError);
+}
+
+TEST(ShapedSpecimens, SayHowFarTheyGotWhereThereIsNoRoom) {
+  SpecimenSpec spec = recipe(ShapeSpec::Library::icosahedron);
+  spec.attempts = 2000;
+  spec.aggregate[0].count = 60;
+  EXPECT_HAS(message_of([&] { generate_specimen(spec); }), "4.75-9.5 mm");
+  spec.shapes->allow_short = true;
+  const GeneratedSpecimen made = generate_specimen(spec);
+  EXPECT_LT(made.composition[0].count, 60);
+  EXPECT_EQ(made.composition[0].count_asked, 60);
+}
+
+}  // namespace
+}  // namespace macadam::test

@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// surface_check_test.cpp  Every fault, made on purpose, is found where it was made; what can be healed is.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include "macadam/error.hpp"
+#include "test_surfaces.hpp"
+
+namespace macadam::test {
+namespace {
+
+using Facets = std::vector<std::int32_t>;
+
+Surface joined(const Surface& a, const Surface& b) {
+  Surface s = a;
+  s.points.insert(s.points.end(), b.points.begin(), b.points.end());
+  const auto n = static_cast<std::int32_t>(a.points.size());
+  for (const auto& [p, q, r] : b.facets) s.facets.push_back({n + p, n + q, n + r});
+  return s;
+}
+
+Surface moved(const Surface& s, const Vec3d& by) {
+  return mapped(s, [&](const Vec3d& p) { return p + by; });
+}
+
+/// Expects that nothing but what `expect` takes out of it is wrong.
+void expect_only(SurfaceVerdict verdict, const std::function<void(SurfaceVerdict&)>& expect) {
+  EXPECT_FALSE(verdict.good());
+  EXPECT_NE(verdict.text(), "closed");
+  expect(verdict);
+  EXPECT_TRUE(verdict.good()) << "and also " << verdict.text();
+}
+
+TEST(CheckSurface, GoodOnesAreClosed) {
+  RandomStream random(1, 0);
+  for (const Surface& s :
+       {tetrahedron(), box_surface(1, 2, 3), tunnel(6, 4, 3, 1), icosphere(3), lump(1, 3, {3, 2, 1}, 0.3)}) {
+    for (const double scale : {1.0, 1e-4}) {
+      const SurfaceVerdict verdict = check_surface(mapped(s, random_pose(random, scale, {scale, 0, 0})));
+      EXPECT_TRUE(verdict.good()) << s.name << ": " << verdict.text();
+      EXPECT_EQ(verdict.text(), "closed");
+      EXPECT_EQ(verdict.pieces, 1);
+    }
+  }
+}
+
+TEST(CheckSurface, OpenNamesTheFacetsAroundTheHole) {
+  Surface s = icosphere(2);
+  const auto lost = s.facets[100];
+  s.facets.erase(s.facets.begin() + 100);
+  Facets around;
+  for (std::size_t f = 0; f < s.facets.size(); ++f) {
+    int shared = 0;
+    for (const auto p : s.facets[f]) shared += static_cast<int>(std::count(lost.begin(), lost.end(), p));
+    if (shared == 2) around.push_back(static_cast<std::int32_t>(f));
+  }
+  ASSERT_EQ(around.size(), 3u);
+  expect_only(check_surface(s), [&](SurfaceVerdict& v) {
+    EXPECT_EQ(v.text(), "open at 3 facets (" + std::to_string(around[0]) + ", " + std::to_string(around[1]) + ", " +
+                            std::to_string(around[2]) + ")");
+    EXPECT_EQ(std::exchange(v.open, {}), around);
+  });
+}
+
+TEST(CheckSurface, MisorientedNamesTheFlippedFacetAlone) {
+  Surface s = icosphere(2);
+  for (const int f : {7, 200}) std::swap(s.facets[f][0], s.facets[f][1]);
+  expect_only(check_surface(s), [](SurfaceVerdict& v) {
+    EXPECT_EQ(std::exchange(v.misoriented, {}), (Facets{7, 200}));
+  });
+}
+
+TEST(CheckSurface, InsideOut) {
+  Surface s = icosphere(1);
+  for (auto& f : s.facets) std::swap(f[0], f[1]);
+  expect_only(check_surface(s), [](SurfaceVerdict& v) {
+    EXPECT_EQ(v.text(), "inside out");
+    EXPECT_TRUE(std::exchange(v.inside_out, false));
+  });
+}
+
+/// Whether an edge of facet f passes through the inside of facet g (Möller and Trumbore, in rounded numbers).
+bool pierces(const Surface& s, const std::array<std::int32_t, 3>& f, const std::array<std::int32_t, 3>& g) {
+  const Vec3d o = s.points[g[0]], e1 = s.points[g[1]] - o, e2 = s.points[g[2]] - o;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3d from = s.points[f[k]], along = s.points[f[(k + 1) % 3]] - from;
+    const Vec3d p = cross(along, e2), q = cross(from - o, e1);
+    const double det = dot(e1, p), u = dot(from - o, p) / det, v = dot(along, q) / det, at = dot(e2, q) / det;
+    constexpr double inside = 1e-9;
+    if (u > inside && v > inside && u + v < 1 - inside && at > inside && at < 1 - inside) return true;
+  }
+  return false;
+}
+
+TEST(CheckSurface, SelfIntersectingNamesAllThatCut) {
+  Surface s = icosphere(1);
+  s.points[3] = -1.5 * s.points[3] + Vec3d{0.01, 0.02, 0.03};  // pushed through the other side
+  std::set<std::int32_t> expected;
+  for (std::size_t f = 0; f < s.facets.size(); ++f) {
+    for (std::size_t g = 0; g < s.facets.size(); ++g) {
+      if (pierces(s, s.facets[f], s.facets[g])) expected.insert({std::int32_t(f), std::int32_t(g)});
+    }
+  }
+  ASSERT_GE(expected.size(), 6u);
+  expect_only(check_surface(s), [&](SurfaceVerdict& v) {
+    EXPECT_EQ(std::exchange(v.self_intersecting, {}), Facets(expected.begin(), expected.end()));
+  });
+}
+
+TEST(CheckSurface, SelfIntersectingWhereAFacetIsFoldedOntoItsNeighbour) {
+  Surface s = tetrahedron();
+  s.facets.push_back(s.facets[2]);
+  const SurfaceVerdict twice = check_surface(s);
+  EXPECT_EQ(twice.self_intersecting, (Facets{2, 4}));
+  EXPECT_EQ(twice.non_manifold, (Facets{0, 1, 2, 3, 4}));  // its three edges have three facets each
+
+  Surface flat{"flat", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 0, 3}}};
+  EXPECT_EQ(check_surface(flat).self_intersecting, (Facets{0, 1}));
+  flat.points[3] = {1, -1, 0};
+  EXPECT_TRUE(check_surface(flat).self_intersecting.empty());
+}
+
+TEST(CheckSurface, NonManifoldEdge) {
+  // Two boxes that share one edge, by the same two points: its four facets are named.
+  Surface s = box_surface(1, 1, 1);
+  const Surface other = moved(s, {1, 1, 0});
+  s = joined(s, other);
+  for (auto& f : s.facets) {
+    for (auto& p : f) p = p == 8 ? 2 : p == 12 ? 6 : p;  // (1, 1, 0) and (1, 1, 1)
+  }
+  Facets at_edge;
+  for (std::size_t f = 0; f < s.facets.size(); ++f) {
+    const auto has = [&](int p) { return std::count(s.facets[f].begin(), s.facets[f].end(), p) > 0; };
+    if (has(2) && has(6)) at_edge.push_back(static_cast<std::int32_t>(f));
+  }
+  ASSERT_EQ(at_edge.size(), 4u);
+  expect_only(check_surface(s), [&](SurfaceVerdict& v) { EXPECT_EQ(std::exchange(v.non_manifold, {}), at_edge); });
+}
+
+TEST(CheckSurface, PinchedPointNamesTheFacetsAroundIt) {
+  const Surface one = tetrahedron();
+  Surface s = joined(one, mapped(one, [&](const Vec3d& p) { return 2.0 * one.points[0] - p; }));
+  for (auto& f : s.facets) {
+    for (auto& p : f) p = p == 4 ? 0 : p;
+  }
+  for (std::size_t f = 4; f < 8; ++f) std::swap(s.facets[f][0], s.facets[f][1]);  // mirrored in a point
+  expect_only(check_surface(s), [](SurfaceVerdict& v) {
+    EXPECT_EQ(std::exchange(v.non_manifold, {}), (Facets{0, 1, 2, 4, 5, 6}));
+    EXPECT_EQ(v.pieces, 1);
+  });
+}
+
+TEST(CheckSurface, Pieces) {
+  expect_only(check_surface(joined(tetrahedron(), moved(tetrahedron(), {3, 0, 0}))), [](SurfaceVerdict& v) {
+    EXPECT_EQ(v.text(), "2 pieces");
+    EXPECT_EQ(std::exchange(v.pieces, 1), 2);
+  });
+}
+
+TEST(CheckSurface, DegenerateInAnyPose) {
+  // A point put on an edge, and the facets beside it cut there: the facet between them has no area.
+  Surface s = box_surface(1, 1, 1);
+  const auto flat = static_cast<std::int32_t>(s.facets.size());
+  const auto [a, b, c] = s.facets[0];
+  const auto middle = static_cast<std::int32_t>(s.points.size());
+  s.points.push_back(0.5 * s.points[a] + 0.5 * s.points[b]);
+  s.facets[0] = {a, middle, c};
+  s.facets.push_back({middle, b, c});
+  s.facets.push_back({a, b, middle});
+  RandomStream random(1, 1);
+  for (int k = 0; k < 20; ++k) {
+    expect_only(check_surface(mapped(s, random_pose(random, 1e-3, {2e-3, 0, 0}))), [&](SurfaceVerdict& v) {
+      EXPECT_EQ(std::exchange(v.degenerate, {}), (Facets{flat + 1}));
+      // turned, the point on the edge is a rounding off it: facets that merely touch may be found to cut each other
+      v.self_intersecting.clear();
+    });
+  }
+  Surface twice = tetrahedron();
+  twice.facets.push_back({0, 1, 1});
+  expect_only(check_surface(twice), [](SurfaceVerdict& v) { EXPECT_EQ(std::exchange(v.degenerate, {}), (Facets{4})); });
+}
+
+TEST(CheckSurface, MoebiusStripIsMisorientedHoweverItIsTurned) {
+  Surface s{"strip", {}, {}};
+  constexpr int n = 12;
+  for (int i = 0; i < n; ++i) {
+    const double turn = 2 * std::numbers::pi * i / n;
+    for (const double side : {-0.3, 0.3}) {
+      const double r = 1 + side * std::cos(turn / 2);
+      s.points.push_back({r * std::cos(turn), r * std::sin(turn), side * std::sin(turn / 2)});
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    const int a = 2 * i, b = a + 1, c = i + 1 < n ? a + 2 : 1, d = i + 1 < n ? a + 3 : 0;
+    s.facets.push_back({a, c, b});
+    s.facets.push_back({b, c, d});
+  }
+  EXPECT_FALSE(check_surface(s).misoriented.empty());
+}
+
+TEST(CheckSurface, NumbersWithoutSenseAreInputErrors) {
+  const auto message = [](const Surface& s) -> std::string {
+    try {
+      check_surface(s);
+      return "accepted";
+    } catch (const InputError& error) { return error.what(); }
+  };
+  Surface s = tetrahedron();
+  s.points[2].y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(message(s).rfind("tetrahedron: point 2: found (", 0), 0u) << message(s);
+  s = tetrahedron();
+  s.points[1].x = 1e300;
+  EXPECT_EQ(message(s).rfind("tetrahedron: point 1: found (1e+300", 0), 0u) << message(s);
+  s = tetrahedron();
+  for (const std::int32_t bad : {-1, 4, std::numeric_limits<std::int32_t>::max()}) {
+    s.facets[3][1] = bad;
+    EXPECT_EQ(message(s), "tetrahedron: facet 3: found point " + std::to_string(bad) + ", expected a number below 4");
+  }
+  EXPECT_EQ(message(Surface{"none", {}, {}}), "none: surface: found no facet, expected a closed surface");
+}
+
+/// Repairs and expects a good surface of about the given volume.
+std::string repaired(const Surface& s, double volume, double tolerance) {
+  std::string what;
+  const Surface r = repair_surface(s, &what);
+  EXPECT_EQ(r.name, s.name);
+  EXPECT_TRUE(check_surface(r).good()) << check_surface(r).text();
+  EXPECT_NEAR(measure_shape(r).volume, volume, tolerance * volume) << what;
+  return what;
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(RepairSurface, LeavesGoodOnesAsTheyAre) {
+  const Surface s = lump(1, 2, {3, 2, 1}, 0.2);
+  std::string what;
+  const Surface r = repair_surface(s, &what);
+  EXPECT_EQ(r.facets, s.facets);
+  EXPECT_EQ(what, "nothing to do");
+}
+
+TEST(RepairSurface, FillsHoles) {
+  Surface s = box_surface(1, 2, 3);
+  s.facets.erase(s.facets.begin(), s.facets.begin() + 2);
+  EXPECT_EQ(repaired(s, 6, 1e-12), "filled 1 hole with 2 facets");
+}
+
+TEST(RepairSurface, TurnsFacets) {
+  Surface s = icosphere(2);
+  const double volume = measure_shape(s).volume;
+  for (const int f : {3, 77, 78}) std::swap(s.facets[f][0], s.facets[f][2]);
+  EXPECT_EQ(repaired(s, volume, 1e-12), "turned 3 facets");
+  for (auto& f : s.facets) std::swap(f[0], f[2]);
+  EXPECT_TRUE(contains(repaired(s, volume, 1e-12), "turned inside out"));
+}
+
+TEST(RepairSurface, JoinsRepeatedPointsAndDropsWhatIsNoFacet) {
+  const Surface s = icosphere(1);
+  Surface soup{"soup", {}, {}};
+  for (const auto& f : s.facets) {
+    const auto n = static_cast<std::int32_t>(soup.points.size());
+    for (const auto p : f) soup.points.push_back(s.points[p]);
+    soup.facets.push_back({n, n + 1, n + 2});
+  }
+  soup.facets.push_back({0, 1, 1});
+  soup.facets.push_back(soup.facets[5]);
+  EXPECT_EQ(check_surface(soup).open.size(), 79u);  // the repeated one borders on itself
+  const std::string what = repaired(soup, measure_shape(s).volume, 1e-12);
+  EXPECT_TRUE(contains(what, "joined or dropped 198 points")) << what;
+  EXPECT_TRUE(contains(what, "dropped 1 degenerate facet")) << what;
+  EXPECT_TRUE(contains(what, "dropped 1 repeated facet")) << what;
+}
+
+TEST(RepairSurface, DropsSpecksButDoesNotChooseBetweenBodies) {
+  const Surface body = icosphere(2), speck = moved(tetrahedron(0.1), {2, 0, 0});
+  EXPECT_EQ(repaired(joined(speck, body), measure_shape(body).volume, 1e-12), "dropped 1 speck");
+  try {
+    repair_surface(joined(body, moved(body, {3, 0, 0})));
+    ADD_FAILURE() << "chose";
+  } catch (const RunError& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("icosphere: cannot be repaired: ", 0), 0u) << error.what();
+    EXPECT_TRUE(contains(error.what(), "still 2 pieces")) << error.what();
+  }
+}
+
+TEST(RepairSurface, WrapsWhatCutsItself) {
+  // Two boxes of 1 × 1 × 1 that overlap by half: together 1.5. The wrap lies about 1/1000 of the diagonal (1.8) outside
+  // of an area of 8, which adds 0.014, and rounds edges off and concave ones over at 1/40 of it.
+  const Surface s = joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02}));
+  EXPECT_FALSE(check_surface(s).self_intersecting.empty());
+  const std::string what = repaired(s, 1.52, 0.03);
+  EXPECT_TRUE(contains(what, "wrapped")) << what;
+}
+
+TEST(RepairSurface, GivesUpWithTheVerdict) {
+  const Surface line{"line", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
+  EXPECT_THROW(repair_surface(line), RunError);
+}
+
+}  // namespace
+}  // namespace macadam::test

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// test_surfaces.hpp  Small closed surfaces whose measures are known, and ways to turn them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "host/specimen/random_stream.hpp"
+#include "macadam/shape.hpp"
+
+namespace macadam::test {
+
+inline Surface tetrahedron(double edge = 1) {
+  const double k = edge / std::sqrt(8.0);
+  return {
+      "tetrahedron", {{k, k, k}, {k, -k, -k}, {-k, k, -k}, {-k, -k, k}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+}
+
+/// Right prism along z over a polygon (counter-clockwise, star-shaped about its first point).
+inline Surface prism(const std::vector<std::array<double, 2>>& base, double height) {
+  Surface s{"prism", {}, {}};
+  const auto n = static_cast<std::int32_t>(base.size());
+  for (const double z : {0.0, height}) {
+    for (const auto& [x, y] : base) s.points.push_back({x, y, z});
+  }
+  for (std::int32_t i = 0; i < n; ++i) {
+    const std::int32_t j = (i + 1) % n;
+    s.facets.push_back({i, j, n + j});
+    s.facets.push_back({i, n + j, n + i});
+    if (i >= 1 && i + 1 < n) {
+      s.facets.push_back({0, j, i});
+      s.facets.push_back({n, n + i, n + j});
+    }
+  }
+  return s;
+}
+
+inline Surface box_surface(double a, double b, double c) {
+  Surface s = prism({{0, 0}, {a, 0}, {a, b}, {0, b}}, c);
+  s.name = "box";
+  return s;
+}
+
+/// An L of two arms, `length` long and `width` wide, in the corner of the axes.
+inline Surface l_surface(double length, double width, double height) {
+  const double l = length, w = width;
+  return prism({{0, 0}, {l, 0}, {l, w}, {w, w}, {w, l}, {0, l}}, height);
+}
+
+/// Signed distance from the surface of the box 0 … (a, b, c), positive inside.
+inline double depth_in_box(const Vec3d& p, double a, double b, double c) {
+  const double x = std::max(-p.x, p.x - a), y = std::max(-p.y, p.y - b), z = std::max(-p.z, p.z - c);
+  const Vec3d out{std::max(x, 0.0), std::max(y, 0.0), std::max(z, 0.0)};
+  return -norm(out) - std::min(std::max({x, y, z}), 0.0);
+}
+
+/// A box with a square tunnel of side w along x through its middle: of genus 1.
+inline Surface tunnel(double a, double b, double c, double w) {
+  Surface s{"tunnel", {}, {}};
+  for (const double x : {0.0, a}) {
+    for (const auto& [wide, high] : {std::array{b, c}, {w, w}}) {
+      for (const auto& [u, v] : {std::array{-.5, -.5}, {.5, -.5}, {.5, .5}, {-.5, .5}}) {
+        s.points.push_back({x, b / 2 + u * wide, c / 2 + v * high});
+      }
+    }
+  }
+  const auto quad = [&](int p, int q, int r, int t) {
+    s.facets.push_back({p, q, r});
+    s.facets.push_back({p, r, t});
+  };
+  for (int i = 0; i < 4; ++i) {
+    const int j = (i + 1) % 4;
+    quad(j, i, i + 8, j + 8);            // outside
+    quad(i + 4, j + 4, j + 12, i + 12);  // tunnel
+    quad(i, j, j + 4, i + 4);            // x = 0, seen from −x the ring runs clockwise in (y, z)
+    quad(j + 8, i + 8, i + 12, j + 12);  // x = a
+  }
+  for (auto& f : s.facets) std::swap(f[1], f[2]);
+  return s;
+}
+
+/// Icosahedron whose facets are quartered `level` times, its points on the unit sphere.
+inline Surface icosphere(int level) {
+  const double g = std::numbers::phi, k = 1 / std::sqrt(1 + g * g);
+  Surface s{"icosphere", {}, {}};
+  for (const double one : {-k, k}) {
+    for (const double phi : {-g * k, g * k}) {
+      s.points.push_back({0, one, phi});
+      s.points.push_back({one, phi, 0});
+      s.points.push_back({phi, 0, one});
+    }
+  }
+  const double edge = 2 * k;
+  const auto n = static_cast<std::int32_t>(s.points.size());
+  const auto adjacent = [&](int i, int j) { return std::abs(norm(s.points[i] - s.points[j]) - edge) < 1e-9; };
+  for (std::int32_t a = 0; a < n; ++a) {
+    for (std::int32_t b = a + 1; b < n; ++b) {
+      for (std::int32_t c = b + 1; c < n; ++c) {
+        if (!adjacent(a, b) || !adjacent(b, c) || !adjacent(a, c)) continue;
+        const bool outward = dot(s.points[a], cross(s.points[b], s.points[c])) > 0;
+        s.facets.push_back(outward ? std::array{a, b, c} : std::array{a, c, b});
+      }
+    }
+  }
+  for (; level > 0; --level) {
+    std::map<std::pair<int, int>, std::int32_t> middle;
+    const auto middle_of = [&](std::int32_t a, std::int32_t b) {
+      const auto [at, is_new] = middle.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(s.points.size()));
+      const Vec3d m = s.points[a] + s.points[b];
+      if (is_new) s.points.push_back((1 / norm(m)) * m);
+      return at->second;
+    };
+    std::vector<std::array<std::int32_t, 3>> facets;
+    for (const auto& [a, b, c] : s.facets) {
+      const std::int32_t ab = middle_of(a, b), bc = middle_of(b, c), ca = middle_of(c, a);
+      facets.insert(facets.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+    }
+    s.facets = std::move(facets);
+  }
+  return s;
+}
+
+template <class Map>
+Surface mapped(Surface surface, const Map& map) {
+  for (Vec3d& p : surface.points) p = map(p);
+  return surface;
+}
+
+/// A uniform random rotation (Shoemake), then scale and shift.
+inline Pose random_pose(RandomStream& random, double scale = 1, const Vec3d& centre = {}) {
+  const double u = random.uniform(), a = 2 * std::numbers::pi * random.uniform(),
+               b = 2 * std::numbers::pi * random.uniform();
+  const double p = std::sqrt(1 - u), q = std::sqrt(u);
+  return {centre, {q * std::cos(b), p * std::sin(a), p * std::cos(a), q * std::sin(b)}, scale};
+}
+
+/// A lump: an ellipsoid with dents, not convex but star-shaped about the origin.
+inline Surface lump(std::uint64_t seed, int level, const Vec3d& axes, double dent) {
+  RandomStream random(seed, 0);
+  return mapped(icosphere(level), [&](const Vec3d& p) {
+    const double r = 1 - dent * random.uniform();
+    return r * Vec3d{axes.x * p.x, axes.y * p.y, axes.z * p.z};
+  });
+}
+
+/// A stone: an ellipsoid of about the average proportions of aggregates, 1 : 0.7 : 0.45, with faces cut by planes.
+inline Surface stone(std::uint64_t seed, int level = 2) {
+  RandomStream random(seed, 0);
+  const auto between = [&] { return random.uniform(-1, 1); };
+  std::vector<Vec3d> planes;  // normal over distance
+  while (planes.size() < 14) {
+    const Vec3d n{between(), between(), between()};
+    if (dot(n, n) < 1 && dot(n, n) > 0.01) planes.push_back((1 / (random.uniform(0.75, 0.9) * norm(n))) * n);
+  }
+  return mapped(icosphere(level), [&](const Vec3d& p) {
+    double cut = 1;
+    for (const Vec3d& n : planes) cut = std::max(cut, dot(n, p));
+    return (1 / cut) * Vec3d{p.x, 0.7 * p.y, 0.45 * p.z};
+  });
+}
+
+}  // namespace macadam::test
