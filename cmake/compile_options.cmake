@@ -6,7 +6,8 @@ target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall
 if(MACADAM_SANITIZE)
   target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${MACADAM_SANITIZE}
                                                    -fno-sanitize-recover=all -fno-omit-frame-pointer>)
-  target_link_options(macadam_options INTERFACE -fsanitize=${MACADAM_SANITIZE})
+  # Functions of the library call its own copies of templates, not those of a program built without checks.
+  target_link_options(macadam_options INTERFACE -fsanitize=${MACADAM_SANITIZE} -Wl,-Bsymbolic-functions)
   # The step's inlined packets have thousands of temporaries: watching each on the stack takes gcc ten minutes a file.
   # Its arrays are on the heap, where every access is still checked.
   set(MACADAM_SANITIZE_STEP "--param=asan-stack=0;-fno-sanitize=null,alignment,object-size")
@@ -19,5 +20,13 @@ if(MACADAM_COVERAGE)
   set(MACADAM_COVER --coverage -fprofile-update=single -fprofile-exclude-files=/usr/.*)
   target_link_options(macadam_options INTERFACE --coverage)
 endif()
+
+# The headers that most sources of a target need, parsed once: a fifth of the time of a build.
+function(macadam_precompile target)
+  target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map>
+                            <numbers> <numeric> <optional> <sstream> <string> <vector> <fmt/format.h> ${ARGN})
+  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)  # what ccache needs
+endfunction()
+
 # gcc 12 misreads std::string concatenation (bug 105329) and Eigen's fixed-size kernels
-target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict -Wno-maybe-uninitialized>)
+target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict -Wno-stringop-overflow -Wno-maybe-uninitialized>)

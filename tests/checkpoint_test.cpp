@@ -111,7 +111,7 @@ TEST_P(InPieces, GivesTheBitsOfOne) {
 
 // at 1e5 a sample takes some ten steps, at 1e4 some thirty, so that it is cut between samples as well
 constexpr const char* heavy = "density_scaling = 1e5\n";
-constexpr const char* lighter =
+const char* const lighter =
     long_tests ? "density_scaling = 1e4\nprecision = \"mixed\"\n" : "density_scaling = 1e5\nprecision = \"mixed\"\n";
 INSTANTIATE_TEST_SUITE_P(CheckpointedRun, InPieces,
                          testing::Combine(testing::Values(steady, rest), testing::Values(heavy, lighter),

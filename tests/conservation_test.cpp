@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(All, FreeAssembly,
 // Leapfrog keeps both momenta exactly when every contact's forces and moments balance: Σ x × m·v changes by Σ x × F
 // alone, because x moves along v.
 TEST_P(FreeAssembly, MomentaStayOverAHundredThousandSteps) {
-  constexpr std::int64_t steps = long_tests ? 100'000 : 5'000;
+  const std::int64_t steps = long_tests ? 100'000 : 5'000;
   const bool displaced = std::get<Geometry>(GetParam()) == Geometry::updated;
   for (const Laws& laws : {am1_laws(), elastic_laws()}) {
     const TestScene scene = free_assembly(21, laws);
@@ -150,7 +150,7 @@ void remove_rigid_part(const TestScene& scene, Motion& motion) {
 // For forces F = −K·q with a symmetric K, leapfrog keeps ½·v(k−½)·M·v(k+½) − ½·q(k)·F(k) exactly: the second term is
 // the elastic energy at the whole step, q the displacements and rotations.
 TEST_P(FreeAssembly, EnergyOfElasticContactsStays) {
-  constexpr int steps = long_tests ? 20'000 : 2'000;
+  const int steps = long_tests ? 20'000 : 2'000;
   const TestScene scene = free_assembly(31, elastic_laws());
   const double speed = 1e-3;
   Motion motion = random_motion(scene, 32, speed);

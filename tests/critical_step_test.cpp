@@ -173,7 +173,7 @@ TEST_P(AtTheLimit, StableJustBelowTheComputedOne) {
   // hundredth more for the change of geometry.
   const double half_phase = options.dt / true_limit(scene_);
   const double bound = 1.01 * start / (1 - half_phase * half_phase);
-  constexpr int steps = long_tests ? 20'000 : 2'000;
+  const int steps = long_tests ? 20'000 : 2'000;
   for (int k = 0; k < steps / 100; ++k) {
     stepper->advance(100);
     const double energy = kinetic_energy(stepper->particles());

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file long_tests.hpp  Whether runs of very many steps are worth their time: not in sanitizer and coverage builds.
+/// \file long_tests.hpp  Whether runs of very many steps are worth their time: not against a library full of checks.
 #pragma once
+
+#include <cstdlib>
 
 namespace macadam::test {
 
-#ifdef MACADAM_LONG_TESTS
-inline constexpr bool long_tests = true;
-#else
-inline constexpr bool long_tests = false;
-#endif
+inline const bool long_tests = std::getenv("MACADAM_SHORT_TESTS") == nullptr;
 
 }  // namespace macadam::test

@@ -119,6 +119,12 @@ TEST(ShapeLibrary, FilesAreWhatTheGeneratorMakes) {
   for (std::size_t i = 0; i < made.size(); ++i) expect_same(shipped()[i], made[i]);
 }
 
+TEST(ShapeLibrary, TheProgramCarriesTheFiles) {
+  const std::vector<Surface> carried = shape_library();
+  ASSERT_EQ(carried.size(), shipped().size());
+  for (std::size_t i = 0; i < carried.size(); ++i) expect_same(carried[i], shipped()[i]);
+}
+
 TEST(ShapeLibrary, SameBitsForAnyNumberOfThreadsAndOtherShapesForOtherSeeds) {
   omp_set_num_threads(1);
   const std::vector<Surface> one = generate_shape_library(5, 4);

@@ -17,7 +17,7 @@ namespace {
 int line_of(const toml::source_region& region) { return static_cast<int>(region.begin.line); }
 
 /// Text between quotes, fit for one line of a message.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t longest = 60;
   std::string shown(text.substr(0, longest));
   for (char& c : shown) {
@@ -52,7 +52,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
 }
 
 std::string Value::shown() const {
-  if (const auto* text = node_->as_string()) return quoted(text->get());
+  if (const auto* text = node_->as_string()) return in_quotes(text->get());
   if (const auto* integer = node_->as_integer()) return std::to_string(integer->get());
   if (const auto* real = node_->as_floating_point()) return fmt::format("{}", real->get());
   if (const auto* boolean = node_->as_boolean()) return boolean->get() ? "true" : "false";
@@ -134,7 +134,7 @@ std::size_t Value::choice(const std::vector<std::string>& names) const {
   const auto found = text ? std::find(names.begin(), names.end(), text->get()) : names.end();
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   std::vector<std::string> words;
-  for (const auto& name : names) words.push_back(quoted(name));
+  for (const auto& name : names) words.push_back(in_quotes(name));
   refuse(shown(), (words.size() > 1 ? "one of " : "") + listed(words));
 }
 

@@ -21,6 +21,7 @@
 
 #include "host/results/files.hpp"
 #include "host/shapes/equal_points.hpp"
+#include "host/shapes/shipped_shapes.hpp"
 #include "host/shapes/surface_files.hpp"
 #include "host/shapes/surface_numbers.hpp"
 #include "macadam/error.hpp"
@@ -64,13 +65,8 @@ Format format_of(const std::filesystem::path& file) {
 /// Reads one file; every message needs its name.
 class SurfaceReader {
  public:
-  explicit SurfaceReader(const std::filesystem::path& file) : name_(file.string()), format_(format_of(file)) {
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) fail("surface", "a directory", "a file");
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream all;
-    if (!in || !(in.peek() == EOF || all << in.rdbuf())) fail("surface", std::strerror(errno), "a readable file");
-    bytes_ = std::move(all).str();
+  SurfaceReader(const std::filesystem::path& file, std::string bytes)
+      : name_(file.string()), format_(format_of(file)), bytes_(std::move(bytes)) {
     if (bytes_.empty()) fail("surface", "an empty file", "a triangulated surface");
   }
 
@@ -188,6 +184,18 @@ class SurfaceReader {
   std::string bytes_;
 };
 
+std::string bytes_of(const std::filesystem::path& file) {
+  const auto fail = [&](const char* found, const char* expected) {
+    throw InputError(file.string(), 0, "surface", found, expected);
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) fail("a directory", "a file");
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream all;
+  if (!in || !(in.peek() == EOF || all << in.rdbuf())) fail(std::strerror(errno), "a readable file");
+  return std::move(all).str();
+}
+
 /// The fewest digits, up to the 17 that always do, with which every coordinate comes back to the bit.
 int digits_for(const std::vector<Point>& points) {
   int digits = 6;
@@ -211,7 +219,8 @@ bool is_surface_file(const std::filesystem::path& file) { return find_format(fil
 
 Surface read_surface(const std::filesystem::path& file, double scale) {
   require_scale(file, scale);
-  return SurfaceReader(file).read(scale);
+  format_of(file);  // before reading: another ending is the first thing to say
+  return SurfaceReader(file, bytes_of(file)).read(scale);
 }
 
 void write_surface(const std::filesystem::path& file, const Surface& surface, double scale) {
@@ -261,6 +270,14 @@ std::vector<Surface> read_shape_library(const std::filesystem::path& folder) {
     out.push_back(read_surface(file));
     const SurfaceVerdict verdict = check_surface(out.back());
     if (!verdict.good()) throw InputError(file.string(), 0, "surface", verdict.text(), "a closed surface");
+  }
+  return out;
+}
+
+std::vector<Surface> shape_library() {
+  std::vector<Surface> out;
+  for (const ShippedShape& shape : shipped_shapes()) {
+    out.push_back(SurfaceReader(std::string(shape.name) + ".off", std::string(shape.off)).read(1));
   }
   return out;
 }

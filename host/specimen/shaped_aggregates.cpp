@@ -17,7 +17,7 @@ namespace {
 std::vector<Surface> surfaces_of(const ShapeSpec& spec) {
   switch (spec.library) {
     case ShapeSpec::Library::aggregates:
-      return generate_shape_library();
+      return shape_library();
     case ShapeSpec::Library::icosahedron:
       return {subdivided_icosahedron()};
     case ShapeSpec::Library::folder:

@@ -22,8 +22,12 @@ class InputError : public Error {
   /// `file:line: what: found F, expected E`; line 0 means that no line applies.
   InputError(const std::string& file, int line, const std::string& what, const std::string& found,
              const std::string& expected)
-      : Error(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what + ": found " + found + ", expected " +
-              expected) {}
+      : Error(place(file, line) + ": " + what + ": found " + found + ", expected " + expected) {}
+
+ private:
+  static std::string place(const std::string& file, int line) {
+    return line > 0 ? file + ":" + std::to_string(line) : file;
+  }
 };
 
 /// The input was good but the run failed (exit code 1): divergence, no device, disk full.

@@ -145,8 +145,11 @@ MultiSphere fill_shape(const Surface& surface, const FillSpec& spec);
 /// Measures a cluster against its shape.
 FillReport measure_fill(const Surface& surface, const MultiSphere& cluster);
 
-/// The shape library that ships with the program: `shapes` aggregates with the statistics of Table 1, made anew.
-/// The same seed gives the same bits.
+/// The shape library that ships with the program (examples/shapes): 82 aggregates, what generate_shape_library() makes.
+std::vector<Surface> shape_library();
+
+/// Makes a shape library: `shapes` aggregates with the statistics of Table 1. The same seed gives the same bits.
+/// \throws InputError for a number of shapes below 1 or above 1000.
 std::vector<Surface> generate_shape_library(std::uint64_t seed = 1, int shapes = 82);
 
 /// The subdivided icosahedron (42 points, 80 facets) with its points on a sphere of the given radius [m].

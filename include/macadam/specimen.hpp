@@ -78,7 +78,7 @@ enum class PlacementMethod : std::uint8_t {
 /// which sieves part and classes are drawn, is then its D^I.
 struct ShapeSpec {
   enum class Library : std::uint8_t {
-    aggregates,   ///< generate_shape_library()
+    aggregates,   ///< shape_library()
     icosahedron,  ///< subdivided_icosahedron()
     folder        ///< every surface of a folder
   };
