@@ -25,8 +25,9 @@ endif()
 function(macadam_precompile target)
   target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map>
                             <numbers> <numeric> <optional> <sstream> <string> <vector> <fmt/format.h> ${ARGN})
-  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)  # what ccache needs
 endfunction()
 
-# gcc 12 misreads std::string concatenation (bug 105329) and Eigen's fixed-size kernels
-target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict -Wno-stringop-overflow -Wno-maybe-uninitialized>)
+# gcc 12 misreads std::string concatenation (bug 105329) and Eigen's fixed-size kernels; ccache needs the first for
+# precompiled headers
+target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess -Wno-restrict
+  -Wno-stringop-overflow -Wno-array-bounds -Wno-maybe-uninitialized>)
