@@ -187,8 +187,8 @@ void run_all(Table& table, bool large, bool huge) {
     scene.reset();
   }
   const auto fcc = [&](std::size_t n) { return keep([n] { return fcc_scene(n); }); };
-  table.run("fcc 62,950", fcc(62950), {condensed, mixed, fixed});
-  table.run("fcc 62,950", fcc(62950), {condensed, full, fixed});
+  table.run("fcc 62,500", fcc(62500), {condensed, mixed, fixed});
+  table.run("fcc 62,500", fcc(62500), {condensed, full, fixed});
   scene.reset();
   for (const auto& [size, number] : {std::pair{"fcc 1e3", 1000}, {"fcc 1e4", 10000}, {"fcc 1e5", 100000}}) {
     const auto scene_of = fcc(static_cast<std::size_t>(number));

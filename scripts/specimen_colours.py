@@ -4,6 +4,7 @@ import colorsys
 import csv
 
 import numpy as np
+from matplotlib.patches import Patch
 
 MASTIC = (0.40, 0.53, 0.76)
 CLASSES = [(0.33, 0.62, 0.36), (0.62, 0.62, 0.62), (0.90, 0.72, 0.33), (0.80, 0.40, 0.32), (0.60, 0.45, 0.70),
@@ -16,6 +17,27 @@ def size_classes(file):
         return {}
     rows = csv.DictReader(open(file, encoding="utf-8"))
     return {int(row["body"]): int(row["size_class"]) for row in rows}
+
+
+def class_names(file):
+    """Name of each size class in the file, such as "4.75-9.5 mm"; empty where there is no such file or column."""
+    if not file.is_file():
+        return {}
+    rows = csv.DictReader(open(file, encoding="utf-8"))
+    return dict(sorted({int(row["size_class"]): row["class"] for row in rows if row.get("class")}.items()))
+
+
+def legend(figure, names, mastic):
+    """Colours of classes and mastic in one line below the drawing; nothing where the classes have no names."""
+    if not names:
+        return
+    entries = [(CLASSES[k % len(CLASSES)], name.replace("-", "–")) for k, name in names.items()]
+    entries += [(MASTIC, "mastic")] * mastic
+    handles = [Patch(facecolor=colour, edgecolor="0.3", linewidth=0.4, label=name) for colour, name in entries]
+    # narrow drawings have it in two lines
+    columns = len(handles) if figure.get_figwidth() > 0.9 * len(handles) else -(-len(handles) // 2)
+    figure.legend(handles=handles, loc="lower center", ncols=columns, fontsize=7, frameon=False, handlelength=1,
+                  handleheight=1, handletextpad=0.4, columnspacing=1)
 
 
 def colour(classes, body, particle):

@@ -19,6 +19,7 @@ inline constexpr InnerSpheres fine_spheres{"fine", 0.75e-3, 1e-3, 1.125e11};
 inline constexpr InnerSpheres coarse_spheres{"coarse", 1e-3, 2e-3, 1.116e11};
 inline constexpr double inner_alpha = 0.05;
 inline constexpr double cube_edge = 20e-3;              ///< [m]
+inline constexpr double scene_porosity = 0;             ///< of the fillings of examples/ac14_ms_*
 inline constexpr double aggregate_modulus = 60e9;       ///< of the rock [Pa]
 inline constexpr double paper_wall_modulus = 1.151e11;  ///< of A–W contacts [Pa]
 

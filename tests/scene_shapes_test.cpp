@@ -78,7 +78,8 @@ TEST_F(SceneShapes, AreRefusedAtTheirLine) {
   EXPECT_HAS(refused(start + "allow_short = true\n"), "insertion");
   EXPECT_HAS(refused(start + "placement = \"insertion\"\ngap = 0.1\n"), "packing");
   EXPECT_HAS(refused(start, "fix_aggregates = false\n"), "fix_aggregates");
-  EXPECT_HAS(refused(start + "gap = 0.9\n"), ":8:");
+  for (const char* gap : {"0.9", "0.5", "0", "-0.01", "nan"})
+    EXPECT_HAS(refused(fmt::format("{}gap = {}\n", start, gap)), ":8:") << gap;
 }
 
 }  // namespace

@@ -233,7 +233,7 @@ TEST(ShapePlacement, SizesAndSettingsOutOfRangeAreRefused) {
     EXPECT_NE(message(c, {}).find("expected"), std::string::npos);
   }
   for (const auto& spoil : {+[](ShapePlacementSpec& s) { s.attempts = 0; }, +[](ShapePlacementSpec& s) { s.gap = 0; },
-                            +[](ShapePlacementSpec& s) { s.gap_least = -1; }}) {
+                            +[](ShapePlacementSpec& s) { s.gap = 0.5; }}) {
     ShapePlacementSpec how;
     spoil(how);
     EXPECT_NE(message(good, how).find("expected"), std::string::npos);

@@ -66,7 +66,7 @@ inline double signed_distance(const Surface& s, const Vec3d& p) {
 inline bool brute_overlap(const PlacedAggregate& a, const PlacedAggregate& b,
                           const std::vector<ShapeTemplate>& shapes) {
   const auto sphere_radius = [&](const PlacedAggregate& s) {
-    return s.pose.scale * shapes[s.shape].d_intermediate / 2;
+    return s.pose.scale * shapes[s.shape].sphere_size * shapes[s.shape].d_intermediate / 2;
   };
   if (a.sphere && b.sphere) return norm(a.pose.centre - b.pose.centre) < sphere_radius(a) + sphere_radius(b);
   const Surface s = placed_surface(a, shapes), t = placed_surface(b, shapes);

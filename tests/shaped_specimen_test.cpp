@@ -145,11 +145,48 @@ TEST_P(ShapedSpecimen, SameSeedSameBitsForAnyNumberOfThreads) {
 TEST(ShapedSpecimens, AreWrittenALineAnAggregate) {
   const GeneratedSpecimen& made = made_of(ShapeSpec::Library::icosahedron);
   const fs::path file = fs::path(testing::TempDir()) / fmt::format("aggregates_{}.csv", ::getpid());
-  write_aggregates_csv(file, made.aggregates, made.composition);
+  std::vector<Aggregate> aggregates = made.aggregates;
+  aggregates[1].shape = "stone,\"1\"";  // the name of a user's file
+  write_aggregates_csv(file, aggregates, made.composition);
   const std::string text = read(file);
   fs::remove(file);
+  EXPECT_NE(text.find(",\"stone,\"\"1\"\"\","), std::string::npos);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 47);
   EXPECT_NE(text.find("4.75-9.5 mm"), std::string::npos);
+}
+
+TEST(ShapedSpecimens, SingleSpheresFollowTheirRule) {
+  const Surface ball = subdivided_icosahedron();
+  const ShapeMeasure m = measure_shape(ball);
+  const std::pair<SingleSphere, double> rules[] = {
+      {SingleSphere::circumscribed, 2 * m.radius_bounding / m.d_intermediate},
+      {SingleSphere::volume, std::cbrt(6 / M_PI * m.volume) / m.d_intermediate}};
+  for (const auto& [rule, diameter] : rules) {
+    SpecimenSpec spec = recipe(ShapeSpec::Library::icosahedron, PlacementMethod::packing);
+    spec.aggregate = {{2e-3, 4.75e-3, 0.4, std::nullopt}};
+    spec.shapes->fill.single = rule;
+    const GeneratedSpecimen made = generate_specimen(spec);
+    std::int64_t single = 0;
+    double volume = 0;
+    for (const Aggregate& a : made.aggregates) {
+      volume += a.volume;
+      if (a.shape != "sphere") continue;
+      ++single;
+      EXPECT_NEAR(a.d_long, diameter * a.size, 1e-12 * a.size);
+      EXPECT_NEAR(a.volume, M_PI / 6 * std::pow(a.d_long, 3), 1e-12 * a.volume);
+      const auto i = std::find(made.specimen.body.begin(), made.specimen.body.end(), a.body);
+      EXPECT_EQ(made.specimen.radius[i - made.specimen.body.begin()], a.d_long / 2);
+    }
+    EXPECT_GT(single, 0);
+    EXPECT_NEAR(volume / spec.box.volume(), made.composition[0].fraction_asked,
+                1e-3 * made.composition[0].fraction_asked);
+    for (std::size_t k = 0; k < made.aggregates.size(); ++k)
+      for (std::size_t j = 0; j < k; ++j) {
+        const Aggregate &a = made.aggregates[k], &b = made.aggregates[j];
+        if (a.shape != "sphere" || b.shape != "sphere") continue;
+        EXPECT_GT(norm(a.centre - b.centre), (a.d_long + b.d_long) / 2) << k << " and " << j;
+      }
+  }
 }
 
 TEST(ShapedSpecimens, OfAnotherSeedAreOthers) {

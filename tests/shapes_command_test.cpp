@@ -89,6 +89,12 @@ TEST_F(ShapesCommand, FaultyShapesAreNamedAllAtOnceAndRepairedWhenAsked) {
   const Outcome repaired = shapes("measure stones --out tables --repair");
   EXPECT_EQ(repaired.code, 0) << repaired.err;
   EXPECT_TRUE(contains(repaired.out, "stones/open.off: repaired: filled 1 hole with 1 facet")) << repaired.out;
+  std::ofstream(folder_ / "stones" / "line.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n";
+  std::ofstream(folder_ / "stones" / "text.obj") << "lorem ipsum";
+  const Outcome hopeless = shapes("measure stones --out tables --repair");
+  EXPECT_EQ(hopeless.code, 2);
+  for (const char* words : {"2 of 4 files", "line.off: cannot be repaired", "text.obj: surface: found"})
+    EXPECT_TRUE(contains(hopeless.err, words)) << hopeless.err;
 }
 
 TEST_F(ShapesCommand, CheckGivesAVerdictForEach) {
@@ -148,6 +154,15 @@ TEST_F(ShapesCommand, FillWritesSpheresAndSaysHowWellTheyFit) {
     EXPECT_EQ(failed.code, 2) << arguments;
     EXPECT_TRUE(contains(failed.out + failed.err, word)) << failed.out << failed.err;
   }
+}
+
+TEST_F(ShapesCommand, GenerateMixesNoTwoLibraries) {
+  const std::string three = "generate --out library --count 3 --seed 2";
+  EXPECT_EQ(shapes(three).code, 0);
+  EXPECT_EQ(shapes(three).code, 0) << "the same again";
+  const Outcome fewer = shapes("generate --out library --count 2 --seed 2");
+  EXPECT_EQ(fewer.code, 2);
+  EXPECT_TRUE(contains(fewer.err, "aggregate_03.off")) << fewer.err;
 }
 
 TEST_F(ShapesCommand, WrongUsageIsExitCodeTwo) {

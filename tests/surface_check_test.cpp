@@ -68,6 +68,22 @@ TEST(CheckSurface, OpenNamesTheFacetsAroundTheHole) {
   });
 }
 
+TEST(CheckSurface, StrayNamesThePointThatWouldCount) {
+  Surface s = icosphere(1);
+  s.points.insert(s.points.begin() + 5, {9, 9, 9});
+  for (auto& facet : s.facets) {
+    for (std::int32_t& p : facet) p += p >= 5;
+  }
+  EXPECT_THROW(measure_shape(s), InputError);
+  const Surface repaired = repair_surface(s);
+  EXPECT_EQ(repaired.points.size(), s.points.size() - 1);
+  EXPECT_TRUE(check_surface(repaired).good());
+  expect_only(check_surface(s), [](SurfaceVerdict& v) {
+    EXPECT_EQ(v.text(), "no facet at 1 point (5)");
+    EXPECT_EQ(std::exchange(v.stray, {}), (Facets{5}));
+  });
+}
+
 TEST(CheckSurface, MisorientedNamesTheFlippedFacetAlone) {
   Surface s = icosphere(2);
   for (const int f : {7, 200}) std::swap(s.facets[f][0], s.facets[f][1]);
@@ -140,7 +156,10 @@ TEST(CheckSurface, NonManifoldEdge) {
     if (has(2) && has(6)) at_edge.push_back(static_cast<std::int32_t>(f));
   }
   ASSERT_EQ(at_edge.size(), 4u);
-  expect_only(check_surface(s), [&](SurfaceVerdict& v) { EXPECT_EQ(std::exchange(v.non_manifold, {}), at_edge); });
+  expect_only(check_surface(s), [&](SurfaceVerdict& v) {
+    EXPECT_EQ(std::exchange(v.non_manifold, {}), at_edge);
+    EXPECT_EQ(std::exchange(v.stray, {}), (Facets{8, 12}));
+  });
 }
 
 TEST(CheckSurface, PinchedPointNamesTheFacetsAroundIt) {
@@ -153,6 +172,7 @@ TEST(CheckSurface, PinchedPointNamesTheFacetsAroundIt) {
   expect_only(check_surface(s), [](SurfaceVerdict& v) {
     EXPECT_EQ(std::exchange(v.non_manifold, {}), (Facets{0, 1, 2, 4, 5, 6}));
     EXPECT_EQ(v.pieces, 1);
+    EXPECT_EQ(std::exchange(v.stray, {}), Facets{4});
   });
 }
 

@@ -39,7 +39,7 @@ double contact_for_target(double E, double modulus, double other_E, double other
 
 /// How the cubes of one group are made and held.
 struct Choice {
-  double porosity = FillSpec().porosity, wall_modulus = paper_wall_modulus, edge = cube_edge;
+  double porosity = scene_porosity, wall_modulus = paper_wall_modulus, edge = cube_edge;
   bool lateral_walls = false, calibrate = false;
   std::uint64_t seeds = 3;
 };
@@ -63,9 +63,6 @@ Group measure(const InnerSpheres& spheres, CubeFilling filling, const Choice& ch
   return out;
 }
 
-constexpr std::initializer_list<const InnerSpheres*> both_sizes{&fine_spheres, &coarse_spheres};
-constexpr std::initializer_list<CubeFilling> both_fillings{CubeFilling::shape, CubeFilling::recipe};
-
 /// Calls `row` for every size of spheres and both fillings.
 template <class Row>
 void each(Row row) {
@@ -74,13 +71,13 @@ void each(Row row) {
 }
 
 void headline() {
-  fmt::print("Porosity {}, A-W {} GPa, ten seeds:\n\n", FillSpec().porosity, paper_wall_modulus / 1e9);
+  fmt::print("Porosity {}, A-W {} GPa, twenty seeds:\n\n", scene_porosity, paper_wall_modulus / 1e9);
   fmt::print(
       "| spheres | filling | number | walls (GPa) | to 60 | gauge (GPa) | to 60 | Poisson's ratio "
       "| uniform strain (GPa) | E for 60 by walls (GPa) | E for 60 by gauge (GPa) |\n"
       "|---|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n");
   each([](const InnerSpheres& spheres, CubeFilling filling) {
-    const Group g = measure(spheres, filling, {.calibrate = true, .seeds = 10});
+    const Group g = measure(spheres, filling, {.calibrate = true, .seeds = 20});
     fmt::print("| {} | {} | {:.0f} | {} | {} | {} | {} | {:.3f} | {:.2f} | {} | {} |\n", spheres.name,
                to_string(filling), g.spheres.mean(), gigapascals(g.walls), deviation(g.walls), gigapascals(g.gauge),
                deviation(g.gauge), g.poisson.mean(),
@@ -109,7 +106,7 @@ void boundaries() {
       "| spheres | filling | A-W 60 GPa | A-W 115.1 GPa | rigid A-W | rigid A-W: gauge "
       "| four sides held too, 115.1 GPa |\n"
       "|---|---|---:|---:|---:|---:|---:|\n",
-      FillSpec().porosity);
+      scene_porosity);
   each([](const InnerSpheres& spheres, CubeFilling filling) {
     const Group soft = measure(spheres, filling, {.wall_modulus = aggregate_modulus});
     const Group paper = measure(spheres, filling);
@@ -125,7 +122,7 @@ void edges() {
       "\nEdge of the cube, coarse spheres, porosity {}, three seeds:\n\n"
       "| filling | edge (mm) | number | walls (GPa) | gauge (GPa) | to 60 | Poisson's ratio |\n"
       "|---|---:|---:|---:|---:|---:|---:|\n",
-      FillSpec().porosity);
+      scene_porosity);
   for (const CubeFilling filling : {CubeFilling::shape, CubeFilling::recipe}) {
     for (const double edge : {15e-3, 20e-3, 30e-3, 40e-3}) {
       const Group g = measure(coarse_spheres, filling, {.edge = edge});

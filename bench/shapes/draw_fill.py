@@ -1,9 +1,10 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures from the files of fill_study: draw_fill.py DIR OUT writes OUT/fill-study.png and OUT/fill-spheres.png."""
 import csv
 import sys
 from collections import defaultdict
+from itertools import cycle
 from pathlib import Path
 
 import matplotlib
@@ -14,6 +15,9 @@ import numpy as np  # noqa: E402
 
 CIRCUMSCRIBED = 6.295  # mm
 LIGHT = np.array([-0.45, 0.55, 0.70])
+# spheres of the paper's Figs. 5 and 6 against the radius (mm) and against R_max / R_min at R_min = 0.5 mm
+PUBLISHED = [("icosahedron", "*", {0.5: 1568, 2: 24}, {1: 1568}),
+             ("aggregate #1", "X", {0.5: 634, 1: 79, 2: 9}, {1: 634, 3: 79})]
 SHOWN = [(0.5, 0.5), (0.75, 0.75), (1.0, 1.0), (2.0, 2.0), (0.5, 1.5)]
 
 
@@ -37,7 +41,7 @@ def draw_study(rows, out):
     means = seed_means(rows)
     figure, axes = plt.subplots(2, 2, figsize=(11, 8.5), constrained_layout=True)
     (by_radius, by_ratio), (by_shape, dimensions) = axes
-    marks = dict(zip(means, "osD^v<*P"))
+    marks = dict(zip(means, cycle("osD^v<hPp>dH8")))
     for shape, table in means.items():
         equal = sorted((row for (low, high), row in table.items() if low == high), key=lambda r: r["radius_min_mm"])
         by_radius.plot([CIRCUMSCRIBED / r["radius_min_mm"] for r in equal], [r["spheres"] for r in equal],
@@ -45,18 +49,24 @@ def draw_study(rows, out):
         mixed = sorted((row for (low, _), row in table.items() if low == 0.5), key=lambda r: r["radius_max_mm"])
         by_ratio.plot([r["radius_max_mm"] / 0.5 for r in mixed], [r["spheres"] for r in mixed], marker=marks[shape],
                       label=shape)
-    published = {"mfc": "none", "mec": "black", "ls": "", "ms": 11}
-    by_radius.plot([CIRCUMSCRIBED / 0.5, CIRCUMSCRIBED / 2], [1568, 24], marker="*", label="published, icosahedron",
-                   **published)
-    by_ratio.plot([1], [1568], marker="*", label="published, icosahedron", **published)
+    for name, mark, of_radius, of_ratio in PUBLISHED:
+        style = {"marker": mark, "mfc": "none", "mec": "black", "ls": "", "ms": 12, "zorder": 5,
+                 "label": f"published, {name}"}
+        by_radius.plot([CIRCUMSCRIBED / radius for radius in of_radius], of_radius.values(), **style)
+        by_ratio.plot(of_ratio.keys(), of_ratio.values(), **style)
     by_radius.set(xlabel="R_circ / R", ylabel="spheres", yscale="log", title="(a) equal spheres")
     by_ratio.set(xlabel="R_max / R_min, R_min = 0.5 mm", ylabel="spheres", yscale="log", title="(b) spheres of a range")
 
     finest = {shape: table[0.5, 0.5] for shape, table in means.items()}
-    for key, label, mark in [("flatness", "F", "o"), ("elongation", "E", "s"), ("sphericity_true", "ψw", "^"),
-                             ("sphericity_working", "ψA", "v")]:
-        by_shape.plot([r["spheres"] for r in finest.values()], [r[key] for r in finest.values()], mark, label=label)
-    by_shape.set(xlabel="spheres of 0.5 mm", ylabel="shape ratio", ylim=(0, 1.02), title="(c) seven shapes of one D^I")
+    apart = 0.009 * max(r["spheres"] for r in finest.values())
+    for key, label, mark, side in [("flatness", "F", "o", -1.5), ("elongation", "E", "s", -0.5),
+                                   ("sphericity_true", "ψw", "^", 0.5), ("sphericity_working", "ψA", "v", 1.5)]:
+        by_shape.plot([r["spheres"] + side * apart for r in finest.values()], [r[key] for r in finest.values()], mark,
+                      label=label)
+    for r in finest.values():
+        by_shape.axvline(r["spheres"], color="0.7", lw=0.8, zorder=0)
+    by_shape.set(xlabel="spheres of 0.5 mm (lines; markers beside them, so as not to overlap)", ylabel="shape ratio",
+                 ylim=(0, 1.05), title=f"(c) {len(finest)} shapes of one D^I")
 
     for shape, line in zip(list(means)[:2], ["-", "--"]):
         equal = sorted((row for (low, high), row in means[shape].items() if low == high), key=lambda r: r["spheres"])
@@ -69,7 +79,10 @@ def draw_study(rows, out):
                    title="(d) dimensions (dotted: of the shape)")
     for ax in axes.flat:
         ax.grid(alpha=0.3)
-        ax.legend(fontsize=7, framealpha=0.6, **({"loc": "center right"} if ax is dimensions else {}))
+    by_radius.legend(fontsize=7, loc="lower right")
+    by_ratio.set_title("(b) spheres of a range (marks as in (a))")
+    by_shape.legend(fontsize=8, loc="lower center", ncols=4)
+    dimensions.legend(fontsize=7, loc="center", bbox_to_anchor=(0.5, 0.65), ncols=2)
     figure.savefig(out, dpi=110)
 
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/parallel.hpp"
 #include "macadam/error.hpp"
 #include "macadam/shape.hpp"
 
@@ -93,8 +94,7 @@ int study(const std::string& folder, const std::vector<std::string>& files) {
       }
     write_surface(folder + "/" + surface.name + ".obj", surface);
   }
-#pragma omp parallel for schedule(dynamic)
-  for (Study& s : studies) run(s);
+  for_each_in_parallel(studies.size(), [&](std::size_t k) { run(studies[k]); });
   write_table(folder + "/fill-study.csv", studies);
   write_spheres(folder + "/fill-spheres.csv", studies);
   return 0;

@@ -63,7 +63,7 @@ std::vector<Outcome<T>> for_each_file(const std::vector<fs::path>& files, Work&&
   return outcomes;
 }
 
-/// Throws what the files' errors were, all of them in one message if it was the input's fault.
+/// Throws what the files' errors were, all of them in one message: what cannot be repaired is the input's fault too.
 template <class T>
 void throw_errors(const std::vector<Outcome<T>>& outcomes) {
   std::string messages;
@@ -72,7 +72,7 @@ void throw_errors(const std::vector<Outcome<T>>& outcomes) {
     if (!outcome.error) continue;
     try {
       std::rethrow_exception(outcome.error);
-    } catch (const InputError& error) {
+    } catch (const Error& error) {
       messages += fmt::format("\n  {}", error.what());
       ++faulty;
     }

@@ -32,6 +32,13 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
   if (error) throw RunError(file.string() + ": cannot be replaced: " + error.message());
 }
 
+std::string csv_field(const std::string& name) {
+  if (name.find_first_of(",\"\r\n") == std::string::npos) return name;
+  std::string out = "\"";
+  for (const char c : name) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + "\"";
+}
+
 ResponseWriter::ResponseWriter(const std::filesystem::path& file) : file_(file), out_(file, std::ios::binary) {
   out_ << "frequency_hz,time_s,strain,stress_pa\n" << std::flush;
   if (!out_) throw RunError(file_.string() + ": cannot be written (disk full, or no permission)");

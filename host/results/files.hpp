@@ -17,6 +17,9 @@ void make_result_folder(const std::filesystem::path& folder);
 /// Replaces a file by a rename, so that a reader finds the old text or the new. \throws RunError.
 void write_whole(const std::filesystem::path& file, const std::string& text);
 
+/// A name as a field of a CSV file: quoted where it has to be (RFC 4180).
+std::string csv_field(const std::string& name);
+
 /// response.csv: every line is flushed as it is measured.
 class ResponseWriter {
  public:

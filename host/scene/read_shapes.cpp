@@ -6,7 +6,7 @@ namespace macadam::scene {
 
 ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folder) {
   constexpr Rule porosity{[](double v) { return v >= -0.5 && v < 1; }, "a porosity from -0.5 to below 1"};
-  constexpr Rule gap{[](double v) { return v >= 0 && v <= 0.5; }, "a share from 0 to 0.5"};
+  constexpr Rule gap{[](double v) { return v > 0 && v < 0.5; }, "a share above 0 and below 0.5"};
   ShapeSpec out;
   const auto read_library = [&](const Value& value) {
     const std::string name = value.text();

@@ -2,19 +2,17 @@
 /// \file read_specimen.cpp  `[specimen]`: a file or a recipe. Recipes that no generator could follow are refused here.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
 #include "host/scene/sections.hpp"
+#include "host/specimen/size_law.hpp"
 
 namespace macadam::scene {
 namespace {
 
 /// Contact points are numbered in 32 bits and there are about forty a particle.
 constexpr std::int64_t most_particles = 100'000'000;
-
-double sphere_volume(double diameter) { return std::numbers::pi / 6 * diameter * diameter * diameter; }
 
 Reader box_into(Box& box) {
   return [&box](const Value& value) {

@@ -19,6 +19,11 @@ class ShapeFiller {
   /// Below `spec.least`, fill() gives a single one. \throws InputError for an impossible spec or scale.
   std::int64_t spheres(double scale, const FillSpec& spec) const;
 
+  /// Radius of the sphere that stands for the shape itself by a rule [m].
+  double single_radius(SingleSphere rule) const;
+
+  const ShapeMeasure& measure() const { return measure_; }
+
   /// Whether a point, in the surface's own frame and scale, lies within.
   bool contains(const Vec3d& point) const { return distance_.below(point, 0).depth > 0; }
 
@@ -27,7 +32,6 @@ class ShapeFiller {
   MultiSphere fill(double scale, const FillSpec& spec) const;
 
  private:
-  double single_radius(SingleSphere rule) const;
   Vec3d position(double radius, RandomStream& random) const;
 
   std::string name_;

@@ -8,6 +8,7 @@
 
 #include "host/shapes/columns.hpp"
 #include "host/shapes/fill.hpp"
+#include "host/shapes/surface_numbers.hpp"
 #include "host/specimen/neighbours.hpp"
 #include "host/specimen/size_law.hpp"
 #include "host/specimen/specimen_check.hpp"
@@ -96,11 +97,7 @@ void measure_lengths(const MultiSphere& cluster, FillReport& report) {
 }
 
 double largest_overlap(const MultiSphere& cluster) {
-  Vec3d low = cluster.centre.front(), high = low;
-  for (const Vec3d& c : cluster.centre) {
-    low = {std::min(low.x, c.x), std::min(low.y, c.y), std::min(low.z, c.z)};
-    high = {std::max(high.x, c.x), std::max(high.y, c.y), std::max(high.z, c.z)};
-  }
+  const auto [low, high] = bounds_of(cluster.centre);
   const double r = *std::min_element(cluster.radius.begin(), cluster.radius.end());
   const Specimen boxed = in_box(cluster, low - Vec3d{r, r, r}, high + Vec3d{r, r, r});
   const Neighbours neighbours(boxed, 2 * r, 0);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <limits>
 
+#include "host/parallel.hpp"
 #include "host/shapes/crushed_stone.hpp"
 #include "host/shapes/library_targets.hpp"
 #include "macadam/error.hpp"
@@ -107,18 +107,12 @@ std::vector<Surface> generate_shape_library(std::uint64_t seed, int shapes) {
   RandomStream random(seed, 0);
   const std::vector<ShapeMeasure> targets = draw_library_targets(random, shapes);
   std::vector<Surface> library(targets.size());
-  std::vector<std::exception_ptr> errors(targets.size());
   const std::size_t digits = std::max<std::size_t>(2, fmt::formatted_size("{}", shapes));
-#pragma omp parallel for schedule(dynamic, 1)
-  for (int i = 0; i < shapes; ++i) {
-    try {
-      library[i] = make_stone(seed, i + 1, targets[i]);
-      library[i].name = fmt::format("aggregate_{:0{}}", i + 1, digits);
-    } catch (...) { errors[i] = std::current_exception(); }
-  }
-  for (const std::exception_ptr& error : errors) {
-    if (error) std::rethrow_exception(error);
-  }
+  for_each_in_parallel(library.size(), [&](std::size_t i) {
+    const int number = static_cast<int>(i) + 1;
+    library[i] = make_stone(seed, number, targets[i]);
+    library[i].name = fmt::format("aggregate_{:0{}}", number, digits);
+  });
   return library;
 }
 

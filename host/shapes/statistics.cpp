@@ -9,6 +9,8 @@
 #include <iterator>
 #include <limits>
 
+#include "host/results/files.hpp"
+
 namespace macadam {
 namespace {
 
@@ -20,14 +22,6 @@ std::vector<ShapeProperty> correlated_properties() {
   std::copy_if(shape_properties().begin(), shape_properties().end(), std::back_inserter(out),
                [](const ShapeProperty& p) { return p.correlated; });
   return out;
-}
-
-/// A name as a CSV field.
-std::string field(const std::string& name) {
-  if (name.find_first_of(",\"\n") == std::string::npos) return name;
-  std::string out = "\"";
-  for (const char c : name) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + "\"";
 }
 
 std::string shown(double x, int decimals) { return std::isfinite(x) ? fmt::format("{:.{}f}", x, decimals) : "-"; }
@@ -118,7 +112,7 @@ std::string shapes_csv(const std::vector<std::string>& names, const std::vector<
   for (const ShapeProperty& property : shape_properties()) text += fmt::format(",{}", property.column);
   text += ",sieve_min_m,sieve_max_m\n";
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    text += field(names[i]);
+    text += csv_field(names[i]);
     for (const ShapeProperty& property : shape_properties()) text += "," + number(property.value(shapes[i]));
     const auto [lower, upper] = sieve_class(shapes[i].d_intermediate);
     text += fmt::format(",{},{}\n", number(lower), number(upper));

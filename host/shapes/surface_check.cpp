@@ -36,6 +36,7 @@ struct Side {
 class Check {
  public:
   explicit Check(const Surface& surface) : surface_(surface), degenerate_(surface.facets.size()) {
+    verdict_.stray = find_stray();
     verdict_.degenerate = find_degenerate();
     collect_sides();
   }
@@ -56,6 +57,18 @@ class Check {
   }
 
  private:
+  std::vector<std::int32_t> find_stray() const {
+    std::vector<bool> named(surface_.points.size());
+    for (const auto& facet : surface_.facets) {
+      for (const std::int32_t p : facet) named[p] = true;
+    }
+    std::vector<std::int32_t> found;
+    for (std::size_t p = 0; p < named.size(); ++p) {
+      if (!named[p]) found.push_back(static_cast<std::int32_t>(p));
+    }
+    return found;
+  }
+
   Facets find_degenerate() {
     Facets found;
     const double rounding = coordinate_rounding(surface_.points);
@@ -193,7 +206,7 @@ SurfaceVerdict check_surface(const Surface& surface) {
 }
 
 bool SurfaceVerdict::good() const {
-  return degenerate.empty() && non_manifold.empty() && open.empty() && misoriented.empty() &&
+  return stray.empty() && degenerate.empty() && non_manifold.empty() && open.empty() && misoriented.empty() &&
          self_intersecting.empty() && pieces == 1 && !inside_out;
 }
 
@@ -201,13 +214,15 @@ std::string SurfaceVerdict::text() const {
   if (good()) return "closed";
   std::string text;
   const auto add = [&](const std::string& fault) { text += (text.empty() ? "" : "; ") + fault; };
-  const auto add_facets = [&](const char* fault, const Facets& facets) {
-    if (facets.empty()) return;
+  const auto add_all = [&](const char* fault, const char* of, const std::vector<std::int32_t>& numbers) {
+    if (numbers.empty()) return;
     constexpr std::size_t shown = 8;
-    const auto end = facets.begin() + std::min(facets.size(), shown);
-    add(fmt::format("{} {} facet{} ({}{})", fault, facets.size(), facets.size() == 1 ? "" : "s",
-                    fmt::join(facets.begin(), end, ", "), facets.size() > shown ? ", …" : ""));
+    const auto end = numbers.begin() + std::min(numbers.size(), shown);
+    add(fmt::format("{} {} {}{} ({}{})", fault, numbers.size(), of, numbers.size() == 1 ? "" : "s",
+                    fmt::join(numbers.begin(), end, ", "), numbers.size() > shown ? ", …" : ""));
   };
+  const auto add_facets = [&](const char* fault, const Facets& facets) { add_all(fault, "facet", facets); };
+  add_all("no facet at", "point", stray);
   add_facets("degenerate at", degenerate);
   add_facets("non-manifold at", non_manifold);
   add_facets("open at", open);

@@ -8,6 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "host/shapes/surface_numbers.hpp"
+
 namespace macadam {
 namespace {
 
@@ -49,11 +51,8 @@ SurfaceDistance::SurfaceDistance(const Surface& surface) {
     }
   }
 
-  low_ = high_ = surface.points.front();
-  for (const Vec3d& p : surface.points) {
-    low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
-    high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
-  }
+  const Bounds box = bounds_of(surface.points);
+  low_ = box.low, high_ = box.high;
   for (std::size_t i = 0; i < facet_.size(); ++i) all_.push_back({0, static_cast<std::int32_t>(i)});
   node_.emplace_back();
   grow(0, 0.5 * (low_ + high_), 0.5 * (high_ - low_), 0, all_, 0);

@@ -39,12 +39,17 @@ double coordinate_rounding(const std::vector<Vec3d>& points) {
   return 64 * std::numeric_limits<double>::epsilon() * magnitude;
 }
 
-Vec3d middle_of(const std::vector<Vec3d>& points) {
+Bounds bounds_of(std::span<const Vec3d> points) {
   Vec3d low = points.front(), high = low;
   for (const Vec3d& p : points) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
+  return {low, high};
+}
+
+Vec3d middle_of(const std::vector<Vec3d>& points) {
+  const auto [low, high] = bounds_of(points);
   return 0.5 * low + 0.5 * high;
 }
 

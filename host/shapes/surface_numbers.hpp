@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "macadam/shape.hpp"
 
@@ -15,7 +16,13 @@ void require_sound_numbers(const Surface& surface);
 /// coordinate.
 double coordinate_rounding(const std::vector<Vec3d>& points);
 
-/// Middle of the box around the points; sums about it lose no digits to a far origin.
+/// The box around points, of which there must be one.
+struct Bounds {
+  Vec3d low, high;
+};
+Bounds bounds_of(std::span<const Vec3d> points);
+
+/// Middle of that box; sums about it lose no digits to a far origin.
 Vec3d middle_of(const std::vector<Vec3d>& points);
 
 /// Volume that the facets enclose, negative where they look inwards [m³].

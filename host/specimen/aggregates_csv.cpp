@@ -16,8 +16,8 @@ void write_aggregates_csv(const std::filesystem::path& file, const std::vector<A
   fmt::format_to(to, "body,size_class,class,shape,size,d_long,d_short,axis_x,axis_y,axis_z,volume,spheres,x,y,z\n");
   for (const Aggregate& a : aggregates) {
     fmt::format_to(to, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", a.body, a.size_class,
-                   classes.at(static_cast<std::size_t>(a.size_class)).name, a.shape, a.size, a.d_long, a.d_short,
-                   a.axis_long.x, a.axis_long.y, a.axis_long.z, a.volume, a.spheres, a.centre.x, a.centre.y,
+                   classes.at(static_cast<std::size_t>(a.size_class)).name, csv_field(a.shape), a.size, a.d_long,
+                   a.d_short, a.axis_long.x, a.axis_long.y, a.axis_long.z, a.volume, a.spheres, a.centre.x, a.centre.y,
                    a.centre.z);
   }
   write_whole(file, fmt::to_string(text));

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/shapes/surface_numbers.hpp"
+
 namespace macadam {
 
 DistanceField::DistanceField(const Surface& surface, const ShapeSolid& solid, int cells) {
-  Vec3d low = surface.points.front(), high = low;
-  for (const Vec3d& p : surface.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  const auto [low, high] = bounds_of(surface.points);
   const Vec3d size = high - low;
   edge_ = std::max({size.x, size.y, size.z}) / cells;
   error_ = std::sqrt(0.75) * edge_;

@@ -40,7 +40,7 @@ struct ShapeBody {
       : geometry(&geometry), sphere(sphere), size(size), scale(size / geometry.shape.d_intermediate) {}
 
   void set_turn(const Quaternion& q) { turn = q, rotation = Rotation(q); }
-  double sphere_radius() const { return scale * geometry->shape.d_intermediate / 2; }
+  double sphere_radius() const { return scale * geometry->shape.d_intermediate / 2 * geometry->shape.sphere_size; }
   /// Radii of balls about the centre that hold the body and that the body holds [m].
   double radius() const { return sphere ? sphere_radius() : scale * geometry->radius; }
   double inner_radius() const { return sphere ? sphere_radius() : scale * geometry->inner; }

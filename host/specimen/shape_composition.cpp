@@ -13,7 +13,7 @@ namespace macadam {
 namespace {
 
 constexpr double close_enough = 1e-3;  // of the class's volume
-constexpr double tolerance = 0.002;    // of the box: beyond it a class is not what was asked
+constexpr double tolerance = 0.005;    // of the class's volume: beyond it a class is not what was asked
 constexpr int most_draws = 200;        // of templates for one class
 constexpr int size_shares = 64;        // of a size law, for means over it
 
@@ -72,7 +72,7 @@ class Composer {
 
 double aggregate_volume(const ShapeTemplate& shape, double size, bool sphere) {
   const double scale = size / shape.d_intermediate;
-  return sphere ? sphere_volume(size) : scale * scale * scale * shape.volume;
+  return sphere ? sphere_volume(size * shape.sphere_size) : scale * scale * scale * shape.volume;
 }
 
 ShapeComposition compose_shapes(const SpecimenSpec& spec, const std::vector<ShapeTemplate>& shapes,
@@ -89,7 +89,7 @@ ShapeComposition compose_shapes(const SpecimenSpec& spec, const std::vector<Shap
     const auto count = static_cast<std::int64_t>(drawn.size());
     CompositionRow row{request.name, count, count, request.volume / box, 0};
     for (const AggregateRequest& r : drawn) row.fraction += composer.volume(r.shape, r.size) / box;
-    if (!request.count && std::abs(row.fraction - row.fraction_asked) > tolerance)
+    if (!request.count && std::abs(row.fraction - row.fraction_asked) > tolerance * row.fraction_asked)
       throw InputError(
           "specimen", 0, request.name + ": share of the box", shown(row.fraction_asked),
           shown(row.fraction) + " (the nearest found with these shapes), or wider sieves, or a larger box");

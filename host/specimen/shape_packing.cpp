@@ -35,7 +35,7 @@ struct PairContact {
 
 class Packing {
  public:
-  Packing(const Box& box, std::vector<ShapeBody>& bodies, double from, const PackingGap& gap)
+  Packing(const Box& box, std::vector<ShapeBody>& bodies, double from, double gap)
       : box_(box),
         bodies_(bodies),
         gap_(gap),
@@ -65,7 +65,7 @@ class Packing {
       if (deepest() < (grown_ < 1 ? growing : settled)) {
         idle = 0;
         if (grown_ < 1) {
-          grow(growth_a_gap * gap_.share);
+          grow(growth_a_gap * gap_);
           progress((grown_ - begun) / (1 - begun));
         } else if (widen_gaps_of_overlaps() == 0) {
           return 1;
@@ -96,7 +96,7 @@ class Packing {
     return s;
   }
 
-  double gap(std::size_t i) const { return extra_[i] * std::max(gap_.share * bodies_[i].size, gap_.least); }
+  double gap(std::size_t i) const { return extra_[i] * gap_ * bodies_[i].size; }
   double gap(const PairContact& p) const { return std::min(gap(p.a), gap(p.b)); }
 
   void grow(double step) {
@@ -201,7 +201,7 @@ class Packing {
 
   const Box& box_;
   std::vector<ShapeBody>& bodies_;
-  PackingGap gap_;
+  double gap_;  // over the smaller body's D^I
   double grown_, smallest_;
   Specimen proxies_;
   Neighbours neighbours_;
@@ -215,7 +215,7 @@ class Packing {
 
 }  // namespace
 
-double pack(const Box& box, std::vector<ShapeBody>& bodies, double from, const PackingGap& gap,
+double pack(const Box& box, std::vector<ShapeBody>& bodies, double from, double gap,
             const std::function<void(double share)>& progress) {
   return bodies.empty() ? 1 : Packing(box, bodies, from, gap).run(progress);
 }

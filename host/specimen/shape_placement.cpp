@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "host/parallel.hpp"
 #include "host/specimen/shape_body.hpp"
 #include "host/specimen/shape_insertion.hpp"
 #include "host/specimen/shape_packing.hpp"
@@ -33,8 +34,6 @@ void check(const std::vector<ShapeTemplate>& shapes, const ShapeComposition& com
            const ShapePlacementSpec& spec) {
   if (spec.attempts < 1) refuse("attempts", std::to_string(spec.attempts), "at least 1");
   if (!(spec.gap > 0 && spec.gap < 0.5)) refuse("gap", shown(spec.gap), "more than 0 and less than 0.5 of D^I");
-  if (!(spec.gap_least >= 0 && std::isfinite(spec.gap_least)))
-    refuse("least gap", shown(spec.gap_least) + " m", "a finite length, 0 or more");
   for (const AggregateRequest& r : composition.aggregate) {
     if (r.shape < 0 || r.shape >= static_cast<int>(shapes.size()))
       refuse("shape number", std::to_string(r.shape), "0 to " + std::to_string(shapes.size()) + " - 1");
@@ -49,10 +48,9 @@ Geometries prepare(const std::vector<ShapeTemplate>& shapes, const std::vector<A
   std::vector<std::uint8_t> used(shapes.size());
   for (const AggregateRequest& r : requests) used[r.shape] = 1;
   Geometries geometries(shapes.size());
-  const auto n = static_cast<std::int64_t>(shapes.size());
-#pragma omp parallel for schedule(dynamic)
-  for (std::int64_t k = 0; k < n; ++k)
+  for_each_in_parallel(shapes.size(), [&](std::size_t k) {
     if (used[k]) geometries[k] = std::make_unique<const ShapeGeometry>(shapes[k]);
+  });
   return geometries;
 }
 
@@ -106,7 +104,7 @@ void pack_all(const Box& box, const std::vector<ShapeTemplate>& shapes, const Sh
   ShapePlacementSpec first = spec;
   first.attempts = std::min(spec.attempts, attempts_at_first), first.allow_short = false;
   insert(box, shapes, composition, first, bodies, report("placing aggregates"));
-  const double reached = pack(box, bodies, from, {spec.gap, spec.gap_least}, report("packing aggregates"));
+  const double reached = pack(box, bodies, from, spec.gap, report("packing aggregates"));
   if (reached == 1) return;
   char text[320];
   std::snprintf(

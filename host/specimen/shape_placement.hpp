@@ -16,6 +16,7 @@ struct ShapeTemplate {
   Surface surface;            ///< closed, its volume's centroid at the origin
   double volume = 0;          ///< [m³]
   double d_intermediate = 0;  ///< D^I, the size by which sieves part [m]
+  double sphere_size = 1;     ///< diameter of the single sphere that may stand for a copy, over the copy's D^I
 };
 
 /// The surface about its centroid, measured.
@@ -27,7 +28,7 @@ struct AggregateRequest {
   int size_class = 0;   ///< in the recipe's order
   int shape = 0;        ///< number of its template
   double size = 0;      ///< its D^I [m]
-  bool sphere = false;  ///< a sphere of radius D^I/2 stands for the shape
+  bool sphere = false;  ///< a single sphere stands for the shape
 };
 
 /// An aggregate in its place. Its surface is its template's, moved by `pose`; of a sphere the pose's centre is the
@@ -48,9 +49,9 @@ struct ShapeComposition {
 double aggregate_volume(const ShapeTemplate& shape, double size, bool sphere);
 
 /// Draws the aggregates of a recipe: sizes D^I by the size law, templates evenly at random. Volume fractions are of the
-/// solid volume, as compose() has it, and the summed volume of a class meets its own to 1e-3 of it. `is_sphere` tells
-/// for which template and D^I a single sphere stands for the shape.
-/// \throws InputError for a recipe that nobody could follow.
+/// solid volume, as compose() has it. The summed volume of a class meets its own to 1e-3 of it; the nearest of many
+/// draws counts where none does. `is_sphere` tells for which template and D^I a single sphere stands for the shape.
+/// \throws InputError for a recipe that nobody could follow, and where a class would miss its volume by 5e-3 of it.
 ShapeComposition compose_shapes(const SpecimenSpec& spec, const std::vector<ShapeTemplate>& shapes,
                                 const std::function<bool(int shape, double size)>& is_sphere);
 
@@ -59,8 +60,7 @@ struct ShapePlacementSpec {
   PlacementMethod method = PlacementMethod::packing;
   std::int64_t attempts = 2'000'000;  ///< insertion: rotations and positions tried for one aggregate
   bool allow_short = false;           ///< insertion: return what found a place where not all did
-  double gap = 0.01;                  ///< packing: least distance of two surfaces, over the smaller one's D^I …
-  double gap_least = 0;               ///< … and never less than this [m]
+  double gap = 0.01;                  ///< packing: least distance of two surfaces, over the smaller one's D^I
   std::uint64_t seed = 1;
 };
 

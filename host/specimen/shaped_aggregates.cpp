@@ -3,9 +3,9 @@
 #include "host/specimen/shaped_aggregates.hpp"
 
 #include <algorithm>
-#include <exception>
 #include <memory>
 
+#include "host/parallel.hpp"
 #include "host/shapes/fill.hpp"
 #include "host/specimen/shape_placement.hpp"
 #include "host/specimen/sphere_grid.hpp"
@@ -29,27 +29,13 @@ std::vector<Surface> surfaces_of(const ShapeSpec& spec) {
 /// A template with all that its copies need.
 struct Shape {
   ShapeTemplate placed;
-  ShapeMeasure measure;
   ShapeFiller filler;
 
-  explicit Shape(const Surface& surface)
-      : placed(shape_template(surface)), measure(measure_shape(placed.surface)), filler(placed.surface) {}
+  Shape(const Surface& surface, SingleSphere single) : placed(shape_template(surface)), filler(placed.surface) {
+    placed.sphere_size = 2 * filler.single_radius(single) / placed.d_intermediate;
+  }
+  const ShapeMeasure& measure() const { return filler.measure(); }
 };
-
-/// f(k) for k < n on all threads, and the first exception, by k, of those thrown.
-template <class F>
-void for_each_in_parallel(std::size_t n, F&& f) {
-  std::vector<std::exception_ptr> thrown(n);
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t k = 0; k < n; ++k) {
-    try {
-      f(k);
-    } catch (...) { thrown[k] = std::current_exception(); }
-  }
-  for (const std::exception_ptr& e : thrown) {
-    if (e) std::rethrow_exception(e);
-  }
-}
 
 /// The inverse of a motion.
 Vec3d back(const Pose& pose, const Vec3d& point) {
@@ -64,7 +50,8 @@ class Inside {
       : shapes_(std::move(shapes)), placed_(std::move(placed)), grid_(box, smallest_edge(box) / 20) {
     for (std::size_t k = 0; k < placed_.size(); ++k) {
       const PlacedAggregate& a = placed_[k];
-      if (!a.sphere) grid_.insert(static_cast<std::int32_t>(k), a.pose.centre, a.pose.scale * shape(a).measure.d_long);
+      if (!a.sphere)
+        grid_.insert(static_cast<std::int32_t>(k), a.pose.centre, a.pose.scale * shape(a).measure().d_long);
     }
   }
   bool operator()(const Vec3d& point) const {
@@ -89,12 +76,13 @@ Aggregate described(const PlacedAggregate& placed, const Shape& shape, std::int3
   out.body = body;
   out.size_class = placed.size_class;
   out.centre = placed.pose.centre;
-  out.size = placed.pose.scale * shape.measure.d_intermediate;
+  out.size = placed.pose.scale * shape.measure().d_intermediate;
   out.volume = aggregate_volume(shape.placed, out.size, placed.sphere);
   out.shape = placed.sphere ? "sphere" : shape.placed.surface.name;
-  out.d_long = placed.sphere ? out.size : placed.pose.scale * shape.measure.d_long;
-  out.d_short = placed.sphere ? out.size : placed.pose.scale * shape.measure.d_short;
-  if (!placed.sphere) out.axis_long = Pose{{}, placed.pose.turn, 1}(shape.measure.axis_long);
+  const double sphere = out.size * shape.placed.sphere_size;
+  out.d_long = placed.sphere ? sphere : placed.pose.scale * shape.measure().d_long;
+  out.d_short = placed.sphere ? sphere : placed.pose.scale * shape.measure().d_short;
+  if (!placed.sphere) out.axis_long = Pose{{}, placed.pose.turn, 1}(shape.measure().axis_long);
   return out;
 }
 
@@ -116,13 +104,14 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
   const ShapeSpec& how = spec.shapes.value();
   const std::vector<Surface> surfaces = surfaces_of(how);
   std::vector<std::shared_ptr<const Shape>> shapes(surfaces.size());
-  for_each_in_parallel(shapes.size(), [&](std::size_t k) { shapes[k] = std::make_shared<const Shape>(surfaces[k]); });
+  for_each_in_parallel(shapes.size(),
+                       [&](std::size_t k) { shapes[k] = std::make_shared<const Shape>(surfaces[k], how.fill.single); });
 
   std::vector<ShapeTemplate> templates;
   for (const auto& shape : shapes) templates.push_back(shape->placed);
   const auto is_sphere = [&](int shape, double size) {
     const Shape& s = *shapes[static_cast<std::size_t>(shape)];
-    return s.filler.spheres(size / s.measure.d_intermediate, how.fill) < how.fill.least;
+    return s.filler.spheres(size / s.measure().d_intermediate, how.fill) < how.fill.least;
   };
   ShapePlacementSpec search;
   search.method = how.placement;
@@ -145,7 +134,7 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
   for_each_in_parallel(n, [&](std::size_t k) {
     const PlacedAggregate& a = placed.aggregate[k];
     if (a.sphere) {
-      out.spheres[k] = {{a.pose.centre}, {out.aggregate[k].size / 2}};
+      out.spheres[k] = {{a.pose.centre}, {out.aggregate[k].d_long / 2}};
       return;
     }
     FillSpec fill = how.fill;

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "host/shapes/surface_numbers.hpp"
+
 namespace macadam {
 namespace {
 
@@ -39,12 +41,7 @@ SurfaceSamples::SurfaceSamples(const Surface& s, double tolerance) : point_(s.po
 }
 
 void SurfaceSamples::build(std::uint32_t begin, std::uint32_t end) {
-  Vec3d low = point_[begin], high = low;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const Vec3d& p = point_[i];
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  const auto [low, high] = bounds_of(std::span(point_).subspan(begin, end - begin));
   const Vec3d centre = 0.5 * (low + high), size = high - low;
   double radius = 0;
   for (std::uint32_t i = begin; i < end; ++i) radius = std::max(radius, norm(point_[i] - centre));

@@ -24,6 +24,7 @@ struct Surface {
 
 /// What is wrong with a surface, each with the facets (or points) where it is so; empty lists where nothing is.
 struct SurfaceVerdict {
+  std::vector<std::int32_t> stray;         ///< points of no facet, which would count in a shape's dimensions
   std::vector<std::int32_t> degenerate;    ///< facets without area or with a point twice
   std::vector<std::int32_t> non_manifold;  ///< facets at an edge of more than two facets, or around a pinched point
   std::vector<std::int32_t> open;          ///< facets at an edge of one facet
@@ -110,8 +111,8 @@ enum class SingleSphere : std::uint8_t {
 /// How a shape is filled with spheres.
 struct FillSpec {
   double radius_min = 0, radius_max = 0;  ///< drawn uniformly between them [m]
-  /// 1 − Σ sphere volumes / volume of the shape, −0.5 … 1. The paper's counts of equal spheres fit 0.12, those of its
-  /// specimens, with radii of a range, about 0.
+  /// 1 − Σ sphere volumes / volume of the shape, −0.5 … 1; overlaps count twice. The paper's counts of equal spheres
+  /// fit 0.12.
   double porosity = 0.12;
   std::int64_t least = 8;  ///< fewer spheres: one sphere in place of the cluster
   SingleSphere single = SingleSphere::intermediate;

@@ -116,7 +116,7 @@ struct Aggregate {
   std::int32_t size_class = 0;     ///< number of its class in the recipe's order
   std::string shape;               ///< name of its template, `"sphere"` where a single sphere stands for it
   double size = 0;                 ///< D^I [m]
-  double d_long = 0, d_short = 0;  ///< D^L, D^S of the shape [m]
+  double d_long = 0, d_short = 0;  ///< D^L, D^S of the shape; of a single sphere its diameter [m]
   Vec3d axis_long{};               ///< unit vector along D^L; 0 for a sphere
   double volume = 0;               ///< of the shape, or of the single sphere [m³]
   std::int64_t spheres = 1;

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file parallel.hpp  Independent pieces of work on all threads.
+#pragma once
+
+#include <cstddef>
+#include <exception>
+#include <vector>
+
+namespace macadam {
+
+/// f(k) for k < n on all threads, in any order. An exception may not leave OpenMP's threads: all work is done, then the
+/// first of those thrown, by k, is thrown again.
+template <class F>
+void for_each_in_parallel(std::size_t n, F&& f) {
+  std::vector<std::exception_ptr> thrown(n);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t k = 0; k < n; ++k) {
+    try {
+      f(k);
+    } catch (...) { thrown[k] = std::current_exception(); }
+  }
+  for (const std::exception_ptr& e : thrown) {
+    if (e) std::rethrow_exception(e);
+  }
+}
+
+}  // namespace macadam
