@@ -35,6 +35,8 @@ struct Case {
   double contact_modulus;  ///< with which the aggregate has its 60 GPa: the paper's where that does
 };
 
+void PrintTo(const Case& c, std::ostream* out) { *out << c.spheres->name << ", " << to_string(c.filling); }
+
 class CubeOfSpheres : public testing::TestWithParam<Case> {};
 
 std::vector<Case> cases() {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/specimen/random_stream.hpp"
+#include "host/spheres/random_stream.hpp"
 #include "tests/test_surfaces.hpp"
 
 namespace macadam {

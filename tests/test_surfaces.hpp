@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
 
-#include "host/specimen/random_stream.hpp"
+#include "host/shapes/icosahedron.hpp"
+#include "host/specimen/rotation.hpp"
 #include "macadam/shape.hpp"
 
 namespace macadam::test {
@@ -83,42 +82,8 @@ inline Surface tunnel(double a, double b, double c, double w) {
 
 /// Icosahedron whose facets are quartered `level` times, its points on the unit sphere.
 inline Surface icosphere(int level) {
-  const double g = std::numbers::phi, k = 1 / std::sqrt(1 + g * g);
-  Surface s{"icosphere", {}, {}};
-  for (const double one : {-k, k}) {
-    for (const double phi : {-g * k, g * k}) {
-      s.points.push_back({0, one, phi});
-      s.points.push_back({one, phi, 0});
-      s.points.push_back({phi, 0, one});
-    }
-  }
-  const double edge = 2 * k;
-  const auto n = static_cast<std::int32_t>(s.points.size());
-  const auto adjacent = [&](int i, int j) { return std::abs(norm(s.points[i] - s.points[j]) - edge) < 1e-9; };
-  for (std::int32_t a = 0; a < n; ++a) {
-    for (std::int32_t b = a + 1; b < n; ++b) {
-      for (std::int32_t c = b + 1; c < n; ++c) {
-        if (!adjacent(a, b) || !adjacent(b, c) || !adjacent(a, c)) continue;
-        const bool outward = dot(s.points[a], cross(s.points[b], s.points[c])) > 0;
-        s.facets.push_back(outward ? std::array{a, b, c} : std::array{a, c, b});
-      }
-    }
-  }
-  for (; level > 0; --level) {
-    std::map<std::pair<int, int>, std::int32_t> middle;
-    const auto middle_of = [&](std::int32_t a, std::int32_t b) {
-      const auto [at, is_new] = middle.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(s.points.size()));
-      const Vec3d m = s.points[a] + s.points[b];
-      if (is_new) s.points.push_back((1 / norm(m)) * m);
-      return at->second;
-    };
-    std::vector<std::array<std::int32_t, 3>> facets;
-    for (const auto& [a, b, c] : s.facets) {
-      const std::int32_t ab = middle_of(a, b), bc = middle_of(b, c), ca = middle_of(c, a);
-      facets.insert(facets.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
-    }
-    s.facets = std::move(facets);
-  }
+  Surface s = geodesic_sphere(level);
+  s.name = "icosphere";
   return s;
 }
 
@@ -128,12 +93,9 @@ Surface mapped(Surface surface, const Map& map) {
   return surface;
 }
 
-/// A uniform random rotation (Shoemake), then scale and shift.
+/// A uniform random rotation, then scale and shift.
 inline Pose random_pose(RandomStream& random, double scale = 1, const Vec3d& centre = {}) {
-  const double u = random.uniform(), a = 2 * std::numbers::pi * random.uniform(),
-               b = 2 * std::numbers::pi * random.uniform();
-  const double p = std::sqrt(1 - u), q = std::sqrt(u);
-  return {centre, {q * std::cos(b), p * std::sin(a), p * std::cos(a), q * std::sin(b)}, scale};
+  return {centre, random_turn(random), scale};
 }
 
 /// A lump: an ellipsoid with dents, not convex but star-shaped about the origin.

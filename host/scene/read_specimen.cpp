@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/scene/sections.hpp"
-#include "host/specimen/size_law.hpp"
+#include "host/spheres/size_law.hpp"
 
 namespace macadam::scene {
 namespace {

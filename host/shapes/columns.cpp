@@ -97,9 +97,8 @@ void cross_spheres(const MultiSphere& cluster, Row& row) {
 /// Turned by the unit quaternion (1, 2, 4, 8)/√85: no facet of a box or the like then runs along a row of columns,
 /// which would see all of it or nothing.
 Vec3d turned(const Vec3d& p) {
-  const double w = 1 / std::sqrt(85.0);
-  const Vec3d q{2 * w, 4 * w, 8 * w}, t = 2.0 * cross(q, p);
-  return p + w * t + cross(q, t);
+  static const double w = 1 / std::sqrt(85.0);
+  return Pose{{}, {w, 2 * w, 4 * w, 8 * w}}(p);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "host/specimen/random_stream.hpp"
+#include "host/spheres/random_stream.hpp"
 #include "macadam/shape.hpp"
 
 namespace macadam {

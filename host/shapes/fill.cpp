@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/specimen/random_stream.hpp"
-#include "host/specimen/relaxation.hpp"
-#include "host/specimen/size_law.hpp"
-#include "host/specimen/specimen_check.hpp"
+#include "host/spheres/random_stream.hpp"
+#include "host/spheres/relaxation.hpp"
+#include "host/spheres/size_law.hpp"
+#include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host/shapes/surface_distance.hpp"
-#include "host/specimen/random_stream.hpp"
+#include "host/spheres/random_stream.hpp"
 #include "macadam/shape.hpp"
 
 namespace macadam {

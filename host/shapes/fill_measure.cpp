@@ -9,9 +9,9 @@
 #include "host/shapes/columns.hpp"
 #include "host/shapes/fill.hpp"
 #include "host/shapes/surface_numbers.hpp"
-#include "host/specimen/neighbours.hpp"
-#include "host/specimen/size_law.hpp"
-#include "host/specimen/specimen_check.hpp"
+#include "host/spheres/neighbours.hpp"
+#include "host/spheres/size_law.hpp"
+#include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "host/shapes/statistics.hpp"
-#include "host/specimen/random_stream.hpp"
+#include "host/spheres/random_stream.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "host/specimen/random_stream.hpp"
+#include "host/spheres/random_stream.hpp"
 #include "macadam/shape.hpp"
 
 namespace macadam {

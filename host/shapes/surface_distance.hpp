@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "host/specimen/relaxation.hpp"
+#include "host/spheres/relaxation.hpp"
 #include "macadam/shape.hpp"
 
 namespace macadam {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "host/specimen/size_law.hpp"
-#include "host/specimen/specimen_check.hpp"
+#include "host/spheres/size_law.hpp"
+#include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/specimen/size_law.hpp"
+#include "host/spheres/size_law.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {

@@ -5,9 +5,9 @@
 
 #include "host/specimen/composition.hpp"
 #include "host/specimen/placement.hpp"
-#include "host/specimen/relaxation.hpp"
+#include "host/spheres/relaxation.hpp"
 #include "host/specimen/shaped_aggregates.hpp"
-#include "host/specimen/size_law.hpp"
+#include "host/spheres/size_law.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <string>
 
-#include "host/specimen/size_law.hpp"
+#include "host/spheres/size_law.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "host/specimen/composition.hpp"
-#include "host/specimen/random_stream.hpp"
-#include "host/specimen/sphere_grid.hpp"
+#include "host/spheres/random_stream.hpp"
+#include "host/spheres/sphere_grid.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {

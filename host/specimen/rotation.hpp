@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/specimen/random_stream.hpp"
+#include "host/spheres/random_stream.hpp"
 #include "macadam/numeric.hpp"
 
 namespace macadam {

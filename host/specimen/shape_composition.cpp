@@ -6,7 +6,7 @@
 
 #include "host/specimen/composition.hpp"
 #include "host/specimen/shape_placement.hpp"
-#include "host/specimen/specimen_check.hpp"
+#include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

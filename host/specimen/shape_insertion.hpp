@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host/specimen/shape_body.hpp"
-#include "host/specimen/sphere_grid.hpp"
+#include "host/spheres/sphere_grid.hpp"
 
 namespace macadam {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/specimen/neighbours.hpp"
+#include "host/spheres/neighbours.hpp"
 
 namespace macadam {
 namespace {

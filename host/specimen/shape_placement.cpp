@@ -11,7 +11,7 @@
 #include "host/specimen/shape_body.hpp"
 #include "host/specimen/shape_insertion.hpp"
 #include "host/specimen/shape_packing.hpp"
-#include "host/specimen/specimen_check.hpp"
+#include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -8,7 +8,7 @@
 #include "host/parallel.hpp"
 #include "host/shapes/fill.hpp"
 #include "host/specimen/shape_placement.hpp"
-#include "host/specimen/sphere_grid.hpp"
+#include "host/spheres/sphere_grid.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -14,7 +14,7 @@
 #include <system_error>
 #include <unordered_map>
 
-#include "host/specimen/specimen_check.hpp"
+#include "host/spheres/specimen_check.hpp"
 #include "host/results/files.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file neighbours.cpp  Each pair is found by its smaller sphere, then entered in both rows.
-#include "host/specimen/neighbours.hpp"
+#include "host/spheres/neighbours.hpp"
 
 namespace macadam {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "host/specimen/sphere_grid.hpp"
+#include "host/spheres/sphere_grid.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {

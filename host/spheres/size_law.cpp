@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file size_law.cpp  Quantiles and means of the size laws, and stratified draws of a given volume.
-#include "host/specimen/size_law.hpp"
+#include "host/spheres/size_law.hpp"
 
 #include <algorithm>
 #include <cmath>

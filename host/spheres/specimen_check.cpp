@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen.cpp  The checks that every specimen passes, whether read or generated.
+/// \file specimen_check.cpp  The checks that every specimen passes, whether read or generated.
 #include "macadam/specimen.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "host/specimen/specimen_check.hpp"
+#include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

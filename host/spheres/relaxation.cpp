@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file relaxation.cpp  FIRE minimisation (Bitzek et al. 2006) of a harmonic overlap energy.
-#include "host/specimen/relaxation.hpp"
+#include "host/spheres/relaxation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "host/specimen/neighbours.hpp"
+#include "host/spheres/neighbours.hpp"
 
 namespace macadam {
 namespace {

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "host/specimen/random_stream.hpp"
+#include "host/spheres/random_stream.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {

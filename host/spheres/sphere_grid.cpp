@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file sphere_grid.cpp  Cells that list the spheres within reach.
-#include "host/specimen/sphere_grid.hpp"
+#include "host/spheres/sphere_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
