@@ -54,7 +54,7 @@ TEST_P(StepperAgainstReference, ThousandStepsOfFreshSpecimens) {
     SCOPED_TRACE("specimen seed " + std::to_string(seed + k));
     const TestScene scene = make_scene(random_specimen(seed + k));
     for (int pair = 0; pair < pair_types; ++pair) EXPECT_GT(scene.network.count[static_cast<std::size_t>(pair)], 0);
-    compare(scene, shaking_options(scene), long_tests ? 1000 : 200);
+    compare(scene, shaking_options(scene), long_tests ? 1000 : 100);
   }
 }
 
@@ -66,7 +66,7 @@ TEST_P(StepperAgainstReference, LawsOfAnyNumberOfUnits) {
   laws[static_cast<std::size_t>(PairType::aa)] = laws::GeneralisedKelvin{3e10, 1e5, {1e10}, {1e5}, 0.0};
   laws[static_cast<std::size_t>(PairType::aw)] = laws::Elastic{1e10, 0.3};
   const TestScene scene = make_scene(random_specimen(7), {}, laws);
-  compare(scene, shaking_options(scene), 300);
+  compare(scene, shaking_options(scene), long_tests ? 300 : 100);
 }
 
 TEST_P(StepperAgainstReference, DampingScalingAndLateralWalls) {
@@ -77,7 +77,7 @@ TEST_P(StepperAgainstReference, DampingScalingAndLateralWalls) {
   options.density_scaling = 3;
   options.damping_kind = Damping::viscous;
   options.damping = 5e4;
-  compare(scene, options, 300);
+  compare(scene, options, long_tests ? 300 : 100);
   options.damping_kind = Damping::local;
   options.damping = 0.3;
   // sign(v) of a component that is zero but for rounding may differ: only a few steps can be compared
@@ -87,7 +87,7 @@ TEST_P(StepperAgainstReference, DampingScalingAndLateralWalls) {
 TEST_P(StepperAgainstReference, SlowLoadUnderWaves) {
   const TestScene scene = make_scene(random_specimen(13, 6, 6, 7));
   StepperOptions options = slow_options(scene);
-  compare(scene, options, long_tests ? 1000 : 200);
+  compare(scene, options, long_tests ? 1000 : 100);
   options.damping_kind = Damping::viscous;
   options.damping = 5e4;
   compare(scene, options, long_tests ? 300 : 100);
