@@ -4,7 +4,8 @@ add_library(macadam_options INTERFACE)
 target_include_directories(macadam_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra>)
 if(MACADAM_SANITIZE)
-  # Null pointers and ends of objects are the address sanitizer's too; asked twice they take a third of a build.
+  # Null pointers and ends of objects are the address sanitizer's too; asked twice, and with alignment and types of objects,
+  # they take a third of a build.
   target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${MACADAM_SANITIZE}
                                                    -fno-sanitize=null,alignment,object-size,vptr
                                                    -fno-sanitize-recover=all -fno-omit-frame-pointer>)

@@ -5,8 +5,8 @@
 
 #include "host/specimen/composition.hpp"
 #include "host/specimen/placement.hpp"
-#include "host/spheres/relaxation.hpp"
 #include "host/specimen/shaped_aggregates.hpp"
+#include "host/spheres/relaxation.hpp"
 #include "host/spheres/size_law.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"

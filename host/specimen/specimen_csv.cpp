@@ -14,8 +14,8 @@
 #include <system_error>
 #include <unordered_map>
 
-#include "host/spheres/specimen_check.hpp"
 #include "host/results/files.hpp"
+#include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"
 
