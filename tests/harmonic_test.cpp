@@ -120,6 +120,26 @@ TEST(Harmonic, ElasticSceneIsTheStaticModulus) {
   EXPECT_EQ(r.iterations, 1);  // the preconditioner is the matrix
 }
 
+// The wall of a laboratory is rigid. Its reaction as stiffness times opening would lose all digits but four at 1e12;
+// what is left of a finite stiffness falls as one over it.
+TEST(Harmonic, WallsFarStifferThanTheSpecimen) {
+  TestScene scene = t8();
+  const auto with = [&](double factor) {
+    for (const PairType pair : {PairType::aw, PairType::mw}) {
+      scene.laws[static_cast<std::size_t>(pair)] = laws::Elastic{factor * 1e11, 0.0};
+    }
+    return solve(scene, 20);
+  };
+  const double rigid = with(1e8).top.e_star_pa;
+  for (const double factor : {1e10, 1e12}) {
+    const HarmonicResult r = with(factor);
+    EXPECT_NEAR(r.top.e_star_pa / rigid, 1, 1e-8) << factor;
+    // the error of the solution enters the bottom's reaction as it is, here times the wall's stiffness
+    EXPECT_NEAR(r.bottom.e_star_pa / rigid, 1, 1e-6) << factor;
+    EXPECT_NEAR(r.top.phase_deg, r.bottom.phase_deg, 1e-4) << factor;
+  }
+}
+
 TEST(Harmonic, ClusterThatFloatsIsNamed) {
   TestScene scene = make_scene(random_specimen(6));
   std::vector<Contact> kept;

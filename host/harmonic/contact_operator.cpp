@@ -2,6 +2,9 @@
 // contact_operator.cpp  A contact's complex load: its real kinematics on real and imaginary parts, times k*(ω).
 #include "host/harmonic/contact_operator.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 #include "kernels/contact_kinematics.hpp"
 
 namespace macadam::harmonic {
@@ -22,6 +25,11 @@ PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& l
 namespace {
 
 Placement<double> placement_of(const Contact& c) { return {c.n, c.s, c.t, c.arm_a, c.arm_b}; }
+
+std::array<double, 6> moments_over_distance(const Contact& c) {
+  return {c.moments.a / c.distance,  c.moments.s / c.distance,  c.moments.t / c.distance,
+          c.moments.ss / c.distance, c.moments.st / c.distance, c.moments.tt / c.distance};
+}
 
 }  // namespace
 
@@ -48,8 +56,9 @@ ContactOperator::Load ContactOperator::contact_load(const Contact& c, const Pair
                                                     const Vector& motion, Complex wall) const {
   const std::array<Complex, 6> u = relative_motion(c, motion, wall);
   const Placement<double> placement = placement_of(c);
-  const double m[6] = {c.moments.a / c.distance,  c.moments.s / c.distance,  c.moments.t / c.distance,
-                       c.moments.ss / c.distance, c.moments.st / c.distance, c.moments.tt / c.distance};
+  const std::array<double, 6> moments = moments_over_distance(c);
+  double m[6];
+  std::copy(moments.begin(), moments.end(), m);
   const auto pair = static_cast<std::size_t>(c.pair);
   const Complex k = stiffness.k[pair];
   Load load{};
@@ -89,11 +98,29 @@ void ContactOperator::forces(const PairStiffness& stiffness, const Vector& motio
   }
 }
 
-WallForces ContactOperator::wall_forces(const PairStiffness& stiffness, const Vector& motion, Complex wall) const {
-  WallForces out;
+Complex ContactOperator::twice_energy(const PairStiffness& stiffness, const Vector& motion, Complex wall) const {
+  const auto& contacts = network_.contacts;
+  std::vector<Complex> share(contacts.size());
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& c = contacts[i];
+    const auto pair = static_cast<std::size_t>(c.pair);
+    const std::array<Complex, 6> u = relative_motion(c, motion, wall);
+    Complex density[6];
+    for (std::size_t k = 0; k < 6; ++k) density[k] = stiffness.k[pair] * u[k];
+    const std::array<double, 6> real = moments_over_distance(c);
+    const Complex alpha = stiffness.alpha[pair], m[6] = {real[0], real[1], real[2], real[3], real[4], real[5]};
+    const kernels::FacetLoad<Complex> load = kernels::condensed_load(density, alpha, m);
+    share[i] = load.n * u[0] - load.moment_t * u[1] + load.moment_s * u[2] + load.s * u[3] + load.t * u[4] +
+               load.moment_n * u[5];
+  }
+  return std::accumulate(share.begin(), share.end(), Complex(0));  // in order: the same bits for any number of threads
+}
+
+Complex ContactOperator::bottom_force(const PairStiffness& stiffness, const Vector& motion) const {
+  Complex out = 0;
   for (const Contact& c : network_.contacts) {
-    if (c.b == wall_z_lo) out.bottom += contact_load(c, stiffness, motion, wall).a[2];
-    if (c.b == wall_z_hi) out.top += contact_load(c, stiffness, motion, wall).a[2];
+    if (c.b == wall_z_lo) out += contact_load(c, stiffness, motion, 0.0).a[2];
   }
   return out;
 }

@@ -21,11 +21,6 @@ struct PairStiffness {
 /// The laws at one frequency.
 PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& laws, double omega);
 
-/// Reactions of the bottom and top wall along z: force on the particles of that wall.
-struct WallForces {
-  Complex bottom = 0, top = 0;
-};
-
 /// The six relative displacements (Eq. 8 about x0) of a contact while the particles move by `motion` and the top wall
 /// by `wall` along z.
 std::array<Complex, 6> relative_motion(const Contact& contact, const Vector& motion, Complex wall);
@@ -38,8 +33,11 @@ class ContactOperator {
   /// any number of threads: every contact's load is kept and each particle sums its row.
   void forces(const PairStiffness& stiffness, const Vector& motion, Complex wall, Vector& out) const;
 
-  /// Forces between particles and walls alone.
-  WallForces wall_forces(const PairStiffness& stiffness, const Vector& motion, Complex wall) const;
+  /// Σ u·k*·u over the contacts, u their relative displacements, without conjugates: twice the energy, where real.
+  Complex twice_energy(const PairStiffness& stiffness, const Vector& motion, Complex wall) const;
+
+  /// Force of the bottom wall, which is at rest, on its particles along z.
+  Complex bottom_force(const PairStiffness& stiffness, const Vector& motion) const;
 
  private:
   struct Load {

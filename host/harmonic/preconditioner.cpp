@@ -6,15 +6,21 @@
 #include <cholmod.h>
 #include <fmt/format.h>
 #include <metis.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <new>
 #include <thread>
 
 #include "macadam/error.hpp"
 
 /// OpenBLAS has it, other BLAS libraries have not.
 extern "C" __attribute__((weak)) void openblas_set_num_threads(int threads);
+/// Any BLAS: C = alpha·A·B + beta·C.
+extern "C" void dgemm_(const char*, const char*, const int* m, const int* n, const int* k, const double* alpha,
+                       const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
+                       const int* ldc);
 
 namespace macadam::harmonic {
 namespace {
@@ -38,6 +44,20 @@ std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::
     for (std::size_t i = 0; i < particles; ++i) place[i] = static_cast<idx_t>(i);
   }
   return {place.begin(), place.end()};
+}
+
+/// OpenBLAS maps a buffer when it is first called and, where there is no memory, tries for ever. So it is called here,
+/// once there is surely room for the buffer, which it then keeps. \throws std::bad_alloc.
+void make_room_for_blas() {
+  constexpr std::size_t buffer = std::size_t{32} << 22;  // bytes, the largest of OpenBLAS's builds for x86-64
+  void* room = ::mmap(nullptr, buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (room == MAP_FAILED) throw std::bad_alloc();
+  ::munmap(room, buffer);
+  constexpr int n = 128;  // smaller products may do without the buffer
+  const std::vector<double> a(n * n, 1);
+  std::vector<double> c(n * n);
+  const double one = 1, zero = 0;
+  dgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &zero, c.data(), &n);
 }
 
 /// CHOLMOD's view of a lower triangle in compressed columns.
@@ -65,6 +85,7 @@ struct Preconditioner::Factor {
   cholmod_dense *right = nullptr, *x = nullptr, *work_y = nullptr, *work_e = nullptr;
 
   Factor() {
+    make_room_for_blas();
     cholmod_start(&common);
     // most supernodes are small: 16 threads wait for each other and take twice as long as four (58 s against 24 s)
     constexpr unsigned most_threads = 4;

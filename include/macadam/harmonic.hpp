@@ -27,7 +27,8 @@ struct HarmonicOptions {
 /// One frequency's steady state.
 struct HarmonicResult {
   double frequency_hz = 0;
-  Stiffness top, bottom;  ///< from the reaction of the top and of the bottom wall; equal without inertia
+  Stiffness top;          ///< from the reaction of the top wall, as the energy of the motion gives it
+  Stiffness bottom;       ///< from the reaction of the bottom wall; equal without inertia
   double residual = 0;    ///< relative, computed anew from the solution
   int iterations = 0;
   double held_force = 0;  ///< force that holds free rigid motions / reaction; rounding, where nothing is wrong
