@@ -2,9 +2,11 @@
 // checkpoint_test.cpp  A run in pieces gives the bits of a run in one; no other checkpoint is taken for its own.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <H5Cpp.h>
 #include <fmt/format.h>
 
 #include <chrono>
@@ -241,6 +243,81 @@ TEST_F(CheckpointedRun, AKillWhileWritingLeavesTheOldOrTheNewOne) {
     EXPECT_EQ(found.arrays[0].unit, "m");
   }
   EXPECT_HAS(message_of([&] { write_checkpoint(folder_ / "no" / "checkpoint.h5", checkpoint); }), "cannot be written");
+}
+
+/// No file of this process may grow beyond so many bytes while this lives: a full disk as far as checkpoints go.
+class FileLimit {
+ public:
+  explicit FileLimit(rlim_t bytes) {
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
+  const Scene scene = this->scene(steady);
+  ASSERT_TRUE(run_until(scene, "out", 20, false));
+  const std::string kept = read(file("out"));
+  constexpr rlim_t enough_for_the_rest = 40'000;  // bytes; a checkpoint has ten times as many
+  ASSERT_GT(kept.size(), 2 * enough_for_the_rest);
+  const Scene often = this->scene(steady, "density_scaling = 1e4\n", "checkpoint = \"1 ms\"\n");
+  {
+    const FileLimit limit(enough_for_the_rest);
+    EXPECT_HAS(message_of([&] {
+                 write_checkpoint(file("out"), {{}, {{"n", "m", std::vector<double>(100000)}}});
+               }),
+               "checkpoint.h5: cannot be written");
+    EXPECT_TRUE(read(file("out")) == kept);
+    EXPECT_FALSE(fs::exists(out("out") / "checkpoint.h5.part"));
+
+    int warned = 0;
+    Watcher watcher;
+    watcher.warn = [&](const std::string& warning) { warned += warning.find("no checkpoint at") == 0; };
+    const RunResult result = run(often, out("limited"), watcher);
+    EXPECT_GT(warned, 0);
+    EXPECT_EQ(static_cast<int>(result.warnings.size()), warned);
+    EXPECT_FALSE(fs::exists(out("limited") / "checkpoint.h5.part"));
+
+    int asked = 0;
+    watcher.stop = [&] { return ++asked > 20; };
+    EXPECT_HAS(message_of([&] { run(scene, out("stopped"), watcher); }), "it cannot be resumed");
+    EXPECT_EQ(summary("stopped").at("status"), "interrupted");
+    EXPECT_HAS(message_of([&] { run(scene, out("out"), watcher, true); }), "--resume goes on from the one before");
+    EXPECT_EQ(summary("out").at("status"), "interrupted");
+  }
+  run(often, out("free"));
+  EXPECT_TRUE(read(out("limited") / "response.csv") == read(out("free") / "response.csv"));
+  run(scene, out("out"), {}, true);
+  run(scene, out("one"));
+  expect_same("out", "one");
+}
+
+TEST_F(CheckpointedRun, ARunOfAnotherKindLeavesTheCheckpointAlone) {
+  const Scene scene = this->scene(steady);
+  ASSERT_TRUE(run_until(scene, "out", 20, false));
+  const std::string kept = read(file("out"));
+  Scene harmonic = scene;
+  harmonic.solver.method = SolverMethod::harmonic;
+  run(harmonic, out("out"));
+  EXPECT_TRUE(read(file("out")) == kept);
+  run(scene, out("out"), {}, true);
+  run(scene, out("one"));
+  expect_same("out", "one");
+}
+
+// With another base address than the file's own: HDF5's tools still find what stands behind the user block.
+TEST_F(CheckpointedRun, IsAnHdf5FileForAnyReader) {
+  write_checkpoint(folder_ / "checkpoint.h5", {{{"text", "words"}}, {{"numbers", "m", std::vector<double>{1, 2}}}});
+  const H5::H5File in((folder_ / "checkpoint.h5").string(), H5F_ACC_RDONLY);
+  double values[2];
+  in.openDataSet("arrays/numbers").read(values, H5::PredType::NATIVE_DOUBLE);
+  EXPECT_EQ(values[1], 2);
 }
 
 TEST_F(CheckpointedRun, SceneSaysHowOftenAndTheReferenceRefuses) {

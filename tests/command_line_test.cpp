@@ -1,80 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // command_line_test.cpp  The program as a user meets it: exit codes, messages, files.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <fmt/format.h>
-
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <regex>
-#include <sstream>
 
-#include "test_files.hpp"
+#include "program.hpp"
 
 namespace macadam::test {
 namespace {
 
-/// One cycle of 500 steps at 20 Hz.
-constexpr const char* quick = "density_scaling = 1e6\n";
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> out;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) out.push_back(line);
-  return out;
-}
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-};
-
-class CommandLine : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              fmt::format("macadam_cli_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(), getpid());
-    fs::create_directories(folder_);
-    fs::copy_file(MACADAM_TEST_DATA "/t8.csv", folder_ / "t8.csv");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  /// Runs the program in a shell; output goes to files, which are no terminals.
-  Outcome macadam(const std::string& arguments) const {
-    const fs::path out = folder_ / "stdout.txt", err = folder_ / "stderr.txt";
-    const int status = std::system(
-        fmt::format("'{}' {} >'{}' 2>'{}' </dev/null", MACADAM_PROGRAM, arguments, out.string(), err.string()).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
-  }
-
-  std::string path(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
-
-  /// A scene of the 175 particles; the specimen's path is relative to it.
-  fs::path write_scene(const std::string& solver = quick, const std::string& more = "") const {
-    const fs::path file = folder_ / "scene.toml";
-    std::ofstream(file) << "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n"
-                        << "[loading]\nkind = \"cyclic\"\nfrequencies = [20.0]\ncycles = 1\n"
-                        << "[solver]\n"
-                        << solver << more << am1_contacts;
-    return file;
-  }
-
-  Outcome run_quick(const std::string& out, const std::string& options = "--backend cpu") const {
-    return macadam(fmt::format("run {} --out {} {}", path("scene.toml"), path(out), options));
-  }
-
-  nlohmann::json summary(const std::string& out) const {
-    return nlohmann::json::parse(read(folder_ / out / "summary.json"));
-  }
-
-  fs::path folder_;
-};
+using CommandLine = Program;
 
 TEST_F(CommandLine, InfoNamesVersionBackendsAndChoice) {
   const Outcome info = macadam("info");
@@ -109,9 +43,51 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
   }
-  EXPECT_TRUE(contains(macadam("run " + job + " --frobnicate").err, "--frobnicate"));
-  EXPECT_TRUE(contains(macadam("run " + job + " --backend gpu").err, "gpu"));
+  const std::string seeds = "expected a whole number from 0 to 18446744073709551615";
+  for (const auto& [arguments, message] : std::map<std::string, std::string>{
+           {"run " + job + " --frobnicate", "found \"--frobnicate\", expected --"},
+           {"run " + job + " --backend gpu", "--backend: found \"gpu\", expected one of auto|cuda|cpu|reference"},
+           {"run " + job + " --backend 3", "--backend: found \"3\""},
+           {"run " + job + " --seed -1", "--seed: found \"-1\", " + seeds},
+           {"run " + job + " --seed 18446744073709551616", seeds},
+           {"run " + job + " --seed ''", "--seed: found \"\", " + seeds},
+           {"run " + job + " --seed 0x10", seeds},
+           {"run " + job + " --threads '2 '", "--threads: found \"2 \", expected a whole number from 1 to 1024"},
+           {"run " + path("scene.toml") + " -o out", "found \"-o\", expected --out (the nearest of "},
+           {"run " + path("scene.toml") + " --out ''", "--out: found \"\""},
+           {"runn " + job, "found \"runn\", expected run (the nearest of run, specimen, shapes, info)"},
+           {"shapes fil", "found \"fil\", expected fill (the nearest of "},
+           {"run " + job + " more", "found \"more\", expected nothing more"},
+           {"", "found no command, expected one of run, specimen, shapes, info"},
+           {"shapes fill x --out y --radius 1 --scale 0", "--scale: found \"0\", expected a number from 1e-12 to "}}) {
+    const Outcome outcome = macadam(arguments);
+    EXPECT_EQ(outcome.code, 2) << arguments;
+    EXPECT_TRUE(contains(outcome.err, message)) << arguments << ": " << outcome.err;
+  }
   EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+// What CLI11 makes of enumerations is their number, which would be printed as a character.
+TEST_F(CommandLine, HelpIsPlainText) {
+  for (const char* command : {"run", "specimen", "shapes fill", "shapes measure", "shapes generate", "info", ""}) {
+    const std::string help = macadam(std::string(command) + " --help").out;
+    for (const char c : help) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= ' ') << command << int{c};
+  }
+  EXPECT_TRUE(contains(macadam("run --help").out, "--backend auto|cuda|cpu|reference"));
+}
+
+// 010 is ten, not eight: two specimens of ten are the same one.
+TEST_F(CommandLine, NumbersAreDecimal) {
+  std::ofstream(folder_ / "made.toml") << "[specimen]\nbox = [0.004, 0.004, 0.004]\n[specimen.mastic]\n"
+                                          "radius = [\"0.4 mm\", \"0.5 mm\"]\ncount = 60\n"
+                                          "[loading]\nkind = \"cyclic\"\nfrequencies = [20.0]\n"
+                                       << am1_contacts;
+  for (const char* seed : {"010", "10", "8"}) {
+    const Outcome made = macadam(fmt::format("specimen {} --out {} --seed {}", path("made.toml"), path(seed), seed));
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  EXPECT_EQ(read(folder_ / "010/specimen.csv"), read(folder_ / "10/specimen.csv"));
+  EXPECT_NE(read(folder_ / "010/specimen.csv"), read(folder_ / "8/specimen.csv"));
 }
 
 TEST_F(CommandLine, WrongInputIsExitCodeTwoAndNamesTheLine) {

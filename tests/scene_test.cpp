@@ -335,6 +335,7 @@ const std::vector<Wrong> wrong_scenes = {
     {"VolumeFractionAboveOne", {{6, "volume_fraction = 25"}}, 6, "25", "at most 1"},
     {"CountZero", {{6, "count = 0"}}, 6, "0", "an integer from 1"},
     {"NegativeSeed", {{3, "seed = -1"}}, 3, "-1", "at least 0"},
+    {"StrainOfNothing", {{32, "strain_amplitude = 5e-324"}}, 32, "found 5e-324", "from 1e-20"},
     {"StrainOfOne", {{32, "strain_amplitude = \"100 %\""}}, 32, "100 %", "below 1"},
     {"NoCycles", {{33, "cycles = 0"}}, 33, "0", "an integer from 1"},
     {"FewSamples", {{34, "samples_per_cycle = 7"}}, 34, "7", "an integer from 8"},

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file progress_line.hpp  One line on a terminal: stage, share done, time left. Silent where output is not a
-/// terminal.
+/// terminal, and from the moment on when the terminal is gone.
 #pragma once
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <string>
+
+#include "host/cli/streams.hpp"
 
 namespace macadam {
 
@@ -25,14 +26,13 @@ class ProgressLine {
     last_ = now;
     drawn_ = true;
     const double spent = std::chrono::duration<double>(now - stage_start_).count();
-    fmt::print(stderr, "\r\033[K{} {:.0f} %", stage, 100 * share);
-    if (share > 0.001) fmt::print(stderr, ", {} left", in_words(spent * (1 - share) / share));
-    std::fflush(stderr);
+    const std::string left = share > 0.001 ? ", " + in_words(spent * (1 - share) / share) + " left" : "";
+    terminal_ = say_error("\r\033[K{} {:.0f} %{}", stage, 100 * share, left);
   }
 
   /// Wipes the line, so that other output may follow.
   void clear() {
-    if (drawn_) fmt::print(stderr, "\r\033[K");
+    if (drawn_ && terminal_) terminal_ = say_error_text("\r\033[K");
     drawn_ = false;
   }
 

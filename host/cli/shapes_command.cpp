@@ -8,9 +8,13 @@
 #include <exception>
 #include <memory>
 
+#include "host/cli/options.hpp"
 #include "host/cli/shapes_fill.hpp"
 #include "host/cli/shapes_generate.hpp"
+#include "host/cli/streams.hpp"
+#include "host/parallel.hpp"
 #include "host/results/files.hpp"
+#include "host/results/result_folder.hpp"
 #include "host/shapes/statistics.hpp"
 #include "host/shapes/surface_files.hpp"
 #include "macadam/error.hpp"
@@ -50,16 +54,15 @@ struct Outcome {
   std::exception_ptr error;
 };
 
-/// Does `work` for each file, on all cores; nothing that one throws stops the others.
+/// Does `work` for each file, on all cores; what is wrong with one does not stop the others.
 template <class T, class Work>
 std::vector<Outcome<T>> for_each_file(const std::vector<fs::path>& files, Work&& work) {
   std::vector<Outcome<T>> outcomes(files.size());
-#pragma omp parallel for schedule(dynamic, 1)
-  for (std::size_t i = 0; i < files.size(); ++i) {
+  for_each_in_parallel(files.size(), [&](std::size_t i) {
     try {
       work(files[i], outcomes[i]);
-    } catch (...) { outcomes[i].error = std::current_exception(); }
-  }
+    } catch (const Error&) { outcomes[i].error = std::current_exception(); }
+  });
   return outcomes;
 }
 
@@ -90,7 +93,7 @@ void measure(const Arguments& arguments) {
     outcome.value = measure_shape(surface);
   });
   for (std::size_t i = 0; i < files.size(); ++i) {
-    if (!outcomes[i].note.empty()) fmt::print("{}: repaired: {}\n", files[i].string(), outcomes[i].note);
+    if (!outcomes[i].note.empty()) say("{}: repaired: {}\n", files[i].string(), outcomes[i].note);
   }
   throw_errors(outcomes);
   std::vector<std::string> names;
@@ -100,15 +103,15 @@ void measure(const Arguments& arguments) {
     shapes.push_back(outcomes[i].value);
   }
   const fs::path out = arguments.out;
-  make_result_folder(out);
+  const ResultFolder folder(out);
   write_whole(out / "shapes.csv", shapes_csv(names, shapes));
   write_whole(out / "statistics.csv", statistics_csv(shapes));
   write_whole(out / "correlation.csv", correlation_csv(shapes));
-  fmt::print("{}", statistics_text(shapes));
+  say("{}", statistics_text(shapes));
   if (std::any_of(shapes.begin(), shapes.end(), [](const ShapeMeasure& m) { return m.d_long > 1; })) {
-    fmt::print("warning: aggregates of more than 1 m; files in millimetres want --scale 1e-3\n");
+    say("warning: aggregates of more than 1 m; files in millimetres want --scale 1e-3\n");
   }
-  fmt::print("\nfiles in {}: shapes.csv statistics.csv correlation.csv\n", arguments.out);
+  say("\nfiles in {}: shapes.csv statistics.csv correlation.csv\n", arguments.out);
 }
 
 void check(const Arguments& arguments) {
@@ -119,9 +122,9 @@ void check(const Arguments& arguments) {
     outcome.value = verdict.good();
   });
   for (std::size_t i = 0; i < files.size(); ++i) {
-    if (!outcomes[i].error) fmt::print("{}: {}\n", files[i].string(), outcomes[i].note);
+    if (!outcomes[i].error) say("{}: {}\n", files[i].string(), outcomes[i].note);
   }
-  std::fflush(stdout);
+  flush_output();
   throw_errors(outcomes);
   const auto good = std::count_if(outcomes.begin(), outcomes.end(), [](const auto& o) { return o.value; });
   if (const auto all = std::ssize(files); good < all) {
@@ -136,8 +139,8 @@ void repair(const Arguments& arguments) {
   std::string what;
   surface = repair_surface(surface, &what);
   write_surface(arguments.out, surface);
-  fmt::print("{}: {}\n", file.string(), what);
-  fmt::print("{}: {} points, {} facets\n", arguments.out, surface.points.size(), surface.facets.size());
+  say("{}: {}\n", file.string(), what);
+  say("{}: {} points, {} facets\n", arguments.out, surface.points.size(), surface.facets.size());
 }
 
 }  // namespace
@@ -152,8 +155,8 @@ void add_shapes_command(CLI::App& app) {
 
   CLI::App& measure_app = *shapes.add_subcommand("measure", "dimensions, volume, area and shape indices of each");
   add_paths(measure_app);
-  measure_app.add_option("--out", arguments->out, "folder of the tables; made if it is not there")->required();
-  measure_app.add_option("--scale", arguments->scale, "metres per unit of the files, e.g. 1e-3 for millimetres");
+  add_text(measure_app, "--out", arguments->out, "folder of the tables; made if it is not there")->required();
+  add_scale(measure_app, arguments->scale);
   measure_app.add_flag("--repair", arguments->repair, "repair faulty surfaces before measuring them");
   measure_app.callback([arguments] { measure(*arguments); });
 
@@ -163,7 +166,7 @@ void add_shapes_command(CLI::App& app) {
 
   CLI::App& repair_app = *shapes.add_subcommand("repair", "make one fit for measuring and filling");
   repair_app.add_option("file", arguments->paths, "STL, OFF, PLY or OBJ file")->required()->expected(1);
-  repair_app.add_option("--out", arguments->out, "file to write; its ending is the format")->required();
+  add_text(repair_app, "--out", arguments->out, "file to write; its ending is the format")->required();
   repair_app.callback([arguments] { repair(*arguments); });
 
   // Commands with files of their own add themselves here, a line each.

@@ -6,10 +6,13 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
+#include <limits>
 #include <memory>
 
+#include "host/cli/options.hpp"
+#include "host/cli/streams.hpp"
 #include "host/results/files.hpp"
+#include "host/results/result_folder.hpp"
 #include "host/scene/units.hpp"
 #include "macadam/macadam.hpp"
 #include "macadam/shape.hpp"
@@ -58,20 +61,19 @@ Surface drawn(const MultiSphere& cluster) {
 void print_report(const Surface& surface, const MultiSphere& cluster, const FillReport& r) {
   const ShapeMeasure m = measure_shape(surface);
   const auto [low, high] = std::minmax_element(cluster.radius.begin(), cluster.radius.end());
-  fmt::print("{}: {} sphere{} of {:.4g} to {:.4g} mm\n", surface.name, cluster.size(), cluster.size() == 1 ? "" : "s",
-             1e3 * *low, 1e3 * *high);
-  fmt::print("{:<26} {:>10} {:>10}\n", "", "shape", "spheres");
+  say("{}: {} sphere{} of {:.4g} to {:.4g} mm\n", surface.name, cluster.size(), cluster.size() == 1 ? "" : "s",
+      1e3 * *low, 1e3 * *high);
+  say("{:<26} {:>10} {:>10}\n", "", "shape", "spheres");
   const auto row = [](const char* what, double shape, double spheres) {
-    fmt::print("{:<26} {:>10.4g} {:>10.4g}\n", what, shape, spheres);
+    say("{:<26} {:>10.4g} {:>10.4g}\n", what, shape, spheres);
   };
   row("volume, sum (mm3)", 1e9 * m.volume, 1e9 * r.sphere_volume);
   row("D^L (mm)", 1e3 * m.d_long, 1e3 * r.d_long);
   row("D^I (mm)", 1e3 * m.d_intermediate, 1e3 * r.d_intermediate);
   row("D^S (mm)", 1e3 * m.d_short, 1e3 * r.d_short);
-  fmt::print("covered {:.2f} % of the shape, {:.2f} % outside it, largest overlap {:.1f} % of the radii's sum\n",
-             100 * r.covered, 100 * r.outside, 100 * r.largest_overlap);
-  fmt::print("surface deviation {:.4g} mm on average, {:.4g} mm at most\n", 1e3 * r.deviation_mean,
-             1e3 * r.deviation_largest);
+  say("covered {:.2f} % of the shape, {:.2f} % outside it, largest overlap {:.1f} % of the radii's sum\n",
+      100 * r.covered, 100 * r.outside, 100 * r.largest_overlap);
+  say("surface deviation {:.4g} mm on average, {:.4g} mm at most\n", 1e3 * r.deviation_mean, 1e3 * r.deviation_largest);
 }
 
 void fill_command(Arguments arguments) {
@@ -89,12 +91,12 @@ void fill_command(Arguments arguments) {
   }
   const MultiSphere cluster = fill_shape(surface, spec);
   const std::filesystem::path out = arguments.out;
-  make_result_folder(out);
+  const ResultFolder folder(out);
   write_whole(out / "spheres.csv", spheres_csv(cluster));
   write_surface(out / "spheres.obj", drawn(cluster));
   write_surface(out / "shape.obj", surface);
   print_report(surface, cluster, measure_fill(surface, cluster));
-  fmt::print("files in {}: spheres.csv spheres.obj shape.obj (metres)\n", arguments.out);
+  say("files in {}: spheres.csv spheres.obj shape.obj (metres)\n", arguments.out);
 }
 
 }  // namespace
@@ -108,19 +110,17 @@ void add_shapes_fill(CLI::App& shapes) {
       ->required()
       ->delimiter(',')
       ->expected(1, 2);
-  fill->add_option("--porosity", spec.porosity, "1 - sum of the spheres' volumes / volume of the shape")
-      ->capture_default_str();
-  fill->add_option("--least", spec.least, "fewer spheres than this: a single one")->capture_default_str();
-  fill->add_option("--single", spec.single, "radius of a single sphere: intermediate (D^I/2), circumscribed or volume")
-      ->transform(
-          CLI::CheckedTransformer(std::map<std::string, SingleSphere>{{"intermediate", SingleSphere::intermediate},
-                                                                      {"circumscribed", SingleSphere::circumscribed},
-                                                                      {"volume", SingleSphere::volume}}));
-  fill->add_option("--seed", spec.seed, "another number, other spheres")->capture_default_str();
-  fill->add_option("--circumscribed", arguments->circumscribed, "scale the shape to D^I/2 of this: \"6.295 mm\"");
-  fill->add_option("--scale", arguments->scale, "metres a unit of the file: 1e-3 for millimetres")
-      ->capture_default_str();
-  fill->add_option("--out", arguments->out, "folder of the results; made if it is not there")->required();
+  add_number(*fill, "--porosity", spec.porosity, "1 - sum of the spheres' volumes / volume of the shape", 0.0, 1.0);
+  add_number(*fill, "--least", spec.least, "fewer spheres than this: a single one", 1, 1'000'000);
+  add_choice(*fill, "--single", spec.single,
+             "radius of a single sphere: D^I/2, that of the sphere around, of the volume",
+             {{"intermediate", SingleSphere::intermediate},
+              {"circumscribed", SingleSphere::circumscribed},
+              {"volume", SingleSphere::volume}});
+  add_number(*fill, "--seed", spec.seed, "another number, other spheres", 0, std::numeric_limits<std::uint64_t>::max());
+  add_text(*fill, "--circumscribed", arguments->circumscribed, "scale the shape to D^I/2 of this: \"6.295 mm\"");
+  add_scale(*fill, arguments->scale);
+  add_text(*fill, "--out", arguments->out, "folder of the results; made if it is not there")->required();
   fill->callback([arguments] { fill_command(*arguments); });
 }
 

@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 
-#include "host/results/files.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/streams.hpp"
+#include "host/results/result_folder.hpp"
 #include "host/shapes/surface_files.hpp"
 #include "macadam/error.hpp"
 #include "macadam/shape.hpp"
@@ -37,13 +40,13 @@ void generate(const Arguments& arguments) {
   const std::vector<Surface> shapes = arguments.icosahedron
                                           ? std::vector<Surface>{subdivided_icosahedron(*arguments.icosahedron)}
                                           : generate_shape_library(arguments.seed, arguments.count);
-  make_result_folder(arguments.out);
+  const ResultFolder folder(arguments.out);
   refuse_others(arguments.out, shapes);
   for (const Surface& shape : shapes) {
     write_surface(std::filesystem::path(arguments.out) / (shape.name + ".off"), shape);
   }
-  fmt::print("{} shapes in {}: {}.off{}\n", shapes.size(), arguments.out, shapes.front().name,
-             shapes.size() > 1 ? fmt::format(" … {}.off", shapes.back().name) : "");
+  say("{} shapes in {}: {}.off{}\n", shapes.size(), arguments.out, shapes.front().name,
+      shapes.size() > 1 ? fmt::format(" … {}.off", shapes.back().name) : "");
 }
 
 }  // namespace
@@ -51,11 +54,12 @@ void generate(const Arguments& arguments) {
 void add_shapes_generate(CLI::App& shapes) {
   CLI::App& command = *shapes.add_subcommand("generate", "make the library of crushed aggregates, in metres");
   const auto arguments = std::make_shared<Arguments>();
-  command.add_option("--out", arguments->out, "folder of the OFF files; made if it is not there")->required();
-  auto* seed =
-      command.add_option("--seed", arguments->seed, "another library with the same statistics")->capture_default_str();
-  auto* count = command.add_option("--count", arguments->count, "how many shapes")->capture_default_str();
-  command.add_option("--icosahedron", arguments->icosahedron, "instead: the subdivided icosahedron of this radius (m)")
+  add_text(command, "--out", arguments->out, "folder of the OFF files; made if it is not there")->required();
+  auto* seed = add_number(command, "--seed", arguments->seed, "another library with the same statistics", 0,
+                          std::numeric_limits<std::uint64_t>::max());
+  auto* count = add_number(command, "--count", arguments->count, "how many shapes", 1, 10'000);
+  add_number(command, "--icosahedron", arguments->icosahedron, "instead: the subdivided icosahedron of this radius (m)",
+             1e-9, 1e9)
       ->excludes(seed)
       ->excludes(count);
   command.callback([arguments] { generate(*arguments); });

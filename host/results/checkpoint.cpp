@@ -3,15 +3,13 @@
 #include "host/results/checkpoint.hpp"
 
 #include <H5Cpp.h>
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <fstream>
 
+#include "host/results/files.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -47,10 +45,17 @@ StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
 
 H5::StrType text_type(std::size_t length) { return {H5::PredType::C_S1, length + 1}; }
 
-void write_hdf5(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-  H5::FileCreatPropList properties;
-  properties.setUserblock(user_block);
-  H5::H5File out(file.string(), H5F_ACC_TRUNC, properties);
+/// HDF5's "core" driver keeps a file in memory: it never meets a full disk, whose errors it does not survive.
+H5::FileAccPropList in_memory() {
+  constexpr std::size_t growth = 1 << 24;  // bytes
+  H5::FileAccPropList access;
+  access.setCore(growth, false);
+  return access;
+}
+
+/// The bytes of a checkpoint, its user block still empty.
+std::string file_of(const Checkpoint& checkpoint) {
+  H5::H5File out("in memory", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory());
   const H5::Group texts = out.createGroup("texts"), arrays = out.createGroup("arrays");
   for (const auto& [name, text] : checkpoint.texts) {
     const H5::StrType type = text_type(text.size());
@@ -68,11 +73,23 @@ void write_hdf5(const std::filesystem::path& file, const Checkpoint& checkpoint)
         },
         array.values);
   }
-  out.close();
+  out.flush(H5F_SCOPE_GLOBAL);
+  const ssize_t bytes = H5Fget_file_image(out.getId(), nullptr, 0);
+  if (bytes <= 0) throw H5::FileIException("H5Fget_file_image", "no image");
+  std::string all(user_block + static_cast<std::size_t>(bytes), '\0');
+  if (H5Fget_file_image(out.getId(), &all[user_block], all.size() - user_block) != bytes) {
+    throw H5::FileIException("H5Fget_file_image", "another image");
+  }
+  return all;
 }
 
-Checkpoint read_hdf5(const std::filesystem::path& file) {
-  const H5::H5File in(file.string(), H5F_ACC_RDONLY);
+Checkpoint read_image(std::string image) {
+  H5::FileAccPropList access = in_memory();
+  if (H5Pset_file_image(access.getId(), image.data(), image.size()) < 0) {
+    throw H5::FileIException("H5Pset_file_image", "no image");
+  }
+  const H5::H5File in("in memory", H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access);
+  image = {};  // HDF5 has a copy
   const H5::Group texts = in.openGroup("texts"), arrays = in.openGroup("arrays");
   Checkpoint out;
   for (hsize_t i = 0; i < texts.getNumObjs(); ++i) {
@@ -96,51 +113,27 @@ Checkpoint read_hdf5(const std::filesystem::path& file) {
   return out;
 }
 
-/// The user block of a file of so many bytes: HDF5 itself may fail on a damaged file, so that none is given to it.
-std::string header_of(std::uintmax_t bytes, uLong checksum) {
-  return fmt::format("Macadam checkpoint of {} bytes, CRC-32 of those from {} on {:08x}\n", bytes, user_block,
-                     checksum);
-}
-
-/// The header that the file ought to have.
-std::string header_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  in.seekg(user_block);
-  uLong checksum = crc32(0, nullptr, 0);
-  std::vector<char> block(1 << 20);
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
-    checksum = crc32(checksum, reinterpret_cast<const Bytef*>(block.data()), static_cast<uInt>(in.gcount()));
-  }
-  return header_of(std::filesystem::file_size(file), checksum);
-}
-
-/// Waits until what was written is on the disk; a folder's entries likewise.
-void sync(const std::filesystem::path& path, const std::string& header) {
-  const bool folder = header.empty();
-  const int file = ::open(path.c_str(), folder ? O_RDONLY | O_DIRECTORY : O_WRONLY);
-  bool good = file >= 0;
-  if (!folder) good = good && ::pwrite(file, header.data(), header.size(), 0) == static_cast<ssize_t>(header.size());
-  good = good && ::fsync(file) == 0;
-  if (file >= 0) good = ::close(file) == 0 && good;
-  if (!good && !folder) throw RunError(path.string() + ": cannot be written (disk full, or no permission)");
+/// The user block before an image: HDF5 itself may fail on a damaged file, so that none is given to it.
+std::string user_block_of(std::string_view image) {
+  const uLong checksum = crc32_z(crc32(0, nullptr, 0), reinterpret_cast<const Bytef*>(image.data()), image.size());
+  std::string block = fmt::format("Macadam checkpoint of {} bytes, CRC-32 of those from {} on {:08x}\n",
+                                  user_block + image.size(), user_block, checksum);
+  block.resize(user_block, '\0');
+  return block;
 }
 
 }  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
-  auto part = file;
-  part += ".part";
+  std::string bytes;
   try {
     const Quiet quiet;
-    write_hdf5(part, checkpoint);
+    bytes = file_of(checkpoint);
   } catch (const H5::Exception& error) {
-    throw RunError(part.string() + ": cannot be written (disk full, or no permission): " + error.getDetailMsg());
+    throw RunError(file.string() + ": HDF5 cannot make it (out of memory?): " + error.getDetailMsg());
   }
-  sync(part, header_of(part));
-  std::error_code error;
-  std::filesystem::rename(part, file, error);
-  if (error) throw RunError(file.string() + ": cannot be replaced: " + error.message());
-  sync(file.parent_path().empty() ? "." : file.parent_path(), "");
+  bytes.replace(0, user_block, user_block_of(std::string_view(bytes).substr(user_block)));
+  write_whole(file, bytes, true);
 }
 
 Checkpoint read_checkpoint(const std::filesystem::path& file) {
@@ -151,18 +144,19 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string header(user_block, '\0');
   in.read(header.data(), static_cast<std::streamsize>(header.size()));
-  header.resize(std::min(header.find('\n'), header.size() - 1) + 1);
   unsigned long long bytes = 0;
   if (std::sscanf(header.c_str(), "Macadam checkpoint of %llu bytes", &bytes) != 1) {
     refuse("another kind of file", "a checkpoint of Macadam");
   }
-  if (const auto size = std::filesystem::file_size(file); size != bytes) {
+  if (const auto size = std::filesystem::file_size(file); size != bytes || size < user_block) {
     refuse(fmt::format("{} bytes", size), fmt::format("{}: it is cut off or damaged", bytes));
   }
-  if (header != header_of(file)) refuse("another checksum than it names", "the same: it is damaged");
+  std::string image(bytes - user_block, '\0');
+  in.read(image.data(), static_cast<std::streamsize>(image.size()));
+  if (!in || header != user_block_of(image)) refuse("another checksum than it names", "the same: it is damaged");
   try {
     const Quiet quiet;
-    return read_hdf5(file);
+    return read_image(std::move(image));
   } catch (const H5::Exception& error) {
     throw InputError(file.string(), 0, "checkpoint", "what HDF5 cannot read (" + error.getDetailMsg() + ")",
                      "texts and arrays");

@@ -2,34 +2,71 @@
 // files.cpp  Result files. fmt's "{}" prints the shortest digits that round-trip a double.
 #include "host/results/files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <iterator>
+#include <system_error>
+#include <utility>
 
 #include "macadam/error.hpp"
 
 namespace macadam {
 
-void make_result_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder)) {
-    throw RunError(folder.string() + ": cannot make the result folder" + (error ? ": " + error.message() : ""));
+namespace {
+
+/// A file that is open for writing, in the system's own calls: a stream would not say whether all is on the disk.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::filesystem::path& file)
+      : file_(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {}
+  ~OutputFile() { close(); }
+  bool write(std::string_view bytes) const {
+    while (file_ >= 0 && !bytes.empty()) {
+      const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) return false;
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return file_ >= 0;
   }
+  bool sync() const { return ::fsync(file_) == 0; }
+  bool close() {
+    const int file = std::exchange(file_, -1);
+    return file < 0 || ::close(file) == 0;
+  }
+
+ private:
+  int file_;
+};
+
+/// Waits until a folder's entries are on the disk; some file systems cannot, which is no fault of the file.
+void sync_folder(const std::filesystem::path& folder) {
+  const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  ::fsync(file);
+  ::close(file);
 }
 
-void write_whole(const std::filesystem::path& file, const std::string& text) {
+}  // namespace
+
+void write_whole(const std::filesystem::path& file, std::string_view bytes, bool to_disk) {
   auto part = file;
   part += ".part";
-  {
-    std::ofstream out(part, std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out) throw RunError(part.string() + ": cannot be written (disk full, or no permission)");
-  }
+  OutputFile out(part);
+  bool written = out.write(bytes) && (!to_disk || out.sync());
+  written = out.close() && written;
+  const std::string why = written ? "" : std::generic_category().message(errno);
   std::error_code error;
-  std::filesystem::rename(part, file, error);
-  if (error) throw RunError(file.string() + ": cannot be replaced: " + error.message());
+  if (written) std::filesystem::rename(part, file, error);
+  if (!written || error) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);  // half a file on a full disk would keep it full
+    throw RunError(file.string() + ": cannot be written: " + (written ? error.message() : why));
+  }
+  if (to_disk) sync_folder(file.parent_path());
 }
 
 std::string csv_field(const std::string& name) {

@@ -5,17 +5,17 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include "macadam/contact_network.hpp"
 #include "macadam/results.hpp"
 
 namespace macadam {
 
-/// Makes the folder of the results. \throws RunError when it cannot be made.
-void make_result_folder(const std::filesystem::path& folder);
-
-/// Replaces a file by a rename, so that a reader finds the old text or the new. \throws RunError.
-void write_whole(const std::filesystem::path& file, const std::string& text);
+/// Replaces a file by a rename, so that a reader finds the old bytes or the new; what could not be written whole is
+/// removed. `to_disk`: waits until it is there, so that a power failure leaves one of the two as well. \throws
+/// RunError.
+void write_whole(const std::filesystem::path& file, std::string_view bytes, bool to_disk = false);
 
 /// A name as a field of a CSV file: quoted where it has to be (RFC 4180).
 std::string csv_field(const std::string& name);

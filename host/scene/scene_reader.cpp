@@ -122,7 +122,8 @@ void check_together(const Scene& scene, const Section& root) {
 }  // namespace
 
 LoadingSpec read_loading(const Section& section) {
-  constexpr Rule strain{[](double v) { return v > 0 && v < 1; }, "a strain above 0 and below 1"};
+  // below 1e-20 the increments of a step leave the range of single precision; rounding of the geometry is far larger
+  constexpr Rule strain{[](double v) { return v >= 1e-20 && v < 1; }, "a strain from 1e-20 to below 1"};
   constexpr std::int64_t most = 1'000'000;
   constexpr Rule ramp{[](double v) { return v >= 0 && v <= most; }, "0 to 1,000,000 cycles"};
   LoadingSpec spec;

@@ -105,9 +105,6 @@ class Section {
   const toml::table* table_;
 };
 
-/// The known word with the fewest edits to `word`, upper and lower case taken as equal. `known` is not empty.
-std::string nearest(std::string_view word, const std::vector<std::string>& known);
-
 /// Readers for the keys of a section: each stores the checked value in `target`, which must outlive Section::read.
 /// @{
 using Reader = std::function<void(const Value&)>;

@@ -146,8 +146,13 @@ void require_same_specimen(const std::filesystem::path& file, const RunState& st
 }
 
 Checkpoints::Checkpoints(const std::filesystem::path& file, const Scene& scene, const Preparation& prepared,
-                         Backend backend, std::function<bool()> stop)
-    : file_(file), scene_(scene), prepared_(prepared), backend_(backend), stop_(std::move(stop)) {}
+                         Backend backend, std::function<bool()> stop, std::function<void(const std::string&)> warn)
+    : file_(file),
+      scene_(scene),
+      prepared_(prepared),
+      backend_(backend),
+      stop_(std::move(stop)),
+      warn_(std::move(warn)) {}
 
 void Checkpoints::look(const RunState& at, double seconds_running, const Stepper& stepper, const std::string& where) {
   constexpr double usual = 600;  // [s]
@@ -155,14 +160,25 @@ void Checkpoints::look(const RunState& at, double seconds_running, const Stepper
   std::string why_not;
   const bool kept = keeps_checkpoints(scene_, backend_, &why_not), stopping = stop_ && stop_();
   const bool due = period > 0 && std::chrono::duration<double>(Clock::now() - last_).count() >= period;
-  if (kept && (stopping || due)) {
-    write(at, seconds_running, stepper);
+  if (!stopping && !(kept && due)) return;
+  std::string failure;
+  if (kept) {
+    try {
+      write(at, seconds_running, stepper);
+      written_ = true;
+    } catch (const RunError& error) { failure = error.what(); }
     last_ = Clock::now();
   }
+  if (!stopping && !failure.empty()) warn_(fmt::format("no checkpoint at {}: {}", where, failure));
   if (!stopping) return;
-  throw InterruptedError(fmt::format("interrupted at {}, t = {:.6g} s; ", where, stepper.observe().time) +
-                         (kept ? file_.string() + " is written: the same command with --resume goes on from it"
-                               : "it cannot be resumed: " + why_not));
+  std::string resumable = file_.string() + " is written: the same command with --resume goes on from it";
+  if (!kept) resumable = "it cannot be resumed: " + why_not;
+  if (!failure.empty()) {
+    const bool older = std::filesystem::exists(file_);
+    resumable = fmt::format("its checkpoint is not there: {}; {}", failure,
+                            older ? "--resume goes on from the one before" : "it cannot be resumed");
+  }
+  throw InterruptedError(fmt::format("interrupted at {}, t = {:.6g} s; {}", where, stepper.observe().time, resumable));
 }
 
 void Checkpoints::write(const RunState& at, double seconds_running, const Stepper& stepper) const {

@@ -39,15 +39,19 @@ RunState read_run_state(const std::filesystem::path& file, const Scene& scene, B
 /// \throws InputError when the checkpoint's particles and contacts were others (its specimen file was changed).
 void require_same_specimen(const std::filesystem::path& file, const RunState& state, const Preparation& prepared);
 
-/// Writes checkpoints of one run where they are due.
+/// Writes checkpoints of one run where they are due. One that cannot be written (a full disk) is a warning: the one
+/// before it stays, and the run goes on.
 class Checkpoints {
  public:
   Checkpoints(const std::filesystem::path& file, const Scene& scene, const Preparation& prepared, Backend backend,
-              std::function<bool()> stop);
+              std::function<bool()> stop, std::function<void(const std::string&)> warn);
 
   /// Looks whether it is time or the run is to stop; `where` is for the message.
-  /// \throws InterruptedError when it was to stop, with the checkpoint written.
+  /// \throws InterruptedError when it was to stop, with the checkpoint written, or why it could not be.
   void look(const RunState& at, double seconds_running, const Stepper& stepper, const std::string& where);
+
+  /// Whether any was written.
+  bool written() const { return written_; }
 
  private:
   void write(const RunState& at, double seconds_running, const Stepper& stepper) const;
@@ -58,6 +62,8 @@ class Checkpoints {
   const Preparation& prepared_;
   Backend backend_;
   std::function<bool()> stop_;
+  std::function<void(const std::string&)> warn_;
+  bool written_ = false;
   Clock::time_point last_ = Clock::now();
 };
 

@@ -53,13 +53,17 @@ class Planner {
     plan_.form = scene_.solver.form.value_or(one_point ? ContactForm::points : ContactForm::condensed);
     plan_.geometry = scene_.solver.geometry.value_or(Geometry::updated);
     const double strain = scene_.loading.strain_amplitude, error = fixed_geometry_error(strain);
+    if (automatic() && !scene_.solver.geometry && error <= geometry_share * tolerance()) {
+      plan_.geometry = Geometry::fixed;
+    }
+    const bool fixed = plan_.geometry == Geometry::fixed;
     if (automatic()) {
-      decide("form {}: both give the same to rounding", to_string(plan_.form));
-      if (!scene_.solver.geometry && error <= geometry_share * tolerance()) plan_.geometry = Geometry::fixed;
+      // carried frames turn while the points move with them: the two forms then part by the square of the strain
+      decide("form {}: the other gives the same to {}", to_string(plan_.form),
+             fixed ? "rounding" : fmt::format("about {:.0e}, the square of the strain", strain * strain));
       decide("geometry {}: at a strain of {:g}, that of the start changes |E*| by at most about {:.1e}",
              to_string(plan_.geometry), strain, error);
     }
-    const bool fixed = plan_.geometry == Geometry::fixed;
     if (fixed) plan_.geometry_error = error;
     nonlinear_ = fixed ? 0 : error;
   }

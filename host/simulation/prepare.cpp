@@ -4,6 +4,8 @@
 
 #include "host/network/clusters.hpp"
 #include "host/results/files.hpp"
+#include "host/results/result_folder.hpp"
+#include "host/simulation/preparation_files.hpp"
 #include "host/simulation/summary.hpp"
 #include "macadam/error.hpp"
 #include "macadam/simulation.hpp"
@@ -58,12 +60,19 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
 }
 
 void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out) {
-  make_result_folder(out);
   write_specimen_csv(out / "specimen.csv", prepared.specimen);
   if (!prepared.aggregates.empty())
     write_aggregates_csv(out / "aggregates.csv", prepared.aggregates, prepared.composition);
   if (scene.output.contacts) write_contacts_csv(out / "contacts.csv", prepared.network);
   write_whole(out / "summary.json", summary_json(scene, prepared, {}, "prepared"));
+}
+
+Preparation prepare_into(const std::filesystem::path& out, const Scene& scene, const Progress& progress) {
+  const ResultFolder folder(out);
+  require_no_run(out);
+  Preparation prepared = prepare(scene, progress);
+  write_preparation(scene, prepared, out);
+  return prepared;
 }
 
 }  // namespace macadam

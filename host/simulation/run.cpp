@@ -2,7 +2,12 @@
 // run.cpp  The main job: prepares a scene, solves its frequencies, and leaves whole files whatever happens.
 #include <fmt/format.h>
 
+#include <exception>
+
 #include "host/results/files.hpp"
+#include "host/results/result_folder.hpp"
+#include "host/simulation/preparation_files.hpp"
+#include "host/simulation/sparing_save.hpp"
 #include "host/simulation/solution.hpp"
 #include "host/simulation/summary.hpp"
 #include "macadam/error.hpp"
@@ -38,6 +43,13 @@ void require_checkpoints(const Scene& scene, Backend backend, bool resume) {
   }
 }
 
+/// None of an older run may stay beside ours. A checkpoint may: it is no result, and only its own run replaces it.
+void remove_results(const std::filesystem::path& out) {
+  for (const char* name : {"response.csv", "contacts.csv", "summary.json"}) {
+    if (std::filesystem::is_regular_file(out / name)) std::filesystem::remove(out / name);
+  }
+}
+
 }  // namespace
 
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher, bool resume) {
@@ -46,27 +58,30 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
   if (stepped) result.backend = select_backend(scene.solver.backend);  // before any work: cuda may not be there
   require_checkpoints(scene, result.backend, resume);
+  const ResultFolder folder(out);
   std::optional<RunState> resumed;
   if (resume) resumed = read_run_state(out / checkpoint_name, scene, result.backend);
-  make_result_folder(out);
-  for (const char* name :
-       {"response.csv", "contacts.csv", "summary.json"}) {  // none of another run may stay beside ours
-    if (std::filesystem::is_regular_file(out / name)) std::filesystem::remove(out / name);
-  }
   const Preparation prepared = prepare(scene, watcher.progress);
   if (resumed) require_same_specimen(out / checkpoint_name, *resumed, prepared);
-  write_preparation(scene, prepared, out);
   if (watcher.prepared) watcher.prepared(prepared);
 
   const Saving save = [&](const std::string& status) {
     write_whole(out / "summary.json", summary_json(scene, prepared, result, status));
   };
+  std::unique_ptr<Solution> solution;
+  std::exception_ptr unsolvable;
   try {
-    if (stepped) {
-      step_frequencies(scene, prepared, out, watcher, save, std::move(resumed), result);
-    } else {
-      solve_frequencies(scene, prepared, watcher.progress, save, result);
-    }
+    solution = stepped ? plan_steps(scene, prepared, watcher, std::move(resumed), result)
+                       : plan_harmonic(scene, prepared, watcher, result);
+  } catch (const InterruptedError&) { throw; } catch (const RunError&) {
+    unsolvable = std::current_exception();  // a run that failed, whose specimen one wants to look at
+  }
+  remove_results(out);
+  write_preparation(scene, prepared, out);
+  try {
+    if (unsolvable) std::rethrow_exception(unsolvable);
+    if (watcher.planned) watcher.planned(result);
+    solution->solve(out, SparingSave(save), result);
   } catch (const std::exception& error) {
     const bool interrupted = dynamic_cast<const InterruptedError*>(&error) != nullptr;
     try {
@@ -77,7 +92,7 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   }
   save("done");
   std::error_code gone;  // a checkpoint that cannot be removed costs disk space only
-  std::filesystem::remove(out / checkpoint_name, gone);
+  if (solution->owns_checkpoint()) std::filesystem::remove(out / checkpoint_name, gone);
   return result;
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file solution.hpp  The two ways from a prepared scene to |E*| and φ.
+/// \file solution.hpp  The two ways from a prepared scene to |E*| and φ. Each is planned first, so that whatever
+/// refuses a scene does so before a file of the folder is touched.
 #pragma once
 
+#include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -14,15 +17,27 @@ namespace macadam {
 /// Writes summary.json with a status.
 using Saving = std::function<void(const std::string& status)>;
 
-/// Steps every frequency in time, from the beginning or from where a checkpoint stands; each sample goes to
-/// response.csv in `out` and each finished frequency into `result` at once.
-/// \throws DivergenceError naming the particle that left the range of sense first; InterruptedError.
-void step_frequencies(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
-                      const Watcher& watcher, const Saving& save, std::optional<RunState> resumed, RunResult& result);
+/// A planned way; scene, preparation and watcher must outlive it.
+class Solution {
+ public:
+  virtual ~Solution() = default;
 
-/// Solves every frequency's steady state (method "harmonic"). \throws as Harmonic does.
-void solve_frequencies(const Scene& scene, const Preparation& prepared, const Progress& progress, const Saving& save,
-                       RunResult& result);
+  /// Finds every frequency: each goes into `result` and is saved as soon as it is there. \throws DivergenceError naming
+  /// the particle that left the range of sense first; InterruptedError; RunError as Harmonic does.
+  virtual void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) = 0;
+
+  /// Whether a checkpoint in the folder is this run's own.
+  virtual bool owns_checkpoint() const { return false; }
+};
+
+/// Steps in time, from the beginning or from where a checkpoint stands; each sample goes to response.csv at once.
+/// What was decided goes into `result`. \throws InputError, RunError as make_plan() does.
+std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                     std::optional<RunState> resumed, RunResult& result);
+
+/// Solves the steady states (method "harmonic"). \throws as the constructor of Harmonic does.
+std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                        RunResult& result);
 
 /// Density scaling that the scene gives for a frequency; 1 where it gives none.
 double density_scaling_of(const SolverSpec& solver, std::size_t frequency);

@@ -4,9 +4,12 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 
+#include "host/simulation/judgement.hpp"
 #include "host/simulation/plan.hpp"
 #include "host/simulation/solution.hpp"
+#include "macadam/error.hpp"
 #include "macadam/harmonic.hpp"
 
 namespace macadam {
@@ -32,34 +35,58 @@ std::string unused_settings(const Scene& scene) {
   return out;
 }
 
-}  // namespace
-
-void solve_frequencies(const Scene& scene, const Preparation& prepared, const Progress& progress, const Saving& save,
-                       RunResult& result) {
-  const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
-  const auto& frequencies = scene.loading.frequencies;
+/// What the results' description says of the method.
+std::string described(const Scene& scene, double viscous) {
   const SolverSpec& solver = scene.solver;
-  const double viscous = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
-  result.solver = solver.inertia ? "harmonic, with inertia" : "harmonic, without inertia";
-  if (viscous > 0) result.solver += " and viscous damping";
+  std::string out = solver.inertia ? "harmonic, with inertia" : "harmonic, without inertia";
+  if (viscous > 0) out += " and viscous damping";
   if (solver.damping_kind != Damping::none && viscous == 0) {
-    result.solver += fmt::format("; {} damping has no part in it", to_string(solver.damping_kind));
+    out += fmt::format("; {} damping has no part in it", to_string(solver.damping_kind));
   }
-  if (const std::string unused = unused_settings(scene); !unused.empty()) { result.solver += "; no use for " + unused; }
-  save("running");
-  if (progress) progress("harmonic: factoring", 0);
-  const auto start = std::chrono::steady_clock::now();
-  Harmonic harmonic(prepared.specimen, prepared.network, scene.laws, inertia, {}, geometric_mean(frequencies));
-  result.seconds_factoring = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  for (std::size_t i = 0; i < frequencies.size(); ++i) {
-    if (progress) {
-      progress(fmt::format("harmonic: {} Hz ({} of {})", frequencies[i], i + 1, frequencies.size()),
-               static_cast<double>(i) / static_cast<double>(frequencies.size()));
+  if (const std::string unused = unused_settings(scene); !unused.empty()) out += "; no use for " + unused;
+  return out;
+}
+
+class HarmonicSolution : public Solution {
+ public:
+  HarmonicSolution(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result)
+      : scene_(scene), prepared_(prepared), watcher_(watcher) {
+    const SolverSpec& solver = scene.solver;
+    viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
+    result.solver = described(scene, viscous_);
+    if (watcher.progress) watcher.progress("harmonic: factoring", 0);
+    const auto start = std::chrono::steady_clock::now();
+    const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
+    harmonic_.emplace(prepared.specimen, prepared.network, scene.laws, inertia, HarmonicOptions{},
+                      geometric_mean(scene.loading.frequencies));
+    result.seconds_factoring = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+
+  void solve(const std::filesystem::path&, const Saving& save, RunResult& result) override {
+    save("running");
+    const auto& frequencies = scene_.loading.frequencies;
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+      const std::string where = fmt::format("{} Hz ({} of {})", frequencies[i], i + 1, frequencies.size());
+      if (watcher_.stop && watcher_.stop()) {
+        throw InterruptedError("interrupted before " + where +
+                               "; summary.json has those before it; method harmonic keeps no checkpoints");
+      }
+      if (watcher_.progress) {
+        watcher_.progress("harmonic: " + where, static_cast<double>(i) / static_cast<double>(frequencies.size()));
+      }
+      result.frequencies.push_back(solve(i));
+      judge(result.frequencies.back(), stiffest_contact(scene_, prepared_.network, frequencies[i]), {},
+            result.warnings);
+      save("running");
     }
+  }
+
+ private:
+  FrequencyResult solve(std::size_t i) {
     FrequencyResult f;
-    f.density_scaling = scene.solver.inertia ? density_scaling_of(scene.solver, i) : 0;
-    const HarmonicResult solved = harmonic.solve(frequencies[i], f.density_scaling, viscous);
-    f.frequency_hz = frequencies[i];
+    f.density_scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
+    const HarmonicResult solved = harmonic_->solve(scene_.loading.frequencies[i], f.density_scaling, viscous_);
+    f.frequency_hz = solved.frequency_hz;
     f.method = SolverMethod::harmonic;
     f.stiffness = solved.top;
     f.bottom = solved.bottom;
@@ -67,9 +94,21 @@ void solve_frequencies(const Scene& scene, const Preparation& prepared, const Pr
     f.iterations = solved.iterations;
     f.held_force = solved.held_force;
     f.seconds = solved.seconds;
-    result.frequencies.push_back(f);
-    save("running");
+    return f;
   }
+
+  const Scene& scene_;
+  const Preparation& prepared_;
+  const Watcher& watcher_;
+  double viscous_ = 0;
+  std::optional<Harmonic> harmonic_;
+};
+
+}  // namespace
+
+std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                        RunResult& result) {
+  return std::make_unique<HarmonicSolution>(scene, prepared, watcher, result);
 }
 
 }  // namespace macadam

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
+#include <span>
 #include <utility>
 
 #include "host/results/files.hpp"
 #include "host/simulation/checkpoints.hpp"
 #include "host/simulation/error_model.hpp"
+#include "host/simulation/judgement.hpp"
 #include "host/simulation/plan.hpp"
 #include "host/simulation/skips.hpp"
 #include "host/simulation/solution.hpp"
@@ -82,22 +83,26 @@ void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, 
   }
 }
 
+/// The samples of one frequency, which stand together, from number `first` on.
+std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& samples, std::size_t first,
+                                           double frequency) {
+  std::size_t end = first;
+  while (end < samples.size() && samples[end].frequency_hz == frequency) ++end;
+  return std::span(samples).subspan(first, end - first);
+}
+
 /// What a finished frequency says.
-FrequencyResult finished(const Plan& whole, std::size_t number, const std::vector<ResponseSample>& samples,
-                         double seconds, std::optional<double> tolerance) {
+FrequencyResult finished(const Plan& whole, std::size_t number, std::span<const ResponseSample> samples, double seconds,
+                         std::optional<double> tolerance) {
   const FrequencyPlan& plan = whole.frequencies[number];
-  const double frequency = plan.loading.frequency;
-  std::vector<ResponseSample> own;
-  std::copy_if(samples.begin(), samples.end(), std::back_inserter(own),
-               [&](const ResponseSample& s) { return s.frequency_hz == frequency; });
   FrequencyResult f;
-  f.frequency_hz = frequency;
+  f.frequency_hz = plan.loading.frequency;
   f.density_scaling = plan.density_scaling;
   f.dt_s = plan.loading.dt();
   f.cycles = plan.cycles;
   f.start = plan.start;
   f.steps = plan.loading.steps_per_period * plan.cycles;
-  f.cyclic = evaluate_cyclic(own, frequency, plan.fit_cycles);
+  f.cyclic = evaluate_cyclic(samples, f.frequency_hz, plan.fit_cycles);
   f.stiffness = f.cyclic->fit;
   f.residual = f.cyclic->fit_rms;
   f.predicted = plan.predicted;
@@ -137,20 +142,95 @@ std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepa
   return stepper;
 }
 
-/// What is known before the first step, and the frequencies that a checkpoint has finished.
-void begin(const Scene& scene, const Preparation& prepared, const RunState& at, RunResult& result) {
-  result.decisions = at.plan.decisions;
-  result.form = at.plan.form;
-  result.geometry = at.plan.geometry;
-  result.precision = at.plan.precision;
-  result.critical_particle = at.plan.critical.particle;
-  result.critical_dt_s = at.plan.critical.dt;
-  result.seconds_planning = at.seconds_planning;
-  result.skips = find_skips(scene, prepared, at.plan);
-  for (std::size_t i = 0; i < at.seconds.size(); ++i) {
-    result.frequencies.push_back(finished(at.plan, i, at.samples, at.seconds[i], scene.solver.tolerance));
+/// A stepped run from its plan on.
+class Steps : public Solution {
+ public:
+  Steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher, const Inertia& inertia, RunState at,
+        bool resumed)
+      : scene_(scene),
+        prepared_(prepared),
+        watcher_(watcher),
+        inertia_(inertia),
+        at_(std::move(at)),
+        owns_checkpoint_(resumed) {}
+
+  /// What is known before the first step, and the frequencies that a checkpoint has finished.
+  void begin(RunResult& result) {
+    result.decisions = at_.plan.decisions;
+    result.form = at_.plan.form;
+    result.geometry = at_.plan.geometry;
+    result.precision = at_.plan.precision;
+    result.critical_particle = at_.plan.critical.particle;
+    result.critical_dt_s = at_.plan.critical.dt;
+    result.seconds_planning = at_.seconds_planning;
+    result.skips = find_skips(scene_, prepared_, at_.plan);
+    for (std::size_t i = 0; i < at_.seconds.size(); ++i) finish(i, result);
   }
-}
+
+  void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
+    Checkpoints checkpoints(out / checkpoint_name, scene_, prepared_, result.backend, watcher_.stop,
+                            [&](const std::string& warning) {
+                              result.warnings.push_back(warning);
+                              if (watcher_.warn) watcher_.warn(warning);
+                            });
+    std::optional<ResponseWriter> writer;
+    if (scene_.output.response) {
+      writer.emplace(out / "response.csv");
+      for (const ResponseSample& s : at_.samples) writer->add(s);  // none is lost or doubled, whatever became of it
+    }
+    for (std::size_t i = at_.seconds.size(); i < at_.plan.frequencies.size(); ++i) {
+      step(i, writer ? &*writer : nullptr, checkpoints, save, result);
+      finish(i, result);
+      owns_checkpoint_ = owns_checkpoint_ || checkpoints.written();
+    }
+    require_sense(scene_, result);
+  }
+
+  bool owns_checkpoint() const override { return owns_checkpoint_; }
+
+ private:
+  void step(std::size_t i, ResponseWriter* writer, Checkpoints& checkpoints, const Saving& save, RunResult& result) {
+    const auto start = Clock::now();
+    const double before = std::exchange(at_.seconds_running, 0);
+    const FrequencyPlan& p = at_.plan.frequencies[i];
+    const auto stepper =
+        stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, std::exchange(at_.state, {}));
+    result.solver = stepper->description();
+    result.bytes = stepper->bytes();
+    save("running");
+    const double per_cycle = static_cast<double>(p.loading.steps_per_period);
+    const std::int64_t begun = stepper->observe().step;
+    const auto look = [&] {
+      checkpoints.look(at_, before + seconds_since(start), *stepper, fmt::format("{} Hz", p.loading.frequency));
+    };
+    const auto stepped = [&](std::int64_t done) {
+      if (!watcher_.progress || done == 0) return;
+      const auto steps = static_cast<double>(done);
+      watcher_.progress(fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}, {:.0f} steps/s", p.loading.frequency, i + 1,
+                                    at_.plan.frequencies.size(), steps / per_cycle, p.cycles,
+                                    static_cast<double>(done - begun) / seconds_since(start)),
+                        steps / (per_cycle * p.cycles));
+    };
+    run_cyclic(scene_, prepared_.specimen, *stepper, p, at_.samples, writer, look, stepped);
+    at_.seconds.push_back(before + seconds_since(start));
+  }
+
+  void finish(std::size_t i, RunResult& result) {
+    const auto samples = samples_of(at_.samples, samples_read_, at_.plan.frequencies[i].loading.frequency);
+    samples_read_ += samples.size();
+    result.frequencies.push_back(finished(at_.plan, i, samples, at_.seconds[i], scene_.solver.tolerance));
+    FrequencyResult& f = result.frequencies.back();
+    judge(f, stiffest_contact(scene_, prepared_.network, f.frequency_hz), scene_.solver.tolerance, result.warnings);
+  }
+
+  const Scene& scene_;
+  const Preparation& prepared_;
+  const Watcher& watcher_;
+  Inertia inertia_;
+  RunState at_;
+  std::size_t samples_read_ = 0;  ///< of finished frequencies
+  bool owns_checkpoint_;
+};
 
 }  // namespace
 
@@ -159,51 +239,20 @@ double density_scaling_of(const SolverSpec& solver, std::size_t frequency) {
   return (*solver.density_scaling)[solver.density_scaling->size() == 1 ? 0 : frequency];
 }
 
-void step_frequencies(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
-                      const Watcher& watcher, const Saving& save, std::optional<RunState> resumed, RunResult& result) {
-  const auto planning = Clock::now();
+std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                     std::optional<RunState> resumed, RunResult& result) {
+  const auto start = Clock::now();
   const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
   RunState at;
   if (resumed) {
     at = *std::move(resumed);
   } else {
     at.plan = make_plan(scene, prepared, inertia, watcher.progress);
-    at.seconds_planning = seconds_since(planning);
+    at.seconds_planning = seconds_since(start);
   }
-  const Plan& plan = at.plan;
-  begin(scene, prepared, at, result);
-  if (watcher.planned) watcher.planned(result);
-  Checkpoints checkpoints(out / checkpoint_name, scene, prepared, result.backend, watcher.stop);
-  std::optional<ResponseWriter> writer;
-  if (scene.output.response) {
-    writer.emplace(out / "response.csv");
-    for (const ResponseSample& s : at.samples) writer->add(s);  // none is lost or doubled, whatever became of the file
-  }
-  for (std::size_t i = at.seconds.size(); i < plan.frequencies.size(); ++i) {
-    const auto start = Clock::now();
-    const double before = std::exchange(at.seconds_running, 0);
-    const FrequencyPlan& p = plan.frequencies[i];
-    const auto stepper = stepper_of(scene, prepared, inertia, result.backend, plan, p, std::exchange(at.state, {}));
-    result.solver = stepper->description();
-    result.bytes = stepper->bytes();
-    save("running");
-    const double per_cycle = static_cast<double>(p.loading.steps_per_period);
-    const std::int64_t begun = stepper->observe().step;
-    const auto look = [&] {
-      checkpoints.look(at, before + seconds_since(start), *stepper, fmt::format("{} Hz", p.loading.frequency));
-    };
-    const auto stepped = [&](std::int64_t done) {
-      if (!watcher.progress || done == 0) return;
-      const auto steps = static_cast<double>(done);
-      watcher.progress(fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}, {:.0f} steps/s", p.loading.frequency, i + 1,
-                                   plan.frequencies.size(), steps / per_cycle, p.cycles,
-                                   static_cast<double>(done - begun) / seconds_since(start)),
-                       steps / (per_cycle * p.cycles));
-    };
-    run_cyclic(scene, prepared.specimen, *stepper, p, at.samples, writer ? &*writer : nullptr, look, stepped);
-    at.seconds.push_back(before + seconds_since(start));
-    result.frequencies.push_back(finished(plan, i, at.samples, at.seconds.back(), scene.solver.tolerance));
-  }
+  auto steps = std::make_unique<Steps>(scene, prepared, watcher, inertia, std::move(at), resumed.has_value());
+  steps->begin(result);
+  return steps;
 }
 
 }  // namespace macadam

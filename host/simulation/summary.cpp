@@ -2,9 +2,12 @@
 // summary.cpp  The run as JSON; keys of the first level are fixed for readers of older runs.
 #include "host/simulation/summary.hpp"
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "host/simulation/checkpoints.hpp"
+#include "macadam/error.hpp"
 #include "macadam/version.hpp"
 
 namespace macadam {
@@ -31,7 +34,7 @@ const char* to_string(SolverMethod method) { return method == SolverMethod::harm
 
 Json error_json(const ErrorEstimate& error) { return {{"e_star", error.e_star}, {"phase_rad", error.phase_rad}}; }
 
-Json frequency_json(const FrequencyResult& f) {
+Json frequency_json(const FrequencyResult& f, bool tolerance) {
   Json out = {{"frequency_hz", f.frequency_hz},
               {"e_star_pa", f.stiffness.e_star_pa},
               {"phase_deg", f.stiffness.phase_deg},
@@ -50,7 +53,7 @@ Json frequency_json(const FrequencyResult& f) {
     out["start"] = to_string(f.start);
     if (f.predicted) out["predicted_error"] = error_json(*f.predicted);
     if (f.achieved) out["difference_from_harmonic"] = error_json(*f.achieved);
-    if (f.kept) out["tolerance_kept"] = *f.kept;
+    if (tolerance) out["tolerance_kept"] = f.kept ? Json(*f.kept) : Json();
   }
   if (f.bottom) {
     out["e_star_bottom_pa"] = f.bottom->e_star_pa;
@@ -97,6 +100,7 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                          const std::string& status) {
   Json out;
   out["status"] = status;
+  out["warnings"] = result.warnings;
   out["macadam"] = version();
   out["scene"] = scene.file.string();
   out["particles"] = prepared.specimen.size();
@@ -125,7 +129,7 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["results"] = Json::array();
   double solve = result.seconds_factoring + result.seconds_planning;
   for (const FrequencyResult& f : result.frequencies) {
-    out["results"].push_back(frequency_json(f));
+    out["results"].push_back(frequency_json(f, scene.solver.tolerance.has_value()));
     solve += f.seconds;
   }
   out["solver"] = solver_json(scene, result);
@@ -138,6 +142,21 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                      {"network", prepared.seconds_network},
                      {"solve", solve}};
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // a path need not be UTF-8
+}
+
+void require_no_run(const std::filesystem::path& out) {
+  const auto refuse = [&](const std::string& found) {
+    throw InputError(out.string(), 0, "folder of the specimen", found,
+                     "none: its files would replace those of the run; choose another folder");
+  };
+  if (std::filesystem::exists(out / checkpoint_name)) refuse("the checkpoint of a run");
+  const std::filesystem::path file = out / "summary.json";
+  if (!std::filesystem::exists(file)) return;
+  std::ifstream in(file, std::ios::binary);
+  const Json summary = Json::parse(in, nullptr, false);
+  const auto status = summary.is_object() ? summary.find("status") : summary.end();
+  if (!summary.is_object() || status == summary.end()) refuse("a summary.json that is none of Macadam's");
+  if (*status != "prepared") refuse(fmt::format("a run in it (summary.json: {})", status->dump()));
 }
 
 }  // namespace macadam

@@ -52,9 +52,11 @@ struct FrequencyResult {
   std::int64_t steps = 0;              ///< explicit
   int cycles = 0;                      ///< explicit
   Start start = Start::rest;           ///< explicit
-  std::optional<bool> kept;  ///< explicit: the tolerance, where one was asked for and there is a harmonic solution
+  /// explicit: whether the tolerance that was asked for was kept; nothing where there is no harmonic solution to tell
+  std::optional<bool> kept;
   std::optional<ErrorEstimate> predicted,
       achieved;                     ///< explicit: against the harmonic solution at true mass, if there is one
+  std::string fault;                ///< what of it cannot be right; empty where nothing is known to be wrong
   std::optional<Stiffness> bottom;  ///< harmonic: from the reaction of the bottom wall
   int iterations = 0;               ///< harmonic
   double held_force = 0;            ///< harmonic: force that holds free rigid motions / reaction
@@ -67,6 +69,7 @@ struct RunResult {
   double seconds_planning = 0;         ///< explicit: wall time before the first stepper, harmonic solutions included
   std::vector<std::string> decisions;  ///< explicit: what the scene left open, and what was chosen why
   std::vector<Skip> skips;             ///< explicit
+  std::vector<std::string> warnings;   ///< what a reader of the results must know, a sentence each
   ContactForm form = ContactForm::condensed;  ///< explicit: that ran, likewise the next two
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
@@ -77,30 +80,40 @@ struct RunResult {
   double critical_dt_s = 0;              ///< explicit: the critical step at true mass
 };
 
-/// Called as work goes on: what is being done, share of it done 0…1.
+/// Called as work goes on: what is being done, share of it done 0…1. What it throws ends the work.
 using Progress = std::function<void(const std::string& stage, double share)>;
 
 /// Specimen (read or generated), tessellation, network; checks that every pair present has a law.
 Preparation prepare(const Scene& scene, const Progress& progress = {});
 
-/// Writes specimen.csv, contacts.csv (where the scene asks) and summary.json without results.
-void write_preparation(const Scene& scene, const Preparation& preparation, const std::filesystem::path& out);
+/// Prepares a scene and writes specimen.csv, aggregates.csv (of a generated specimen), contacts.csv (where the scene
+/// asks) and summary.json without results. Nothing is written before the work is done.
+/// \throws InputError also where the folder holds a run, whose results these files would replace, or where another
+/// command is writing into it; RunError.
+Preparation prepare_into(const std::filesystem::path& out, const Scene& scene, const Progress& progress = {});
 
 /// What a run tells as it goes; any may be empty.
 struct Watcher {
   Progress progress;
-  std::function<void(const Preparation&)> prepared;  ///< once the specimen's files are written
-  std::function<void(const RunResult&)> planned;     ///< decisions, before the first step
-  /// Asked before each sample and within a second between samples: true ends the run with a checkpoint.
+  std::function<void(const Preparation&)> prepared;  ///< once specimen and network are there
+  /// Decisions, once nothing can refuse the scene any more and its files are written: before the first step.
+  std::function<void(const RunResult&)> planned;
+  std::function<void(const std::string&)> warn;  ///< at once; all warnings are in RunResult::warnings too
+  /// Asked before each sample and within a second between samples, and before each harmonic frequency: true ends the
+  /// run, a stepped one with a checkpoint.
   std::function<bool()> stop;
 };
 
-/// The whole job: prepare, step every frequency, write every file. response.csv and summary.json are complete up to the
-/// last finished sample and frequency whatever happens later. A stepped run of a scene that was read from a file leaves
-/// `checkpoint.h5` as it goes (OutputSpec::checkpoint), replaced by a rename and removed when all is done; backend
-/// reference keeps none. `resume` goes on from it to the same bits as a run that was never interrupted.
+/// The whole job: prepare, plan, step every frequency, write every file. The folder is as it was until preparing and
+/// planning are done, so that what refuses the scene (InputError) leaves older results alone; then they are replaced.
+/// response.csv is complete up to the last sample whatever happens later; so is summary.json up to the last frequency
+/// (up to the last second, where frequencies take less). A stepped run of a scene that was read from a file leaves
+/// `checkpoint.h5` as it goes (OutputSpec::checkpoint), replaced by a rename; one that cannot be written is a warning.
+/// When all is done the run removes its own, never that of another; backend reference keeps none. `resume` goes on from
+/// it to the same bits as a run that was never interrupted.
 /// \throws InputError, also for a checkpoint that is not there, damaged, or of another scene, version, backend or
-/// precision; InterruptedError; RunError (DivergenceError names particle and time).
+/// precision, and where another command is writing into the folder; InterruptedError; RunError (DivergenceError names
+/// particle and time), also for a tolerance whose result cannot be right.
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
 
 }  // namespace macadam

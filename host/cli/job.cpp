@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// job.cpp  Scene, seed and folder of a command, and the specimen in words.
+#include "host/cli/job.hpp"
+
+#include <limits>
+
+#include "host/cli/options.hpp"
+#include "host/cli/stop_signals.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+void add_job_options(CLI::App& command, Job& job) {
+  add_text(command, "scene", job.scene, "scene file (TOML)")->required();
+  add_text(command, "--out", job.out, "folder of the results; made if it is not there")->required();
+  add_number(command, "--seed", job.seed, "instead of the scene's: another specimen of the same mixture", 0,
+             std::numeric_limits<std::uint64_t>::max());
+}
+
+Scene scene_of(const Job& job) {
+  Scene scene = read_scene(job.scene);
+  if (job.seed && scene.specimen.file) throw InputError("--seed: the scene takes its specimen from a file");
+  if (job.seed) {
+    scene.specimen.seed = *job.seed;
+    scene.text += fmt::format("\n# --seed {}", *job.seed);  // a checkpoint belongs to the text
+  }
+  return scene;
+}
+
+void say_preparation(const Preparation& p) {
+  if (!p.composition.empty()) {
+    say("{:<14} {:>9} {:>9} {:>12} {:>12}\n", "class", "asked", "reached", "asked/box", "reached/box");
+    for (const CompositionRow& row : p.composition) {
+      say("{:<14} {:>9} {:>9} {:>11.3f}% {:>11.3f}%\n", row.name, row.count_asked, row.count, 100 * row.fraction_asked,
+          100 * row.fraction);
+    }
+  }
+  say("{} particles, {} contacts (", p.specimen.size(), p.network.contacts.size());
+  const char* separator = "";
+  for (int pair = 0; pair < pair_types; ++pair) {
+    if (const auto n = p.network.count[static_cast<std::size_t>(pair)]; n > 0) {
+      say("{}{} {}", separator, to_string(static_cast<PairType>(pair)), n);
+      separator = ", ";
+    }
+  }
+  say("), {} contact points\n", p.network.point_area.size());
+  if (p.network.dropped_gap + p.network.dropped_area > 0) {
+    say("dropped: {} facets by gap_max, {} by area_min\n", p.network.dropped_gap, p.network.dropped_area);
+  }
+  if (p.loose_particles > 0) say("warning: {} particles are not joined to both walls\n", p.loose_particles);
+  say("specimen {:.2f} s, tessellation {:.2f} s, network {:.2f} s\n", p.seconds_specimen, p.seconds_tessellation,
+      p.seconds_network);
+}
+
+void show_or_stop(ProgressLine& line, const std::string& stage, double share) {
+  if (stop_asked()) {
+    throw InterruptedError(
+        fmt::format("interrupted at: {}; nothing was written, what the folder held is as it was", stage));
+  }
+  line.show(stage, share);
+}
+
+}  // namespace macadam

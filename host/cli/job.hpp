@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file job.hpp  What the commands `run` and `specimen` share: the scene as the command line changes it, and what is
+/// said of a specimen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "host/cli/progress_line.hpp"
+#include "macadam/simulation.hpp"
+
+namespace macadam {
+
+/// What both were asked on the command line.
+struct Job {
+  std::string scene, out;
+  std::optional<std::uint64_t> seed;
+};
+
+/// SCENE, --out and --seed.
+void add_job_options(CLI::App& command, Job& job);
+
+/// Reads the scene. \throws InputError.
+Scene scene_of(const Job& job);
+
+/// Composition, contacts and times of a specimen, on standard output.
+void say_preparation(const Preparation& prepared);
+
+/// Shows how far the work is. \throws InterruptedError where a signal asked to stop: nothing is written yet.
+void show_or_stop(ProgressLine& line, const std::string& stage, double share);
+
+}  // namespace macadam

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file options.hpp  Options whose whole text must be a number or one of several names. CLI11's own conversions take
+/// -1 for 2⁶⁴ − 1, 010 for eight, an empty text for nothing and the position of a name for the name.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace macadam {
+
+namespace options {
+
+template <class T>
+struct Value {
+  using type = T;
+};
+template <class T>
+struct Value<std::optional<T>> {
+  using type = T;
+};
+/// What an option holds, an optional or a plain value.
+template <class T>
+using value_t = typename Value<T>::type;
+
+[[noreturn]] inline void refuse(const std::string& name, const std::string& found, const std::string& expected) {
+  throw CLI::ValidationError(name, fmt::format("found \"{}\", expected {}", found, expected));
+}
+
+/// An option that hands its text to `read`, an empty text too.
+template <class Read>
+CLI::Option* add(CLI::App& app, const std::string& name, const std::string& description, Read&& read) {
+  return app.add_option(
+      name,
+      [read = std::forward<Read>(read)](const CLI::results_t& texts) {
+        read(texts.back());
+        return true;
+      },
+      description);
+}
+
+}  // namespace options
+
+/// A decimal number in [low, high]. `target` holds the default, an optional may have none.
+template <class T>
+CLI::Option* add_number(CLI::App& app, const std::string& name, T& target, const std::string& description,
+                        options::value_t<T> low, options::value_t<T> high) {
+  using Number = options::value_t<T>;
+  const auto read = [&target, name, low, high](const std::string& text) {
+    Number value{};
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || stop != end || !(value >= low && value <= high)) {
+      constexpr bool whole = std::is_integral_v<Number>;
+      options::refuse(name, text, fmt::format("a {}number from {} to {}", whole ? "whole " : "", low, high));
+    }
+    target = value;
+  };
+  CLI::Option* option =
+      options::add(app, name, description, read)->type_name(std::is_integral_v<Number> ? "INT" : "NUMBER");
+  if constexpr (std::is_arithmetic_v<T>) option->default_str(fmt::format("{}", target));
+  return option;
+}
+
+/// One of several names.
+template <class T>
+CLI::Option* add_choice(CLI::App& app, const std::string& name, T& target, const std::string& description,
+                        const std::vector<std::pair<std::string, options::value_t<T>>>& choices) {
+  std::string names;
+  for (const auto& choice : choices) names += (names.empty() ? "" : "|") + choice.first;
+  const auto read = [&target, name, choices, names](const std::string& text) {
+    for (const auto& [known, value] : choices) {
+      if (known == text) {
+        target = value;
+        return;
+      }
+    }
+    options::refuse(name, text, "one of " + names);
+  };
+  return options::add(app, name, description, read)->type_name(names);
+}
+
+/// Text that is not empty: a path, mostly.
+inline CLI::Option* add_text(CLI::App& app, const std::string& name, std::string& target,
+                             const std::string& description) {
+  const auto read = [&target, name](const std::string& text) {
+    if (text.empty()) options::refuse(name, text, "a text that is not empty");
+    target = text;
+  };
+  return options::add(app, name, description, read)->type_name("TEXT");
+}
+
+/// Metres a unit of surface files.
+inline CLI::Option* add_scale(CLI::App& app, double& scale) {
+  return add_number(app, "--scale", scale, "metres a unit of the files: 1e-3 for millimetres", 1e-12, 1e12);
+}
+
+}  // namespace macadam

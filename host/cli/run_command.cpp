@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// run_command.cpp  macadam run SCENE --out DIR
+#include "host/cli/run_command.hpp"
+
+#include <memory>
+
+#include "host/cli/job.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/stop_signals.hpp"
+#include "macadam/macadam.hpp"
+
+namespace macadam {
+namespace {
+
+struct Arguments {
+  Job job;
+  std::optional<Backend> backend;
+  std::optional<Precision> precision;
+  std::optional<SolverMethod> method;
+  std::optional<int> threads;
+  bool resume = false;
+};
+
+void say_results(const RunResult& result) {
+  say("\n{:>8} {:>11} {:>9}", "f (Hz)", "|E*| (GPa)", "phi (deg)");
+  const bool stepped = !result.frequencies.empty() && result.frequencies.front().method == SolverMethod::explicit_;
+  const bool known = stepped && result.frequencies.front().achieved;
+  if (stepped) {
+    say(" {:>11} {:>9} {:>9} {:>10} {:>9}\n", known ? "err |E*|" : "d|E*| cycle", known ? "err (rad)" : "d phi",
+        "scaling", "steps", "time (s)");
+  } else {
+    say(" {:>9} {:>10} {:>11} {:>9}\n", "residual", "iterations", "held force", "time (s)");
+  }
+  for (const FrequencyResult& f : result.frequencies) {
+    say("{:>8g} {:>11.5f} {:>9.4f}", f.frequency_hz, f.stiffness.e_star_pa / 1e9, f.stiffness.phase_deg);
+    if (f.cyclic) {
+      const double e_star = f.achieved ? f.achieved->e_star : f.cyclic->change_e_star;
+      const double phase = f.achieved ? f.achieved->phase_rad : f.cyclic->change_phase_deg;
+      say(" {:>11.1e} {:>9.1e} {:>9.5g} {:>10} {:>9.1f}\n", e_star, phase, f.density_scaling, f.steps, f.seconds);
+    } else {
+      say(" {:>9.1e} {:>10} {:>11.1e} {:>9.1f}\n", f.residual, f.iterations, f.held_force, f.seconds);
+    }
+  }
+  if (known) say("err: against the harmonic solution at true mass, |E*| relative, phi in radians\n");
+  for (const std::string& warning : result.warnings) say("warning: {}\n", warning);
+}
+
+void run_command(const Arguments& arguments) {
+  Scene scene = scene_of(arguments.job);
+  if (arguments.method) scene.solver.method = *arguments.method;
+  if (arguments.backend) scene.solver.backend = *arguments.backend;
+  if (arguments.precision) scene.solver.precision = *arguments.precision;
+  if (arguments.threads) scene.solver.threads = *arguments.threads;
+  ProgressLine line;
+  Watcher watcher;
+  bool started = false;
+  watcher.progress = [&](const std::string& stage, double share) {
+    if (started) {
+      line.show(stage, share);
+    } else {
+      show_or_stop(line, stage, share);
+    }
+  };
+  watcher.prepared = [&](const Preparation& prepared) {
+    line.clear();
+    say_preparation(prepared);
+    flush_output();
+  };
+  watcher.planned = [&](const RunResult& planned) {
+    line.clear();
+    for (const std::string& decision : planned.decisions) say("{}\n", decision);
+    for (const Skip& skip : planned.skips) say("skips {}: {}\n", skip.what, skip.why);
+    flush_output();
+    started = true;
+  };
+  watcher.warn = [&](const std::string& warning) {
+    line.clear();
+    say_error("macadam: warning: {}\n", warning);
+  };
+  watcher.stop = stop_asked;
+  listen_to_stop_signals();
+  const RunResult result = run(scene, arguments.job.out, watcher, arguments.resume);
+  line.clear();
+  say_results(result);
+  say("\n{} | files in {}: summary.json specimen.csv{}{}\n", result.solver, arguments.job.out,
+      scene.solver.method == SolverMethod::explicit_ && scene.output.response ? " response.csv" : "",
+      scene.output.contacts ? " contacts.csv" : "");
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("run", "run a scene and write its results");
+  const auto arguments = std::make_shared<Arguments>();
+  add_job_options(command, arguments->job);
+  add_choice(command, "--backend", arguments->backend, "instead of the scene's",
+             {{"auto", Backend::automatic},
+              {"cuda", Backend::cuda},
+              {"cpu", Backend::cpu},
+              {"reference", Backend::reference}});
+  add_choice(command, "--precision", arguments->precision, "instead of the scene's",
+             {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}});
+  add_choice(command, "--method", arguments->method, "instead of the scene's",
+             {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}});
+  add_number(command, "--threads", arguments->threads, "cpu threads; results do not depend on it", 1, 1024);
+  command.add_flag("--resume", arguments->resume, "go on from the checkpoint that an interrupted run left in DIR");
+  command.callback([arguments] { run_command(*arguments); });
+}
+
+}  // namespace macadam

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// specimen_command.cpp  macadam specimen SCENE --out DIR [--section x=0.025]…
+#include "host/cli/specimen_command.hpp"
+
+#include <memory>
+
+#include "host/cli/job.hpp"
+#include "host/cli/stop_signals.hpp"
+#include "macadam/macadam.hpp"
+
+namespace macadam {
+namespace {
+
+struct Arguments {
+  Job job;
+  std::vector<std::string> sections;
+};
+
+/// Writes what a plane cuts and says how much of it is aggregate.
+void write_section(const Preparation& prepared, const SectionPlane& plane, const std::filesystem::path& out) {
+  const CrossSection section = cut(prepared.specimen, prepared.tessellation, plane);
+  write_cross_section_csv(out / section_file_name(plane), prepared.specimen, section);
+  double all = 0, aggregate = 0;
+  for (const SectionCell& cell : section.cells) {
+    all += cell.area;
+    if (prepared.specimen.phase[cell.particle] == Phase::aggregate) aggregate += cell.area;
+  }
+  say("section {}={} m: {} cells, {:.2f} % of the area is aggregate\n", plane.axis, plane.position,
+      section.cells.size(), 100 * aggregate / all);
+}
+
+void specimen_command(const Arguments& arguments) {
+  const Scene scene = scene_of(arguments.job);
+  std::vector<SectionPlane> planes;  // a wrong one is refused before the work
+  for (const std::string& text : arguments.sections) planes.push_back(read_section_plane(text, scene.specimen.box));
+  ProgressLine line;
+  listen_to_stop_signals();
+  const Preparation prepared = prepare_into(
+      arguments.job.out, scene, [&](const std::string& stage, double share) { show_or_stop(line, stage, share); });
+  line.clear();
+  say_preparation(prepared);
+  const TessellationInvariants i = measure_invariants(prepared.specimen, prepared.tessellation);
+  say("tessellation errors: volume {:.1e}, closure {:.1e}, flatness {:.1e}, power {:.1e}, walls {:.1e}\n", i.volume,
+      i.closure, i.flatness, i.power, i.walls);
+  for (const SectionPlane& plane : planes) write_section(prepared, plane, arguments.job.out);
+  say("files in {}\n", arguments.job.out);
+}
+
+}  // namespace
+
+void add_specimen_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("specimen", "build the specimen and its contact network only");
+  const auto arguments = std::make_shared<Arguments>();
+  add_job_options(command, arguments->job);
+  command
+      .add_option("--section", arguments->sections,
+                  "cut the cells by a plane, such as x=0.025 or \"z=40 mm\"; may be given several times")
+      ->allow_extra_args(false);  // what follows is the scene
+  command.callback([arguments] { specimen_command(*arguments); });
+}
+
+}  // namespace macadam

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// streams.cpp  Printing that survives whatever standard output and error are.
+#include "host/cli/streams.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+namespace macadam {
+
+void hold_standard_streams() {
+  for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(number, F_GETFD) >= 0) continue;
+    // the lowest free number is this one; the wrong direction, so that writing to a closed stream stays an error
+    if (::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) != number) return;
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void say_text(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+bool say_error_text(const std::string& text) {
+  const bool whole = std::fwrite(text.data(), 1, text.size(), stderr) == text.size();
+  return std::fflush(stderr) == 0 && whole;
+}
+
+bool flush_output() {
+  std::cout.flush();  // help is written there
+  const bool flushed = std::fflush(stdout) == 0;
+  return flushed && std::ferror(stdout) == 0 && std::cout.good();
+}
+
+}  // namespace macadam

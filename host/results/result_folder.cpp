@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// result_folder.cpp  flock() on a directory.
+#include "host/results/result_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Removes folders as far as they are empty.
+void remove_empty(const std::vector<fs::path>& folders) {
+  for (const fs::path& folder : folders) {
+    if (::rmdir(folder.c_str()) != 0) return;
+  }
+}
+
+}  // namespace
+
+ResultFolder::ResultFolder(const fs::path& folder) {
+  std::error_code error;
+  for (fs::path f = folder; !f.empty() && !fs::exists(f, error); f = f.parent_path()) made_.push_back(f);
+  fs::create_directories(folder, error);
+  file_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file_ < 0) {
+    const std::string why = std::generic_category().message(errno);
+    remove_empty(made_);
+    throw RunError(folder.string() + ": cannot make the result folder: " + (error ? error.message() : why));
+  }
+  if (::flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(file_);
+  throw InputError(folder.string(), 0, "folder of the results", "another command that is writing into it",
+                   "to be the only one; wait for it, or choose another folder");
+}
+
+ResultFolder::~ResultFolder() {
+  remove_empty(made_);  // before the lock ends: nobody else has found them yet
+  ::close(file_);
+}
+
+}  // namespace macadam

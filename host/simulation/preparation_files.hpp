@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file preparation_files.hpp  What is written of a prepared scene before there are results.
+#pragma once
+
+#include <filesystem>
+
+#include "macadam/simulation.hpp"
+
+namespace macadam {
+
+/// specimen.csv, aggregates.csv, contacts.csv (where the scene asks) and summary.json without results, into a folder
+/// that is there. \throws RunError.
+void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
+
+}  // namespace macadam

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// judgement_test.cpp  Results that cannot be right are said to be so.
+#include "host/simulation/judgement.hpp"
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace macadam::test {
+namespace {
+
+constexpr double stiffest = 1.5e11;  // [Pa]
+
+FrequencyResult good_result() {
+  FrequencyResult f;
+  f.frequency_hz = 20;
+  f.stiffness = {1.2e10, 7};
+  f.residual = 1e-4;
+  f.cyclic.emplace();
+  f.cyclic->change_e_star = 1e-5;
+  f.cyclic->change_phase_deg = 1e-3;
+  f.kept = true;
+  return f;
+}
+
+std::vector<std::string> warnings_of(FrequencyResult f, std::optional<double> tolerance = 1e-3) {
+  std::vector<std::string> out;
+  judge(f, stiffest, tolerance, out);
+  return out;
+}
+
+TEST(Judgement, AGoodResultHasNoWarning) {
+  EXPECT_TRUE(warnings_of(good_result()).empty());
+  EXPECT_TRUE(warnings_of(good_result(), {}).empty());
+}
+
+TEST(Judgement, WhatNoPassiveSpecimenHasIsSaid) {
+  for (const double phase : {-115.0, -2.0, 92.0, 180.0}) {
+    FrequencyResult f = good_result();
+    f.stiffness.phase_deg = phase;
+    ASSERT_EQ(warnings_of(f, {}).size(), 1u) << phase;
+    EXPECT_HAS(warnings_of(f, {})[0], "20 Hz: a phase angle of");
+  }
+  FrequencyResult f = good_result();
+  f.stiffness.e_star_pa = 1.1 * stiffest;
+  EXPECT_HAS(warnings_of(f, {}).at(0), "where the stiffest contact has 1.5e+11");
+  f = good_result();
+  f.residual = 20;
+  EXPECT_HAS(warnings_of(f, {})[0], "the fit leaves 20 of the amplitude");
+}
+
+TEST(Judgement, WhatIsNoPositiveFiniteModulusIsAnError) {
+  for (const double e : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    FrequencyResult f = good_result();
+    f.stiffness.e_star_pa = e;
+    EXPECT_THROW(warnings_of(f), RunError) << e;
+  }
+}
+
+TEST(Judgement, AToleranceThatNothingVerifiesIsNotCalledKept) {
+  FrequencyResult f = good_result();
+  f.kept.reset();
+  std::vector<std::string> warnings;
+  judge(f, stiffest, 1e-3, warnings);
+  EXPECT_FALSE(f.kept.has_value());
+  EXPECT_HAS(warnings.at(0), "could not be verified");
+
+  f.cyclic->change_e_star = 2e-3;  // not steady yet
+  judge(f, stiffest, 1e-3, warnings);
+  EXPECT_EQ(f.kept, false);
+  EXPECT_HAS(warnings.back(), "the tolerance was not kept");
+}
+
+TEST(Judgement, WallsThatDisagreeWithoutInertiaAreSaid) {
+  FrequencyResult f = good_result();
+  f.method = SolverMethod::harmonic;
+  f.density_scaling = 0;
+  f.bottom = Stiffness{f.stiffness.e_star_pa * (1 + 9.8e-4), f.stiffness.phase_deg};
+  EXPECT_HAS(warnings_of(f, {}).at(0), "the bottom wall's reaction differs from the top's by 9.8e-04");
+  f.density_scaling = 1;  // inertia takes a part of the force
+  EXPECT_TRUE(warnings_of(f, {}).empty());
+}
+
+using WithoutReference = Program;
+
+TEST_F(WithoutReference, TheStiffestContactIsThatOfThePairsThatArePresent) {
+  Scene scene = read_scene(write_scene());
+  const Preparation prepared = prepare(scene);
+  EXPECT_DOUBLE_EQ(stiffest_contact(scene, prepared.network, 20), 1.151e11);         // A-A, elastic
+  scene.laws[static_cast<std::size_t>(PairType::inner)] = laws::Elastic{1e13, 0.5};  // no such contact is there
+  EXPECT_DOUBLE_EQ(stiffest_contact(scene, prepared.network, 20), 1.151e11);
+}
+
+// A particle that nothing joins leaves no harmonic solution; so heavy a specimen is far beyond its resonance.
+TEST_F(WithoutReference, ARunWithAToleranceFailsWhereItsResultCannotBeRight) {
+  const std::string loose = "[network]\ngap_max = -0.2\n";
+  for (const char* scaling : {"1e6", "1e7", "1e9"}) {
+    write_scene(fmt::format("tolerance = 1e-2\ndensity_scaling = {}\n", scaling), loose);
+    EXPECT_EQ(run_quick("heavy").code, 1) << scaling;
+  }
+  const Outcome heavy = run_quick("heavy");
+  EXPECT_EQ(heavy.code, 1);
+  EXPECT_HAS(heavy.err, "the result is far from the tolerance of 0.01 that was asked for");
+  const auto failed = summary("heavy");
+  EXPECT_EQ(failed.at("status").get<std::string>().rfind("failed: 20 Hz", 0), 0u);
+  EXPECT_EQ(failed.at("results").at(0).at("tolerance_kept"), false);
+  EXPECT_GE(failed.at("warnings").size(), 2u);
+
+  write_scene("tolerance = 1e-2\n", loose);
+  const Outcome outcome = run_quick("out");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_HAS(outcome.out, "warning: 20 Hz: the tolerance could not be verified");
+  EXPECT_TRUE(summary("out").at("results").at(0).at("tolerance_kept").is_null());
+}
+
+}  // namespace
+}  // namespace macadam::test

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file program.hpp  Tests of the program as a user meets it: a folder, a scene, a command, and what came out.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "test_files.hpp"
+
+namespace macadam::test {
+
+/// One cycle of 500 steps at 20 Hz.
+inline constexpr const char* quick = "density_scaling = 1e6\n";
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) out.push_back(line);
+  return out;
+}
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+/// A folder with the specimen t8, and the program run in it.
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) /
+              fmt::format("macadam_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(), getpid());
+    fs::create_directories(folder_);
+    fs::copy_file(MACADAM_TEST_DATA "/t8.csv", folder_ / "t8.csv");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Runs the program in a shell; output goes to files, which are no terminals.
+  Outcome macadam(const std::string& arguments) const {
+    const fs::path out = folder_ / "stdout.txt", err = folder_ / "stderr.txt";
+    const int status = std::system(
+        fmt::format("'{}' {} >'{}' 2>'{}' </dev/null", MACADAM_PROGRAM, arguments, out.string(), err.string()).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out), read(err)};
+  }
+
+  std::string path(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+
+  /// A scene of the 175 particles; the specimen's path is relative to it.
+  fs::path write_scene(const std::string& solver = quick, const std::string& more = "") const {
+    const fs::path file = folder_ / "scene.toml";
+    std::ofstream(file) << "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n"
+                        << "[loading]\nkind = \"cyclic\"\nfrequencies = [20.0]\ncycles = 1\n"
+                        << "[solver]\n"
+                        << solver << more << am1_contacts;
+    return file;
+  }
+
+  Outcome run_quick(const std::string& out, const std::string& options = "--backend cpu") const {
+    return macadam(fmt::format("run {} --out {} {}", path("scene.toml"), path(out), options));
+  }
+
+  nlohmann::json summary(const std::string& out) const {
+    return nlohmann::json::parse(read(folder_ / out / "summary.json"));
+  }
+
+  fs::path folder_;
+};
+
+}  // namespace macadam::test

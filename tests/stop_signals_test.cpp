@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// stop_signals_test.cpp  Signals at any time, once or several at once: a checkpoint, or an untouched folder.
+#include <signal.h>
+
+#include "program.hpp"
+
+namespace macadam::test {
+namespace {
+
+class StopSignals : public Program {
+ protected:
+  /// Starts `macadam arguments…`.
+  pid_t start(std::vector<std::string> arguments) const {
+    std::fflush(stdout);  // or the child would write it again
+  const pid_t child = fork();
+    if (child != 0) return child;
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);  // who runs tests may ignore them
+    if (!freopen((folder_ / "stdout.txt").c_str(), "w", stdout)) _exit(99);
+    if (!freopen((folder_ / "stderr.txt").c_str(), "w", stderr)) _exit(99);
+    std::vector<char*> words;
+    arguments.insert(arguments.begin(), MACADAM_PROGRAM);
+    for (std::string& a : arguments) words.push_back(a.data());
+    words.push_back(nullptr);
+    execv(MACADAM_PROGRAM, words.data());
+    _exit(99);
+  }
+  pid_t start_run(const std::string& out) const {
+    return start({"run", (folder_ / "scene.toml").string(), "--backend", "cpu", "--threads", "1", "--out",
+                  (folder_ / out).string()});
+  }
+  /// Waits until the program has written some samples.
+  void wait_for_samples(pid_t child, const std::string& out) const {
+    std::error_code error;
+    while (waitpid(child, nullptr, WNOHANG) == 0) {
+      const auto size = fs::file_size(folder_ / out / "response.csv", error);
+      if (!error && size > 2000) return;
+      usleep(1000);
+    }
+    FAIL() << "it ended too soon: " << read(folder_ / "stderr.txt");
+  }
+  static int end_of(pid_t child) {
+    int status = -1;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+};
+
+// coreutils' timeout sends one to its child and another to the child's group, at once.
+TEST_F(StopSignals, SeveralAtOnceAreOne) {
+  write_scene("density_scaling = 1e3\n");
+  const std::vector<std::vector<int>> bursts{
+      {SIGTERM, SIGTERM}, {SIGINT, SIGINT, SIGINT}, {SIGHUP}, {SIGHUP, SIGTERM}, {SIGTERM, SIGINT}};
+  for (std::size_t k = 0; k < bursts.size(); ++k) {
+    const std::string out = fmt::format("out{}", k);
+    const pid_t child = start_run(out);
+    wait_for_samples(child, out);
+    for (const int number : bursts[k]) {
+      kill(child, number);
+      usleep(static_cast<unsigned>(2000 * k));
+    }
+    EXPECT_EQ(end_of(child), 1) << k;
+    EXPECT_HAS(read(folder_ / "stderr.txt"), "--resume");
+    EXPECT_EQ(summary(out).at("status"), "interrupted");
+    EXPECT_TRUE(fs::exists(folder_ / out / "checkpoint.h5"));
+  }
+}
+
+// Generating the demo's specimen takes a second; nothing of the folder is touched before.
+TEST_F(StopSignals, BeforeTheFirstStepTheyLeaveTheFolderAsItWas) {
+  write_scene();
+  ASSERT_EQ(run_quick("out").code, 0);
+  const std::string before = read(folder_ / "out/summary.json");
+  for (const char* command : {"run", "specimen"}) {
+    const std::string out = *command == 'r' ? "out" : "new";
+    const pid_t child = start({command, MACADAM_EXAMPLES "/demo/scene.toml", "--out", (folder_ / out).string()});
+    while (*command == 's' && !fs::exists(folder_ / out) && waitpid(child, nullptr, WNOHANG) == 0) usleep(1000);
+    usleep(100'000);
+    kill(child, SIGTERM);
+    usleep(5000);
+    kill(child, SIGTERM);
+    EXPECT_EQ(end_of(child), 1) << command;
+    EXPECT_HAS(read(folder_ / "stderr.txt"), "nothing was written");
+  }
+  EXPECT_EQ(read(folder_ / "out/summary.json"), before);
+  EXPECT_TRUE(fs::exists(folder_ / "out/response.csv"));
+  EXPECT_FALSE(fs::exists(folder_ / "new"));
+}
+
+}  // namespace
+}  // namespace macadam::test

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// streams_test.cpp  Standard input, output and error that are closed, full, unread, limited, or a terminal that is
+// gone.
+#include <pty.h>
+#include <signal.h>
+
+#include "program.hpp"
+
+namespace macadam::test {
+namespace {
+
+class Streams : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    write_scene();
+  }
+
+  /// Exit code of a command of bash, in which $M is the program.
+  Outcome shell(const std::string& command) const {
+    write(folder_ / "command.sh", "M='" MACADAM_PROGRAM "'\ncd '" + folder_.string() + "'\n" + command + "\n");
+    const fs::path err = folder_ / "stderr.txt";
+    write(err, "");
+    const int status =
+        std::system(fmt::format("bash '{}' 2>'{}'", (folder_ / "command.sh").string(), err.string()).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, "", read(err)};
+  }
+};
+
+// What these print is all that they do.
+TEST_F(Streams, LostOutputOfACommandThatOnlyPrintsIsExitCodeOne) {
+  const std::string surface = "'" MACADAM_EXAMPLES "/icosahedron/icosahedron.off'";
+  for (const std::string& command :
+       std::vector<std::string>{"info", "--help", "run --help", "--version", "shapes check " + surface,
+                                "shapes measure " + surface + " --out measured"}) {
+    ASSERT_EQ(shell("$M " + command + " > said.txt").code, 0) << command;
+    for (const char* lost : {">/dev/full", ">&-", "| false; exit ${PIPESTATUS[0]}"}) {
+      const Outcome outcome = shell("$M " + std::string(command) + " " + lost);
+      // a pipe may still have room for all that is said when its reader ends
+      if (*lost == '|' && outcome.code == 0) continue;
+      EXPECT_EQ(outcome.code, 1) << command << " " << lost;
+      EXPECT_HAS(outcome.err, "standard output: cannot be written");
+    }
+    EXPECT_EQ(shell("$M " + command + " >/dev/full 2>/dev/full").code, 1) << command;
+    EXPECT_EQ(shell("$M " + command + " >&- 2>&-").code, 1) << command;
+  }
+}
+
+// What a run says is in its files: it ends well, and no file gets what was meant for a stream.
+TEST_F(Streams, ARunNeedsNone) {
+  ASSERT_EQ(run_quick("out").code, 0);
+  for (const char* streams : {">/dev/full", "| head -n 1 >/dev/null; exit ${PIPESTATUS[0]}", ">&-", "2>&-", "<&-",
+                              "<&- >&- 2>&-", ">/dev/full 2>/dev/full"}) {
+    fs::remove_all(folder_ / "other");
+    EXPECT_EQ(shell("$M run scene.toml --backend cpu --out other " + std::string(streams)).code, 0) << streams;
+    for (const char* name : {"specimen.csv", "response.csv"}) {
+      EXPECT_TRUE(read(folder_ / "other" / name) == read(folder_ / "out" / name)) << streams << ": " << name;
+    }
+    EXPECT_EQ(summary("other").at("status"), "done") << streams;
+  }
+}
+
+TEST_F(Streams, AnErrorKeepsItsExitCodeWhereNobodyHearsIt) {
+  for (const char* streams : {"2>&-", "2>/dev/full", ">&- 2>&-", ">/dev/full 2>/dev/full"}) {
+    EXPECT_EQ(shell("$M run nowhere.toml --out out " + std::string(streams)).code, 2) << streams;
+    EXPECT_EQ(shell("$M runn " + std::string(streams)).code, 2) << streams;
+  }
+}
+
+// `ulimit -f` counts blocks of 1,024 bytes; specimen.csv has some 14,000 bytes.
+TEST_F(Streams, AFileBeyondItsLimitIsAnErrorAndLeavesNoPart) {
+  const Outcome outcome = shell("ulimit -f 4; $M run scene.toml --backend cpu --out out");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_HAS(outcome.err, "specimen.csv: cannot be written");
+  EXPECT_FALSE(fs::exists(folder_ / "out/specimen.csv.part"));
+}
+
+// OpenBLAS tries for ever where it cannot map its buffer. One thread: of more it maps them before the program begins.
+TEST_F(Streams, TooLittleMemoryEndsARun) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer takes terabytes of addresses";
+#endif
+  write_scene("method = \"harmonic\"\n");
+  int refused = 0, done = 0;
+  for (int megabytes = 100; megabytes <= 400; megabytes += 25) {
+    const Outcome outcome =
+        shell(fmt::format("export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1; ulimit -v {}; "
+                          "timeout 20 $M run scene.toml --out out",
+                          megabytes * 1024));
+    ASSERT_NE(outcome.code, 124) << megabytes << " MB: it hangs";
+    refused += contains(outcome.err, "macadam: out of memory");
+    done += outcome.code == 0;
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_GT(done, 0);
+}
+
+// As after nohup, or `disown -h`: the progress line meets a terminal that answers EIO.
+TEST_F(Streams, ATerminalThatIsGoneDoesNotEndARun) {
+  write_scene("density_scaling = 3e3\n");
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    signal(SIGHUP, SIG_IGN);
+    execl(MACADAM_PROGRAM, MACADAM_PROGRAM, "run", (folder_ / "scene.toml").c_str(), "--backend", "cpu", "--out",
+          (folder_ / "out").c_str(), nullptr);
+    _exit(99);
+  }
+  std::string shown;
+  char piece[256];
+  for (ssize_t n = 0; shown.find(" left") == std::string::npos && (n = ::read(terminal, piece, sizeof piece)) > 0;) {
+    shown.append(piece, static_cast<std::size_t>(n));
+  }
+  EXPECT_HAS(shown, " left");  // it was under way
+  close(terminal);
+  int status = -1;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status)) << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(summary("out").at("status"), "done");
+}
+
+}  // namespace
+}  // namespace macadam::test
