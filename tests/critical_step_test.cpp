@@ -8,7 +8,7 @@
 #include <tuple>
 
 #include "host/reference/reference_spectrum.hpp"
-#include "test_scenes.hpp"
+#include "stepper_cases.hpp"
 
 namespace macadam::test {
 namespace {
@@ -112,7 +112,7 @@ TEST(Inertia, IsThatOfSolidSpheres) {
 
 using Case = std::tuple<Backend, ContactForm, Geometry, bool /* AM1, else elastic */, bool /* local damping */>;
 
-class AtTheLimit : public testing::TestWithParam<Case> {
+class AtTheLimit : public BackendTest<Case> {
  protected:
   TestScene scene_ = make_scene(random_specimen(5), {}, std::get<3>(GetParam()) ? am1_laws() : elastic_laws());
 
@@ -130,8 +130,7 @@ class AtTheLimit : public testing::TestWithParam<Case> {
 
   /// A stepper whose particles all move and spin, so that every mode takes part.
   std::unique_ptr<Stepper> shaken(const StepperOptions& options) const {
-    auto stepper =
-        make_stepper(std::get<0>(GetParam()), scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
+    auto stepper = make_stepper(backend(), scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
     std::mt19937 random(6);
     const auto component = [&] { return 1e-3 * (2 * (static_cast<double>(random()) / 4294967296.0) - 1); };
     std::vector<Vec3d> velocity, spin;
@@ -153,15 +152,16 @@ class AtTheLimit : public testing::TestWithParam<Case> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    All, AtTheLimit,
-    testing::Combine(testing::ValuesIn(tested_backends()), testing::Values(ContactForm::condensed, ContactForm::points),
-                     testing::Values(Geometry::updated, Geometry::fixed), testing::Bool(), testing::Bool()),
-    [](const testing::TestParamInfo<Case>& info) {
-      return fmt::format("{}_{}_{}_{}_{}", to_string(std::get<0>(info.param)), to_string(std::get<1>(info.param)),
-                         to_string(std::get<2>(info.param)), std::get<3>(info.param) ? "am1" : "elastic",
-                         std::get<4>(info.param) ? "damped" : "undamped");
-    });
+INSTANTIATE_TEST_SUITE_P(All, AtTheLimit,
+                         testing::Combine(all_backends(), testing::Values(ContactForm::condensed, ContactForm::points),
+                                          testing::Values(Geometry::updated, Geometry::fixed), testing::Bool(),
+                                          testing::Bool()),
+                         [](const testing::TestParamInfo<Case>& info) {
+                           return fmt::format("{}_{}_{}_{}_{}", to_string(std::get<0>(info.param)),
+                                              to_string(std::get<1>(info.param)), to_string(std::get<2>(info.param)),
+                                              std::get<3>(info.param) ? "am1" : "elastic",
+                                              std::get<4>(info.param) ? "damped" : "undamped");
+                         });
 
 TEST_P(AtTheLimit, StableJustBelowTheComputedOne) {
   StepperOptions options = this->options();

@@ -12,12 +12,11 @@ namespace {
 
 using Case = std::tuple<Backend, Precision, ContactForm>;
 
-class Skips : public testing::TestWithParam<Case> {
+class Skips : public BackendTest<Case> {
  protected:
   ParticleState shaken(const TestScene& scene, const Laws& laws, StepperOptions options) const {
     std::tie(std::ignore, options.precision, options.form) = GetParam();
-    const auto stepper =
-        make_stepper(std::get<Backend>(GetParam()), scene.specimen, scene.network, laws, scene.inertia, options);
+    const auto stepper = make_stepper(backend(), scene.specimen, scene.network, laws, scene.inertia, options);
     stepper->advance(500);
     return stepper->particles();
   }
@@ -33,7 +32,7 @@ class Skips : public testing::TestWithParam<Case> {
 };
 
 INSTANTIATE_TEST_SUITE_P(All, Skips,
-                         testing::Combine(testing::ValuesIn(tested_backends()),
+                         testing::Combine(all_backends(),
                                           testing::Values(Precision::double_, Precision::mixed, Precision::single),
                                           testing::Values(ContactForm::condensed, ContactForm::points)),
                          [](const auto& info) { return name_of_case(info); });

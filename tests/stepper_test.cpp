@@ -11,7 +11,7 @@ namespace {
 
 using Case = StepperCase;
 
-class StepperAgainstReference : public testing::TestWithParam<Case> {
+class StepperAgainstReference : public BackendTest<Case> {
  protected:
   /// Steps both and compares all motion and wall forces relative to their own largest values.
   void compare(const TestScene& scene, StepperOptions options, std::int64_t steps) {
@@ -114,8 +114,7 @@ TEST_P(StepperAgainstReference, FreeAssemblyThatTumbles) {
   exact.precision = Precision::double_;
   const auto reference =
       make_stepper(Backend::reference, scene.specimen, scene.network, scene.laws, scene.inertia, exact);
-  const auto stepper =
-      make_stepper(std::get<Backend>(GetParam()), scene.specimen, scene.network, scene.laws, scene.inertia, options);
+  const auto stepper = make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, options);
   for (auto* s : {reference.get(), stepper.get()}) {
     s->set_velocities(velocity, spin);
     s->advance(500);

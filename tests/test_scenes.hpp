@@ -111,7 +111,7 @@ inline double relative_difference(const std::vector<Vec3d>& list, const std::vec
   return out / largest(expected);
 }
 
-/// Backends that this build and machine can test besides the reference. MACADAM_REQUIRE_GPU=1 makes a missing device a
+/// Backends that this build and machine can run besides the reference. MACADAM_REQUIRE_GPU=1 makes a missing device a
 /// failure.
 inline std::vector<Backend> tested_backends() {
   std::vector<Backend> out{Backend::cpu};
