@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+#include "cluster_specimens.hpp"
 #include "stepper_cases.hpp"
 
 namespace macadam::test {
@@ -55,6 +56,14 @@ TEST_P(StepperAgainstReference, ThousandStepsOfFreshSpecimens) {
     const TestScene scene = make_scene(random_specimen(seed + k));
     for (int pair = 0; pair < pair_types; ++pair) EXPECT_GT(scene.network.count[static_cast<std::size_t>(pair)], 0);
     compare(scene, shaking_options(scene), long_tests ? 1000 : 100);
+  }
+}
+
+TEST_P(StepperAgainstReference, ClustersOfManySpheres) {
+  for (const Laws& laws : {am1_laws(), am2_laws()}) {
+    const TestScene scene = make_scene(few_clusters(test_seed()), {}, laws);
+    EXPECT_GT(scene.network.count[static_cast<std::size_t>(PairType::inner)], 100);
+    compare(scene, shaking_options(scene), long_tests ? 300 : 100);
   }
 }
 
