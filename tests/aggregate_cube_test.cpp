@@ -3,7 +3,13 @@
 // docs/aggregate-cube.md.
 #include "aggregate_cube.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "host/reference/reference_spectrum.hpp"
+#include "host/reference/reference_stiffness.hpp"
 
 namespace macadam::test {
 namespace {
@@ -29,7 +35,7 @@ TEST(AggregateCube, GaugeOfALatticeIsExact) {
 struct Case {
   const InnerSpheres* spheres;
   CubeFilling filling;
-  double gauge, walls;     ///< means of twenty seeds [Pa]
+  double gauge, walls;     ///< our own means of twenty seeds [Pa]
   double deviation;        ///< standard one among the seeds, the larger of both [Pa]
   unsigned seeds;          ///< taken here: cubes of coarse spheres cost a tenth and differ three times as much
   double contact_modulus;  ///< with which the aggregate has its 60 GPa: the paper's where that does
@@ -61,18 +67,66 @@ INSTANTIATE_TEST_SUITE_P(All, CubeOfSpheres, testing::ValuesIn(cases()), [](cons
   return std::string(info.param.spheres->name) + "_" + to_string(info.param.filling);
 });
 
-TEST_P(CubeOfSpheres, HasTheMeasuredModulus) {
+// What the paper found its contact moduli with: the rock's 60 GPa. Of uniform strain, with facets in all directions
+// alike, a large body of theirs has 59.7 (fine) and 59.2 GPa (coarse), from which relaxation takes a few per cent: 3 %,
+// and four standard deviations of a mean of so many seeds.
+TEST_P(CubeOfSpheres, HasTheRocksModulusAndUniformStrainsPoissonRatio) {
   const Case& c = GetParam();
   const CubeModulus mean = mean_modulus(c, c.spheres->contact_modulus, test_seed(), c.seeds);
-  // Four standard deviations between a mean of these seeds and one of twenty: one choice of seeds in 16,000 is off.
+  const double scatter = 4 * c.deviation / std::sqrt(c.seeds);
+  EXPECT_NEAR(mean.gauge, aggregate_modulus, 0.03 * aggregate_modulus + scatter);
+  EXPECT_LT(mean.gauge, uniform_strain_modulus(inner_alpha) * c.spheres->contact_modulus + 0.03 * mean.gauge + scatter);
+  // the walls' layers add to it: their contacts have the modulus of the springs, not that of a body of them
+  EXPECT_GT(mean.walls, mean.gauge);
+  // (1 − α)/(4 + α) = 0.235 of uniform strain, to which relaxation adds as it takes from the shear modulus
+  EXPECT_NEAR(mean.poisson, (1 - inner_alpha) / (4 + inner_alpha), 0.04);
+
+  // Regression, beside it: what twenty of our own cubes had when docs/aggregate-cube.md was measured. Four standard
+  // deviations between a mean of these seeds and one of twenty: one choice of seeds in 16,000 is off.
   const double bound = 4 * c.deviation * std::sqrt(1.0 / c.seeds + 1.0 / 20);
   EXPECT_NEAR(mean.gauge, c.gauge, bound);
   EXPECT_NEAR(mean.walls, c.walls, bound);
-  // 0.235 of uniform strain and what relaxation adds: 0.245 to 0.260, ± 0.006 among seeds
-  EXPECT_NEAR(mean.poisson, 0.25, 0.02);
+  EXPECT_NEAR(mean.poisson, 0.25, 0.02);  // 0.245 to 0.260, ± 0.006 among seeds
 }
 
-// The seeds are fixed: what is asked of them is the material's 60 GPa within 2 %, and nothing beside it.
+/// Stress over strain between the walls were every sphere moved by the best of all fields u = (a·x, b·y, c + d·z): an
+/// upper bound for any elastic network, by the reference's matrices.
+double affine_modulus(const TestScene& scene) {
+  const Specimen& s = scene.specimen;
+  const reference::Stiffness stiffness = reference::assemble_stiffness(scene.network, scene.laws, s.size());
+  Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(stiffness.K.rows(), 4);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(6 * i);
+    const Vec3d x = (1 / s.box.size.z) * (s.centre[i] - 0.5 * s.box.size);
+    fields(row, 0) = x.x, fields(row + 1, 1) = x.y, fields(row + 2, 2) = 1, fields(row + 2, 3) = x.z;
+  }
+  const Eigen::MatrixXd k = fields.transpose() * (stiffness.K * fields);
+  const Eigen::VectorXd p = fields.transpose() * stiffness.top_wall;
+  return (stiffness.top_stiffness - p.dot(k.ldlt().solve(p))) * s.box.size.z / (s.box.size.x * s.box.size.y);
+}
+
+// Two solvers, and a bound that neither may pass. A cube of fine spheres is smaller here, for the reference's sake.
+TEST_P(CubeOfSpheres, HasTheReferencesModulusBelowThatOfUniformStrain) {
+  const Case& c = GetParam();
+  const double edge = c.spheres == &fine_spheres ? 0.6 * cube_edge : cube_edge;
+  const laws::Elastic inner{c.spheres->contact_modulus, inner_alpha};
+  const Specimen cube = aggregate_cube(*c.spheres, c.filling, scene_porosity, test_seed(), edge);
+  Laws laws;
+  laws[static_cast<std::size_t>(PairType::inner)] = inner;
+  laws[static_cast<std::size_t>(PairType::aw)] = laws::Elastic{paper_wall_modulus, 0};
+  const TestScene scene = make_scene(cube, {}, laws);
+  const double found = cube_modulus(cube, inner).walls;
+  // the harmonic residual of 1e-11 and the reference's of 1e-12, times some condition
+  EXPECT_NEAR(found / reference_static_modulus(cube, scene.network, laws), 1, 1e-9);
+  const double affine = affine_modulus(scene);
+  fmt::print("{} spheres: {:.4f} of the modulus of uniform strain, which is {:.4f} of the inner modulus\n", cube.size(),
+             found / affine, affine / inner.E);
+  EXPECT_LT(found, affine);
+  EXPECT_GT(found, 0.85 * affine);  // regression: ours relax by 4 to 10 %, most where flat layers lie along the walls
+}
+
+// Regression: of fixed seeds, with the paper's moduli and for coarse cubes filled as shapes with that found by
+// ourselves.
 TEST_P(CubeOfSpheres, HasTheModulusOfTheAggregate) {
   if (!long_tests) GTEST_SKIP() << "the same code as above, for other numbers";
   const Case& c = GetParam();

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <tuple>
 
-#include "test_scenes.hpp"
+#include "stepper_cases.hpp"
 
 namespace macadam::test {
 namespace {
@@ -70,7 +70,7 @@ std::string name_of(const testing::TestParamInfo<Case>& info) {
   return std::string(to_string(backend)) + "_" + to_string(form) + "_" + to_string(geometry);
 }
 
-class FreeAssembly : public testing::TestWithParam<Case> {
+class FreeAssembly : public BackendTest<Case> {
  protected:
   StepperOptions options(const TestScene& scene) const {
     StepperOptions out;
@@ -80,14 +80,12 @@ class FreeAssembly : public testing::TestWithParam<Case> {
     return out;
   }
   std::unique_ptr<Stepper> make(const TestScene& scene, const StepperOptions& options) const {
-    return make_stepper(std::get<Backend>(GetParam()), scene.specimen, scene.network, scene.laws, scene.inertia,
-                        options);
+    return make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, options);
   }
 };
 
 INSTANTIATE_TEST_SUITE_P(All, FreeAssembly,
-                         testing::Combine(testing::ValuesIn(tested_backends()),
-                                          testing::Values(ContactForm::condensed, ContactForm::points),
+                         testing::Combine(all_backends(), testing::Values(ContactForm::condensed, ContactForm::points),
                                           testing::Values(Geometry::updated, Geometry::fixed)),
                          name_of);
 
@@ -206,8 +204,7 @@ class RigidMotion : public FreeAssembly {
 };
 
 INSTANTIATE_TEST_SUITE_P(All, RigidMotion,
-                         testing::Combine(testing::ValuesIn(tested_backends()),
-                                          testing::Values(ContactForm::condensed, ContactForm::points),
+                         testing::Combine(all_backends(), testing::Values(ContactForm::condensed, ContactForm::points),
                                           testing::Values(Geometry::updated)),
                          name_of);
 

@@ -55,7 +55,7 @@ TEST(CubicLattice, AnotherModulusAtTheWallsActsInSeries) {
 
 using Case = std::tuple<Backend, ContactForm, Geometry>;
 
-class LoadedLattice : public testing::TestWithParam<Case> {
+class LoadedLattice : public BackendTest<Case> {
  protected:
   /// |E*| and φ of a sinusoidal load of four cycles, of which three are a smooth start.
   Stiffness modulus(const TestScene& scene, double frequency) const {
@@ -73,8 +73,7 @@ class LoadedLattice : public testing::TestWithParam<Case> {
     loading.ramp_steps = 3 * loading.steps_per_period;
     options.loading = loading;
     options.dt = loading.dt();
-    const auto stepper =
-        make_stepper(std::get<Backend>(GetParam()), scene.specimen, scene.network, scene.laws, scene.inertia, options);
+    const auto stepper = make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, options);
     std::vector<ResponseSample> response;
     for (int k = 0; k <= 4 * samples; ++k) {
       if (k > 0) stepper->advance(stride);
@@ -87,8 +86,7 @@ class LoadedLattice : public testing::TestWithParam<Case> {
 };
 
 INSTANTIATE_TEST_SUITE_P(All, LoadedLattice,
-                         testing::Combine(testing::ValuesIn(tested_backends()),
-                                          testing::Values(ContactForm::condensed, ContactForm::points),
+                         testing::Combine(all_backends(), testing::Values(ContactForm::condensed, ContactForm::points),
                                           testing::Values(Geometry::updated, Geometry::fixed)),
                          [](const auto& info) { return name_of_case(info); });
 

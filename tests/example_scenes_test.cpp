@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -40,7 +41,41 @@ TEST_P(ExampleScene, HasEveryLaw) {
     specimen.phase.push_back(Phase::aggregate);
     for (PairType pair : {PairType::ma, PairType::aa, PairType::aw}) network.count[int(pair)] = 10;
   }
+  if (scene.specimen.shapes) network.count[int(PairType::inner)] = 10;
   EXPECT_NO_THROW(require_laws(scene, specimen, network));
+  // and none that no contact can have
+  EXPECT_EQ(scene.laws[int(PairType::inner)].has_value(), scene.specimen.shapes.has_value());
+  EXPECT_EQ(scene.laws[int(PairType::aa)].has_value(), !scene.specimen.aggregate.empty());
+}
+
+/// Elastic contacts: the paper's modulus of an aggregate's contacts (Table 4), within aggregates that which its cubes
+/// of fine and of coarse spheres need for the rock's 60 GPa, at a wall the stiffest spring of what touches it.
+TEST_P(ExampleScene, HasThePapersElasticLaws) {
+  const Scene scene = this->scene();
+  std::vector<std::pair<PairType, laws::Elastic>> expected;
+  const bool am2 = std::string(GetParam()) == "ac14_ss_am2";
+  expected.emplace_back(PairType::mw, laws::Elastic{am2 ? 8.909e9 : 3.511e10, 0});
+  if (!scene.specimen.aggregate.empty()) {
+    expected.emplace_back(PairType::aa, laws::Elastic{1.151e11, 0.05});
+    expected.emplace_back(PairType::aw, laws::Elastic{1.151e11, 0});
+  }
+  if (scene.specimen.shapes) {
+    const FillSpec& fill = scene.specimen.shapes->fill;
+    const bool fine = fill.radius_min == 0.75e-3;
+    EXPECT_EQ(fill.radius_min, fine ? 0.75e-3 : 1e-3);
+    EXPECT_EQ(fill.radius_max, fine ? 1e-3 : 2e-3);
+    EXPECT_EQ(std::string(GetParam()).ends_with("fine"), fine);
+    expected.emplace_back(PairType::inner, laws::Elastic{fine ? 1.125e11 : 1.116e11, 0.05});
+  }
+  for (const auto& [pair, law] : expected) {
+    ASSERT_TRUE(scene.laws[int(pair)]) << to_string(pair);
+    EXPECT_EQ(std::get<laws::Elastic>(*scene.laws[int(pair)]).E, law.E) << to_string(pair);
+    EXPECT_EQ(std::get<laws::Elastic>(*scene.laws[int(pair)]).alpha, law.alpha) << to_string(pair);
+  }
+  for (const PairType pair : {PairType::mm, PairType::ma}) {
+    if (!scene.laws[int(pair)]) continue;
+    EXPECT_EQ(std::get<laws::GeneralisedKelvin>(*scene.laws[int(pair)]).alpha, 0.1) << to_string(pair);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scene, ExampleScene,

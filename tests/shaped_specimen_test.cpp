@@ -5,9 +5,11 @@
 #include <omp.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 
+#include "host/shapes/convex_hull.hpp"
 #include "test_files.hpp"
 
 namespace macadam::test {
@@ -115,6 +117,86 @@ TEST_P(ShapedSpecimen, MasticLeavesTheShapesAndFillsThePorosity) {
   const double sphere = 4 * M_PI / 3 * std::pow(1e-3, 3);  // a number of spheres is whole
   EXPECT_NEAR(solid, 0.95 * s.box.volume(), sphere);
   EXPECT_TRUE(particles_without_cell(s).empty());
+}
+
+TEST_P(ShapedSpecimen, MasticHasTheVolumeAndTheRadiiAskedFor) {
+  const Specimen& s = made_.specimen;
+  const MasticSpec asked = *recipe(GetParam()).mastic;
+  std::int64_t count = 0;
+  double volume = 0, radii = 0;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (s.phase[i] != Phase::mastic) continue;
+    ++count, volume += 4 * M_PI / 3 * std::pow(s.radius[i], 3), radii += s.radius[i];
+    EXPECT_GE(s.radius[i], asked.radius_min);
+    EXPECT_LE(s.radius[i], asked.radius_max);
+    for (const double x : {s.centre[i].x / s.box.size.x, s.centre[i].y / s.box.size.y, s.centre[i].z / s.box.size.z}) {
+      EXPECT_GT(x, 0);
+      EXPECT_LT(x, 1);
+    }
+  }
+  // One radius of each of n equal parts of the range, bent until the volume fits: in the mean by half a sphere of n.
+  EXPECT_NEAR(radii / static_cast<double>(count), 0.5 * (asked.radius_min + asked.radius_max), 1e-3 * asked.radius_max);
+  double aggregates = 0;
+  for (const Aggregate& a : made_.aggregates) aggregates += a.volume;
+  const CompositionRow& row = made_.composition.back();
+  EXPECT_EQ(row.name, "mastic");
+  EXPECT_EQ(row.count, count);
+  EXPECT_EQ(row.count_asked, count);
+  EXPECT_NEAR(row.fraction, volume / s.box.volume(), 1e-12);
+  EXPECT_NEAR(row.fraction_asked, 1 - *asked.porosity - aggregates / s.box.volume(), 1e-12);
+  EXPECT_NEAR(row.fraction, row.fraction_asked, 1e-12);
+}
+
+/// How far inside the convex hull of its points a point is; below 0 outside.
+class Hull {
+ public:
+  explicit Hull(const std::vector<Vec3d>& points) : points_(points), facets_(convex_hull(points)) {}
+  double depth(const Vec3d& x) const {
+    double least = INFINITY;
+    for (const auto& [a, b, c] : facets_) {
+      const Vec3d n = cross(points_[b] - points_[a], points_[c] - points_[a]);
+      least = std::min(least, dot(n, points_[a] - x) / norm(n));
+    }
+    return least;
+  }
+
+ private:
+  std::vector<Vec3d> points_;
+  std::vector<std::array<std::int32_t, 3>> facets_;
+};
+
+// Mastic lies around a cluster, not in it: each of its spheres gives way to the cluster's like to any other, half and
+// half, and none gets past them.
+TEST_P(ShapedSpecimen, MasticStaysOutsideTheClusters) {
+  const Specimen& s = made_.specimen;
+  std::map<std::int32_t, std::vector<Vec3d>> clusters;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (s.body[i] >= 0) clusters[s.body[i]].push_back(s.centre[i]);
+  }
+  std::int64_t inside = 0;
+  double deepest = -INFINITY, largest_overlap = 0;
+  for (const auto& [body, centres] : clusters) {
+    if (centres.size() == 1) continue;
+    const Hull hull(centres);
+    Vec3d middle{};
+    for (const Vec3d& c : centres) middle += (1.0 / static_cast<double>(centres.size())) * c;
+    EXPECT_GT(hull.depth(middle), 0);
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      if (s.phase[i] != Phase::mastic) continue;
+      const double depth = hull.depth(s.centre[i]);
+      inside += depth > 0 ? 1 : 0;
+      deepest = std::max(deepest, depth / s.radius[i]);
+      for (std::size_t k = 0; k < s.size(); ++k) {
+        if (s.body[k] != body) continue;
+        const double sum = s.radius[i] + s.radius[k];
+        largest_overlap = std::max(largest_overlap, 1 - norm(s.centre[i] - s.centre[k]) / sum);
+      }
+    }
+  }
+  fmt::print("deepest mastic centre {:.2f} of its radius in a hull, largest overlap {:.2f}\n", deepest,
+             largest_overlap);
+  EXPECT_EQ(inside, 0);
+  EXPECT_LT(largest_overlap, 0.5);  // no centre in another sphere
 }
 
 TEST_P(ShapedSpecimen, ContactsAreInnerWithinABodyAndNowhereElse) {

@@ -54,7 +54,7 @@ void expect_periodic(const Stiffness& error) {  // the bars of a cycle from the 
 }
 
 using Case = StepperCase;
-class SteadyStart : public testing::TestWithParam<Case> {};
+class SteadyStart : public BackendTest<Case> {};
 
 INSTANTIATE_TEST_SUITE_P(All, SteadyStart, all_stepper_cases(), [](const auto& info) { return name_of_case(info); });
 

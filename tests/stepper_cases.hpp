@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <tuple>
 
@@ -11,11 +12,26 @@
 
 namespace macadam::test {
 
+/// Every backend besides the reference, whatever this build and machine can run.
+inline auto all_backends() { return testing::Values(Backend::cpu, Backend::cuda); }
+
+/// Tests over backends: a case of CUDA without a device is skipped and says why, so that it is counted.
+template <class Case>
+class BackendTest : public testing::TestWithParam<Case> {
+ protected:
+  Backend backend() const { return std::get<Backend>(this->GetParam()); }
+  void SetUp() override {
+    const std::vector<Backend> tested = tested_backends();
+    if (std::find(tested.begin(), tested.end(), backend()) == tested.end()) {
+      GTEST_SKIP() << to_string(backend()) << ": " << report_backends().cuda_status;
+    }
+  }
+};
+
 /// All backends, precisions, forms and geometries.
 using StepperCase = std::tuple<Backend, Precision, ContactForm, Geometry>;
 inline auto all_stepper_cases() {
-  return testing::Combine(testing::ValuesIn(tested_backends()),
-                          testing::Values(Precision::double_, Precision::mixed, Precision::single),
+  return testing::Combine(all_backends(), testing::Values(Precision::double_, Precision::mixed, Precision::single),
                           testing::Values(ContactForm::condensed, ContactForm::points),
                           testing::Values(Geometry::updated, Geometry::fixed));
 }

@@ -12,7 +12,7 @@ namespace macadam::test {
 namespace {
 
 using Case = StepperCase;
-class StepperState : public testing::TestWithParam<Case> {
+class StepperState : public BackendTest<Case> {
  protected:
   StepperState() : scene_(make_scene(random_specimen(21))), options_(shaking_options(scene_)) {
     std::tie(backend_, options_.precision, options_.form, options_.geometry) = GetParam();

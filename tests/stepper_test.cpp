@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+#include "cluster_specimens.hpp"
 #include "stepper_cases.hpp"
 
 namespace macadam::test {
@@ -11,7 +12,7 @@ namespace {
 
 using Case = StepperCase;
 
-class StepperAgainstReference : public testing::TestWithParam<Case> {
+class StepperAgainstReference : public BackendTest<Case> {
  protected:
   /// Steps both and compares all motion and wall forces relative to their own largest values.
   void compare(const TestScene& scene, StepperOptions options, std::int64_t steps) {
@@ -55,6 +56,14 @@ TEST_P(StepperAgainstReference, ThousandStepsOfFreshSpecimens) {
     const TestScene scene = make_scene(random_specimen(seed + k));
     for (int pair = 0; pair < pair_types; ++pair) EXPECT_GT(scene.network.count[static_cast<std::size_t>(pair)], 0);
     compare(scene, shaking_options(scene), long_tests ? 1000 : 100);
+  }
+}
+
+TEST_P(StepperAgainstReference, ClustersOfManySpheres) {
+  for (const Laws& laws : {am1_laws(), am2_laws()}) {
+    const TestScene scene = make_scene(few_clusters(test_seed()), {}, laws);
+    EXPECT_GT(scene.network.count[static_cast<std::size_t>(PairType::inner)], 100);
+    compare(scene, shaking_options(scene), long_tests ? 300 : 100);
   }
 }
 
@@ -114,8 +123,7 @@ TEST_P(StepperAgainstReference, FreeAssemblyThatTumbles) {
   exact.precision = Precision::double_;
   const auto reference =
       make_stepper(Backend::reference, scene.specimen, scene.network, scene.laws, scene.inertia, exact);
-  const auto stepper =
-      make_stepper(std::get<Backend>(GetParam()), scene.specimen, scene.network, scene.laws, scene.inertia, options);
+  const auto stepper = make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, options);
   for (auto* s : {reference.get(), stepper.get()}) {
     s->set_velocities(velocity, spin);
     s->advance(500);

@@ -39,6 +39,16 @@ inline Laws am1_laws() {
   return out;
 }
 
+/// The same of binder AM2.
+inline Laws am2_laws() {
+  laws::GeneralisedKelvin ma{6.014e10, 7.859e9, {7.184e10, 4.270e10, 3.899e11}, {1.925e9, 3.959e9, 3.614e10}, 0.10};
+  Laws out = am1_laws();
+  out[static_cast<std::size_t>(PairType::mm)] = mastic_am2();
+  out[static_cast<std::size_t>(PairType::ma)] = ma;
+  out[static_cast<std::size_t>(PairType::mw)] = laws::Elastic{8.909e9, 0.0};
+  return out;
+}
+
 /// Spheres of random size jittered about a grid in a box of 4 × 4 × 5 cells of 2 mm: every pair type occurs, a pair of
 /// spheres makes up one aggregate.
 inline Specimen random_specimen(unsigned seed, int nx = 4, int ny = 4, int nz = 5) {
@@ -111,7 +121,7 @@ inline double relative_difference(const std::vector<Vec3d>& list, const std::vec
   return out / largest(expected);
 }
 
-/// Backends that this build and machine can test besides the reference. MACADAM_REQUIRE_GPU=1 makes a missing device a
+/// Backends that this build and machine can run besides the reference. MACADAM_REQUIRE_GPU=1 makes a missing device a
 /// failure.
 inline std::vector<Backend> tested_backends() {
   std::vector<Backend> out{Backend::cpu};

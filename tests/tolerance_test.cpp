@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/simulation/error_model.hpp"
-#include "test_scenes.hpp"
+#include "cluster_specimens.hpp"
 
 namespace macadam::test {
 namespace {
@@ -81,6 +81,21 @@ TEST_F(Tolerance, IsKeptOnFreshSpecimens) {
     for (const double tolerance : long_tests ? std::vector{1e-2, 1e-3, 1e-4} : std::vector{1e-2}) {
       SCOPED_TRACE(fmt::format("seed {}, tolerance {}", s, tolerance));
       expect_kept(scene_of(fresh(s), tolerance));
+    }
+  }
+}
+
+// Clusters are where stiff and soft contacts lie closest together. The units of AM2 relax within a cycle, those of AM1
+// take seconds.
+TEST_F(Tolerance, IsKeptOnClustersWithBothMixes) {
+  for (const Laws& laws : {am1_laws(), am2_laws()}) {
+    for (const double tolerance : long_tests ? std::vector{1e-2, 1e-3} : std::vector{1e-2}) {
+      SCOPED_TRACE(fmt::format("tolerance {}, E_m of M-M {:.4g}", tolerance,
+                               std::get<laws::GeneralisedKelvin>(*laws[int(PairType::mm)]).E_m));
+      Scene scene = scene_of(cluster_recipe(test_seed(), {0.012, 0.012, 0.016}), tolerance);
+      scene.laws = laws;
+      scene.loading.frequencies = long_tests ? std::vector{2.0, 20.0} : std::vector{20.0};
+      expect_kept(scene);
     }
   }
 }

@@ -16,7 +16,8 @@ namespace macadam::accuracy {
 /// Settings of a run. The defaults are the base about which one factor is varied at a time.
 struct Case {
   std::string study;           ///< why it was run: the figure or table that it belongs to
-  std::string scene = "t8";    ///< "t8", "demo", "full", or "seed N": another mixture in a smaller box
+  std::string scene = "t8";    ///< "t8", "demo", "full", "seed N": another mixture in a smaller box, or "clusters"
+  std::string mix = "AM1";     ///< binder: "AM1" or "AM2"
   double frequency = 20;       ///< [Hz]
   double density_scaling = 1;  ///< multiplies mass and inertia
   double step_share = 0.95;    ///< of critical_step()

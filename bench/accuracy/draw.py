@@ -116,7 +116,7 @@ class Drawing:
     def drift_differences(self):
         """(row, difference from double) at the same settings; from the harmonic solution where double was not run."""
         rows = done(select(self.rows, study="drift"))
-        key = lambda r: (r["frequency_hz"], r["density_scaling"], r["cycles"], r["geometry"])  # noqa: E731
+        key = lambda r: (r["scene"], r["mix"], r["frequency_hz"], r["density_scaling"], r["cycles"], r["geometry"])  # noqa: E731
         double = {key(r): r for r in rows if r["precision"] == "double"}
         for r in rows:
             if r["precision"] == "double":
@@ -130,7 +130,7 @@ class Drawing:
     def drift(self):
         figure, axes = self.panels("t8: what rounding leaves after so many steps (difference from double precision, which is that from the "
                                    "harmonic solution)")
-        pairs = list(self.drift_differences())
+        pairs = [(r, d) for r, d in self.drift_differences() if r["scene"] == "t8"]
         for ax, error in zip(axes, (E_STAR, PHASE)):
             for precision in ("single", "mixed"):
                 for f, cycles, mark, label in ((20.0, False, "o-", "20 Hz, 1 cycle"), (2.0, False, "s-", "2 Hz, 1 cycle"),
@@ -237,15 +237,16 @@ class Drawing:
         cost = lambda r: (int(r["steps"]), f"{r['seconds']:.3g}", f"{1e6 * r['seconds'] / r['steps']:.3g}",  # noqa: E731
                           f"{r['bytes'] / 1024:.0f}")
         of = lambda study: done(select(self.rows, study=study))  # noqa: E731
+        name = lambda r: r["scene"] + ("" if r["mix"] == "AM1" else f", {r['mix']}")  # noqa: E731
         parts = [f"# Tables of {self.stem.name}.csv\n\n{self.about['machine']}, {self.about['date']}, "
                  f"list {self.about['list']}. {self.about.get('note', '')}\n"]
         parts.append(self.table("Error against run time, steady start, one cycle", [
             "scene", "f", "scaling", "form", "precision", "geometry", "\\|E\\*\\|", "φ (°)", "steps", "s", "µs a step",
-            "KiB"], [(r["scene"], f"{r['frequency_hz']:g}", scaled(r), r["form"], r["precision"], r["geometry"],
+            "KiB"], [(name(r), f"{r['frequency_hz']:g}", scaled(r), r["form"], r["precision"], r["geometry"],
                       *errors(r), *cost(r)) for r in of("front")]))
-        parts.append(self.table("Drift: difference from double", ["f", "scaling", "cycles", "steps", "precision",
+        parts.append(self.table("Drift: difference from double", ["scene", "f", "scaling", "cycles", "steps", "precision",
                                                                   "\\|E\\*\\|", "φ (°)"],
-                                [(f"{r['frequency_hz']:g}", scaled(r), int(r["cycles"]), int(r["steps"]),
+                                [(name(r), f"{r['frequency_hz']:g}", scaled(r), int(r["cycles"]), int(r["steps"]),
                                   r["precision"], f"{d[E_STAR]:+.1e}", f"{d[PHASE]:+.1e}")
                                  for r, d in self.drift_differences()]))
         lines = []
@@ -282,11 +283,11 @@ class Drawing:
         parts.append(self.table("Quadrature and filters: change of the model, and error against its own solution",
                                 ["scene", "f", "quadrature", "gap_max", "area_min", "contacts dropped",
                                  "\\|E\\*\\| model", "φ model (°)", "\\|E\\*\\| own", "φ own (°)", "µs a step"],
-                                [(r["scene"], f"{r['frequency_hz']:g}", r["quadrature"], r["gap_max"], r["area_min"],
+                                [(name(r), f"{r['frequency_hz']:g}", r["quadrature"], r["gap_max"], r["area_min"],
                                   int(base[r["scene"]] - r["contacts"]), f"{r['model_e_star']:+.2e}",
                                   f"{r['model_phase_deg']:+.2e}", *errors(r, OWN.get), cost(r)[2])
                                  if r["status"] == "done" else
-                                 (r["scene"], f"{r['frequency_hz']:g}", r["quadrature"], r["gap_max"], r["area_min"],
+                                 (name(r), f"{r['frequency_hz']:g}", r["quadrature"], r["gap_max"], r["area_min"],
                                   r["status"][:60], "", "", "", "", "")
                                  for r in self.rows if r["study"] in ("quadrature", "filter")]))
         parts.append(self.table("Backends", ["scene", "backend", "scaling", "precision", "form", "\\|E\\*\\| own",
@@ -296,7 +297,7 @@ class Drawing:
         parts.append(self.table("`[solver] tolerance`", ["scene", "f", "asked", "scaling", "precision", "geometry",
                                                          "\\|E\\*\\| predicted", "\\|E\\*\\| achieved",
                                                          "φ achieved (rad)", "steps", "s", "planning s", "s / by hand"],
-                                [(r["scene"], f"{r['frequency_hz']:g}", f"{r['tolerance']:g}", scaled(r),
+                                [(name(r), f"{r['frequency_hz']:g}", f"{r['tolerance']:g}", scaled(r),
                                   r["precision"], r["geometry"],
                                   f"{(1 + r[E_STAR]) / (1 + r[OWN[E_STAR]]) - 1:+.3e}", f"{r[E_STAR]:+.3e}",
                                   f"{math.radians(r[PHASE]):+.2e}", int(r["steps"]), f"{r['seconds']:.3g}",

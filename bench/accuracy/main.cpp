@@ -21,8 +21,8 @@ std::string processor() {
 }
 
 std::string describe(const macadam::accuracy::Case& c) {
-  return fmt::format("{} {} {:g} Hz, scaling {:g}, {} {} {} {}, share {:g}, from {}", c.study, c.scene, c.frequency,
-                     c.density_scaling, to_string(c.backend), to_string(c.precision), to_string(c.form),
+  return fmt::format("{} {} {} {:g} Hz, scaling {:g}, {} {} {} {}, share {:g}, from {}", c.study, c.scene, c.mix,
+                     c.frequency, c.density_scaling, to_string(c.backend), to_string(c.precision), to_string(c.form),
                      to_string(c.geometry), c.step_share, to_string(c.start));
 }
 

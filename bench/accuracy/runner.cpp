@@ -54,30 +54,35 @@ struct Runner::Network {
 Runner::Runner(std::filesystem::path root, std::filesystem::path out) : root_(std::move(root)), out_(std::move(out)) {}
 Runner::~Runner() = default;
 
-/// The laws and materials of the demo for all.
-const Scene& Runner::scene(const std::string& name) {
-  auto [at, fresh] = scenes_.try_emplace(name);
-  if (fresh) {
-    Scene& made = at->second = read_scene(root_ / "examples/demo/scene.toml");
-    made.loading = {};
-    made.solver = {};
-    if (name.starts_with("seed ")) {
-      made.specimen.seed = std::stoull(name.substr(5));
-      made.specimen.box.size = {0.012, 0.012, 0.016};
-      made.specimen.aggregate = {{2e-3, 4.75e-3, 0.25, std::nullopt}};
-    } else if (name != "demo") {
-      made.specimen = {};
-      made.specimen.file = root_ / "tests/data" / (name == "t8" ? "t8.csv" : "ss_full.csv.gz");
-      made.specimen.box.size = name == "t8" ? Vec3d{0.008, 0.008, 0.011} : Vec3d{0.05, 0.05, 0.08};
-    }
+/// Laws and materials of the paper's specimens: those of `mix`, and of a cluster's inner contacts.
+const Scene& Runner::scene(const std::string& name, const std::string& mix) {
+  auto [at, fresh] = scenes_.try_emplace({name, mix});
+  if (!fresh) return at->second;
+  const Scene clusters = read_scene(root_ / "examples/ac14_ms_poly_fine/scene.toml");
+  Scene& made = at->second = read_scene(root_ / "examples/demo/scene.toml");
+  if (mix == "AM2") made.laws = read_scene(root_ / "examples/ac14_ss_am2/scene.toml").laws;
+  made.laws[static_cast<std::size_t>(PairType::inner)] = clusters.laws[static_cast<std::size_t>(PairType::inner)];
+  made.loading = {};
+  made.solver = {};
+  if (name == "clusters") {  // the demo's box and classes, with real shapes, finely filled
+    made.specimen.shapes = clusters.specimen.shapes;
+    made.specimen.shapes->placement = PlacementMethod::packing;
+  } else if (name.starts_with("seed ")) {
+    made.specimen.seed = std::stoull(name.substr(5));
+    made.specimen.box.size = {0.012, 0.012, 0.016};
+    made.specimen.aggregate = {{2e-3, 4.75e-3, 0.25, std::nullopt}};
+  } else if (name != "demo") {
+    made.specimen = {};
+    made.specimen.file = root_ / "tests/data" / (name == "t8" ? "t8.csv" : "ss_full.csv.gz");
+    made.specimen.box.size = name == "t8" ? Vec3d{0.008, 0.008, 0.011} : Vec3d{0.05, 0.05, 0.08};
   }
-  return at->second;
+  return made;
 }
 
 Runner::Network& Runner::network(const Case& c) {
-  auto& at = networks_[{c.scene, c.quadrature, c.gap_max.value_or(-1), c.area_min.value_or(-1)}];
+  auto& at = networks_[{c.scene, c.mix, c.quadrature, c.gap_max.value_or(-1), c.area_min.value_or(-1)}];
   if (!at) {
-    Scene variant = scene(c.scene);
+    Scene variant = scene(c.scene, c.mix);
     variant.network.quadrature = c.quadrature;
     variant.network.gap_max = c.gap_max;
     variant.network.area_min = c.area_min;
@@ -154,7 +159,7 @@ std::vector<Outcome> Runner::run(Case& c) {
 
 /// The whole program with `[solver] tolerance`: it chooses, and the case's settings say afterwards what it chose.
 std::vector<Outcome> Runner::run_asked(Case& c) {
-  Scene asked = scene(c.scene);
+  Scene asked = scene(c.scene, c.mix);
   asked.loading.frequencies = {c.frequency};
   asked.loading.strain_amplitude = c.strain;
   asked.solver.tolerance = c.tolerance;

@@ -22,14 +22,14 @@ class Runner {
 
  private:
   struct Network;
-  const Scene& scene(const std::string& name);
+  const Scene& scene(const std::string& name, const std::string& mix);
   Network& network(const Case& settings);
   std::vector<Outcome> run_asked(Case& settings);
   double seconds_by_hand(const Case& asked);
 
   std::filesystem::path root_, out_;
-  std::map<std::string, Scene> scenes_;
-  std::map<std::tuple<std::string, Quadrature, double, double>, std::unique_ptr<Network>> networks_;
+  std::map<std::pair<std::string, std::string>, Scene> scenes_;
+  std::map<std::tuple<std::string, std::string, Quadrature, double, double>, std::unique_ptr<Network>> networks_;
 };
 
 /// All runs in order. `quick`: a minute; `full`: the full specimen too; `cuda`: a device is there.

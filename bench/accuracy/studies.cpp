@@ -25,6 +25,7 @@ class List {
     quadrature_and_filters();
     backends();
     tolerance();
+    clusters_and_am2();
     return std::move(list_);
   }
 
@@ -208,6 +209,58 @@ class List {
           if (quick_ && asked < 1e-3) continue;
           add("tolerance", scene, frequency, 0).tolerance = asked;
         }
+      }
+    }
+  }
+
+  /// What is above for single spheres and AM1 once more for clusters and for AM2: error against time, drift, filters
+  /// and tolerances.
+  void clusters_and_am2() {
+    const auto with_mix = [&](const char* mix, const char* study, const char* scene, double frequency,
+                              double scaling) -> Case& {
+      Case& c = add(study, scene, frequency, scaling);
+      c.mix = mix;
+      return c;
+    };
+    const auto clusters = [&](const char* study, double frequency, double scaling) -> Case& {
+      return with_mix("AM1", study, "clusters", frequency, scaling);
+    };
+    const auto am2 = [&](const char* study, double frequency, double scaling) -> Case& {
+      return with_mix("AM2", study, "seed 101", frequency, scaling);
+    };
+    clusters("front", 20, 1e5);
+    am2("front", 20, 1e4);
+    am2("tolerance", 20, 0).tolerance = 1e-2;
+    if (quick_) return;
+
+    clusters("front", 20, 1e4);
+    clusters("front", 2, 1e6);
+    clusters("front", 20, 1e4).form = ContactForm::points;
+    clusters("front", 20, 1e4).geometry = Geometry::updated;
+    with_mix("AM2", "front", "clusters", 20, 1e5);
+    with_mix("AM2", "front", "clusters", 20, 1e4);
+    for (const double scaling : {1e3, 1e2, 1e1}) {
+      am2("front", 20, scaling);
+      am2("front", 2, 100 * scaling);
+    }
+    for (const Precision precision : precisions) {
+      for (const double scaling : {1e5, 1e4, 1e3}) clusters("drift", 20, scaling).precision = precision;
+      for (const double scaling : {1e4, 1e2, 1e1}) am2("drift", 20, scaling).precision = precision;
+    }
+    clusters("filter", 20, 1e5), am2("filter", 20, 1e5);
+    for (const double gap : {0.2, 0.05, 0.0}) {
+      clusters("filter", 20, 1e5).gap_max = gap;
+      am2("filter", 20, 1e5).gap_max = gap;
+    }
+    for (const double area : {0.001, 0.01, 0.026, 0.1}) {
+      clusters("filter", 20, 1e5).area_min = area;
+      am2("filter", 20, 1e5).area_min = area;
+    }
+    for (const double frequency : {2.0, 20.0}) {
+      for (const double asked : {1e-2, 1e-3, 1e-4}) {
+        if (asked > 1e-4) clusters("tolerance", frequency, 0).tolerance = asked;
+        if (asked > 1e-3) with_mix("AM2", "tolerance", "clusters", frequency, 0).tolerance = asked;
+        if (asked < 1e-2 || frequency == 2) am2("tolerance", frequency, 0).tolerance = asked;
       }
     }
   }

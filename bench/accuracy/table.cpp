@@ -28,8 +28,8 @@ Table::Table(const std::filesystem::path& file, const std::vector<std::string>& 
 Table::~Table() { std::fclose(file_); }
 
 void Table::add(const Case& c, const Outcome& o) {
-  fmt::print(file_, "{},{},AM1,{},{},{},{},{:.6g},{:.4f},{},{:g},{},{:g},{},{},{},{},{},{:g},{},{:g},{},", c.study,
-             c.scene, to_string(c.backend), to_string(c.precision), to_string(c.form), to_string(c.geometry),
+  fmt::print(file_, "{},{},{},{},{},{},{},{:.6g},{:.4f},{},{:g},{},{:g},{},{},{},{},{},{:g},{},{:g},{},", c.study,
+             c.scene, c.mix, to_string(c.backend), to_string(c.precision), to_string(c.form), to_string(c.geometry),
              c.density_scaling, o.step_share, to_string(c.damping_kind), c.damping, to_string(c.start), c.ramp_cycles,
              o.cycles, o.fit_cycles, to_string(c.quadrature), optional(c.gap_max), optional(c.area_min), c.strain,
              optional(c.tolerance), c.frequency, o.contacts);

@@ -8,6 +8,7 @@
 
 #include "bench/stability/modes.hpp"
 #include "bench/stability/stability.hpp"
+#include "tests/cluster_specimens.hpp"
 
 namespace macadam::stability {
 namespace {
@@ -130,7 +131,10 @@ Rows long_free(Effort effort) {
   NetworkSpec no_walls;
   no_walls.bottom_top_walls = false;
   const auto hundred = test::make_scene(test::random_specimen(40, 5, 5, 4), no_walls, elastic_laws());
-  const Modes pair_modes(pair), hundred_modes(hundred);
+  test::Laws stiff_inside = elastic_laws();
+  stiff_inside[static_cast<std::size_t>(PairType::inner)] = laws::Elastic{3e12, 0.3};
+  const auto clusters = test::make_scene(test::few_clusters(40), no_walls, stiff_inside);
+  const Modes pair_modes(pair), hundred_modes(hundred), cluster_modes(clusters);
   const std::int64_t of_two = steps_of_two(effort), of_hundred = steps_of_hundred(effort);
   for (const Setting& setting : settings()) {
     free_run(rows, "two particles", pair, pair_modes, setting, Geometry::fixed, steps_of(setting, of_two));
@@ -142,6 +146,8 @@ Rows long_free(Effort effort) {
       free_run(rows, "a hundred particles", hundred, hundred_modes, setting, Geometry::fixed,
                steps_of({setting.backend, Precision::single}, of_hundred));
     }
+    free_run(rows, "clusters, inner contacts a hundred times as stiff", clusters, cluster_modes, setting,
+             Geometry::fixed, steps_of({setting.backend, Precision::single}, of_hundred));
   }
   return rows;
 }

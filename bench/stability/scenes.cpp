@@ -73,10 +73,11 @@ double true_limit(const test::TestScene& scene) {
   return 2 / reference_largest_frequency(with_points_of_moments(scene.network), scene.laws, scene.inertia);
 }
 
-HarmonicResult harmonic_solution(const test::TestScene& scene, double frequency, double density_scaling) {
+HarmonicResult harmonic_solution(const test::TestScene& scene, double frequency, double density_scaling,
+                                 double residual) {
   static std::mutex one;
   const std::scoped_lock lock(one);
-  return Harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, frequency)
+  return Harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {.tolerance = residual}, frequency)
       .solve(frequency, density_scaling);
 }
 

@@ -99,7 +99,8 @@ ContactNetwork with_points_of_moments(const ContactNetwork& network);
 double true_limit(const test::TestScene& scene);
 
 /// The harmonic solution of a scene, one at a time: cases run side by side, the solver's libraries may share state.
-HarmonicResult harmonic_solution(const test::TestScene& scene, double frequency, double density_scaling = 0);
+HarmonicResult harmonic_solution(const test::TestScene& scene, double frequency, double density_scaling = 0,
+                                 double residual = 1e-11);
 
 /// Random half-step velocities and spins up to `speed` (of centres, and of points on the surface).
 void shake(Stepper& stepper, const test::TestScene& scene, double speed);

@@ -6,6 +6,7 @@
 
 #include "bench/stability/modes.hpp"
 #include "bench/stability/stability.hpp"
+#include "tests/cluster_specimens.hpp"
 
 namespace macadam::stability {
 namespace {
@@ -162,12 +163,18 @@ Rows step_bound(Effort effort) {
     spec.quadrature = k % 2 == 0 ? Quadrature::lumped : Quadrature::exact;
     spec.lateral_walls = k % 3 == 0;
     const bool generated = k >= specimens / 2;
+    const bool clusters = generated && (effort == Effort::test ? k == 16 : k % 3 == 1);
+    const auto seed = static_cast<std::uint64_t>(900 + k);
     const auto scene =
-        test::make_scene(generated ? generated_specimen(900 + static_cast<std::uint64_t>(k), particles)
-                                   : test::random_specimen(900 + static_cast<unsigned>(k), 3, 3, particles / 9),
+        test::make_scene(clusters    ? test::few_clusters(seed)
+                         : generated ? generated_specimen(seed, particles)
+                                     : test::random_specimen(static_cast<unsigned>(seed), 3, 3, particles / 9),
                          spec, k % 4 < 2 ? test::am1_laws() : elastic_laws());
     const double share = critical_step(scene.network, scene.laws, scene.inertia, {}).dt / true_limit(scene);
-    rows.push_back({fmt::format("specimen {}: {}, {} particles, {}, {}", k, generated ? "generated" : "jittered grid",
+    rows.push_back({fmt::format("specimen {}: {}, {} particles, {}, {}", k,
+                                clusters    ? "clusters"
+                                : generated ? "generated"
+                                            : "jittered grid",
                                 scene.specimen.size(), k % 2 == 0 ? "lumped" : "exact", k % 4 < 2 ? "AM1" : "elastic"),
                     "double", "computed / true limit", std::sqrt(0.5), 1 + 1e-12, "", share, true});
     least = std::min(least, share), most = std::max(most, share), sum += share;

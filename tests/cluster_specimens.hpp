@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cluster_specimens.hpp  Small specimens whose aggregates are clusters of spheres, with many inner contacts.
+#pragma once
+
+#include "test_scenes.hpp"
+
+namespace macadam::test {
+
+/// Icosahedra of 3.6 to 4.5 mm, some 20 to 35 spheres each, a fifth of the solid volume, in mastic.
+inline SpecimenSpec cluster_recipe(std::uint64_t seed, const Vec3d& box) {
+  SpecimenSpec spec;
+  spec.box.size = box;
+  spec.seed = seed;
+  spec.aggregate = {{3.6e-3, 4.5e-3, 0.2, std::nullopt}};
+  spec.mastic = {0.75e-3, 1e-3, 0.05, std::nullopt};
+  spec.shapes.emplace();
+  spec.shapes->library = ShapeSpec::Library::icosahedron;
+  spec.shapes->fill.radius_min = 0.6e-3;
+  spec.shapes->fill.radius_max = 0.75e-3;
+  spec.shapes->fill.porosity = 0;
+  return spec;
+}
+
+/// Two clusters in some 140 spheres: few enough for dense matrices.
+inline Specimen few_clusters(std::uint64_t seed) {
+  SpecimenSpec spec = cluster_recipe(seed, {6.5e-3, 6.5e-3, 8.5e-3});
+  spec.aggregate = {{3.6e-3, 3.9e-3, std::nullopt, 2}};
+  return generate_specimen(spec).specimen;
+}
+
+}  // namespace macadam::test
