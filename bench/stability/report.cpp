@@ -50,11 +50,11 @@ std::string to_line(const Row& row) {
 
 void write_csv(const std::filesystem::path& file, const std::vector<Outcome>& outcomes, const Circumstances& where) {
   std::ofstream out = opened(file);
-  out << fmt::format("# stability_bench, {}; {}, {}, commit {}; cuda: {}\n", where.effort, where.processor, where.date,
-                     where.commit, where.cuda);
-  for (const Outcome& outcome : outcomes) {
-    out << fmt::format("# case {}: {}; {:.0f} s\n", outcome.of.name, outcome.of.title, outcome.seconds);
-  }
+  double seconds = 0;
+  for (const Outcome& outcome : outcomes) seconds += outcome.seconds;
+  out << fmt::format("# stability_bench, {} run; {}; {}; commit {}; {:.0f} s of computing; cuda: {}\n", where.effort,
+                     where.processor, where.date, where.commit, seconds, where.cuda);
+  for (const Outcome& outcome : outcomes) out << fmt::format("# case {}: {}\n", outcome.of.name, outcome.of.title);
   out << "case,variant,setting,quantity,expected_low,expected_high,because,measured,verdict,detail\n";
   for (const Outcome& outcome : outcomes) {
     for (const Row& row : outcome.rows) {
