@@ -5,7 +5,7 @@ import re
 import textwrap
 from fnmatch import fnmatchcase
 
-from paper_runs import ROOT, kolmogorov_smirnov, mean, spread
+from paper_runs import kolmogorov_smirnov, mean, spread
 from paper_tables import (CLASSES, CLUSTERS, DESIGN, DEVIATION, FREQUENCIES, ICO_OVER_POLY, MASTIC, PAIRS, PAPER)
 
 
@@ -97,8 +97,8 @@ def design(runs):
     scene, asked = DESIGN
     rows = []
     for k, label in enumerate(CLASSES):
-        solid = [sum(c["fraction_asked"] for c in run.summary["composition"]) for run in runs]
-        reached = [100 * run.summary["composition"][k]["fraction"] / s for run, s in zip(runs, solid)]
+        solid = [sum(run.asked) for run in runs]
+        reached = [100 * run.reached[k] / s for run, s in zip(runs, solid)]
         rows.append([label, f"{asked[k]:.1f}", f"{mean(reached):.2f}",
                      f"{100 * max(abs(r / asked[k] - 1) for r in reached):.2f}",
                      f"{mean(run.particles[k] for run in runs):,.0f}",
@@ -115,7 +115,7 @@ def design(runs):
                     "spheres"], rows),
             *wrapped(f"""Contacts: {', '.join(contacts)}, {mean(run.coordination for run in runs):.2f} a particle, and
                 {mean(run.inner for run in runs):,.0f} inner ones. Made in {seconds[0]:.0f} to {seconds[-1]:.0f} s by
-                `macadam specimen`."""), ""]
+                `macadam specimen` with {runs[0].threads} threads, other runs beside it."""), ""]
 
 
 def contacts(runs, cells):
@@ -192,15 +192,15 @@ def pictures():
 
 
 def document(runs, of_design, reasons, prose):
-    """The whole page. prose: the sections after the tables, as a function of the letters that are used."""
+    """The text of the page. prose: the sections after the tables, as a function of the letters that are used."""
     cells = Cells(reasons)
     body = composition(runs, cells) + design(of_design) + contacts(runs, cells) + orientation(runs)
     body += stiffness(runs, cells)
     cells.check()
     head = ["# The paper's five specimens", "",
-            *wrapped(f"""Made by `scripts/paper-specimens`; do not edit. Ours, and the paper's in brackets (Tables 3 and
+            *wrapped(f"""Made by `scripts/documents` of what `scripts/paper-specimens` measured
+                ([paper-specimens.csv](../bench/results/paper-specimens.csv)); do not edit. Ours, and the paper's in brackets (Tables 3 and
                 5, Figs. 9 to 11); where the two differ by more than 10 % the cell is bold, and its letter stands for
                 the reason [below](#what-differs-and-why). Means of {len(runs['SS'])} seeds; ± is half the range over
                 the seeds, everywhere. Scenes: `examples/ac14_ss_am1` and `examples/ac14_ms_*`."""), ""]
-    text = "\n".join(head + body + prose(cells.used) + pictures())
-    (ROOT / "docs" / "paper-specimens.md").write_text(text.rstrip() + "\n", encoding="utf-8")
+    return "\n".join(head + body + prose(cells.used) + pictures()).rstrip() + "\n"

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 
 from paper_document import deviations  # noqa: E402
-from paper_runs import ROOT, mean  # noqa: E402
+from paper_runs import ROOT, committed, mean  # noqa: E402
 from paper_tables import DEVIATION, FREQUENCIES, PAPER  # noqa: E402
 
 PICTURES = ROOT / "docs" / "pictures"
@@ -83,8 +83,9 @@ def stiffness(runs):
     figure.savefig(PICTURES / "specimens_e_star.png", dpi=100)
 
 
-def draw(results, runs):
+def draw(results):
     PICTURES.mkdir(exist_ok=True)
+    runs = {name: committed(p.scene) for name, p in PAPER.items()}
     orientation(runs)
     stiffness(runs)
     specimens(results)

@@ -22,18 +22,18 @@ class Facts:
 
     def weighted_size(self, name, k):
         """Mean L^I in mm over the spheres of a class, not over its aggregates."""
-        of = [a for run in self.runs[name] for a in run.of_class[k]]
-        return 1e3 * sum(float(a["size"]) * int(a["spheres"]) for a in of) / sum(int(a["spheres"]) for a in of)
+        of = [(run.size_by_spheres[k], run.spheres[k]) for run in self.runs[name]]
+        return sum(size * spheres for size, spheres in of) / sum(spheres for _, spheres in of)
 
     def void(self, name, classes):
         """What the paper's number of aggregates says of the void in its clusters, if sizes and shapes are as ours."""
         paper, shapes, shapes_of_size, squares, spheres = PAPER[name], 0, 0, 0, 0
         for k in classes:
-            volume = [float(a["volume"]) for run in self.runs[name] for a in run.of_class[k]]
-            v, n = mean(volume), paper.particles[k]
+            found = sum(run.particles[k] for run in self.runs[name])  # aggregates of all seeds
+            v, n = sum(run.volume[k] for run in self.runs[name]) * BOX / found, paper.particles[k]
             size = (paper.size[k] / self.of(name, "size", k)) ** 3
             shapes, shapes_of_size = shapes + n * v, shapes_of_size + n * v * size
-            squares += n * mean((x - v) ** 2 for x in volume)
+            squares += n * (sum(run.square[k] for run in self.runs[name]) * 1e-18 / found - v * v)
             spheres += paper.spheres[k] * mean_sphere(paper.radius)
         own = sum(paper.volume(k) for k in classes) * BOX
         return Void(shapes / own, shapes / shapes_of_size, math.sqrt(squares) / shapes * own / shapes,

@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the files of one run say, and the statistics of several."""
+"""Runs of the paper's specimens: how one is made, what of its files goes into a row of bench/results/, and such rows
+read again."""
 import csv
 import json
 import math
+import os
+import subprocess
+import time
 from pathlib import Path
 
-from paper_tables import BOX, PAIRS
+from paper_tables import BOX, FREQUENCIES, PAIRS
 
 ROOT = Path(__file__).resolve().parent.parent
+RESULTS = ROOT / "bench" / "results"
 
 
 def program(given):
@@ -22,7 +27,16 @@ def program(given):
 
 def rows(file):
     with open(file, encoding="utf-8") as f:
-        return list(csv.DictReader(f))
+        return list(csv.DictReader(line for line in f if not line.startswith("#")))
+
+
+def write(file, table, head=()):
+    """A CSV; lines of `head` go before it as comments."""
+    with open(file, "w", newline="", encoding="utf-8") as f:
+        f.writelines(f"# {line}\n" for line in head)
+        out = csv.DictWriter(f, table[0], lineterminator="\n")
+        out.writeheader()
+        out.writerows(table)
 
 
 def mean(values):
@@ -36,37 +50,109 @@ def spread(values):
     return (max(values) - min(values)) / 2
 
 
-class Run:
-    """One specimen of one seed."""
+def call(macadam, command, folder, *arguments, threads=None):
+    """Runs the program into a folder and leaves there, in measured.json, how long it took and how much memory."""
+    environment = dict(os.environ)
+    if threads:
+        environment.update(OMP_NUM_THREADS=str(threads), OPENBLAS_NUM_THREADS=str(threads))
+    start = time.monotonic()
+    process = subprocess.Popen([str(a) for a in (macadam, command, *arguments, "--out", folder)], env=environment,
+                               stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        raise SystemExit(f"{folder.name}: exit code {process.returncode} of {' '.join(map(str, process.args))}")
+    measured = {"seconds": round(time.monotonic() - start, 1), "memory_gb": round(usage.ru_maxrss / 1e6, 2),
+                "threads": threads or os.cpu_count(), "machine": processor(), "date": time.strftime("%Y-%m-%d", time.gmtime())}
+    (folder / "measured.json").write_text(json.dumps(measured))
 
-    def __init__(self, folder, status="done"):
-        file = folder / "summary.json"
-        if not file.is_file():
-            raise SystemExit(f"{folder}: no summary.json; "
-                             "scripts/paper-specimens makes it, without --text or --pictures")
-        self.summary = json.loads(file.read_text())
-        if self.summary["status"] != status:
-            raise SystemExit(f"{folder}: status is '{self.summary['status']}', not '{status}'")
-        self.aggregates = rows(folder / "aggregates.csv")
-        self.of_class = [[a for a in self.aggregates if int(a["size_class"]) == k] for k in range(4)]
-        mastic = self.summary["composition"][4]
+
+def processor():
+    """Of this machine, as the system says it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "unknown processor")
+
+
+def status(folder):
+    file = folder / "summary.json"
+    return json.loads(file.read_text())["status"] if file.is_file() else None
+
+
+def record(folder, scene, seed):
+    """The row of a folder of results, and the directions of its clusters."""
+    summary, measured = json.loads((folder / "summary.json").read_text()), {}
+    if (folder / "measured.json").is_file():  # not of a run whose caller was stopped
+        measured = json.loads((folder / "measured.json").read_text())
+    aggregates, mastic = rows(folder / "aggregates.csv"), summary["composition"][4]
+    row = {"scene": scene, "seed": seed, "machine": measured.get("machine"), "date": measured.get("date"),
+           "threads": measured.get("threads"), "specimen_s": f"{summary['timing_s']['specimen']:.3g}",
+           "wall_s": measured.get("seconds"), "memory_gb": measured.get("memory_gb")}
+    for k in range(4):
+        of = [a for a in aggregates if int(a["size_class"]) == k]
+        volume, spheres = [float(a["volume"]) * 1e9 for a in of], [int(a["spheres"]) for a in of]
+        size = [float(a["size"]) * 1e3 for a in of]
+        single = [v for v, a in zip(volume, of) if a["shape"] == "sphere"]
+        row.update({
+            f"particles_{k}": len(of), f"spheres_{k}": sum(spheres), f"single_{k}": len(single),
+            f"volume_mm3_{k}": f"{sum(volume):.7g}", f"single_volume_mm3_{k}": f"{sum(single):.7g}",
+            f"square_mm6_{k}": f"{sum(v * v for v in volume):.7g}", f"size_mm_{k}": f"{mean(size):.5g}",
+            f"size_by_spheres_mm_{k}": f"{sum(s * n for s, n in zip(size, spheres)) / sum(spheres):.5g}",
+            f"asked_{k}": f"{summary['composition'][k]['fraction_asked']:.7g}",
+            f"reached_{k}": f"{summary['composition'][k]['fraction']:.7g}"})
+    row.update({"particles_4": mastic["count"], "asked_4": f"{mastic['fraction_asked']:.7g}",
+                "reached_4": f"{mastic['fraction']:.7g}",
+                **{pair: summary["contacts"].get(pair, 0) for pair in (*PAIRS, "inner")},
+                "second_moment_difference": f"{summary['second_moment_difference']:.4g}"})
+    at = {r["frequency_hz"]: r for r in summary.get("results", [])}
+    for hz in FREQUENCIES:
+        row[f"e_star_pa_{hz}"] = f"{at[hz]['e_star_pa']:.9g}" if at else ""
+        row[f"phase_deg_{hz}"] = f"{at[hz]['phase_deg']:.9g}" if at else ""
+    axes = [{"scene": scene, "seed": seed, **{x: f"{abs(float(a['axis_' + x])):.4f}" for x in "xyz"}}
+            for a in aggregates if a["shape"] != "sphere"]
+    return row, axes
+
+
+class Run:
+    """One specimen of one seed, from its row and the directions of its clusters."""
+
+    def __init__(self, row, axes=()):
+        def of_class(key, kind=float):
+            return [kind(row[f"{key}_{k}"]) for k in range(4)]
+
+        self.seed, self.row = int(row["seed"]), row
+        mastic = int(row["particles_4"])
         # without voids inside aggregates the spheres of a shape have the shape's volume in all
-        self.volume = [sum(float(a["volume"]) for a in c) / BOX for c in self.of_class] + [mastic["fraction"]]
-        self.particles = [len(c) for c in self.of_class] + [mastic["count"]]
-        self.spheres = [sum(int(a["spheres"]) for a in c) for c in self.of_class] + [mastic["count"]]
-        self.single = [sum(a["shape"] == "sphere" for a in c) for c in self.of_class]
-        self.single_volume = [sum(float(a["volume"]) for a in c if a["shape"] == "sphere") / BOX for c in self.of_class]
-        self.size = [1e3 * mean(float(a["size"]) for a in c) for c in self.of_class]
+        self.volume = [v * 1e-9 / BOX for v in of_class("volume_mm3")] + [float(row["reached_4"])]
+        self.particles = of_class("particles", int) + [mastic]
+        self.spheres = of_class("spheres", int) + [mastic]
+        self.single = of_class("single", int)
+        self.single_volume = [v * 1e-9 / BOX for v in of_class("single_volume_mm3")]
+        self.square = of_class("square_mm6")
+        self.size, self.size_by_spheres = of_class("size_mm"), of_class("size_by_spheres_mm")
+        self.asked = of_class("asked") + [float(row["asked_4"])]
+        self.reached = of_class("reached") + [float(row["reached_4"])]
         self.to_box = sum(self.volume)
         self.share = [100 * v / self.to_box for v in self.volume]
-        contacts = [self.summary["contacts"][pair] for pair in PAIRS]
+        contacts = [int(row[pair]) for pair in PAIRS]
         self.contacts = [*contacts, sum(contacts)]
-        self.inner = self.summary["contacts"]["inner"]
+        self.inner = int(row["inner"])
         self.coordination = self.contacts[3] / sum(self.particles)
-        self.seconds = self.summary["timing_s"]["specimen"]
-        self.e_star = [r["e_star_pa"] / 1e9 for r in self.summary.get("results", [])]
-        self.phase = [r["phase_deg"] for r in self.summary.get("results", [])]
-        self.axes = [[abs(float(a["axis_" + x])) for x in "xyz"] for a in self.aggregates if a["shape"] != "sphere"]
+        self.seconds, self.threads = float(row["specimen_s"]), row["threads"]
+        self.wall, self.memory = (float(row[key]) if row[key] else None for key in ("wall_s", "memory_gb"))
+        solved = row[f"e_star_pa_{FREQUENCIES[0]}"] != ""
+        self.e_star = [float(row[f"e_star_pa_{hz}"]) / 1e9 for hz in FREQUENCIES] if solved else []
+        self.phase = [float(row[f"phase_deg_{hz}"]) for hz in FREQUENCIES] if solved else []
+        self.axes = axes
+
+
+def committed(scene):
+    """The runs of a scene, in the order of their seeds, from bench/results/."""
+    axes = [a for a in rows(RESULTS / "paper-specimens-axes.csv") if a["scene"] == scene]
+    return [Run(row, [[float(a[x]) for x in "xyz"] for a in axes if a["seed"] == row["seed"]])
+            for row in rows(RESULTS / "paper-specimens.csv") if row["scene"] == scene]
 
 
 def kolmogorov_smirnov(values):

@@ -12,7 +12,7 @@ class StopSignals : public Program {
   /// Starts `macadam arguments…`.
   pid_t start(std::vector<std::string> arguments) const {
     std::fflush(stdout);  // or the child would write it again
-  const pid_t child = fork();
+    const pid_t child = fork();
     if (child != 0) return child;
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);  // who runs tests may ignore them
     if (!freopen((folder_ / "stdout.txt").c_str(), "w", stdout)) _exit(99);

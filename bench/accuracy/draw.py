@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures and tables from the CSV of bench/accuracy: draw.py FILE.csv writes FILE-*.png, FILE-*.svg, FILE-tables.md."""
+"""Figures from the CSV of bench/accuracy: draw.py FILE.csv writes FILE-*.png and FILE-*.svg. scripts/documents makes the
+tables."""
 import csv
 import math
 import sys
@@ -227,91 +228,11 @@ class Drawing:
         ax.legend(**BELOW)
         self.save(figure, "strain-damping")
 
-    def table(self, title, heads, lines):
-        text = [f"## {title}", "", "| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-        return "\n".join(text + ["| " + " | ".join(str(x) for x in line) + " |" for line in lines]) + "\n"
-
-    def tables(self):
-        scaled = lambda r: f"{r['density_scaling']:g}"  # noqa: E731
-        errors = lambda r, which=lambda e: e: (f"{r[which(E_STAR)]:+.1e}", f"{r[which(PHASE)]:+.1e}")  # noqa: E731
-        cost = lambda r: (int(r["steps"]), f"{r['seconds']:.3g}", f"{1e6 * r['seconds'] / r['steps']:.3g}",  # noqa: E731
-                          f"{r['bytes'] / 1024:.0f}")
-        of = lambda study: done(select(self.rows, study=study))  # noqa: E731
-        name = lambda r: r["scene"] + ("" if r["mix"] == "AM1" else f", {r['mix']}")  # noqa: E731
-        parts = [f"# Tables of {self.stem.name}.csv\n\n{self.about['machine']}, {self.about['date']}, "
-                 f"list {self.about['list']}. {self.about.get('note', '')}\n"]
-        parts.append(self.table("Error against run time, steady start, one cycle", [
-            "scene", "f", "scaling", "form", "precision", "geometry", "\\|E\\*\\|", "φ (°)", "steps", "s", "µs a step",
-            "KiB"], [(name(r), f"{r['frequency_hz']:g}", scaled(r), r["form"], r["precision"], r["geometry"],
-                      *errors(r), *cost(r)) for r in of("front")]))
-        parts.append(self.table("Drift: difference from double", ["scene", "f", "scaling", "cycles", "steps", "precision",
-                                                                  "\\|E\\*\\|", "φ (°)"],
-                                [(name(r), f"{r['frequency_hz']:g}", scaled(r), int(r["cycles"]), int(r["steps"]),
-                                  r["precision"], f"{d[E_STAR]:+.1e}", f"{d[PHASE]:+.1e}")
-                                 for r, d in self.drift_differences()]))
-        lines = []
-        for scene in ("t8", "demo"):
-            for f in (20.0, 2.0):
-                rest = done(select(self.rows, study="rest", scene=scene, frequency_hz=f, start="rest"))
-                for scaling, ramp in sorted({(r["density_scaling"], r["ramp_cycles"]) for r in rest}):
-                    rows = select(rest, ramp_cycles=ramp, density_scaling=scaling)
-
-                    def needed(e_star, phase):
-                        bad = [r["cycles"] for r in rows
-                               if abs(r[OWN[E_STAR]]) > e_star or abs(r[OWN[PHASE]]) > phase]
-                        after = [r["cycles"] for r in rows if r["cycles"] > max(bad, default=0)]
-                        return f"{after[0]:g}" if after else f"> {rows[-1]['cycles']:g}"
-                    lines.append((scene, f"{f:g}", f"{scaling:g}", f"{ramp:g}",
-                                  *(needed(t, math.degrees(t)) for t in (1e-2, 1e-3, 1e-4)),
-                                  needed(1e-5, 0.002)))
-        parts.append(self.table("Cycles from rest until the error stays below", ["scene", "f", "scaling", "ramp", "1e-2", "1e-3",
-                                                                                 "1e-4", "1e-5 and 0.002°"], lines))
-        parts.append(self.table("Strain, updated geometry, against the linear solution",
-                                ["scene", "strain", "cycles", "\\|E\\*\\|", "φ (°)"],
-                                [(r["scene"], f"{r['strain']:g}", int(r["cycles"]), *errors(r, OWN.get))
-                                 for r in of("strain") if r["geometry"] == "updated"]))
-        parts.append(self.table("Step as a share of the computed critical one, against the same inertia",
-                                ["scene", "start", "share", "\\|E\\*\\|", "φ (°)"],
-                                [(r["scene"], r["start"], f"{r['step_share']:.2f}",
-                                  *(errors(r, OWN.get) if r["status"] == "done" else (r["status"], "")))
-                                 for r in select(self.rows, study="step_share")]))
-        parts.append(self.table("Damping, against true mass undamped", ["scaling", "damping", "value", "start",
-                                                                        "\\|E\\*\\|", "φ (°)"],
-                                [(scaled(r), r["damping_kind"], f"{r['damping']:g}", r["start"], *errors(r))
-                                 for r in of("damping")]))
-        base = {(r["scene"]): r["contacts"] for r in select(self.rows, study="filter", gap_max="", area_min="")}
-        parts.append(self.table("Quadrature and filters: change of the model, and error against its own solution",
-                                ["scene", "f", "quadrature", "gap_max", "area_min", "contacts dropped",
-                                 "\\|E\\*\\| model", "φ model (°)", "\\|E\\*\\| own", "φ own (°)", "µs a step"],
-                                [(name(r), f"{r['frequency_hz']:g}", r["quadrature"], r["gap_max"], r["area_min"],
-                                  int(base[r["scene"]] - r["contacts"]), f"{r['model_e_star']:+.2e}",
-                                  f"{r['model_phase_deg']:+.2e}", *errors(r, OWN.get), cost(r)[2])
-                                 if r["status"] == "done" else
-                                 (name(r), f"{r['frequency_hz']:g}", r["quadrature"], r["gap_max"], r["area_min"],
-                                  r["status"][:60], "", "", "", "", "")
-                                 for r in self.rows if r["study"] in ("quadrature", "filter")]))
-        parts.append(self.table("Backends", ["scene", "backend", "scaling", "precision", "form", "\\|E\\*\\| own",
-                                             "φ own (°)", "steps", "s", "µs a step", "KiB"],
-                                [(r["scene"], r["backend"], scaled(r), r["precision"], r["form"], *errors(r, OWN.get),
-                                  *cost(r)) for r in of("backend")]))
-        parts.append(self.table("`[solver] tolerance`", ["scene", "f", "asked", "scaling", "precision", "geometry",
-                                                         "\\|E\\*\\| predicted", "\\|E\\*\\| achieved",
-                                                         "φ achieved (rad)", "steps", "s", "planning s", "s / by hand"],
-                                [(name(r), f"{r['frequency_hz']:g}", f"{r['tolerance']:g}", scaled(r),
-                                  r["precision"], r["geometry"],
-                                  f"{(1 + r[E_STAR]) / (1 + r[OWN[E_STAR]]) - 1:+.3e}", f"{r[E_STAR]:+.3e}",
-                                  f"{math.radians(r[PHASE]):+.2e}", int(r["steps"]), f"{r['seconds']:.3g}",
-                                  f"{r['seconds_harmonic']:.2g}",
-                                  f"{r['seconds'] / r['seconds_by_hand']:.2f}" if math.isfinite(r["seconds_by_hand"])
-                                  else "none found") for r in of("tolerance")]))
-        Path(f"{self.stem}-tables.md").write_text("\n".join(parts), encoding="utf-8")
-
 
 def main():
     drawing = Drawing(Path(sys.argv[1]))
     matplotlib.rcParams["svg.hashsalt"] = "macadam"
-    for draw in (drawing.front, drawing.drift, drawing.rest, drawing.step_share, drawing.strain_and_damping,
-                 drawing.tables):
+    for draw in (drawing.front, drawing.drift, drawing.rest, drawing.step_share, drawing.strain_and_damping):
         draw()
 
 

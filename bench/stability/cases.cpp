@@ -6,17 +6,17 @@ namespace macadam::stability {
 
 const std::vector<Case>& cases() {
   static const std::vector<Case> all = {
-      {"step_sweep", "Steps around the true limit", step_sweep, {}},
-      {"step_bound", "The computed step against the true limit", step_bound, bound_conclusion},
-      {"stiffness_ratios", "Stiffness ratios between the phases", stiffness_ratios, {}},
-      {"size_ratios", "Size ratios", size_ratios, {}},
-      {"slivers", "Slivers and tiny facets", slivers, {}},
-      {"relaxation_times", "Relaxation times far from the step", relaxation_times, ringing_conclusion},
-      {"long_free", "Long free runs: energy and momenta", long_free, drift_conclusion},
-      {"long_driven", "Long driven runs: E*", long_driven, {}},
-      {"strain_amplitudes", "Strain amplitudes", strain_amplitudes, strain_conclusion},
-      {"recovery", "Load, hold, reversal and release", recovery, {}},
-      {"rigid_turn", "A full turn", rigid_turn, {}},
+      {"step_sweep", "Steps around the true limit", step_sweep},
+      {"step_bound", "The computed step against the true limit", step_bound},
+      {"stiffness_ratios", "Stiffness ratios between the phases", stiffness_ratios},
+      {"size_ratios", "Size ratios", size_ratios},
+      {"slivers", "Slivers and tiny facets", slivers},
+      {"relaxation_times", "Relaxation times far from the step", relaxation_times},
+      {"long_free", "Long free runs: energy and momenta", long_free},
+      {"long_driven", "Long driven runs: E*", long_driven},
+      {"strain_amplitudes", "Strain amplitudes", strain_amplitudes},
+      {"recovery", "Load, hold, reversal and release", recovery},
+      {"rigid_turn", "A full turn", rigid_turn},
   };
   return all;
 }

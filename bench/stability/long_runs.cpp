@@ -183,14 +183,4 @@ Rows long_driven(Effort effort) {
   return rows;
 }
 
-std::string drift_conclusion(const Rows& rows) {
-  std::string out;
-  for (const Row& row : rows) {
-    if (row.quantity != energy_change || row.what.rfind("two particles, free, elastic, fixed", 0) != 0) continue;
-    out += fmt::format("{}{:.1g} ({}, {})", out.empty() ? "The energy of two particles moved by no more than " : ", ",
-                       row.measured, row.setting, row.what.substr(row.what.rfind(", ") + 2));
-  }
-  return out.empty() ? out : out + '.';
-}
-
 }  // namespace macadam::stability

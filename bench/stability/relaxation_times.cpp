@@ -142,16 +142,4 @@ Rows relaxation_times(Effort effort) {
   return rows;
 }
 
-std::string ringing_conclusion(const Rows& rows) {
-  for (const Row& row : rows) {
-    if (row.quantity != alternating) continue;
-    return fmt::format(
-        "Relaxation times far below the step are stable and exact with a smooth start; a sudden one rings (a Maxwell "
-        "unit of a "
-        "millionth of the step: {:.3f} of the force still alternates after 1000 steps).",
-        row.measured);
-  }
-  return {};
-}
-
 }  // namespace macadam::stability

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// report.cpp  The table as CSV and as a page.
+// report.cpp  The table as CSV.
 #include "bench/stability/report.hpp"
 
 #include <fmt/format.h>
@@ -50,47 +50,20 @@ std::string to_line(const Row& row) {
 
 void write_csv(const std::filesystem::path& file, const std::vector<Outcome>& outcomes, const Circumstances& where) {
   std::ofstream out = opened(file);
-  out << fmt::format("# stability_bench, {}; {}, {}, commit {}; cuda: {}\n", where.effort, where.processor, where.date,
-                     where.commit, where.cuda);
-  out << "case,variant,setting,quantity,expected_low,expected_high,measured,verdict\n";
+  double seconds = 0;
+  for (const Outcome& outcome : outcomes) seconds += outcome.seconds;
+  out << fmt::format("# stability_bench, {} run; {}; {}; commit {}; {:.0f} s of computing; cuda: {}\n", where.effort,
+                     where.processor, where.date, where.commit, seconds, where.cuda);
+  for (const Outcome& outcome : outcomes) out << fmt::format("# case {}: {}\n", outcome.of.name, outcome.of.title);
+  out << "case,variant,setting,quantity,expected_low,expected_high,because,measured,verdict,detail\n";
   for (const Outcome& outcome : outcomes) {
     for (const Row& row : outcome.rows) {
-      out << fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{}\n", outcome.of.name, quoted(row.what),
-                         quoted(row.setting), quoted(row.quantity), row.low, row.high, row.measured, verdict(row));
+      out << fmt::format("{},{},{},{},{:.6g},{:.6g},{},{:.6g},{},{}\n", outcome.of.name, quoted(row.what),
+                         quoted(row.setting), quoted(row.quantity), row.low, row.high, quoted(row.reason), row.measured,
+                         verdict(row), row.detail ? 1 : 0);
     }
     if (!outcome.error.empty()) {
-      out << fmt::format("{},{},,,,,,FAIL\n", outcome.of.name, quoted("stopped: " + outcome.error));
-    }
-  }
-}
-
-void write_page(const std::filesystem::path& file, const std::vector<Outcome>& outcomes, const Circumstances& where) {
-  int rows = 0, failed = 0;
-  double seconds = 0;
-  for (const Outcome& outcome : outcomes) {
-    rows += static_cast<int>(outcome.rows.size()), failed += outcome.failed(), seconds += outcome.seconds;
-  }
-  std::ofstream out = opened(file);
-  out << "# Stability under stress\n\nWritten by `bench/stability/run`; not to be edited. Each line states what must "
-         "come "
-         "out and why, what was\nmeasured, and the verdict that follows from the two.\n\n";
-  out << fmt::format("{}, commit {}, {}, {} run, {:.0f} s of computing. cuda: {}.\n\n", where.date, where.commit,
-                     where.processor, where.effort, seconds, where.cuda);
-  out << fmt::format("{} of {} lines pass{}.", rows - failed, rows, failed ? "; those that fail are marked FAIL" : "");
-  for (const Outcome& outcome : outcomes) {
-    const std::string sentence = outcome.of.conclusion ? outcome.of.conclusion(outcome.rows) : "";
-    if (!sentence.empty()) out << "\n" << sentence;
-  }
-  out << "\n";
-  for (const Outcome& outcome : outcomes) {
-    out << fmt::format("\n## {} (`{}`)\n\n", outcome.of.title, outcome.of.name);
-    if (!outcome.error.empty()) out << fmt::format("FAIL: the case stopped: {}\n\n", outcome.error);
-    out << "| case | backend, precision | measured quantity | expected | because | measured | verdict |\n"
-           "|---|---|---|---|---|---|---|\n";
-    for (const Row& row : outcome.rows) {
-      if (row.detail && row.pass()) continue;
-      out << fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", row.what, row.setting, row.quantity, expected(row),
-                         row.reason, number(row.measured), verdict(row));
+      out << fmt::format("{},{},,,,,,,FAIL,0\n", outcome.of.name, quoted("stopped: " + outcome.error));
     }
   }
 }

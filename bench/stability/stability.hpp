@@ -44,7 +44,7 @@ struct Row {
   double low = 0, high = 0;  ///< what is expected
   std::string reason;        ///< why
   double measured = 0;
-  bool detail = false;  ///< in the CSV only
+  bool detail = false;  ///< in the CSV only, not on the page that scripts/documents makes of it
   bool pass() const { return low <= measured && measured <= high; }
 };
 using Rows = std::vector<Row>;
@@ -54,8 +54,6 @@ struct Case {
   std::string name;   ///< as in `--cases NAME`
   std::string title;  ///< heading in the table
   std::function<Rows(Effort)> run;
-  /// One plain sentence made of the rows' numbers; empty for none.
-  std::function<std::string(const Rows&)> conclusion;
 };
 
 /// All cases, in the order of the table.
@@ -72,12 +70,6 @@ Rows long_driven(Effort);        ///< likewise: E*
 Rows strain_amplitudes(Effort);  ///< 1e-6 … 1e-2, both geometries
 Rows recovery(Effort);           ///< load, hold, reversal, release
 Rows rigid_turn(Effort);         ///< a full turn
-
-// One plain sentence each, of the rows' numbers.
-std::string bound_conclusion(const Rows&);    ///< how tight the computed step is
-std::string ringing_conclusion(const Rows&);  ///< what a sudden start does to a relaxation far below the step
-std::string drift_conclusion(const Rows&);    ///< energy after the longest run
-std::string strain_conclusion(const Rows&);   ///< where `fixed` stops being good enough
 
 // ---- scenes and measures that cases share (scenes.cpp)
 

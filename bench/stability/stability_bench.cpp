@@ -72,13 +72,12 @@ int main(int argc, char** argv) {
   bool quick = false;
   int jobs = 2;
   std::vector<std::string> names;
-  std::string csv, page, date = "no date given", commit = "unknown";
+  std::string csv, date = "no date given", commit = "unknown";
   app.add_flag("--quick", quick, "below a minute: fewer steps, smaller scenes");
   app.add_option("--cases", names, "only these")->delimiter(',');
   app.add_option("--jobs", jobs, "cases side by side")->check(CLI::PositiveNumber);
   app.add_option("--csv", csv, "file of the whole table");
-  app.add_option("--page", page, "file of the page");
-  app.add_option("--date", date, "for the head of both");
+  app.add_option("--date", date, "for its head");
   app.add_option("--commit", commit, "likewise");
   CLI11_PARSE(app, argc, argv);
 
@@ -99,6 +98,5 @@ int main(int argc, char** argv) {
   int failed = 0;
   for (const Outcome& outcome : outcomes) failed += outcome.failed();
   if (!csv.empty()) write_csv(csv, outcomes, where);
-  if (!page.empty()) write_page(page, outcomes, where);
   return failed > 0 ? 1 : 0;
 }

@@ -188,11 +188,4 @@ Rows step_bound(Effort effort) {
   return rows;
 }
 
-std::string bound_conclusion(const Rows& rows) {
-  if (rows.size() < 3) return {};
-  const auto* last = &rows[rows.size() - 3];
-  return fmt::format("The computed step is {:.3f} to {:.3f} of the true limit ({:.3f} in the mean).", last[1].measured,
-                     last[0].measured, last[2].measured);
-}
-
 }  // namespace macadam::stability

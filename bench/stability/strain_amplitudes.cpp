@@ -91,21 +91,4 @@ Rows strain_amplitudes(Effort effort) {
   return rows;
 }
 
-std::string strain_conclusion(const Rows& rows) {
-  std::string out;
-  for (const Row& row : rows) {
-    if (row.setting != Setting{}.name()) continue;
-    if (row.quantity == crossing_stress) {
-      out = std::isfinite(row.measured)
-                ? fmt::format("`fixed` geometry gives the stress to 1e-3 of its amplitude up to a strain of {:.1e}",
-                              row.measured)
-                : "`fixed` geometry gives the stress to 1e-3 of its amplitude up to the largest strain tried, 1e-2";
-    } else if (row.quantity == crossing_modulus) {
-      out += std::isfinite(row.measured) ? fmt::format(", and E* to 1e-5 up to {:.1e}.", row.measured)
-                                         : ", and E* to 1e-5 up to the largest strain tried, 1e-2.";
-    }
-  }
-  return out;
-}
-
 }  // namespace macadam::stability

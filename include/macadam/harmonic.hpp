@@ -27,9 +27,9 @@ struct HarmonicOptions {
 /// One frequency's steady state.
 struct HarmonicResult {
   double frequency_hz = 0;
-  Stiffness top;          ///< from the reaction of the top wall, as the energy of the motion gives it
-  Stiffness bottom;       ///< from the reaction of the bottom wall; equal without inertia
-  double residual = 0;    ///< relative, computed anew from the solution
+  Stiffness top;        ///< from the reaction of the top wall, as the energy of the motion gives it
+  Stiffness bottom;     ///< from the reaction of the bottom wall; equal without inertia
+  double residual = 0;  ///< relative, computed anew from the solution
   int iterations = 0;
   double held_force = 0;  ///< force that holds free rigid motions / reaction; rounding, where nothing is wrong
   double seconds = 0;

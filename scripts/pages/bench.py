@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""bench/README.md."""
+import csv
+
+from pages.data import RESULTS, head, one, rows, table, text
+from pages.marks import mark
+
+DOCUMENT = "bench/README.md"
+GPU = "gpu-step-h200-2026-11-21.csv"
+
+
+def cpu_rows():
+    """Google Benchmark's CSV: the machine's lines, then the table; a time is of five steps."""
+    with open(RESULTS / "cpu_epyc_2026-11-21.csv", encoding="utf-8") as f:
+        lines = f.read().splitlines()
+    start = next(k for k, line in enumerate(lines) if line.startswith("name,"))
+    found = []
+    for r in csv.DictReader(lines[start:]):
+        _, _, form, precision, geometry, threads, _ = r["name"].split("/")
+        found.append({"form": form, "precision": precision, "geometry": geometry, "threads": threads.split(":")[1],
+                      "ms": float(r["real_time"]) / 5, "bytes": float(r["bytes/contact"]),
+                      "contacts": float(r["contacts/s"]), "copy": float(r["copy_bytes/s"]),
+                      "share": float(r["share_of_copy"])})
+    return found
+
+
+@mark
+def cpu():
+    return table(["form", "precision", "geometry", "threads", "ms a step", "bytes a contact", "10⁶ contacts/s",
+                  "copy GB/s", "share"],
+                 [(r["form"], r["precision"], r["geometry"], r["threads"], f"{r['ms']:.1f}", f"{r['bytes']:.0f}",
+                   f"{r['contacts'] / 1e6:.1f}", f"{r['copy'] / 1e9:.1f}", f"{r['share']:.2f}") for r in cpu_rows()])
+
+
+def span(values, form):
+    low, high = form.format(min(values)), form.format(max(values))
+    return low if low == high else f"{low}–{high}"
+
+
+@mark
+def two_thread_shares():
+    return span([r["share"] for r in cpu_rows() if r["threads"] == "2"], "{:.1f}").replace("–", " to ")
+
+
+def pairs(threads=None):
+    for r in cpu_rows():
+        if r["form"] == "condensed" and threads in (None, r["threads"]):
+            yield r, one(cpu_rows(), form="points", **{k: r[k] for k in ("precision", "geometry", "threads")})
+
+
+@mark
+def fewer_bytes():
+    return span([p["bytes"] / c["bytes"] for c, p in pairs()], "{:.1f}")
+
+
+@mark
+def condensed_faster():
+    return span([p["ms"] / c["ms"] for c, p in pairs()], "{:.1f}")
+
+
+def step(name, geometry):
+    found = [r for r in rows(GPU) if r["step"] == f"{name}/{geometry}"]
+    return found[0] if found else None
+
+
+def us(row):
+    return "" if row is None else f"{row['us']:.1f}" if row["us"] < 50 else f"{row['us']:,.0f}"
+
+
+STEPS = [  # of the bench, how the table calls it, the bar that was set for it
+    ("full/condensed/single", "full specimen, condensed, single", "8"),
+    ("full/condensed/mixed", "… mixed", "20"),
+    ("full, elastic/condensed/mixed", "… mixed, all contacts elastic", "0.75 × mixed: missed"),
+    ("full/condensed/double", "… double", "45"),
+    *((f"full, {n} units/condensed/double", f"… double, {n} Kelvin units", "") for n in (0, 1, 2, 4, 5, 6)),
+    ("full/points/double", "full specimen, points, double", "125"),
+    ("fcc 62,950/condensed/mixed", "fcc 62,500 / 360,150 contacts, mixed", "45"),
+    ("fcc 1e6/condensed/single", "fcc 10⁶ / 5.9·10⁶, single", "650"),
+    ("fcc 1e6/condensed/mixed", "… mixed", "1,050"),
+    ("fcc 1e6/condensed/double", "… double", ""),
+    ("fcc 1e7/condensed/single", "fcc 10⁷ / 6·10⁷, single (an earlier commit)", "6,200"),
+]
+
+
+@mark
+def gpu():
+    lines = []
+    for name, label, bar in STEPS:
+        fixed, updated = step(name, "fixed"), step(name, "updated")
+        lines.append((label, us(fixed), us(updated), fixed["path"].split(", ")[2], bar))
+    return table(["step", "µs fixed", "µs updated", "path", "bar (fixed)"], lines)
+
+
+@mark
+def gpu_machine():
+    return head(GPU)[0]
+
+
+@mark
+def held():
+    names = [("full/condensed/single", "condensed, single"), ("full/condensed/mixed", "condensed, mixed"),
+             ("full/condensed/double", "condensed, double"), ("full/points/double", "points, double")]
+    return table(["", "fixed", "updated"], [(label, *(f"{step(name, g)['held_bytes_per_contact']:,.0f}"
+                                                      for g in ("fixed", "updated"))) for name, label in names])
+
+
+@mark
+def share_of_copy():
+    """Of steps that run as two kernels on the full specimen with AM1."""
+    of = [r["share_of_copy"] for r in rows(GPU) if r["step"].startswith("full/") and "two kernels" in r["path"]]
+    return f"{min(of):.2f} to {max(of):.2f}"
+
+
+@mark
+def double_bytes():
+    return f"{step('full/condensed/double', 'fixed')['bytes_per_contact']:.0f}"
+
+
+@mark
+def double_share():
+    return f"{step('full/condensed/double', 'fixed')['share_of_copy']:.2f}"
+
+
+def tried(name, *columns):
+    """As it was written down: words and numbers."""
+    with open(RESULTS / name, encoding="utf-8") as f:
+        return [tuple(r[c] for c in columns) for r in csv.DictReader(line for line in f if not line.startswith("#"))]
+
+
+@mark
+def tried_cpu():
+    return table(["design", "ms"], tried("tried-cpu-step.csv", "design", "ms"))
+
+
+@mark
+def tried_gpu():
+    return table(["design", "µs"], tried("tried-gpu-step.csv", "design", "us"))
+
+
+@mark
+def blocks():
+    return table(["", "mixed", "single"], tried("tried-gpu-blocks.csv", "case", "mixed", "single"))
+
+
+@mark
+def block_setting():
+    return head("tried-gpu-blocks.csv")[0]
+
+
+# ---- one command to a result on the GPU
+
+def command():
+    return {r["quantity"]: r["value"] for r in rows("gpu-command.csv")}
+
+
+@mark
+def command_machine():
+    return head("gpu-command.csv")[0]
+
+
+@mark
+def command_time(what):
+    return f"{command()[what]:.1f} s"
+
+
+@mark
+def whole_steps():
+    of = [r for r in rows("whole-tests-h200-2026-11-21.csv") if r["scene"].startswith("tolerance")]
+    return f"{sum(r['steps'] for r in of):,.0f} steps, {sum(r['stepping_s'] for r in of):.1f} s"
+
+
+@mark
+def placement():
+    return [f"    {line}" for line in text("placement.txt") if line.strip()]
+
+
+@mark
+def placement_machine():
+    return head("placement.txt")[0]

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Marks in Markdown: the places that a script writes, and tables that nobody vouches for."""
+import re
+
+TABLE = re.compile(r"^( *)<!-- table (.+?) -->$")
+END = re.compile(r"^ *<!-- end -->$")
+VALUE = re.compile(r"<!--= (.+?) -->(.*?)<!--/-->")
+BY_HAND = re.compile(r"^ *<!-- by hand: \S.* -->$")
+ANY = re.compile(r"<!--(=|/| *(table|end|by hand)\b)")
+# a cell that is a number: sign, digits, perhaps a spread, a power, a unit
+NUMBER = re.compile(r"^[<>≤≥~±]? ?[+\-−]?\d[\d,.]*(e[+\-−]?\d+|·10\S+)?( ?[±…–-] ?[\d,.]+)? ?(%|°|s|µs|GPa|mm|GB|×)?$")
+
+
+def mark(function):
+    """A function whose name may stand in a mark; it returns text, or lines where it is a table."""
+    function.is_mark = True
+    return function
+
+
+def functions(module):
+    return {name: f for name, f in vars(module).items()
+            if getattr(f, "is_mark", False) and f.__module__ == module.__name__}
+
+
+def documents(root):
+    """Every document that holds measurements, or might."""
+    return ["README.md", "bench/README.md", *sorted(f"docs/{file.name}" for file in (root / "docs").glob("*.md"))]
+
+
+def compared(name, found, expected):
+    """Lines of a page that differ."""
+    found, expected, wrong = found.splitlines(), expected.splitlines(), []
+    for k in range(max(len(found), len(expected))):
+        here, there = (lines[k] if k < len(lines) else "no line" for lines in (found, expected))
+        if here != there:
+            wrong.append(f"{name}:{k + 1}: found '{here}', expected '{there}'")
+    if len(wrong) > 20:
+        wrong[20:] = [f"{name}: and {len(wrong) - 20} more lines"]
+    return wrong
+
+
+def unmarked(name, lines):
+    """Tables with numbers that stand in no mark. A column headed `default` or `key` defines, it does not measure."""
+    wrong, k = [], 0
+    while k < len(lines):
+        if not lines[k].lstrip().startswith("|"):
+            k += 1
+            continue
+        start = k
+        while k < len(lines) and lines[k].lstrip().startswith("|"):
+            k += 1
+        before = next((line for line in reversed(lines[:start]) if line.strip()), "")
+        if BY_HAND.match(before):
+            continue
+        rows = [[cell.strip() for cell in VALUE.sub("", line).strip().strip("|").split("|")] for line in lines[start:k]]
+        for cells in rows[2:]:
+            number = [c for head, c in zip(rows[0], cells) if NUMBER.match(c) and head not in ("default", "key")]
+            if number:
+                wrong.append(f"{name}:{start + 1}: a table with numbers, such as '{number[0]}', stands in no mark and has "
+                             "no '<!-- by hand: reason -->' before it")
+                break
+    return wrong
+
+
+def filled(module, modules, text, used, check):
+    """The text with its marks written anew, and what is wrong: differences too, if they are asked for."""
+    name, wrong, out, outside = module.DOCUMENT, [], [], []
+    lines, k = text.splitlines(), 0
+
+    def made(what, number):
+        words = what.split()
+        of, _, function = words[0].rpartition(".")
+        function = functions(modules.get(of, module) if of else module).get(function)
+        if function is None or (of and of not in modules):
+            wrong.append(f"{name}:{number}: mark '{what}': there is no such function in scripts/pages/")
+            return None
+        used.add(function)
+        try:
+            return function(*words[1:])
+        except Exception as error:  # its reason belongs to the place of the mark
+            wrong.append(f"{name}:{number}: mark '{what}': {type(error).__name__}: {error}")
+            return None
+
+    while k < len(lines):
+        line, number = lines[k], k + 1
+        if start := TABLE.match(line):
+            end = next((j for j in range(k + 1, len(lines)) if END.match(lines[j])), None)
+            if end is None or any(TABLE.match(other) for other in lines[k + 1:end]):
+                wrong.append(f"{name}:{number}: '{line.strip()}' has no '<!-- end -->'")
+                return text, wrong
+            body = made(start[2], number)
+            if body is None:
+                body = lines[k + 1:end]
+            else:
+                body = ["", *[(start[1] + row).rstrip() for row in body], ""]
+                if check:
+                    for j in range(max(len(body), end - k - 1)):
+                        here = lines[k + 1 + j] if j < end - k - 1 else "no line"
+                        there = body[j] if j < len(body) else "no line"
+                        if here != there:
+                            wrong.append(f"{name}:{number + 1 + j}: found '{here}', expected '{there}'")
+            out += [line, *body, lines[end]]
+            outside += [""] * (end - k + 1)
+            k = end + 1
+            continue
+
+        def value(m):
+            # a line that begins with a comment is HTML to its end: nothing in it would be Markdown
+            if not re.sub(r"^(\s|[-*>]\s|\d+\.\s)*", "", line[:m.start()]):
+                wrong.append(f"{name}:{number}: a mark begins the line, which Markdown then takes for HTML")
+            new = made(m[1], number)
+            if new is None:
+                return m[0]
+            if check and new != m[2]:
+                wrong.append(f"{name}:{number}: mark '{m[1]}': found '{m[2]}', expected '{new}'")
+            return f"<!--= {m[1]} -->{new}<!--/-->"
+
+        out.append(VALUE.sub(value, line))
+        if ANY.search(VALUE.sub("", line)) and not BY_HAND.match(line):
+            wrong.append(f"{name}:{number}: a broken mark: '{line.strip()}'")
+        outside.append(line)
+        k += 1
+    return "\n".join(out) + "\n", wrong + unmarked(name, outside)

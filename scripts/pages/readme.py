@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""README.md."""
+import re
+
+from pages import accuracy, common
+from pages.data import minus, one, plain, rows, text, upto, where
+from pages.marks import mark
+
+DOCUMENT = "README.md"
+
+
+def without_times(lines):
+    """The table of a run without its last column, which is of whatever else the machine did."""
+    out, cut = [], None
+    for line in lines:
+        if line.rstrip().endswith("time (s)"):
+            cut = len(line.rstrip()) - len("time (s)")
+            line = line[:cut]
+        elif cut is not None and re.match(r" +\d", line):
+            line = line[:cut]
+        else:
+            cut = None if line and not re.match(r" +\d", line) else cut
+        out.append(line.rstrip())
+    return out
+
+
+def shown(name, patterns):
+    """Lines of a committed output that match one of the patterns; `…` where a pattern is that."""
+    lines, out = without_times(text(name)), []
+    for pattern in patterns:
+        found = [pattern] if pattern in ("…", "") else [line for line in lines if re.match(pattern, line)]
+        if not found:
+            raise LookupError(f"bench/results/{name} has no line '{pattern}'")
+        out += [f"    {line}".rstrip() for line in found]
+    return out
+
+
+@mark
+def demo():
+    return shown("demo-output.txt", [r"\d+ particles", "geometry", "steady start", "2 Hz", "…", "precision", "",
+                                     r" +f \(Hz\)", r" +\d", "err:"])
+
+
+@mark
+def full():
+    return shown("paper-output.txt", [r" +f \(Hz\)", r" +\d"])
+
+
+@mark
+def particles(name):
+    line = next(line for line in text(f"{name}-output.txt") if "particles" in line)
+    return f"{int(line.split()[0]):,}"
+
+
+def specimens(clusters):
+    return [r for r in rows("paper-specimens-time.csv") if ("_ms_" in r["scene"]) == clusters]
+
+
+def runs(*scenes):
+    return where(rows("paper-specimens.csv"), scene=scenes)
+
+
+MULTI = ("ac14_ms_poly_coarse", "ac14_ms_poly_fine", "ac14_ms_ico_coarse", "ac14_ms_ico_fine")
+
+
+def spheres(r):
+    return sum(r[f"spheres_{k}"] for k in range(4)) + r["particles_4"]
+
+
+@mark
+def multi_particles():
+    of = [spheres(r) for r in runs(*MULTI)]
+    return f"{round(min(of), -2):,.0f}–{round(max(of), -2):,.0f}"
+
+
+@mark
+def multi_specimen():
+    of = [r["seconds"] for r in specimens(True)]
+    return f"{plain(min(of), 2)} to {plain(max(of), 3)} s"
+
+
+def between(of, form):
+    low, high = form.format(min(of)), form.format(max(of))
+    return low if low == high else f"{low} to {high}"
+
+
+@mark
+def solved(*scenes):
+    of = [r["wall_s"] for r in runs(*(f"ac14_{s}" for s in scenes)) if r["wall_s"]]
+    return between([t / 60 for t in of], "{:.1f}") + " minutes"
+
+
+@mark
+def memory(*scenes):
+    of = [r["memory_gb"] for r in runs(*(f"ac14_{s}" for s in scenes)) if r["memory_gb"]]
+    return f"{upto(max(of)):g} GB"
+
+
+@mark
+def threads():
+    return f"{runs(*MULTI)[0]['threads']:.0f}"
+
+
+@mark
+def design_specimen():
+    of = [r["specimen_s"] for r in runs("ac14_ms_design")]
+    return f"{plain(min(of), 2)} to {plain(max(of), 2)} s"
+
+
+@mark
+def design_particles():
+    return f"{round(sum(spheres(r) for r in runs('ac14_ms_design')) / len(runs('ac14_ms_design')), -3):,.0f}"
+
+
+# ---- how far to trust it
+
+@mark
+def prediction():
+    """Largest difference of a run with `tolerance` from what was predicted, % of what was asked."""
+    return accuracy.prediction_off()
+
+
+@mark
+def tolerance_runs():
+    return f"{len(accuracy.asked())}"
+
+
+@mark
+def facet():
+    return common.asserted("tessellation_voro_test", "SameNeighboursAndAreasAsVoro", "1e-9")
+
+
+@mark
+def facet_measured():
+    return accuracy.voro_difference()
+
+
+@mark
+def faster():
+    return accuracy.voro_times()

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/skips.md: from bench/skips' skips.csv."""
+from pages.data import head, minus, power, rows, table
+from pages.marks import mark
+
+DOCUMENT = "docs/skips.md"
+
+
+def effect(row):
+    difference = row["difference"]
+    if row["compared"] == "model":
+        return f"another model: \\|E\\*\\| {minus(power(difference, sign=True))}"
+    what = "\\|E\\*\\|" if row["compared"] == "modulus" else "velocities"
+    return f"same bits of {what}" if difference == 0 else f"{what} differ by {minus(power(difference, 1))}"
+
+
+@mark
+def machine():
+    return head("skips.csv")[0]
+
+
+@mark
+def saved():
+    return table(["skipped", "stepped", "µs a step", "against", "µs a step", "ratio", "effect"],
+                 [(r["skipped"], r["with"], f"{r['with_us']:,.0f}", r["without"], f"{r['without_us']:,.0f}",
+                   f"{r['ratio']:.2f}", effect(r)) for r in rows("skips.csv")], right=(2, 4, 5))
+
+
+@mark
+def twice():
+    """The same step measured in two rows: how far apart."""
+    times = {}
+    for r in rows("skips.csv"):
+        for way in ("with", "without"):
+            times.setdefault(r[way], []).append(r[f"{way}_us"])
+    apart = [max(t) / min(t) - 1 for t in times.values() if len(t) > 1]
+    return f"{100 * max(apart):.0f} %"
