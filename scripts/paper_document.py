@@ -199,7 +199,8 @@ def document(runs, of_design, reasons, prose):
     cells.check()
     head = ["# The paper's five specimens", "",
             *wrapped(f"""Made by `scripts/documents` of what `scripts/paper-specimens` measured
-                ([paper-specimens.csv](../bench/results/paper-specimens.csv)); do not edit. Ours, and the paper's in brackets (Tables 3 and
+                ([paper-specimens.csv](../bench/results/paper-specimens.csv)); do not edit. Ours, and the paper's in
+                brackets (Tables 3 and
                 5, Figs. 9 to 11); where the two differ by more than 10 % the cell is bold, and its letter stands for
                 the reason [below](#what-differs-and-why). Means of {len(runs['SS'])} seeds; ± is half the range over
                 the seeds, everywhere. Scenes: `examples/ac14_ss_am1` and `examples/ac14_ms_*`."""), ""]

@@ -137,9 +137,9 @@ def making(runs, times):
     return ["## Making them", "", *wrapped("""`macadam specimen SCENE`, seed 1
         ([paper-specimens-time.csv](../bench/results/paper-specimens-time.csv)):"""), "",
             *table(["", "seconds", "cores", "measured"], [list(t.values()) for t in times]),
-            *wrapped(f"""Most of the longest is insertion of the last shapes. Making and solving one of the specimens above at
-                four frequencies took {min(wall):.0f} to {max(wall):.0f} s and {min(memory):.1f} to {max(memory):.1f} GB with
-                {runs[0].threads} threads, other runs beside it."""), ""]
+            *wrapped(f"""Most of the longest is insertion of the last shapes. Making and solving one of the specimens
+                above at four frequencies took {min(wall):.0f} to {max(wall):.0f} s and {min(memory):.1f} to
+                {max(memory):.1f} GB with {runs[0].threads} threads, other runs beside it."""), ""]
 
 
 def prose(runs, table_of_variants, times):

@@ -63,7 +63,8 @@ def call(macadam, command, folder, *arguments, threads=None):
     if process.returncode:
         raise SystemExit(f"{folder.name}: exit code {process.returncode} of {' '.join(map(str, process.args))}")
     measured = {"seconds": round(time.monotonic() - start, 1), "memory_gb": round(usage.ru_maxrss / 1e6, 2),
-                "threads": threads or os.cpu_count(), "machine": processor(), "date": time.strftime("%Y-%m-%d", time.gmtime())}
+                "threads": threads or os.cpu_count(), "machine": processor(),
+                "date": time.strftime("%Y-%m-%d", time.gmtime())}
     (folder / "measured.json").write_text(json.dumps(measured))
 
 

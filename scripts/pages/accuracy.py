@@ -1,41 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/accuracy.md: from bench/accuracy's accuracy.csv, all rows of a study, whatever scenes it has."""
+"""docs/accuracy.md: from bench/accuracy's accuracy.csv, all rows of a study; what to use when, and each setting."""
 import math
 
-from pages import common
-from pages.data import (head, largest, mean, minus, one, plain, power, rows, span, table, thousands, upto, where)
+from pages import accuracy_asked, accuracy_elsewhere
+from pages.accuracy_rows import (E, PHI, TRUE_E, TRUE_PHI, both, drift_differences, scene, scenes, signed, study,
+                                 within)
+from pages.data import head, largest, minus, one, plain, power, rows, table, thousands, upto, where
 from pages.marks import mark
 
 DOCUMENT = "docs/accuracy.md"
-E, PHI = "own_error_e_star", "own_error_phase_deg"  # against the same inertia
-TRUE_E, TRUE_PHI = "error_e_star", "error_phase_deg"  # against true mass
+PARTS = (accuracy_asked, accuracy_elsewhere)  # more functions of this document
 ASKED_OF_MIXED = {E: 1e-5, PHI: 0.002}
-
-
-def study(*names, **wanted):
-    return where(rows("accuracy.csv"), study=names, status="done", **wanted)
-
-
-def scene(row):
-    return row["scene"] + ("" if row["mix"] == "AM1" else f", {row['mix']}")
-
-
-def scenes(found):
-    return list(dict.fromkeys(scene(r) for r in found))
-
-
-def within(found, key):
-    """A bound of the magnitudes, rounded up."""
-    bound = upto(largest(found, key))
-    return minus(power(bound)) if bound < 0.001 else f"{bound:g}"
-
-
-def both(found, keys=(E, PHI)):
-    return f"{within(found, keys[0])} and {within(found, keys[1])}°"
-
-
-def signed(x, digits=2):
-    return minus(power(x, digits, sign=True))
 
 
 @mark
@@ -148,20 +123,6 @@ def strain_error(strain):
     return within([r for r in bent() if r["strain"] == float(strain)], E)
 
 
-def drift_differences(precision=None):
-    """(row, difference from double at the same settings; from the harmonic solution where double was not run)."""
-    found = study("drift")
-    def key(r):
-        return (r["scene"], r["mix"], r["frequency_hz"], r["density_scaling"], r["cycles"], r["geometry"])
-    double = {key(r): r for r in found if r["precision"] == "double"}
-    pairs = []
-    for r in found:
-        d = double.get(key(r))
-        pairs.append((r, {E: r["e_star_pa"] / d["e_star_pa"] - 1, PHI: r["phase_deg"] - d["phase_deg"]}
-                      if d and r["precision"] != "double" else {E: r[E], PHI: r[PHI]}))
-    return [p for p in pairs if precision in (None, p[0]["precision"])]
-
-
 @mark
 def rounding(precision):
     d = [d for _, d in drift_differences(precision)]
@@ -199,8 +160,8 @@ def drift():
     of.sort(key=lambda p: (p[0]["steps"] if p[0]["density_scaling"] == 1 else 1e9 * p[0]["density_scaling"],
                            p[0]["geometry"], ["double", "mixed", "single"].index(p[0]["precision"])))
     return table(["scene", "f (Hz)", "scaling", "geometry", "steps", "precision", "\\|E\\*\\|", "φ (°)"],
-                 [(scene(r), f"{r['frequency_hz']:g}", f"{r['density_scaling']:g}", r["geometry"], thousands(r["steps"]),
-                   r["precision"], signed(d[E]), signed(d[PHI])) for r, d in of])
+                 [(scene(r), f"{r['frequency_hz']:g}", f"{r['density_scaling']:g}", r["geometry"],
+                   thousands(r["steps"]), r["precision"], signed(d[E]), signed(d[PHI])) for r, d in of])
 
 
 # ---- damping
@@ -228,76 +189,6 @@ def damping_noise():
     """What the waves of the start leave without any damping: differences below it say nothing."""
     row = one(shaken(), damping_kind="none")
     return f"{minus(power(abs(row[E]), 1))} and {abs(row[PHI]):.3f}°"
-
-
-# ---- tolerance
-
-def asked():
-    return study("tolerance")
-
-
-def achieved(r):
-    return max(abs(r[TRUE_E]), abs(math.radians(r[TRUE_PHI])))
-
-
-def off(r):
-    """Achieved minus predicted: the prediction is the harmonic solution's with the inertia of the run."""
-    predicted = (1 + r[TRUE_E]) / (1 + r[E]) - 1
-    return max(abs(r[TRUE_E] - predicted), math.radians(abs(r[PHI])))
-
-
-@mark
-def tolerance():
-    lines = []
-    for name in scenes(asked()):
-        for value in sorted({r["tolerance"] for r in asked()}, reverse=True):
-            of = [r for r in asked() if scene(r) == name and r["tolerance"] == value]
-            if not of:
-                continue
-            hand = [r["seconds"] / r["seconds_by_hand"] for r in of if r["seconds_by_hand"]
-                    and math.isfinite(r["seconds_by_hand"])]
-            lines.append((name, minus(power(value, 1)), f"{max(achieved(r) for r in of) / value:.3f}",
-                          minus(power(upto(max(off(r) for r in of), 2))), span([r["steps"] for r in of], thousands),
-                          span([r["seconds"] for r in of], lambda s: plain(s, 2)),
-                          span(hand, lambda x: f"{x:.1f}") if hand else "–"))
-    return table(["scene", "asked", "largest error achieved / asked", "largest difference from the prediction", "steps",
-                  "stepping (s, one thread)", "time / by hand"], lines)
-
-
-@mark
-def tolerance_kept():
-    over = [r for r in asked() if achieved(r) > r["tolerance"]]
-    return f"in all {len(asked())}" if not over else f"in {len(asked()) - len(over)} of {len(asked())}"
-
-
-@mark
-def tolerance_frequencies():
-    return ", ".join(f"{f:g}" for f in sorted({r["frequency_hz"] for r in asked()}))
-
-
-@mark
-def by_hand_worst():
-    of = [r["seconds"] / r["seconds_by_hand"] for r in asked() if r["seconds_by_hand"]]
-    return plain(upto(max(of)))
-
-
-@mark
-def prediction_off(value=None):
-    """The largest difference from the prediction over what was asked."""
-    of = [r for r in asked() if value is None or r["tolerance"] == float(value)]
-    return plain(100 * upto(max(off(r) / r["tolerance"] for r in of), 1), 1)
-
-
-@mark
-def planning(name):
-    of = [r["seconds_harmonic"] for r in asked() if r["scene"].startswith(name)]
-    return span(of, lambda s: plain(s, 1)).replace(" … ", " to ")
-
-
-@mark
-def chosen():
-    ways = sorted({f"{r['precision']} precision, {r['geometry']} geometry" for r in asked()})
-    return "; ".join(ways)
 
 
 # ---- the rest of the studies
@@ -398,72 +289,3 @@ def area_saved():
     dropped = [1 - r["contacts"] / base[scene(r)]["contacts"] for r in of]
     return (f"{100 * min(dropped):.1f} to {100 * max(dropped):.1f} % of the contacts, {100 * min(saved):.0f} to "
             f"{100 * max(saved):.0f} % of the time and {power(upto(largest(of, 'model_e_star'), 1), 1)} of |E\\*|")
-
-
-# ---- the GPU
-
-@mark
-def whole_tests():
-    return table(["f (Hz)", "settings", "density scaling", "steps", "stepping (s)", "\\|E\\*\\|", "φ (rad)"],
-                 [(f"{r['frequency_hz']:g}", f"{r['scene']}; {r['precision']}, {r['geometry']}",
-                   f"{r['density_scaling']:,.0f}", thousands(r["steps"]), plain(r["stepping_s"], 2),
-                   signed(r["error_e_star"]), signed(r["error_phase_rad"]))
-                  for r in rows("whole-tests-h200-2026-11-21.csv")])
-
-
-@mark
-def whole_planning():
-    of = [r["planning_s"] for r in rows("whole-tests-h200-2026-11-21.csv")]
-    return f"{min(of):.0f} to {max(of):.0f} s"
-
-
-@mark
-def cuda_own():
-    return both(rows("accuracy-cuda-h200.csv"))
-
-
-@mark
-def cuda_times():
-    of = where(rows("accuracy-cuda-h200.csv"), scene="demo", density_scaling=100.0)
-    return (f"{thousands(of[0]['steps'])} steps take " +
-            ", ".join(f"{r['seconds']:.2f} s ({r['precision']})" for r in of))
-
-
-# ---- pieces
-
-@mark
-def asserted(file, test, literal):
-    return minus(common.asserted(file, test, literal))
-
-
-@mark
-def voro_difference():
-    value = one(rows("tessellation.csv"), quantity="largest_area_difference")["value"]
-    return minus(power(value, 1))
-
-
-@mark
-def voro_times():
-    of = {r["quantity"]: r["value"] for r in rows("tessellation.csv")}
-    return plain(of["voro_s"] / of["macadam_s"], 2)
-
-
-@mark
-def computed_step():
-    from pages import stability
-    return stability.computed_range()
-
-
-@mark
-def second_moments():
-    of = where(rows("paper-specimens.csv"), scene="ac14_ss_am1")
-    return f"{100 * mean(r['second_moment_difference'] for r in of):.0f} %"
-
-
-@mark
-def lighter():
-    """How much the sum of the spheres' volumes is below the box in the specimens of clusters."""
-    import paper_runs
-    from paper_tables import CLUSTERS, PAPER
-    of = [1 - run.to_box for name in CLUSTERS for run in paper_runs.committed(PAPER[name].scene)]
-    return f"{100 * min(of):.0f} to {100 * max(of):.0f} %"

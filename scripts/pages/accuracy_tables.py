@@ -2,7 +2,7 @@
 """bench/results/accuracy-tables.md, the whole page: accuracy.csv by studies, for reading."""
 import math
 
-from pages.accuracy import E, PHI, TRUE_E, TRUE_PHI, drift_differences, scene
+from pages.accuracy_rows import E, PHI, TRUE_E, TRUE_PHI, drift_differences, scene
 from pages.data import head, rows, table
 
 DOCUMENT = "bench/results/accuracy-tables.md"
@@ -45,8 +45,8 @@ def cycles_needed():
             last = max((r["cycles"] for r in found if abs(r[E]) > e_star or abs(r[PHI]) > phase), default=0)
             after = [r["cycles"] for r in found if r["cycles"] > last]
             return f"{min(after):g}" if after else f"> {max(r['cycles'] for r in found):g}"
-        lines.append((group[0], *(f"{x:g}" for x in group[1:]), *(needed(t, math.degrees(t)) for t in (1e-2, 1e-3, 1e-4)),
-                      needed(1e-5, 0.002)))
+        lines.append((group[0], *(f"{x:g}" for x in group[1:]),
+                      *(needed(t, math.degrees(t)) for t in (1e-2, 1e-3, 1e-4)), needed(1e-5, 0.002)))
     return lines
 
 
@@ -87,8 +87,8 @@ def page():
         ("Damping, against true mass undamped", ["scene", "f", "scaling", "damping", "value", "start", e, phi],
          [(*name(r, "density_scaling", "damping_kind", "damping", "start"), *true(r)) for r in done("damping")]),
         ("Quadrature and filters: change of the model, and error against its own solution",
-         ["scene", "f", "quadrature", "gap_max", "area_min", "contacts dropped", f"{e} model", "φ model (°)", f"{e} own",
-          "φ own (°)", "µs a step"], list(filters())),
+         ["scene", "f", "quadrature", "gap_max", "area_min", "contacts dropped", f"{e} model", "φ model (°)",
+          f"{e} own", "φ own (°)", "µs a step"], list(filters())),
         ("Backends", ["scene", "f", "backend", "scaling", "precision", "form", f"{e} own", "φ own (°)", "steps", "s",
                       "µs a step", "KiB"],
          [(*name(r, "backend", "density_scaling", "precision", "form"), *own(r), *cost(r)) for r in done("backend")]),

@@ -47,8 +47,8 @@ def headline():
     lines = []
     for group in GROUPS:
         c = cubes(*group, seeds=20)
-        lines.append((*group, number(c), cell(c, "walls"), deviation(c, "walls"), cell(c, "gauge"), deviation(c, "gauge"),
-                      ratio(c), f"{of(c, 'uniform_strain'):.2f}", cell(c, "contact_for_walls"),
+        lines.append((*group, number(c), cell(c, "walls"), deviation(c, "walls"), cell(c, "gauge"),
+                      deviation(c, "gauge"), ratio(c), f"{of(c, 'uniform_strain'):.2f}", cell(c, "contact_for_walls"),
                       cell(c, "contact_for_gauge")))
     return table(["spheres", "filling", "number", "walls (GPa)", "to 60", "gauge (GPa)", "to 60", "Poisson's ratio",
                   "uniform strain (GPa)", "E for 60 by walls (GPa)", "E for 60 by gauge (GPa)"], lines, range(2, 11))
@@ -65,7 +65,8 @@ def porosities():
             c = cubes(*group, porosity=porosity)
             lines.append((*group, f"{porosity:.2f}", number(c), cell(c, "walls"), cell(c, "gauge"),
                           deviation(c, "gauge")))
-    return table(["spheres", "filling", "porosity", "number", "walls (GPa)", "gauge (GPa)", "to 60"], lines, range(2, 7))
+    return table(["spheres", "filling", "porosity", "number", "walls (GPa)", "gauge (GPa)", "to 60"], lines,
+                 range(2, 7))
 
 
 @mark

@@ -113,7 +113,7 @@ def span(values, form):
 
 
 def table(heads, lines, right=()):
-    """A Markdown table; columns in `right`, or all but the first with True, are aligned so."""
-    rule = ["---:" if (right is True and k > 0) or (right is not True and k in right) else "---" for k in range(len(heads))]
+    """A Markdown table; columns in `right` are aligned so."""
+    rule = ["---:" if k in right else "---" for k in range(len(heads))]
     return ["| " + " | ".join(heads) + " |", "|" + "|".join(rule) + "|",
             *("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)]

@@ -80,8 +80,8 @@ def library(spheres=lambda n: n > 1):
 @mark
 def library_spheres():
     clusters, every = [r["spheres"] for r in library()], len(library(lambda n: True))
-    return (f"{min(clusters):.0f} to {max(clusters):.0f} spheres; {every - len(clusters)} of the {every} shapes becomes a "
-            "single one and is left out")
+    return (f"{min(clusters):.0f} to {max(clusters):.0f} spheres; {every - len(clusters)} of the {every} shapes becomes "
+            "a single one and is left out")
 
 
 def of_library(length):

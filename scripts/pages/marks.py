@@ -18,8 +18,9 @@ def mark(function):
 
 
 def functions(module):
-    return {name: f for name, f in vars(module).items()
-            if getattr(f, "is_mark", False) and f.__module__ == module.__name__}
+    """Those of a document's module and of its parts."""
+    return {name: f for part in (module, *getattr(module, "PARTS", ())) for name, f in vars(part).items()
+            if getattr(f, "is_mark", False) and f.__module__ == part.__name__}
 
 
 def documents(root):
@@ -56,8 +57,8 @@ def unmarked(name, lines):
         for cells in rows[2:]:
             number = [c for head, c in zip(rows[0], cells) if NUMBER.match(c) and head not in ("default", "key")]
             if number:
-                wrong.append(f"{name}:{start + 1}: a table with numbers, such as '{number[0]}', stands in no mark and has "
-                             "no '<!-- by hand: reason -->' before it")
+                wrong.append(f"{name}:{start + 1}: a table with numbers, such as '{number[0]}', stands in no mark and "
+                             "has no '<!-- by hand: reason -->' before it")
                 break
     return wrong
 

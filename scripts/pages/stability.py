@@ -51,8 +51,8 @@ def computed(table_of):
 
 def ringing(table_of):
     found = [r for r in table_of if r["quantity"] == "alternating part of the force after 1000 steps / η·v"]
-    return ("Relaxation times far below the step are stable and exact with a smooth start; a sudden one rings (a Maxwell "
-            f"unit of a millionth of the step: {found[0]['measured']:.3f} of the force still alternates after 1000 "
+    return ("Relaxation times far below the step are stable and exact with a smooth start; a sudden one rings (a "
+            f"Maxwell unit of a millionth of the step: {found[0]['measured']:.3f} of the force still alternates after 1000 "
             "steps)." if found else "")
 
 
@@ -60,8 +60,8 @@ def drift(table_of):
     found = [r for r in table_of if r["quantity"] == "largest |energy / that of the start − 1|"
              and r["variant"].startswith("two particles, free, elastic, fixed")]
     return ("The energy of two particles moved by no more than " +
-            ", ".join(f"{power(r['measured'], 1)} ({r['setting']}, {r['variant'].rpartition(', ')[2]})" for r in found) +
-            "." if found else "")
+            ", ".join(f"{power(r['measured'], 1)} ({r['setting']}, {r['variant'].rpartition(', ')[2]})"
+                      for r in found) + "." if found else "")
 
 
 def strain(table_of):
@@ -80,8 +80,8 @@ def failures(table_of):
     text = (f"{len(table_of) - len(failed)} of {len(table_of)} lines pass; those that fail ({len(failed)}) are marked "
             "FAIL.")
     if {r["case"] for r in failed} == {"long_free"} and {r["setting"] for r in failed} == {"cpu, single"}:
-        text += (" It is the energy of a long free run in single precision: a force that follows from the place is rounded "
-                 "the same way on every visit, so that errors add up. `mixed` and `double` do not drift so.")
+        text += (" It is the energy of a long free run in single precision: a force that follows from the place is "
+                 "rounded the same way on every visit, so that errors add up. `mixed` and `double` do not drift so.")
     return text
 
 
@@ -91,9 +91,9 @@ def page():
     cases = [re.fullmatch(r"case (\w+): (.*)", line).groups() for line in about[1:] if line.startswith("case ")]
     found = rows(file())
     out = ["# Stability under stress", "",
-           f"Written by `scripts/documents` from [{file()}](../bench/results/{file()}), which `bench/stability/run` makes;",
-           "not to be edited. Each line states what must come out and why, what was measured, and the verdict that follows "
-           "from", "the two. Lines that only prepare others are in the file alone.", "",
+           f"Written by `scripts/documents` from [{file()}](../bench/results/{file()}), which `bench/stability/run`",
+           "makes; not to be edited. Each line states what must come out and why, what was measured, and the verdict that",
+           "follows from the two. Lines that only prepare others are in the file alone.", "",
            where_and_when[0].upper() + where_and_when[1:] + ".", ""]
     for sentence in (failures, computed, ringing, drift, strain):
         out += [f"- {text}" for text in [sentence(found)] if text]

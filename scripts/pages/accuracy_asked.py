@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/accuracy.md: `[solver] tolerance`, what was asked, predicted and achieved."""
+import math
+
+from pages.accuracy_rows import E, PHI, TRUE_E, TRUE_PHI, scene, scenes, study
+from pages.data import minus, plain, power, span, table, thousands, upto
+from pages.marks import mark
+
+
+def asked():
+    return study("tolerance")
+
+
+def achieved(r):
+    return max(abs(r[TRUE_E]), abs(math.radians(r[TRUE_PHI])))
+
+
+def off(r):
+    """Achieved minus predicted: the prediction is the harmonic solution's with the inertia of the run."""
+    predicted = (1 + r[TRUE_E]) / (1 + r[E]) - 1
+    return max(abs(r[TRUE_E] - predicted), math.radians(abs(r[PHI])))
+
+
+@mark
+def tolerance():
+    lines = []
+    for name in scenes(asked()):
+        for value in sorted({r["tolerance"] for r in asked()}, reverse=True):
+            of = [r for r in asked() if scene(r) == name and r["tolerance"] == value]
+            if not of:
+                continue
+            hand = [r["seconds"] / r["seconds_by_hand"] for r in of if r["seconds_by_hand"]
+                    and math.isfinite(r["seconds_by_hand"])]
+            lines.append((name, minus(power(value, 1)), f"{max(achieved(r) for r in of) / value:.3f}",
+                          minus(power(upto(max(off(r) for r in of), 2))), span([r["steps"] for r in of], thousands),
+                          span([r["seconds"] for r in of], lambda s: plain(s, 2)),
+                          span(hand, lambda x: f"{x:.1f}") if hand else "–"))
+    return table(["scene", "asked", "largest error achieved / asked", "largest difference from the prediction", "steps",
+                  "stepping (s, one thread)", "time / by hand"], lines)
+
+
+@mark
+def tolerance_kept():
+    over = [r for r in asked() if achieved(r) > r["tolerance"]]
+    return f"in all {len(asked())}" if not over else f"in {len(asked()) - len(over)} of {len(asked())}"
+
+
+@mark
+def tolerance_frequencies():
+    return ", ".join(f"{f:g}" for f in sorted({r["frequency_hz"] for r in asked()}))
+
+
+@mark
+def by_hand_worst():
+    of = [r["seconds"] / r["seconds_by_hand"] for r in asked() if r["seconds_by_hand"]]
+    return plain(upto(max(of)))
+
+
+@mark
+def prediction_off(value=None):
+    """The largest difference from the prediction over what was asked."""
+    of = [r for r in asked() if value is None or r["tolerance"] == float(value)]
+    return plain(100 * upto(max(off(r) / r["tolerance"] for r in of), 1), 1)
+
+
+@mark
+def planning(name):
+    of = [r["seconds_harmonic"] for r in asked() if r["scene"].startswith(name)]
+    return span(of, lambda s: plain(s, 1)).replace(" … ", " to ")
+
+
+@mark
+def chosen():
+    ways = sorted({f"{r['precision']} precision, {r['geometry']} geometry" for r in asked()})
+    return "; ".join(ways)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/accuracy.md: what other programs measured or assert: runs on a GPU, tests, the paper's specimens."""
+from pages import common, stability
+from pages.accuracy_rows import both, signed
+from pages.data import mean, minus, one, plain, power, rows, table, thousands, where
+from pages.marks import mark
+
+
+@mark
+def whole_tests():
+    return table(["f (Hz)", "settings", "density scaling", "steps", "stepping (s)", "\\|E\\*\\|", "φ (rad)"],
+                 [(f"{r['frequency_hz']:g}", f"{r['scene']}; {r['precision']}, {r['geometry']}",
+                   f"{r['density_scaling']:,.0f}", thousands(r["steps"]), plain(r["stepping_s"], 2),
+                   signed(r["error_e_star"]), signed(r["error_phase_rad"]))
+                  for r in rows("whole-tests-h200-2026-11-21.csv")])
+
+
+@mark
+def whole_planning():
+    of = [r["planning_s"] for r in rows("whole-tests-h200-2026-11-21.csv")]
+    return f"{min(of):.0f} to {max(of):.0f} s"
+
+
+@mark
+def cuda_own():
+    return both(rows("accuracy-cuda-h200.csv"))
+
+
+@mark
+def cuda_times():
+    of = where(rows("accuracy-cuda-h200.csv"), scene="demo", density_scaling=100.0)
+    return (f"{thousands(of[0]['steps'])} steps take " +
+            ", ".join(f"{r['seconds']:.2f} s ({r['precision']})" for r in of))
+
+
+# ---- pieces
+
+@mark
+def asserted(file, test, literal):
+    return minus(common.asserted(file, test, literal))
+
+
+@mark
+def voro_difference():
+    value = one(rows("tessellation.csv"), quantity="largest_area_difference")["value"]
+    return minus(power(value, 1))
+
+
+@mark
+def voro_times():
+    of = {r["quantity"]: r["value"] for r in rows("tessellation.csv")}
+    return plain(of["voro_s"] / of["macadam_s"], 2)
+
+
+@mark
+def computed_step():
+    return stability.computed_range()
+
+
+@mark
+def second_moments():
+    of = where(rows("paper-specimens.csv"), scene="ac14_ss_am1")
+    return f"{100 * mean(r['second_moment_difference'] for r in of):.0f} %"
+
+
+@mark
+def lighter():
+    """How much the sum of the spheres' volumes is below the box in the specimens of clusters."""
+    import paper_runs
+    from paper_tables import CLUSTERS, PAPER
+    of = [1 - run.to_box for name in CLUSTERS for run in paper_runs.committed(PAPER[name].scene)]
+    return f"{100 * min(of):.0f} to {100 * max(of):.0f} %"
