@@ -39,9 +39,10 @@ struct SurfaceVerdict {
   std::string text() const;
 };
 
-/// Reads STL (binary, ASCII), OFF, PLY or OBJ by CGAL's readers; equal points are joined; `scale` multiplies the
-/// coordinates (files are often in millimetres: 1e-3).
-/// \throws InputError naming the file where it cannot be read, holds no facet, or has numbers that are not finite.
+/// Reads STL (binary, ASCII), OFF, PLY or OBJ; equal points are joined; `scale` multiplies the coordinates (files are
+/// often in millimetres: 1e-3).
+/// \throws InputError naming the file, and of text the line, where it cannot be read, holds no facet, or has numbers
+/// that are not finite.
 Surface read_surface(const std::filesystem::path& file, double scale = 1);
 
 /// Every surface of a folder, by the files' names, each good().
