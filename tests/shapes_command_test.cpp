@@ -176,6 +176,14 @@ TEST_F(ShapesCommand, WrongUsageIsExitCodeTwo) {
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
   }
+  for (const std::string command :
+       {"measure stones --out x --scale ", "fill stones/good.off --out x --radius 0.1 --scale "}) {
+    for (const char* scale : {"0", "-1", "nan"}) {
+      const Outcome outcome = shapes(command + scale);
+      EXPECT_EQ(outcome.code, 2) << command << scale;
+      EXPECT_TRUE(contains(outcome.err, "--scale")) << outcome.err;
+    }
+  }
   for (const char* arguments : {"--help", "measure --help", "check --help", "repair --help"}) {
     EXPECT_EQ(shapes(arguments).code, 0) << arguments;
   }

@@ -141,7 +141,8 @@ TEST_F(SurfaceFiles, ScaleMultipliesAndDividesBack) {
   EXPECT_NEAR(measure_shape(read_surface(folder_ / "box.off")).volume, 6e9, 1e-3);
   EXPECT_NEAR(measure_shape(read_surface(folder_ / "box.off", 1e-3)).volume, 6, 1e-12);
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_NE(message_for(folder_ / "box.off", bad).find("scale: found"), std::string::npos);
+    EXPECT_NE(message_for(folder_ / "box.off", bad).find("scale (--scale), metres per unit of the file: found"),
+              std::string::npos);
     EXPECT_THROW(write_surface(folder_ / "bad.off", s, bad), InputError);
   }
 }

@@ -134,7 +134,7 @@ void repair(const Arguments& arguments) {
   Surface surface = read_surface(file);
   surface.name = file.string();  // in messages
   std::string what;
-  surface = repair_surface(surface, &what);
+  surface = repair_surface(surface, &what, arguments.out);
   write_surface(arguments.out, surface);
   fmt::print("{}: {}\n", file.string(), what);
   fmt::print("{}: {} points, {} facets\n", arguments.out, surface.points.size(), surface.facets.size());

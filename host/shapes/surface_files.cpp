@@ -118,29 +118,28 @@ int digits_for(const std::vector<Point>& points) {
 
 void require_scale(const std::filesystem::path& file, double scale) {
   if (!(scale > 0 && std::isfinite(scale))) {
-    throw InputError(file.string(), 0, "scale", fmt::format("{}", scale), "a positive finite number");
+    throw InputError(file.string(), 0, "scale (--scale), metres per unit of the file", fmt::format("{}", scale),
+                     "a positive finite number");
   }
 }
 
-}  // namespace
-
-bool is_surface_file(const std::filesystem::path& file) { return find_format(file).has_value(); }
-
-Surface read_surface(const std::filesystem::path& file, double scale) {
-  require_scale(file, scale);
-  const Format format = format_of(file);  // before reading: another ending is the first thing to say
-  const std::string bytes = bytes_of(file);
-  Surface surface = surface_in({file.string(), bytes}, format, scale);
-  surface.name = file.stem().string();
-  return surface;
+void require_floats(const std::filesystem::path& file, const std::vector<Point>& points) {
+  for (const Point& p : points) {
+    for (const double x : {p.x(), p.y(), p.z()}) {
+      if (!std::isfinite(static_cast<float>(x)))
+        throw InputError(file.string(), 0, "coordinate", fmt::format("{}", x), "one that single precision can hold");
+    }
+  }
 }
 
-void write_surface(const std::filesystem::path& file, const Surface& surface, double scale) {
+/// What the file will hold.
+std::string bytes_for(const std::filesystem::path& file, const Surface& surface, double scale) {
   require_scale(file, scale);
   require_sound_numbers(surface);
   const Format format = format_of(file);
   std::vector<Point> points;
   for (const Vec3d& p : surface.points) points.emplace_back(p.x / scale, p.y / scale, p.z / scale);
+  if (format == Format::stl) require_floats(file, points);
   std::ostringstream out(std::ios::binary);
   out.exceptions(std::ios::badbit);  // want of memory stays what it is
   const auto text = CGAL::parameters::stream_precision(digits_for(points));
@@ -162,7 +161,29 @@ void write_surface(const std::filesystem::path& file, const Surface& surface, do
       break;
   }
   if (!written) throw RunError(file.string() + ": the surface cannot be written");
-  write_whole(file, out.str());
+  return std::move(out).str();
+}
+
+}  // namespace
+
+bool is_surface_file(const std::filesystem::path& file) { return find_format(file).has_value(); }
+
+Surface read_surface(const std::filesystem::path& file, double scale) {
+  require_scale(file, scale);
+  const Format format = format_of(file);  // before reading: another ending is the first thing to say
+  const std::string bytes = bytes_of(file);
+  Surface surface = surface_in({file.string(), bytes}, format, scale);
+  surface.name = file.stem().string();
+  return surface;
+}
+
+void write_surface(const std::filesystem::path& file, const Surface& surface, double scale) {
+  write_whole(file, bytes_for(file, surface, scale));
+}
+
+Surface read_back(const std::filesystem::path& file, const Surface& surface) {
+  const std::string bytes = bytes_for(file, surface, 1);
+  return surface_in({file.string(), bytes}, format_of(file), 1);
 }
 
 std::vector<std::filesystem::path> surface_files_in(const std::filesystem::path& folder) {
