@@ -16,28 +16,8 @@
 #include <numeric>
 #include <random>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "host/tessellation/polygon.hpp"
 #include "macadam/error.hpp"
-
-namespace {
-/// Counts what is allocated inside parallel regions; that of this number fails, 0: none.
-std::atomic<int> allocations_in_threads{0}, failing_allocation{0};
-}  // namespace
-
-void* operator new(std::size_t bytes) {
-#ifdef _OPENMP
-  if (omp_get_level() > 0 && ++allocations_in_threads == failing_allocation) throw std::bad_alloc();
-#endif
-  if (void* memory = std::malloc(bytes > 0 ? bytes : 1)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept { return std::malloc(bytes > 0 ? bytes : 1); }
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace macadam {
 namespace {
@@ -419,25 +399,6 @@ TEST(Tessellation, NamesFileAndLine) {
       << message(bad);
   bad.radius[7] = -1;
   EXPECT_EQ(message(bad).rfind("stones.csv:9: particle 7: radius: found -1", 0), 0U) << message(bad);
-}
-
-/// Memory that ends inside OpenMP's threads is an exception like any other, not the end of the process.
-TEST(Tessellation, WantOfMemoryInAnyThreadIsThrown) {
-  Specimen s = make({1, 1, 1});  // nearly a lattice: its flat tetrahedra are solved in exact numbers, which take memory
-  std::mt19937_64 engine(1);
-  std::uniform_real_distribution<double> u(-1e-9, 1e-9);
-  for (int i = 0; i < 1000; ++i)
-    add(s, {0.1 * (i % 10 + 0.5) + u(engine), 0.1 * (i / 10 % 10 + 0.5) + u(engine), 0.1 * (i / 100 + 0.5) + u(engine)},
-        0.05);
-  allocations_in_threads = 0;
-  tessellate(s);
-  const int all = allocations_in_threads;
-  ASSERT_GT(all, 100);
-  for (const int failing : {1, all / 4, all / 2, all - 1}) {
-    allocations_in_threads = 0, failing_allocation = failing;
-    EXPECT_THROW(tessellate(s), std::bad_alloc) << failing << " of " << all;
-    failing_allocation = 0;
-  }
 }
 
 // Hidden particles.
