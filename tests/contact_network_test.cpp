@@ -363,6 +363,19 @@ TEST(ContactNetwork, HiddenParticlesAreNamed) {
   EXPECT_EQ(text.find("11"), std::string::npos) << text;
 }
 
+TEST(ContactNetwork, MessagesNameFileAndLine) {
+  Specimen s = cubic(3, 0.01);
+  s.source = "stones.csv", s.first_line = 2;
+  s.centre[4].z = 0;
+  EXPECT_EQ(message(s).rfind("stones.csv:6: distance in metres of particle 4's centre to the -z wall", 0), 0U)
+      << message(s);
+  s = cubic(3, 0.01);
+  s.source = "stones.csv", s.first_line = 2;
+  s.radius[13] = 1e-6, s.centre[13] = s.centre[12] + Vec3d{1e-6, 0, 0};
+  EXPECT_EQ(message(s).rfind("stones.csv:15: particles with a Laguerre cell inside the box: found 1 without", 0), 0U)
+      << message(s);
+}
+
 TEST(ContactNetwork, NothingLeftIsAnError) {
   Specimen s = cubic(2, 0.01);
   for (double& r : s.radius) r *= 0.5;

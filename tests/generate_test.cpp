@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "host/spheres/relaxation.hpp"
 #include "long_tests.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"
@@ -229,6 +230,51 @@ TEST(Generate, AClassWithoutRoomSaysHowMuchHadRoom) {
   for (const char* words : {"of 40 of class 4.7-5 mm", "30000 attempts", "of 40 placed", "% of the class's volume",
                             "larger box", "another seed"})
     EXPECT_NE(message.find(words), std::string::npos) << message;
+}
+
+/// Of a scene, messages name its file and the line of the class.
+TEST(Generate, WhatCannotBeMetIsNamedWithItsLine) {
+  SpecimenSpec spec = small_mix();
+  spec.source = "mix.toml", spec.line = 3;
+  spec.aggregate[0].line = 7, spec.aggregate[1].line = 11, spec.mastic->line = 20;
+  EXPECT_EQ(generate_specimen(spec).specimen.source, "specimen generated from mix.toml");
+  const auto expect = [](const SpecimenSpec& bad, const std::string& begin) {
+    EXPECT_EQ(message_for(bad).rfind(begin, 0), 0u) << message_for(bad);
+  };
+  SpecimenSpec bad = spec;
+  bad.aggregate[1] = {0.0094, 0.0095, 0.11, {}, 11};
+  expect(bad, "mix.toml:11: 9.4-9.5 mm: volume: found ");
+  bad = spec;
+  bad.aggregate[0].volume_fraction = 2;
+  expect(bad, "mix.toml:7: aggregate class 2-4.75 mm: volume_fraction: found 2");
+  bad = spec;
+  bad.mastic->radius_min = 1;
+  expect(bad, "mix.toml:20: mastic: sizes: found ");
+  bad = spec;
+  bad.attempts = 0;
+  expect(bad, "mix.toml:3: attempts: found 0");
+  bad = spec;
+  bad.attempts = 1;
+  bad.aggregate[1].volume_fraction = 0.6;
+  expect(bad, "mix.toml:11: no room for aggregate ");
+}
+
+/// Errors in OpenMP's threads are exceptions like any other, not the end of the process.
+TEST(Relax, WhatAWallThrowsIsThrown) {
+  Specimen s{{{1, 1, 1}}, {}, {}, {}, {}};
+  for (int i = 0; i < 1500; ++i) {
+    s.centre.push_back({(i % 12 + 0.5) / 12, (i / 12 % 12 + 0.5) / 12, (i / 144 + 0.5) / 12});
+    s.radius.push_back(0.05);
+    s.phase.push_back(Phase::mastic);
+    s.body.push_back(-1);
+  }
+  const Wall wall = [](const Vec3d& c, double) -> WallDepth {
+    if (c.z > 0.5) throw std::bad_alloc();
+    return {1, {}};
+  };
+  EXPECT_THROW(relax(
+                   s, false, [](double) {}, wall),
+               std::bad_alloc);
 }
 
 TEST(Generate, ImpossibleRecipesAreRefused) {

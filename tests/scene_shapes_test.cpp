@@ -71,6 +71,8 @@ TEST_F(SceneShapes, AreRefusedAtTheirLine) {
   EXPECT_HAS(refused("[specimen.shapes]\nleast = 3\n"), "radius");
   EXPECT_HAS(refused("[specimen.shapes]\nradius = [0.002, 0.001]\n"), "min not above max");
   EXPECT_HAS(refused(start + "library = \"yours\"\n"), "no folder");
+  EXPECT_HAS(refused(start + "library = \"\\u0000\"\n"), "control character U+0000");
+  EXPECT_HAS(refused(start + "library = \"stones\\u0000/..\"\n"), ":8: [specimen.shapes] library: found ");
   EXPECT_HAS(refused(start + "libary = \"mine\"\n"), "library");
   EXPECT_HAS(refused(start + "porosity = 1.0\n"), "porosity");
   EXPECT_HAS(refused(start + "least = 0\n"), "least");

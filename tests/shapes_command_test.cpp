@@ -83,7 +83,7 @@ TEST_F(ShapesCommand, FaultyShapesAreNamedAllAtOnceAndRepairedWhenAsked) {
   EXPECT_EQ(refused.code, 2);
   EXPECT_TRUE(contains(refused.err, "2 of 3 files are no good shapes")) << refused.err;
   EXPECT_TRUE(contains(refused.err, "stones/open.off: surface: found open at 3 facets")) << refused.err;
-  EXPECT_TRUE(contains(refused.err, "stones/text.obj: surface: found")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "stones/text.obj:1: keyword: found")) << refused.err;
   EXPECT_FALSE(fs::exists(folder_ / "tables"));
   fs::remove(folder_ / "stones" / "text.obj");
   const Outcome repaired = shapes("measure stones --out tables --repair");
@@ -93,7 +93,7 @@ TEST_F(ShapesCommand, FaultyShapesAreNamedAllAtOnceAndRepairedWhenAsked) {
   std::ofstream(folder_ / "stones" / "text.obj") << "lorem ipsum";
   const Outcome hopeless = shapes("measure stones --out tables --repair");
   EXPECT_EQ(hopeless.code, 2);
-  for (const char* words : {"2 of 4 files", "line.off: cannot be repaired", "text.obj: surface: found"})
+  for (const char* words : {"2 of 4 files", "line.off: cannot be repaired", "text.obj:1: keyword: found"})
     EXPECT_TRUE(contains(hopeless.err, words)) << hopeless.err;
 }
 
@@ -175,6 +175,14 @@ TEST_F(ShapesCommand, WrongUsageIsExitCodeTwo) {
     const Outcome outcome = shapes(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
+  }
+  for (const std::string command :
+       {"measure stones --out x --scale ", "fill stones/good.off --out x --radius 0.1 --scale "}) {
+    for (const char* scale : {"0", "-1", "nan"}) {
+      const Outcome outcome = shapes(command + scale);
+      EXPECT_EQ(outcome.code, 2) << command << scale;
+      EXPECT_TRUE(contains(outcome.err, "--scale")) << outcome.err;
+    }
   }
   for (const char* arguments : {"--help", "measure --help", "check --help", "repair --help"}) {
     EXPECT_EQ(shapes(arguments).code, 0) << arguments;

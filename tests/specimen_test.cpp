@@ -108,7 +108,14 @@ TEST_F(SpecimenCsv, BadFilesAreNamedByLine) {
       {"id,x,y,z,radius,phase\n", ":1:", {"header"}},
       {header + good + "1,0.02,0.02,0.03,0.001,mastic\n", ":3:", {"columns", "found 6", "expected 7"}},
       {header + good + "1,0.02,0.02,0.03,0.001,mastic,-1,\n", ":3:", {"columns", "found 8"}},
-      {header + "\n" + good, ":2:", {"columns", "found 1"}},
+      {header + "\n" + good, ":2:", {"line", "a blank line"}},
+      {"\n" + header + good, ":1:", {"a blank line"}},
+      {header + good + std::string(5000, '\n'), ":3:", {"a blank line"}},
+      {header + good.substr(0, good.size() - 1), ":2:", {"last line", "no newline at its end", "may be cut off"}},
+      {header + "0,0.01,0.02,0.03,0.004,mastic,-1", ":2:", {"no newline at its end"}},
+      {header.substr(0, header.size() - 1), ":1:", {"no newline at its end"}},
+      {header + good + std::string(100'000, '7') + "\n", ":3:", {"line", "more than 1000 bytes"}},
+      {std::string(5'000'000, '\0'), ":1:", {"line", "more than 1000 bytes"}},
       {header + "0,abc,0.02,0.03,0.004,aggregate,0\n", ":2:", {"column x", "\"abc\"", "finite number"}},
       {header + "0,0.01,nan,0.03,0.004,aggregate,0\n", ":2:", {"column y", "\"nan\""}},
       {header + "0,0.01,0.02,inf,0.004,aggregate,0\n", ":2:", {"column z", "\"inf\""}},
@@ -147,6 +154,43 @@ TEST_F(SpecimenCsv, UnreadableFilesAreNamed) {
   std::string bytes(100'000, '\0');
   whole.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   EXPECT_NE(message_for(written(bytes)).find("whole readable file"), std::string::npos);
+}
+
+/// What a file unpacks to may be any number of times its size: it is never in memory as a whole.
+TEST_F(SpecimenCsv, WhatUnpacksToGigabytesIsRefusedAtItsLine) {
+  const auto bomb = [&](const std::string& begin, char c, std::size_t megabytes) {
+    const auto file = folder_ / "bomb.csv.gz";
+    gzFile out = gzopen(file.c_str(), "wb1");
+    gzwrite(out, begin.data(), static_cast<unsigned>(begin.size()));
+    const std::string filling(1 << 20, c);
+    for (std::size_t k = 0; k < megabytes; ++k) gzwrite(out, filling.data(), static_cast<unsigned>(filling.size()));
+    gzclose(out);
+    return file;
+  };
+  for (const char c : {'\0', '0', '\n', '\r', ','}) {
+    const auto file = bomb(header + good, c, 64);
+    EXPECT_EQ(message_for(file).rfind(file.string() + ":3: line: found ", 0), 0u) << message_for(file);
+  }
+}
+
+TEST_F(SpecimenCsv, LinesMayEndAnywhereInABlockOfTheReader) {
+  for (std::size_t more = 0; more < 70; ++more) {  // blocks are of 65,536 bytes
+    std::string text = header + "999999,0.0" + std::string(more, '0') + "1,0.01,0.01,0.004,aggregate,0\n";
+    std::size_t n = 1;
+    for (; text.size() < 70'000; ++n)
+      text +=
+          std::to_string(n) + "," + std::to_string(1e-6 * static_cast<double>(n)) + ",0.02,0.03,0.004,aggregate,0\n";
+    const auto file = written(text);
+    EXPECT_EQ(message_for(file), "(accepted)");
+    EXPECT_EQ(read_specimen_csv(file, box).size(), n);
+  }
+}
+
+TEST_F(SpecimenCsv, KnowsTheLinesOfItsParticles) {
+  const auto file = written(header + good + "1,0.01,0.02,0.04,0.004,aggregate,0\n");
+  const Specimen s = read_specimen_csv(file, box);
+  EXPECT_EQ(s.source, file.string());
+  EXPECT_EQ(s.line_of(1), 3);
 }
 
 TEST_F(SpecimenCsv, AFileThatCannotBeWrittenIsARunError) {

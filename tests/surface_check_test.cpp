@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // surface_check_test.cpp  Every fault, made on purpose, is found where it was made; what can be healed is.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <functional>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
 #include "macadam/error.hpp"
+#include "test_files.hpp"
 #include "test_surfaces.hpp"
 
 namespace macadam::test {
@@ -316,6 +319,76 @@ TEST(RepairSurface, WrapsWhatCutsItself) {
   EXPECT_FALSE(check_surface(s).self_intersecting.empty());
   const std::string what = repaired(s, 1.52, 0.03);
   EXPECT_TRUE(contains(what, "wrapped")) << what;
+}
+
+/// Unit cubes; those that share an edge or a point only are pinched there.
+Surface voxels(const std::set<std::array<int, 3>>& cubes) {
+  Surface s{"voxels", {}, {}};
+  std::map<std::array<int, 3>, std::int32_t> number;
+  const auto point = [&](const std::array<int, 3>& p) {
+    const auto [found, is_new] = number.try_emplace(p, static_cast<std::int32_t>(number.size()));
+    if (is_new) s.points.push_back({0.1 * p[0], 0.1 * p[1], 0.1 * p[2]});
+    return found->second;
+  };
+  for (const auto& cube : cubes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int side : {0, 1}) {
+        std::array<int, 3> beside = cube;
+        beside[axis] += 2 * side - 1;
+        if (cubes.contains(beside)) continue;
+        std::array<std::int32_t, 4> corner;
+        for (int k = 0; k < 4; ++k) {
+          std::array<int, 3> p = cube;
+          p[axis] += side, p[(axis + 1) % 3] += k == 1 || k == 2, p[(axis + 2) % 3] += k >= 2;
+          corner[k] = point(p);
+        }
+        if (side == 0) std::swap(corner[1], corner[3]);
+        s.facets.push_back({corner[0], corner[1], corner[2]});
+        s.facets.push_back({corner[0], corner[2], corner[3]});
+      }
+    }
+  }
+  return s;
+}
+
+/// What parts a pinched body gives two points the same coordinates, and reading makes them one again.
+TEST(RepairSurface, IsGoodAsItIsReadBack) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("macadam_repair_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  const std::set<std::array<int, 3>> at_an_edge{{0, 0, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}};
+  const std::set<std::array<int, 3>> at_a_point{{0, 0, 0},  {1, 1, 1}, {0, 0, -1}, {1, 0, -1},
+                                                {2, 0, -1}, {2, 0, 0}, {2, 0, 1},  {2, 1, 1}};
+  for (const auto& [cubes, ending] : {std::pair{at_an_edge, "off"}, {at_an_edge, "stl"}, {at_a_point, "ply"}}) {
+    const Surface s = voxels(cubes);
+    EXPECT_FALSE(check_surface(s).non_manifold.empty());
+    const fs::path file = folder / (std::string("stone.") + ending);
+    std::string what;
+    write_surface(file, repair_surface(s, &what, file));
+    EXPECT_TRUE(check_surface(read_surface(file)).good()) << check_surface(read_surface(file)).text();
+    EXPECT_TRUE(contains(what, "non-manifold point")) << what;
+    if (file.extension() == ".off") {  // also where no file was named
+      write_surface(file, repair_surface(s));
+      EXPECT_TRUE(check_surface(read_surface(file)).good());
+    }
+  }
+  fs::remove_all(folder);
+}
+
+/// Two points of a good surface are one as floats, and the facets between them nothing.
+TEST(RepairSurface, IsGoodInTheFilesOwnPrecision) {
+  const Surface s = prism({{0, 0}, {1, 0.5}, {1, 0.5 + 1e-9}, {0.5, 1}}, 1);
+  std::string what;
+  const Surface off = repair_surface(s, &what, "stone.off");
+  EXPECT_EQ(what, "nothing to do");
+  EXPECT_EQ(off.facets, s.facets);
+  const Surface stl = repair_surface(s, &what, "stone.stl");
+  EXPECT_TRUE(contains(what, "good, but not as it would be read back: ")) << what;
+  EXPECT_EQ(stl.points.size(), 6u) << what;
+  EXPECT_TRUE(check_surface(stl).good());
+  for (const Vec3d& p : stl.points) EXPECT_EQ(p.x, static_cast<float>(p.x));
+  Surface large = tetrahedron(1e40);
+  EXPECT_THROW(repair_surface(large, &what, "stone.stl"), InputError);
+  EXPECT_THROW(write_surface("stone.stl", large), InputError);
 }
 
 TEST(RepairSurface, GivesUpWithTheVerdict) {

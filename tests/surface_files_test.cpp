@@ -63,7 +63,7 @@ class SurfaceFiles : public testing::Test {
       read_surface(file, scale);
       return "accepted";
     } catch (const InputError& error) {
-      EXPECT_EQ(std::string(error.what()).rfind(file.string() + ": ", 0), 0u) << error.what();
+      EXPECT_EQ(std::string(error.what()).rfind(file.string() + ":", 0), 0u) << error.what();
       return error.what();
     }
   }
@@ -141,7 +141,8 @@ TEST_F(SurfaceFiles, ScaleMultipliesAndDividesBack) {
   EXPECT_NEAR(measure_shape(read_surface(folder_ / "box.off")).volume, 6e9, 1e-3);
   EXPECT_NEAR(measure_shape(read_surface(folder_ / "box.off", 1e-3)).volume, 6, 1e-12);
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_NE(message_for(folder_ / "box.off", bad).find("scale: found"), std::string::npos);
+    EXPECT_NE(message_for(folder_ / "box.off", bad).find("scale (--scale), metres per unit of the file: found"),
+              std::string::npos);
     EXPECT_THROW(write_surface(folder_ / "bad.off", s, bad), InputError);
   }
 }
@@ -167,41 +168,50 @@ TEST_F(SurfaceFiles, BrokenOnesAreInputErrorsWithTheCulprit) {
   }
   std::vector<Case> cases{
       {"nan.stl", nan_stl, "facet 2: found coordinate nan"},
-      {"nan.stl", replaced(ascii_stl(tetrahedron(std::sqrt(8.0))), "vertex 1", "vertex nan"), "surface: found"},
-      {"nan.off", replaced(tetrahedron_off, "-1 1 -1", "-1 nan -1"), "surface: found"},
-      {"inf.off", replaced(tetrahedron_off, "-1 1 -1", "-1 1e999 -1"), "surface: found"},
+      {"nan.stl", replaced(ascii_stl(tetrahedron(std::sqrt(8.0))), "vertex 1", "vertex nan"),
+       ":4: facet 0: found \"nan\""},
+      {"two.stl", replaced(ascii_stl(tetrahedron()), "endloop\n", "endfacet\n"), ":8: facet 1: found \"endfacet\""},
+      {"two.stl", replaced(ascii_stl(tetrahedron()), "vertex", "vertxe"), ":8: facet 0: found 2 points, expected 3"},
+      {"order.stl", replaced(ascii_stl(tetrahedron()), "facet normal", "vertex 1 2 3"),
+       ":2: facet 0: found \"vertex\""},
+      {"nan.off", replaced(tetrahedron_off, "-1 1 -1", "-1 nan -1"), ":5: point 2: found \"nan\""},
+      {"inf.off", replaced(tetrahedron_off, "-1 1 -1", "-1 1e999 -1"), ":5: point 2: found \"1e999\""},
       {"big.off", replaced(tetrahedron_off, "-1 1 -1", "-1 1e200 -1"), "point 2: found (-1, 1e+200, -1)"},
-      {"nan.obj", replaced(tetrahedron_obj, "v -1 1 -1", "v -1 nan -1"), "surface: found"},
-      {"nan.ply", replaced(tetrahedron_ply, "\n-1 1 -1", "\n-1 nan -1"), "surface: found"},
-      {"huge.off", replaced(tetrahedron_off, "3 0 3 1", "3 0 3 999999999"), "surface: found"},
-      {"huge.off", replaced(tetrahedron_off, "3 0 3 1", "3 0 -3 1"), "surface: found"},
-      {"huge.off", replaced(tetrahedron_off, "4 4 0", "400000000 4 0"), "surface: found 400000000 points"},
+      {"nan.obj", replaced(tetrahedron_obj, "v -1 1 -1", "v -1 nan -1"), ":4: point 2: found \"nan\""},
+      {"nan.ply", replaced(tetrahedron_ply, "\n-1 1 -1", "\n-1 nan -1"), ":12: point 2: found coordinate nan"},
+      {"huge.off", replaced(tetrahedron_off, "3 0 3 1", "3 0 3 999999999"), ":8: facet 1: found point 999999999"},
+      {"huge.off", replaced(tetrahedron_off, "3 0 3 1", "3 0 -3 1"), ":8: facet 1: found point -3"},
+      {"huge.off", replaced(tetrahedron_off, "4 4 0", "400000000 4 0"), ":2: surface: found 400000000 points"},
       {"huge.off", replaced(tetrahedron_off, "4 4 0", "4 400000000 0"), "and 400000000 facets"},
+      {"minus.off", replaced(tetrahedron_off, "4 4 0", "4 -4 0"), ":2: number of facets: found \"-4\""},
       {"wide.off", replaced(tetrahedron_off, "3 0 3 1", "2000000000 0 3 1"), "2000000000 points"},
+      {"short.off", replaced(tetrahedron_off, "4 4 0", "5 4 0"), ":10: surface: found the end of the file"},
+      {"long.off", replaced(tetrahedron_off, "4 4 0", "4 3 0"), ":10: surface: found \"3\""},
+      {"four.off", replaced(tetrahedron_off, "OFF", "4OFF"), ":1: header: found \"4OFF\""},
+      {"binary.off", replaced(tetrahedron_off, "OFF", "OFF BINARY"), ":1: number of points: found \"BINARY\""},
+      {"colour.off", replaced(tetrahedron_off, "1 1 1\n", "1 1 1 x\n"), ":3: point 0: found \"x\""},
       {"huge.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 5 3"),
-       "facet 3: found point 4, expected a number below 4"},
-      {"huge.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 2000000000 3"), "surface: found"},
-      {"huge.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 99999999999999 3"), "facet 3: found 1 points"},
-      {"zero.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 0 3"), "facet 3: found point"},
-      {"huge.ply", replaced(tetrahedron_ply, "3 1 3 2", "3 1 3 222222222"), "facet 3: found point 222222222"},
-      {"minus.ply", replaced(tetrahedron_ply, "3 1 3 2", "3 1 -3 2"), "facet 3: found point"},
-      {"quad.off", replaced(tetrahedron_off, "3 0 3 1", "4 0 3 1 2"), "facet 1: found 4 points, expected 3"},
-      {"two.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 4"), "facet 3: found 2 points"},
+       ":9: facet 3: found point 4, expected a number below 4"},
+      {"huge.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 2000000000 3"), ":9: facet 3: found point 1999999999"},
+      {"huge.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 99999999999999999999 3"), ":9: facet 3: found \"9999"},
+      {"zero.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 0 3"), ":9: facet 3: found point -1"},
+      {"huge.ply", replaced(tetrahedron_ply, "3 1 3 2", "3 1 3 222222222"), ":17: facet 3: found point 222222222"},
+      {"minus.ply", replaced(tetrahedron_ply, "3 1 3 2", "3 1 -3 2"), ":17: facet 3: found point -3"},
+      {"quad.off", replaced(tetrahedron_off, "3 0 3 1", "4 0 3 1 2"), ":8: facet 1: found 4 points, expected 3"},
+      {"two.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 4"), ":9: facet 3: found 2 points"},
+      {"word.obj", replaced(tetrahedron_obj, "f 2 4 3", "face 2 4 3"), ":9: keyword: found \"face\""},
       {"none.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "no facet"},
-      {"none.obj", "v 0 0 0\n", "surface: found"},
-      {"none.stl", "solid nothing\nendsolid nothing\n", "no facet"},
-      {"order.ply", replaced(tetrahedron_ply, "element vertex", "elephant vertex"), "a property before any element"},
-      {"list.ply", replaced(tetrahedron_ply, "list uchar int", "list uchar string"), "surface: found"},
-      {"count.ply", replaced(tetrahedron_ply, "element face 4", "element face 4000000000"), "surface: found"}};
+      {"none.obj", "v 0 0 0\n", "no facet"},
+      {"none.stl", "solid nothing\nendsolid nothing\n", "no facet"}};
   const std::string garbage =
       "Lorem ipsum dolor sit amet, consectetur adipisici elit, sed eiusmod tempor incidunt ut "
       "labore et dolore magna aliqua. Ut enim ad minim veniam, quis nostrud exercitation.\n";
   for (const char* ending : {"stl", "off", "ply", "obj"}) {
     cases.push_back({std::string("empty.") + ending, "", "an empty file"});
-    cases.push_back({std::string("blank.") + ending, " \n\n  ", "surface: found"});
-    cases.push_back({std::string("text.") + ending, garbage, "surface: found"});
-    cases.push_back({std::string("zeros.") + ending, std::string(500, '\0'), "surface: found"});
-    cases.push_back({std::string("ones.") + ending, std::string(500, '\xff'), "surface: found"});
+    cases.push_back({std::string("blank.") + ending, " \n\n  ", ": found "});
+    cases.push_back({std::string("text.") + ending, garbage, ": found "});
+    cases.push_back({std::string("zeros.") + ending, std::string(500, '\0'), ": found "});
+    cases.push_back({std::string("ones.") + ending, std::string(500, '\xff'), ": found "});
   }
   for (const Case& c : cases) {
     const std::string message = message_for(written(c.name, c.bytes));
@@ -209,10 +219,52 @@ TEST_F(SurfaceFiles, BrokenOnesAreInputErrorsWithTheCulprit) {
   }
 }
 
+/// A number is a word as a whole: no text is taken for two numbers, none is left over.
+TEST_F(SurfaceFiles, WhatIsNoNumberIsNamedWithItsLine) {
+  for (const std::string bad : {"1.5.5", "1,5", "0x1", "1.5f", "--1", "+-1", "1e", "1.5-2"}) {
+    const std::string found = fmt::format(": found \"{}\"", bad);
+    for (const auto& [name, text, line] :
+         {std::tuple<std::string, std::string, int>{"a.off", replaced(tetrahedron_off, "-1 1 -1", "-1 " + bad + " -1"),
+                                                    5},
+          {"b.off", replaced(tetrahedron_off, "3 0 2 3", "3 0 " + bad + " 3"), 9},
+          {"a.obj", replaced(tetrahedron_obj, "v -1 1 -1", "v -1 1 " + bad), 4},
+          {"b.obj", replaced(tetrahedron_obj, "f 2 4 3", "f 2 " + bad + "/7 3"), 9},
+          {"a.ply", replaced(tetrahedron_ply, "\n-1 1 -1", "\n-1 " + bad + " -1"), 12},
+          {"b.ply", replaced(tetrahedron_ply, "\n3 1 3 2", "\n3 1 3 " + bad), 17},
+          {"a.stl", replaced(ascii_stl(tetrahedron(std::sqrt(8.0))), "vertex 1", "vertex " + bad), 4}}) {
+      const std::string message = message_for(written(name, text));
+      EXPECT_NE(message.find(fmt::format("{}:{}: ", name, line)), std::string::npos) << bad << ": " << message;
+      EXPECT_NE(message.find(found), std::string::npos) << bad << ": " << message;
+    }
+  }
+}
+
+TEST_F(SurfaceFiles, CommentsColoursAndBlankLinesArePassedOver) {
+  const Surface s = tetrahedron(std::sqrt(8.0));
+  const std::string stl = ascii_stl(s);
+  for (const auto& [name, text] :
+       {std::pair<std::string, std::string>{"a.off",
+                                            "# a stone\n\n" + replaced(tetrahedron_off, "1 1 1", "1 1 1 # first")},
+        {"b.off", replaced(replaced(tetrahedron_off, "OFF", "CNOFF"), "1 1 1\n", "+1 1. 1e0 0 0 1 255 0 0 1\r\n\n")},
+        {"c.off", replaced(replaced(tetrahedron_off, "OFF\n4 4 0", "OFF 4 4"), "3 0 1 2", "3 0 1 2 0.5 0.5 0.5")},
+        {"a.obj",
+         "mtllib x.mtl\no stone\n" + replaced(tetrahedron_obj, "f 1 2 3", "vn 0 0 1\ns off\nf 1//1 2//1 3//1")},
+        {"a.stl", replaced(stl, "facet normal 0 0 0", "facet normal nan -nan(ind) 0")},
+        {"b.stl", replaced(stl, "solid thing", "\n solid facet of a vertex")}}) {
+    const fs::path file = written(name, text);
+    EXPECT_EQ(message_for(file), "accepted");
+    const Surface r = read_surface(file);
+    EXPECT_EQ(r.points.size(), 4u) << name;
+    EXPECT_TRUE(check_surface(r).good()) << name;
+  }
+}
+
 TEST_F(SurfaceFiles, UnreadableOnesAreNamed) {
   EXPECT_NE(message_for(folder_ / "missing.off").find("No such file"), std::string::npos);
   fs::create_directories(folder_ / "folder.off");
   EXPECT_NE(message_for(folder_ / "folder.off").find("a directory"), std::string::npos);
+  fs::create_symlink("/dev/zero", folder_ / "zero.off");
+  EXPECT_NE(message_for(folder_ / "zero.off").find("a device or pipe"), std::string::npos);
   EXPECT_NE(message_for(written("stone.step", "x")).find("ending: found .step, expected one of .stl .off"),
             std::string::npos);
   EXPECT_NE(message_for(written("stone", "x")).find("ending: found none"), std::string::npos);
@@ -234,7 +286,7 @@ TEST_F(SurfaceFiles, CutAnywhereTheyNeverPass) {
       try {
         r = read_surface(file);
       } catch (const InputError& error) {
-        ASSERT_EQ(std::string(error.what()).rfind(file.string() + ": ", 0), 0u) << error.what();
+        ASSERT_EQ(std::string(error.what()).rfind(file.string() + ":", 0), 0u) << error.what();
         continue;
       }
       if (!check_surface(r).good()) continue;

@@ -16,6 +16,7 @@
 #include <numeric>
 #include <random>
 
+#include "host/tessellation/polygon.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -196,6 +197,72 @@ TEST_P(Lattice, ParticlesOnTheBoxBoundary) {
   expect_invariants(s, t);
 }
 
+/// Vertices in the middle of an edge come and go with the rounding of the unit, and with them contact points.
+TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
+  const std::vector<std::vector<Vec3d>> bases{
+      {{0.5, 0.5, 0.5}},
+      {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}},
+      {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.25}, {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}},
+      {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}},
+      {{0, 0, 0},
+       {0.5, 0.5, 0},
+       {0.5, 0, 0.5},
+       {0, 0.5, 0.5},  // diamond: up to 144 such vertices
+       {0.25, 0.25, 0.25},
+       {0.75, 0.75, 0.25},
+       {0.75, 0.25, 0.75},
+       {0.25, 0.75, 0.75}}};
+  for (std::size_t b = 0; b < bases.size(); ++b) {
+    const auto build = [&](double unit) {
+      constexpr int n = 3;
+      Specimen s = make({n * unit, n * unit, n * unit});
+      for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n; ++j)
+          for (int k = 0; k <= n; ++k)
+            for (const Vec3d& p : bases[b]) {
+              const Vec3d c = unit * (Vec3d(i, j, k) + p);
+              if (std::max({c.x, c.y, c.z}) <= n * unit) add(s, c, 0.35 * unit);
+            }
+      return s;
+    };
+    const Tessellation exact = tessellate(build(1));
+    for (const double unit : {1e-3, 3.7e-2, 0.1, 7.3e-4, 1.9, 1e3, 1.0 / 3}) {
+      const Tessellation t = tessellate(build(unit));
+      ASSERT_EQ(t.facets.size(), exact.facets.size()) << "lattice " << b << ", unit " << unit;
+      for (std::size_t f = 0; f < t.facets.size(); ++f) {
+        const auto p = t.polygon(t.facets[f]), q = exact.polygon(exact.facets[f]);
+        ASSERT_EQ(p.size(), q.size()) << "lattice " << b << ", unit " << unit << ", facet " << f;
+        EXPECT_NEAR(t.facets[f].area, exact.facets[f].area * unit * unit, relative * unit * unit);
+        // About the centroid, as the contact points have it: a fan triangle's thirds of Σ|x|².
+        const auto moment = [](const Facet& facet, const auto& polygon) {
+          double sum = 0;
+          for (std::size_t v = 0; v < polygon.size(); ++v) {
+            const Vec3d x = polygon[v] - facet.centroid, y = polygon[(v + 1) % polygon.size()] - facet.centroid;
+            sum += norm(cross(x, y)) / 6 * (dot(x, x) + dot(y, y));
+          }
+          return sum;
+        };
+        EXPECT_NEAR(moment(t.facets[f], p), moment(exact.facets[f], q) * std::pow(unit, 4),
+                    relative * std::pow(unit, 4));
+      }
+    }
+  }
+}
+
+TEST(Polygons, LoseVerticesWithinTheToleranceOfALineOnly) {
+  const Polygon square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  Polygon p = square;
+  drop_collinear(p, 1e-10);
+  EXPECT_EQ(p.size(), 4U);
+  p = {{0, 0.3, 0}, {0, 0, 0}, {0.5, -1e-11, 0}, {0.7, 1e-12, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0.7, 1e-12}};
+  drop_collinear(p, 1e-10);
+  ASSERT_EQ(p.size(), 4U);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(norm(p[k] - square[k]), 0) << k;
+  p = {{0, 0, 0}, {0.5, -1e-9, 0}, {1, 0, 0}, {1, 1, 0}};
+  drop_collinear(p, 1e-10);
+  EXPECT_EQ(p.size(), 4U);
+}
+
 // Few particles.
 
 TEST(Tessellation, OneParticleOwnsTheBox) {
@@ -290,6 +357,48 @@ TEST(Tessellation, ThinFacetsAreKeptAndRoundingIsNot) {
     EXPECT_NEAR(facets.at(3).first, std::numbers::sqrt2 * delta, 2e-15) << delta;  // error: a few ε of the box
     expect_invariants(s, t);
   }
+}
+
+TEST(Tessellation, NearlyCoincidentCentresAreNamedWithTheirDistance) {
+  Specimen s = random_specimen(200, 0.05, 0.05, 3);
+  s.source = "stones.csv", s.first_line = 2;
+  for (const double distance : {1e-3, 1e-6}) {  // the radius is 0.05
+    s.centre[117] = s.centre[40] + Vec3d{0, 0, distance};
+    EXPECT_NO_THROW(tessellate(s)) << distance;
+  }
+  for (const double distance : {4e-7, 1e-9, 1e-15, 1e-200}) {
+    Specimen near = s;
+    if (distance < 1e-20) near.centre[40].z = 0;
+    near.centre[117] = near.centre[40] + Vec3d{0, 0, distance};
+    try {
+      tessellate(near);
+      ADD_FAILURE() << "accepted " << distance;
+    } catch (const InputError& error) {
+      EXPECT_EQ(std::string(error.what())
+                    .rfind("stones.csv:119: distance in metres of the centres of particles 40 and "
+                           "117, which nearly coincide: found ",
+                           0),
+                0U)
+          << error.what();
+    }
+  }
+}
+
+TEST(Tessellation, NamesFileAndLine) {
+  Specimen s = random_specimen(20, 0.05, 0.05, 3);
+  s.source = "stones.csv", s.first_line = 2;
+  const auto message = [](const Specimen& specimen) -> std::string {
+    try {
+      tessellate(specimen);
+      return "accepted";
+    } catch (const InputError& error) { return error.what(); }
+  };
+  Specimen bad = s;
+  bad.radius[7] = 1e9;
+  EXPECT_EQ(message(bad).rfind("stones.csv:9: radius in metres of particle 7: found 1000000000", 0), 0U)
+      << message(bad);
+  bad.radius[7] = -1;
+  EXPECT_EQ(message(bad).rfind("stones.csv:9: particle 7: radius: found -1", 0), 0U) << message(bad);
 }
 
 // Hidden particles.

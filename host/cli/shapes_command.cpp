@@ -137,7 +137,7 @@ void repair(const Arguments& arguments) {
   Surface surface = read_surface(file);
   surface.name = file.string();  // in messages
   std::string what;
-  surface = repair_surface(surface, &what);
+  surface = repair_surface(surface, &what, arguments.out);
   write_surface(arguments.out, surface);
   say("{}: {}\n", file.string(), what);
   say("{}: {} points, {} facets\n", arguments.out, surface.points.size(), surface.facets.size());

@@ -28,8 +28,8 @@ void check_input(const Specimen& specimen, const Tessellation& tessellation, con
     for (std::size_t k = 0; k < std::min(named, hidden.size()); ++k)
       found += (k ? ", " : " ") + std::to_string(hidden[k]);
     found += hidden.size() > named ? ", …)" : ")";
-    throw InputError("specimen", 0, "particles with a Laguerre cell inside the box", found,
-                     "a cell for each of the " + std::to_string(specimen.size()));
+    throw InputError(specimen.source, specimen.line_of(hidden.front()), "particles with a Laguerre cell inside the box",
+                     found, "a cell for each of the " + std::to_string(specimen.size()));
   }
 }
 
@@ -57,7 +57,7 @@ double distance_to_wall(const Specimen& specimen, const Facet& f) {
   const double h = std::array<double, 6>{p.x, box.x - p.x, p.y, box.y - p.y, p.z, box.z - p.z}[-1 - f.b];
   if (!(h > 1e-9 * specimen.radius[f.a])) {
     constexpr std::array<const char*, 6> name{"-x", "+x", "-y", "+y", "-z", "+z"};
-    throw InputError("specimen", 0,
+    throw InputError(specimen.source, specimen.line_of(f.a),
                      fmt::format("distance in metres of particle {}'s centre to the {} wall that it is bonded to", f.a,
                                  name[-1 - f.b]),
                      fmt::format("{}", h), "more than 1e-9 of its radius");

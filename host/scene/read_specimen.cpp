@@ -7,12 +7,10 @@
 
 #include "host/scene/sections.hpp"
 #include "host/spheres/size_law.hpp"
+#include "host/spheres/specimen_check.hpp"
 
 namespace macadam::scene {
 namespace {
-
-/// Contact points are numbered in 32 bits and there are about forty a particle.
-constexpr std::int64_t most_particles = 100'000'000;
 
 Reader box_into(Box& box) {
   return [&box](const Value& value) {
@@ -44,6 +42,7 @@ void need_to_fit(const Section& section, const std::string& key, double diameter
 AggregateClass read_aggregate(const Section& section, const Box& box) {
   constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a fraction above 0 and at most 1"};
   AggregateClass out;
+  out.line = section.line();
   section.read({{"sieve", Need::required, range_into(out.sieve_min, out.sieve_max)},
                 {"volume_fraction", Need::optional, into(out.volume_fraction, ratio, share)},
                 {"count", Need::optional, into(out.count, 1, most_particles)}});
@@ -55,6 +54,7 @@ AggregateClass read_aggregate(const Section& section, const Box& box) {
 MasticSpec read_mastic(const Section& section, const Box& box) {
   constexpr Rule porosity{[](double v) { return v > -1 && v < 1; }, "a porosity between -1 and 1"};
   MasticSpec out;
+  out.line = section.line();
   section.read({{"radius", Need::required, range_into(out.radius_min, out.radius_max)},
                 {"porosity", Need::optional, into(out.porosity, ratio, porosity)},
                 {"count", Need::optional, into(out.count, 1, most_particles)}});
@@ -130,6 +130,7 @@ Reader range_into(double& low, double& high) {
 
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder) {
   SpecimenSpec spec;
+  spec.source = section.file(), spec.line = section.line();
   const auto read_file = [&](const Value& value) {
     spec.file = (folder / value.text()).lexically_normal();
     std::error_code error;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -33,10 +32,9 @@ std::string read_text(const std::filesystem::path& file) {
     refuse(fmt::format("{} bytes", bytes), fmt::format("a scene file (TOML) of at most {} bytes", longest_file));
   }
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (bytes > 0) text << in.rdbuf();
-  if (!in || !text) refuse("a file that cannot be read", "read permission");
-  return text.str();
+  std::string text(error ? 0 : bytes, '\0');
+  if (!in || !in.read(text.data(), std::ssize(text))) refuse("a file that cannot be read", "read permission");
+  return text;
 }
 
 void check_line_lengths(const std::string& text, const std::string& file) {

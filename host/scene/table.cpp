@@ -105,6 +105,11 @@ bool Value::boolean() const {
 std::string Value::text() const {
   const auto* text = node_->as_string();
   if (!text || text->get().empty()) refuse(shown(), "text that is not empty");
+  for (const char c : text->get()) {
+    if (std::iscntrl(static_cast<unsigned char>(c)))
+      refuse(fmt::format("{} with the control character U+{:04X}", shown(), static_cast<unsigned char>(c)),
+             "text without control characters");
+  }
   return text->get();
 }
 

@@ -91,6 +91,8 @@ class Section {
 
   /// The value of a key, if it is there.
   std::optional<Value> find(const std::string& key) const;
+  const std::string& file() const { return file_; }
+  int line() const { return line_; }
   /// Whether the key is there.
   bool has(const std::string& key) const { return table_->contains(key); }
   /// \throws InputError at the key's line, or at the section's where the key is absent.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_files.cpp  STL, OFF, PLY and OBJ by CGAL's readers and writers, which believe what a file says of itself:
-// what they would swallow, or allocate, without a word is looked at before and after.
+// surface_files.cpp  STL, OFF, PLY and OBJ: which it is, what a surface needs in any of them, and writing by CGAL.
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
@@ -15,35 +14,22 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <sstream>
-#include <stdexcept>
 
 #include "host/results/files.hpp"
 #include "host/shapes/equal_points.hpp"
 #include "host/shapes/shipped_shapes.hpp"
 #include "host/shapes/surface_files.hpp"
 #include "host/shapes/surface_numbers.hpp"
+#include "host/shapes/surface_readers.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
 namespace {
 
 using Point = CGAL::Simple_cartesian<double>::Point_3;
-
-/// A facet as files have it; one of more corners than any real one is damage that would fill the memory.
-class FilePolygon : public std::vector<std::size_t> {
- public:
-  void resize(std::size_t corners) {
-    if (corners > 1'000) throw std::length_error(fmt::format("a facet of {} points", corners));
-    std::vector<std::size_t>::resize(corners);
-  }
-};
-
-struct Soup {
-  std::vector<Point> points;
-  std::vector<FilePolygon> polygons;
-};
 
 enum class Format : std::uint8_t { stl, off, ply, obj };
 constexpr std::array<const char*, 4> endings{".stl", ".off", ".ply", ".obj"};
@@ -62,138 +48,61 @@ Format format_of(const std::filesystem::path& file) {
                    fmt::format("one of {}", fmt::join(endings, " ")));
 }
 
-/// Reads one file; every message needs its name.
-class SurfaceReader {
- public:
-  SurfaceReader(const std::filesystem::path& file, std::string bytes)
-      : name_(file.string()), format_(format_of(file)), bytes_(std::move(bytes)) {
-    if (bytes_.empty()) fail("surface", "an empty file", "a triangulated surface");
+SurfaceSoup read_soup(const SurfaceFile& file, Format format) {
+  switch (format) {
+    case Format::stl:
+      return read_stl(file);
+    case Format::off:
+      return read_off(file);
+    case Format::ply:
+      return read_ply(file);
+    case Format::obj:
+      break;
   }
+  return read_obj(file);
+}
 
-  Surface read(double scale) {
-    const Soup soup = read_soup();
-    Surface surface{name_, {}, {}};
-    for (const Point& p : soup.points) surface.points.push_back(scale * Vec3d{p.x(), p.y(), p.z()});
-    for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
-      const FilePolygon& polygon = soup.polygons[f];
-      const std::string which = fmt::format("facet {}", f);
-      if (polygon.size() != 3) fail(which, fmt::format("{} points", polygon.size()), "3");
-      for (const std::size_t p : polygon) {
-        if (p >= soup.points.size()) {
-          fail(which, fmt::format("point {}", p), fmt::format("a number below {}", soup.points.size()));
-        }
+/// The surface in a file's bytes; its name is the file's, as messages show it.
+Surface surface_in(const SurfaceFile& file, Format format, double scale) {
+  if (file.bytes.empty()) file.fail(0, "surface", "an empty file", "a triangulated surface");
+  const SurfaceSoup soup = read_soup(file, format);
+  if (soup.facets.empty()) file.fail(0, "surface", "no facet", "a triangulated surface");
+  constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
+  if (soup.points.size() > most || soup.facets.size() > most)
+    file.fail(0, "surface", fmt::format("{} points and {} facets", soup.points.size(), soup.facets.size()),
+              fmt::format("at most {}", most));
+  Surface surface{file.name, {}, {}};
+  for (const Vec3d& p : soup.points) surface.points.push_back(scale * p);
+  for (std::size_t f = 0; f < soup.facets.size(); ++f) {
+    auto& facet = surface.facets.emplace_back();
+    for (int k = 0; k < 3; ++k) {
+      const std::int64_t p = soup.facets[f][k];
+      if (p < 0 || p >= std::ssize(soup.points)) {
+        file.fail(soup.line.empty() ? 0 : soup.line[f], fmt::format("facet {}", f), fmt::format("point {}", p),
+                  fmt::format("a number below {}", soup.points.size()));
       }
-      surface.facets.push_back({static_cast<std::int32_t>(polygon[0]), static_cast<std::int32_t>(polygon[1]),
-                                static_cast<std::int32_t>(polygon[2])});
+      facet[k] = static_cast<std::int32_t>(p);
     }
-    require_sound_numbers(surface);
-    join_equal_points(surface);
-    surface.name = std::filesystem::path(name_).stem().string();
-    return surface;
   }
-
- private:
-  [[noreturn]] void fail(const std::string& what, const std::string& found, const std::string& expected) const {
-    throw InputError(name_, 0, what, found, expected);
-  }
-
-  Soup read_soup() {
-    Soup soup;
-    bool read = false;
-    std::string reason;
-    try {
-      switch (format_) {
-        case Format::stl:
-          read = read_stl(soup);
-          break;
-        case Format::off:
-          read = read_off(soup);
-          break;
-        case Format::ply:
-          read = read_ply(soup);
-          break;
-        case Format::obj:
-          read = read_obj(soup);
-          break;
-      }
-    } catch (const Error&) { throw; } catch (const std::exception& error) {
-      reason = fmt::format(" ({})", error.what());
-    }
-    if (!read)
-      fail("surface", "text or bytes that end too early or make no sense" + reason,
-           fmt::format("a whole {} file", endings[static_cast<std::size_t>(format_)]));
-    if (soup.polygons.empty()) fail("surface", "no facet", "a triangulated surface");
-    return soup;
-  }
-
-  static auto quiet() { return CGAL::parameters::verbose(false); }
-
-  template <class Read>
-  bool with_stream(Read&& read) {
-    std::istringstream in(bytes_, std::ios::binary);
-    return read(in);
-  }
-
-  bool read_stl(Soup& soup) {
-    constexpr std::size_t header = 84, record = 50, corners = 12;  // bytes; a record begins with its normal
-    std::uint32_t facets = 0;
-    if (bytes_.size() >= header) std::memcpy(&facets, &bytes_[header - 4], 4);
-    if (bytes_.size() == header + record * facets) {
-      for (std::size_t f = 0; f < facets; ++f) {
-        std::array<float, 9> x;
-        std::memcpy(x.data(), &bytes_[header + record * f + corners], sizeof x);
-        for (const float c : x) {  // the reader joins points as it goes, and one of NaN equals all others
-          if (!std::isfinite(c)) fail(fmt::format("facet {}", f), fmt::format("coordinate {}", c), "a finite one");
-        }
-      }
-      bytes_[0] = 'b';  // some programs begin a binary file's free text with "solid", the sign of an ASCII file
-    } else if (bytes_.find("endsolid") == std::string::npos) {
-      fail("surface", "neither the bytes that a binary file's count asks for nor `endsolid`", "a whole STL file");
-    }
-    return with_stream([&](auto& in) { return CGAL::IO::read_STL(in, soup.points, soup.polygons, quiet()); });
-  }
-
-  bool read_off(Soup& soup) {
-    const std::size_t room = bytes_.size();
-    with_stream([&](auto& in) {  // the reader allocates what the header says
-      const CGAL::File_scanner_OFF header(in);
-      if (in && (header.size_of_vertices() > room || header.size_of_facets() > room)) {
-        fail("surface", fmt::format("{} points and {} facets", header.size_of_vertices(), header.size_of_facets()),
-             fmt::format("no more than {} bytes can hold", room));
-      }
-      return true;
-    });
-    return with_stream([&](auto& in) { return CGAL::IO::read_OFF(in, soup.points, soup.polygons, quiet()); });
-  }
-
-  bool read_ply(Soup& soup) {
-    std::istringstream header(bytes_);
-    for (std::string line, word; word != "element" && word != "end_header" && std::getline(header, line);) {
-      std::istringstream(line) >> word;  // the reader gives a property to the last element, and there is none yet
-      if (word == "property") fail("header", "a property before any element", "a whole .ply file");
-    }
-    return with_stream([&](auto& in) { return CGAL::IO::read_PLY(in, soup.points, soup.polygons, quiet()); });
-  }
-
-  bool read_obj(Soup& soup) {
-    return with_stream([&](auto& in) { return CGAL::IO::read_OBJ(in, soup.points, soup.polygons, quiet()); });
-  }
-
-  std::string name_;
-  Format format_;
-  std::string bytes_;
-};
+  require_sound_numbers(surface);
+  join_equal_points(surface);
+  return surface;
+}
 
 std::string bytes_of(const std::filesystem::path& file) {
-  const auto fail = [&](const char* found, const char* expected) {
+  const auto fail = [&](const std::string& found, const char* expected) {
     throw InputError(file.string(), 0, "surface", found, expected);
   };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) fail("a directory", "a file");
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream all;
-  if (!in || !(in.peek() == EOF || all << in.rdbuf())) fail(std::strerror(errno), "a readable file");
-  return std::move(all).str();
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status)) fail("a directory", "a file");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) fail("a device or pipe", "a file");
+  errno = 0;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) fail(std::strerror(errno), "a readable file");
+  std::string bytes(static_cast<std::size_t>(in.tellg()), '\0');  // streams would take want of memory for a bad file
+  if (!in.seekg(0).read(bytes.data(), std::ssize(bytes))) fail(std::strerror(errno), "a readable file");
+  return bytes;
 }
 
 /// The fewest digits, up to the 17 that always do, with which every coordinate comes back to the bit.
@@ -209,27 +118,30 @@ int digits_for(const std::vector<Point>& points) {
 
 void require_scale(const std::filesystem::path& file, double scale) {
   if (!(scale > 0 && std::isfinite(scale))) {
-    throw InputError(file.string(), 0, "scale", fmt::format("{}", scale), "a positive finite number");
+    throw InputError(file.string(), 0, "scale (--scale), metres per unit of the file", fmt::format("{}", scale),
+                     "a positive finite number");
   }
 }
 
-}  // namespace
-
-bool is_surface_file(const std::filesystem::path& file) { return find_format(file).has_value(); }
-
-Surface read_surface(const std::filesystem::path& file, double scale) {
-  require_scale(file, scale);
-  format_of(file);  // before reading: another ending is the first thing to say
-  return SurfaceReader(file, bytes_of(file)).read(scale);
+void require_floats(const std::filesystem::path& file, const std::vector<Point>& points) {
+  for (const Point& p : points) {
+    for (const double x : {p.x(), p.y(), p.z()}) {
+      if (!std::isfinite(static_cast<float>(x)))
+        throw InputError(file.string(), 0, "coordinate", fmt::format("{}", x), "one that single precision can hold");
+    }
+  }
 }
 
-void write_surface(const std::filesystem::path& file, const Surface& surface, double scale) {
+/// What the file will hold.
+std::string bytes_for(const std::filesystem::path& file, const Surface& surface, double scale) {
   require_scale(file, scale);
   require_sound_numbers(surface);
   const Format format = format_of(file);
   std::vector<Point> points;
   for (const Vec3d& p : surface.points) points.emplace_back(p.x / scale, p.y / scale, p.z / scale);
+  if (format == Format::stl) require_floats(file, points);
   std::ostringstream out(std::ios::binary);
+  out.exceptions(std::ios::badbit);  // want of memory stays what it is
   const auto text = CGAL::parameters::stream_precision(digits_for(points));
   bool written = false;
   switch (format) {
@@ -249,7 +161,29 @@ void write_surface(const std::filesystem::path& file, const Surface& surface, do
       break;
   }
   if (!written) throw RunError(file.string() + ": the surface cannot be written");
-  write_whole(file, out.str());
+  return std::move(out).str();
+}
+
+}  // namespace
+
+bool is_surface_file(const std::filesystem::path& file) { return find_format(file).has_value(); }
+
+Surface read_surface(const std::filesystem::path& file, double scale) {
+  require_scale(file, scale);
+  const Format format = format_of(file);  // before reading: another ending is the first thing to say
+  const std::string bytes = bytes_of(file);
+  Surface surface = surface_in({file.string(), bytes}, format, scale);
+  surface.name = file.stem().string();
+  return surface;
+}
+
+void write_surface(const std::filesystem::path& file, const Surface& surface, double scale) {
+  write_whole(file, bytes_for(file, surface, scale));
+}
+
+Surface read_back(const std::filesystem::path& file, const Surface& surface) {
+  const std::string bytes = bytes_for(file, surface, 1);
+  return surface_in({file.string(), bytes}, format_of(file), 1);
 }
 
 std::vector<std::filesystem::path> surface_files_in(const std::filesystem::path& folder) {
@@ -277,7 +211,8 @@ std::vector<Surface> read_shape_library(const std::filesystem::path& folder) {
 std::vector<Surface> shape_library() {
   std::vector<Surface> out;
   for (const ShippedShape& shape : shipped_shapes()) {
-    out.push_back(SurfaceReader(std::string(shape.name) + ".off", std::string(shape.off)).read(1));
+    out.push_back(surface_in({std::string(shape.name) + ".off", shape.off}, Format::off, 1));
+    out.back().name = shape.name;
   }
   return out;
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_files.hpp  Which files are surfaces.
+/// \file surface_files.hpp  Which files are surfaces, and what becomes of a surface in one.
 #pragma once
 
 #include <filesystem>
 #include <vector>
+
+#include "macadam/shape.hpp"
 
 namespace macadam {
 
@@ -13,5 +15,9 @@ bool is_surface_file(const std::filesystem::path& file);
 /// The surfaces' files of a folder, by name.
 /// \throws InputError where there is none.
 std::vector<std::filesystem::path> surface_files_in(const std::filesystem::path& folder);
+
+/// The surface as read_surface() would have it from `file`, were it written there; nothing is.
+/// \throws InputError for another ending, or where the format cannot hold the surface.
+Surface read_back(const std::filesystem::path& file, const Surface& surface);
 
 }  // namespace macadam

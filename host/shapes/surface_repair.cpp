@@ -18,6 +18,7 @@
 #include <cmath>
 
 #include "host/shapes/equal_points.hpp"
+#include "host/shapes/surface_files.hpp"
 #include "host/shapes/surface_numbers.hpp"
 #include "macadam/error.hpp"
 
@@ -52,25 +53,24 @@ Surface surface_of(const Mesh& mesh, const std::string& name) {
   return surface;
 }
 
-/// One attempt at a surface that is sound; says in words what it does.
+/// One attempt at a surface that is sound as it will be read; says in words what it does.
 class Repair {
  public:
-  explicit Repair(const Surface& surface) : surface_(surface) {}
+  /// `as`: the file that it will be read from; empty where there is none.
+  Repair(const Surface& surface, const std::filesystem::path& as) : surface_(surface), as_(as) {}
 
   Surface operator()() {
-    SurfaceVerdict verdict = check_surface(surface_);
-    if (verdict.good()) {
+    const bool good = check_surface(surface_).good();
+    if (good && keep(surface_)) {
       say("nothing to do");
-      return surface_;
+      return read_;
     }
-    Surface mended = mend();
-    verdict = check_surface(mended);
-    if (verdict.good()) return mended;
-    say("still " + verdict.text());
-    Surface wrapped = wrap(mended);
-    verdict = check_surface(wrapped);
-    if (verdict.good()) return wrapped;
-    throw RunError(fmt::format("{}: cannot be repaired: {}; still {}", surface_.name, what_, verdict.text()));
+    if (good) say("good, but not as it would be read back: " + verdict_.text());
+    const Surface mended = mend(good ? read_ : surface_);
+    if (keep(mended)) return read_;
+    say("still " + verdict_.text());
+    if (keep(wrap(mended))) return read_;
+    throw RunError(fmt::format("{}: cannot be repaired: {}; still {}", surface_.name, what_, verdict_.text()));
   }
 
   const std::string& what() const { return what_; }
@@ -81,10 +81,23 @@ class Repair {
     if (n > 0) say(fmt::format("{} {} {}{}", done, n, of, n == 1 ? "" : "s"));
   }
 
-  Surface mend() {
-    Surface joined = surface_;
+  /// Whether the surface is good as it will be read, where points of equal coordinates are one and STL has floats:
+  /// parts that share no point here may meet there. Keeps what would be read.
+  bool keep(const Surface& surface) {
+    read_ = surface;
+    if (as_.empty())
+      join_equal_points(read_);
+    else
+      read_ = read_back(as_, surface);
+    read_.name = surface_.name;
+    verdict_ = check_surface(read_);
+    return verdict_.good();
+  }
+
+  Surface mend(const Surface& surface) {
+    Surface joined = surface;
     join_equal_points(joined);
-    say_count(surface_.points.size() - joined.points.size(), "joined or dropped", "point");
+    say_count(surface.points.size() - joined.points.size(), "joined or dropped", "point");
     const SurfaceVerdict verdict = check_surface(joined);
     drop(joined, verdict.degenerate);
 
@@ -160,14 +173,17 @@ class Repair {
   }
 
   const Surface& surface_;
+  const std::filesystem::path& as_;
   std::string what_;
+  Surface read_;            ///< the last one tried, as it will be read …
+  SurfaceVerdict verdict_;  ///< … and what is wrong with it
 };
 
 }  // namespace
 
-Surface repair_surface(const Surface& surface, std::string* what) {
+Surface repair_surface(const Surface& surface, std::string* what, const std::filesystem::path& as) {
   require_sound_numbers(surface);
-  Repair repair(surface);
+  Repair repair(surface, as);
   Surface repaired = repair();
   if (what) *what = repair.what();
   return repaired;

@@ -15,11 +15,11 @@
 namespace macadam {
 namespace {
 
-constexpr double tolerance = 0.002;                 // of the box volume: how far a class may miss what was asked
-constexpr std::int64_t most_spheres = 100'000'000;  // their contacts, about six each, are still numbered in 32 bits
+constexpr double tolerance = 0.002;  // of the box volume: how far a class may miss what was asked
 
-[[noreturn]] void refuse(const std::string& what, const std::string& found, const std::string& expected) {
-  throw InputError("specimen", 0, what, found, expected);
+[[noreturn]] void refuse(const Origin& origin, const std::string& what, const std::string& found,
+                         const std::string& expected) {
+  throw InputError(origin.source, origin.line, what, found, expected);
 }
 
 std::string millimetres(double metres) {
@@ -34,36 +34,38 @@ std::string percent(double share) {
   return text;
 }
 
-void check_range(const std::string& name, double min, double max) {
+void check_range(const Origin& origin, const std::string& name, double min, double max) {
   if (!(std::isfinite(min) && std::isfinite(max) && min > 0 && min <= max))
-    refuse(name + ": sizes", shown(min) + " to " + shown(max) + " m", "0 < smallest <= largest");
+    refuse(origin, name + ": sizes", shown(min) + " to " + shown(max) + " m", "0 < smallest <= largest");
 }
 
-void check_count(const std::string& name, std::int64_t count) {
-  if (count < 0 || count > most_spheres)
-    refuse(name + ": count", std::to_string(count), "0 to " + std::to_string(most_spheres));
+void check_count(const Origin& origin, const std::string& name, std::int64_t count) {
+  if (count < 0 || count > most_particles)
+    refuse(origin, name + ": count", std::to_string(count), "0 to " + std::to_string(most_particles));
 }
 
 ClassRequest request_of(const AggregateClass& c, const SpecimenSpec& spec) {
   const std::string name = millimetres(c.sieve_min) + "-" + millimetres(c.sieve_max) + " mm";
-  check_range("aggregate class " + name, c.sieve_min, c.sieve_max);
+  const Origin origin(spec, c.line);
+  check_range(origin, "aggregate class " + name, c.sieve_min, c.sieve_max);
   if (c.volume_fraction.has_value() == c.count.has_value())
-    refuse("aggregate class " + name, c.count ? "both volume_fraction and count" : "neither volume_fraction nor count",
-           "one of them");
-  if (c.count) check_count("aggregate class " + name, *c.count);
+    refuse(origin, "aggregate class " + name,
+           c.count ? "both volume_fraction and count" : "neither volume_fraction nor count", "one of them");
+  if (c.count) check_count(origin, "aggregate class " + name, *c.count);
   if (c.volume_fraction && !(*c.volume_fraction >= 0 && *c.volume_fraction <= 1))
-    refuse("aggregate class " + name + ": volume_fraction", shown(*c.volume_fraction), "0 to 1");
-  return {name, {spec.size_law, c.sieve_min, c.sieve_max}, 1, c.count};
+    refuse(origin, "aggregate class " + name + ": volume_fraction", shown(*c.volume_fraction), "0 to 1");
+  return {name, {spec.size_law, c.sieve_min, c.sieve_max}, 1, c.count, origin};
 }
 
-ClassRequest request_of(const MasticSpec& m) {
-  check_range("mastic", m.radius_min, m.radius_max);
+ClassRequest request_of(const MasticSpec& m, const SpecimenSpec& spec) {
+  const Origin origin(spec, m.line);
+  check_range(origin, "mastic", m.radius_min, m.radius_max);
   if (m.porosity.has_value() == m.count.has_value())
-    refuse("mastic", m.count ? "both porosity and count" : "neither porosity nor count", "one of them");
-  if (m.count) check_count("mastic", *m.count);
+    refuse(origin, "mastic", m.count ? "both porosity and count" : "neither porosity nor count", "one of them");
+  if (m.count) check_count(origin, "mastic", *m.count);
   if (m.porosity && !(std::isfinite(*m.porosity) && *m.porosity < 1))
-    refuse("mastic: porosity", shown(*m.porosity), "a number below 1");
-  return {"mastic", {SizeLaw::uniform, 2 * m.radius_min, 2 * m.radius_max}, 1, m.count};
+    refuse(origin, "mastic: porosity", shown(*m.porosity), "a number below 1");
+  return {"mastic", {SizeLaw::uniform, 2 * m.radius_min, 2 * m.radius_max}, 1, m.count, origin};
 }
 
 /// Volume of everything solid [m³], the reference of the volume fractions.
@@ -78,13 +80,13 @@ double solid_volume(const SpecimenSpec& spec, const std::vector<ClassRequest>& a
     else
       fractions += *spec.aggregate[k].volume_fraction;
   }
-  if (!(fractions < 1)) refuse("aggregate: sum of the volume fractions", shown(fractions), "less than 1");
+  if (!(fractions < 1)) refuse(Origin(spec), "aggregate: sum of the volume fractions", shown(fractions), "less than 1");
   return counted / (1 - fractions);
 }
 
 Population draw(const ClassRequest& r, double box_volume, RandomStream random) {
   const std::int64_t n = r.number(box_volume);
-  Population p{{r.name, n, n, r.volume / box_volume, 0}, draw_diameters(r.range, n, r.volume, random)};
+  Population p{{r.name, n, n, r.volume / box_volume, 0}, draw_diameters(r.range, n, r.volume, random), r.origin};
   for (double& size : p.radius) {
     p.row.fraction += sphere_volume(size) / box_volume;
     size /= 2;
@@ -100,14 +102,15 @@ std::int64_t ClassRequest::number(double box_volume) const {
   const double most = std::floor(volume / smallest * (1 + 1e-12));
   const double least = std::ceil(volume / largest * (1 - 1e-12));
   const double mean = std::round(volume / (form * range.mean_volume()));
-  if (!(mean <= static_cast<double>(most_spheres)))
-    refuse(name + ": number of spheres for its volume", shown(mean), "at most " + std::to_string(most_spheres));
+  if (!(mean <= static_cast<double>(most_particles)))
+    refuse(origin, name + ": number of spheres for its volume", shown(mean),
+           "at most " + std::to_string(most_particles));
   if (least <= most) return static_cast<std::int64_t>(std::clamp(mean, least, most));
   // No number of spheres between the sieves has exactly this volume: `most` smaller than it or `least` beyond it.
   const double below = volume - most * largest;
   const double above = least * smallest - volume;
   if (std::min(below, above) > tolerance * box_volume)
-    refuse(name + ": volume", percent(volume / box_volume) + " of the box",
+    refuse(origin, name + ": volume", percent(volume / box_volume) + " of the box",
            percent(most * largest / box_volume) + " (" + shown(most) + " spheres) or " +
                percent(least * smallest / box_volume) + " (" + shown(least) +
                " spheres), or wider sieves, or a larger box");
@@ -117,15 +120,15 @@ std::int64_t ClassRequest::number(double box_volume) const {
 Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const SizeRange&)>& form) {
   const Vec3d l = spec.box.size;
   for (double edge : {l.x, l.y, l.z})
-    if (!(std::isfinite(edge) && edge > 0)) refuse("box: edge", shown(edge), "a finite positive length");
-  if (spec.attempts < 1) refuse("attempts", std::to_string(spec.attempts), "at least 1");
+    if (!(std::isfinite(edge) && edge > 0)) refuse(Origin(spec), "box: edge", shown(edge), "a finite positive length");
+  if (spec.attempts < 1) refuse(Origin(spec), "attempts", std::to_string(spec.attempts), "at least 1");
 
   Recipe recipe;
   for (const AggregateClass& c : spec.aggregate) {
     recipe.aggregate.push_back(request_of(c, spec));
     if (form) recipe.aggregate.back().form = form(recipe.aggregate.back().range);
   }
-  if (spec.mastic) recipe.mastic = request_of(*spec.mastic);
+  if (spec.mastic) recipe.mastic = request_of(*spec.mastic, spec);
 
   const double solid = solid_volume(spec, recipe.aggregate, recipe.mastic), box = spec.box.volume();
   double of_aggregates = 0;
@@ -135,20 +138,21 @@ Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const S
     of_aggregates += r.volume;
   }
   if (of_aggregates > box)
-    refuse("aggregate: volume", percent(of_aggregates / box) + " of the box", "less than the box: they do not overlap");
+    refuse(Origin(spec), "aggregate: volume", percent(of_aggregates / box) + " of the box",
+           "less than the box: they do not overlap");
   if (recipe.mastic) {
     recipe.mastic->volume = recipe.mastic->count ? recipe.mastic->counted_volume() : solid - of_aggregates;
     if (!(recipe.mastic->volume >= 0))
-      refuse("aggregate: volume", percent(of_aggregates / box) + " of the box",
+      refuse(Origin(spec), "aggregate: volume", percent(of_aggregates / box) + " of the box",
              "at most the solid volume that the porosity leaves, " + percent(solid / box) + " of the box");
   }
   return recipe;
 }
 
-void require_fit(const std::string& size_class, double largest, const Box& box) {
+void require_fit(const Origin& origin, const std::string& size_class, double largest, const Box& box) {
   const double edge = std::min({box.size.x, box.size.y, box.size.z});
   if (largest > edge)
-    refuse("aggregate class " + size_class + ": largest diameter", millimetres(largest) + " mm",
+    refuse(origin, "aggregate class " + size_class + ": largest diameter", millimetres(largest) + " mm",
            "at most the shortest edge of the box, " + millimetres(edge) + " mm");
 }
 
@@ -161,14 +165,14 @@ Composition compose(const SpecimenSpec& spec) {
     result.aggregate.push_back(draw(recipe.aggregate[k], box, RandomStream(spec.seed, 100 + k)));
     const Population& p = result.aggregate.back();
     total += static_cast<double>(p.row.count);
-    if (!p.radius.empty()) require_fit(p.row.name, 2 * p.radius.front(), spec.box);
+    if (!p.radius.empty()) require_fit(p.origin, p.row.name, 2 * p.radius.front(), spec.box);
   }
   if (recipe.mastic) {
     result.mastic.push_back(draw(*recipe.mastic, box, RandomStream(spec.seed, 1)));
     total += static_cast<double>(result.mastic.back().row.count);
   }
-  if (!(total >= 1 && total <= static_cast<double>(most_spheres)))
-    refuse("particles", shown(total), "1 to " + std::to_string(most_spheres));
+  if (!(total >= 1 && total <= static_cast<double>(most_particles)))
+    refuse(Origin(spec), "particles", shown(total), "1 to " + std::to_string(most_particles));
   return result;
 }
 
@@ -177,12 +181,13 @@ std::vector<Population> compose_mastic(const SpecimenSpec& spec, double aggregat
   SpecimenSpec rest;  // the same mastic where the aggregates are nothing but less room
   rest.box = spec.box;
   rest.seed = spec.seed;
+  rest.source = spec.source, rest.line = spec.line;
   rest.mastic = spec.mastic;
   if (rest.mastic->porosity) {
     const double mastic = (1 - *spec.mastic->porosity) * spec.box.volume() - aggregate_volume;
     if (!(mastic > 0))
       refuse(
-          "aggregate: volume", percent(aggregate_volume / spec.box.volume()) + " of the box",
+          Origin(spec), "aggregate: volume", percent(aggregate_volume / spec.box.volume()) + " of the box",
           "at most the solid volume that the porosity leaves, " + percent(1 - *spec.mastic->porosity) + " of the box");
     rest.mastic->porosity = 1 - mastic / spec.box.volume();
   }

@@ -12,10 +12,23 @@
 
 namespace macadam {
 
+/// Where a recipe, or a class of it, was asked for.
+struct Origin {
+  std::string source = "specimen";
+  int line = 0;
+
+  Origin() = default;
+  explicit Origin(const SpecimenSpec& spec, int line = 0) : source(spec.source), line(line > 0 ? line : spec.line) {}
+
+  /// `scene.toml:12: `, for the messages of errors that are no InputError.
+  std::string text() const { return source + (line > 0 ? ":" + std::to_string(line) : "") + ": "; }
+};
+
 /// The spheres of one aggregate class, or of the mastic.
 struct Population {
   CompositionRow row;
   std::vector<double> radius;  ///< largest first [m]
+  Origin origin;
 };
 
 /// Sizes of everything in the specimen; no positions yet.
@@ -30,6 +43,7 @@ struct ClassRequest {
   SizeRange range;
   double form = 1;  ///< mean volume of its bodies over that of spheres of their sizes
   std::optional<std::int64_t> count;
+  Origin origin;
   double volume = 0;  ///< [m³]
 
   double counted_volume() const { return static_cast<double>(*count) * form * range.mean_volume(); }
@@ -50,7 +64,7 @@ struct Recipe {
 Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const SizeRange&)>& form = {});
 
 /// Refuses an aggregate whose size [m] exceeds the shortest edge of the box.
-void require_fit(const std::string& size_class, double largest, const Box& box);
+void require_fit(const Origin& origin, const std::string& size_class, double largest, const Box& box);
 
 /// Draws every sphere of a recipe. Volume fractions are of the solid volume: (1 − porosity)·box, or what follows from
 /// the count of mastic spheres; without mastic the solid volume is unknown and fractions are of the box.

@@ -46,7 +46,7 @@ Placement with_spheres(const SpecimenSpec& spec, GeneratedSpecimen& result,
   for (const auto* populations : {&composition.aggregate, &composition.mastic})
     for (const Population& p : *populations) result.composition.push_back(p.row);
   Placement placement(result.specimen, smallest_aggregate(composition, spec.box), spec.attempts,
-                      RandomStream(spec.seed, placement_stream));
+                      RandomStream(spec.seed, placement_stream), Origin(spec));
   describe(result.specimen, placement.place_aggregates(composition.aggregate, progress), result.aggregates);
   for (const Population& p : composition.mastic) placement.place_mastic(p);
   return placement;
@@ -56,11 +56,11 @@ Placement with_spheres(const SpecimenSpec& spec, GeneratedSpecimen& result,
 Placement with_shapes(const SpecimenSpec& spec, GeneratedSpecimen& result,
                       const std::function<void(const char* stage, double share)>& progress) {
   if (!spec.fix_aggregates)
-    throw InputError("specimen", 0, "fix_aggregates", "false", "true, as the spheres of a shape would part");
+    throw InputError(spec.source, spec.line, "fix_aggregates", "false", "true, as the spheres of a shape would part");
   ShapedAggregates shaped = make_shaped_aggregates(spec, progress);
   result.composition = shaped.row;
   Placement placement(result.specimen, shaped.smallest_radius(), spec.attempts,
-                      RandomStream(spec.seed, placement_stream), shaped.inside);
+                      RandomStream(spec.seed, placement_stream), Origin(spec), shaped.inside);
   for (std::size_t k = 0; k < shaped.spheres.size(); ++k) {
     for (std::size_t i = 0; i < shaped.spheres[k].size(); ++i)
       placement.add_aggregate(shaped.spheres[k].centre[i], shaped.spheres[k].radius[i], shaped.aggregate[k].body);
@@ -79,20 +79,21 @@ void reinsert(const std::vector<std::int32_t>& hidden, Specimen& specimen, Place
     if (specimen.phase[i] == Phase::mastic) specimen.centre[i] = placement.point_outside_aggregates();
 }
 
-[[noreturn]] void give_up(const std::vector<std::int32_t>& hidden) {
+[[noreturn]] void give_up(const Origin& origin, const std::vector<std::int32_t>& hidden) {
   std::string message = std::to_string(hidden.size()) + " particles have no Laguerre cell after " +
                         std::to_string(most_rounds) + " rounds of relaxation:";
   constexpr std::size_t shown = 10;
   for (std::size_t k = 0; k < std::min(hidden.size(), shown); ++k) message += " " + std::to_string(hidden[k]);
   if (hidden.size() > shown) message += " …";
-  throw RunError(message + "; ask for fewer or more equal mastic spheres");
+  throw RunError(origin.text() + message + "; ask for fewer or more equal mastic spheres");
 }
 
 }  // namespace
 
 GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
                                     const std::function<void(const char* stage, double share)>& progress) {
-  if (spec.file) throw InputError("specimen", 0, "recipe", "the file " + spec.file->string(), "no file to generate");
+  if (spec.file)
+    throw InputError(spec.source, spec.line, "recipe", "the file " + spec.file->string(), "no file to generate");
   const auto report = [&](const char* stage) {
     return [&progress, stage](double share) {
       if (progress) progress(stage, share);
@@ -102,6 +103,7 @@ GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
   GeneratedSpecimen result;
   Specimen& specimen = result.specimen;
   specimen.box = spec.box;
+  specimen.source = spec.line > 0 ? "specimen generated from " + spec.source : "generated specimen";
   Placement placement =
       spec.shapes ? with_shapes(spec, result, progress) : with_spheres(spec, result, report("placing aggregates"));
 
@@ -112,12 +114,12 @@ GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
     hidden = particles_without_cell(specimen);
     if (hidden.empty()) break;
   }
-  if (!hidden.empty()) give_up(hidden);
+  if (!hidden.empty()) give_up(Origin(spec), hidden);
   if (!spec.fix_aggregates) {
     for (Aggregate& a : result.aggregates) a.centre = specimen.centre[static_cast<std::size_t>(a.body)];
     result.residual_overlap = largest_aggregate_overlap(specimen);
   }
-  validate(specimen, "generated specimen");
+  validate(specimen, specimen.source);
   return result;
 }
 

@@ -54,11 +54,12 @@ std::string no_room(const Population& c, std::size_t placed, std::int64_t attemp
 }  // namespace
 
 Placement::Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random,
-                     std::function<bool(const Vec3d&)> taken)
+                     const Origin& origin, std::function<bool(const Vec3d&)> taken)
     : specimen_(specimen),
       grid_(specimen.box, smallest),
       attempts_(attempts),
       random_(random),
+      origin_(origin),
       taken_(std::move(taken)) {}
 
 std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Population>& classes,
@@ -67,7 +68,9 @@ std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Populati
   std::vector<std::int32_t> size_class;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const std::optional<Vec3d> centre = position_for(all[k].radius);
-    if (!centre) throw RunError(no_room(classes[all[k].population], all[k].rank, attempts_));
+    if (!centre)
+      throw RunError(classes[all[k].population].origin.text() +
+                     no_room(classes[all[k].population], all[k].rank, attempts_));
     add_aggregate(*centre, all[k].radius, static_cast<std::int32_t>(specimen_.size()));
     size_class.push_back(static_cast<std::int32_t>(all[k].population));
     if (k % 64 == 0) progress(static_cast<double>(k) / static_cast<double>(all.size()));
@@ -91,7 +94,7 @@ Vec3d Placement::point_outside_aggregates() {
     const Vec3d point = random_point({0, 0, 0}, specimen_.box.size);
     if (clear_of_placed(point, 0) && !(taken_ && taken_(point))) return point;
   }
-  throw RunError("no room for mastic outside the aggregates in " + std::to_string(attempts_) +
+  throw RunError(origin_.text() + "no room for mastic outside the aggregates in " + std::to_string(attempts_) +
                  " attempts; ask for less aggregate");
 }
 

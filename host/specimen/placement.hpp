@@ -17,8 +17,9 @@ namespace macadam {
 class Placement {
  public:
   /// `specimen` receives the spheres and must outlive this; `smallest` is the smallest aggregate radius [m]; `taken`
-  /// tells of points where nothing else may be.
-  Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random,
+  /// tells of points where nothing else may be; `origin`
+  /// is the recipe's.
+  Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random, const Origin& origin,
             std::function<bool(const Vec3d&)> taken = {});
 
   /// Adds all aggregates, largest first over all classes, inside the box and clear of each other; returns the class of
@@ -47,6 +48,7 @@ class Placement {
   SphereGrid grid_;
   std::int64_t attempts_;
   RandomStream random_;
+  Origin origin_;
   std::function<bool(const Vec3d&)> taken_;
 };
 

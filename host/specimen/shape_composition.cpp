@@ -77,7 +77,7 @@ double aggregate_volume(const ShapeTemplate& shape, double size, bool sphere) {
 
 ShapeComposition compose_shapes(const SpecimenSpec& spec, const std::vector<ShapeTemplate>& shapes,
                                 const std::function<bool(int shape, double size)>& is_sphere) {
-  if (shapes.empty()) throw InputError("specimen", 0, "shapes of the aggregates", "none", "at least one");
+  if (shapes.empty()) throw InputError(spec.source, spec.line, "shapes of the aggregates", "none", "at least one");
   const Composer composer(shapes, is_sphere);
   const Recipe recipe = solve_recipe(spec, [&](const SizeRange& range) { return composer.form(range); });
   const double box = spec.box.volume();
@@ -91,9 +91,9 @@ ShapeComposition compose_shapes(const SpecimenSpec& spec, const std::vector<Shap
     for (const AggregateRequest& r : drawn) row.fraction += composer.volume(r.shape, r.size) / box;
     if (!request.count && std::abs(row.fraction - row.fraction_asked) > tolerance * row.fraction_asked)
       throw InputError(
-          "specimen", 0, request.name + ": share of the box", shown(row.fraction_asked),
+          request.origin.source, request.origin.line, request.name + ": share of the box", shown(row.fraction_asked),
           shown(row.fraction) + " (the nearest found with these shapes), or wider sieves, or a larger box");
-    if (!drawn.empty()) require_fit(request.name, drawn.front().size, spec.box);
+    if (!drawn.empty()) require_fit(request.origin, request.name, drawn.front().size, spec.box);
     result.row.push_back(row);
     result.aggregate.insert(result.aggregate.end(), drawn.begin(), drawn.end());
   }

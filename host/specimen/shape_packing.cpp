@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/spheres/neighbours.hpp"
+#include "host/spheres/parallel_blocks.hpp"
 
 namespace macadam {
 namespace {
@@ -118,20 +119,16 @@ class Packing {
   }
 
   void find_contacts() {
-    const auto pairs = static_cast<std::int64_t>(pairs_.size()), bodies = static_cast<std::int64_t>(bodies_.size());
-#pragma omp parallel if (bodies_.size() >= parallel_from)
-    {
-#pragma omp for schedule(dynamic, 64) nowait
-      for (std::int64_t k = 0; k < pairs; ++k) {
-        PairContact& p = pairs_[k];
-        const double travel = travel_[p.a] + travel_[p.b];
-        if (travel < p.look_at) continue;
-        p.contact = contact(bodies_[p.a], bodies_[p.b], gap(p));
-        p.look_at = travel + p.contact.clear;
-      }
-#pragma omp for schedule(dynamic, 64)
-      for (std::int64_t i = 0; i < bodies; ++i) walls_[i] = wall_contact(bodies_[i], box_, gap(i));
-    }
+    const bool threads = bodies_.size() >= parallel_from;
+    for_each_in_blocks(pairs_.size(), threads, [&](std::size_t k) {
+      PairContact& p = pairs_[k];
+      const double travel = travel_[p.a] + travel_[p.b];
+      if (travel < p.look_at) return;
+      p.contact = contact(bodies_[p.a], bodies_[p.b], gap(p));
+      p.look_at = travel + p.contact.clear;
+    });
+    for_each_in_blocks(bodies_.size(), threads,
+                       [&](std::size_t i) { walls_[i] = wall_contact(bodies_[i], box_, gap(i)); });
   }
 
   /// The deepest contact, over its gap.
@@ -161,10 +158,9 @@ class Packing {
 
   /// Whom the exact test finds in touch gets a wider gap.
   int widen_gaps_of_overlaps() {
-    const auto pairs = static_cast<std::int64_t>(pairs_.size());
     std::vector<std::uint8_t> touch(pairs_.size());
-#pragma omp parallel for schedule(dynamic, 64) if (bodies_.size() >= parallel_from)
-    for (std::int64_t k = 0; k < pairs; ++k) touch[k] = overlap(bodies_[pairs_[k].a], bodies_[pairs_[k].b]);
+    for_each_in_blocks(pairs_.size(), bodies_.size() >= parallel_from,
+                       [&](std::size_t k) { touch[k] = overlap(bodies_[pairs_[k].a], bodies_[pairs_[k].b]); });
     for (std::size_t k = 0; k < pairs_.size(); ++k)
       if (touch[k]) extra_[pairs_[k].a] *= freeing, extra_[pairs_[k].b] *= freeing;
     const auto touching = std::count(touch.begin(), touch.end(), 1);

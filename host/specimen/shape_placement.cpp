@@ -87,7 +87,7 @@ std::vector<std::uint8_t> insert(const Box& box, const std::vector<ShapeTemplate
     const int size_class = composition.aggregate[k].size_class;
     if (given_up[size_class]) continue;
     placed[k] = insertion.place(k, bodies[k]);
-    if (!placed[k] && !spec.allow_short) throw RunError(no_room(composition, shapes, k, spec.attempts));
+    if (!placed[k] && !spec.allow_short) throw RunError(spec.origin + no_room(composition, shapes, k, spec.attempts));
     given_up[size_class] = !placed[k];
     if (k % 64 == 0) progress(static_cast<double>(k) / static_cast<double>(bodies.size()));
   }
@@ -112,7 +112,7 @@ void pack_all(const Box& box, const std::vector<ShapeTemplate>& shapes, const Sh
       "the aggregates jammed at %.4g of their size: %.3g %% of the box, %.3g %% asked; ask for less, a larger "
       "box, or a smaller gap",
       reached, 100 * reached * reached * reached * volume / box.volume(), 100 * volume / box.volume());
-  throw RunError(text);
+  throw RunError(spec.origin + text);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "macadam/shape.hpp"
@@ -62,6 +63,7 @@ struct ShapePlacementSpec {
   bool allow_short = false;           ///< insertion: return what found a place where not all did
   double gap = 0.01;                  ///< packing: least distance of two surfaces, over the smaller one's D^I
   std::uint64_t seed = 1;
+  std::string origin = "aggregates: ";  ///< of the recipe: begins the messages
 };
 
 /// Aggregates in their places, largest first.

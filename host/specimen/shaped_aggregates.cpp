@@ -7,6 +7,7 @@
 
 #include "host/parallel.hpp"
 #include "host/shapes/fill.hpp"
+#include "host/specimen/composition.hpp"
 #include "host/specimen/shape_placement.hpp"
 #include "host/spheres/sphere_grid.hpp"
 #include "macadam/error.hpp"
@@ -119,6 +120,7 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
   search.allow_short = how.allow_short;
   search.gap = how.gap;
   search.seed = spec.seed;
+  search.origin = Origin(spec).text();
   ShapePlacement placed =
       place_shapes(spec.box, templates, compose_shapes(spec, templates, is_sphere), search, progress);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file specimen_csv.cpp  The specimen's file: `id,x,y,z,radius,phase,body`, plain or gzip.
+#include <fmt/format.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -8,12 +9,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <sstream>
+#include <iterator>
 #include <memory>
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
 
+#include "host/in_quotes.hpp"
 #include "host/results/files.hpp"
 #include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
@@ -25,68 +27,102 @@ namespace {
 constexpr std::string_view header = "id,x,y,z,radius,phase,body";
 constexpr std::size_t columns = 7;
 
-/// Text from a file as a message may show it: quoted, printable, not too long.
-std::string quoted(std::string_view text) {
-  std::string out(text.substr(0, 60));
-  for (char& c : out)
-    if (c < ' ' || c > '~') c = '?';
-  return "\"" + out + (text.size() > 60 ? "…\"" : "\"");
-}
+/// The lines of a text or gzip file, one after another: however much it unpacks to, one line is in memory.
+class Lines {
+ public:
+  explicit Lines(const std::filesystem::path& file) : name_(file.string()) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) fail("a directory", "a CSV file");
+    errno = 0;
+    in_.reset(gzopen(name_.c_str(), "rb"));
+    if (!in_) fail(std::strerror(errno), "a readable file");
+  }
 
-std::string read_all(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) throw InputError(name, 0, "specimen", "a directory", "a CSV file");
-  errno = 0;
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> in(gzopen(name.c_str(), "rb"), gzclose_r);
-  if (!in) throw InputError(name, 0, "specimen", std::strerror(errno), "a readable file");
-  std::string text;
-  std::array<char, 1 << 16> buffer;
-  int got = 0;
-  while ((got = gzread(in.get(), buffer.data(), buffer.size())) > 0) text.append(buffer.data(), got);
-  // A file cut off in mid-stream reads to its end and only then shows an error code.
-  int code = Z_OK;
-  const std::string reason = gzerror(in.get(), &code);
-  if (code != Z_OK && code != Z_STREAM_END)
-    throw InputError(name, 0, "specimen", code == Z_ERRNO ? std::strerror(errno) : reason, "a whole readable file");
-  return text;
-}
+  /// Reads the next line, without its end; false after the last one.
+  bool next(std::string& line) {
+    line.clear();
+    while (true) {
+      if (at_ == got_ && !fill()) break;
+      const auto* begin = buffer_.data() + at_;
+      const auto* end = static_cast<const char*>(std::memchr(begin, '\n', static_cast<std::size_t>(got_ - at_)));
+      const auto length = end ? end - begin : got_ - at_;
+      if (line.empty()) ++number_;
+      line.append(begin, static_cast<std::size_t>(length));
+      if (line.size() > longest)
+        throw InputError(name_, number_, "line", "more than " + std::to_string(longest) + " bytes", "a record");
+      at_ += static_cast<int>(length) + (end ? 1 : 0);
+      if (!end) continue;
+      if (line.ends_with('\r')) line.pop_back();
+      return true;
+    }
+    if (line.empty()) return false;
+    // Cut within the last number, a file would be read as another one.
+    throw InputError(name_, number_, "last line", "no newline at its end", "one: without it the file may be cut off");
+  }
+
+  /// Of the last line, from 1.
+  int number() const { return number_; }
+
+ private:
+  [[noreturn]] void fail(const std::string& found, const std::string& expected) const {
+    throw InputError(name_, 0, "specimen", found, expected);
+  }
+
+  bool fill() {
+    at_ = 0;
+    got_ = gzread(in_.get(), buffer_.data(), buffer_.size());
+    if (got_ > 0) return true;
+    // A file cut off in mid-stream reads to its end and only then shows an error code.
+    int code = Z_OK;
+    const std::string reason = gzerror(in_.get(), &code);
+    if (code != Z_OK && code != Z_STREAM_END)
+      fail(code == Z_ERRNO ? std::strerror(errno) : reason, "a whole readable file");
+    got_ = 0;
+    return false;
+  }
+
+  static constexpr std::size_t longest = 1000;  // bytes of a line; seven numbers take some hundred
+  std::string name_;
+  std::unique_ptr<gzFile_s, int (*)(gzFile)> in_{nullptr, gzclose_r};
+  std::array<char, 1 << 16> buffer_;
+  int at_ = 0, got_ = 0, number_ = 0;
+};
 
 /// Reads one file: knows the name and the line at hand, which every message needs.
 class CsvReader {
  public:
-  CsvReader(const std::filesystem::path& file, const Box& box) : name_(file.string()), text_(read_all(file)) {
+  CsvReader(const std::filesystem::path& file, const Box& box) : lines_(file) {
     specimen_.box = box;
+    specimen_.source = file.string();
   }
 
   Specimen read() {
-    std::string_view rest = text_;
-    if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // the byte-order mark that spreadsheets write
-    while (!rest.empty() && (rest.back() == '\n' || rest.back() == '\r')) rest.remove_suffix(1);
-    if (rest.empty()) throw InputError(name_, 0, "specimen", "an empty file", "the header " + std::string(header));
-    const std::string_view first = next_line(rest);
-    if (first != header) fail("header", quoted(first), quoted(header));
-    while (!rest.empty()) record(next_line(rest));
-    if (const auto fault = find_fault(specimen_)) {
-      if (fault->particle < 0) throw InputError(name_, 0, fault->what, fault->found, fault->expected);
-      line_ = static_cast<int>(fault->particle) + 2;  // one record a line, after the header
-      fail("particle " + std::to_string(fault->particle) + ": " + fault->what, fault->found, fault->expected);
+    std::string line;
+    constexpr int most_blank = 1000;
+    int blank = 0;  // the first of the blank lines at hand; there may be some at the end
+    while (lines_.next(line)) {
+      if (lines_.number() == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets' byte-order mark
+      if (line.empty() && (blank == 0 || lines_.number() - blank < most_blank)) {
+        if (blank == 0) blank = lines_.number();
+        continue;
+      }
+      if (blank > 0) throw InputError(specimen_.source, blank, "line", "a blank line", "a record");
+      if (specimen_.first_line == 0) {
+        if (line != header) fail("header", in_quotes(line), in_quotes(header));
+        specimen_.first_line = lines_.number() + 1;  // one record a line from here on
+      } else {
+        record(line);
+      }
     }
+    if (specimen_.first_line == 0)
+      throw InputError(specimen_.source, 0, "specimen", "an empty file", "the header " + std::string(header));
+    validate(specimen_, specimen_.source);
     return std::move(specimen_);
   }
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& found, const std::string& expected) const {
-    throw InputError(name_, line_, what, found, expected);
-  }
-
-  std::string_view next_line(std::string_view& rest) {
-    ++line_;
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    return line;
+    throw InputError(specimen_.source, lines_.number(), what, found, expected);
   }
 
   template <class T>
@@ -95,15 +131,17 @@ class CsvReader {
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     bool good = error == std::errc{} && end == field.data() + field.size();
     if constexpr (std::is_floating_point_v<T>) good = good && std::isfinite(value);
-    if (!good) fail(std::string("column ") + column, quoted(field), expected);
+    if (!good) fail(std::string("column ") + column, in_quotes(field), expected);
     return value;
   }
 
   void record(std::string_view line) {
+    if (std::ssize(specimen_.centre) == most_particles)
+      fail("particles", "one more", "at most " + std::to_string(most_particles));
     std::array<std::string_view, columns> field;
     const std::size_t found = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
     if (found != columns)
-      fail("columns", std::to_string(found) + " in " + quoted(line),
+      fail("columns", std::to_string(found) + " in " + in_quotes(line),
            std::to_string(columns) + " (" + std::string(header) + ")");
     for (std::string_view& f : field) {
       const std::size_t end = std::min(line.find(','), line.size());
@@ -112,9 +150,10 @@ class CsvReader {
     }
     constexpr const char* finite = "a finite number";
     const auto id = number<std::int64_t>(field[0], "id", "an integer of 0 or more");
-    if (id < 0) fail("column id", quoted(field[0]), "an integer of 0 or more");
-    if (const auto [earlier, is_new] = line_of_id_.try_emplace(id, line_); !is_new)
-      fail("column id", quoted(field[0]) + ", that of line " + std::to_string(earlier->second), "a number of its own");
+    if (id < 0) fail("column id", in_quotes(field[0]), "an integer of 0 or more");
+    if (const auto [earlier, is_new] = line_of_id_.try_emplace(id, lines_.number()); !is_new)
+      fail("column id", in_quotes(field[0]) + ", that of line " + std::to_string(earlier->second),
+           "a number of its own");
     specimen_.centre.push_back({number<double>(field[1], "x", finite), number<double>(field[2], "y", finite),
                                 number<double>(field[3], "z", finite)});
     specimen_.radius.push_back(number<double>(field[4], "radius", "a finite positive number"));
@@ -123,12 +162,11 @@ class CsvReader {
     else if (field[5] == to_string(Phase::mastic))
       specimen_.phase.push_back(Phase::mastic);
     else
-      fail("column phase", quoted(field[5]), "aggregate or mastic");
+      fail("column phase", in_quotes(field[5]), "aggregate or mastic");
     specimen_.body.push_back(number<std::int32_t>(field[6], "body", "an integer of -1 or more"));
   }
 
-  std::string name_, text_;
-  int line_ = 0;
+  Lines lines_;
   Specimen specimen_;
   std::unordered_map<std::int64_t, int> line_of_id_;
 };
@@ -138,14 +176,15 @@ class CsvReader {
 Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box) { return CsvReader(file, box).read(); }
 
 void write_specimen_csv(const std::filesystem::path& file, const Specimen& specimen) {
-  std::ostringstream out;
-  out << header << '\n';
+  fmt::memory_buffer text;  // a stream would lose lines where memory ends
+  const auto to = std::back_inserter(text);
+  fmt::format_to(to, "{}\n", header);
   for (std::size_t i = 0; i < specimen.size(); ++i) {
     const Vec3d& c = specimen.centre[i];
-    out << i << ',' << shown(c.x) << ',' << shown(c.y) << ',' << shown(c.z) << ',' << shown(specimen.radius[i]) << ','
-        << to_string(specimen.phase[i]) << ',' << specimen.body[i] << '\n';
+    fmt::format_to(to, "{},{},{},{},{},{},{}\n", i, shown(c.x), shown(c.y), shown(c.z), shown(specimen.radius[i]),
+                   to_string(specimen.phase[i]), specimen.body[i]);
   }
-  write_whole(file, out.str());  // it may be the very file that the scene was read from
+  write_whole(file, fmt::to_string(text));  // it may be the very file that the scene was read from
 }
 
 }  // namespace macadam

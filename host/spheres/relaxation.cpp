@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/spheres/neighbours.hpp"
+#include "host/spheres/parallel_blocks.hpp"
 
 namespace macadam {
 namespace {
@@ -79,8 +80,8 @@ class Relaxation {
   }
 
   void compute_accelerations() {
-#pragma omp parallel for schedule(static) if (s_.size() >= parallel_from)
-    for (std::size_t i = first_; i < s_.size(); ++i) {
+    for_each_in_blocks(s_.size() - first_, s_.size() >= parallel_from, [&](std::size_t k) {  // a wall may throw
+      const std::size_t i = first_ + k;
       const Vec3d c = s_.centre[i];
       const double r = s_.radius[i], k_wall = is_aggregate(i) ? aggregate_stiffness : 1;
       Vec3d force{};
@@ -90,10 +91,10 @@ class Relaxation {
         const double touch = r + s_.radius[j], d2 = dot(d, d);
         if (d2 >= touch * touch || d2 == 0) continue;
         const double distance = std::sqrt(d2), overlap = touch - distance;
-        const double k = is_aggregate(i) && is_aggregate(j) ? aggregate_stiffness : 1;
-        force += (k * overlap / distance) * d;
+        const double stiffness = is_aggregate(i) && is_aggregate(j) ? aggregate_stiffness : 1;
+        force += (stiffness * overlap / distance) * d;
         // A pair of two moving spheres is met from both sides.
-        energy += (static_cast<std::size_t>(j) >= first_ ? 0.25 : 0.5) * k * overlap * overlap;
+        energy += (static_cast<std::size_t>(j) >= first_ ? 0.25 : 0.5) * stiffness * overlap * overlap;
       }
       const auto side = [&](double& component, double position, double length) {
         const double low = std::max(0.0, r - position), high = std::max(0.0, r - (length - position));
@@ -110,7 +111,7 @@ class Relaxation {
       }
       acceleration_[i] = (1 / mass(i)) * force;
       energy_[i] = energy;
-    }
+    });
   }
 
   // The sums run over the particles in order, on one thread: the same bits for any number of threads.

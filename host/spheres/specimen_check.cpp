@@ -30,8 +30,8 @@ std::optional<SpecimenFault> fault_of_arrays(const Specimen& s) {
     if (!(std::isfinite(edge) && edge > 0)) return SpecimenFault{-1, "box", point(s.box.size), "positive edges"};
   const std::size_t n = s.size();
   if (n == 0) return SpecimenFault{-1, "particles", "0", "at least 1"};
-  if (n > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    return SpecimenFault{-1, "particles", std::to_string(n), "at most 2147483647"};
+  if (n > static_cast<std::size_t>(most_particles))
+    return SpecimenFault{-1, "particles", std::to_string(n), "at most " + std::to_string(most_particles)};
   const std::pair<const char*, std::size_t> lengths[] = {
       {"radius", s.radius.size()}, {"phase", s.phase.size()}, {"body", s.body.size()}};
   for (const auto& [name, length] : lengths)
@@ -87,7 +87,8 @@ std::optional<SpecimenFault> find_fault(const Specimen& specimen) {
 void validate(const Specimen& specimen, const std::string& source) {
   if (const auto fault = find_fault(specimen)) {
     const std::string whose = fault->particle >= 0 ? "particle " + std::to_string(fault->particle) + ": " : "";
-    throw InputError(source, 0, whose + fault->what, fault->found, fault->expected);
+    throw InputError(source, fault->particle >= 0 ? specimen.line_of(fault->particle) : 0, whose + fault->what,
+                     fault->found, fault->expected);
   }
 }
 

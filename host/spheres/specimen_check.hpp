@@ -10,6 +10,9 @@
 
 namespace macadam {
 
+/// No specimen has more: contact points are numbered in 32 bits and there are about forty a particle.
+inline constexpr std::int64_t most_particles = 100'000'000;
+
 /// One thing wrong with a specimen; the parts of an InputError that do not depend on where the specimen came from.
 struct SpecimenFault {
   std::int64_t particle = -1;  ///< specimen order; −1 when the box or an array as a whole is at fault

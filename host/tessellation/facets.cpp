@@ -2,13 +2,22 @@
 /// \file facets.cpp  From the dual of the triangulation to facets: polygons, clipping by the box, walls.
 #include "host/tessellation/facets.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "host/parallel.hpp"
+#include "macadam/error.hpp"
+
 namespace macadam {
 namespace {
+
+/// Of two centres, over the smaller radius; nearer ones are an error of the input. A contact's stiffness goes with 1/d:
+/// at a distance of 1e-6 radii the equations lose so many digits that the frequency domain cannot solve them to 1e-11.
+constexpr double smallest_distance = 1e-5;
 
 /// Facets of consecutive particles; vertex ranges count from 0.
 struct FacetBlock {
@@ -50,6 +59,8 @@ class FacetMaker {
     neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end(),
                                   [](const Neighbour& p, const Neighbour& q) { return p.particle == q.particle; }),
                       neighbours_.end());
+    for (const Neighbour& b : neighbours_)
+      if (b.particle > a) require_apart(a, b.particle);
     for (int k = wall_count - 1; k >= 0; --k)
       if (walls >> k & 1) wall_facet(a, k);
     for (const Neighbour& b : neighbours_)
@@ -57,6 +68,17 @@ class FacetMaker {
   }
 
  private:
+  /// \throws InputError where two centres nearly coincide.
+  void require_apart(std::int32_t a, std::int32_t b) const {
+    const double distance = norm(specimen_.centre[b] - specimen_.centre[a]);
+    const double least = smallest_distance * std::min(specimen_.radius[a], specimen_.radius[b]);
+    if (distance > least) return;
+    throw InputError(
+        specimen_.source, specimen_.line_of(b),
+        fmt::format("distance in metres of the centres of particles {} and {}, which nearly coincide", a, b),
+        fmt::format("{}", distance), fmt::format("more than {} of the smaller radius", smallest_distance));
+  }
+
   /// Dual points of the tetrahedra round the edge (a, b), in order, into polygon_. Returns the walls that some are
   /// beyond.
   unsigned circulate(std::int32_t a, const Neighbour& b) {
@@ -119,10 +141,12 @@ class FacetMaker {
   }
 
   /// Cleans polygon_ and stores it; false when it has no area. What is shorter than 1e-10 of `scale`, the distance of
-  /// the centres, is taken for rounding of the input: lattices written in decimals have such edges, slivers and splits.
+  /// the centres, is taken for rounding of the input: lattices written in decimals have such edges, slivers and splits,
+  /// and vertices in the middle of an edge, on which the contact points of a facet must not depend.
   bool add(std::int32_t a, std::int32_t b, const Vec3d& normal, double scale) {
     const double tolerance = 1e-10 * scale + rounding_;
     merge_vertices(polygon_, tolerance);
+    drop_collinear(polygon_, tolerance);
     if (polygon_.size() < 3) return false;
     PolygonMeasure m = measure(polygon_, normal);
     if (std::abs(m.area) <= tolerance * m.extent) return false;
@@ -184,13 +208,12 @@ void make_facets(const Specimen& specimen, const PowerDiagram& diagram, Tessella
   // Blocks of particles are independent and joined in order: the result does not depend on the number of threads.
   constexpr std::size_t block_size = 256;
   std::vector<FacetBlock> blocks((n + block_size - 1) / block_size);
-#pragma omp parallel for schedule(dynamic)
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
+  for_each_in_parallel(blocks.size(), [&](std::size_t k) {
     FacetMaker maker(specimen, diagram, beyond, blocks[k]);
     const std::int32_t* list = incidence.list.data();
     for (std::size_t a = k * block_size; a < std::min(n, (k + 1) * block_size); ++a)
       maker.particle(static_cast<std::int32_t>(a), list + incidence.begin[a], list + incidence.begin[a + 1]);
-  }
+  });
   out.facets.clear(), out.vertices.clear();
   out.null_facets = 0;
   for (FacetBlock& block : blocks) {

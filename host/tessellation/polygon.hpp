@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file polygon.hpp  Convex polygons in space: clipping by half-spaces, merging of vertices, area and centroid.
+/// \file polygon.hpp  Convex polygons in space: clipping by half-spaces, merging and dropping of vertices, area and
+/// centroid.
 #pragma once
 
 #include <algorithm>
@@ -45,6 +46,18 @@ inline void merge_vertices(Polygon& polygon, double tolerance) {
   const auto close = [tolerance](const Vec3d& p, const Vec3d& q) { return norm(p - q) <= tolerance; };
   polygon.erase(std::unique(polygon.begin(), polygon.end(), close), polygon.end());
   while (polygon.size() > 1 && close(polygon.back(), polygon.front())) polygon.pop_back();
+}
+
+/// Removes vertices within `tolerance` of the line between their neighbours, as long as three are left.
+inline void drop_collinear(Polygon& polygon, double tolerance) {
+  for (std::size_t k = 0; k < polygon.size() && polygon.size() > 3;) {
+    const std::size_t n = polygon.size();
+    const Vec3d &before = polygon[k > 0 ? k - 1 : n - 1], along = polygon[k + 1 < n ? k + 1 : 0] - before;
+    if (norm(cross(polygon[k] - before, along)) <= tolerance * norm(along))
+      polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(k));
+    else
+      ++k;
+  }
 }
 
 /// Area and centroid of a polygon about a unit normal; the area is negative when it runs clockwise.

@@ -13,6 +13,8 @@
 #include <cmath>
 #include <utility>
 
+#include "host/spheres/parallel_blocks.hpp"
+
 namespace macadam {
 namespace {
 
@@ -125,8 +127,7 @@ PowerDiagram power_diagram(const Specimen& specimen, const std::vector<std::uint
   PowerDiagram diagram;
   diagram.tetrahedra.resize(cells.size());
   diagram.dual.resize(cells.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t t = 0; t < cells.size(); ++t) {
+  for_each_in_blocks(cells.size(), true, [&](std::size_t t) {  // exact numbers take memory
     std::array<const Site*, 4> site;
     int particle = 0;
     for (int k = 0; k < 4; ++k) {
@@ -137,7 +138,7 @@ PowerDiagram power_diagram(const Specimen& specimen, const std::vector<std::uint
     }
     std::swap(site[0], site[particle]);
     diagram.dual[t] = DualPoint(site)();
-  }
+  });
   return diagram;
 }
 

@@ -20,8 +20,8 @@ void check_radii(const Specimen& specimen) {
   const double limit = largest_radius * norm(specimen.box.size);
   for (std::size_t i = 0; i < specimen.size(); ++i)
     if (specimen.radius[i] > limit)
-      throw InputError("specimen", 0, fmt::format("radius in metres of particle {}", i),
-                       fmt::format("{}", specimen.radius[i]),
+      throw InputError(specimen.source, specimen.line_of(static_cast<std::int64_t>(i)),
+                       fmt::format("radius in metres of particle {}", i), fmt::format("{}", specimen.radius[i]),
                        fmt::format("at most {}, {} diagonals of the box", limit, largest_radius));
 }
 
@@ -59,7 +59,7 @@ bool retire_empty_cells(const Tessellation& tessellation, const std::vector<doub
 }  // namespace
 
 Tessellation tessellate(const Specimen& specimen) {
-  validate(specimen, "specimen");
+  validate(specimen, specimen.source);
   check_radii(specimen);
   Tessellation out;
   std::vector<std::uint8_t> active(specimen.size(), 1);

@@ -39,9 +39,10 @@ struct SurfaceVerdict {
   std::string text() const;
 };
 
-/// Reads STL (binary, ASCII), OFF, PLY or OBJ by CGAL's readers; equal points are joined; `scale` multiplies the
-/// coordinates (files are often in millimetres: 1e-3).
-/// \throws InputError naming the file where it cannot be read, holds no facet, or has numbers that are not finite.
+/// Reads STL (binary, ASCII), OFF, PLY or OBJ; equal points are joined; `scale` multiplies the coordinates (files are
+/// often in millimetres: 1e-3).
+/// \throws InputError naming the file, and of text the line, where it cannot be read, holds no facet, or has numbers
+/// that are not finite.
 Surface read_surface(const std::filesystem::path& file, double scale = 1);
 
 /// Every surface of a folder, by the files' names, each good().
@@ -57,9 +58,10 @@ void write_surface(const std::filesystem::path& file, const Surface& surface, do
 SurfaceVerdict check_surface(const Surface& surface);
 
 /// Makes a surface fit where CGAL can: joins points, drops degenerate facets, orients, fills holes, and, where that is
-/// not enough, wraps it (alpha wrap). `what` receives in words what was done.
+/// not enough, wraps it (alpha wrap). `what` receives in words what was done. The result is good as it will be read
+/// back, points of equal coordinates joined, from a file like `as` where one is given (STL rounds to floats).
 /// \throws RunError when nothing helped, with the verdict.
-Surface repair_surface(const Surface& surface, std::string* what = nullptr);
+Surface repair_surface(const Surface& surface, std::string* what = nullptr, const std::filesystem::path& as = {});
 
 /// The properties of section 4.1 (Eq. 18–23). Lengths in m, directions are unit vectors.
 struct ShapeMeasure {

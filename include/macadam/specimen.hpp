@@ -35,7 +35,12 @@ struct Specimen {
   std::vector<Phase> phase;
   std::vector<std::int32_t> body;  ///< number of the aggregate that the sphere belongs to, −1 for mastic
 
+  std::string source = "specimen";  ///< where it comes from, as messages say it: its file, or the scene's
+  int first_line = 0;               ///< of particle 0 in that file, one line a particle; 0: they have none
+
   std::size_t size() const { return centre.size(); }
+  /// For messages: the line of a particle in `source`, or 0.
+  int line_of(std::int64_t particle) const { return first_line > 0 ? first_line + static_cast<int>(particle) : 0; }
 };
 
 /// Checks every particle: finite centre inside the box, finite positive radius, `body` −1 exactly for mastic, no two
@@ -59,6 +64,7 @@ struct AggregateClass {
   double sieve_min = 0, sieve_max = 0;    ///< diameters [m]
   std::optional<double> volume_fraction;  ///< share of the solid volume (aggregates and mastic), or …
   std::optional<std::int64_t> count;      ///< … the number of aggregates
+  int line = 0;                           ///< in SpecimenSpec::source, for messages; 0: none
 };
 
 /// The mastic that fills the rest: radius uniform in a range.
@@ -66,6 +72,7 @@ struct MasticSpec {
   double radius_min = 0, radius_max = 0;  ///< [m]
   std::optional<double> porosity;         ///< 1 − Σ sphere volumes / box, or …
   std::optional<std::int64_t> count;      ///< … the number of mastic spheres
+  int line = 0;                           ///< in SpecimenSpec::source, for messages; 0: none
 };
 
 /// How places of shaped aggregates are found.
@@ -101,6 +108,8 @@ struct SpecimenSpec {
   SizeLaw size_law = SizeLaw::log_uniform;
   bool fix_aggregates = true;         ///< hold the aggregates while the mastic relaxes (moves |E*| by 6–7 % if not)
   std::int64_t attempts = 2'000'000;  ///< positions tried for one aggregate before its class is given up
+  std::string source = "specimen";    ///< the scene's file, for messages
+  int line = 0;                       ///< of its section there; 0: none
 };
 
 /// What was asked of the generator and what it reached, one entry an aggregate class and then one for the mastic.

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// surface_words.cpp  Words end at white space; a word is a number only as a whole, so "1.5.5" is none.
+#include "host/shapes/surface_words.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "host/in_quotes.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr std::string_view blank = " \t\r\v\f";
+
+std::string_view without_leading_blanks(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
+  return text;
+}
+
+/// Whether all of the word is the number that `value` receives. std::from_chars knows no plus sign.
+template <class T>
+bool parse(std::string_view word, T& value) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc{} && end == word.data() + word.size();
+}
+
+}  // namespace
+
+bool Words::next_line() {
+  while (!rest_.empty()) {
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    line_ = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    number_ = next_number_++;
+    if (comment_) line_ = line_.substr(0, line_.find(comment_));
+    line_ = without_leading_blanks(line_);
+    if (!line_.empty()) return true;
+  }
+  line_ = {};
+  return false;
+}
+
+std::string_view Words::in_line() {
+  line_ = without_leading_blanks(line_);
+  const std::string_view word = line_.substr(0, std::min(line_.find_first_of(blank), line_.size()));
+  line_.remove_prefix(word.size());
+  return word;
+}
+
+std::string_view Words::next(const std::string& what) {
+  std::string_view word = in_line();
+  while (word.empty()) {
+    if (!next_line()) fail("surface", "the end of the file", what);
+    word = in_line();
+  }
+  return word;
+}
+
+double Words::any_number(std::string_view word, const std::string& what) const {
+  double value = 0;
+  if (!parse(word, value)) fail(what, word.empty() ? "the end of the line" : in_quotes(word), "a number");
+  return value;
+}
+
+double Words::number(std::string_view word, const std::string& what) const {
+  const double value = any_number(word, what);
+  if (!std::isfinite(value)) fail(what, in_quotes(word), "a finite number");
+  return value;
+}
+
+std::int64_t Words::integer(std::string_view word, const std::string& what) const {
+  std::int64_t value = 0;
+  if (!parse(word, value)) fail(what, word.empty() ? "the end of the line" : in_quotes(word), "a whole number");
+  return value;
+}
+
+std::size_t Words::count(std::string_view word, const std::string& what) const {
+  const std::int64_t value = integer(word, what);
+  if (value < 0) fail(what, in_quotes(word), "a number of 0 or more");
+  return static_cast<std::size_t>(value);
+}
+
+}  // namespace macadam
