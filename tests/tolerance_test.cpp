@@ -149,11 +149,12 @@ TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
 }
 
 // One point a facet and no shear: particles turn freely, and the stiffness is singular.
+// Two particles that can turn freely: no harmonic solution, but a steady state that the stepping finds.
 TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.loading.frequencies = {20};
   scene.network.quadrature = Quadrature::one_point;
-  for (auto& law : scene.laws) std::visit([](auto& l) { l.alpha = 0; }, *law);
+  scene.network.gap_max = -0.14;
   const RunResult result = run_it(scene);
   const FrequencyResult& f = result.frequencies[0];
   EXPECT_EQ(f.start, Start::rest);
@@ -161,6 +162,22 @@ TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
   EXPECT_GT(f.density_scaling, 100);
   EXPECT_TRUE(says(result, "no harmonic solution"));
   EXPECT_EQ(result.form, ContactForm::points);
+  ASSERT_EQ(result.warnings.size(), 1u) << testing::PrintToString(result.warnings);
+  EXPECT_NE(result.warnings[0].find("could not be verified"), std::string::npos) << result.warnings[0];
+}
+
+// A mechanism has no static modulus: what the stepping finds is inertia, at a phase of some 150 degrees.
+TEST_F(Tolerance, AMechanismIsAFailedRun) {
+  Scene scene = scene_of(t8(), 1e-2);
+  scene.loading.frequencies = {20};
+  scene.network.quadrature = Quadrature::one_point;
+  for (auto& law : scene.laws) std::visit([](auto& l) { l.alpha = 0; }, *law);
+  try {
+    run_it(scene);
+    FAIL() << "a mechanism was given a modulus";
+  } catch (const RunError& error) {
+    EXPECT_NE(std::string(error.what()).find("a phase angle of"), std::string::npos) << error.what();
+  }
 }
 
 // What the scene gives may not keep the tolerance: it is said.

@@ -5,7 +5,7 @@ import math
 from pages import accuracy_asked, accuracy_elsewhere
 from pages.accuracy_rows import (E, PHI, TRUE_E, TRUE_PHI, both, drift_differences, scene, scenes, signed, study,
                                  within)
-from pages.data import head, largest, minus, one, plain, power, rows, table, thousands, upto, where
+from pages.data import head, largest, listed, minus, one, plain, power, rows, table, thousands, upto, where
 from pages.marks import mark
 
 DOCUMENT = "docs/accuracy.md"
@@ -70,7 +70,7 @@ def steady_runs():
 
 @mark
 def steady_scenes():
-    return " and ".join(scenes(steady()))
+    return listed(scenes(steady()))
 
 
 def rest(ramp, cycles):
@@ -276,8 +276,8 @@ def filters():
 @mark
 def gap_zero():
     of = where(study("filter"), gap_max=0.0)
-    return " and ".join(f"{minus(f'{change:.0f}')} % ({name})"
-                        for name, change in ((scene(r), 100 * r["model_e_star"]) for r in of))
+    return listed(f"{minus(f'{change:.0f}')} % ({name})"
+                  for name, change in ((scene(r), 100 * r["model_e_star"]) for r in of))
 
 
 @mark

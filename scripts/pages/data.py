@@ -49,6 +49,12 @@ def where(table, **wanted):
     return found
 
 
+def listed(words):
+    """a, b and c"""
+    *first, last = words
+    return f"{', '.join(first)} and {last}" if first else last
+
+
 def one(table, **wanted):
     found = where(table, **wanted)
     if len(found) != 1:
