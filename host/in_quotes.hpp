@@ -7,12 +7,14 @@
 
 namespace macadam {
 
-/// In quotes, printable, not too long.
+/// In quotes, fit for one line of a message: control characters are shown as `?`, and what is long is cut, not within a
+/// character of UTF-8.
 inline std::string in_quotes(std::string_view text) {
-  constexpr std::size_t longest = 60;
+  std::size_t longest = 60;
+  while (longest > 0 && text.size() > longest && (static_cast<unsigned char>(text[longest]) & 0xC0) == 0x80) --longest;
   std::string out(text.substr(0, longest));
   for (char& c : out)
-    if (c < ' ' || c > '~') c = '?';
+    if (static_cast<unsigned char>(c) < ' ' || c == 0x7F) c = '?';
   return '"' + out + (text.size() > longest ? "…\"" : "\"");
 }
 

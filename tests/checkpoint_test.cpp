@@ -311,6 +311,37 @@ TEST_F(CheckpointedRun, ARunOfAnotherKindLeavesTheCheckpointAlone) {
   expect_same("out", "one");
 }
 
+// What it would lead to is there. Another scene's is not this run's to remove.
+TEST_F(CheckpointedRun, AFinishedRunRemovesItsOwnCheckpointOnly) {
+  const Scene scene = this->scene(steady);
+  ASSERT_TRUE(run_until(scene, "out", 20, false));
+  const std::string kept = read(file("out"));
+  run(scene, out("out"));
+  EXPECT_FALSE(fs::exists(file("out")));
+  write(file("out"), kept);
+  run(this->scene(std::string(steady) + "strain_amplitude = 2e-4\n"), out("out"));
+  EXPECT_TRUE(read(file("out")) == kept);
+}
+
+// Packets of another width take contacts in another order: here one number of the layout is another.
+TEST_F(CheckpointedRun, AnotherMachinesCheckpointIsRefusedBeforeAnythingIsTouched) {
+  const Scene scene = this->scene(steady);
+  run(scene, out("out"));
+  ASSERT_TRUE(run_until(scene, "other", 20, false));
+  Checkpoint checkpoint = read_checkpoint(file("other"));
+  for (StateArray& array : checkpoint.arrays) {
+    if (auto* numbers = std::get_if<std::vector<std::int64_t>>(&array.values);
+        numbers && array.name == "state layout") {
+      numbers->back() += 1;
+    }
+  }
+  write_checkpoint(file("out"), checkpoint);
+  const std::string response = read(out("out") / "response.csv"), all = read(out("out") / "summary.json");
+  EXPECT_HAS(refusal(scene, "out"), "checkpoint of another machine");
+  EXPECT_TRUE(read(out("out") / "response.csv") == response);
+  EXPECT_TRUE(read(out("out") / "summary.json") == all);
+}
+
 // With another base address than the file's own: HDF5's tools still find what stands behind the user block.
 TEST_F(CheckpointedRun, IsAnHdf5FileForAnyReader) {
   write_checkpoint(folder_ / "checkpoint.h5", {{{"text", "words"}}, {{"numbers", "m", std::vector<double>{1, 2}}}});

@@ -69,6 +69,11 @@ TEST(Judgement, AToleranceThatNothingVerifiesIsNotCalledKept) {
   f.cyclic->change_e_star = 2e-3;  // not steady yet
   judge(f, stiffest, 1e-3, warnings);
   EXPECT_EQ(f.kept, false);
+  EXPECT_HAS(warnings.back(), "cannot have been kept");
+
+  f = good_result();
+  f.kept = false;
+  judge(f, stiffest, 1e-3, warnings);
   EXPECT_HAS(warnings.back(), "the tolerance was not kept");
 }
 

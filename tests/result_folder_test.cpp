@@ -63,8 +63,10 @@ TEST_F(Folder, RefusedCommandsLeaveEveryFileAsItWas) {
 
 TEST_F(Folder, ARefusedCommandLeavesNoFolder) {
   write_scene(quick, "[network]\ngap_max = -1.0\n");
-  EXPECT_EQ(macadam(fmt::format("run {} --out {}", path("scene.toml"), path("new/below"))).code, 2);
-  EXPECT_FALSE(fs::exists(folder_ / "new"));
+  for (const char* out : {"new/below", "new/below/", "./new/../new/x", "new/./x/."}) {
+    EXPECT_EQ(macadam(fmt::format("run {} --out {}", path("scene.toml"), path(out))).code, 2) << out;
+    EXPECT_FALSE(fs::exists(folder_ / "new")) << out;
+  }
 }
 
 TEST_F(Folder, ASpecimenMayReplaceASpecimenOnly) {

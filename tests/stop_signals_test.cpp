@@ -2,6 +2,7 @@
 // stop_signals_test.cpp  Signals at any time, once or several at once: a checkpoint, or an untouched folder.
 #include <signal.h>
 
+#include "host/cli/stop_signals.hpp"
 #include "program.hpp"
 
 namespace macadam::test {
@@ -63,6 +64,54 @@ TEST_F(StopSignals, SeveralAtOnceAreOne) {
     EXPECT_EQ(summary(out).at("status"), "interrupted");
     EXPECT_TRUE(fs::exists(folder_ / out / "checkpoint.h5"));
   }
+}
+
+// The functions themselves, in a process that has nothing to end for.
+TEST(StopSignal, AfterTwoSecondsItEndsTheProgram) {
+  std::fflush(stdout);
+  int ready[2];
+  ASSERT_EQ(pipe(ready), 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(SIGTERM, SIG_DFL);
+    listen_to_stop_signals();
+    if (::write(ready[1], "", 1) != 1) _exit(99);
+    for (;;) pause();
+  }
+  char byte;
+  ASSERT_EQ(::read(ready[0], &byte, 1), 1);
+  kill(child, SIGTERM);
+  usleep(1'500'000);
+  kill(child, SIGTERM);
+  usleep(100'000);
+  EXPECT_EQ(waitpid(child, nullptr, WNOHANG), 0) << "within two seconds it is the same signal";
+  usleep(500'000);
+  kill(child, SIGTERM);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
+  close(ready[0]);
+  close(ready[1]);
+}
+
+// Making the preconditioner asks for no signals: what came meanwhile counts before any file is touched.
+TEST_F(StopSignals, DuringTheHarmonicPlanTheFolderStaysAsItWas) {
+  write_scene();
+  ASSERT_EQ(run_quick("out").code, 0);
+  const std::string before = read(folder_ / "out/summary.json");
+  fs::remove(folder_ / "stdout.txt");  // which has the first run's words
+  const pid_t child =
+      start({"run", MACADAM_EXAMPLES "/demo/scene.toml", "--method", "harmonic", "--out", (folder_ / "out").string()});
+  const auto prepared = [&] {
+    std::ifstream in(folder_ / "stdout.txt");
+    return std::string(std::istreambuf_iterator<char>(in), {}).find("specimen ") != std::string::npos;
+  };
+  while (waitpid(child, nullptr, WNOHANG) == 0 && !prepared()) usleep(1000);
+  kill(child, SIGTERM);
+  EXPECT_EQ(end_of(child), 1);
+  EXPECT_HAS(read(folder_ / "stderr.txt"), "nothing was written");
+  EXPECT_EQ(read(folder_ / "out/summary.json"), before);
+  EXPECT_TRUE(fs::exists(folder_ / "out/response.csv"));
 }
 
 // Generating the demo's specimen takes a second; nothing of the folder is touched before.

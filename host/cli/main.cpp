@@ -5,6 +5,7 @@
 #include <new>
 
 #include "host/cli/info_command.hpp"
+#include "host/cli/limited_memory.hpp"
 #include "host/cli/run_command.hpp"
 #include "host/cli/shapes_command.hpp"
 #include "host/cli/specimen_command.hpp"
@@ -81,6 +82,7 @@ End run_program(CLI::App& app, int argc, char** argv) {
 }
 
 int main_function(int argc, char** argv) {
+  restart_with_one_blas_thread_where_memory_is_limited(argv);
   hold_standard_streams();
   CLI::App app("Macadam: discrete elements for bituminous mixtures and other bonded granular solids");
   app.require_subcommand(1);

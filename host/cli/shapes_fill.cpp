@@ -110,7 +110,7 @@ void add_shapes_fill(CLI::App& shapes) {
       ->required()
       ->delimiter(',')
       ->expected(1, 2);
-  add_number(*fill, "--porosity", spec.porosity, "1 - sum of the spheres' volumes / volume of the shape", 0.0, 1.0);
+  add_number(*fill, "--porosity", spec.porosity, "1 - sum of the spheres' volumes / volume of the shape", -0.5, 1.0);
   add_number(*fill, "--least", spec.least, "fewer spheres than this: a single one", 1, 1'000'000);
   add_choice(*fill, "--single", spec.single,
              "radius of a single sphere: D^I/2, that of the sphere around, of the volume",

@@ -16,10 +16,9 @@ struct Arguments {
   std::vector<std::string> sections;
 };
 
-/// Writes what a plane cuts and says how much of it is aggregate.
-void write_section(const Preparation& prepared, const SectionPlane& plane, const std::filesystem::path& out) {
+/// How much of what a plane cuts is aggregate.
+void say_section(const Preparation& prepared, const SectionPlane& plane) {
   const CrossSection section = cut(prepared.specimen, prepared.tessellation, plane);
-  write_cross_section_csv(out / section_file_name(plane), prepared.specimen, section);
   double all = 0, aggregate = 0;
   for (const SectionCell& cell : section.cells) {
     all += cell.area;
@@ -35,14 +34,15 @@ void specimen_command(const Arguments& arguments) {
   for (const std::string& text : arguments.sections) planes.push_back(read_section_plane(text, scene.specimen.box));
   ProgressLine line;
   listen_to_stop_signals();
-  const Preparation prepared = prepare_into(
-      arguments.job.out, scene, [&](const std::string& stage, double share) { show_or_stop(line, stage, share); });
+  const Preparation prepared =
+      prepare_into(arguments.job.out, scene, planes,
+                   [&](const std::string& stage, double share) { show_or_stop(line, stage, share); });
   line.clear();
   say_preparation(prepared);
   const TessellationInvariants i = measure_invariants(prepared.specimen, prepared.tessellation);
   say("tessellation errors: volume {:.1e}, closure {:.1e}, flatness {:.1e}, power {:.1e}, walls {:.1e}\n", i.volume,
       i.closure, i.flatness, i.power, i.walls);
-  for (const SectionPlane& plane : planes) write_section(prepared, plane, arguments.job.out);
+  for (const SectionPlane& plane : planes) say_section(prepared, plane);
   say("files in {}\n", arguments.job.out);
 }
 

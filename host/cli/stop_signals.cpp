@@ -2,28 +2,30 @@
 // stop_signals.cpp  The handler calls nothing that POSIX does not allow in one.
 #include "host/cli/stop_signals.hpp"
 
+#include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <ctime>
 
 namespace macadam {
 namespace {
 
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
-constexpr long echo_seconds = 2;
+constexpr std::int64_t echo_ns = 2'000'000'000;
 
-volatile std::sig_atomic_t asked = 0;
-timespec asked_at;  ///< written before `asked`, with the signals blocked
+/// When the first came, by the clock that only goes forward; 0: none yet. Several threads may be in the handler at
+/// once.
+std::atomic<std::int64_t> asked_at{0};
+static_assert(std::atomic<std::int64_t>::is_always_lock_free, "a handler may wait for nothing");
 
 extern "C" void ask_to_stop(int number) {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  if (!asked) {
-    asked_at = now;
-    asked = 1;
-  } else if (now.tv_sec - asked_at.tv_sec > echo_seconds) {
-    std::signal(number, SIG_DFL);
-    std::raise(number);  // blocked until this handler returns
-  }
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  const std::int64_t now = time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
+  std::int64_t first = 0;
+  if (asked_at.compare_exchange_strong(first, now) || now - first <= echo_ns) return;
+  std::signal(number, SIG_DFL);
+  std::raise(number);  // blocked until this handler returns
 }
 
 }  // namespace
@@ -40,6 +42,6 @@ void listen_to_stop_signals() {
   }
 }
 
-bool stop_asked() { return asked != 0; }
+bool stop_asked() { return asked_at != 0; }
 
 }  // namespace macadam

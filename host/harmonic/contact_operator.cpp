@@ -98,6 +98,12 @@ void ContactOperator::forces(const PairStiffness& stiffness, const Vector& motio
   }
 }
 
+void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia,
+                                 const Vector& motion, Vector& out) const {
+  forces(stiffness, motion, 0.0, out);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = -out[i] - factor * inertia_at(inertia, i) * motion[i];
+}
+
 Complex ContactOperator::twice_energy(const PairStiffness& stiffness, const Vector& motion, Complex wall) const {
   const auto& contacts = network_.contacts;
   std::vector<Complex> share(contacts.size());

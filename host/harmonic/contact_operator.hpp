@@ -12,6 +12,11 @@ namespace macadam::harmonic {
 using Complex = std::complex<double>;
 using Vector = std::vector<Complex>;  ///< six numbers a particle: ux uy uz θx θy θz
 
+/// Mass or moment of inertia of degree of freedom 6·particle + component.
+inline double inertia_at(const Inertia& inertia, std::size_t dof) {
+  return dof % 6 < 3 ? inertia.mass[dof / 6] : inertia.inertia[dof / 6];
+}
+
 /// Complex stiffness per unit of area over distance, and α, of each pair type.
 struct PairStiffness {
   std::array<Complex, pair_types> k{};
@@ -32,6 +37,10 @@ class ContactOperator {
   /// Forces and moments on the particles that move by `motion` while the top wall moves by `wall`. Deterministic for
   /// any number of threads: every contact's load is kept and each particle sums its row.
   void forces(const PairStiffness& stiffness, const Vector& motion, Complex wall, Vector& out) const;
+
+  /// (K* − factor·M)·motion: the loads that hold the motion at one frequency; factor: (ω² − iωβ)·density scaling.
+  void resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia, const Vector& motion,
+                  Vector& out) const;
 
   /// Σ u·k*·u over the contacts, u their relative displacements, without conjugates: twice the energy, where real.
   Complex twice_energy(const PairStiffness& stiffness, const Vector& motion, Complex wall) const;

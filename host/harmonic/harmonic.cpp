@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// harmonic.cpp  COCG (conjugate gradients for complex symmetric matrices) with a real Cholesky preconditioner.
-//
-// K*(ω) is the real network with each contact multiplied by the complex number of its pair. Preconditioned by the real
-// parts at one frequency, its eigenvalues gather about a few such ratios: some ten iterations do.
+// harmonic.cpp  Frequencies to linear systems and back, by iteration first and by factors where that does not do.
 #include "macadam/harmonic.hpp"
 
 #include <fmt/format.h>
@@ -10,21 +7,24 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <numbers>
 
-#include "host/harmonic/contact_operator.hpp"
-#include "host/harmonic/preconditioner.hpp"
-#include "host/harmonic/rigid_motions.hpp"
+#include "host/harmonic/linear_solver.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
 
 using namespace harmonic;
 
+const char* to_string(LinearMethod method) {
+  return method == LinearMethod::automatic ? "auto" : method == LinearMethod::iterative ? "iterative" : "direct";
+}
+
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 void require_laws_of(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws) {
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -35,17 +35,21 @@ void require_laws_of(const ContactNetwork& network, const std::array<std::option
   }
 }
 
-/// xᵀ·y without conjugation, and ‖x‖; sums in a fixed order.
-Complex product(const Vector& x, const Vector& y) {
-  Complex sum = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
-  return sum;
-}
 double length(const Vector& x) {
   double sum = 0;
   for (const Complex& v : x) sum += std::norm(v);
   return std::sqrt(sum);
 }
+
+Stiffness modulus(Complex e) { return {std::abs(e), std::arg(e) * 180 / std::numbers::pi}; }
+
+/// A task with what was found of it so far.
+struct Work {
+  LinearTask task;
+  double residual = 0, energy_error = 0;
+  LinearMethod method = LinearMethod::iterative;
+  bool good = false;
+};
 
 }  // namespace
 
@@ -54,93 +58,45 @@ class Harmonic::Implementation {
   Implementation(const Specimen& specimen, const ContactNetwork& network,
                  const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
                  const HarmonicOptions& options, double typical_frequency)
-      : box_(specimen.box), laws_(laws), inertia_(inertia), options_(options), contacts_(network, specimen.size()) {
+      : specimen_(specimen),
+        network_(network),
+        laws_(laws),
+        inertia_(inertia),
+        options_(options),
+        contacts_(network, specimen.size()) {
     require_laws_of(network, laws);
-    const PairStiffness typical = pair_stiffness(laws, 2 * std::numbers::pi * typical_frequency);
-    free_ = find_free_motions(specimen, network, typical, inertia);
-    preconditioner_ = std::make_unique<Preconditioner>(network, specimen.size(), typical, free_.pins);
+    typical_ = pair_stiffness(laws, 2 * std::numbers::pi * typical_frequency);
+    free_ = find_free_motions(specimen, network, typical_, inertia);
+    if (options.linear == LinearMethod::direct) {
+      direct();
+      return;
+    }
+    try {
+      iterative_ = make_iterative_solver(specimen, network, typical_, inertia_, free_);
+    } catch (const RunError& error) {
+      if (options.linear == LinearMethod::iterative) throw;
+      direct();  // which says what is wrong, if it is
+    }
   }
 
-  HarmonicResult solve(double frequency, double density_scaling, double damping) {
-    const auto start = std::chrono::steady_clock::now();
-    const double omega = 2 * std::numbers::pi * frequency;
-    const Complex inertia = density_scaling * Complex(omega * omega, -omega * damping);
-    const PairStiffness stiffness = pair_stiffness(laws_, omega);
-    HarmonicResult out;
-    out.frequency_hz = frequency;
-
-    Vector x(6 * inertia_.mass.size(), 0), right, r, z, p, q;
-    contacts_.forces(stiffness, x, 1.0, right);  // of a unit displacement of the top wall
-    const double scale = length(right);
-    r = right;
-    if (frequency == last_frequency_) {  // another inertia at the same frequency: begin from what is near
-      x = last_;
-      if (inertia != 0.0) remove_free_motions(x);
-      apply(stiffness, inertia, x, q);
-      for (std::size_t i = 0; i < r.size(); ++i) r[i] -= q[i];
+  std::vector<HarmonicResult> solve(const std::vector<HarmonicLoad>& loads) {
+    const auto start = Clock::now();
+    std::vector<Work> works;
+    for (const HarmonicLoad& load : loads) works.push_back(work_of(load));
+    if (iterative_) attempt(works, *iterative_, LinearMethod::iterative);
+    if (options_.linear != LinearMethod::iterative && !all_good(works) && specimen_.size() <= largest_direct) {
+      attempt(works, direct(), LinearMethod::direct);
     }
-    Complex rho_before = 0;
-    double residual = length(r) / scale;
-    double energy_error = 0, wanted_energy = infinity;
-    // the recurrence drifts from the true residual by rounding: it is computed anew, and the recurrence restarted
-    for (int restart = 0; restart < 4 && !(residual <= options_.tolerance && energy_error <= energy_tolerance());
-         ++restart) {
-      for (int k = 0; out.iterations < options_.max_iterations; ++k) {
-        if (residual <= 0.3 * options_.tolerance && wanted_energy == infinity) break;
-        preconditioner_->solve(r, z);
-        if (inertia != 0.0) remove_free_motions(z);
-        if (residual <= 0.3 * options_.tolerance && energy(r, z) <= wanted_energy) break;
-        const Complex rho = product(r, z);
-        if (k == 0) {
-          p = z;
-        } else {
-          const Complex beta = rho / rho_before;
-          for (std::size_t i = 0; i < p.size(); ++i) p[i] = z[i] + beta * p[i];
-        }
-        apply(stiffness, inertia, p, q);
-        const Complex alpha = rho / product(p, q);
-        for (std::size_t i = 0; i < x.size(); ++i) {
-          x[i] += alpha * p[i];
-          r[i] -= alpha * q[i];
-        }
-        rho_before = rho;
-        ++out.iterations;
-        residual = length(r) / scale;
-        if (!std::isfinite(residual)) break;
-      }
-      apply(stiffness, inertia, x, q);
-      for (std::size_t i = 0; i < r.size(); ++i) r[i] = right[i] - q[i];
-      residual = length(r) / scale;
-      preconditioner_->solve(r, z);
-      const double whole = std::abs(contacts_.twice_energy(stiffness, x, 1.0));
-      energy_error = std::sqrt(energy(r, z) / whole);
-      wanted_energy = 0.1 * energy_tolerance() * energy_tolerance() * whole;
+    if (solved_.size() + works.size() > most_kept) solved_.clear();
+    for (std::size_t i = 0; i < works.size(); ++i) {
+      if (works[i].good) solved_[loads[i].frequency_hz] = works[i].task.motion;
     }
-    out.residual = residual;
-    if (!(residual <= options_.tolerance && energy_error <= energy_tolerance())) {
-      throw RunError(fmt::format(
-          "harmonic: residual {:.1e} (expected at most {:.1e}) and error in the energy norm {:.1e} (at most {:.1e}) "
-          "after {} iterations at {:g} Hz: near a resonance, or a nearly singular stiffness",
-          residual, options_.tolerance, energy_error, energy_tolerance(), out.iterations, frequency));
+    std::vector<HarmonicResult> out;
+    for (std::size_t i = 0; i < works.size(); ++i) {
+      if (!works[i].good) refuse(works[i], loads[i].frequency_hz);
+      out.push_back(result_of(works[i], loads[i].frequency_hz));
+      out.back().seconds = seconds_since(start) / static_cast<double>(works.size());
     }
-
-    // The top wall's reaction at unit displacement is uᵀ·(K* − inertia·M)·u, without conjugates: the error of the
-    // solution enters it squared, and nothing cancels where the wall is far stiffer than the specimen.
-    Complex top = contacts_.twice_energy(stiffness, x, 1.0);
-    if (inertia != 0.0) {
-      for (std::size_t i = 0; i < x.size(); ++i) top -= inertia * inertia_at(inertia_, i) * x[i] * x[i];
-    }
-    const double to_modulus = box_.size.z / (box_.size.x * box_.size.y);  // stress per strain of a unit displacement
-    out.top = modulus(to_modulus * top);
-    out.bottom = modulus(-to_modulus * contacts_.bottom_force(stiffness, x));
-    if (inertia == 0.0) {
-      for (const Pin& pin : free_.pins) out.held_force += std::abs(pin.stiffness * x[pin.dof]);
-      out.held_force /= std::abs(top);
-    }
-    last_ = x;
-    last_frequency_ = frequency;
-    out.motion = std::move(x);
-    out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return out;
   }
 
@@ -149,45 +105,105 @@ class Harmonic::Implementation {
   /// small residual says nothing of the rest. The error in the energy norm over the energy of the solution does:
   /// √(rᴴ·P⁻¹·r / uᵀ·K·u). It enters E* squared, and reactions as it is.
   double energy_tolerance() const { return 100 * options_.tolerance; }
-  static double energy(const Vector& r, const Vector& z) {
-    double sum = 0;
-    for (std::size_t i = 0; i < r.size(); ++i) sum += (std::conj(r[i]) * z[i]).real();
-    return std::max(sum, 0.0);  // of a residual of rounding it may be below
+
+  LinearSolver& direct() {
+    if (!direct_) direct_ = make_direct_solver(network_, contacts_, typical_, inertia_, free_);
+    return *direct_;
   }
 
-  static Stiffness modulus(Complex e) { return {std::abs(e), std::arg(e) * 180 / std::numbers::pi}; }
+  Work work_of(const HarmonicLoad& load) {
+    const double omega = 2 * std::numbers::pi * load.frequency_hz;
+    Work out;
+    LinearTask& task = out.task;
+    task.stiffness = pair_stiffness(laws_, omega);
+    task.inertia = load.density_scaling * Complex(omega * omega, -omega * load.viscous_damping);
+    contacts_.forces(task.stiffness, Vector(6 * specimen_.size(), 0), 1.0, task.right);  // the top wall moves by one
+    task.tolerance = 0.3 * options_.tolerance;  // rounding parts the solver's own residual from the true one
+    if (const auto near = solved_.find(load.frequency_hz); near != solved_.end()) task.motion = near->second;
+    return out;
+  }
 
-  /// out = (K* − inertia·M)·x, or (K* + pins)·x without inertia.
-  void apply(const PairStiffness& stiffness, Complex inertia, const Vector& x, Vector& out) const {
-    contacts_.forces(stiffness, x, 0.0, out);
-    for (Complex& f : out) f = -f;
-    if (inertia == 0.0) {
-      for (const Pin& pin : free_.pins) out[pin.dof] += pin.stiffness * x[pin.dof];
-      return;
+  static bool all_good(const std::vector<Work>& works) {
+    return std::all_of(works.begin(), works.end(), [](const Work& w) { return w.good; });
+  }
+
+  /// Solves what is not good yet, with what a check of the solution asks for, as long as the solver gets there.
+  void attempt(std::vector<Work>& works, LinearSolver& solver, LinearMethod method) {
+    for (int round = 0; round < 4; ++round) {
+      std::vector<LinearTask*> open;
+      for (Work& w : works) {
+        const bool stuck = round > 0 && !w.task.converged;
+        if (!w.good && !stuck) open.push_back(&w.task), w.method = method;
+      }
+      if (open.empty()) return;
+      solver.solve(open);
+      for (Work& w : works) {
+        if (!w.good) check(w);
+      }
     }
-    // free motions then carry their own inertia and need no pins
-    for (std::size_t i = 0; i < x.size(); ++i) { out[i] -= inertia * inertia_at(inertia_, i) * x[i]; }
   }
 
-  /// The load is in equilibrium, so that with inertia nothing moves freely. The preconditioner, which has pins in place
-  /// of that inertia, would have to find this out: it takes three times the iterations.
-  void remove_free_motions(Vector& x) const {
-    for (const std::vector<double>& motion : free_.motions) {
-      Complex share = 0;
-      for (std::size_t i = 0; i < x.size(); ++i) share += motion[i] * inertia_at(inertia_, i) * x[i];
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] -= share * motion[i];
+  /// The residual computed anew, and the error in the energy norm.
+  void check(Work& w) const {
+    LinearTask& task = w.task;
+    Vector rest;
+    contacts_.resistance(task.stiffness, task.inertia, inertia_, task.motion, rest);
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = task.right[i] - rest[i];
+    const double whole = std::abs(contacts_.twice_energy(task.stiffness, task.motion, 1.0));
+    w.residual = length(rest) / length(task.right);
+    w.energy_error = std::sqrt(task.energy / whole);
+    w.good = task.converged && w.residual <= options_.tolerance && w.energy_error <= energy_tolerance();
+    task.energy_limit = 0.1 * energy_tolerance() * energy_tolerance() * whole;
+  }
+
+  [[noreturn]] void refuse(const Work& w, double frequency) const {
+    const std::string larger = specimen_.size() > largest_direct && options_.linear == LinearMethod::automatic
+                                   ? fmt::format("; of more than {} particles nothing is factored", largest_direct)
+                                   : "";
+    throw RunError(fmt::format(
+        "harmonic: residual {:.1e} (expected at most {:.1e}) and error in the energy norm {:.1e} (at most {:.1e}) "
+        "after {} iterations at {:g} Hz, {}: near a resonance, or a nearly singular stiffness{}",
+        w.residual, options_.tolerance, w.energy_error, energy_tolerance(), w.task.iterations, frequency,
+        to_string(w.method), larger));
+  }
+
+  /// The top wall's reaction at unit displacement is uᵀ·(K* − inertia·M)·u, without conjugates: the error of the
+  /// solution enters it squared, and nothing cancels where the wall is far stiffer than the specimen.
+  HarmonicResult result_of(Work& w, double frequency) const {
+    const LinearTask& task = w.task;
+    const Vector& x = task.motion;
+    Complex top = contacts_.twice_energy(task.stiffness, x, 1.0);
+    if (task.inertia != 0.0) {
+      for (std::size_t i = 0; i < x.size(); ++i) top -= task.inertia * inertia_at(inertia_, i) * x[i] * x[i];
     }
+    const Vec3d& box = specimen_.box.size;
+    const double to_modulus = box.z / (box.x * box.y);  // stress per strain of a unit displacement
+    HarmonicResult out;
+    out.frequency_hz = frequency;
+    out.linear = w.method;
+    out.residual = w.residual;
+    out.iterations = task.iterations;
+    out.top = modulus(to_modulus * top);
+    out.bottom = modulus(-to_modulus * contacts_.bottom_force(task.stiffness, x));
+    if (task.inertia == 0.0 && w.method == LinearMethod::direct) {
+      for (const Pin& pin : free_.pins) out.held_force += std::abs(pin.stiffness * x[pin.dof]);
+      out.held_force /= std::abs(top);
+    }
+    out.motion = std::move(w.task.motion);
+    return out;
   }
 
-  Box box_;
+  static constexpr std::size_t most_kept = 8;
+  const Specimen& specimen_;
+  const ContactNetwork& network_;
   std::array<std::optional<Law>, pair_types> laws_;
   Inertia inertia_;
   HarmonicOptions options_;
   ContactOperator contacts_;
+  PairStiffness typical_;
   FreeMotions free_;
-  std::unique_ptr<Preconditioner> preconditioner_;
-  Vector last_;  ///< solution of last_frequency_
-  double last_frequency_ = -1;
+  std::unique_ptr<LinearSolver> iterative_, direct_;
+  std::map<double, Vector> solved_;  ///< by frequency: another inertia begins from what is near
 };
 
 Harmonic::Harmonic(const Specimen& specimen, const ContactNetwork& network,
@@ -197,7 +213,11 @@ Harmonic::Harmonic(const Specimen& specimen, const ContactNetwork& network,
 Harmonic::~Harmonic() = default;
 
 HarmonicResult Harmonic::solve(double frequency_hz, double density_scaling, double viscous_damping) {
-  return implementation_->solve(frequency_hz, density_scaling, viscous_damping);
+  return implementation_->solve({{frequency_hz, density_scaling, viscous_damping}}).front();
+}
+
+std::vector<HarmonicResult> Harmonic::solve(const std::vector<HarmonicLoad>& loads) {
+  return implementation_->solve(loads);
 }
 
 }  // namespace macadam

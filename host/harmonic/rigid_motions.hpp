@@ -4,16 +4,17 @@
 
 #include <vector>
 
-#include "host/harmonic/stiffness_matrix.hpp"
+#include "host/harmonic/contact_operator.hpp"
 #include "macadam/specimen.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam::harmonic {
 
-/// Mass or moment of inertia of degree of freedom 6·particle + component.
-inline double inertia_at(const Inertia& inertia, std::size_t dof) {
-  return dof % 6 < 3 ? inertia.mass[dof / 6] : inertia.inertia[dof / 6];
-}
+/// A scalar spring to ground on one degree of freedom.
+struct Pin {
+  std::size_t dof;
+  double stiffness;
+};
 
 /// The free rigid motions (three between frictionless walls: x, y and yaw).
 struct FreeMotions {

@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <new>
 
 #include "host/results/files.hpp"
 #include "macadam/error.hpp"
@@ -131,7 +132,7 @@ void write_checkpoint(const std::filesystem::path& file, const Checkpoint& check
     bytes = file_of(checkpoint);
   } catch (const H5::Exception& error) {
     throw RunError(file.string() + ": HDF5 cannot make it (out of memory?): " + error.getDetailMsg());
-  }
+  } catch (const std::bad_alloc&) { throw RunError(file.string() + ": not enough memory to make it"); }
   bytes.replace(0, user_block, user_block_of(std::string_view(bytes).substr(user_block)));
   write_whole(file, bytes, true);
 }

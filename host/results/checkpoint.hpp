@@ -19,7 +19,7 @@ struct Checkpoint {
 
 /// Replaces a checkpoint by a rename, once the new one is on the disk: a kill at any moment leaves the old one or the
 /// new one, and so does a full disk. HDF5's user block, the first 512 bytes, holds the length and a checksum, as text.
-/// It is made in memory first, which takes its size once more. \throws RunError.
+/// It is made in memory first, which takes twice its size. \throws RunError.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
 /// \throws InputError naming the file: not there, no checkpoint, cut off, damaged.

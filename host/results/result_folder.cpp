@@ -27,13 +27,20 @@ void remove_empty(const std::vector<fs::path>& folders) {
 
 ResultFolder::ResultFolder(const fs::path& folder) {
   std::error_code error;
-  for (fs::path f = folder; !f.empty() && !fs::exists(f, error); f = f.parent_path()) made_.push_back(f);
-  fs::create_directories(folder, error);
+  fs::path whole = fs::absolute(folder).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();  // a slash at its end
+  for (fs::path f = whole; !f.empty() && !fs::exists(f, error); f = f.parent_path()) made_.push_back(f);
+  fs::create_directories(whole, error);
   file_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file_ < 0) {
     const std::string why = std::generic_category().message(errno);
     remove_empty(made_);
     throw RunError(folder.string() + ": cannot make the result folder: " + (error ? error.message() : why));
+  }
+  if (::faccessat(file_, ".", W_OK | X_OK, AT_EACCESS) != 0) {
+    const std::string why = std::generic_category().message(errno);
+    ::close(file_);
+    throw RunError(folder.string() + ": no files can be written into it: " + why);
   }
   if (::flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(file_);

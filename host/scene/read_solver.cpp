@@ -69,6 +69,10 @@ SolverSpec read_solver(const Section& section, const LoadingSpec& loading) {
                                      {"cpu", Backend::cpu},
                                      {"cuda", Backend::cuda},
                                      {"reference", Backend::reference}})},
+       {"linear", Need::optional,
+        into<LinearMethod>(spec.linear, {{"auto", LinearMethod::automatic},
+                                         {"iterative", LinearMethod::iterative},
+                                         {"direct", LinearMethod::direct}})},
        {"threads", Need::optional, into(spec.threads, 0, most_threads)},
        {"inertia", Need::optional, into(spec.inertia)}});
   read_damping(section, spec);

@@ -3,11 +3,11 @@
 #include "host/scene/table.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "host/in_quotes.hpp"
 #include "host/nearest.hpp"
 #include "macadam/error.hpp"
 
@@ -15,16 +15,6 @@ namespace macadam::scene {
 namespace {
 
 int line_of(const toml::source_region& region) { return static_cast<int>(region.begin.line); }
-
-/// Text between quotes, fit for one line of a message.
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t longest = 60;
-  std::string shown(text.substr(0, longest));
-  for (char& c : shown) {
-    if (std::iscntrl(static_cast<unsigned char>(c))) c = ' ';
-  }
-  return '"' + shown + (text.size() > longest ? "…\"" : "\"");
-}
 
 std::string listed(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 

@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -32,7 +33,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorEstimate, e_star, phase_rad)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrequencyPlan, loading, density_scaling, start, cycles, fit_cycles, known, predicted)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Plan, form, geometry, precision, geometry_error, critical, frequencies, decisions)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, plan, seconds_planning, seconds, seconds_running)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, plan, seconds_planning, seconds, seconds_running, warnings)
 
 namespace {
 
@@ -96,6 +97,13 @@ bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not
   return !why;
 }
 
+bool is_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend) {
+  try {
+    read_run_state(file, scene, backend);
+    return true;
+  } catch (const InputError&) { return false; }
+}
+
 RunState read_run_state(const std::filesystem::path& file, const Scene& scene, Backend backend) {
   Checkpoint checkpoint = read_checkpoint(file);
   for (const auto& [what, expected] : identity(scene, backend)) {
@@ -146,13 +154,15 @@ void require_same_specimen(const std::filesystem::path& file, const RunState& st
 }
 
 Checkpoints::Checkpoints(const std::filesystem::path& file, const Scene& scene, const Preparation& prepared,
-                         Backend backend, std::function<bool()> stop, std::function<void(const std::string&)> warn)
+                         Backend backend, std::function<bool()> stop, std::function<void(const std::string&)> warn,
+                         bool resumed)
     : file_(file),
       scene_(scene),
       prepared_(prepared),
       backend_(backend),
       stop_(std::move(stop)),
-      warn_(std::move(warn)) {}
+      warn_(std::move(warn)),
+      own_(resumed) {}
 
 void Checkpoints::look(const RunState& at, double seconds_running, const Stepper& stepper, const std::string& where) {
   constexpr double usual = 600;  // [s]
@@ -165,8 +175,10 @@ void Checkpoints::look(const RunState& at, double seconds_running, const Stepper
   if (kept) {
     try {
       write(at, seconds_running, stepper);
-      written_ = true;
-    } catch (const RunError& error) { failure = error.what(); }
+      own_ = true;
+    } catch (const RunError& error) { failure = error.what(); } catch (const std::bad_alloc&) {
+      failure = "not enough memory for it";
+    }
     last_ = Clock::now();
   }
   if (!stopping && !failure.empty()) warn_(fmt::format("no checkpoint at {}: {}", where, failure));
@@ -174,7 +186,7 @@ void Checkpoints::look(const RunState& at, double seconds_running, const Stepper
   std::string resumable = file_.string() + " is written: the same command with --resume goes on from it";
   if (!kept) resumable = "it cannot be resumed: " + why_not;
   if (!failure.empty()) {
-    const bool older = std::filesystem::exists(file_);
+    const bool older = own_ && std::filesystem::exists(file_);
     resumable = fmt::format("its checkpoint is not there: {}; {}", failure,
                             older ? "--resume goes on from the one before" : "it cannot be resumed");
   }

@@ -20,6 +20,7 @@ struct RunState {
   double seconds_planning = 0;
   std::vector<double> seconds;          ///< wall time of each finished frequency
   double seconds_running = 0;           ///< of the one that runs, until now
+  std::vector<std::string> warnings;    ///< of checkpoints that could not be written
   std::vector<ResponseSample> samples;  ///< of all frequencies until now
   std::vector<StateArray> state;        ///< Stepper::state() of the one that runs; read from a checkpoint only
   std::string specimen;                 ///< fingerprint; read from a checkpoint only
@@ -36,6 +37,9 @@ bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not
 /// backend, precision, form or geometry.
 RunState read_run_state(const std::filesystem::path& file, const Scene& scene, Backend backend);
 
+/// Whether a file is a whole checkpoint of this scene on this backend.
+bool is_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend);
+
 /// \throws InputError when the checkpoint's particles and contacts were others (its specimen file was changed).
 void require_same_specimen(const std::filesystem::path& file, const RunState& state, const Preparation& prepared);
 
@@ -44,14 +48,14 @@ void require_same_specimen(const std::filesystem::path& file, const RunState& st
 class Checkpoints {
  public:
   Checkpoints(const std::filesystem::path& file, const Scene& scene, const Preparation& prepared, Backend backend,
-              std::function<bool()> stop, std::function<void(const std::string&)> warn);
+              std::function<bool()> stop, std::function<void(const std::string&)> warn, bool resumed);
 
   /// Looks whether it is time or the run is to stop; `where` is for the message.
   /// \throws InterruptedError when it was to stop, with the checkpoint written, or why it could not be.
   void look(const RunState& at, double seconds_running, const Stepper& stepper, const std::string& where);
 
-  /// Whether any was written.
-  bool written() const { return written_; }
+  /// Whether the file, if it is there, is this run's: it was written, or the run goes on from it.
+  bool own() const { return own_; }
 
  private:
   void write(const RunState& at, double seconds_running, const Stepper& stepper) const;
@@ -63,7 +67,7 @@ class Checkpoints {
   Backend backend_;
   std::function<bool()> stop_;
   std::function<void(const std::string&)> warn_;
-  bool written_ = false;
+  bool own_;
   Clock::time_point last_ = Clock::now();
 };
 

@@ -10,9 +10,6 @@
 
 namespace macadam {
 
-/// Particles whose stiffness is factored unasked: memory grows as about n^(4/3), 2 GB for 35,760.
-inline constexpr std::size_t largest_harmonic = 100'000;
-
 /// What is found against what is expected.
 ErrorEstimate difference(const Stiffness& found, const Stiffness& expected);
 /// The larger of |E*|'s and φ's.

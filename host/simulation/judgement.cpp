@@ -84,11 +84,13 @@ void judge(FrequencyResult& f, double stiffest, std::optional<double> tolerance,
         compared ? std::max(std::abs(f.cyclic->change_e_star), std::abs(radians(f.cyclic->change_phase_deg))) : 0;
     if (!f.fault.empty() || change > *tolerance) f.kept = false;
     warn(fmt::format(
-        "the tolerance could not be verified, there is no harmonic solution to compare with; {}, the fit "
+        "the tolerance could not be verified, there is no harmonic solution to compare with{}: {}, the fit "
         "leaves {:.1e} of the amplitude",
+        f.kept ? ", and cannot have been kept" : "",
         compared ? fmt::format("the last two cycles differ by {:.1e}", change) : "it ran one cycle", f.residual));
+  } else if (!*f.kept) {
+    warn("the tolerance was not kept");
   }
-  if (f.kept && !*f.kept) warn("the tolerance was not kept");
 }
 
 void require_sense(const Scene& scene, const RunResult& result) {

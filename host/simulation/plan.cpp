@@ -68,21 +68,17 @@ class Planner {
     nonlinear_ = fixed ? 0 : error;
   }
 
-  /// Factors the stiffness where there is a harmonic solution; else `no_harmonic_` says why not.
-  void make_harmonic(bool asked) {
-    const std::size_t particles = prepared_.specimen.size();
+  /// `no_harmonic_` says why where there is none.
+  void make_harmonic() {
     if (prepared_.loose_particles > 0) {
       no_harmonic_ = fmt::format("{} particles are not joined to both walls", prepared_.loose_particles);
-    } else if (particles > largest_harmonic && !asked) {
-      no_harmonic_ = fmt::format("the stiffness of more than {} particles is factored only for start = \"steady\"",
-                                 largest_harmonic);
-    } else {
-      if (progress_) progress_("harmonic: factoring", 0);
-      try {
-        harmonic_.emplace(prepared_.specimen, prepared_.network, scene_.laws, inertia_, HarmonicOptions{},
-                          geometric_mean(scene_.loading.frequencies));
-      } catch (const RunError& error) { no_harmonic_ = error.what(); }
+      return;
     }
+    if (progress_) progress_("harmonic: preconditioner", 0);
+    try {
+      harmonic_.emplace(prepared_.specimen, prepared_.network, scene_.laws, inertia_,
+                        HarmonicOptions{.linear = scene_.solver.linear}, geometric_mean(scene_.loading.frequencies));
+    } catch (const RunError& error) { no_harmonic_ = error.what(); }
   }
 
   void choose_start() {
@@ -91,7 +87,7 @@ class Planner {
     start_ = loading.start.value_or(automatic() && loading.ramp_cycles.value_or(0) == 0 ? Start::steady : Start::rest);
     if (!automatic() && start_ == Start::rest) return;
     ramp_ = 1;
-    make_harmonic(asked);
+    make_harmonic();
     if (!harmonic_) decide("no harmonic solution: {}", no_harmonic_);
     const bool local = scene_.solver.damping_kind == Damping::local;
     if (local) decide("not linear: local damping, whose own effect is not predicted");

@@ -9,7 +9,8 @@
 namespace macadam {
 
 /// specimen.csv, aggregates.csv, contacts.csv (where the scene asks) and summary.json without results, into a folder
-/// that is there. \throws RunError.
+/// that is there. Files of another specimen that these do not replace are removed: aggregates, contacts, sections.
+/// \throws RunError.
 void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 
 }  // namespace macadam

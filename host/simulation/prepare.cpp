@@ -21,6 +21,17 @@ double timed(F&& f) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  std::error_code error;
+  return std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(), folder, error);
+}
+
+/// A file of an older specimen.
+void remove_older(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);
+}
+
 }  // namespace
 
 Preparation prepare(const Scene& scene, const Progress& progress) {
@@ -60,18 +71,35 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
 }
 
 void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out) {
+  const bool same_specimen = scene.specimen.file && is_in(*scene.specimen.file, out);
   write_specimen_csv(out / "specimen.csv", prepared.specimen);
-  if (!prepared.aggregates.empty())
+  if (!prepared.aggregates.empty()) {
     write_aggregates_csv(out / "aggregates.csv", prepared.aggregates, prepared.composition);
-  if (scene.output.contacts) write_contacts_csv(out / "contacts.csv", prepared.network);
+  } else if (!same_specimen) {
+    remove_older(out / "aggregates.csv");
+  }
+  if (scene.output.contacts) {
+    write_contacts_csv(out / "contacts.csv", prepared.network);
+  } else {
+    remove_older(out / "contacts.csv");
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(out)) {
+    const std::string name = entry.path().filename().string();
+    if (!same_specimen && name.starts_with("section_") && name.ends_with(".csv")) remove_older(entry.path());
+  }
   write_whole(out / "summary.json", summary_json(scene, prepared, {}, "prepared"));
 }
 
-Preparation prepare_into(const std::filesystem::path& out, const Scene& scene, const Progress& progress) {
+Preparation prepare_into(const std::filesystem::path& out, const Scene& scene,
+                         const std::vector<SectionPlane>& sections, const Progress& progress) {
   const ResultFolder folder(out);
   require_no_run(out);
   Preparation prepared = prepare(scene, progress);
   write_preparation(scene, prepared, out);
+  for (const SectionPlane& plane : sections) {
+    write_cross_section_csv(out / section_file_name(plane), prepared.specimen,
+                            cut(prepared.specimen, prepared.tessellation, plane));
+  }
   return prepared;
 }
 

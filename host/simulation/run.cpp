@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <new>
 
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
@@ -43,11 +44,31 @@ void require_checkpoints(const Scene& scene, Backend backend, bool resume) {
   }
 }
 
-/// None of an older run may stay beside ours. A checkpoint may: it is no result, and only its own run replaces it.
+/// None of an older run may stay beside ours. A checkpoint may: it is no result.
 void remove_results(const std::filesystem::path& out) {
   for (const char* name : {"response.csv", "contacts.csv", "summary.json"}) {
-    if (std::filesystem::is_regular_file(out / name)) std::filesystem::remove(out / name);
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(out / name, error)) continue;
+    if (!std::filesystem::remove(out / name, error)) {
+      throw RunError((out / name).string() + ": cannot be replaced: " + error.message());
+    }
   }
+}
+
+/// This run's checkpoint, and that of an earlier run of the same scene: what they would lead to is there. One that
+/// cannot be removed costs disk space only.
+void remove_own_checkpoint(const std::filesystem::path& out, const Scene& scene, Backend backend, bool own) {
+  const std::filesystem::path file = out / checkpoint_name;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored) || !(own || is_checkpoint_of(file, scene, backend))) return;
+  std::filesystem::remove(file, ignored);
+  std::filesystem::remove(file.string() + ".part", ignored);  // of a kill while one was written
+}
+
+std::string status_of(const std::exception& error) {
+  if (dynamic_cast<const InterruptedError*>(&error)) return "interrupted";
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return "failed: out of memory";
+  return std::string("failed: ") + error.what();
 }
 
 }  // namespace
@@ -71,11 +92,13 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   std::unique_ptr<Solution> solution;
   std::exception_ptr unsolvable;
   try {
-    solution = stepped ? plan_steps(scene, prepared, watcher, std::move(resumed), result)
+    solution = stepped ? plan_steps(scene, prepared, watcher, std::move(resumed), out / checkpoint_name, result)
                        : plan_harmonic(scene, prepared, watcher, result);
   } catch (const InterruptedError&) { throw; } catch (const RunError&) {
-    unsolvable = std::current_exception();  // a run that failed, whose specimen one wants to look at
+    if (std::filesystem::exists(out / "summary.json")) throw;
+    unsolvable = std::current_exception();  // whoever has nothing yet wants to look at the specimen
   }
+  if (watcher.progress) watcher.progress("writing the specimen", 0);  // the last to be interrupted without a trace
   remove_results(out);
   write_preparation(scene, prepared, out);
   try {
@@ -83,16 +106,14 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
     if (watcher.planned) watcher.planned(result);
     solution->solve(out, SparingSave(save), result);
   } catch (const std::exception& error) {
-    const bool interrupted = dynamic_cast<const InterruptedError*>(&error) != nullptr;
     try {
-      save(interrupted ? "interrupted" : std::string("failed: ") + error.what());
-    } catch (const RunError&) {  // a full disk may be why we are here: the first error is the one to tell
+      save(status_of(error));
+    } catch (const std::exception&) {  // a full disk may be why we are here: the first error is the one to tell
     }
     throw;
   }
   save("done");
-  std::error_code gone;  // a checkpoint that cannot be removed costs disk space only
-  if (solution->owns_checkpoint()) std::filesystem::remove(out / checkpoint_name, gone);
+  if (stepped) remove_own_checkpoint(out, scene, result.backend, solution->owns_checkpoint());
   return result;
 }
 

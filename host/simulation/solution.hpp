@@ -31,9 +31,11 @@ class Solution {
 };
 
 /// Steps in time, from the beginning or from where a checkpoint stands; each sample goes to response.csv at once.
-/// What was decided goes into `result`. \throws InputError, RunError as make_plan() does.
+/// What was decided goes into `result`. \throws InputError, also naming the `checkpoint` whose state is another
+/// machine's; RunError as make_plan() and make_stepper() do.
 std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                     std::optional<RunState> resumed, RunResult& result);
+                                     std::optional<RunState> resumed, const std::filesystem::path& checkpoint,
+                                     RunResult& result);
 
 /// Solves the steady states (method "harmonic"). \throws as the constructor of Harmonic does.
 std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,

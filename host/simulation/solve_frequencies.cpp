@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// solve_frequencies.cpp  Method "harmonic": the steady state of every frequency; the factors of one serve all.
+// solve_frequencies.cpp  Method "harmonic": the steady state of every frequency, four side by side.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -54,18 +55,20 @@ class HarmonicSolution : public Solution {
     const SolverSpec& solver = scene.solver;
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
     result.solver = described(scene, viscous_);
-    if (watcher.progress) watcher.progress("harmonic: factoring", 0);
+    if (watcher.progress) watcher.progress("harmonic: preconditioner", 0);
     const auto start = std::chrono::steady_clock::now();
     const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
-    harmonic_.emplace(prepared.specimen, prepared.network, scene.laws, inertia, HarmonicOptions{},
-                      geometric_mean(scene.loading.frequencies));
+    harmonic_.emplace(prepared.specimen, prepared.network, scene.laws, inertia,
+                      HarmonicOptions{.linear = solver.linear}, geometric_mean(scene.loading.frequencies));
     result.seconds_factoring = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   void solve(const std::filesystem::path&, const Saving& save, RunResult& result) override {
     save("running");
     const auto& frequencies = scene_.loading.frequencies;
-    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+    constexpr std::size_t block = 4;  // solved side by side
+    for (std::size_t i = 0; i < frequencies.size(); i += block) {
+      const std::size_t end = std::min(i + block, frequencies.size());
       const std::string where = fmt::format("{} Hz ({} of {})", frequencies[i], i + 1, frequencies.size());
       if (watcher_.stop && watcher_.stop()) {
         throw InterruptedError("interrupted before " + where +
@@ -74,27 +77,42 @@ class HarmonicSolution : public Solution {
       if (watcher_.progress) {
         watcher_.progress("harmonic: " + where, static_cast<double>(i) / static_cast<double>(frequencies.size()));
       }
-      result.frequencies.push_back(solve(i));
-      judge(result.frequencies.back(), stiffest_contact(scene_, prepared_.network, frequencies[i]), {},
-            result.warnings);
-      save("running");
+      try {
+        take(solve(i, end), result, save);
+      } catch (const RunError&) {  // one of them has no solution: the others are not lost for that
+        for (std::size_t k = i; k < end; ++k) take(solve(k, k + 1), result, save);
+      }
     }
   }
 
  private:
-  FrequencyResult solve(std::size_t i) {
-    FrequencyResult f;
-    f.density_scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
-    const HarmonicResult solved = harmonic_->solve(scene_.loading.frequencies[i], f.density_scaling, viscous_);
-    f.frequency_hz = solved.frequency_hz;
-    f.method = SolverMethod::harmonic;
-    f.stiffness = solved.top;
-    f.bottom = solved.bottom;
-    f.residual = solved.residual;
-    f.iterations = solved.iterations;
-    f.held_force = solved.held_force;
-    f.seconds = solved.seconds;
-    return f;
+  std::vector<HarmonicResult> solve(std::size_t first, std::size_t end) {
+    std::vector<HarmonicLoad> loads;
+    for (std::size_t i = first; i < end; ++i) {
+      const double scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
+      loads.push_back({scene_.loading.frequencies[i], scaling, viscous_});
+    }
+    return harmonic_->solve(loads);
+  }
+
+  void take(const std::vector<HarmonicResult>& solved, RunResult& result, const Saving& save) const {
+    for (const HarmonicResult& s : solved) {
+      const std::size_t i = result.frequencies.size();
+      FrequencyResult f;
+      f.density_scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
+      f.frequency_hz = s.frequency_hz;
+      f.method = SolverMethod::harmonic;
+      f.linear = s.linear;
+      f.stiffness = s.top;
+      f.bottom = s.bottom;
+      f.residual = s.residual;
+      f.iterations = s.iterations;
+      f.held_force = s.held_force;
+      f.seconds = s.seconds;
+      judge(f, stiffest_contact(scene_, prepared_.network, f.frequency_hz), {}, result.warnings);
+      result.frequencies.push_back(f);
+    }
+    save("running");
   }
 
   const Scene& scene_;

@@ -154,6 +154,19 @@ class Steps : public Solution {
         at_(std::move(at)),
         owns_checkpoint_(resumed) {}
 
+  /// Makes the first stepper: what it refuses is refused before a file is touched.
+  void make_first(Backend backend, const std::filesystem::path& checkpoint) {
+    if (at_.seconds.size() == at_.plan.frequencies.size()) return;
+    const FrequencyPlan& p = at_.plan.frequencies[at_.seconds.size()];
+    const bool resumed = !at_.state.empty();
+    try {
+      first_ = stepper_of(scene_, prepared_, inertia_, backend, at_.plan, p, std::exchange(at_.state, {}));
+    } catch (const Error& error) {
+      if (resumed) throw InputError(checkpoint.string() + ": checkpoint of another machine: " + error.what());
+      throw;
+    }
+  }
+
   /// What is known before the first step, and the frequencies that a checkpoint has finished.
   void begin(RunResult& result) {
     result.decisions = at_.plan.decisions;
@@ -164,15 +177,19 @@ class Steps : public Solution {
     result.critical_dt_s = at_.plan.critical.dt;
     result.seconds_planning = at_.seconds_planning;
     result.skips = find_skips(scene_, prepared_, at_.plan);
+    result.warnings = at_.warnings;
     for (std::size_t i = 0; i < at_.seconds.size(); ++i) finish(i, result);
   }
 
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
-    Checkpoints checkpoints(out / checkpoint_name, scene_, prepared_, result.backend, watcher_.stop,
-                            [&](const std::string& warning) {
-                              result.warnings.push_back(warning);
-                              if (watcher_.warn) watcher_.warn(warning);
-                            });
+    Checkpoints checkpoints(
+        out / checkpoint_name, scene_, prepared_, result.backend, watcher_.stop,
+        [&](const std::string& warning) {
+          at_.warnings.push_back(warning);
+          result.warnings.push_back(warning);
+          if (watcher_.warn) watcher_.warn(warning);
+        },
+        owns_checkpoint_);
     std::optional<ResponseWriter> writer;
     if (scene_.output.response) {
       writer.emplace(out / "response.csv");
@@ -181,7 +198,7 @@ class Steps : public Solution {
     for (std::size_t i = at_.seconds.size(); i < at_.plan.frequencies.size(); ++i) {
       step(i, writer ? &*writer : nullptr, checkpoints, save, result);
       finish(i, result);
-      owns_checkpoint_ = owns_checkpoint_ || checkpoints.written();
+      owns_checkpoint_ = checkpoints.own();
     }
     require_sense(scene_, result);
   }
@@ -194,7 +211,7 @@ class Steps : public Solution {
     const double before = std::exchange(at_.seconds_running, 0);
     const FrequencyPlan& p = at_.plan.frequencies[i];
     const auto stepper =
-        stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, std::exchange(at_.state, {}));
+        first_ ? std::move(first_) : stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, {});
     result.solver = stepper->description();
     result.bytes = stepper->bytes();
     save("running");
@@ -228,7 +245,8 @@ class Steps : public Solution {
   const Watcher& watcher_;
   Inertia inertia_;
   RunState at_;
-  std::size_t samples_read_ = 0;  ///< of finished frequencies
+  std::unique_ptr<Stepper> first_;  ///< of the frequency that runs first
+  std::size_t samples_read_ = 0;    ///< of finished frequencies
   bool owns_checkpoint_;
 };
 
@@ -240,7 +258,8 @@ double density_scaling_of(const SolverSpec& solver, std::size_t frequency) {
 }
 
 std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                     std::optional<RunState> resumed, RunResult& result) {
+                                     std::optional<RunState> resumed, const std::filesystem::path& checkpoint,
+                                     RunResult& result) {
   const auto start = Clock::now();
   const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
   RunState at;
@@ -251,6 +270,7 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
     at.seconds_planning = seconds_since(start);
   }
   auto steps = std::make_unique<Steps>(scene, prepared, watcher, inertia, std::move(at), resumed.has_value());
+  steps->make_first(result.backend, checkpoint);
   steps->begin(result);
   return steps;
 }

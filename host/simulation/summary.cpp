@@ -59,6 +59,7 @@ Json frequency_json(const FrequencyResult& f, bool tolerance) {
     out["e_star_bottom_pa"] = f.bottom->e_star_pa;
     out["phase_bottom_deg"] = f.bottom->phase_deg;
     out["iterations"] = f.iterations;
+    out["linear"] = to_string(f.linear);
     out["held_force"] = f.held_force;
   }
   return out;

@@ -77,6 +77,9 @@ class Lines {
     const std::string reason = gzerror(in_.get(), &code);
     if (code != Z_OK && code != Z_STREAM_END)
       fail(code == Z_ERRNO ? std::strerror(errno) : reason, "a whole readable file");
+    // gzread() takes what it cannot read behind a whole stream for nothing
+    if (!gzdirect(in_.get()) && gzoffset(in_.get()) != static_cast<z_off_t>(std::filesystem::file_size(name_)))
+      fail("bytes behind the end of the gzip data", "none");
     got_ = 0;
     return false;
   }

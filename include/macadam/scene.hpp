@@ -12,6 +12,7 @@
 #include "macadam/backend.hpp"
 #include "macadam/contact_network.hpp"
 #include "macadam/laws/all.hpp"
+#include "macadam/linear_method.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {
@@ -58,8 +59,9 @@ struct SolverSpec {
   std::optional<Geometry> geometry;
   std::optional<Precision> precision;
   Backend backend = Backend::automatic;
-  int threads = 0;       ///< 0: OpenMP's choice
-  bool inertia = false;  ///< harmonic only: include −ω²M, times density_scaling
+  LinearMethod linear = LinearMethod::automatic;  ///< of the harmonic solutions
+  int threads = 0;                                ///< 0: OpenMP's choice
+  bool inertia = false;                           ///< harmonic only: include −ω²M, times density_scaling
 };
 
 /// `[output]`.

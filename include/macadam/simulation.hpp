@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "macadam/cross_section.hpp"
 #include "macadam/results.hpp"
 #include "macadam/scene.hpp"
 #include "macadam/specimen.hpp"
@@ -59,7 +60,8 @@ struct FrequencyResult {
   std::string fault;                ///< what of it cannot be right; empty where nothing is known to be wrong
   std::optional<Stiffness> bottom;  ///< harmonic: from the reaction of the bottom wall
   int iterations = 0;               ///< harmonic
-  double held_force = 0;            ///< harmonic: force that holds free rigid motions / reaction
+  LinearMethod linear = LinearMethod::iterative;  ///< harmonic: that found the solution
+  double held_force = 0;                          ///< harmonic: force that holds free rigid motions / reaction
 };
 
 /// Outcome of a run.
@@ -87,16 +89,17 @@ using Progress = std::function<void(const std::string& stage, double share)>;
 Preparation prepare(const Scene& scene, const Progress& progress = {});
 
 /// Prepares a scene and writes specimen.csv, aggregates.csv (of a generated specimen), contacts.csv (where the scene
-/// asks) and summary.json without results. Nothing is written before the work is done.
+/// asks), section_*.csv of the planes and summary.json without results. Nothing is written before the work is done.
 /// \throws InputError also where the folder holds a run, whose results these files would replace, or where another
 /// command is writing into it; RunError.
-Preparation prepare_into(const std::filesystem::path& out, const Scene& scene, const Progress& progress = {});
+Preparation prepare_into(const std::filesystem::path& out, const Scene& scene,
+                         const std::vector<SectionPlane>& sections = {}, const Progress& progress = {});
 
 /// What a run tells as it goes; any may be empty.
 struct Watcher {
   Progress progress;
   std::function<void(const Preparation&)> prepared;  ///< once specimen and network are there
-  /// Decisions, once nothing can refuse the scene any more and its files are written: before the first step.
+  /// Decisions, once nothing can refuse the scene any more and the specimen's files are written: before the first step.
   std::function<void(const RunResult&)> planned;
   std::function<void(const std::string&)> warn;  ///< at once; all warnings are in RunResult::warnings too
   /// Asked before each sample and within a second between samples, and before each harmonic frequency: true ends the
@@ -105,15 +108,15 @@ struct Watcher {
 };
 
 /// The whole job: prepare, plan, step every frequency, write every file. The folder is as it was until preparing and
-/// planning are done, so that what refuses the scene (InputError) leaves older results alone; then they are replaced.
+/// planning are done, so that what refuses the scene leaves older results alone; then they are replaced.
 /// response.csv is complete up to the last sample whatever happens later; so is summary.json up to the last frequency
-/// (up to the last second, where frequencies take less). A stepped run of a scene that was read from a file leaves
-/// `checkpoint.h5` as it goes (OutputSpec::checkpoint), replaced by a rename; one that cannot be written is a warning.
-/// When all is done the run removes its own, never that of another; backend reference keeps none. `resume` goes on from
-/// it to the same bits as a run that was never interrupted.
-/// \throws InputError, also for a checkpoint that is not there, damaged, or of another scene, version, backend or
-/// precision, and where another command is writing into the folder; InterruptedError; RunError (DivergenceError names
-/// particle and time), also for a tolerance whose result cannot be right.
+/// (up to ten times what saving takes, where frequencies take less). A stepped run of a scene that was read from a file
+/// leaves `checkpoint.h5` as it goes (OutputSpec::checkpoint), replaced by a rename; one that cannot be written is a
+/// warning. When all is done the run removes its own and one of the same scene, no other; but its first one replaces
+/// whatever checkpoint is there. Backend reference keeps none. `resume` goes on from it to the same bits as a run that
+/// was never interrupted. \throws InputError, also for a checkpoint that is not there, damaged, or of another scene,
+/// version, backend or precision, and where another command is writing into the folder; InterruptedError; RunError
+/// (DivergenceError names particle and time), also for a tolerance whose result cannot be right.
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
 
 }  // namespace macadam

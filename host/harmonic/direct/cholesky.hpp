@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file preconditioner.hpp  Cholesky factors of a real stiffness matrix (CHOLMOD), applied to complex vectors.
+/// \file cholesky.hpp  Cholesky factors of a real stiffness matrix (CHOLMOD), applied to complex vectors.
 #pragma once
 
 #include <memory>
 
-#include "host/harmonic/stiffness_matrix.hpp"
+#include "host/harmonic/direct/stiffness_matrix.hpp"
 
 namespace macadam::harmonic {
 
-class Preconditioner {
+class Cholesky {
  public:
   /// Orders the particles (METIS nested dissection on the contact graph), assembles and factors.
   /// \throws RunError when the matrix is not positive definite (a mechanism) or memory does not suffice.
-  Preconditioner(const ContactNetwork& network, std::size_t particles, const PairStiffness& stiffness,
-                 const std::vector<Pin>& pins);
-  ~Preconditioner();
+  Cholesky(const ContactNetwork& network, std::size_t particles, const PairStiffness& stiffness,
+           const std::vector<Pin>& pins);
+  ~Cholesky();
 
   /// out = M⁻¹·in
   void solve(const Vector& in, Vector& out) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // stiffness_matrix.cpp  K = Σ Gᵀ·D·G over the contacts, written straight into compressed columns.
-#include "host/harmonic/stiffness_matrix.hpp"
+#include "host/harmonic/direct/stiffness_matrix.hpp"
 
 #include <algorithm>
 

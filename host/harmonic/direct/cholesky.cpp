@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// preconditioner.cpp  METIS orders particles (35,000 nodes in place of 215,000 unknowns), CHOLMOD factors by
+// cholesky.cpp  METIS orders particles (35,000 nodes in place of 215,000 unknowns), CHOLMOD factors by
 // supernodes.
-#include "host/harmonic/preconditioner.hpp"
+#include "host/harmonic/direct/cholesky.hpp"
 
 #include <cholmod.h>
 #include <fmt/format.h>
@@ -78,7 +78,7 @@ cholmod_sparse view(Eigen::SparseMatrix<double>& matrix) {
 
 }  // namespace
 
-struct Preconditioner::Factor {
+struct Cholesky::Factor {
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
   std::vector<std::int32_t> place;
@@ -108,8 +108,8 @@ struct Preconditioner::Factor {
   }
 };
 
-Preconditioner::Preconditioner(const ContactNetwork& network, std::size_t particles, const PairStiffness& stiffness,
-                               const std::vector<Pin>& pins)
+Cholesky::Cholesky(const ContactNetwork& network, std::size_t particles, const PairStiffness& stiffness,
+                   const std::vector<Pin>& pins)
     : factor_(std::make_unique<Factor>()) {
   Factor& f = *factor_;
   f.place = nested_dissection(network, particles);
@@ -133,9 +133,9 @@ Preconditioner::Preconditioner(const ContactNetwork& network, std::size_t partic
   f.require("solving", particles);
 }
 
-Preconditioner::~Preconditioner() = default;
+Cholesky::~Cholesky() = default;
 
-void Preconditioner::solve(const Vector& in, Vector& out) const {
+void Cholesky::solve(const Vector& in, Vector& out) const {
   Factor& f = *factor_;
   const std::size_t n = in.size();
   auto* right = static_cast<double*>(f.right->x);

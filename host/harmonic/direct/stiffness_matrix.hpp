@@ -4,15 +4,9 @@
 
 #include <Eigen/SparseCore>
 
-#include "host/harmonic/contact_operator.hpp"
+#include "host/harmonic/rigid_motions.hpp"
 
 namespace macadam::harmonic {
-
-/// A scalar spring to ground on one degree of freedom.
-struct Pin {
-  std::size_t dof;
-  double stiffness;
-};
 
 /// Lower triangle of Σ Re k_pair · K_pair (6 × 6 blocks, particle by particle), pins added. `place[i]` is the position
 /// of particle i in the matrix.

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// direct_solver.cpp  COCG (conjugate gradients for complex symmetric matrices) with a real Cholesky preconditioner.
+//
+// K*(ω) is the real network with each contact multiplied by the complex number of its pair. Preconditioned by the real
+// parts at one frequency, its eigenvalues gather about a few such ratios: some ten iterations do.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/harmonic/direct/cholesky.hpp"
+#include "host/harmonic/linear_solver.hpp"
+
+namespace macadam::harmonic {
+namespace {
+
+constexpr int most_iterations = 500;
+
+/// xᵀ·y without conjugation, and ‖x‖; sums in a fixed order.
+Complex product(const Vector& x, const Vector& y) {
+  Complex sum = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
+  return sum;
+}
+double energy_of(const Vector& r, const Vector& z) {
+  double sum = 0;
+  for (std::size_t i = 0; i < r.size(); ++i) sum += (std::conj(r[i]) * z[i]).real();
+  return std::max(sum, 0.0);  // of a residual of rounding it may be below
+}
+double length(const Vector& x) {
+  double sum = 0;
+  for (const Complex& v : x) sum += std::norm(v);
+  return std::sqrt(sum);
+}
+
+class DirectSolver : public LinearSolver {
+ public:
+  DirectSolver(const ContactNetwork& network, const ContactOperator& contacts, const PairStiffness& typical,
+               const Inertia& inertia, const FreeMotions& free)
+      : contacts_(contacts),
+        inertia_(inertia),
+        free_(free),
+        factors_(network, inertia.mass.size(), typical, free.pins) {}
+
+  void solve(const std::vector<LinearTask*>& tasks) override {
+    for (LinearTask* task : tasks) solve(*task);
+  }
+
+ private:
+  void solve(LinearTask& task) const {
+    Vector& x = task.motion;
+    Vector r = task.right, z, p, q;
+    if (x.empty()) {
+      x.assign(r.size(), 0);
+    } else {
+      if (task.inertia != 0.0) remove_free_motions(x);
+      apply(task, x, q);
+      for (std::size_t i = 0; i < r.size(); ++i) r[i] -= q[i];
+    }
+    const double scale = length(task.right), limit = task.energy_limit > 0 ? task.energy_limit : infinity;
+    Complex rho_before = 0;
+    for (int k = 0;; ++k) {
+      factors_.solve(r, z);
+      if (task.inertia != 0.0) remove_free_motions(z);
+      task.energy = energy_of(r, z);
+      const double residual = length(r) / scale;
+      task.converged = residual <= task.tolerance && task.energy <= limit;
+      if (task.converged || k >= most_iterations || !std::isfinite(residual)) return;
+      const Complex rho = product(r, z);
+      if (k == 0) {
+        p = z;
+      } else {
+        const Complex beta = rho / rho_before;
+        for (std::size_t i = 0; i < p.size(); ++i) p[i] = z[i] + beta * p[i];
+      }
+      apply(task, p, q);
+      const Complex alpha = rho / product(p, q);
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        x[i] += alpha * p[i];
+        r[i] -= alpha * q[i];
+      }
+      rho_before = rho;
+      ++task.iterations;
+    }
+  }
+
+  /// out = (K* − inertia·M)·x, or (K* + pins)·x without inertia: with it free motions need no pins.
+  void apply(const LinearTask& task, const Vector& x, Vector& out) const {
+    contacts_.resistance(task.stiffness, task.inertia, inertia_, x, out);
+    if (task.inertia != 0.0) return;
+    for (const Pin& pin : free_.pins) out[pin.dof] += pin.stiffness * x[pin.dof];
+  }
+
+  /// The load is in equilibrium, so that with inertia nothing moves freely. The preconditioner, which has pins in place
+  /// of that inertia, would have to find this out: it takes three times the iterations.
+  void remove_free_motions(Vector& x) const {
+    for (const std::vector<double>& motion : free_.motions) {
+      Complex share = 0;
+      for (std::size_t i = 0; i < x.size(); ++i) share += motion[i] * inertia_at(inertia_, i) * x[i];
+      for (std::size_t i = 0; i < x.size(); ++i) x[i] -= share * motion[i];
+    }
+  }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  const ContactOperator& contacts_;
+  const Inertia& inertia_;
+  const FreeMotions& free_;
+  Cholesky factors_;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_direct_solver(const ContactNetwork& network, const ContactOperator& contacts,
+                                                 const PairStiffness& typical, const Inertia& inertia,
+                                                 const FreeMotions& free) {
+  return std::make_unique<DirectSolver>(network, contacts, typical, inertia, free);
+}
+
+}  // namespace macadam::harmonic

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// block_cocg.cpp  Three sweeps an iteration: q = K·p; x, r and the fine level; z and p. Sums are made block by block of
+// particles and then in order, so that they do not depend on the number of threads.
+#include "host/harmonic/iterative/block_cocg.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace macadam::harmonic {
+namespace {
+
+constexpr std::size_t chunk = 128;  ///< particles whose sums are made by one thread
+constexpr int most_iterations = 5000;
+constexpr double infinite_tolerance = std::numeric_limits<double>::infinity();
+constexpr int stagnation = 500;  ///< iterations without a tenth of progress
+
+template <int F>
+class BlockCocg {
+  using L = Lanes<F>;
+
+ public:
+  BlockCocg(const ContactRows& rows, const TwoLevel& levels, const kernels::Layout& layout, const Inertia& inertia,
+            const FreeMotions& free, const std::vector<LinearTask*>& tasks)
+      : rows_(rows), levels_(levels), layout_(layout), tasks_(tasks), n_(rows.bodies()), free_(free.motions.size()) {
+    for (int f = 0; f < F; ++f) {
+      const LinearTask& task = *tasks[static_cast<std::size_t>(f)];
+      for (std::size_t pair = 0; pair < pair_types; ++pair) {
+        stiffness_.k[pair].set(f, task.stiffness.k[pair]);
+        stiffness_.alpha[pair] = task.stiffness.alpha[pair];
+      }
+      stiffness_.inertia.set(f, task.inertia);
+      if (task.inertia != 0.0) stiffness_.inert = false;
+    }
+    mass_.resize(6 * n_);
+    motion_.resize(6 * n_ * free_);
+    for (std::size_t i = 0; i < n_; ++i) {
+      const auto particle = static_cast<std::size_t>(layout.particle[i]);
+      for (std::size_t c = 0; c < 6; ++c) {
+        mass_[6 * i + c] = inertia_at(inertia, 6 * particle + c);
+        for (std::size_t m = 0; m < free_; ++m) {
+          motion_[(i * free_ + m) * 6 + c] = free.motions[m][6 * particle + c];
+        }
+      }
+    }
+    for (auto* v : {&x_, &r_, &p_, &q_, &z_}) v->resize(6 * n_);
+    partial_.resize((n_ + chunk - 1) / chunk);
+    load_.resize(6 * levels.boxes());
+    coarse_.resize(6 * levels.boxes());
+    // what the free motions of the whole have in common with the boxes' motions, times mass
+    weight_.assign(free_ * 6 * levels.boxes(), 0);
+    for (std::size_t b = 0; b < levels.boxes(); ++b) {
+      for (auto i = static_cast<std::size_t>(levels.box_body[b]); i < static_cast<std::size_t>(levels.box_body[b + 1]);
+           ++i) {
+        for (std::size_t m = 0; m < free_; ++m) {
+          double v[6], out[6];
+          for (std::size_t c = 0; c < 6; ++c) v[c] = mass_[6 * i + c] * motion_[(i * free_ + m) * 6 + c];
+          restricted(levels.lever[i], v, out);
+          for (std::size_t c = 0; c < 6; ++c) weight_[(m * levels.boxes() + b) * 6 + c] += out[c];
+        }
+      }
+    }
+  }
+
+  void solve() {
+    load_tasks();
+    for (int f = 0; f < F; ++f) {
+      const LinearTask& task = *tasks_[static_cast<std::size_t>(f)];
+      double sum = 0;
+      for (const Complex& v : task.right) sum += std::norm(v);
+      scale_[f] = std::sqrt(sum);
+      energy_limit_[f] = task.energy_limit > 0 ? task.energy_limit : infinity;
+    }
+    Sums sums = start();
+    double best = infinity;
+    for (int k = 0, best_at = 0;; ++k) {
+      L drop[max_free];
+      precondition(sums, drop);
+      Factor<F> beta;
+      const double worst = judge(k, sums, beta);  // of those that are not done
+      if (worst < 0.9 * best) best = worst, best_at = k;
+      if (worst == 0 || !std::isfinite(worst) || k >= most_iterations || k - best_at > stagnation) break;
+      turn(beta, drop);
+      const Products<F> pq = apply();
+      Factor<F> alpha;
+      for (int f = 0; f < F; ++f) {
+        const Complex product = pq.plain(f);
+        alpha.set(f, done_[f] || product == 0.0 ? Complex(0) : rho_[f] / product);
+      }
+      sums = advance(alpha);
+    }
+    store_tasks();
+  }
+
+ private:
+  static constexpr std::size_t max_free = 6;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  struct Sums {
+    Products<F> rz, rr;
+    L drop[max_free];
+    void add(const Sums& o) {
+      rz.add(o.rz), rr.add(o.rr);
+      for (std::size_t m = 0; m < max_free; ++m) drop[m] += o.drop[m];
+    }
+  };
+
+  template <class Work>
+  Sums sum(Work&& work) {
+#pragma omp parallel for schedule(static)
+    for (std::size_t block = 0; block < partial_.size(); ++block) {
+      Sums own;
+      for (std::size_t i = block * chunk; i < std::min(n_, (block + 1) * chunk); ++i) work(i, own);
+      partial_[block] = own;
+    }
+    Sums out;
+    for (const Sums& s : partial_) out.add(s);
+    return out;
+  }
+
+  template <class T, class U>
+  static void restricted(const TwoLevel::Lever& l, const T (&v)[6], U (&out)[6]) {
+    for (int c = 0; c < 3; ++c) out[c] = v[c];
+    const double w = 1 / l.width;
+    out[3] = w * (v[3] + l.y * v[2] - l.z * v[1]);
+    out[4] = w * (v[4] + l.z * v[0] - l.x * v[2]);
+    out[5] = w * (v[5] + l.x * v[1] - l.y * v[0]);
+  }
+
+  void load_tasks() {
+    for (std::size_t i = 0; i < n_; ++i) {
+      const std::size_t from = 6 * static_cast<std::size_t>(layout_.particle[i]);
+      for (std::size_t c = 0; c < 6; ++c) {
+        for (int f = 0; f < F; ++f) {
+          const LinearTask& task = *tasks_[static_cast<std::size_t>(f)];
+          r_[6 * i + c].set(f, task.right[from + c]);
+          x_[6 * i + c].set(f, task.motion.empty() ? Complex(0) : task.motion[from + c]);
+        }
+      }
+    }
+  }
+  void store_tasks() {
+    for (LinearTask* task : tasks_) task->motion.assign(6 * n_, 0);
+    for (std::size_t i = 0; i < n_; ++i) {
+      const std::size_t to = 6 * static_cast<std::size_t>(layout_.particle[i]);
+      for (std::size_t c = 0; c < 6; ++c) {
+        for (int f = 0; f < F; ++f) tasks_[static_cast<std::size_t>(f)]->motion[to + c] = x_[6 * i + c].at(f);
+      }
+    }
+  }
+
+  /// Looks where each frequency stands, and finds β = rᵀz / rᵀz before. What is done no longer moves. Returns the
+  /// largest relative residual of the others, 0 where there are none.
+  double judge(int k, const Sums& sums, Factor<F>& beta) {
+    double worst = 0;
+    for (int f = 0; f < F; ++f) {
+      LinearTask& task = *tasks_[static_cast<std::size_t>(f)];
+      if (!done_[f]) {
+        const double residual = std::sqrt(sums.rr.conjugated(f)) / scale_[f];
+        task.energy = std::max(sums.rz.conjugated(f) + coarse_product_.conjugated(f), 0.0);
+        done_[f] = residual <= task.tolerance && task.energy <= energy_limit_[f];
+        task.converged = done_[f];
+        task.iterations += k > 0;
+        if (!done_[f]) worst = std::max(worst, std::isfinite(residual) ? residual : infinity);
+      }
+      const Complex rho = done_[f] ? Complex(0) : sums.rz.plain(f) + coarse_product_.plain(f);
+      beta.set(f, done_[f] || k == 0 || rho_[f] == 0.0 ? Complex(0) : rho / rho_[f]);
+      rho_[f] = rho;
+    }
+    return worst;
+  }
+
+  /// r = f − K·x and what follows from it.
+  Sums start() {
+    return sum([&](std::size_t i, Sums& own) {
+      L kx[6];
+      apply_row<F>(rows_, stiffness_, &mass_[6 * i], i, x_, kx);
+      for (std::size_t c = 0; c < 6; ++c) r_[6 * i + c] -= kx[c];
+      fine(i, own);
+    });
+  }
+
+  /// z = K_ii⁻¹·r of one body, and its shares in the sums.
+  void fine(std::size_t i, Sums& own) {
+    const double* inverse = &levels_.inverse[36 * i];
+    const L* r = &r_[6 * i];
+    L* z = &z_[6 * i];
+    for (std::size_t a = 0; a < 6; ++a) {
+      L sum;
+      for (std::size_t b = 0; b < 6; ++b) sum += inverse[6 * a + b] * r[b];
+      z[a] = sum;
+      own.rz.add(r[a], sum);
+      own.rr.add(r[a], r[a]);
+      for (std::size_t m = 0; m < free_; ++m) {
+        own.drop[m] += (mass_[6 * i + a] * motion_[(i * free_ + m) * 6 + a]) * sum;
+      }
+    }
+  }
+
+  /// coarse = (RᵀKR)⁻¹·Rᵀ·r
+  void precondition(const Sums& sums, L (&drop)[max_free]) {
+    const std::size_t boxes = levels_.boxes();
+#pragma omp parallel for schedule(static)
+    for (std::size_t b = 0; b < boxes; ++b) {
+      L own[6];
+      for (auto i = static_cast<std::size_t>(levels_.box_body[b]);
+           i < static_cast<std::size_t>(levels_.box_body[b + 1]); ++i) {
+        const L* r = &r_[6 * i];
+        const L v[6] = {r[0], r[1], r[2], r[3], r[4], r[5]};
+        L out[6];
+        restricted(levels_.lever[i], v, out);
+        for (int c = 0; c < 6; ++c) own[c] += out[c];
+      }
+      for (std::size_t c = 0; c < 6; ++c) load_[6 * b + c] = own[c];
+    }
+#pragma omp parallel for schedule(static)
+    for (std::size_t a = 0; a < 6 * boxes; ++a) {
+      L sum;
+      const double* row = levels_.coarse.data() + a * 6 * boxes;
+      for (std::size_t b = 0; b < 6 * boxes; ++b) sum += row[b] * load_[b];
+      coarse_[a] = sum;
+    }
+    coarse_product_ = {};
+    for (std::size_t a = 0; a < 6 * boxes; ++a) coarse_product_.add(load_[a], coarse_[a]);
+    for (std::size_t m = 0; m < free_; ++m) {
+      drop[m] = sums.drop[m];
+      for (std::size_t a = 0; a < 6 * boxes; ++a) drop[m] += weight_[m * 6 * boxes + a] * coarse_[a];
+    }
+  }
+
+  /// p = z + β·p with the coarse correction added to z and the free motions taken out.
+  void turn(const Factor<F>& beta, const L (&drop)[max_free]) {
+#pragma omp parallel for schedule(static)
+    for (std::size_t b = 0; b < levels_.boxes(); ++b) {
+      const L* y = &coarse_[6 * b];
+      for (auto i = static_cast<std::size_t>(levels_.box_body[b]);
+           i < static_cast<std::size_t>(levels_.box_body[b + 1]); ++i) {
+        const TwoLevel::Lever& l = levels_.lever[i];
+        const double w = 1 / l.width;
+        const L turn[3] = {w * y[3], w * y[4], w * y[5]};
+        const L add[6] = {y[0] + l.z * turn[1] - l.y * turn[2],
+                          y[1] + l.x * turn[2] - l.z * turn[0],
+                          y[2] + l.y * turn[0] - l.x * turn[1],
+                          turn[0],
+                          turn[1],
+                          turn[2]};
+        for (std::size_t c = 0; c < 6; ++c) {
+          L z = z_[6 * i + c] + add[c];
+          for (std::size_t m = 0; m < free_; ++m) z -= motion_[(i * free_ + m) * 6 + c] * drop[m];
+          p_[6 * i + c] = z + beta(p_[6 * i + c]);
+        }
+      }
+    }
+  }
+
+  /// q = K·p, and pᵀ·q.
+  Products<F> apply() {
+    return sum([&](std::size_t i, Sums& own) {
+             L q[6];
+             apply_row<F>(rows_, stiffness_, &mass_[6 * i], i, p_, q);
+             for (std::size_t c = 0; c < 6; ++c) {
+               q_[6 * i + c] = q[c];
+               own.rz.add(p_[6 * i + c], q[c]);
+             }
+           })
+        .rz;
+  }
+
+  /// x += α·p, r −= α·q
+  Sums advance(const Factor<F>& alpha) {
+    return sum([&](std::size_t i, Sums& own) {
+      for (std::size_t c = 0; c < 6; ++c) {
+        x_[6 * i + c] += alpha(p_[6 * i + c]);
+        r_[6 * i + c] -= alpha(q_[6 * i + c]);
+      }
+      fine(i, own);
+    });
+  }
+
+  const ContactRows& rows_;
+  const TwoLevel& levels_;
+  const kernels::Layout& layout_;
+  const std::vector<LinearTask*>& tasks_;
+  std::size_t n_, free_;
+  BlockStiffness<F> stiffness_;
+  std::vector<double> mass_, motion_, weight_;
+  LaneVector<F> x_, r_, p_, q_, z_, load_, coarse_;
+  Products<F> coarse_product_;
+  Complex rho_[F] = {};
+  bool done_[F] = {};
+  double scale_[F], energy_limit_[F];
+  std::vector<Sums, kernels::AlignedAllocator<Sums>> partial_;
+};
+
+}  // namespace
+
+void solve_block(const ContactRows& rows, const TwoLevel& preconditioner, const kernels::Layout& layout,
+                 const Inertia& inertia, const FreeMotions& free, std::vector<LinearTask*> tasks) {
+  for (LinearTask* task : tasks) task->converged = false;
+  if (tasks.size() == 1) {
+    BlockCocg<1>(rows, preconditioner, layout, inertia, free, tasks).solve();
+    return;
+  }
+  LinearTask spare = *tasks.front();  // fills the block; it is done before it begins
+  spare.tolerance = infinite_tolerance;
+  while (tasks.size() < 4) tasks.push_back(&spare);
+  BlockCocg<4>(rows, preconditioner, layout, inertia, free, tasks).solve();
+}
+
+}  // namespace macadam::harmonic

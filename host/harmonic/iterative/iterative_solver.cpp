@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// iterative_solver.cpp  A network made ready for block_cocg: order, rows and preconditioner.
+#include <algorithm>
+
+#include "host/harmonic/iterative/block_cocg.hpp"
+
+namespace macadam::harmonic {
+namespace {
+
+/// Boxes of the coarse level: more take fewer iterations and a larger dense matrix. On the paper's 35,760 single
+/// spheres 132 boxes take 92 iterations to 1e-8, and 264 boxes 79.
+std::size_t contacts_of_a_box(const Specimen& specimen, const ContactNetwork& network) {
+  const std::size_t boxes = std::clamp<std::size_t>(specimen.size() / 40, 1, 160);
+  return std::max<std::size_t>(network.contacts.size() / boxes, 1);
+}
+
+class IterativeSolver : public LinearSolver {
+ public:
+  IterativeSolver(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& typical,
+                  const Inertia& inertia, const FreeMotions& free)
+      : layout_(kernels::make_layout(specimen, network, 1, contacts_of_a_box(specimen, network))),
+        rows_(network, layout_),
+        levels_(specimen, network, layout_, typical, free),
+        inertia_(inertia),
+        free_(free) {}
+
+  void solve(const std::vector<LinearTask*>& tasks) override {
+    constexpr std::size_t block = 4;
+    for (std::size_t first = 0; first < tasks.size(); first += block) {
+      const auto begin = tasks.begin() + static_cast<std::ptrdiff_t>(first);
+      solve_block(rows_, levels_, layout_, inertia_, free_,
+                  {begin, begin + static_cast<std::ptrdiff_t>(std::min(block, tasks.size() - first))});
+    }
+  }
+
+ private:
+  kernels::Layout layout_;
+  ContactRows rows_;
+  TwoLevel levels_;
+  const Inertia& inertia_;
+  const FreeMotions& free_;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
+                                                    const PairStiffness& typical, const Inertia& inertia,
+                                                    const FreeMotions& free) {
+  return std::make_unique<IterativeSolver>(specimen, network, typical, inertia, free);
+}
+
+}  // namespace macadam::harmonic

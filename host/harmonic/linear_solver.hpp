@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file linear_solver.hpp  (K*(ω) − inertia·M)·u = f, by whichever means.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "host/harmonic/contact_operator.hpp"
+#include "host/harmonic/rigid_motions.hpp"
+#include "macadam/specimen.hpp"
+
+namespace macadam::harmonic {
+
+/// One system to be solved.
+struct LinearTask {
+  PairStiffness stiffness;
+  Complex inertia = 0;      ///< (ω² − iωβ)·density scaling; 0: without inertia
+  Vector right;             ///< f
+  double tolerance = 0;     ///< of ‖f − K·u‖ / ‖f‖
+  double energy_limit = 0;  ///< of rᴴ·P⁻¹·r, P the solver's preconditioner; none where 0
+  Vector motion;            ///< where to begin, then the solution
+  double energy = 0;        ///< rᴴ·P⁻¹·r of the solution
+  int iterations = 0;       ///< added to
+  bool converged = false;   ///< by the solver's own residual, which rounding may have parted from the true one
+};
+
+/// A way of solving, made ready for one network. Motions of the whole that nothing resists stay out of the solutions,
+/// or are held by pins without force.
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+  virtual void solve(const std::vector<LinearTask*>& tasks) = 0;
+};
+
+/// Preconditioned by Cholesky factors of Re K at one frequency: some ten iterations, but memory grows as n^(4/3).
+/// \throws RunError when the stiffness is singular, or memory does not suffice.
+std::unique_ptr<LinearSolver> make_direct_solver(const ContactNetwork& network, const ContactOperator& contacts,
+                                                 const PairStiffness& typical, const Inertia& inertia,
+                                                 const FreeMotions& free);
+
+/// Preconditioned by each particle itself and by the rigid motions of boxes of particles: no factors but of a small
+/// matrix. Up to four tasks are solved side by side.
+/// \throws RunError when a particle alone can move without force.
+std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
+                                                    const PairStiffness& typical, const Inertia& inertia,
+                                                    const FreeMotions& free);
+
+}  // namespace macadam::harmonic
