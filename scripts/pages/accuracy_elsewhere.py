@@ -2,7 +2,7 @@
 """docs/accuracy.md: what other programs measured or assert: runs on a GPU, tests, the paper's specimens."""
 from pages import common, stability
 from pages.accuracy_rows import both, signed
-from pages.data import mean, minus, one, plain, power, rows, table, thousands, where
+from pages.data import mean, minus, one, percents, plain, power, rows, table, thousands, upto, where
 from pages.marks import mark
 
 
@@ -43,7 +43,7 @@ def asserted(file, test, literal):
 @mark
 def voro_difference():
     value = one(rows("tessellation.csv"), quantity="largest_area_difference")["value"]
-    return minus(power(value, 1))
+    return minus(power(upto(value)))
 
 
 @mark
@@ -68,5 +68,4 @@ def lighter():
     """How much the sum of the spheres' volumes is below the box in the specimens of clusters."""
     import paper_runs
     from paper_tables import CLUSTERS, PAPER
-    of = [1 - run.to_box for name in CLUSTERS for run in paper_runs.committed(PAPER[name].scene)]
-    return f"{100 * min(of):.0f} to {100 * max(of):.0f} %"
+    return percents(1 - run.to_box for name in CLUSTERS for run in paper_runs.committed(PAPER[name].scene))

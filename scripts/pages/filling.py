@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/filling.md: from bench/shapes/run's fill-study.csv (porosity 0.12) and fill-porosity-0.csv."""
-from pages.data import mean, plain, rows, table, thousands, where
+from pages.data import mean, percents, plain, rows, table, thousands, upto_percent, where
 from pages.marks import mark
 
 DOCUMENT = "docs/filling.md"
@@ -67,7 +67,7 @@ def off_from(spheres):
             found = study(shape, low, high)
             if mean(r["spheres"] for r in found) >= float(spheres):
                 of += [abs(kept(found, x) - 1) for x in LENGTHS]
-    return f"{100 * max(of):.0f} %"
+    return upto_percent(of)
 
 
 # ---- without voids
@@ -119,5 +119,4 @@ def covered():
 @mark
 def covered_range():
     """Least and most of any shape covered without voids."""
-    of = [r["covered"] for r in rows("fill-porosity-0.csv") if r["spheres"] > 1]
-    return f"{100 * min(of):.0f} to {100 * max(of):.0f} %"
+    return percents(r["covered"] for r in rows("fill-porosity-0.csv") if r["spheres"] > 1)

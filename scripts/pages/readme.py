@@ -2,8 +2,8 @@
 """README.md."""
 import re
 
-from pages import accuracy_asked, accuracy_elsewhere, common
-from pages.data import plain, rows, text, upto, where
+from pages import accuracy_asked, accuracy_elsewhere, common, data
+from pages.data import between, plain, rows, text, where
 from pages.marks import mark
 
 DOCUMENT = "README.md"
@@ -79,11 +79,6 @@ def multi_specimen():
     return f"{plain(min(of), 2)} to {plain(max(of), 3)} s"
 
 
-def between(of, form):
-    low, high = form.format(min(of)), form.format(max(of))
-    return low if low == high else f"{low} to {high}"
-
-
 @mark
 def solved(*scenes):
     of = [r["wall_s"] for r in runs(*(f"ac14_{s}" for s in scenes)) if r["wall_s"]]
@@ -92,8 +87,7 @@ def solved(*scenes):
 
 @mark
 def memory(*scenes):
-    of = [r["memory_gb"] for r in runs(*(f"ac14_{s}" for s in scenes)) if r["memory_gb"]]
-    return f"{upto(max(of)):g} GB"
+    return data.memory(r["memory_gb"] for r in runs(*(f"ac14_{s}" for s in scenes)) if r["memory_gb"])
 
 
 @mark
