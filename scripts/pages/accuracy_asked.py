@@ -3,7 +3,7 @@
 import math
 
 from pages.accuracy_rows import E, PHI, TRUE_E, TRUE_PHI, done, scene, scenes, study, tried
-from pages.data import between, downto, minus, plain, power, span, table, thousands, upto
+from pages.data import between, downto, listed, minus, plain, power, span, table, thousands, upto
 from pages.marks import mark
 
 
@@ -31,7 +31,8 @@ def tolerance():
                 continue
             hand = [r["seconds"] / r["seconds_by_hand"] for r in of if r["seconds_by_hand"]
                     and math.isfinite(r["seconds_by_hand"])]
-            lines.append((name, minus(power(value, 1)), ", ".join(f"{f:g}" for f in sorted({r["frequency_hz"] for r in of})),
+            at = ", ".join(f"{f:g}" for f in sorted({r["frequency_hz"] for r in of}))
+            lines.append((name, minus(power(value, 1)), at,
                           plain(upto(max(achieved(r) for r in of) / value, 3), 3),
                           minus(power(upto(max(off(r) for r in of)))), span([r["steps"] for r in of], thousands),
                           span([r["seconds"] for r in of], lambda s: plain(s, 2)),
@@ -54,11 +55,16 @@ def by_hand_worst():
     return plain(upto(max(of)))
 
 
+def prediction_off(of):
+    """The largest difference from the prediction, % of what was asked."""
+    return plain(100 * upto(max(off(r) / r["tolerance"] for r in of))) + " %"
+
+
 @mark
-def prediction_off(value=None):
-    """The largest difference from the prediction over what was asked."""
-    of = [r for r in asked() if value is None or r["tolerance"] == float(value)]
-    return plain(100 * upto(max(off(r) / r["tolerance"] for r in of)))
+def predictions():
+    values = sorted({r["tolerance"] for r in asked()}, reverse=True)
+    return listed(f"{prediction_off([r for r in asked() if r['tolerance'] == v])} of {minus(power(v, 1))}"
+                  for v in values)
 
 
 @mark

@@ -2,7 +2,7 @@
 """docs/accuracy.md: what other programs measured or assert: runs on a GPU, tests, the paper's specimens."""
 from pages import common, stability
 from pages.accuracy_rows import both, signed
-from pages.data import mean, minus, one, percents, plain, power, rows, table, thousands, upto, where
+from pages.data import head, listed, mean, minus, one, percents, plain, power, rows, table, thousands, upto, where
 from pages.marks import mark
 
 
@@ -21,6 +21,22 @@ def whole_planning():
     return f"{min(of):.0f} to {max(of):.0f} s"
 
 
+GPU_TESTS = "gpu-tests-h200-2026-11-22.csv"
+
+
+@mark
+def gpu_tests():
+    of = rows(GPU_TESTS)
+    if any(r["passed"] != r["tests"] for r in of):
+        raise LookupError(f"bench/results/{GPU_TESTS}: not all tests passed")
+    return f"{sum(r['passed'] for r in of):.0f} tests: " + listed(f"{r['passed']:.0f} of `{r['program']}`" for r in of)
+
+
+@mark
+def gpu_tests_machine():
+    return head(GPU_TESTS)[0]
+
+
 @mark
 def cuda_own():
     return both(rows("accuracy-cuda-h200.csv"))
@@ -36,8 +52,8 @@ def cuda_times():
 # ---- pieces
 
 @mark
-def asserted(file, test, literal):
-    return minus(common.asserted(file, test, literal))
+def asserted(file, test, name, literal):
+    return minus(common.asserted(file, test, name, literal))
 
 
 @mark

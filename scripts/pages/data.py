@@ -145,9 +145,8 @@ def between(values, form="{:.0f}"):
 
 
 def percents(shares):
-    """A range of shares in whole percents that holds all of them."""
-    shares = list(shares)
-    return f"{math.floor(100 * min(shares))} to {math.ceil(100 * max(shares))} %"
+    """A range of shares in whole percents."""
+    return between(100 * share for share in shares) + " %"
 
 
 def memory(gigabytes):
