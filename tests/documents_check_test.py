@@ -63,7 +63,8 @@ FAULTS = [
     ("docs/filling.md", lambda t: t + "\n| a | b |\n|---|---|\n| c | 1.5 % |\n", "stands in no mark"),
     ("docs/shapes.md", lambda t: t + "\n| a | b |\n|---|---|\n| c | −2e-3 |\n", "stands in no mark"),
     ("docs/shapes.md", lambda t: t + "\na | b\n--|--\nc | **5** of 6\n", "stands in no mark"),
-    ("docs/shapes.md", lambda t: t + "\n> - | a | b |\n>   |:-:|---:|\n>   | c | about 3 × 4 µs |\n", "stands in no mark"),
+    ("docs/shapes.md", lambda t: t + "\n> - | a | b |\n>   |:-:|---:|\n>   | c | about 3 × 4 µs |\n",
+     "stands in no mark"),
     ("docs/shapes.md", lambda t: t + "\n| a | b |\n|---|---|\n| c | `x` [7 GPa](x.md) |\n", "stands in no mark"),
     ("more.md", lambda t: t + "\n| a | b |\n|---|---|\n| c | 1 |\n", "stands in no mark"),
     ("docs/scene.md", lambda t: t + "\n<!-- by hand: two words -->\n", "a broken mark"),
@@ -76,7 +77,8 @@ FAULTS = [
     ("README.md", lambda t: t + "\nIt is 2 % more.\n", "'2 %' stands in no mark"),
     ("README.md", lambda t: t.replace("for an error of 1e-3", "for an error", 1), "which is not there"),
     ("docs/accuracy.md", unmarked_twin, "is typed by hand"),
-    ("docs/skips.md", lambda t: t.replace(". The table is that of", ".\n<!--= twice -->0 %<!--/-->", 1), "begins the line"),
+    ("docs/skips.md", lambda t: t.replace(". The table is that of", ".\n<!--= twice -->0 %<!--/-->", 1),
+     "begins the line"),
 ]
 
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/accuracy.md: from bench/accuracy's accuracy.csv and accuracy-full.csv, all rows of a study; what to use when, and
-each setting."""
+"""docs/accuracy.md: from bench/accuracy's accuracy.csv and accuracy-full.csv, all rows of a study; what to use when,
+and each setting."""
 import math
 
 from pages import accuracy_asked, accuracy_elsewhere, stability
@@ -255,7 +255,8 @@ def rest_share():
     e, phi = ([abs(r[key]) for r in of] for key in (E, PHI))
     steps = [r["step_share"] for r in of]
     return (f"over steps of {min(steps):.2f} to {max(steps):.2f} of the computed one, "
-            f"{power(downto(min(e), 1), 1)} to {power(upto(max(e)))} and {downto(min(phi), 1):g}° to {upto(max(phi)):g}°")
+            f"{power(downto(min(e), 1), 1)} to {power(upto(max(e)))} and {downto(min(phi), 1):g}° to "
+            f"{upto(max(phi)):g}°")
 
 
 @mark

@@ -37,8 +37,8 @@ def tolerance():
                           minus(power(upto(max(off(r) for r in of)))), span([r["steps"] for r in of], thousands),
                           span([r["seconds"] for r in of], lambda s: plain(s, 2)),
                           f"{downto(min(hand)):.1f} … {upto(max(hand)):.1f}" if hand else "–"))
-    return table(["scene", "asked", "f (Hz)", "largest error achieved / asked", "largest difference from the prediction",
-                  "steps", "stepping (s, one thread)", "time / by hand"], lines)
+    return table(["scene", "asked", "f (Hz)", "largest error achieved / asked",
+                  "largest difference from the prediction", "steps", "stepping (s, one thread)", "time / by hand"], lines)
 
 
 @mark

@@ -76,10 +76,11 @@ def largest(table, *keys):
 
 def mean(values):
     values = list(values)
-    return sum(values) / len(values)
+    return sum(values) / len(values) if values else math.nan
 
 
 def half_range(values):
+    """The one measure of spread in all tables."""
     values = list(values)
     return (max(values) - min(values)) / 2
 
@@ -154,8 +155,12 @@ def memory(gigabytes):
     return f"{upto(max(gigabytes)):g} GB"
 
 
+def line(cells):
+    """A row of a Markdown table."""
+    return "| " + " | ".join(str(cell) for cell in cells) + " |"
+
+
 def table(heads, lines, right=()):
     """A Markdown table; columns in `right` are aligned so."""
     rule = ["---:" if k in right else "---" for k in range(len(heads))]
-    return ["| " + " | ".join(heads) + " |", "|" + "|".join(rule) + "|",
-            *("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)]
+    return [line(heads), "|" + "|".join(rule) + "|", *(line(cells) for cells in lines)]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/filling.md: from bench/shapes/run's fill-study.csv (porosity 0.12) and fill-porosity-0.csv."""
 from paper_tables import PAPER
-from pages.data import mean, percents, plain, rows, table, thousands, upto_percent, where
+from pages.data import between, mean, percents, plain, rows, table, thousands, upto_percent, where
 from pages.marks import mark
 
 DOCUMENT = "docs/filling.md"
@@ -106,8 +106,8 @@ def library(spheres=lambda n: n > 1):
 @mark
 def library_spheres():
     clusters, every = [r["spheres"] for r in library()], len(library(lambda n: True))
-    return (f"{min(clusters):.0f} to {max(clusters):.0f} spheres; {every - len(clusters)} of the {every} shapes becomes "
-            "a single one and is left out")
+    return (f"{between(clusters)} spheres; {every - len(clusters)} of the {every} shapes becomes a single one and is "
+            "left out")
 
 
 def of_library(length):

@@ -46,8 +46,8 @@ def computed():
 def computed_range():
     low, high = computed()
     usual = [r["measured"] for r in where(rows(file()), case="step_bound", quantity="computed / true limit")]
-    return (f"{downto(low, 3):.3f} to {upto(high, 3):.3f} of the true limit in all networks of [stability.md](stability.md), "
-            f"{mean(usual):.3f} in the mean of its {len(usual)} usual specimens")
+    return (f"{downto(low, 3):.3f} to {upto(high, 3):.3f} of the true limit in all networks of "
+            f"[stability.md](stability.md), {mean(usual):.3f} in the mean of its {len(usual)} usual specimens")
 
 
 def bounded(table_of):
@@ -58,8 +58,8 @@ def bounded(table_of):
 def ringing(table_of):
     found = [r for r in table_of if r["quantity"] == "alternating part of the force after 1000 steps / η·v"]
     return ("Relaxation times far below the step are stable and exact with a smooth start; a sudden one rings (a "
-            f"Maxwell unit of a millionth of the step: {found[0]['measured']:.3f} of the force still alternates after 1000 "
-            "steps)." if found else "")
+            f"Maxwell unit of a millionth of the step: {found[0]['measured']:.3f} of the force still alternates after "
+            "1000 steps)." if found else "")
 
 
 def drift(table_of):
@@ -73,7 +73,9 @@ def drift(table_of):
 def strain(table_of):
     def crossing(start):
         found = [r["measured"] for r in table_of if r["quantity"].startswith(start)]
-        return f"a strain of {power(downto(min(found)))}" if math.isfinite(min(found)) else "the largest strain tried, 1e-2"
+        if not math.isfinite(min(found)):
+            return "the largest strain tried, 1e-2"
+        return f"a strain of {power(downto(min(found)))}"
     return ("`fixed` geometry gives the stress to 1e-3 of its amplitude up to "
             f"{crossing('strain at which stresses of `fixed`')}, and E* to 1e-5 up to "
             f"{crossing('strain at which E* of `fixed`')}.")
@@ -98,8 +100,8 @@ def page():
     found = rows(file())
     out = ["# Stability under stress", "",
            f"Written by `scripts/documents` from [{file()}](../bench/results/{file()}), which `bench/stability/run`",
-           "makes; not to be edited. Each line states what must come out and why, what was measured, and the verdict that",
-           "follows from the two. Lines that only prepare others are in the file alone.", "",
+           "makes; not to be edited. Each line states what must come out and why, what was measured, and the verdict",
+           "that follows from the two. Lines that only prepare others are in the file alone.", "",
            where_and_when[0].upper() + where_and_when[1:] + ".", ""]
     for sentence in (failures, bounded, ringing, drift, strain):
         out += [f"- {text}" for text in [sentence(found)] if text]

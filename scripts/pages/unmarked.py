@@ -11,9 +11,9 @@ DELIMITER = re.compile(r"^[\s>]*([-*+] +|\d+[.)] +)?(?=.*\|)\|?( *:?-+:? *\|)* *
 CODE = re.compile(r"`[^`]*`")
 LINK = re.compile(r"!?\[([^\]]*)\]\([^)]*\)")
 DIGITS = re.compile(r"[+\-−±~≈<>≤≥]*\d[\d.,]*(e[+\-−]?\d+)?[⁻⁰¹²³⁴-⁹]*")
-UNITS = set("""a about above and at at below by contacts cycle cycles day days each from GB GPa GiB h Hz hour hours in KiB kg
-least less many MB MiB m minute minutes mm more most MPa ms ns µs of or over Pa particles per s second seconds several
-spheres step steps TB than the times to up upto within x e""".split())
+UNITS = set("""a about above and at below by contacts cycle cycles day days each from GB GPa GiB h Hz hour hours in KiB
+kg least less many MB MiB m minute minutes mm more most MPa ms ns µs of or over Pa particles per s second seconds
+several spheres step steps TB than the times to up within x e""".split())
 DEFINES = ("default", "key")  # heads of columns that define and do not measure
 STRICT = ("README.md", "bench/README.md", "docs/accuracy.md", "docs/skips.md")  # whose sentences are looked at too
 MEASURED = re.compile(r"(?<![\w.])\d[\d.,]*(?:e[+\-−]?\d+|[  ]?(?:%|°|s\b|ms\b|µs\b|GB\b))")
