@@ -251,7 +251,7 @@ def shares(**wanted):
 @mark
 def rest_share():
     """From rest without ramp, whatever the share of the critical step."""
-    of = shares(start="rest")
+    of = shares(start="rest", scene="t8", mix="AM1")
     e, phi = ([abs(r[key]) for r in of] for key in (E, PHI))
     steps = [r["step_share"] for r in of]
     return (f"over steps of {min(steps):.2f} to {max(steps):.2f} of the computed one, "

@@ -9,10 +9,14 @@ from pathlib import Path
 RESULTS = Path(__file__).resolve().parents[2] / "bench" / "results"
 
 
+class Missing(LookupError):
+    """A result that is not there."""
+
+
 def opened(name):
-    """A committed result; one that is not there is named with what makes it."""
+    """A committed result."""
     if not (RESULTS / name).is_file():
-        raise LookupError(f"bench/results/{name} is not there: bench/README.md says which command makes it")
+        raise Missing(f"bench/results/{name} is not there: bench/README.md says which command makes it")
     return open(RESULTS / name, encoding="utf-8")
 
 

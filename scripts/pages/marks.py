@@ -2,6 +2,8 @@
 """Marks in Markdown: the places that a script writes, and how what they write is made."""
 import re
 
+from pages.data import Missing
+
 TABLE = re.compile(r"^( *)<!-- table (.+?) -->$")
 END = re.compile(r"^ *<!-- end -->$")
 VALUE = re.compile(r"<!--= (.+?) -->(.*?)<!--/-->")
@@ -56,6 +58,10 @@ def filled(module, modules, text, used, check):
         used.add(function)
         try:
             return function(*words[1:])
+        except Missing as error:  # said once, however many marks need it
+            if not any(str(error) in line for line in wrong):
+                wrong.append(f"{name}:{number}: {error}")
+            return None
         except Exception as error:  # its reason belongs to the place of the mark
             wrong.append(f"{name}:{number}: mark '{what}': {type(error).__name__}: {error}")
             return None
