@@ -103,6 +103,15 @@ def of_results():
     accuracy_rows.every = lambda: [*every(), {**row, "study": "step_share", "start": "steady", "step_share": 1.4}]
     if "t8 at 1.37 (not at 1.40)" not in accuracy.stable_share():
         wrong.append(f"a step that diverges: {accuracy.stable_share()}")
+    accuracy_rows.every = lambda: [*every(), {**row, "study": "tolerance", "scene": "new", "tolerance": 1e-2}]
+    if not any(line.startswith("| new | 1e-2 | none: all failed |") for line in accuracy_asked.tolerance()):
+        wrong.append("a scene whose runs with a tolerance all failed is not in their table")
+    accuracy_rows.every = lambda: [{**r, "status": "falls apart: 3 pieces"} if r["gap_max"] == 0 and r["scene"] == "t8"
+                                   else r for r in every()]
+    if "| t8 | `gap_max = 0` | – | – | falls apart | – |" not in accuracy.filters():
+        wrong.append("a network that falls apart is not in the table of filters")
+    if "falls apart, (t8)" not in accuracy.gap_zero():
+        wrong.append(f"a network that falls apart: {accuracy.gap_zero()}")
     accuracy_rows.every = every
     return wrong
 

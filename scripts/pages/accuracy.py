@@ -318,9 +318,9 @@ def filters():
 
 @mark
 def gap_zero():
-    of = where(study("filter"), gap_max=0.0)
-    return listed(f"{minus(f'{change:.0f}')} % ({name})"
-                  for name, change in ((scene(r), 100 * r["model_e_star"]) for r in of))
+    def change(r):
+        return minus(f"{100 * r['model_e_star']:.0f} %") if r["status"] == "done" else "all, it falls apart,"
+    return listed(f"{change(r)} ({scene(r)})" for r in where(tried("filter"), gap_max=0.0))
 
 
 @mark

@@ -23,11 +23,12 @@ def off(r):
 
 @mark
 def tolerance():
-    lines = []
-    for name in scenes(asked()):
-        for value in sorted({r["tolerance"] for r in asked()}, reverse=True):
+    lines, runs = [], tried("tolerance")
+    for name in scenes(runs):
+        for value in sorted({r["tolerance"] for r in runs if scene(r) == name}, reverse=True):
             of = [r for r in asked() if scene(r) == name and r["tolerance"] == value]
             if not of:
+                lines.append((name, minus(power(value, 1)), "none: all failed", *["–"] * 5))
                 continue
             hand = [r["seconds"] / r["seconds_by_hand"] for r in of if r["seconds_by_hand"]
                     and math.isfinite(r["seconds_by_hand"])]
