@@ -36,10 +36,11 @@ def tolerance():
             lines.append((name, minus(power(value, 1)), at,
                           plain(upto(max(achieved(r) for r in of) / value, 3), 3),
                           minus(power(upto(max(off(r) for r in of)))), span([r["steps"] for r in of], thousands),
-                          span([r["seconds"] for r in of], lambda s: plain(s, 2)),
+                          span([r["seconds"] for r in of], plain),
                           f"{downto(min(hand)):.1f} … {upto(max(hand)):.1f}" if hand else "–"))
     return table(["scene", "asked", "f (Hz)", "largest error achieved / asked",
-                  "largest difference from the prediction", "steps", "stepping (s, one thread)", "time / by hand"], lines)
+                  "largest difference from the prediction", "steps",
+                  "stepping (s, one thread)", "time / by hand"], lines)
 
 
 @mark
