@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of docs/paper-specimens.md: ours beside the paper's. What differs by more than a tenth is bold and has the
 letter of its reason in paper_reasons.py; one without a reason is an error."""
-import re
 import textwrap
 from fnmatch import fnmatchcase
 
-from paper_runs import kolmogorov_smirnov, mean, spread
+from pages import data
+from pages.data import half_range, line, mean, minus
+from paper_runs import kolmogorov_smirnov
 from paper_tables import (CLASSES, CLUSTERS, DESIGN, DEVIATION, FREQUENCIES, ICO_OVER_POLY, MASTIC, PAIRS, PAPER)
 
 
@@ -36,23 +37,14 @@ class Cells:
                              + "\n  ".join(self.unexplained))
 
 
-def minus(text):
-    """Minus signs before numbers, which hyphens in names are not."""
-    return re.sub(r"(?<!\w)-(?=[\d.])", "−", text)
-
-
 def wrapped(text, indent=""):
     """A paragraph, or an entry of a list, in lines of the house's width."""
     return textwrap.wrap(minus(" ".join(text.split())), 120, initial_indent=indent, subsequent_indent=" " * len(indent),
                          break_long_words=False, break_on_hyphens=False)
 
 
-def line(cells):
-    return "| " + " | ".join(str(c) for c in cells) + " |"
-
-
 def table(head, rows):
-    return [line(head), "|---" + "|---:" * (len(head) - 1) + "|", *[line(r) for r in rows], ""]
+    return [*data.table(head, rows, range(1, len(head))), ""]
 
 
 def over(runs, name, base, value):
@@ -125,14 +117,14 @@ def contacts(runs, cells):
     for name, paper in PAPER.items():
         theirs = [*paper.contacts, paper.coordination]
         of = [[value(run) for run in runs[name]] for value in values]
-        rows.append([name, *[cells.beside(f"contacts/{name}/{head}", mean(v), t, 2 * (head == heads[4]), spread(v))
+        rows.append([name, *[cells.beside(f"contacts/{name}/{head}", mean(v), t, 2 * (head == heads[4]), half_range(v))
                              for head, v, t in zip(heads, of, theirs)],
                      f"{mean(run.inner for run in runs[name]):,.0f}"])
         if name != "SS":
             ss = [*PAPER["SS"].contacts, PAPER["SS"].coordination]
             of = [over(runs, name, "SS", value) for value in values]
-            ratios.append([name, *[cells.beside(f"ratio/{name}/{heads[k]}", mean(v), theirs[k] / ss[k], 2, spread(v))
-                                   for k, v in enumerate(of)]])
+            ratios.append([name, *[cells.beside(f"ratio/{name}/{heads[k]}", mean(v), theirs[k] / ss[k], 2,
+                                                half_range(v)) for k, v in enumerate(of)]])
     return out + table(["", *heads, "inner"], rows) + ["Over SS, seed by seed:", ""] + table(["", *heads], ratios)
 
 
@@ -159,7 +151,7 @@ def stiffness(runs, cells):
     for key, label, unit in keys:
         for name, of in runs.items():
             series = [[getattr(run, key)[k] for run in of] for k in range(len(hz))]
-            rows.append([f"{name}, {label} ({unit})", *[f"{mean(s):.3f} ± {spread(s):.3f}" for s in series]])
+            rows.append([f"{name}, {label} ({unit})", *[f"{mean(s):.3f} ± {half_range(s):.3f}" for s in series]])
     out = ["## Stiffness (Fig. 11)", "",
            "Frequency domain, without inertia, AM1 with the same δ everywhere.", "", *table(["", *hz], rows),
            "Deviation from SS, seed by seed, and its mean over the frequencies (d_m, Eq. 26), beside the paper's:", ""]
@@ -169,8 +161,9 @@ def stiffness(runs, cells):
         for i, (key, label, _) in enumerate(keys):
             for name, base, title, paper in pairs:
                 d = list(zip(*deviations(runs, name, base, key)))
-                rows.append([f"{title}, {label} (%)", *[minus(f"{mean(v):+.1f} ± {spread(v):.1f}") for v in d[:-1]],
-                             cells.beside(f"{where}/{title}/{key}", mean(d[-1]), paper[i], 1, spread(d[-1]), True)])
+                rows.append([f"{title}, {label} (%)", *[minus(f"{mean(v):+.1f} ± {half_range(v):.1f}") for v in d[:-1]],
+                             cells.beside(f"{where}/{title}/{key}", mean(d[-1]), paper[i], 1,
+                                          half_range(d[-1]), True)])
         return table(["", *hz, "d_m"], rows)
 
     out += compared([(name, "SS", name, DEVIATION[name]) for name in CLUSTERS], "deviation")

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The sections after the tables of docs/paper-specimens.md: why ours differ, what the fillings decide, how long it
 takes."""
-from paper_document import deviations, minus, table, wrapped
+from pages.data import mean, memory, minus
+from paper_document import deviations, table, wrapped
 from paper_reasons import REASONS, Facts, several
-from paper_runs import mean
 from paper_tables import CLASSES, CLUSTERS, DEVIATION, FREQUENCIES, PAIRS, PAPER
 
 # the variants that have the void of the mastic budget, by filling
@@ -133,13 +133,13 @@ def fillings(facts):
 
 
 def making(runs, times):
-    wall, memory = [r.wall for r in runs if r.wall], [r.memory for r in runs if r.memory]
+    wall, used = [r.wall for r in runs if r.wall], [r.memory for r in runs if r.memory]
     return ["## Making them", "", *wrapped("""`macadam specimen SCENE`, seed 1
         ([paper-specimens-time.csv](../bench/results/paper-specimens-time.csv)):"""), "",
             *table(["", "seconds", "cores", "measured"], [list(t.values()) for t in times]),
             *wrapped(f"""Most of the longest is insertion of the last shapes. Making and solving one of the specimens
-                above at four frequencies took {min(wall):.0f} to {max(wall):.0f} s and {min(memory):.1f} to
-                {max(memory):.1f} GB with {runs[0].threads} threads, other runs beside it."""), ""]
+                above at four frequencies took {min(wall):.0f} to {max(wall):.0f} s and up to
+                {memory(used)} with {runs[0].threads} threads, other runs beside it."""), ""]
 
 
 def prose(runs, table_of_variants, times):

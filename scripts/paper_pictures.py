@@ -9,8 +9,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 from matplotlib.patches import Patch  # noqa: E402
 
+from pages.data import mean  # noqa: E402
 from paper_document import deviations  # noqa: E402
-from paper_runs import ROOT, committed, mean  # noqa: E402
+from paper_runs import ROOT, committed  # noqa: E402
 from paper_tables import DEVIATION, FREQUENCIES, PAPER  # noqa: E402
 
 PICTURES = ROOT / "docs" / "pictures"

@@ -4,8 +4,8 @@ Every number comes from the results or from the paper's tables."""
 import math
 from collections import namedtuple
 
-from paper_document import deviations, minus
-from paper_runs import mean
+from pages.data import mean, minus
+from paper_document import deviations
 from paper_tables import BOX, CLASSES, CLUSTERS, COARSE, DEVIATION, ICO_OVER_POLY, PAPER, mean_sphere
 
 Void = namedtuple("Void", "ratio size chance number spheres")

@@ -9,10 +9,10 @@ import subprocess
 import time
 from pathlib import Path
 
+from pages.data import RESULTS, mean
 from paper_tables import BOX, FREQUENCIES, PAIRS
 
 ROOT = Path(__file__).resolve().parent.parent
-RESULTS = ROOT / "bench" / "results"
 
 
 def program(given):
@@ -37,17 +37,6 @@ def write(file, table, head=()):
         out = csv.DictWriter(f, table[0], lineterminator="\n")
         out.writeheader()
         out.writerows(table)
-
-
-def mean(values):
-    values = list(values)
-    return sum(values) / len(values) if values else math.nan
-
-
-def spread(values):
-    """Half the range over the seeds: the one measure of spread in all tables."""
-    values = list(values)
-    return (max(values) - min(values)) / 2
 
 
 def call(macadam, command, folder, *arguments, threads=None):

@@ -35,7 +35,7 @@ int main(int argc, char** argv) {
   bool quick = false, full = false;
   std::string root, csv, only;
   app.add_flag("--quick", quick, "the short list: a minute");
-  app.add_flag("--full", full, "the full specimen too");
+  app.add_flag("--full", full, "the full specimen, and nothing else");
   app.add_option("--only", only, "only runs whose description (as it is printed) holds this text");
   app.add_option("root", root, "of the repository")->required();
   app.add_option("csv", csv, "file to write")->required();
@@ -47,11 +47,15 @@ int main(int argc, char** argv) {
     Runner runner(root, scratch);
     Table table(csv, {fmt::format("machine: {}{}; one thread", processor(), cuda ? ", " + report.devices[0].name : ""),
                       fmt::format("date: {:%Y-%m-%d}", std::chrono::system_clock::now()),
-                      fmt::format("list: {}", quick  ? "quick"
-                                              : full ? "full"
-                                                     : "standard")});
+                      fmt::format("list: {}{}",
+                                  quick  ? "quick"
+                                  : full ? "full"
+                                         : "standard",
+                                  only.empty() ? only : fmt::format(", only '{}'", only))});
     std::vector<Case> list = studies(quick, full, cuda);
-    std::erase_if(list, [&](const Case& c) { return describe(c).find(only) == std::string::npos; });
+    std::erase_if(list, [&](const Case& c) {
+      return (full && c.scene != "full") || describe(c).find(only) == std::string::npos;
+    });
     for (std::size_t i = 0; i < list.size(); ++i) {
       Case& c = list[i];
       std::vector<Outcome> outcomes;

@@ -26,8 +26,8 @@ def fill(program, shape, d_intermediate, radii, seed):
                               capture_output=True, text=True).stdout
         with open(Path(out) / "spheres.csv", encoding="utf-8") as f:
             spheres = len(list(csv.DictReader(f)))
-    row = {"shape": shape.stem, "d_intermediate_mm": d_intermediate, "radius_min_mm": radii[0], "radius_max_mm": radii[1],
-           "seed": seed, "spheres": spheres}
+    row = {"shape": shape.stem, "d_intermediate_mm": d_intermediate, "radius_min_mm": radii[0],
+           "radius_max_mm": radii[1], "seed": seed, "spheres": spheres}
     for key, label in (("volume_mm3", r"volume, sum \(mm3\)"), ("d_long_mm", r"D\^L \(mm\)"),
                        ("d_intermediate_mm", r"D\^I \(mm\)"), ("d_short_mm", r"D\^S \(mm\)")):
         found = re.search(rf"^{label} +(\S+) +(\S+)$", text, re.M)

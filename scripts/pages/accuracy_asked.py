@@ -2,8 +2,8 @@
 """docs/accuracy.md: `[solver] tolerance`, what was asked, predicted and achieved."""
 import math
 
-from pages.accuracy_rows import E, PHI, TRUE_E, TRUE_PHI, scene, scenes, study
-from pages.data import minus, plain, power, span, table, thousands, upto
+from pages.accuracy_rows import E, PHI, TRUE_E, TRUE_PHI, done, scene, scenes, study, tried
+from pages.data import between, downto, listed, minus, plain, power, span, table, thousands, upto
 from pages.marks import mark
 
 
@@ -23,31 +23,32 @@ def off(r):
 
 @mark
 def tolerance():
-    lines = []
-    for name in scenes(asked()):
-        for value in sorted({r["tolerance"] for r in asked()}, reverse=True):
+    lines, runs = [], tried("tolerance")
+    for name in scenes(runs):
+        for value in sorted({r["tolerance"] for r in runs if scene(r) == name}, reverse=True):
             of = [r for r in asked() if scene(r) == name and r["tolerance"] == value]
             if not of:
+                lines.append((name, minus(power(value, 1)), "none: all failed", *["–"] * 5))
                 continue
             hand = [r["seconds"] / r["seconds_by_hand"] for r in of if r["seconds_by_hand"]
                     and math.isfinite(r["seconds_by_hand"])]
-            lines.append((name, minus(power(value, 1)), f"{max(achieved(r) for r in of) / value:.3f}",
-                          minus(power(upto(max(off(r) for r in of), 2))), span([r["steps"] for r in of], thousands),
-                          span([r["seconds"] for r in of], lambda s: plain(s, 2)),
-                          span(hand, lambda x: f"{x:.1f}") if hand else "–"))
-    return table(["scene", "asked", "largest error achieved / asked", "largest difference from the prediction", "steps",
+            at = ", ".join(f"{f:g}" for f in sorted({r["frequency_hz"] for r in of}))
+            lines.append((name, minus(power(value, 1)), at,
+                          plain(upto(max(achieved(r) for r in of) / value, 3), 3),
+                          minus(power(upto(max(off(r) for r in of)))), span([r["steps"] for r in of], thousands),
+                          span([r["seconds"] for r in of], plain),
+                          f"{downto(min(hand)):.1f} … {upto(max(hand)):.1f}" if hand else "–"))
+    return table(["scene", "asked", "f (Hz)", "largest error achieved / asked",
+                  "largest difference from the prediction", "steps",
                   "stepping (s, one thread)", "time / by hand"], lines)
 
 
 @mark
 def tolerance_kept():
-    over = [r for r in asked() if achieved(r) > r["tolerance"]]
-    return f"in all {len(asked())}" if not over else f"in {len(asked()) - len(over)} of {len(asked())}"
-
-
-@mark
-def tolerance_frequencies():
-    return ", ".join(f"{f:g}" for f in sorted({r["frequency_hz"] for r in asked()}))
+    kept, runs = [r for r in asked() if achieved(r) <= r["tolerance"]], tried("tolerance")
+    failed = len(runs) - len(done(runs))
+    return (f"in all {len(runs)} runs" if len(kept) == len(runs) else
+            f"in {len(kept)} of {len(runs)} runs" + (f"; {failed} failed" if failed else ""))
 
 
 @mark
@@ -56,17 +57,22 @@ def by_hand_worst():
     return plain(upto(max(of)))
 
 
+def prediction_off(of):
+    """The largest difference from the prediction, % of what was asked."""
+    return plain(100 * upto(max(off(r) / r["tolerance"] for r in of))) + " %"
+
+
 @mark
-def prediction_off(value=None):
-    """The largest difference from the prediction over what was asked."""
-    of = [r for r in asked() if value is None or r["tolerance"] == float(value)]
-    return plain(100 * upto(max(off(r) / r["tolerance"] for r in of), 1), 1)
+def predictions():
+    values = sorted({r["tolerance"] for r in asked()}, reverse=True)
+    return listed(f"{prediction_off([r for r in asked() if r['tolerance'] == v])} of {minus(power(v, 1))}"
+                  for v in values)
 
 
 @mark
 def planning(name):
     of = [r["seconds_harmonic"] for r in asked() if r["scene"].startswith(name)]
-    return span(of, lambda s: plain(s, 1)).replace(" … ", " to ")
+    return between(of, lambda s: plain(s, 1))
 
 
 @mark

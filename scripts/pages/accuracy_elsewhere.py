@@ -2,7 +2,7 @@
 """docs/accuracy.md: what other programs measured or assert: runs on a GPU, tests, the paper's specimens."""
 from pages import common, stability
 from pages.accuracy_rows import both, signed
-from pages.data import mean, minus, one, plain, power, rows, table, thousands, where
+from pages.data import head, listed, mean, minus, one, percents, plain, power, rows, table, thousands, upto, where
 from pages.marks import mark
 
 
@@ -21,6 +21,22 @@ def whole_planning():
     return f"{min(of):.0f} to {max(of):.0f} s"
 
 
+GPU_TESTS = "gpu-tests-h200-2026-11-22.csv"
+
+
+@mark
+def gpu_tests():
+    of = rows(GPU_TESTS)
+    if any(r["passed"] != r["tests"] for r in of):
+        raise LookupError(f"bench/results/{GPU_TESTS}: not all tests passed")
+    return f"{sum(r['passed'] for r in of):.0f} tests: " + listed(f"{r['passed']:.0f} of `{r['program']}`" for r in of)
+
+
+@mark
+def gpu_tests_machine():
+    return head(GPU_TESTS)[0]
+
+
 @mark
 def cuda_own():
     return both(rows("accuracy-cuda-h200.csv"))
@@ -36,14 +52,14 @@ def cuda_times():
 # ---- pieces
 
 @mark
-def asserted(file, test, literal):
-    return minus(common.asserted(file, test, literal))
+def asserted(file, test, name, literal):
+    return minus(common.asserted(file, test, name, literal))
 
 
 @mark
 def voro_difference():
     value = one(rows("tessellation.csv"), quantity="largest_area_difference")["value"]
-    return minus(power(value, 1))
+    return minus(power(upto(value)))
 
 
 @mark
@@ -68,5 +84,4 @@ def lighter():
     """How much the sum of the spheres' volumes is below the box in the specimens of clusters."""
     import paper_runs
     from paper_tables import CLUSTERS, PAPER
-    of = [1 - run.to_box for name in CLUSTERS for run in paper_runs.committed(PAPER[name].scene)]
-    return f"{100 * min(of):.0f} to {100 * max(of):.0f} %"
+    return percents(1 - run.to_box for name in CLUSTERS for run in paper_runs.committed(PAPER[name].scene))

@@ -1,19 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""bench/results/accuracy-tables.md, the whole page: accuracy.csv by studies, for reading."""
+"""bench/results/accuracy-tables.md, the whole page: accuracy.csv and accuracy-full.csv by studies, for reading."""
 import math
 
-from pages.accuracy_rows import E, PHI, TRUE_E, TRUE_PHI, drift_differences, scene
-from pages.data import head, rows, table
+from pages.accuracy_rows import E, FILES, PHI, TRUE_E, TRUE_PHI, drift_differences, scene, study, tried
+from pages.data import head, table
 
 DOCUMENT = "bench/results/accuracy-tables.md"
-
-
-def of(*names):
-    return [r for r in rows("accuracy.csv") if r["study"] in names]
-
-
-def done(*names):
-    return [r for r in of(*names) if r["status"] == "done"]
 
 
 def true(r):
@@ -36,9 +28,9 @@ def name(r, *keys):
 def cycles_needed():
     lines = []
     groups = dict.fromkeys((scene(r), r["frequency_hz"], r["density_scaling"], r["ramp_cycles"])
-                           for r in done("rest") if r["start"] == "rest")
-    for group in sorted(groups, key=lambda g: ([scene(r) for r in of("rest")].index(g[0]), -g[1], g[2], g[3])):
-        found = [r for r in done("rest") if r["start"] == "rest" and
+                           for r in study("rest") if r["start"] == "rest")
+    for group in sorted(groups, key=lambda g: ([scene(r) for r in tried("rest")].index(g[0]), -g[1], g[2], g[3])):
+        found = [r for r in study("rest") if r["start"] == "rest" and
                  (scene(r), r["frequency_hz"], r["density_scaling"], r["ramp_cycles"]) == group]
 
         def needed(e_star, phase, found=found):
@@ -51,14 +43,16 @@ def cycles_needed():
 
 
 def filters():
-    base = {scene(r): r["contacts"] for r in of("filter") if r["gap_max"] is None and r["area_min"] is None}
-    for r in of("quadrature", "filter"):
+    base = {scene(r): r["contacts"] for r in tried("filter") if r["gap_max"] is None and r["area_min"] is None}
+    for r in tried("quadrature", "filter"):
         what = (*name(r, "quadrature"), *("" if r[k] is None else f"{r[k]:g}" for k in ("gap_max", "area_min")))
         yield ((*what, int(base[scene(r)] - r["contacts"]), f"{r['model_e_star']:+.2e}", f"{r['model_phase_deg']:+.2e}",
                 *own(r), cost(r)[2]) if r["status"] == "done" else (*what, r["status"][:60], "", "", "", "", ""))
 
 
 def asked(r):
+    if r["status"] != "done":
+        return (*name(r, "tolerance"), *[""] * 3, r["status"][:60].replace("|", "\\|"), *[""] * 6)
     hand = r["seconds_by_hand"]
     return (*name(r, "tolerance", "density_scaling", "precision", "geometry"),
             f"{(1 + r[TRUE_E]) / (1 + r[E]) - 1:+.3e}", f"{r[TRUE_E]:+.3e}", f"{math.radians(r[TRUE_PHI]):+.2e}",
@@ -71,7 +65,7 @@ def page():
     parts = [
         ("Error against run time, steady start, one cycle",
          ["scene", "f", "scaling", "form", "precision", "geometry", e, phi, "steps", "s", "µs a step", "KiB"],
-         [(*name(r, "density_scaling", "form", "precision", "geometry"), *true(r), *cost(r)) for r in done("front")]),
+         [(*name(r, "density_scaling", "form", "precision", "geometry"), *true(r), *cost(r)) for r in study("front")]),
         ("Drift: difference from double",
          ["scene", "f", "scaling", "cycles", "steps", "precision", "geometry", e, phi],
          [(*name(r, "density_scaling", "cycles"), int(r["steps"]), r["precision"], r["geometry"], f"{d[E]:+.1e}",
@@ -79,23 +73,24 @@ def page():
         ("Cycles from rest until the error stays below",
          ["scene", "f", "scaling", "ramp", "1e-2", "1e-3", "1e-4", "1e-5 and 0.002°"], cycles_needed()),
         ("Strain, updated geometry, against the linear solution", ["scene", "f", "strain", "cycles", e, phi],
-         [(*name(r, "strain", "cycles"), *own(r)) for r in done("strain") if r["geometry"] == "updated"]),
+         [(*name(r, "strain", "cycles"), *own(r)) for r in study("strain") if r["geometry"] == "updated"]),
         ("Step as a share of the computed critical one, against the same inertia",
          ["scene", "f", "start", "share", e, phi],
          [(*name(r, "start"), f"{r['step_share']:.2f}", *(own(r) if r["status"] == "done" else (r["status"], "")))
-          for r in of("step_share")]),
+          for r in tried("step_share")]),
         ("Damping, against true mass undamped", ["scene", "f", "scaling", "damping", "value", "start", e, phi],
-         [(*name(r, "density_scaling", "damping_kind", "damping", "start"), *true(r)) for r in done("damping")]),
+         [(*name(r, "density_scaling", "damping_kind", "damping", "start"), *true(r)) for r in study("damping")]),
         ("Quadrature and filters: change of the model, and error against its own solution",
          ["scene", "f", "quadrature", "gap_max", "area_min", "contacts dropped", f"{e} model", "φ model (°)",
           f"{e} own", "φ own (°)", "µs a step"], list(filters())),
         ("Backends", ["scene", "f", "backend", "scaling", "precision", "form", f"{e} own", "φ own (°)", "steps", "s",
                       "µs a step", "KiB"],
-         [(*name(r, "backend", "density_scaling", "precision", "form"), *own(r), *cost(r)) for r in done("backend")]),
+         [(*name(r, "backend", "density_scaling", "precision", "form"), *own(r), *cost(r)) for r in study("backend")]),
         ("`[solver] tolerance`", ["scene", "f", "asked", "scaling", "precision", "geometry", f"{e} predicted",
                                   f"{e} achieved", "φ achieved (rad)", "steps", "s", "planning s", "s / by hand"],
-         [asked(r) for r in done("tolerance")])]
-    out = ["# Tables of accuracy.csv", "", "; ".join(head("accuracy.csv")), ""]
+         [asked(r) for r in tried("tolerance")])]
+    out = ["# Tables of accuracy.csv and accuracy-full.csv", "",
+           *(f"- {file}: {'; '.join(head(file))}" for file in FILES), ""]
     for title, heads, lines in parts:
         out += [f"## {title}", "", *table(heads, lines), ""]
     return "\n".join(out).rstrip() + "\n"

@@ -2,7 +2,7 @@
 """bench/README.md."""
 import csv
 
-from pages.data import RESULTS, head, one, rows, table, text
+from pages.data import head, one, opened, rows, span, table, text
 from pages.marks import mark
 
 DOCUMENT = "bench/README.md"
@@ -11,7 +11,7 @@ GPU = "gpu-step-h200-2026-11-21.csv"
 
 def cpu_rows():
     """Google Benchmark's CSV: the machine's lines, then the table; a time is of five steps."""
-    with open(RESULTS / "cpu_epyc_2026-11-21.csv", encoding="utf-8") as f:
+    with opened("cpu_epyc_2026-11-21.csv") as f:
         lines = f.read().splitlines()
     start = next(k for k, line in enumerate(lines) if line.startswith("name,"))
     found = []
@@ -32,14 +32,9 @@ def cpu():
                    f"{r['contacts'] / 1e6:.1f}", f"{r['copy'] / 1e9:.1f}", f"{r['share']:.2f}") for r in cpu_rows()])
 
 
-def span(values, form):
-    low, high = form.format(min(values)), form.format(max(values))
-    return low if low == high else f"{low}–{high}"
-
-
 @mark
 def two_thread_shares():
-    return span([r["share"] for r in cpu_rows() if r["threads"] == "2"], "{:.1f}").replace("–", " to ")
+    return span([r["share"] for r in cpu_rows() if r["threads"] == "2"], "{:.1f}", " to ")
 
 
 def pairs(threads=None):
@@ -50,12 +45,12 @@ def pairs(threads=None):
 
 @mark
 def fewer_bytes():
-    return span([p["bytes"] / c["bytes"] for c, p in pairs()], "{:.1f}")
+    return span([p["bytes"] / c["bytes"] for c, p in pairs()], "{:.1f}", "–")
 
 
 @mark
 def condensed_faster():
-    return span([p["ms"] / c["ms"] for c, p in pairs()], "{:.1f}")
+    return span([p["ms"] / c["ms"] for c, p in pairs()], "{:.1f}", "–")
 
 
 def step(name, geometry):
@@ -123,7 +118,7 @@ def double_share():
 
 def tried(name, *columns):
     """As it was written down: words and numbers."""
-    with open(RESULTS / name, encoding="utf-8") as f:
+    with opened(name) as f:
         return [tuple(r[c] for c in columns) for r in csv.DictReader(line for line in f if not line.startswith("#"))]
 
 

@@ -12,11 +12,14 @@ def source(file):
     return (ROOT / file).read_text(encoding="utf-8")
 
 
-def asserted(file, test, literal):
-    """A number that a test asserts: the literal, if that test's body has it in an expectation."""
-    body = re.search(rf"^TEST\w*\(\w+, {re.escape(test)}\)(.*?)^}}", source(f"tests/{file}.cpp"), re.M | re.S)
+def asserted(file, test, name, literal):
+    """A number that a test, or a function of its file, asserts: the literal, if one expectation has it and the name."""
+    body = re.search(rf"^( *)(?:TEST\w*\(\w+, |static void ){re.escape(test)}\b(.*?)^\1}}", source(f"tests/{file}.cpp"),
+                     re.M | re.S)
     if not body:
         raise LookupError(f"tests/{file}.cpp has no test {test}")
-    if not re.search(rf"(EXPECT|ASSERT)_[^;]*(?<![\w.]){re.escape(literal)}(?![\w.])", body[1]):
-        raise LookupError(f"{test} in tests/{file}.cpp asserts no {literal}")
-    return literal.rstrip("f")
+    for statement in re.findall(r"\b(?:EXPECT|ASSERT)_[^;]*;", body[2]):
+        if (re.search(rf"\b{re.escape(name)}\b", statement)
+                and re.search(rf"(?<![\w.]){re.escape(literal)}(?![\w.])", statement)):
+            return literal.rstrip("f")
+    raise LookupError(f"{test} in tests/{file}.cpp asserts no {literal} of {name}")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/aggregate-cube.md: from bench/shapes/run-cube's aggregate-cube.csv, a row a cube."""
-from pages.data import half_range, mean, minus, rows, table, where
+from pages.data import between, half_range, mean, minus, rows, table, upto_percent, where
 from pages.marks import mark
 
 DOCUMENT = "docs/aggregate-cube.md"
@@ -35,11 +35,6 @@ def number(found):
 
 def ratio(found):
     return f"{mean(r['poisson'] for r in found):.3f}"
-
-
-def between(values, form="{:.0f}"):
-    low, high = form.format(min(values)), form.format(max(values))
-    return low if low == high else f"{low} to {high}"
 
 
 @mark
@@ -107,7 +102,7 @@ def gauge_off(spheres, filling):
 @mark
 def one_cube_off():
     """The cube farthest from 60 GPa by gauge."""
-    return f"{max(100 * abs(r['gauge_gpa'] / TARGET - 1) for g in GROUPS for r in cubes(*g, seeds=20)):.0f} %"
+    return upto_percent(abs(r["gauge_gpa"] / TARGET - 1) for g in GROUPS for r in cubes(*g, seeds=20))
 
 
 @mark
@@ -128,7 +123,7 @@ def contact(spheres, key):
 @mark
 def soft_walls():
     """Walls of 60 GPa against the gauge of the paper's walls, %."""
-    return f"{max(abs(100 * (of(cubes(*g, wall=TARGET), 'walls') / of(cubes(*g), 'gauge') - 1)) for g in GROUPS):.1f} %"
+    return upto_percent(abs(of(cubes(*g, wall=TARGET), "walls") / of(cubes(*g), "gauge") - 1) for g in GROUPS)
 
 
 @mark
@@ -139,9 +134,8 @@ def rigid_walls():
 @mark
 def porosity_matters():
     """The largest change by porosity, by gauge or walls, %."""
-    changes = [abs(100 * (of(cubes(*g, porosity=p), key) / of(cubes(*g), key) - 1)) for g in GROUPS for p in POROSITIES
-               for key in ("walls", "gauge")]
-    return f"{max(changes):.1f} %"
+    return upto_percent(abs(of(cubes(*g, porosity=p), key) / of(cubes(*g), key) - 1)
+                        for g in GROUPS for p in POROSITIES for key in ("walls", "gauge"))
 
 
 @mark

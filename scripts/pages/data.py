@@ -9,17 +9,28 @@ from pathlib import Path
 RESULTS = Path(__file__).resolve().parents[2] / "bench" / "results"
 
 
+class Missing(LookupError):
+    """A result that is not there."""
+
+
+def opened(name):
+    """A committed result."""
+    if not (RESULTS / name).is_file():
+        raise Missing(f"bench/results/{name} is not there: bench/README.md says which command makes it")
+    return open(RESULTS / name, encoding="utf-8")
+
+
 @functools.cache
 def head(name):
     """The comment lines before a table."""
-    with open(RESULTS / name, encoding="utf-8") as f:
+    with opened(name) as f:
         return [line[1:].strip() for line in f if line.startswith("#")]
 
 
 @functools.cache
 def rows(name):
     """A table of bench/results/, numbers as numbers; an empty cell is None."""
-    with open(RESULTS / name, encoding="utf-8") as f:
+    with opened(name) as f:
         table = list(csv.DictReader(line for line in f if not line.startswith("#")))
     return [{key: converted(value) for key, value in row.items()} for row in table]
 
@@ -35,7 +46,7 @@ def converted(value):
 
 def text(name):
     """Lines of a committed output, without its comments."""
-    with open(RESULTS / name, encoding="utf-8") as f:
+    with opened(name) as f:
         return [line.rstrip() for line in f if not line.startswith("#")]
 
 
@@ -69,10 +80,11 @@ def largest(table, *keys):
 
 def mean(values):
     values = list(values)
-    return sum(values) / len(values)
+    return sum(values) / len(values) if values else math.nan
 
 
 def half_range(values):
+    """The one measure of spread in all tables."""
     values = list(values)
     return (max(values) - min(values)) / 2
 
@@ -102,6 +114,19 @@ def upto(x, digits=2):
     return float(f"{math.ceil(abs(x) / step - 1e-9) * step:.12g}")
 
 
+def downto(x, digits=2):
+    """The least magnitude that may be written of x: rounded down to so many significant digits."""
+    if x == 0:
+        return 0.0
+    step = 10.0 ** (math.floor(math.log10(abs(x))) - digits + 1)
+    return float(f"{math.floor(abs(x) / step + 1e-9) * step:.12g}")
+
+
+def upto_percent(shares, digits=2):
+    """The largest of some shares as a bound in percent."""
+    return f"{upto(100 * max(shares), digits):g} %"
+
+
 def plain(x, digits=2):
     """So many significant digits without a power of ten."""
     decimals = max(0, digits - 1 - math.floor(math.log10(abs(x)))) if x else 0
@@ -112,14 +137,34 @@ def thousands(x):
     return f"{x:,.0f}"
 
 
-def span(values, form):
-    """Least and largest, one number where they are written alike."""
-    low, high = form(min(values)), form(max(values))
-    return low if low == high else f"{low} … {high}"
+def span(values, form, join=" … "):
+    """Least and largest, one number where they are written alike; form is a function or a format."""
+    write = form.format if isinstance(form, str) else form
+    values = list(values)
+    low, high = write(min(values)), write(max(values))
+    return low if low == high else f"{low}{join}{high}"
+
+
+def between(values, form="{:.0f}"):
+    return span(values, form, " to ")
+
+
+def percents(shares):
+    """A range of shares in whole percents."""
+    return between(100 * share for share in shares) + " %"
+
+
+def memory(gigabytes):
+    """What a run needs at most: one rounding, upwards, on every page."""
+    return f"{upto(max(gigabytes)):g} GB"
+
+
+def line(cells):
+    """A row of a Markdown table."""
+    return "| " + " | ".join(str(cell) for cell in cells) + " |"
 
 
 def table(heads, lines, right=()):
     """A Markdown table; columns in `right` are aligned so."""
     rule = ["---:" if k in right else "---" for k in range(len(heads))]
-    return ["| " + " | ".join(heads) + " |", "|" + "|".join(rule) + "|",
-            *("| " + " | ".join(str(cell) for cell in line) + " |" for line in lines)]
+    return [line(heads), "|" + "|".join(rule) + "|", *(line(cells) for cells in lines)]

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/filling.md: from bench/shapes/run's fill-study.csv (porosity 0.12) and fill-porosity-0.csv."""
-from pages.data import mean, plain, rows, table, thousands, where
+from paper_tables import PAPER
+from pages.data import between, mean, percents, plain, rows, table, thousands, upto_percent, where
 from pages.marks import mark
 
 DOCUMENT = "docs/filling.md"
 EQUAL = (0.5, 0.75, 1.0, 1.5, 2.0)
 RANGES = [(r, r) for r in EQUAL] + [(0.75, 1.0), (1.0, 2.0)]
 PUBLISHED = {0.5: 1568, 2.0: 24}  # the paper's Fig. 5
+RADII = {"fine": (0.75, 1.0), "coarse": (1.0, 2.0)}
+DIAMETER = 12.59  # D^I of the shapes, mm
 LENGTHS = ("long", "intermediate", "short")
 
 
@@ -52,7 +55,7 @@ def shorter():
     others = [s for s in shapes() if s != "aggregate_81"]
     return table(["R (mm)", "R / D^I", "D^L, six aggregates", "D^I, `aggregate_81`", "D^I, the other five",
                   "D^S, six aggregates", "icosahedron"],
-                 [(f"{r:.2f}", f"1/{12.59 / r:.3g}", between(shapes(), r, "long"),
+                 [(f"{r:.2f}", f"1/{DIAMETER / r:.3g}", between(shapes(), r, "long"),
                    between(["aggregate_81"], r, "intermediate"), between(others, r, "intermediate"),
                    between(shapes(), r, "short"), ", ".join(f"{kept(study('icosahedron', r), x):.3f}" for x in LENGTHS))
                   for r in (0.5, 1.0, 2.0)])
@@ -67,7 +70,30 @@ def off_from(spheres):
             found = study(shape, low, high)
             if mean(r["spheres"] for r in found) >= float(spheres):
                 of += [abs(kept(found, x) - 1) for x in LENGTHS]
-    return f"{100 * max(of):.0f} %"
+    return upto_percent(of)
+
+
+@mark
+def papers_piece(filling):
+    """Spheres of an icosahedron of the paper's largest class."""
+    paper = PAPER[f"MS-Ico-{filling}"]
+    return f"{paper.spheres[0] / paper.particles[0]:.0f}"
+
+
+@mark
+def papers_size(filling):
+    return f"{PAPER[f'MS-Ico-{filling}'].size[0]:g}"
+
+
+@mark
+def a_piece(filling, porosity):
+    """What an icosahedron of that class's mean L^I takes: the number at 12.59 mm without voids, times the ratio of the
+    volumes and what voids leave."""
+    low, high = RADII[filling]
+    found = where(rows("fill-porosity-0.csv"), shape="icosahedron", d_intermediate_mm=DIAMETER, radius_min_mm=low,
+                  radius_max_mm=high)
+    ratio = (PAPER[f"MS-Ico-{filling}"].size[0] / DIAMETER) ** 3 * (1 - float(porosity))
+    return f"{ratio * mean(r['spheres'] for r in found):.0f}"
 
 
 # ---- without voids
@@ -80,8 +106,8 @@ def library(spheres=lambda n: n > 1):
 @mark
 def library_spheres():
     clusters, every = [r["spheres"] for r in library()], len(library(lambda n: True))
-    return (f"{min(clusters):.0f} to {max(clusters):.0f} spheres; {every - len(clusters)} of the {every} shapes becomes "
-            "a single one and is left out")
+    return (f"{between(clusters)} spheres; {every - len(clusters)} of the {every} shapes becomes a single one and is "
+            "left out")
 
 
 def of_library(length):
@@ -108,7 +134,7 @@ def library_covered(which):
 def covered():
     lines = []
     for shape in ("icosahedron", "aggregate_82", "aggregate_59", "aggregate_81"):
-        of = [where(rows("fill-porosity-0.csv"), shape=shape, d_intermediate_mm=12.59, radius_min_mm=low,
+        of = [where(rows("fill-porosity-0.csv"), shape=shape, d_intermediate_mm=DIAMETER, radius_min_mm=low,
                     radius_max_mm=high) for low, high in RANGES]
         lines.append([shape if shape == "icosahedron" else f"`{shape}`",
                       *(f"{thousands(mean(r['spheres'] for r in f))}, {100 * mean(r['covered'] for r in f):.0f} %"
@@ -119,5 +145,4 @@ def covered():
 @mark
 def covered_range():
     """Least and most of any shape covered without voids."""
-    of = [r["covered"] for r in rows("fill-porosity-0.csv") if r["spheres"] > 1]
-    return f"{100 * min(of):.0f} to {100 * max(of):.0f} %"
+    return percents(r["covered"] for r in rows("fill-porosity-0.csv") if r["spheres"] > 1)

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Marks in Markdown: the places that a script writes, and tables that nobody vouches for."""
+"""Marks in Markdown: the places that a script writes, and how what they write is made."""
 import re
+
+from pages.data import Missing
 
 TABLE = re.compile(r"^( *)<!-- table (.+?) -->$")
 END = re.compile(r"^ *<!-- end -->$")
 VALUE = re.compile(r"<!--= (.+?) -->(.*?)<!--/-->")
-BY_HAND = re.compile(r"^ *<!-- by hand: \S.* -->$")
+BY_HAND = re.compile(r"^ *<!-- by hand: \S+( \S+){2,} -->$")  # a reason has three words or more
 ANY = re.compile(r"<!--(=|/| *(table|end|by hand)\b)")
-# a cell that is a number: sign, digits, perhaps a spread, a power, a unit
-NUMBER = re.compile(r"^[<>≤≥~±]? ?[+\-−]?\d[\d,.]*(e[+\-−]?\d+|·10\S+)?( ?[±…–-] ?[\d,.]+)? ?(%|°|s|µs|GPa|mm|GB|×)?$")
+WITHIN = re.compile(r"<!--(?:(?!-->).)*?<!--", re.S)
 
 
 def mark(function):
@@ -23,11 +24,6 @@ def functions(module):
             if getattr(f, "is_mark", False) and f.__module__ == part.__name__}
 
 
-def documents(root):
-    """Every document that holds measurements, or might."""
-    return ["README.md", "bench/README.md", *sorted(f"docs/{file.name}" for file in (root / "docs").glob("*.md"))]
-
-
 def compared(name, found, expected):
     """Lines of a page that differ."""
     found, expected, wrong = found.splitlines(), expected.splitlines(), []
@@ -40,32 +36,16 @@ def compared(name, found, expected):
     return wrong
 
 
-def unmarked(name, lines):
-    """Tables with numbers that stand in no mark. A column headed `default` or `key` defines, it does not measure."""
-    wrong, k = [], 0
-    while k < len(lines):
-        if not lines[k].lstrip().startswith("|"):
-            k += 1
-            continue
-        start = k
-        while k < len(lines) and lines[k].lstrip().startswith("|"):
-            k += 1
-        before = next((line for line in reversed(lines[:start]) if line.strip()), "")
-        if BY_HAND.match(before):
-            continue
-        rows = [[cell.strip() for cell in VALUE.sub("", line).strip().strip("|").split("|")] for line in lines[start:k]]
-        for cells in rows[2:]:
-            number = [c for head, c in zip(rows[0], cells) if NUMBER.match(c) and head not in ("default", "key")]
-            if number:
-                wrong.append(f"{name}:{start + 1}: a table with numbers, such as '{number[0]}', stands in no mark and "
-                             "has no '<!-- by hand: reason -->' before it")
-                break
-    return wrong
+def hidden(name, text):
+    """Marks within a comment: they would be filled, and nobody would see it."""
+    return [f"{name}:{text.count(chr(10), 0, m.start()) + 1}: a mark within an HTML comment"
+            for m in WITHIN.finditer(text)]
 
 
 def filled(module, modules, text, used, check):
-    """The text with its marks written anew, and what is wrong: differences too, if they are asked for."""
-    name, wrong, out, outside = module.DOCUMENT, [], [], []
+    """The text with its marks written anew; what is wrong, differences too if they are asked for; the lines without
+    what marks write; and what they write."""
+    name, wrong, out, outside, written = module.DOCUMENT, hidden(module.DOCUMENT, text), [], [], {}
     lines, k = text.splitlines(), 0
 
     def made(what, number):
@@ -78,6 +58,10 @@ def filled(module, modules, text, used, check):
         used.add(function)
         try:
             return function(*words[1:])
+        except Missing as error:  # said once, however many marks need it
+            if not any(str(error) in line for line in wrong):
+                wrong.append(f"{name}:{number}: {error}")
+            return None
         except Exception as error:  # its reason belongs to the place of the mark
             wrong.append(f"{name}:{number}: mark '{what}': {type(error).__name__}: {error}")
             return None
@@ -88,7 +72,7 @@ def filled(module, modules, text, used, check):
             end = next((j for j in range(k + 1, len(lines)) if END.match(lines[j])), None)
             if end is None or any(TABLE.match(other) for other in lines[k + 1:end]):
                 wrong.append(f"{name}:{number}: '{line.strip()}' has no '<!-- end -->'")
-                return text, wrong
+                return text, wrong, lines, written
             body = made(start[2], number)
             if body is None:
                 body = lines[k + 1:end]
@@ -112,6 +96,7 @@ def filled(module, modules, text, used, check):
             new = made(m[1], number)
             if new is None:
                 return m[0]
+            written[new] = m[1]
             if check and new != m[2]:
                 wrong.append(f"{name}:{number}: mark '{m[1]}': found '{m[2]}', expected '{new}'")
             return f"<!--= {m[1]} -->{new}<!--/-->"
@@ -121,4 +106,4 @@ def filled(module, modules, text, used, check):
             wrong.append(f"{name}:{number}: a broken mark: '{line.strip()}'")
         outside.append(line)
         k += 1
-    return "\n".join(out) + "\n", wrong + unmarked(name, outside)
+    return "\n".join(out) + "\n", wrong, outside, written

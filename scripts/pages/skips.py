@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/skips.md: from bench/skips' skips.csv."""
-from pages.data import head, minus, power, rows, table
+from pages.data import head, minus, power, rows, table, upto_percent
 from pages.marks import mark
 
 DOCUMENT = "docs/skips.md"
@@ -34,4 +34,4 @@ def twice():
         for way in ("with", "without"):
             times.setdefault(r[way], []).append(r[f"{way}_us"])
     apart = [max(t) / min(t) - 1 for t in times.values() if len(t) > 1]
-    return f"{100 * max(apart):.0f} %"
+    return upto_percent(apart)

@@ -3,7 +3,7 @@
 import math
 import re
 
-from pages.data import RESULTS, head, mean, minus, power, rows, table, where
+from pages.data import RESULTS, downto, head, mean, minus, power, rows, table, upto, where
 
 DOCUMENT = "docs/stability.md"
 COLUMNS = ["case", "backend, precision", "measured quantity", "expected", "because", "measured", "verdict"]
@@ -35,16 +35,22 @@ def cell(text):
     return text.replace("|", "\\|")
 
 
-def computed_range():
-    """Every computed step against the true limit, the worst and the best networks among them."""
+def computed():
+    """Every computed step against the true limit: the least and the largest, the worst and the best networks among
+    them."""
     found = [r["measured"] for r in rows(file()) if r["quantity"].endswith("computed / true limit")
              and not r["quantity"].startswith("mean")]
+    return min(found), max(found)
+
+
+def computed_range():
+    low, high = computed()
     usual = [r["measured"] for r in where(rows(file()), case="step_bound", quantity="computed / true limit")]
-    return (f"{min(found):.3f} to {max(found):.3f} of the true limit in all networks of [stability.md](stability.md), "
-            f"{mean(usual):.3f} in the mean of its {len(usual)} usual specimens")
+    return (f"{downto(low, 3):.3f} to {upto(high, 3):.3f} of the true limit in all networks of "
+            f"[stability.md](stability.md), {mean(usual):.3f} in the mean of its {len(usual)} usual specimens")
 
 
-def computed(table_of):
+def bounded(table_of):
     found = computed_range().replace("all networks of [stability.md](stability.md)", "all networks below")
     return f"The computed step is {found.replace('its ', 'the ')}."
 
@@ -52,22 +58,24 @@ def computed(table_of):
 def ringing(table_of):
     found = [r for r in table_of if r["quantity"] == "alternating part of the force after 1000 steps / η·v"]
     return ("Relaxation times far below the step are stable and exact with a smooth start; a sudden one rings (a "
-            f"Maxwell unit of a millionth of the step: {found[0]['measured']:.3f} of the force still alternates after 1000 "
-            "steps)." if found else "")
+            f"Maxwell unit of a millionth of the step: {found[0]['measured']:.3f} of the force still alternates after "
+            "1000 steps)." if found else "")
 
 
 def drift(table_of):
     found = [r for r in table_of if r["quantity"] == "largest |energy / that of the start − 1|"
              and r["variant"].startswith("two particles, free, elastic, fixed")]
     return ("The energy of two particles moved by no more than " +
-            ", ".join(f"{power(r['measured'], 1)} ({r['setting']}, {r['variant'].rpartition(', ')[2]})"
+            ", ".join(f"{power(upto(r['measured']))} ({r['setting']}, {r['variant'].rpartition(', ')[2]})"
                       for r in found) + "." if found else "")
 
 
 def strain(table_of):
     def crossing(start):
         found = [r["measured"] for r in table_of if r["quantity"].startswith(start)]
-        return f"a strain of {power(min(found))}" if math.isfinite(min(found)) else "the largest strain tried, 1e-2"
+        if not math.isfinite(min(found)):
+            return "the largest strain tried, 1e-2"
+        return f"a strain of {power(downto(min(found)))}"
     return ("`fixed` geometry gives the stress to 1e-3 of its amplitude up to "
             f"{crossing('strain at which stresses of `fixed`')}, and E* to 1e-5 up to "
             f"{crossing('strain at which E* of `fixed`')}.")
@@ -92,10 +100,10 @@ def page():
     found = rows(file())
     out = ["# Stability under stress", "",
            f"Written by `scripts/documents` from [{file()}](../bench/results/{file()}), which `bench/stability/run`",
-           "makes; not to be edited. Each line states what must come out and why, what was measured, and the verdict that",
-           "follows from the two. Lines that only prepare others are in the file alone.", "",
+           "makes; not to be edited. Each line states what must come out and why, what was measured, and the verdict",
+           "that follows from the two. Lines that only prepare others are in the file alone.", "",
            where_and_when[0].upper() + where_and_when[1:] + ".", ""]
-    for sentence in (failures, computed, ringing, drift, strain):
+    for sentence in (failures, bounded, ringing, drift, strain):
         out += [f"- {text}" for text in [sentence(found)] if text]
     for name, title in cases:
         of = [r for r in found if r["case"] == name and (r["detail"] != 1 or r["verdict"] != "pass")]

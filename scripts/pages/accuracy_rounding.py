@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/accuracy.md: what rounding leaves, by precision."""
+import math
+
+from pages.accuracy_rows import E, PHI, both, drift_differences, scene, scenes, signed, study
+from pages.data import listed, table, thousands
+from pages.marks import mark
+
+ASKED_OF_MIXED = {E: 1e-5, PHI: 0.002}
+
+
+@mark
+def rounding(precision):
+    d = [d for _, d in drift_differences(precision)]
+    return both(d)
+
+
+def single_steps():
+    """Single precision up to any number of steps: the drift study's differences, and of runs with `tolerance` those
+    from the harmonic solution of the same inertia."""
+    asked = [(r, {E: r[E], PHI: r[PHI]}) for r in study("tolerance", precision="single", geometry="fixed")]
+    return drift_differences("single") + asked
+
+
+@mark
+def single(steps):
+    """The largest difference up to so many steps."""
+    return both([d for r, d in single_steps() if r["steps"] <= float(steps)])
+
+
+@mark
+def single_scenes():
+    return listed(scenes(r for r, _ in single_steps()))
+
+
+@mark
+def most_steps(precision):
+    return thousands(max(r["steps"] for r, _ in drift_differences(precision)))
+
+
+@mark
+def mixed_margin():
+    worst = {k: max(abs(d[k]) for _, d in drift_differences("mixed")) for k in (E, PHI)}
+    e, phi = (math.floor(ASKED_OF_MIXED[k] / worst[k]) for k in (E, PHI))
+    return f"{e} times over in |E\\*| and {phi} times in φ"
+
+
+@mark
+def many_cycles():
+    of = [(r, d) for r, d in drift_differences("single") if r["cycles"] > 1]
+    return (f"{max(r['cycles'] for r, _ in of):.0f} cycles, {thousands(max(r['steps'] for r, _ in of))} steps: at most "
+            f"{both([d for _, d in of])}")
+
+
+@mark
+def drift():
+    of = [(r, d) for r, d in drift_differences() if r["cycles"] == 1 and r["steps"] >= 3e5
+          and (r["density_scaling"] == 1 or r["geometry"] == "updated")]
+    of.sort(key=lambda p: (p[0]["steps"] if p[0]["density_scaling"] == 1 else 1e9 * p[0]["density_scaling"],
+                           p[0]["geometry"], ["double", "mixed", "single"].index(p[0]["precision"])))
+    return table(["scene", "f (Hz)", "scaling", "geometry", "steps", "precision", "\\|E\\*\\|", "φ (°)"],
+                 [(scene(r), f"{r['frequency_hz']:g}", f"{r['density_scaling']:g}", r["geometry"],
+                   thousands(r["steps"]), r["precision"], signed(d[E]), signed(d[PHI])) for r, d in of])

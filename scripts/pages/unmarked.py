@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers of documents that stand in no mark: tables, sentences, and values that a mark writes elsewhere."""
+import csv
+import re
+import subprocess
+
+from pages.marks import ANY, BY_HAND, VALUE
+
+# A table's delimiter row, in a quote or a list too
+DELIMITER = re.compile(r"^[\s>]*([-*+] +|\d+[.)] +)?(?=.*\|)\|?( *:?-+:? *\|)* *:?-*:? *$")
+CODE = re.compile(r"`[^`]*`")
+LINK = re.compile(r"!?\[([^\]]*)\]\([^)]*\)")
+DIGITS = re.compile(r"[+\-−±~≈<>≤≥]*\d[\d.,]*(e[+\-−]?\d+)?[⁻⁰¹²³⁴-⁹]*")
+UNITS = set("""a about above and at below by contacts cycle cycles day days each from GB GPa GiB h Hz hour hours in KiB
+kg least less many MB MiB m minute minutes mm more most MPa ms ns µs of or over Pa particles per s second seconds
+several spheres step steps TB than the times to up within x e""".split())
+DEFINES = ("default", "key")  # heads of columns that define and do not measure
+STRICT = ("README.md", "bench/README.md", "docs/accuracy.md", "docs/skips.md")  # whose sentences are looked at too
+MEASURED = re.compile(r"(?<![\w.])\d[\d.,]*(?:e[+\-−]?\d+|[  ]?(?:%|°|s\b|ms\b|µs\b|GB\b))")
+
+
+def documents(root):
+    """Every Markdown file: those that git knows or would add; without git, all but what is built."""
+    if (root / ".git").exists():
+        try:
+            found = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "*.md"], cwd=root, check=True,
+                                   capture_output=True, text=True).stdout.splitlines()
+            return sorted(name for name in set(found) if (root / name).is_file())
+        except (OSError, subprocess.CalledProcessError):
+            pass
+    built = re.compile(r"(^|/)\.|^(build|results)")
+    return sorted(name for file in root.rglob("*.md") if not built.search(name := file.relative_to(root).as_posix()))
+
+
+def plain(text):
+    """Without marks, code and links."""
+    return LINK.sub(r"\1", CODE.sub("", VALUE.sub("", text)))
+
+
+def is_number(cell):
+    """A digit, and beside numbers nothing but units."""
+    cell = plain(cell)
+    if not re.search(r"\d", cell):
+        return False
+    return all(word in UNITS for word in re.findall(r"[^\W\d_]+", DIGITS.sub(" ", cell)))
+
+
+def cells(line):
+    return [cell.strip() for cell in re.split(r"(?<!\\)\|", line.strip(" >").strip().strip("|"))]
+
+
+def tables(name, lines):
+    """Tables with numbers. One of which a comment says that it is by hand, and why, is passed over."""
+    wrong = []
+    for k in range(1, len(lines)):
+        if not DELIMITER.match(lines[k]) or "|" not in lines[k - 1] + lines[k]:
+            continue
+        before = next((line for line in reversed(lines[:k - 1]) if line.strip()), "")
+        if BY_HAND.match(before):
+            continue
+        heads = cells(lines[k - 1])
+        for line in lines[k + 1:]:
+            if not line.strip(" >"):
+                break
+            found = [c for j, c in enumerate(cells(line))
+                     if is_number(c) and (heads[j] if j < len(heads) else "") not in DEFINES]
+            if found:
+                wrong.append(f"{name}:{k}: a table with numbers, such as '{found[0]}', stands in no mark and has no "
+                             "'<!-- by hand: reason -->' before it")
+                break
+    return wrong
+
+
+def allowed(file):
+    """Of scripts/pages/by-hand.csv: document, text and why its numbers are not measured here."""
+    with open(file, encoding="utf-8") as f:
+        return list(csv.DictReader(line for line in f if not line.startswith("#")))
+
+
+def sentences(name, lines, by_hand):
+    """What looks measured in a sentence: a power of ten, or a number with a unit."""
+    wrong, entries = [], [e for e in by_hand if e["document"] == name]
+    missing = {e["text"] for e in entries}
+    for k, line in enumerate(lines):
+        if line.startswith("    "):  # code
+            continue
+        for e in entries:
+            if e["text"] in line:
+                missing.discard(e["text"])
+                line = line.replace(e["text"], "")
+        wrong += [f"{name}:{k + 1}: '{m[0]}' stands in no mark, nor is it in scripts/pages/by-hand.csv"
+                  for m in MEASURED.finditer(plain(line))]
+    return wrong + [f"{name}:1: scripts/pages/by-hand.csv allows '{text}', which is not there" for text in missing]
+
+
+def copied(name, lines, written):
+    """Values that a mark writes at one place and a hand at another."""
+    wrong, lines = [], ["" if line.startswith("    ") else plain(line) for line in lines]
+    for value, what in written.items():
+        if len(re.findall(r"\d", value)) < 2 or len(value) < 4 or "asserted" in what:
+            continue  # too short to be told from another number, or one that the text may ask for as well
+        place = re.compile(rf"(?<![\w.,·]){re.escape(value)}(?![\w,.]*\d)")
+        wrong += [f"{name}:{k + 1}: '{value}' is typed by hand; the mark '{what}' writes it elsewhere"
+                  for k, line in enumerate(lines) if value in line and place.search(line)]
+    return wrong
+
+
+def without_module(name, lines):
+    return [f"{name}:{k + 1}: a mark, but scripts/pages/ has no module of this document: '{line.strip()}'"
+            for k, line in enumerate(lines) if ANY.search(line) and not BY_HAND.match(line)]
