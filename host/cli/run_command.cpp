@@ -17,6 +17,7 @@ struct Arguments {
   std::optional<Backend> backend;
   std::optional<Precision> precision;
   std::optional<SolverMethod> method;
+  std::optional<LinearMethod> linear;
   std::optional<int> threads;
   bool resume = false;
 };
@@ -50,6 +51,7 @@ void run_command(const Arguments& arguments) {
   if (arguments.method) scene.solver.method = *arguments.method;
   if (arguments.backend) scene.solver.backend = *arguments.backend;
   if (arguments.precision) scene.solver.precision = *arguments.precision;
+  if (arguments.linear) scene.solver.linear = *arguments.linear;
   if (arguments.threads) scene.solver.threads = *arguments.threads;
   ProgressLine line;
   Watcher watcher;
@@ -102,6 +104,9 @@ void add_run_command(CLI::App& app) {
              {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}});
   add_choice(command, "--method", arguments->method, "instead of the scene's",
              {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}});
+  add_choice(
+      command, "--linear", arguments->linear, "of the harmonic solutions, instead of the scene's",
+      {{"auto", LinearMethod::automatic}, {"iterative", LinearMethod::iterative}, {"direct", LinearMethod::direct}});
   add_number(command, "--threads", arguments->threads, "cpu threads; results do not depend on it", 1, 1024);
   command.add_flag("--resume", arguments->resume, "go on from the checkpoint that an interrupted run left in DIR");
   command.callback([arguments] { run_command(*arguments); });
