@@ -157,6 +157,27 @@ void expect_same_rows() {
 TEST(Iterative, RowsOfOneFrequency) { expect_same_rows<1>(); }
 TEST(Iterative, RowsOfFourFrequencies) { expect_same_rows<4>(); }
 
+// Three columns side by side that do not touch: nine motions of theirs are free, more than the iteration keeps out.
+TEST(Iterative, ManyFreeMotionsAreLeftToFactors) {
+  Specimen columns;
+  columns.box.size = {9, 3, 4};
+  for (int x = 0; x < 3; ++x) {
+    for (int z = 0; z < 4; ++z) {
+      columns.centre.push_back({1.5 + 3 * x, 1.5 + 0.01 * z, 0.5 + z});
+      columns.radius.push_back(0.5);
+      columns.phase.push_back(Phase::mastic);
+      columns.body.push_back(-1);
+    }
+  }
+  NetworkSpec spec;
+  spec.gap_max = 0.5;
+  const TestScene scene = make_scene(columns, spec);
+  EXPECT_THROW(solve(scene, LinearMethod::iterative, {{2}}), RunError);
+  const HarmonicResult r = solve(scene, LinearMethod::automatic, {{2}}).front();
+  EXPECT_EQ(r.linear, LinearMethod::direct);
+  EXPECT_NEAR(r.bottom.e_star_pa / r.top.e_star_pa, 1, 1e-8);
+}
+
 // Free ends: a particle that only its neighbour's facet holds has no stiffness of its own against turning.
 TEST(Iterative, AMechanismIsRefusedByBoth) {
   Laws laws;

@@ -40,7 +40,7 @@ std::unique_ptr<LinearSolver> make_direct_solver(const ContactNetwork& network, 
 
 /// Preconditioned by each particle itself and by the rigid motions of boxes of particles: no factors but of a small
 /// matrix. Up to four tasks are solved side by side.
-/// \throws RunError when a particle alone can move without force.
+/// \throws RunError when a particle alone can move without force, or the whole in more than six ways.
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
                                                     const FreeMotions& free);

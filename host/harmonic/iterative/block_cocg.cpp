@@ -74,7 +74,7 @@ class BlockCocg {
     Sums sums = start();
     double best = infinity;
     for (int k = 0, best_at = 0;; ++k) {
-      L drop[max_free];
+      L drop[most_free_motions];
       precondition(sums, drop);
       Factor<F> beta;
       const double worst = judge(k, sums, beta);  // of those that are not done
@@ -93,15 +93,14 @@ class BlockCocg {
   }
 
  private:
-  static constexpr std::size_t max_free = 6;
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
   struct Sums {
     Products<F> rz, rr;
-    L drop[max_free];
+    L drop[most_free_motions];
     void add(const Sums& o) {
       rz.add(o.rz), rr.add(o.rr);
-      for (std::size_t m = 0; m < max_free; ++m) drop[m] += o.drop[m];
+      for (std::size_t m = 0; m < most_free_motions; ++m) drop[m] += o.drop[m];
     }
   };
 
@@ -198,7 +197,7 @@ class BlockCocg {
   }
 
   /// coarse = (RᵀKR)⁻¹·Rᵀ·r
-  void precondition(const Sums& sums, L (&drop)[max_free]) {
+  void precondition(const Sums& sums, L (&drop)[most_free_motions]) {
     const std::size_t boxes = levels_.boxes();
 #pragma omp parallel for schedule(static)
     for (std::size_t b = 0; b < boxes; ++b) {
@@ -229,7 +228,7 @@ class BlockCocg {
   }
 
   /// p = z + β·p with the coarse correction added to z and the free motions taken out.
-  void turn(const Factor<F>& beta, const L (&drop)[max_free]) {
+  void turn(const Factor<F>& beta, const L (&drop)[most_free_motions]) {
 #pragma omp parallel for schedule(static)
     for (std::size_t b = 0; b < levels_.boxes(); ++b) {
       const L* y = &coarse_[6 * b];

@@ -10,6 +10,9 @@
 
 namespace macadam::harmonic {
 
+/// Free motions of the whole that it can keep out: of two specimens side by side in a box.
+inline constexpr std::size_t most_free_motions = 6;
+
 /// Solves up to four tasks at once.
 void solve_block(const ContactRows& rows, const TwoLevel& preconditioner, const kernels::Layout& layout,
                  const Inertia& inertia, const FreeMotions& free, std::vector<LinearTask*> tasks);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // iterative_solver.cpp  A network made ready for block_cocg: order, rows and preconditioner.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "host/harmonic/iterative/block_cocg.hpp"
+#include "macadam/error.hpp"
 
 namespace macadam::harmonic {
 namespace {
@@ -46,6 +49,10 @@ class IterativeSolver : public LinearSolver {
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
                                                     const FreeMotions& free) {
+  if (free.motions.size() > most_free_motions) {
+    throw RunError(fmt::format("harmonic: found {} motions of the whole that no wall resists, expected at most {}",
+                               free.motions.size(), most_free_motions));
+  }
   return std::make_unique<IterativeSolver>(specimen, network, typical, inertia, free);
 }
 
