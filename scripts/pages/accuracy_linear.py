@@ -13,7 +13,8 @@ def runs():
 def pairs():
     """Scenes that ran both ways: (by iteration, with factors)."""
     by = {(r["scene"], r["linear"]): r for r in runs()}
-    return [(r, by[r["scene"], "direct"]) for r in runs() if r["linear"] == "iterative" and (r["scene"], "direct") in by]
+    return [(r, by[r["scene"], "direct"]) for r in runs()
+            if r["linear"] == "iterative" and (r["scene"], "direct") in by]
 
 
 @mark
@@ -49,7 +50,8 @@ def linear_difference():
 def linear_largest():
     """The largest scene by iteration alone."""
     r = max(runs(), key=lambda r: r["particles"])
-    return f"{r['scene']}, {thousands(r['particles'])} particles: {plain(r['solve_s'], 2)} s and {memory([r['memory_gb']])}"
+    return (f"{r['scene']}, {thousands(r['particles'])} particles: {plain(r['solve_s'], 2)} s and "
+            f"{memory([r['memory_gb']])}")
 
 
 @mark
