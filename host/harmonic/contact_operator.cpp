@@ -3,7 +3,6 @@
 #include "host/harmonic/contact_operator.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "kernels/contact_kinematics.hpp"
 
@@ -104,9 +103,9 @@ void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor,
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = -out[i] - factor * inertia_at(inertia, i) * motion[i];
 }
 
-Complex ContactOperator::twice_energy(const PairStiffness& stiffness, const Vector& motion, Complex wall) const {
+ModulusParts ContactOperator::energy_parts(const PairStiffness& stiffness, const Vector& motion, Complex wall) const {
   const auto& contacts = network_.contacts;
-  std::vector<Complex> share(contacts.size());
+  std::vector<std::array<Complex, 2>> share(contacts.size());  // normal and shear
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& c = contacts[i];
@@ -117,10 +116,16 @@ Complex ContactOperator::twice_energy(const PairStiffness& stiffness, const Vect
     const std::array<double, 6> real = moments_over_distance(c);
     const Complex alpha = stiffness.alpha[pair], m[6] = {real[0], real[1], real[2], real[3], real[4], real[5]};
     const kernels::FacetLoad<Complex> load = kernels::condensed_load(density, alpha, m);
-    share[i] = load.n * u[0] - load.moment_t * u[1] + load.moment_s * u[2] + load.s * u[3] + load.t * u[4] +
-               load.moment_n * u[5];
+    share[i] = {load.n * u[0] - load.moment_t * u[1] + load.moment_s * u[2],
+                load.s * u[3] + load.t * u[4] + load.moment_n * u[5]};
   }
-  return std::accumulate(share.begin(), share.end(), Complex(0));  // in order: the same bits for any number of threads
+  ModulusParts out;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {  // in order: the same bits for any number of threads
+    const auto pair = static_cast<std::size_t>(contacts[i].pair);
+    out.normal[pair] += share[i][0];
+    out.shear[pair] += share[i][1];
+  }
+  return out;
 }
 
 Complex ContactOperator::bottom_force(const PairStiffness& stiffness, const Vector& motion) const {

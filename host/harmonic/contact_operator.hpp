@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "macadam/harmonic.hpp"
+#include "macadam/sensitivity.hpp"
 
 namespace macadam::harmonic {
 
@@ -42,8 +43,9 @@ class ContactOperator {
   void resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia, const Vector& motion,
                   Vector& out) const;
 
-  /// Σ u·k*·u over the contacts, u their relative displacements, without conjugates: twice the energy, where real.
-  Complex twice_energy(const PairStiffness& stiffness, const Vector& motion, Complex wall) const;
+  /// Σ u·k*·u over the contacts of each pair, u their relative displacements, without conjugates: twice the energy,
+  /// where real. Not yet over the specimen's size, and without inertia.
+  ModulusParts energy_parts(const PairStiffness& stiffness, const Vector& motion, Complex wall) const;
 
   /// Force of the bottom wall, which is at rest, on its particles along z.
   Complex bottom_force(const PairStiffness& stiffness, const Vector& motion) const;

@@ -149,7 +149,7 @@ class Harmonic::Implementation {
     Vector rest;
     contacts_.resistance(task.stiffness, task.inertia, inertia_, task.motion, rest);
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = task.right[i] - rest[i];
-    const double whole = std::abs(contacts_.twice_energy(task.stiffness, task.motion, 1.0));
+    const double whole = std::abs(contacts_.energy_parts(task.stiffness, task.motion, 1.0).modulus());
     w.residual = length(rest) / length(task.right);
     w.energy_error = std::sqrt(task.energy / whole);
     w.good = task.converged && w.residual <= options_.tolerance && w.energy_error <= energy_tolerance();
@@ -172,22 +172,29 @@ class Harmonic::Implementation {
   HarmonicResult result_of(Work& w, double frequency) const {
     const LinearTask& task = w.task;
     const Vector& x = task.motion;
-    Complex top = contacts_.twice_energy(task.stiffness, x, 1.0);
+    HarmonicResult out;
+    out.parts = contacts_.energy_parts(task.stiffness, x, 1.0);
     if (task.inertia != 0.0) {
-      for (std::size_t i = 0; i < x.size(); ++i) top -= task.inertia * inertia_at(inertia_, i) * x[i] * x[i];
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        out.parts.inertia -= task.inertia * inertia_at(inertia_, i) * x[i] * x[i];
+      }
     }
+    const double top = std::abs(out.parts.modulus());
     const Vec3d& box = specimen_.box.size;
     const double to_modulus = box.z / (box.x * box.y);  // stress per strain of a unit displacement
-    HarmonicResult out;
     out.frequency_hz = frequency;
     out.linear = w.method;
     out.residual = w.residual;
     out.iterations = task.iterations;
-    out.top = modulus(to_modulus * top);
+    for (auto* part : {&out.parts.normal, &out.parts.shear}) {
+      for (Complex& e : *part) e *= to_modulus;
+    }
+    out.parts.inertia *= to_modulus;
+    out.top = modulus(out.parts.modulus());
     out.bottom = modulus(-to_modulus * contacts_.bottom_force(task.stiffness, x));
     if (task.inertia == 0.0 && w.method == LinearMethod::direct) {
       for (const Pin& pin : free_.pins) out.held_force += std::abs(pin.stiffness * x[pin.dof]);
-      out.held_force /= std::abs(top);
+      out.held_force /= top;
     }
     out.motion = std::move(w.task.motion);
     return out;

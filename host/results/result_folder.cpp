@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -23,29 +24,46 @@ void remove_empty(const std::vector<fs::path>& folders) {
   }
 }
 
+/// Whether an open folder is still the one that the path names.
+bool is_same(int file, const fs::path& path) {
+  struct stat open {
+  }, named{};
+  return ::fstat(file, &open) == 0 && ::stat(path.c_str(), &named) == 0 && open.st_dev == named.st_dev &&
+         open.st_ino == named.st_ino;
+}
+
 }  // namespace
 
 ResultFolder::ResultFolder(const fs::path& folder) {
   std::error_code error;
   fs::path whole = fs::absolute(folder).lexically_normal();
   if (!whole.has_filename()) whole = whole.parent_path();  // a slash at its end
-  for (fs::path f = whole; !f.empty() && !fs::exists(f, error); f = f.parent_path()) made_.push_back(f);
-  fs::create_directories(whole, error);
-  file_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file_ < 0) {
-    const std::string why = std::generic_category().message(errno);
-    remove_empty(made_);
-    throw RunError(folder.string() + ": cannot make the result folder: " + (error ? error.message() : why));
-  }
-  if (::faccessat(file_, ".", W_OK | X_OK, AT_EACCESS) != 0) {
-    const std::string why = std::generic_category().message(errno);
+  constexpr int attempts = 100;  // another command that is refused may remove the folder that it made, at any moment
+  for (int k = 0; k < attempts; ++k) {
+    made_.clear();
+    for (fs::path f = whole; !f.empty() && !fs::exists(f, error); f = f.parent_path()) made_.push_back(f);
+    fs::create_directories(whole, error);
+    file_ = ::open(whole.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (file_ < 0 && errno == ENOENT && !error) continue;
+    if (file_ < 0) {
+      const std::string why = std::generic_category().message(errno);
+      remove_empty(made_);
+      throw RunError(folder.string() + ": cannot make the result folder: " + (error ? error.message() : why));
+    }
+    if (::faccessat(file_, ".", W_OK | X_OK, AT_EACCESS) != 0 && errno != ENOENT) {
+      const std::string why = std::generic_category().message(errno);
+      ::close(file_);
+      throw RunError(folder.string() + ": no files can be written into it: " + why);
+    }
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      ::close(file_);
+      throw InputError(folder.string(), 0, "folder of the results", "another command that is writing into it",
+                       "to be the only one; wait for it, or choose another folder");
+    }
+    if (is_same(file_, whole)) return;
     ::close(file_);
-    throw RunError(folder.string() + ": no files can be written into it: " + why);
   }
-  if (::flock(file_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  ::close(file_);
-  throw InputError(folder.string(), 0, "folder of the results", "another command that is writing into it",
-                   "to be the only one; wait for it, or choose another folder");
+  throw RunError(folder.string() + ": cannot make the result folder: others remove it again and again");
 }
 
 ResultFolder::~ResultFolder() {

@@ -178,6 +178,7 @@ Scene read_scene(const std::filesystem::path& file) {
              {"output", Need::optional, [&](const Value& v) {
                 v.section().read({{"contacts", Need::optional, into(out.output.contacts)},
                                   {"response", Need::optional, into(out.output.response)},
+                                  {"sensitivities", Need::optional, into(out.output.sensitivities)},
                                   {"checkpoint", Need::optional, into(out.output.checkpoint, duration, non_negative)}});
               }}});
   check_together(out, root);

@@ -104,6 +104,7 @@ class HarmonicSolution : public Solution {
       f.method = SolverMethod::harmonic;
       f.linear = s.linear;
       f.stiffness = s.top;
+      f.parts = s.parts;
       f.bottom = s.bottom;
       f.residual = s.residual;
       f.iterations = s.iterations;

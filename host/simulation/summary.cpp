@@ -34,7 +34,20 @@ const char* to_string(SolverMethod method) { return method == SolverMethod::harm
 
 Json error_json(const ErrorEstimate& error) { return {{"e_star", error.e_star}, {"phase_rad", error.phase_rad}}; }
 
-Json frequency_json(const FrequencyResult& f, bool tolerance) {
+/// Derivatives by the logarithms of the parameters, and what each pair carries.
+void add_sensitivities(const FrequencyResult& f, const LawTable& laws, Json& out) {
+  out["sensitivities"] = Json::array();
+  for (const Sensitivity& s : sensitivities(*f.parts, laws, f.frequency_hz)) {
+    out["sensitivities"].push_back(
+        {{"parameter", s.parameter}, {"d_e_star_pa", s.d_e_star_pa}, {"d_phase_deg", s.d_phase_deg}});
+  }
+  const auto parts = shares(*f.parts);
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (parts[pair] != 0) out["shares"][to_string(static_cast<PairType>(pair))] = parts[pair];
+  }
+}
+
+Json frequency_json(const FrequencyResult& f, const Scene& scene) {
   Json out = {{"frequency_hz", f.frequency_hz},
               {"e_star_pa", f.stiffness.e_star_pa},
               {"phase_deg", f.stiffness.phase_deg},
@@ -53,13 +66,14 @@ Json frequency_json(const FrequencyResult& f, bool tolerance) {
     out["start"] = to_string(f.start);
     if (f.predicted) out["predicted_error"] = error_json(*f.predicted);
     if (f.achieved) out["difference_from_harmonic"] = error_json(*f.achieved);
-    if (tolerance) out["tolerance_kept"] = f.kept ? Json(*f.kept) : Json();
+    if (scene.solver.tolerance) out["tolerance_kept"] = f.kept ? Json(*f.kept) : Json();
   }
   if (f.bottom) {
     out["e_star_bottom_pa"] = f.bottom->e_star_pa;
     out["phase_bottom_deg"] = f.bottom->phase_deg;
     out["iterations"] = f.iterations;
     out["linear"] = to_string(f.linear);
+    if (scene.output.sensitivities && f.parts) add_sensitivities(f, scene.laws, out);
     out["held_force"] = f.held_force;
   }
   return out;
@@ -130,7 +144,7 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["results"] = Json::array();
   double solve = result.seconds_factoring + result.seconds_planning;
   for (const FrequencyResult& f : result.frequencies) {
-    out["results"].push_back(frequency_json(f, scene.solver.tolerance.has_value()));
+    out["results"].push_back(frequency_json(f, scene));
     solve += f.seconds;
   }
   out["solver"] = solver_json(scene, result);

@@ -15,6 +15,7 @@
 #include "macadam/laws/all.hpp"
 #include "macadam/linear_method.hpp"
 #include "macadam/results.hpp"
+#include "macadam/sensitivity.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam {
@@ -38,6 +39,7 @@ struct HarmonicResult {
   double frequency_hz = 0;
   Stiffness top;        ///< from the reaction of the top wall, as the energy of the motion gives it
   Stiffness bottom;     ///< from the reaction of the bottom wall; equal without inertia
+  ModulusParts parts;   ///< of which top is the sum
   double residual = 0;  ///< relative, computed anew from the solution
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< that found the solution

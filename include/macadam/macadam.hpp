@@ -22,5 +22,6 @@
 #include "macadam/loadings/cyclic.hpp"
 #include "macadam/stepper.hpp"
 #include "macadam/results.hpp"
+#include "macadam/sensitivity.hpp"
 #include "macadam/harmonic.hpp"
 #include "macadam/simulation.hpp"

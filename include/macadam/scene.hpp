@@ -66,8 +66,9 @@ struct SolverSpec {
 
 /// `[output]`.
 struct OutputSpec {
-  bool contacts = false;  ///< write contacts.csv
-  bool response = true;   ///< write response.csv; without it only what the result needs is observed
+  bool contacts = false;       ///< write contacts.csv
+  bool response = true;        ///< write response.csv; without it only what the result needs is observed
+  bool sensitivities = false;  ///< harmonic only: derivatives of |E*| and φ in summary.json
   /// Wall time between two checkpoints [s], 0: when interrupted only; 600 s where the scene gives none.
   std::optional<double> checkpoint;
 };

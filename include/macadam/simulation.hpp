@@ -11,6 +11,7 @@
 #include "macadam/cross_section.hpp"
 #include "macadam/results.hpp"
 #include "macadam/scene.hpp"
+#include "macadam/sensitivity.hpp"
 #include "macadam/specimen.hpp"
 #include "macadam/tessellation.hpp"
 
@@ -56,10 +57,11 @@ struct FrequencyResult {
   /// explicit: whether the tolerance that was asked for was kept; nothing where there is no harmonic solution to tell
   std::optional<bool> kept;
   std::optional<ErrorEstimate> predicted,
-      achieved;                     ///< explicit: against the harmonic solution at true mass, if there is one
-  std::string fault;                ///< what of it cannot be right; empty where nothing is known to be wrong
-  std::optional<Stiffness> bottom;  ///< harmonic: from the reaction of the bottom wall
-  int iterations = 0;               ///< harmonic
+      achieved;                       ///< explicit: against the harmonic solution at true mass, if there is one
+  std::optional<ModulusParts> parts;  ///< harmonic: of which |E*| and φ are the sum
+  std::string fault;                  ///< what of it cannot be right; empty where nothing is known to be wrong
+  std::optional<Stiffness> bottom;    ///< harmonic: from the reaction of the bottom wall
+  int iterations = 0;                 ///< harmonic
   LinearMethod linear = LinearMethod::iterative;  ///< harmonic: that found the solution
   double held_force = 0;                          ///< harmonic: force that holds free rigid motions / reaction
 };

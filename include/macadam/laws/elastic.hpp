@@ -4,6 +4,7 @@
 
 #include <complex>
 #include <limits>
+#include <string>
 
 #include "macadam/laws/law.hpp"
 #include "macadam/numeric.hpp"
@@ -21,6 +22,10 @@ struct Elastic {
   double shortest_time() const { return std::numeric_limits<double>::infinity(); }
   std::complex<double> stiffness(double) const { return E; }
   std::complex<double> unit_compliance(int, double) const { return 0; }
+  template <class F>
+  void each_parameter(double, F&& f) const {
+    f(std::string("E"), std::complex<double>(1));
+  }
 
   template <class R>
   struct Step {

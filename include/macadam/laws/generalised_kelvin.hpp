@@ -10,6 +10,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "macadam/laws/law.hpp"
@@ -48,6 +49,20 @@ struct GeneralisedKelvin {
   std::complex<double> unit_compliance(int l, double omega) const {
     const auto unit = static_cast<std::size_t>(l);
     return 1.0 / std::complex<double>(E[unit], omega * C[unit]);
+  }
+
+  /// k = 1/Σ c_j, so that ∂ln k/∂ln θ = −k·∂c/∂ln θ: E_m, C_m where it is finite, E_1, C_1, E_2, …
+  template <class F>
+  void each_parameter(double omega, F&& f) const {
+    const std::complex<double> k = stiffness(omega), i(0, 1);
+    f(std::string("E_m"), k / E_m);
+    if (std::isfinite(C_m)) f(std::string("C_m"), k / (i * omega * C_m));
+    for (int l = 0; l < units(); ++l) {
+      const auto unit = static_cast<std::size_t>(l);
+      const std::complex<double> c = unit_compliance(l, omega);
+      f("E_" + std::to_string(l + 1), k * c * c * E[unit]);
+      f("C_" + std::to_string(l + 1), k * c * c * i * omega * C[unit]);
+    }
   }
 
   template <class R>

@@ -12,6 +12,8 @@
 ///   - `int units() const` — extra state numbers a component besides f (Kelvin units);
 ///   - `double instantaneous() const` — stiffness of an infinitely fast displacement [Pa], for the critical step;
 ///   - `std::complex<double> stiffness(double omega) const` — exact complex stiffness at ω [Pa];
+///   - `template <class F> void each_parameter(double omega, F&& f) const` — calls f(name, ∂ln k*/∂ln θ) for each
+///     parameter θ of the stiffness, by the paper's symbol;
 ///   - `std::complex<double> unit_compliance(int l, double omega) const` — x_l per unit of f at ω [1/Pa], l < units();
 ///   - `template <class R> struct Step` — coefficients of one time step in precision R, made by
 ///     `template <class R> Step<R> step(double dt) const` (computed in double, then rounded once), with

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sensitivity.cpp  From the parts of E* to derivatives and shares.
+#include "macadam/sensitivity.hpp"
+
+#include <numbers>
+
+namespace macadam {
+
+using Complex = std::complex<double>;
+
+Complex ModulusParts::modulus() const {
+  Complex sum = inertia;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) sum += normal[pair] + shear[pair];
+  return sum;
+}
+
+std::vector<Sensitivity> sensitivities(const ModulusParts& parts,
+                                       const std::array<std::optional<Law>, pair_types>& laws, double frequency_hz) {
+  const Complex modulus = parts.modulus();
+  const double omega = 2 * std::numbers::pi * frequency_hz;
+  std::vector<Sensitivity> out;
+  const auto add = [&](std::string parameter, Complex change) {  // d|E| = |E|·Re(dE/E), dφ = Im(dE/E)
+    const Complex relative = change / modulus;
+    out.push_back(
+        {std::move(parameter), std::abs(modulus) * relative.real(), relative.imag() * 180 / std::numbers::pi});
+  };
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    const Complex whole = parts.normal[pair] + parts.shear[pair];
+    if (!laws[pair] || whole == 0.0) continue;
+    const std::string prefix = std::string(to_string(static_cast<PairType>(pair))) + ".";
+    std::visit(
+        [&](const auto& law) {
+          law.each_parameter(omega,
+                             [&](const std::string& name, Complex change) { add(prefix + name, whole * change); });
+          if (law.alpha != 0) add(prefix + "alpha", parts.shear[pair]);
+        },
+        *laws[pair]);
+    add(prefix + "delta", whole);
+  }
+  if (parts.inertia != 0.0) add("density_scaling", parts.inertia);
+  return out;
+}
+
+std::array<double, pair_types> shares(const ModulusParts& parts) {
+  const Complex modulus = parts.modulus();
+  std::array<double, pair_types> out{};
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    out[pair] = ((parts.normal[pair] + parts.shear[pair]) / modulus).real();
+  }
+  return out;
+}
+
+}  // namespace macadam
