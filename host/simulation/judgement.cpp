@@ -16,7 +16,7 @@ namespace {
 
 /// Springs and dashpots turn the phase by 0 to 90 degrees; start-up waves turn it a little further.
 constexpr double phase_margin_deg = 1;
-/// What the fit may leave, rms over the amplitude. A start from rest without a ramp leaves some hundredths.
+/// What the fit may leave, rms over the amplitude. What leaves half is plainly no sine; it is no measure of accuracy.
 constexpr double largest_residual = 0.5;
 /// The bound is that of a static specimen; waves of the start pass it by little.
 constexpr double bound_margin = 1.05;
@@ -67,7 +67,10 @@ void judge(FrequencyResult& f, double stiffest, std::optional<double> tolerance,
     warnings.push_back(fmt::format("{} Hz: {}", f.frequency_hz, text));
   };
   f.fault = fault_of(f, stiffest);
-  if (!f.fault.empty()) warn(f.fault + ": inertia, waves of the start, or too few cycles rule the result");
+  if (!f.fault.empty())
+    warn(f.fault + (f.method == SolverMethod::harmonic
+                        ? ": inertia rules the result"
+                        : ": inertia, waves of the start, or too few cycles rule the result"));
   if (f.bottom && f.density_scaling == 0) {
     const ErrorEstimate walls = difference(*f.bottom, found);
     if (largest(walls) > wall_difference) {

@@ -77,11 +77,13 @@ class HarmonicSolution : public Solution {
       if (watcher_.progress) {
         watcher_.progress("harmonic: " + where, static_cast<double>(i) / static_cast<double>(frequencies.size()));
       }
+      std::vector<HarmonicResult> solved;
       try {
-        take(solve(i, end), result, save);
-      } catch (const RunError&) {  // one of them has no solution: the others are not lost for that
+        solved = solve(i, end);
+      } catch (const RunError&) {  // one of them has no solution: those before it are not lost for that
         for (std::size_t k = i; k < end; ++k) take(solve(k, k + 1), result, save);
       }
+      take(solved, result, save);
     }
   }
 

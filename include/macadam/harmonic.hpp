@@ -65,7 +65,7 @@ class Harmonic {
   /// \throws RunError when the residual does not come down to the tolerance.
   HarmonicResult solve(double frequency_hz, double density_scaling = 0, double viscous_damping = 0);
 
-  /// Several at once, which share what is read of the network: four take about as long as one and a half.
+  /// Several at once, which share what is read of the network, four at a time.
   /// `seconds` is each one's part of the whole. \throws RunError naming the frequency.
   std::vector<HarmonicResult> solve(const std::vector<HarmonicLoad>& loads);
 

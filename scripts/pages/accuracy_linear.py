@@ -40,10 +40,10 @@ def linear_faster():
 
 @mark
 def linear_difference():
-    """The largest difference of |E*| and of the phase angle."""
+    """The largest difference of |E*| and of the phase angle, no less than the file's digits show."""
     e = max(abs(i[f"e_star_pa_{hz}"] / d[f"e_star_pa_{hz}"] - 1) for i, d in pairs() for hz in HZ)
     phi = max(abs(i[f"phase_deg_{hz}"] - d[f"phase_deg_{hz}"]) for i, d in pairs() for hz in HZ)
-    return f"{power(upto(max(e, 1e-12)))} of \\|E\\*\\| and {power(upto(max(phi, 1e-9)))}°"
+    return f"{power(upto(max(e, 1e-12)))} of \\|E\\*\\| and {power(upto(max(phi, 1e-8)))}°"
 
 
 @mark

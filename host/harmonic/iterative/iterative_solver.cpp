@@ -10,8 +10,7 @@
 namespace macadam::harmonic {
 namespace {
 
-/// Boxes of the coarse level: more take fewer iterations and a larger dense matrix. On the paper's 35,760 single
-/// spheres 132 boxes take 92 iterations to 1e-8, and 264 boxes 79.
+/// Boxes of the coarse level: more take fewer iterations, but a dense matrix that grows as their square.
 std::size_t contacts_of_a_box(const Specimen& specimen, const ContactNetwork& network) {
   const std::size_t boxes = std::clamp<std::size_t>(specimen.size() / 40, 1, 160);
   return std::max<std::size_t>(network.contacts.size() / boxes, 1);
