@@ -15,12 +15,16 @@ namespace macadam::accuracy {
 
 /// Settings of a run. The defaults are the base about which one factor is varied at a time.
 struct Case {
-  std::string study;           ///< why it was run: the figure or table that it belongs to
-  std::string scene = "t8";    ///< "t8", "demo", "full", "seed N": another mixture in a smaller box, or "clusters"
-  std::string mix = "AM1";     ///< binder: "AM1" or "AM2"
-  double frequency = 20;       ///< [Hz]
-  double density_scaling = 1;  ///< multiplies mass and inertia
-  double step_share = 0.95;    ///< of critical_step()
+  std::string study;             ///< why it was run: the figure or table that it belongs to
+  std::string scene = "t8";      ///< "t8", "demo", "full", "seed N": another mixture in a smaller box, "clusters", "few
+                                 ///< clusters", "grid NxNxN": spheres of all pair types jittered about a grid
+  std::string mix = "AM1";       ///< binder: "AM1" or "AM2"
+  std::string stiff;             ///< made stiffer: "aggregate" or "walls"; empty: nothing
+  double factor = 1;             ///< by which
+  double frequency = 20;         ///< [Hz]
+  double density_scaling = 1;    ///< multiplies mass and inertia
+  std::int64_t cycle_steps = 0;  ///< decides the density scaling where it is not 0
+  double step_share = 0.95;      ///< of critical_step()
   Backend backend = Backend::cpu;
   Precision precision = Precision::mixed;
   ContactForm form = ContactForm::condensed;

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <fstream>
 
-#include "bench/accuracy/runner.hpp"
+#include "bench/accuracy/precision.hpp"
 #include "macadam/error.hpp"
 
 namespace {
@@ -32,10 +32,15 @@ int main(int argc, char** argv) {
   using namespace macadam;
   using namespace macadam::accuracy;
   CLI::App app("Error of |E*| and phi against the harmonic solution, and run time, over all settings");
-  bool quick = false, full = false;
+  bool quick = false, full = false, precision = false;
+  Backend backend = Backend::cpu;
   std::string root, csv, only;
   app.add_flag("--quick", quick, "the short list: a minute");
   app.add_flag("--full", full, "the full specimen, and nothing else");
+  app.add_flag("--precision", precision, "mixed and single against double, and nothing else");
+  app.add_option("--backend", backend, "of --precision")
+      ->transform(
+          CLI::CheckedTransformer(std::map<std::string, Backend>{{"cpu", Backend::cpu}, {"cuda", Backend::cuda}}));
   app.add_option("--only", only, "only runs whose description (as it is printed) holds this text");
   app.add_option("root", root, "of the repository")->required();
   app.add_option("csv", csv, "file to write")->required();
@@ -45,6 +50,12 @@ int main(int argc, char** argv) {
     const bool cuda = !report.devices.empty();
     const std::filesystem::path scratch = std::filesystem::path(csv).concat(".run");
     Runner runner(root, scratch);
+    if (precision) {
+      measure_precision(runner, backend, csv, cuda && backend == Backend::cuda ? report.devices[0].name : processor(),
+                        only);
+      std::filesystem::remove_all(scratch);
+      return 0;
+    }
     Table table(csv, {fmt::format("machine: {}{}; one thread", processor(), cuda ? ", " + report.devices[0].name : ""),
                       fmt::format("date: {:%Y-%m-%d}", std::chrono::system_clock::now()),
                       fmt::format("list: {}{}",

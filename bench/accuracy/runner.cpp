@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "tests/cluster_specimens.hpp"
+
 namespace macadam::accuracy {
 namespace {
 
@@ -24,6 +26,29 @@ loadings::Cyclic make_loading(const Case& c, double height, double step) {
   loading.steps_per_period = std::llround(std::ceil(1 / (c.frequency * step * samples_per_cycle))) * samples_per_cycle;
   loading.ramp_steps = std::llround(c.ramp_cycles * static_cast<double>(loading.steps_per_period));
   return loading;
+}
+
+/// A law whose moduli and viscosities are so many times as large.
+Law stiffened(Law law, double factor) {
+  if (auto* elastic = std::get_if<laws::Elastic>(&law)) elastic->E *= factor;
+  if (auto* kelvin = std::get_if<laws::GeneralisedKelvin>(&law)) {
+    kelvin->E_m *= factor, kelvin->C_m *= factor;
+    for (double& E : kelvin->E) E *= factor;
+    for (double& C : kelvin->C) C *= factor;
+  }
+  return law;
+}
+
+/// "grid 4x4x5": of spheres about a grid; all else by its recipe.
+Preparation prepare_case(const std::string& name, const Scene& scene) {
+  if (!name.starts_with("grid ")) return prepare(scene);
+  int n[3];
+  if (std::sscanf(name.c_str(), "grid %dx%dx%d", &n[0], &n[1], &n[2]) != 3) throw InputError("no such scene: " + name);
+  Preparation out;
+  out.specimen = test::random_specimen(8, n[0], n[1], n[2]);
+  out.tessellation = tessellate(out.specimen);
+  out.network = build_network(out.specimen, out.tessellation, scene.network);
+  return out;
 }
 
 }  // namespace
@@ -71,7 +96,10 @@ const Scene& Runner::scene(const std::string& name, const std::string& mix) {
     made.specimen.seed = std::stoull(name.substr(5));
     made.specimen.box.size = {0.012, 0.012, 0.016};
     made.specimen.aggregate = {{2e-3, 4.75e-3, 0.25, std::nullopt}};
-  } else if (name != "demo") {
+  } else if (name == "few clusters") {
+    made.specimen = test::cluster_recipe(8, {6.5e-3, 6.5e-3, 8.5e-3});
+    made.specimen.aggregate = {{3.6e-3, 3.9e-3, std::nullopt, 2}};
+  } else if (name != "demo" && !name.starts_with("grid ")) {
     made.specimen = {};
     made.specimen.file = root_ / "tests/data" / (name == "t8" ? "t8.csv" : "ss_full.csv.gz");
     made.specimen.box.size = name == "t8" ? Vec3d{0.008, 0.008, 0.011} : Vec3d{0.05, 0.05, 0.08};
@@ -80,15 +108,33 @@ const Scene& Runner::scene(const std::string& name, const std::string& mix) {
 }
 
 Runner::Network& Runner::network(const Case& c) {
-  auto& at = networks_[{c.scene, c.mix, c.quadrature, c.gap_max.value_or(-1), c.area_min.value_or(-1)}];
+  auto& at =
+      networks_[{c.scene, c.mix, c.stiff, c.factor, c.quadrature, c.gap_max.value_or(-1), c.area_min.value_or(-1)}];
   if (!at) {
-    Scene variant = scene(c.scene, c.mix);
-    variant.network.quadrature = c.quadrature;
-    variant.network.gap_max = c.gap_max;
-    variant.network.area_min = c.area_min;
-    at = std::make_unique<Network>(prepare(variant), variant);
+    const Scene variant = scene_of(c);
+    at = std::make_unique<Network>(prepare_case(c.scene, variant), variant);
   }
   return *at;
+}
+
+const Preparation& Runner::prepared(const Case& c) { return network(c).prepared; }
+
+Scene Runner::scene_of(const Case& c) {
+  Scene out = scene(c.scene, c.mix);
+  out.network.quadrature = c.quadrature;
+  out.network.gap_max = c.gap_max;
+  out.network.area_min = c.area_min;
+  const auto stiffen = [&](PairType pair, double factor) {
+    auto& law = out.laws[static_cast<std::size_t>(pair)];
+    law = stiffened(*law, factor);
+  };
+  if (c.stiff == "aggregate") {
+    for (const PairType pair : {PairType::aa, PairType::inner, PairType::aw}) stiffen(pair, c.factor);
+    stiffen(PairType::ma, std::sqrt(c.factor));
+  } else if (c.stiff == "walls") {
+    for (const PairType pair : {PairType::aw, PairType::mw}) stiffen(pair, c.factor);
+  }
+  return out;
 }
 
 std::vector<Outcome> Runner::run(Case& c) {
@@ -101,6 +147,10 @@ std::vector<Outcome> Runner::run(Case& c) {
   options.damping_kind = c.damping_kind;
   options.damping = c.damping;
   const double critical = critical_step(n.prepared.network, n.laws, n.inertia, options).dt;
+  if (c.cycle_steps > 0) {
+    c.density_scaling =
+        (1 + 1e-9) * std::pow(1 / (c.frequency * static_cast<double>(c.cycle_steps) * c.step_share * critical), 2);
+  }
   const loadings::Cyclic loading = make_loading(c, box.size.z, c.step_share * critical * std::sqrt(c.density_scaling));
   options.loading = loading;
   options.dt = loading.dt();

@@ -19,6 +19,10 @@ class Runner {
   /// One outcome for each of the case's `cycles`, fewer where the run diverges. What a tolerance chose is written into
   /// the settings. \throws InputError, RunError.
   std::vector<Outcome> run(Case& settings);
+  /// The specimen and its contacts.
+  const Preparation& prepared(const Case& settings);
+  /// With the laws of a case, stiffened ones among them.
+  Scene scene_of(const Case& settings);
 
  private:
   struct Network;
@@ -29,7 +33,9 @@ class Runner {
 
   std::filesystem::path root_, out_;
   std::map<std::pair<std::string, std::string>, Scene> scenes_;
-  std::map<std::tuple<std::string, std::string, Quadrature, double, double>, std::unique_ptr<Network>> networks_;
+  std::map<std::tuple<std::string, std::string, std::string, double, Quadrature, double, double>,
+           std::unique_ptr<Network>>
+      networks_;
 };
 
 /// All runs in order. `quick`: a minute; `full`: the full specimen too; `cuda`: a device is there.

@@ -2,6 +2,8 @@
 // error_model.cpp  Figures measured on specimens of asphalt (docs/accuracy.md) with a factor of safety.
 #include "host/simulation/error_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,27 +17,73 @@ ErrorEstimate difference(const Stiffness& found, const Stiffness& expected) {
 
 double largest(const ErrorEstimate& error) { return std::max(std::abs(error.e_star), std::abs(error.phase_rad)); }
 
-double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency) {
-  const double omega = 2 * std::numbers::pi * frequency;
-  double softest = std::numeric_limits<double>::infinity();
+namespace {
+
+/// Least and largest |k*(ω)| of the pair types that are there.
+std::pair<double, double> stiffness_range(const Scene& scene, const Preparation& prepared, double omega) {
+  double least = std::numeric_limits<double>::infinity(), largest = 0;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (prepared.network.count[pair] == 0) continue;
-    softest = std::min(softest,
-                       std::visit([&](const auto& law) { return std::abs(law.stiffness(omega)); }, *scene.laws[pair]));
+    const double k = std::visit([&](const auto& law) { return std::abs(law.stiffness(omega)); }, *scene.laws[pair]);
+    least = std::min(least, k);
+    largest = std::max(largest, k);
   }
+  return {least, largest};
+}
+
+/// Largest relative rounding of a float.
+constexpr double roundoff = 0x1p-24;
+
+}  // namespace
+
+double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency) {
+  const double omega = 2 * std::numbers::pi * frequency;
   const double height = prepared.specimen.box.size.z;
   const double density = std::max(scene.materials.aggregate, scene.materials.mastic);
-  return omega * omega * height * height * density / softest;  // 3 · E = softest
+  // 3 · E = softest
+  return omega * omega * height * height * density / stiffness_range(scene, prepared, omega).first;
 }
 
-// Upper envelopes, about twice what bench/accuracy measured (bench/results/accuracy.csv), of |E*| and φ in radians.
-
-// t8: 1.8e-7 or less at 3.7e4 steps, 1e-6 at 3.7e5, 9e-5 at 3.7e6 (φ at 2 Hz, one cycle); the demo, with thirteen times
-// the particles: 1.7e-7 at 2.6e4, 1.6e-6 at 8.3e4. Many cycles of large steps drift less.
-double single_precision_error(std::int64_t steps) {
-  const double millions = static_cast<double>(steps) / 1e6;
-  return 4e-7 + 5e-4 * millions * millions;
+RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, double frequency, std::int64_t steps,
+                             double density_scaling) {
+  double distances = 0;
+  for (const Contact& c : prepared.network.contacts) distances += c.distance;
+  const auto [softest, stiffest] = stiffness_range(scene, prepared, 2 * std::numbers::pi * frequency);
+  return {steps, prepared.specimen.box.size.z * static_cast<double>(prepared.network.contacts.size()) / distances,
+          stiffest / softest, density_scaling * inertia_estimate(scene, prepared, frequency)};
 }
+
+// Velocities that contacts gather are known to u = 2⁻²⁴ of themselves, and are as many times the relative velocities of
+// two layers as there are layers; normals, arms and moments are known to u. Nothing adds up in `mixed`: states, master
+// velocities and sums are double.
+double mixed_precision_error(const RoundingScale& s) { return roundoff * (10 + s.layers); }
+
+// Besides, in `single`: a chain's f and x_l change by 2π/N of their amplitude in a step, times the cosine of the phase.
+// About their peaks, where that is less than half of the last bit, they stay: over θ = u·N/2π on either side, where
+// they should have moved by θ²/2. Noise of other roundings hides most of it in long runs, but not in all; hence 4·θ². A
+// run of many cycles loses less than one cycle of as many steps. A velocity, likewise, changes only where the force
+// moves it by half of its last bit in a step: a share of up to θ/2 of inertia is lost.
+double single_precision_error(const RoundingScale& s) {
+  const double theta = roundoff * static_cast<double>(s.steps) / (2 * std::numbers::pi);
+  return mixed_precision_error(s) + 4 * theta * theta + 2 * theta * s.inertia;
+}
+
+std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured) {
+  const RoundingScale& up_to = measured.up_to;  // what is not a number lies beyond it too
+  if (!(scale.steps <= up_to.steps)) return fmt::format("{} steps, measured up to {}", scale.steps, up_to.steps);
+  if (!(scale.layers <= up_to.layers)) {
+    return fmt::format("{:.0f} layers of particles, measured up to {:.0f}", scale.layers, up_to.layers);
+  }
+  if (!(scale.contrast <= up_to.contrast)) {
+    return fmt::format("stiffnesses {:.0e} apart, measured up to {:.0e}", scale.contrast, up_to.contrast);
+  }
+  if (!(scale.inertia <= up_to.inertia)) {
+    return fmt::format("inertia of about {:.2g} of |E*|, measured up to {:.2g}", scale.inertia, up_to.inertia);
+  }
+  return {};
+}
+
+// About twice what bench/accuracy measured (bench/results/accuracy.csv), of |E*| and φ in radians.
 
 // t8: 1.2·ε² at strains of 1e-3, 3e-3 and 1e-2.
 double fixed_geometry_error(double strain) { return 3 * strain * strain; }

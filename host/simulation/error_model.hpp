@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file error_model.hpp  What settings cost in |E*| (relative) and φ [rad]: an estimate for inertia, and upper
-/// envelopes of what bench/accuracy measured.
+/// \file error_model.hpp  What settings cost in |E*| (relative) and φ [rad]: estimates, and figures above
+/// all that bench/accuracy measured.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "macadam/simulation.hpp"
 
@@ -20,11 +21,32 @@ double largest(const ErrorEstimate& error);
 /// alone has 0.6 of it, mixtures more than all of it), ρ as the heaviest material's.
 double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency);
 
-/// Drift of single-precision chain states over so many steps.
-double single_precision_error(std::int64_t steps);
+/// What the rounding of a run grows with.
+struct RoundingScale {
+  std::int64_t steps = 0;  ///< of the whole run
+  double layers = 0;       ///< height over the mean distance of contacts: what velocities are over relative velocities
+  double contrast = 1;     ///< stiffest over softest |k*(ω)| of the pair types that are there
+  double inertia = 0;      ///< what the scaled mass costs of |E*|, by inertia_estimate()
+};
+RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, double frequency, std::int64_t steps,
+                             double density_scaling);
 
-/// Of `mixed`, however many steps (6e-7 was measured): single-precision geometry and gathered velocities.
-inline constexpr double mixed_precision_error = 1.2e-6;
+/// Where a precision was compared with double, and what was found: maxima of bench/results/precision.csv, of the
+/// drift study of accuracy.csv and, of mixed, of the full specimen on a device (whole-tests-h200-2026-11-21.csv).
+/// precision_test holds them against these files.
+struct RoundingMeasured {
+  double largest;  ///< difference of |E*| (relative) or φ [rad]
+  RoundingScale up_to;
+};
+inline constexpr RoundingMeasured single_measured{9.1e-5, {4'000'000, 49, 1e7, 0.33}};
+inline constexpr RoundingMeasured mixed_measured{1.5e-6, {11'897'000, 49, 1e7, 0.33}};
+
+/// Estimates that lie above all that was measured. No bounds: other scenes may round otherwise.
+double single_precision_error(const RoundingScale& scale);
+double mixed_precision_error(const RoundingScale& scale);
+
+/// What of a run lies beyond the measurements, in words; empty where nothing does.
+std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured);
 
 /// Normals and arms of the start kept under this strain.
 double fixed_geometry_error(double strain);

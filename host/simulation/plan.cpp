@@ -228,16 +228,30 @@ class Planner {
       plan_.precision = scene_.solver.precision.value_or(Precision::double_);
       return;
     }
-    double error = 0;
-    for (const FrequencyPlan& f : plan_.frequencies) {
-      error = std::max(error, single_precision_error(f.cycles * f.loading.steps_per_period));
+    double single = 0, mixed = 0;
+    std::string beyond_single, beyond_mixed;
+    for (std::size_t i = 0; i < plan_.frequencies.size(); ++i) {
+      const FrequencyPlan& f = plan_.frequencies[i];
+      const RoundingScale scale = rounding_scale(scene_, prepared_, scene_.loading.frequencies[i],
+                                                 f.cycles * f.loading.steps_per_period, f.density_scaling);
+      single = std::max(single, single_precision_error(scale));
+      mixed = std::max(mixed, mixed_precision_error(scale));
+      if (beyond_single.empty()) beyond_single = beyond(scale, single_measured);
+      if (beyond_mixed.empty()) beyond_mixed = beyond(scale, mixed_measured);
     }
     const double share = precision_share * tolerance();
-    plan_.precision = error <= share                   ? Precision::single
-                      : mixed_precision_error <= share ? Precision::mixed
-                                                       : Precision::double_;
-    decide("precision {}: after so many steps single is off by at most about {:.1e}, mixed by {:.1e}",
-           to_string(plan_.precision), error, mixed_precision_error);
+    plan_.precision = single <= share && beyond_single.empty() ? Precision::single
+                      : mixed <= share && beyond_mixed.empty() ? Precision::mixed
+                                                               : Precision::double_;
+    decide(
+        "precision {}: estimated differences from double: single {:.1e}, mixed {:.1e}; no bounds: what was measured is "
+        "at "
+        "most {:.1e} (up to {:.1e} steps) and {:.1e} (up to {:.1e})",
+        to_string(plan_.precision), single, mixed, single_measured.largest,
+        static_cast<double>(single_measured.up_to.steps), mixed_measured.largest,
+        static_cast<double>(mixed_measured.up_to.steps));
+    if (!beyond_single.empty()) decide("not single precision, which was not measured so far: {}", beyond_single);
+    if (!beyond_mixed.empty()) decide("not mixed precision, which was not measured so far: {}", beyond_mixed);
   }
 
   const Scene& scene_;
