@@ -3,7 +3,7 @@
 import math
 
 from pages.accuracy_rows import E, PHI, both, drift_differences, scene, scenes, signed, study
-from pages.data import listed, table, thousands
+from pages.data import head, listed, minus, plain, power, rows, span, table, thousands, upto
 from pages.marks import mark
 
 ASKED_OF_MIXED = {E: 1e-5, PHI: 0.002}
@@ -61,3 +61,66 @@ def drift():
     return table(["scene", "f (Hz)", "scaling", "geometry", "steps", "precision", "\\|E\\*\\|", "φ (°)"],
                  [(scene(r), f"{r['frequency_hz']:g}", f"{r['density_scaling']:g}", r["geometry"],
                    thousands(r["steps"]), r["precision"], signed(d[E]), signed(d[PHI])) for r, d in of])
+
+
+# ---- precision.csv: mixed and single against double at the same settings
+
+def off(row):
+    """|E*| (relative) or φ (radians), the larger: what the program estimates."""
+    return max(abs(row["e_star"]), abs(row["phase_rad"]))
+
+
+def rounded_up(x):
+    return minus(power(upto(x)))
+
+
+def times(x):
+    return plain(x) if x < 1000 else power(x)
+
+
+def of(precision):
+    return [r for r in rows("precision.csv") if r["precision"] == precision]
+
+
+@mark
+def precision_machines():
+    return "; ".join(head("precision.csv"))
+
+
+@mark
+def precision_runs():
+    return f"{len(of('single'))} comparisons"
+
+
+@mark
+def precision_largest(precision):
+    return rounded_up(max(off(r) for r in of(precision)))
+
+
+@mark
+def precision_range():
+    found = of("single")
+    return (f"{thousands(max(r['steps'] for r in found))} steps, {max(r['layers'] for r in found):.0f} layers, "
+            f"{thousands(max(r['particles'] for r in found))} particles, moduli "
+            f"{times(max(r['contrast'] for r in found))} apart")
+
+
+@mark
+def precision_stiff(precision):
+    """Where something was made stiffer."""
+    return rounded_up(max(off(r) for r in of(precision) if r["factor"] > 1))
+
+
+@mark
+def precision():
+    kinds = {}
+    for r in rows("precision.csv"):
+        made = f"; {r['stiff']} {r['factor']:.0e} times as stiff".replace("e+0", "e") if r["factor"] > 1 else ""
+        kinds.setdefault((r["backend"], r["scene"], r["mix"] + made), []).append(r)
+    return table(["backend", "scene", "laws", "particles", "layers", "stiffest / softest", "runs", "steps", "mixed",
+                  "single"],
+                 [(*kind, thousands(found[0]["particles"]), f"{found[0]['layers']:.1f}",
+                   span((r["contrast"] for r in found), times), len(found) // 2,
+                   span((r["steps"] for r in found), thousands),
+                   *(rounded_up(max(off(r) for r in found if r["precision"] == p)) for p in ("mixed", "single")))
+                  for kind, found in kinds.items()])
