@@ -5,6 +5,7 @@
 
 #include "cluster_specimens.hpp"
 #include "host/harmonic/iterative/contact_rows.hpp"
+#include "host/harmonic/linear_solver.hpp"
 #include "macadam/harmonic.hpp"
 #include "test_scenes.hpp"
 
@@ -109,6 +110,37 @@ TEST(Iterative, SameBitsForAnyNumberOfThreads) {
   }
   omp_set_num_threads(before);
   EXPECT_TRUE(motions[0] == motions[1] && motions[0] == motions[2]);
+}
+
+// Boxes of particles take part in the preconditioner alone: however many there are, the solution is the same, and with
+// more of them it takes fewer iterations.
+TEST(Iterative, BoxesSaveIterationsAndChangeNoSolution) {
+  const TestScene scene = make_scene(random_specimen(test_seed(), 8, 8, 20));
+  const std::size_t n = scene.specimen.size();
+  const auto stiffness = harmonic::pair_stiffness(scene.laws, 40);
+  const auto free = harmonic::find_free_motions(scene.specimen, scene.network, stiffness, scene.inertia);
+  harmonic::LinearTask asked;
+  asked.stiffness = stiffness;
+  asked.tolerance = 1e-10;
+  const harmonic::ContactOperator contacts(scene.network, n);
+  contacts.forces(stiffness, harmonic::Vector(6 * n, 0), 1.0, asked.right);
+  const auto modulus = [&](const harmonic::LinearTask& t) {
+    return contacts.energy_parts(stiffness, t.motion, 1.0).modulus();
+  };
+  const auto solved = [&](std::optional<std::size_t> boxes) {
+    harmonic::LinearTask task = asked;
+    harmonic::make_iterative_solver(scene.specimen, scene.network, stiffness, scene.inertia, free, boxes)
+        ->solve({&task});
+    EXPECT_TRUE(task.converged);
+    return task;
+  };
+  const auto usual = solved({}), none = solved(0), few = solved(4), same = solved(harmonic::usual_boxes(n));
+  EXPECT_TRUE(same.motion == usual.motion && same.iterations == usual.iterations);
+  EXPECT_LT(usual.iterations, few.iterations);
+  EXPECT_LT(few.iterations, none.iterations);
+  for (const auto* task : {&none, &few}) {  // E* by the square of residuals of 1e-10 times the condition, some 1e5
+    EXPECT_NEAR(std::abs(modulus(*task) / modulus(usual) - 1.0), 0, 1e-9);
+  }
 }
 
 /// The rows' kernels against the operator that the checks of a solution use.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "host/harmonic/contact_operator.hpp"
@@ -38,11 +39,15 @@ std::unique_ptr<LinearSolver> make_direct_solver(const ContactNetwork& network, 
                                                  const PairStiffness& typical, const Inertia& inertia,
                                                  const FreeMotions& free);
 
+/// Boxes of particles that make_iterative_solver() takes: more take fewer iterations, but a dense matrix that grows as
+/// their square.
+std::size_t usual_boxes(std::size_t particles);
+
 /// Preconditioned by each particle itself and by the rigid motions of boxes of particles: no factors but of a small
-/// matrix. Up to four tasks are solved side by side.
+/// matrix. Up to four tasks are solved side by side. `boxes`: another number of them, about; 0: each particle alone.
 /// \throws RunError when a particle alone can move without force, or the whole in more than six ways.
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
-                                                    const FreeMotions& free);
+                                                    const FreeMotions& free, std::optional<std::size_t> boxes = {});
 
 }  // namespace macadam::harmonic

@@ -10,21 +10,22 @@
 namespace macadam::harmonic {
 namespace {
 
-/// Boxes of the coarse level: more take fewer iterations, but a dense matrix that grows as their square.
-std::size_t contacts_of_a_box(const Specimen& specimen, const ContactNetwork& network) {
-  const std::size_t boxes = std::clamp<std::size_t>(specimen.size() / 40, 1, 160);
+std::size_t contacts_of_a_box(const Specimen& specimen, const ContactNetwork& network, std::size_t boxes) {
+  if (boxes == 0) boxes = usual_boxes(specimen.size());  // threads share the particles by boxes
   return std::max<std::size_t>(network.contacts.size() / boxes, 1);
 }
 
 class IterativeSolver : public LinearSolver {
  public:
   IterativeSolver(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& typical,
-                  const Inertia& inertia, const FreeMotions& free)
-      : layout_(kernels::make_layout(specimen, network, 1, contacts_of_a_box(specimen, network))),
+                  const Inertia& inertia, const FreeMotions& free, std::size_t boxes)
+      : layout_(kernels::make_layout(specimen, network, 1, contacts_of_a_box(specimen, network, boxes))),
         rows_(network, layout_),
         levels_(specimen, network, layout_, typical, free),
         inertia_(inertia),
-        free_(free) {}
+        free_(free) {
+    if (boxes == 0) levels_.coarse.setZero();
+  }
 
   void solve(const std::vector<LinearTask*>& tasks) override {
     constexpr std::size_t block = 4;
@@ -45,14 +46,17 @@ class IterativeSolver : public LinearSolver {
 
 }  // namespace
 
+std::size_t usual_boxes(std::size_t particles) { return std::clamp<std::size_t>(particles / 40, 1, 160); }
+
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
-                                                    const FreeMotions& free) {
+                                                    const FreeMotions& free, std::optional<std::size_t> boxes) {
   if (free.motions.size() > most_free_motions) {
     throw RunError(fmt::format("harmonic: found {} motions of the whole that no wall resists, expected at most {}",
                                free.motions.size(), most_free_motions));
   }
-  return std::make_unique<IterativeSolver>(specimen, network, typical, inertia, free);
+  return std::make_unique<IterativeSolver>(specimen, network, typical, inertia, free,
+                                           boxes.value_or(usual_boxes(specimen.size())));
 }
 
 }  // namespace macadam::harmonic
