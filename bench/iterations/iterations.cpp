@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// iterations.cpp  How many iterations the frequency domain takes as specimens grow, with boxes of particles and
+// without.
+//
+// Usage: iterations_bench SCENE PARTICLES … : specimens of the scene's recipe, which counts its particles, in boxes of
+// the same shape. Prints a CSV, a row a specimen and number of boxes.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "host/harmonic/linear_solver.hpp"
+#include "macadam/macadam.hpp"
+
+namespace macadam {
+namespace {
+
+using namespace harmonic;
+
+constexpr double frequency_hz = 20, tolerance = 1e-8;
+constexpr std::size_t many_boxes = 640;  ///< a dense matrix of 118 MB
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// The same gradation for another number of particles.
+SpecimenSpec resized(SpecimenSpec spec, std::int64_t particles) {
+  if (!spec.mastic || !spec.mastic->count) throw InputError(spec.source + ": mastic without count");
+  std::int64_t usual = *spec.mastic->count;
+  for (const AggregateClass& c : spec.aggregate) {
+    if (!c.count) throw InputError(spec.source + ": a class of aggregates without count");
+    usual += *c.count;
+  }
+  const double times = static_cast<double>(particles) / static_cast<double>(usual);
+  spec.box.size = std::cbrt(times) * spec.box.size;
+  for (AggregateClass& c : spec.aggregate) {
+    c.count = std::llround(times * static_cast<double>(*c.count));
+    particles -= *c.count;
+  }
+  spec.mastic->count = particles;
+  return spec;
+}
+
+double length(const Vector& x) {
+  double sum = 0;
+  for (const Complex& v : x) sum += std::norm(v);
+  return std::sqrt(sum);
+}
+
+/// Specimen, network, and the one system that is solved in several ways.
+class Case {
+ public:
+  Case(const Scene& scene, std::int64_t particles) {
+    const auto start = Clock::now();
+    specimen_ = generate_specimen(resized(scene.specimen, particles)).specimen;
+    network_ = build_network(specimen_, tessellate(specimen_), scene.network);
+    prepared_s_ = seconds_since(start);
+    inertia_ = make_inertia(specimen_, scene.materials.aggregate, scene.materials.mastic);
+    stiffness_ = pair_stiffness(scene.laws, 2 * std::numbers::pi * frequency_hz);
+    free_ = find_free_motions(specimen_, network_, stiffness_, inertia_);
+    ContactOperator(network_, specimen_.size()).forces(stiffness_, Vector(6 * specimen_.size(), 0), 1.0, right_);
+  }
+
+  void solve() const {
+    const std::size_t usual = usual_boxes(specimen_.size());
+    for (const std::size_t boxes : {std::size_t{0}, usual, many_boxes}) {
+      if (boxes == many_boxes && specimen_.size() < 40 * many_boxes) continue;  // boxes of a few particles
+      const auto start = Clock::now();
+      const auto solver = make_iterative_solver(specimen_, network_, stiffness_, inertia_, free_, boxes);
+      const double made_s = seconds_since(start);
+      LinearTask task;
+      task.stiffness = stiffness_;
+      task.right = right_;
+      task.tolerance = tolerance;
+      const auto begun = Clock::now();
+      solver->solve({&task});
+      const double solved_s = seconds_since(begun);
+      fmt::print("{},{},{},{},{},{:.2e},{:.3g},{:.3g},{:.3g}\n", specimen_.size(), network_.contacts.size(), boxes,
+                 task.iterations, task.converged ? "yes" : "no", residual(task), prepared_s_, made_s, solved_s);
+      std::fflush(stdout);
+    }
+  }
+
+ private:
+  /// ‖f − K·u‖ / ‖f‖, computed anew.
+  double residual(const LinearTask& task) const {
+    Vector rest;
+    ContactOperator(network_, specimen_.size()).resistance(stiffness_, 0, inertia_, task.motion, rest);
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = right_[i] - rest[i];
+    return length(rest) / length(right_);
+  }
+
+  Specimen specimen_;
+  ContactNetwork network_;
+  Inertia inertia_;
+  PairStiffness stiffness_;
+  FreeMotions free_;
+  Vector right_;
+  double prepared_s_ = 0;
+};
+
+int main_function(int argc, char** argv) {
+  if (argc < 3) {
+    fmt::print(stderr, "usage: iterations_bench SCENE PARTICLES ...\n");
+    return 2;
+  }
+  const Scene scene = read_scene(argv[1]);
+  fmt::print("particles,contacts,boxes,iterations,converged,residual,prepare_s,preconditioner_s,solve_s\n");
+  for (int i = 2; i < argc; ++i) Case(scene, std::llround(std::stod(argv[i]))).solve();
+  return 0;
+}
+
+}  // namespace
+}  // namespace macadam
+
+int main(int argc, char** argv) {
+  try {
+    return macadam::main_function(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "iterations_bench: {}\n", error.what());
+    return 1;
+  }
+}
