@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "host/simulation/error_model.hpp"
+#include "host/simulation/phases.hpp"
 #include "host/simulation/solution.hpp"
 #include "macadam/error.hpp"
 
@@ -20,8 +21,9 @@ constexpr double inertia_share = 0.9, estimate_share = 0.5, precision_share = 0.
 
 class Planner {
  public:
-  Planner(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress)
-      : scene_(scene), prepared_(prepared), inertia_(inertia), progress_(progress) {}
+  Planner(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress,
+          PhaseSeconds& phases)
+      : scene_(scene), prepared_(prepared), inertia_(inertia), progress_(progress), phases_(phases) {}
 
   Plan make() {
     choose_form_and_geometry();
@@ -75,6 +77,7 @@ class Planner {
       return;
     }
     if (progress_) progress_("harmonic: preconditioner", 0);
+    const InPhase in(phases_, &PhaseSeconds::preconditioner);
     try {
       harmonic_.emplace(prepared_.specimen, prepared_.network, scene_.laws, inertia_,
                         HarmonicOptions{.linear = scene_.solver.linear}, geometric_mean(scene_.loading.frequencies));
@@ -107,6 +110,7 @@ class Planner {
   /// None where there is none, or none is found, which is said.
   std::optional<HarmonicResult> solution(double frequency, double scaling, double damping) {
     if (!harmonic_) return {};
+    const InPhase in(phases_, &PhaseSeconds::harmonic);
     try {
       return harmonic_->solve(frequency, scaling, damping);
     } catch (const RunError& error) {
@@ -168,6 +172,7 @@ class Planner {
   /// The largest scaling found whose inertia costs no more than `inertia_share` of the tolerance, and its solution. The
   /// error grows as s − 1 while it is small, so that two or three solutions do.
   std::optional<HarmonicResult> choose_scaling(double frequency, const Stiffness& known, double& scaling) {
+    const InPhase in(phases_, &PhaseSeconds::harmonic);
     const double wanted = inertia_share * tolerance(), estimate = inertia_estimate(scene_, prepared_, frequency);
     std::optional<HarmonicResult> best;
     scaling = 1;
@@ -258,6 +263,7 @@ class Planner {
   const Preparation& prepared_;
   const Inertia& inertia_;
   const Progress& progress_;
+  PhaseSeconds& phases_;
   Plan plan_;
   std::optional<Harmonic> harmonic_;
   std::string no_harmonic_;
@@ -275,8 +281,9 @@ double geometric_mean(const std::vector<double>& values) {
   return std::exp(sum / static_cast<double>(values.size()));
 }
 
-Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress) {
-  return Planner(scene, prepared, inertia, progress).make();
+Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress,
+               PhaseSeconds& phases) {
+  return Planner(scene, prepared, inertia, progress, phases).make();
 }
 
 }  // namespace macadam

@@ -36,7 +36,8 @@ struct Plan {
 /// Keeps what the scene gives; where it gives a tolerance, chooses the rest so that |E*| and φ are expected to differ
 /// by less from those of true mass, else takes fixed defaults. \throws RunError when the step would be hopelessly
 /// small.
-Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress);
+Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress,
+               PhaseSeconds& phases);
 
 /// The frequency at which factors serve all of these best: halfway for a relaxation spectrum.
 double geometric_mean(const std::vector<double>& values);

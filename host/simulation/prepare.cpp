@@ -54,15 +54,17 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
   report("tessellation", 0);
   out.seconds_tessellation = timed([&] { out.tessellation = tessellate(out.specimen); });
   report("contact network", 0);
-  out.seconds_network = timed([&] { out.network = build_network(out.specimen, out.tessellation, scene.network); });
-  require_laws(scene, out.specimen, out.network);
-  for (const Cluster& cluster : find_clusters(out.network, out.specimen.size())) {
-    if (cluster.spans()) {
-      ++out.spanning_clusters;
-    } else {
-      out.loose_particles += static_cast<std::int64_t>(cluster.particles.size());
+  out.seconds_network = timed([&] {
+    out.network = build_network(out.specimen, out.tessellation, scene.network);
+    require_laws(scene, out.specimen, out.network);
+    for (const Cluster& cluster : find_clusters(out.network, out.specimen.size())) {
+      if (cluster.spans()) {
+        ++out.spanning_clusters;
+      } else {
+        out.loose_particles += static_cast<std::int64_t>(cluster.particles.size());
+      }
     }
-  }
+  });
   if (out.spanning_clusters == 0) {
     throw InputError(scene.file.string(), 0, "contact network", "no path of contacts from the bottom to the top wall",
                      "one (check gap_max and area_min)");

@@ -7,6 +7,7 @@
 
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
+#include "host/simulation/phases.hpp"
 #include "host/simulation/preparation_files.hpp"
 #include "host/simulation/sparing_save.hpp"
 #include "host/simulation/solution.hpp"
@@ -76,17 +77,20 @@ std::string status_of(const std::exception& error) {
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher, bool resume) {
   require_backend_fits(scene);
   RunResult result;
+  std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
   if (stepped) result.backend = select_backend(scene.solver.backend);  // before any work: cuda may not be there
   require_checkpoints(scene, result.backend, resume);
   const ResultFolder folder(out);
   std::optional<RunState> resumed;
   if (resume) resumed = read_run_state(out / checkpoint_name, scene, result.backend);
+  starting.reset();
   const Preparation prepared = prepare(scene, watcher.progress);
   if (resumed) require_same_specimen(out / checkpoint_name, *resumed, prepared);
   if (watcher.prepared) watcher.prepared(prepared);
 
   const Saving save = [&](const std::string& status) {
+    const InPhase writing(result.phases, &PhaseSeconds::writing);
     write_whole(out / "summary.json", summary_json(scene, prepared, result, status));
   };
   std::unique_ptr<Solution> solution;
@@ -99,8 +103,11 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
     unsolvable = std::current_exception();  // whoever has nothing yet wants to look at the specimen
   }
   if (watcher.progress) watcher.progress("writing the specimen", 0);  // the last to be interrupted without a trace
-  remove_results(out);
-  write_preparation(scene, prepared, out);
+  {
+    const InPhase writing(result.phases, &PhaseSeconds::writing);
+    remove_results(out);
+    write_preparation(scene, prepared, out);
+  }
   try {
     if (unsolvable) std::rethrow_exception(unsolvable);
     if (watcher.planned) watcher.planned(result);

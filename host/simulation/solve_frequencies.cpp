@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 
 #include "host/simulation/judgement.hpp"
+#include "host/simulation/phases.hpp"
 #include "host/simulation/plan.hpp"
 #include "host/simulation/solution.hpp"
 #include "macadam/error.hpp"
@@ -56,14 +56,14 @@ class HarmonicSolution : public Solution {
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
     result.solver = described(scene, viscous_);
     if (watcher.progress) watcher.progress("harmonic: preconditioner", 0);
-    const auto start = std::chrono::steady_clock::now();
+    const InPhase in(result.phases, &PhaseSeconds::preconditioner);
     const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
     harmonic_.emplace(prepared.specimen, prepared.network, scene.laws, inertia,
                       HarmonicOptions{.linear = solver.linear}, geometric_mean(scene.loading.frequencies));
-    result.seconds_factoring = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   void solve(const std::filesystem::path&, const Saving& save, RunResult& result) override {
+    const InPhase in(result.phases, &PhaseSeconds::harmonic);
     save("running");
     const auto& frequencies = scene_.loading.frequencies;
     constexpr std::size_t block = 4;  // solved side by side

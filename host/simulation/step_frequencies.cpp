@@ -12,6 +12,7 @@
 #include "host/simulation/checkpoints.hpp"
 #include "host/simulation/error_model.hpp"
 #include "host/simulation/judgement.hpp"
+#include "host/simulation/phases.hpp"
 #include "host/simulation/plan.hpp"
 #include "host/simulation/skips.hpp"
 #include "host/simulation/solution.hpp"
@@ -155,12 +156,12 @@ class Steps : public Solution {
         owns_checkpoint_(resumed) {}
 
   /// Makes the first stepper: what it refuses is refused before a file is touched.
-  void make_first(Backend backend, const std::filesystem::path& checkpoint) {
+  void make_first(RunResult& result, const std::filesystem::path& checkpoint) {
     if (at_.seconds.size() == at_.plan.frequencies.size()) return;
     const FrequencyPlan& p = at_.plan.frequencies[at_.seconds.size()];
     const bool resumed = !at_.state.empty();
     try {
-      first_ = stepper_of(scene_, prepared_, inertia_, backend, at_.plan, p, std::exchange(at_.state, {}));
+      first_ = make(p, std::exchange(at_.state, {}), result);
     } catch (const Error& error) {
       if (resumed) throw InputError(checkpoint.string() + ": checkpoint of another machine: " + error.what());
       throw;
@@ -206,18 +207,24 @@ class Steps : public Solution {
   bool owns_checkpoint() const override { return owns_checkpoint_; }
 
  private:
+  std::unique_ptr<Stepper> make(const FrequencyPlan& p, const std::vector<StateArray>& from, RunResult& result) const {
+    const InPhase in(result.phases, &PhaseSeconds::stepper);
+    return stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, from);
+  }
+
   void step(std::size_t i, ResponseWriter* writer, Checkpoints& checkpoints, const Saving& save, RunResult& result) {
+    const InPhase stepping(result.phases, &PhaseSeconds::stepping);
     const auto start = Clock::now();
     const double before = std::exchange(at_.seconds_running, 0);
     const FrequencyPlan& p = at_.plan.frequencies[i];
-    const auto stepper =
-        first_ ? std::move(first_) : stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, {});
+    const auto stepper = first_ ? std::move(first_) : make(p, {}, result);
     result.solver = stepper->description();
     result.bytes = stepper->bytes();
     save("running");
     const double per_cycle = static_cast<double>(p.loading.steps_per_period);
     const std::int64_t begun = stepper->observe().step;
     const auto look = [&] {
+      const InPhase writing(result.phases, &PhaseSeconds::writing);  // nearly nothing where no checkpoint is due
       checkpoints.look(at_, before + seconds_since(start), *stepper, fmt::format("{} Hz", p.loading.frequency));
     };
     const auto stepped = [&](std::int64_t done) {
@@ -260,17 +267,18 @@ double density_scaling_of(const SolverSpec& solver, std::size_t frequency) {
 std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                      std::optional<RunState> resumed, const std::filesystem::path& checkpoint,
                                      RunResult& result) {
+  const InPhase planning(result.phases, &PhaseSeconds::planning);
   const auto start = Clock::now();
   const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
   RunState at;
   if (resumed) {
     at = *std::move(resumed);
   } else {
-    at.plan = make_plan(scene, prepared, inertia, watcher.progress);
+    at.plan = make_plan(scene, prepared, inertia, watcher.progress, result.phases);
     at.seconds_planning = seconds_since(start);
   }
   auto steps = std::make_unique<Steps>(scene, prepared, watcher, inertia, std::move(at), resumed.has_value());
-  steps->make_first(result.backend, checkpoint);
+  steps->make_first(result, checkpoint);
   steps->begin(result);
   return steps;
 }

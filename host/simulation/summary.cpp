@@ -142,7 +142,9 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                        {"relaxation_iterations", prepared.relaxation_iterations}};
   }
   out["results"] = Json::array();
-  double solve = result.seconds_factoring + result.seconds_planning;
+  const PhaseSeconds& phases = result.phases;
+  const bool stepped = scene.solver.method == SolverMethod::explicit_;
+  double solve = stepped ? result.seconds_planning : phases.preconditioner;
   for (const FrequencyResult& f : result.frequencies) {
     out["results"].push_back(frequency_json(f, scene));
     solve += f.seconds;
@@ -155,7 +157,14 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["timing_s"] = {{"specimen", prepared.seconds_specimen},
                      {"tessellation", prepared.seconds_tessellation},
                      {"network", prepared.seconds_network},
-                     {"solve", solve}};
+                     {"solve", solve},  // of all processes of a resumed run; the phases below are of this one
+                     {"start", phases.start},
+                     {"planning", phases.planning},
+                     {"preconditioner", phases.preconditioner},
+                     {"harmonic", phases.harmonic},
+                     {"stepper", phases.stepper},
+                     {"stepping", phases.stepping},
+                     {"writing", phases.writing}};
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // a path need not be UTF-8
 }
 

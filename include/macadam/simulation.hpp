@@ -66,14 +66,28 @@ struct FrequencyResult {
   double held_force = 0;                          ///< harmonic: force that holds free rigid motions / reaction
 };
 
+/// Wall time of a run's phases in this process [s], beside those of its Preparation: each moment is in one of them.
+struct PhaseSeconds {
+  double start = 0;           ///< before preparing: a device is found, a checkpoint is read
+  double planning = 0;        ///< explicit: critical step and settings
+  double preconditioner = 0;  ///< of the harmonic solutions, or their factors
+  double harmonic = 0;        ///< harmonic solutions: for the plan, for the start, or those that are the result
+  double stepper = 0;         ///< explicit: making the steppers and their states
+  double stepping = 0;        ///< explicit: with response.csv, which grows by a line a sample
+  double writing = 0;         ///< all other files
+
+  double sum() const { return start + planning + preconditioner + harmonic + stepper + stepping + writing; }
+};
+
 /// Outcome of a run.
 struct RunResult {
   std::vector<FrequencyResult> frequencies;
-  double seconds_factoring = 0;        ///< harmonic: wall time before the first frequency
-  double seconds_planning = 0;         ///< explicit: wall time before the first stepper, harmonic solutions included
-  std::vector<std::string> decisions;  ///< explicit: what the scene left open, and what was chosen why
-  std::vector<Skip> skips;             ///< explicit
-  std::vector<std::string> warnings;   ///< what a reader of the results must know, a sentence each
+  PhaseSeconds phases;          ///< a phase is in it once it is over
+  double seconds_planning = 0;  ///< explicit: wall time before the first stepper, harmonic solutions included; resumed
+                                ///< runs: that of the run that was interrupted
+  std::vector<std::string> decisions;         ///< explicit: what the scene left open, and what was chosen why
+  std::vector<Skip> skips;                    ///< explicit
+  std::vector<std::string> warnings;          ///< what a reader of the results must know, a sentence each
   ContactForm form = ContactForm::condensed;  ///< explicit: that ran, likewise the next two
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;

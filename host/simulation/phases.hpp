@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file phases.hpp  Wall time into the phases of a run: each moment into one of them.
+#pragma once
+
+#include <chrono>
+
+#include "macadam/simulation.hpp"
+
+namespace macadam {
+
+/// While it lives, time goes into a phase; what goes into phases begun meanwhile is theirs alone.
+class InPhase {
+ public:
+  InPhase(PhaseSeconds& all, double PhaseSeconds::*phase) : all_(all), phase_(phase), before_(all.sum()) {}
+  InPhase(const InPhase&) = delete;
+  InPhase& operator=(const InPhase&) = delete;
+  ~InPhase() {
+    const double lived = std::chrono::duration<double>(Clock::now() - start_).count();
+    all_.*phase_ += lived - (all_.sum() - before_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  PhaseSeconds& all_;
+  double PhaseSeconds::*phase_;
+  double before_;
+  Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace macadam
