@@ -51,7 +51,7 @@ def call(macadam, command, folder, *arguments, threads=None):
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode:
         raise SystemExit(f"{folder.name}: exit code {process.returncode} of {' '.join(map(str, process.args))}")
-    measured = {"seconds": round(time.monotonic() - start, 1), "memory_gb": round(usage.ru_maxrss / 1e6, 2),
+    measured = {"seconds": round(time.monotonic() - start, 3), "memory_gb": round(usage.ru_maxrss / 1e6, 2),
                 "threads": threads or os.cpu_count(), "machine": processor(),
                 "date": time.strftime("%Y-%m-%d", time.gmtime())}
     (folder / "measured.json").write_text(json.dumps(measured))
@@ -79,7 +79,7 @@ def record(folder, scene, seed):
     aggregates, mastic = rows(folder / "aggregates.csv"), summary["composition"][4]
     row = {"scene": scene, "seed": seed, "machine": measured.get("machine"), "date": measured.get("date"),
            "threads": measured.get("threads"), "specimen_s": f"{summary['timing_s']['specimen']:.3g}",
-           "wall_s": measured.get("seconds"), "memory_gb": measured.get("memory_gb")}
+           "wall_s": f"{measured['seconds']:.1f}" if measured else None, "memory_gb": measured.get("memory_gb")}
     for k in range(4):
         of = [a for a in aggregates if int(a["size_class"]) == k]
         volume, spheres = [float(a["volume"]) * 1e9 for a in of], [int(a["spheres"]) for a in of]

@@ -2,10 +2,12 @@
 """bench/README.md."""
 import csv
 
+from pages import bench_command
 from pages.data import head, one, opened, rows, span, table, text
 from pages.marks import mark
 
 DOCUMENT = "bench/README.md"
+PARTS = (bench_command,)  # more functions of this document
 GPU = "gpu-step-h200-2026-11-21.csv"
 
 

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Wall time of a command by phases, from its summary.json and the time that its process took."""
+import statistics
+
+# of timing_s in summary.json, in the order of a run; "solve" there is the sum of several
+TIMED = ["start", "specimen", "tessellation", "network", "planning", "preconditioner", "harmonic", "stepper",
+         "stepping", "writing"]
+REST = "rest"  # process start, reading the scene, end of the process
+PHASES = [*TIMED, REST]
+WALL = "wall"
+
+
+def phases_of(summary, wall):
+    """Seconds of each phase of a run that took `wall` seconds from process start to exit.
+
+    What the program's phases leave of the wall time is the rest. It must be small, else a phase is missing from
+    summary.json or counted twice: at most 5 % of the wall time, or the 0.3 s that starting and ending a process may take
+    on a busy machine. ValueError says what was found."""
+    if summary.get("status") != "done":
+        raise ValueError(f"summary.json: status '{summary.get('status')}', expected 'done'")
+    timing = summary["timing_s"]
+    missing = [phase for phase in TIMED if phase not in timing]
+    if missing:
+        raise ValueError(f"summary.json: timing_s has no {', '.join(missing)}")
+    phases = {phase: float(timing[phase]) for phase in TIMED}
+    for phase, seconds in phases.items():
+        if not seconds > -1e-6:  # rounding of differences of the clock
+            raise ValueError(f"summary.json: timing_s, {phase}: {seconds} s")
+    total = sum(phases.values())
+    rest, most = wall - total, max(0.05 * wall, 0.3)
+    if not -1e-3 <= rest <= most:  # both clocks count on without jumps
+        raise ValueError(f"the phases of summary.json sum up to {total:.3f} s of {wall:.3f} s of wall time; at most "
+                         f"{most:.3f} s of that may be left")
+    return {**phases, REST: rest}
+
+
+def collected(runs):
+    """(phase, median, least, largest) of several runs, each a dictionary of phases; then the same of the wall time."""
+    named = [*((phase, [run[phase] for run in runs]) for phase in PHASES),
+             (WALL, [sum(run.values()) for run in runs])]
+    return [(name, statistics.median(values), min(values), max(values)) for name, values in named]
