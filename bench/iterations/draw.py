@@ -9,6 +9,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.ticker  # noqa: E402
 
 MANY = 640
 LINES = [  # which rows, how they are called
@@ -34,6 +35,9 @@ def main():
             label="as the cube root of the number")
     ax.set_xscale("log")
     ax.set_yscale("log")
+    ax.yaxis.set_major_locator(matplotlib.ticker.LogLocator(subs=(1, 2, 5)))
+    ax.yaxis.set_major_formatter("{x:g}")
+    ax.yaxis.set_minor_formatter("")
     ax.set_xlabel("particles")
     ax.set_ylabel("iterations to a residual of 1e-8")
     ax.set_title("AM1, 20 Hz")

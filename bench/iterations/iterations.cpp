@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numbers>
 
 #include "host/harmonic/linear_solver.hpp"
@@ -101,6 +102,15 @@ class Case {
   double prepared_s_ = 0;
 };
 
+std::int64_t number(const std::string& word) {
+  char* end = nullptr;
+  const double value = std::strtod(word.c_str(), &end);
+  if (word.empty() || *end != 0 || !(value >= 1 && value <= 1e8)) {
+    throw InputError("found \"" + word + "\", expected a number of particles, 1 to 1e8");
+  }
+  return std::llround(value);
+}
+
 int main_function(int argc, char** argv) {
   if (argc < 3) {
     fmt::print(stderr, "usage: iterations_bench SCENE PARTICLES ...\n");
@@ -108,7 +118,7 @@ int main_function(int argc, char** argv) {
   }
   const Scene scene = read_scene(argv[1]);
   fmt::print("particles,contacts,boxes,iterations,converged,residual,prepare_s,preconditioner_s,solve_s\n");
-  for (int i = 2; i < argc; ++i) Case(scene, std::llround(std::stod(argv[i]))).solve();
+  for (int i = 2; i < argc; ++i) Case(scene, number(argv[i])).solve();
   return 0;
 }
 
