@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file fcc_network.hpp  Networks of any size, made fast: a jittered face-centred cubic lattice, twelve contacts a
-/// particle, no walls.
+/// particle, between two walls where asked for.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@
 namespace macadam::bench {
 
 /// About `particles` spheres, 1 mm apart; pair types in the proportions of the paper's specimen. Condensed form only:
-/// the facets have no points.
-inline test::TestScene fcc_scene(std::size_t particles) {
+/// the facets have no points. Walls: the lowest and the highest layer touch a wall.
+inline test::TestScene fcc_scene(std::size_t particles, bool walls = false) {
   test::TestScene out;
   const auto n = static_cast<std::int32_t>(std::llround(std::cbrt(static_cast<double>(particles) / 4)));
   const double cell = 1e-3 * std::sqrt(2.0);
@@ -41,9 +41,24 @@ inline test::TestScene fcc_scene(std::size_t particles) {
   network.contacts.reserve(6 * s.size());
   network.row_begin.assign(s.size() + 1, 0);
   static constexpr int neighbour[6][3] = {{1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {-1, 0, 1}, {0, 1, 1}, {0, -1, 1}};
+  const auto touch_wall = [&](std::int32_t particle, bool top) {
+    Contact c;
+    c.a = particle, c.b = top ? wall_z_hi : wall_z_lo;
+    c.pair = PairType::mw;
+    const double z = s.centre[static_cast<std::size_t>(particle)].z;
+    c.distance = c.arm_a = top ? s.box.size.z - z : z;
+    c.n = {0, 0, top ? 1.0 : -1.0};
+    canonical_frame(c.n, c.s, c.t);
+    c.area = 1e-6;
+    c.moments = {c.area, 0, 0, 0.08e-6 * c.area, 0, 0.08e-6 * c.area};
+    ++network.count[static_cast<std::size_t>(c.pair)];
+    ++network.row_begin[static_cast<std::size_t>(particle) + 1];
+    network.contacts.push_back(c);
+  };
   for (int z = 0; z < side; ++z) {
     for (int y = 0; y < side; ++y) {
       for (int x = (y + z) % 2; x < side; x += 2) {
+        if (walls && (z == 0 || z == side - 1)) touch_wall(at(x, y, z), z > 0);
         for (const auto& d : neighbour) {
           const int bx = x + d[0], by = y + d[1], bz = z + d[2];
           if (bx < 0 || by < 0 || bx >= side || by >= side || bz >= side) continue;
@@ -72,7 +87,8 @@ inline test::TestScene fcc_scene(std::size_t particles) {
   std::vector<std::uint32_t> next(network.row_begin.begin(), network.row_begin.end() - 1);
   for (std::uint32_t c = 0; c < network.contacts.size(); ++c) {
     network.rows[next[static_cast<std::size_t>(network.contacts[c].a)]++] = c;
-    network.rows[next[static_cast<std::size_t>(network.contacts[c].b)]++] = c;
+    const std::int32_t b = network.contacts[c].b;
+    if (b >= 0) network.rows[next[static_cast<std::size_t>(b)]++] = c;
   }
   out.laws = test::am1_laws();
   out.inertia = make_inertia(s, 2630, 2110);

@@ -23,6 +23,21 @@ struct AlignedAllocator {
   }
 };
 
+/// Leaves numbers as they are found: a large array's pages are first touched by the threads that fill it.
+template <class T>
+struct RawAllocator : AlignedAllocator<T> {
+  RawAllocator() = default;
+  template <class U>
+  RawAllocator(const RawAllocator<U>&) {}
+  template <class U>
+  void construct(U* p) {
+    ::new (static_cast<void*>(p)) U;
+  }
+};
+
+template <class T>
+using RawVector = std::vector<T, RawAllocator<T>>;
+
 template <class T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 

@@ -7,73 +7,118 @@
 #include <span>
 #include <tuple>
 
+#include "kernels/aligned.hpp"
+
 namespace macadam::kernels {
 namespace {
 
 double along(const Vec3d& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// Orders `ids` by recursive bisection along the longest extent into `tiles` runs of equal weight, then on within each.
+/// A particle on its way to its place.
+struct Item {
+  Vec3d centre;
+  std::int32_t particle;
+};
+
+/// Orders particles by recursive bisection along the longest extent into `tiles` runs of equal weight, then on within
+/// each. The halves are independent of each other, so that the order does not depend on who does what.
 class Bisection {
  public:
-  Bisection(const std::vector<Vec3d>& centre, const std::vector<double>& weight, std::vector<std::int32_t>& tile_body)
-      : centre_(centre), weight_(weight), tile_body_(tile_body) {}
+  /// Without weights, all count the same. `tile_body`: [tiles], is filled in.
+  Bisection(const std::vector<double>& weight, std::vector<std::int32_t>& tile_body)
+      : weight_(weight), tile_body_(tile_body) {}
 
-  /// At least one particle a tile: ids.size() ≥ tiles.
-  void split(std::span<std::int32_t> ids, std::size_t first, std::size_t tiles) {
-    if (tiles == 1) {
-      tile_body_.push_back(static_cast<std::int32_t>(first));
-      order(ids);
-      return;
-    }
-    const int axis = longest_axis(ids);
-    std::sort(ids.begin(), ids.end(), Before{*this, axis});
-    const std::size_t left = tiles / 2, right = tiles - left;
-    const std::size_t cut = std::clamp(weighted_cut(ids, double(left) / double(tiles)), left, ids.size() - right);
-    split(ids.first(cut), first, left);
-    split(ids.subspan(cut), first + cut, right);
+  void run(std::span<Item> items) {
+#pragma omp parallel
+#pragma omp single
+    split(items, 0, 0, tile_body_.size());
   }
 
  private:
+  /// At least one particle a tile: items.size() ≥ tiles.
+  void split(std::span<Item> items, std::size_t first, std::size_t tile, std::size_t tiles) {
+    if (tiles == 1) {
+      tile_body_[tile] = static_cast<std::int32_t>(first);
+      order(items);
+      return;
+    }
+    const int axis = longest_axis(items);
+    const std::size_t left = tiles / 2, right = tiles - left;
+    const std::size_t cut = std::clamp(cut_at(items, axis, left, tiles), left, items.size() - right);
+#pragma omp task if (items.size() > few)
+    split(items.first(cut), first, tile, left);
+    split(items.subspan(cut), first + cut, tile + left, right);
+  }
+
+  void order(std::span<Item> items) {
+    if (items.size() <= 2) return;
+    const int axis = longest_axis(items);
+    const std::size_t cut = items.size() / 2;
+    std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(cut), items.end(), Before{axis});
+    order(items.first(cut));
+    order(items.subspan(cut));
+  }
+
+  /// Parts the items along an axis, left of the whole weight before the cut.
+  std::size_t cut_at(std::span<Item> items, int axis, std::size_t left, std::size_t whole) {
+    const double share = static_cast<double>(left) / static_cast<double>(whole);
+    if (weight_.empty()) {
+      const auto cut = static_cast<std::size_t>(share * static_cast<double>(items.size()));
+      std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(cut), items.end(), Before{axis});
+      return cut;
+    }
+    std::sort(items.begin(), items.end(), Before{axis});
+    double total = 0, sum = 0;
+    for (const Item& i : items) total += weight(i);
+    std::size_t cut = 0;
+    while (cut < items.size() && sum < share * total) sum += weight(items[cut++]);
+    return cut;
+  }
+  double weight(const Item& i) const { return weight_[static_cast<std::size_t>(i.particle)]; }
+
   /// Along one axis; the particle's number breaks ties, so that the order does not depend on the sort.
   struct Before {
-    const Bisection& bisection;
     int axis;
-    bool operator()(std::int32_t i, std::int32_t j) const {
-      return std::make_pair(bisection.at(i, axis), i) < std::make_pair(bisection.at(j, axis), j);
+    bool operator()(const Item& i, const Item& j) const {
+      return std::make_pair(along(i.centre, axis), i.particle) < std::make_pair(along(j.centre, axis), j.particle);
     }
   };
-
-  void order(std::span<std::int32_t> ids) {
-    if (ids.size() <= 2) return;
-    const int axis = longest_axis(ids);
-    const std::size_t cut = ids.size() / 2;
-    std::nth_element(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(cut), ids.end(), Before{*this, axis});
-    order(ids.first(cut));
-    order(ids.subspan(cut));
-  }
-  double at(std::int32_t i, int axis) const { return along(centre_[static_cast<std::size_t>(i)], axis); }
-  int longest_axis(std::span<const std::int32_t> ids) const {
+  static int longest_axis(std::span<const Item> items) {
+    Vec3d low = items.front().centre, high = low;
+    for (const Item& i : items) {
+      low = {std::min(low.x, i.centre.x), std::min(low.y, i.centre.y), std::min(low.z, i.centre.z)};
+      high = {std::max(high.x, i.centre.x), std::max(high.y, i.centre.y), std::max(high.z, i.centre.z)};
+    }
+    const Vec3d extent = high - low;
     int best = 0;
-    double longest = -1;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto [lo, hi] = std::minmax_element(
-          ids.begin(), ids.end(), [&](std::int32_t i, std::int32_t j) { return at(i, axis) < at(j, axis); });
-      if (at(*hi, axis) - at(*lo, axis) > longest) longest = at(*hi, axis) - at(*lo, axis), best = axis;
+    for (int axis = 1; axis < 3; ++axis) {
+      if (along(extent, axis) > along(extent, best)) best = axis;
     }
     return best;
   }
-  std::size_t weighted_cut(std::span<const std::int32_t> ids, double share) const {
-    double total = 0, sum = 0;
-    for (const auto i : ids) total += weight_[static_cast<std::size_t>(i)];
-    std::size_t cut = 0;
-    while (cut < ids.size() && sum < share * total) sum += weight_[static_cast<std::size_t>(ids[cut++])];
-    return cut;
-  }
 
-  const std::vector<Vec3d>& centre_;
+  static constexpr std::size_t few = 2000;  ///< particles that are not worth a task
   const std::vector<double>& weight_;
   std::vector<std::int32_t>& tile_body_;
 };
+
+/// Particles and tiles of a layout.
+void order_particles(const Specimen& specimen, const std::vector<double>& weight, std::size_t tiles, Layout& layout) {
+  const std::size_t n = specimen.size();
+  RawVector<Item> items(n);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < n; ++i) items[i] = {specimen.centre[i], static_cast<std::int32_t>(i)};
+  layout.tile_body.resize(std::clamp<std::size_t>(tiles, 1, n));
+  Bisection(weight, layout.tile_body).run(items);
+  layout.tile_body.push_back(static_cast<std::int32_t>(n));
+  layout.particle.resize(n);
+  layout.body.resize(n);
+#pragma omp parallel for schedule(static)
+  for (std::size_t b = 0; b < n; ++b) {
+    layout.particle[b] = items[b].particle;
+    layout.body[static_cast<std::size_t>(items[b].particle)] = static_cast<std::int32_t>(b);
+  }
+}
 
 /// Fills one group: sorts its contacts by (tile, points, body) and pads every tile's run to whole packets.
 GroupLayout make_group(const ContactNetwork& network, const Layout& layout, const std::vector<std::int32_t>& tile_of,
@@ -118,24 +163,22 @@ GroupLayout make_group(const ContactNetwork& network, const Layout& layout, cons
 
 }  // namespace
 
+Layout make_order(const Specimen& specimen, std::size_t tiles) {
+  Layout layout;
+  order_particles(specimen, {}, tiles, layout);
+  return layout;
+}
+
 Layout make_layout(const Specimen& specimen, const ContactNetwork& network, int lanes, std::size_t tile_contacts) {
   Layout layout;
   layout.lanes = lanes;
   const std::size_t n = specimen.size();
   std::vector<double> weight(n, 1.0);
   for (std::size_t i = 0; i < n; ++i) weight[i] += static_cast<double>(network.row(i).size());
-  layout.particle.resize(n);
-  std::iota(layout.particle.begin(), layout.particle.end(), 0);
-  const std::size_t tiles =
-      std::clamp<std::size_t>(network.contacts.size() / std::max<std::size_t>(tile_contacts, 1), 1, n);
-  Bisection(specimen.centre, weight, layout.tile_body).split(layout.particle, 0, tiles);
-  layout.tile_body.push_back(static_cast<std::int32_t>(n));
-
-  layout.body.resize(n);
+  order_particles(specimen, weight, network.contacts.size() / std::max<std::size_t>(tile_contacts, 1), layout);
   std::vector<std::int32_t> tile_of(n);
   for (std::size_t tile = 0; tile < layout.tiles(); ++tile) {
     for (auto b = layout.tile_body[tile]; b < layout.tile_body[tile + 1]; ++b) {
-      layout.body[static_cast<std::size_t>(layout.particle[static_cast<std::size_t>(b)])] = b;
       tile_of[static_cast<std::size_t>(b)] = static_cast<std::int32_t>(tile);
     }
   }

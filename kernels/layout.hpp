@@ -46,6 +46,9 @@ struct Layout {
   }
 };
 
+/// The order of the particles alone, in tiles of equal numbers of them.
+Layout make_order(const Specimen& specimen, std::size_t tiles);
+
 /// Orders a network. `tile_contacts` is the number of contacts aimed at in a tile.
 Layout make_layout(const Specimen& specimen, const ContactNetwork& network, int lanes, std::size_t tile_contacts);
 

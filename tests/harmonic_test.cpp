@@ -68,7 +68,7 @@ Complex dense_modulus(const TestScene& scene, double frequency, double density_s
   std::vector<std::pair<std::int32_t, Matrix6>> top;
   auto complex_block = [&](const Contact& c, int i, int j) -> Eigen::Matrix<Complex, 6, 6> {
     const auto& law = *scene.laws[static_cast<std::size_t>(c.pair)];
-    const Complex stiffness = std::visit([&](const auto& l) { return l.stiffness(omega); }, law);
+    const Complex stiffness = std::visit([&](const auto& l) { return l.stiffness(Complex(0, omega)); }, law);
     const double alpha = std::visit([](const auto& l) { return l.alpha; }, law);
     return stiffness * contact_block(c, 1, alpha, i, j).cast<Complex>();
   };

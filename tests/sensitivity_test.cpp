@@ -49,7 +49,7 @@ Laws changed(Laws laws, const std::string& parameter, double factor) {
 void expect_derivatives(const TestScene& scene, double density_scaling) {
   constexpr double step = 1e-4, tolerance = 1e-6;
   const HarmonicResult here = solve(scene, scene.laws, density_scaling);
-  const auto found = sensitivities(here.parts, scene.laws, frequency);
+  const auto found = sensitivities(here.parts, scene.laws, std::complex<double>(0, 2 * std::numbers::pi * frequency));
   EXPECT_GT(found.size(), 15u);
   for (const Sensitivity& s : found) {
     HarmonicResult sides[2];
@@ -83,7 +83,7 @@ TEST(Sensitivity, AllDeltasTogetherScaleTheModulus) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   const HarmonicResult r = solve(scene, scene.laws, 0);
   double e_star = 0, phase = 0, share = 0;
-  for (const Sensitivity& s : sensitivities(r.parts, scene.laws, frequency)) {
+  for (const Sensitivity& s : sensitivities(r.parts, scene.laws, std::complex<double>(0, 2 * std::numbers::pi * frequency))) {
     if (!s.parameter.ends_with(".delta")) continue;
     e_star += s.d_e_star_pa;
     phase += s.d_phase_deg;

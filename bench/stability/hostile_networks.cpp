@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "bench/stability/hostile_scenes.hpp"
 #include "bench/stability/stability.hpp"
 #include "host/reference/reference_spectrum.hpp"
-#include "tests/cluster_specimens.hpp"
 
 namespace macadam::stability {
 namespace {
@@ -40,59 +40,6 @@ void judge(Rows& rows, const std::string& name, const test::TestScene& scene, Ef
                   std::abs(found.top.e_star_pa / expected - 1)});
 }
 
-/// Large spheres about a grid of edge 2R, and in each of the gaps between eight of them four small ones of R/ratio.
-Specimen two_sizes(double ratio) {
-  std::mt19937 random(77);
-  const auto uniform = [&](double lo, double hi) {
-    return lo + (hi - lo) * (static_cast<double>(random()) / 4294967296.0);
-  };
-  constexpr int n = 3;
-  const double radius = 1e-3, edge = 2 * radius, small = std::min(radius / ratio, 0.35 * radius);
-  Specimen out;
-  out.box.size = {n * edge, n * edge, n * edge};
-  const auto add = [&](const Vec3d& centre, double r, Phase phase) {
-    out.centre.push_back(centre);
-    out.radius.push_back(r);
-    out.phase.push_back(phase);
-    out.body.push_back(phase == Phase::mastic ? -1 : static_cast<std::int32_t>(out.size()) - 1);
-  };
-  const auto jitter = [&](double size) {
-    return Vec3d{uniform(-size, size), uniform(-size, size), uniform(-size, size)};
-  };
-  for (int i = 0; i < n * n * n; ++i) {
-    const Vec3d cell{i % n + 0.5, i / n % n + 0.5, i / (n * n) + 0.5};
-    add(edge * cell + jitter(0.03 * radius), ratio == 1 ? small : radius, Phase::aggregate);
-  }
-  constexpr int m = n - 1;
-  const double apart = std::max(1.2 * small, 0.02 * radius);  // half the edge of the cube whose four corners they take
-  for (int i = 0; i < m * m * m; ++i) {
-    const Vec3d gap{i % m + 1.0, i / m % m + 1.0, i / (m * m) + 1.0};
-    for (const Vec3d& corner : {Vec3d{1, 1, 1}, Vec3d{1, -1, -1}, Vec3d{-1, 1, -1}, Vec3d{-1, -1, 1}}) {
-      add(edge * gap + apart * corner + jitter(0.1 * apart), small, Phase::mastic);
-    }
-  }
-  return out;
-}
-
-/// A cubic lattice of 3 × 3 × 3 equal spheres whose centres are off their places by up to `jitter` edges. The four
-/// cells along an edge then share a facet of about jitter × edge by edge, the eight at a corner some of jitter² edge².
-Specimen nearly_cubic(double jitter) {
-  std::mt19937 random(5);
-  const auto offset = [&] { return jitter * (2 * (static_cast<double>(random()) / 4294967296.0) - 1); };
-  constexpr int n = 3;
-  const double edge = 2e-3;
-  Specimen out;
-  out.box.size = {n * edge, n * edge, n * edge};
-  for (int i = 0; i < n * n * n; ++i) {
-    out.centre.push_back(edge *
-                         Vec3d{i % n + 0.5 + offset(), i / n % n + 0.5 + offset(), i / (n * n) + 0.5 + offset()});
-    out.radius.push_back(edge / 2);
-    out.phase.push_back(Phase::mastic);
-    out.body.push_back(-1);
-  }
-  return out;
-}
-
 /// Smallest facet over the mean.
 double smallest_share(const ContactNetwork& network) {
   double least = INFINITY, sum = 0;
@@ -105,23 +52,13 @@ double smallest_share(const ContactNetwork& network) {
 Rows stiffness_ratios(Effort effort) {
   Rows rows;
   for (const double ratio : {1e0, 1e2, 1e4, 1e6}) {
-    const double soft = 1e9;
-    test::Laws laws = test::same_law(laws::Elastic{soft, 0.3});
-    laws[static_cast<std::size_t>(PairType::ma)] = laws::Elastic{soft * std::sqrt(ratio), 0.3};
-    for (const PairType pair : {PairType::aa, PairType::inner, PairType::aw}) {
-      laws[static_cast<std::size_t>(pair)] = laws::Elastic{soft * ratio, 0.3};
-    }
-    judge(rows, fmt::format("A–A over M–M {:.0e}", ratio), test::make_scene(test::random_specimen(8), {}, laws), effort,
-          ratio);
+    judge(rows, fmt::format("A–A over M–M {:.0e}", ratio), stiff_aggregates(ratio), effort, ratio);
   }
   // K·u rounds by 2⁻⁵³ of its stiffest part, while the wall pulls at the softest: no residual is below
   // that, and none below 1e-12 at 1e6
   for (const double ratio : by_effort(effort, std::vector{1e6}, {1e2, 1e6}, {1e0, 1e2, 1e4, 1e6})) {
-    const double soft = 1e9;
-    test::Laws laws = test::same_law(laws::Elastic{soft, 0.3});
-    laws[static_cast<std::size_t>(PairType::inner)] = laws::Elastic{soft * ratio, 0.3};
-    judge(rows, fmt::format("clusters, inner over all others {:.0e}", ratio),
-          test::make_scene(test::few_clusters(8), {}, laws), effort, ratio, 1e-11 + 0x1p-53 * ratio, ratio < 1e5);
+    judge(rows, fmt::format("clusters, inner over all others {:.0e}", ratio), stiff_clusters(ratio), effort, ratio,
+          1e-11 + 0x1p-53 * ratio, ratio < 1e5);
   }
   return rows;
 }
@@ -129,8 +66,7 @@ Rows stiffness_ratios(Effort effort) {
 Rows size_ratios(Effort effort) {
   Rows rows;
   for (const double ratio : {3.0, 10.0, 25.0, 50.0}) {
-    const auto scene = test::make_scene(two_sizes(ratio), {}, elastic_laws());
-    judge(rows, fmt::format("radii 1:{}", ratio), scene, effort, ratio * ratio * ratio);
+    judge(rows, fmt::format("radii 1:{}", ratio), two_sizes(ratio), effort, ratio * ratio * ratio);
   }
   return rows;
 }
@@ -138,7 +74,7 @@ Rows size_ratios(Effort effort) {
 Rows slivers(Effort effort) {
   Rows rows;
   for (const double jitter : {1e-2, 1e-4, 1e-6, 1e-8}) {
-    const auto scene = test::make_scene(nearly_cubic(jitter), {}, elastic_laws());
+    const test::TestScene scene = nearly_cubic(jitter);
     const std::string name = fmt::format("cubic lattice off by {:.0e} of its edge", jitter);
     const auto invariants = measure_invariants(scene.specimen, tessellate(scene.specimen));
     rows.push_back({name, "double", "smallest facet / mean facet", 0, jitter,

@@ -3,7 +3,10 @@
 #include "host/harmonic/contact_operator.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
+#include "host/parallel.hpp"
 #include "kernels/contact_kinematics.hpp"
 
 namespace macadam::harmonic {
@@ -11,11 +14,11 @@ namespace macadam::harmonic {
 using kernels::Placement;
 using kernels::Twist;
 
-PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& laws, double omega) {
+PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& laws, Complex s) {
   PairStiffness out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (!laws[pair]) continue;
-    out.k[pair] = std::visit([&](const auto& law) { return law.stiffness(omega); }, *laws[pair]);
+    out.k[pair] = std::visit([&](const auto& law) { return law.stiffness(s); }, *laws[pair]);
     out.alpha[pair] = std::visit([](const auto& law) { return law.alpha; }, *laws[pair]);
   }
   return out;
@@ -30,108 +33,162 @@ std::array<double, 6> moments_over_distance(const Contact& c) {
           c.moments.ss / c.distance, c.moments.st / c.distance, c.moments.tt / c.distance};
 }
 
-}  // namespace
+/// Force and moment about x0 if nothing cancelled between the ends' motions: rounding of a load is a share of them.
+std::pair<double, double> largest_load(const Contact& c, const PairStiffness& stiffness, const Vector& motion) {
+  double linear = 0, angular = 0;
+  const auto add = [&](std::int32_t end, double arm) {
+    if (end < 0) return;
+    const Complex* x = &motion[6 * static_cast<std::size_t>(end)];
+    const auto size = [](const Complex* three) {
+      double out = 0;
+      for (int k = 0; k < 3; ++k) out += std::abs(three[k].real()) + std::abs(three[k].imag());
+      return out;
+    };
+    linear += size(x) + std::abs(arm) * size(x + 3);
+    angular += size(x + 3);
+  };
+  add(c.a, c.arm_a);
+  add(c.b, c.arm_b);
+  const Complex k = stiffness.k[static_cast<std::size_t>(c.pair)] / c.distance;
+  const double stiff = std::abs(k.real()) + std::abs(k.imag());
+  return {stiff * c.moments.a * linear, stiff * (c.moments.ss + c.moments.tt) * angular};
+}
 
-std::array<Complex, 6> relative_motion(const Contact& c, const Vector& motion, Complex wall) {
-  const auto twist = [&](std::int32_t end, auto part) -> Twist<double> {
-    if (end >= 0) {
-      const Complex* x = &motion[6 * static_cast<std::size_t>(end)];
-      return {{part(x[0]), part(x[1]), part(x[2])}, {part(x[3]), part(x[4]), part(x[5])}};
-    }
+/// `a`, `b`: motions of the ends, none for walls.
+std::array<Complex, 6> relative_motion(const Contact& c, const Complex* a, const Complex* b, Complex wall) {
+  const auto twist = [&](std::int32_t end, const Complex* x, auto part) -> Twist<double> {
+    if (x) return {{part(x[0]), part(x[1]), part(x[2])}, {part(x[3]), part(x[4]), part(x[5])}};
     return {{0, 0, end == wall_z_hi ? part(wall) : 0.0}, {}};
   };
-  const auto rates = [&](double(&u)[6], auto part) {
-    kernels::relative_rates(placement_of(c), twist(c.a, part), twist(c.b, part), u);
-  };
-  double real[6], imag[6];
-  rates(real, [](Complex z) { return z.real(); });
-  rates(imag, [](Complex z) { return z.imag(); });
   std::array<Complex, 6> out;
-  for (std::size_t i = 0; i < 6; ++i) out[i] = {real[i], imag[i]};
+  const auto rates = [&](auto part, auto&& set) {
+    double u[6];
+    kernels::relative_rates(placement_of(c), twist(c.a, a, part), twist(c.b, b, part), u);
+    for (std::size_t i = 0; i < 6; ++i) set(out[i], u[i]);
+  };
+  rates([](Complex z) { return z.real(); }, [](Complex& z, double v) { z.real(v); });
+  rates([](Complex z) { return z.imag(); }, [](Complex& z, double v) { z.imag(v); });
   return out;
 }
 
+}  // namespace
+
+std::array<Complex, 6> relative_motion(const Contact& c, const Vector& motion, Complex wall) {
+  const auto of = [&](std::int32_t end) { return end >= 0 ? &motion[6 * static_cast<std::size_t>(end)] : nullptr; };
+  return relative_motion(c, of(c.a), of(c.b), wall);
+}
+
 ContactOperator::Load ContactOperator::contact_load(const Contact& c, const PairStiffness& stiffness,
-                                                    const Vector& motion, Complex wall) const {
-  const std::array<Complex, 6> u = relative_motion(c, motion, wall);
+                                                    const std::array<Complex, 6>& u) {
   const Placement<double> placement = placement_of(c);
   const std::array<double, 6> moments = moments_over_distance(c);
   double m[6];
   std::copy(moments.begin(), moments.end(), m);
   const auto pair = static_cast<std::size_t>(c.pair);
   const Complex k = stiffness.k[pair];
-  Load load{};
-  for (int part = 0; part < 2; ++part) {
+  Load load;
+  const auto part = [&](auto&& part_of, auto&& set) {
     double f[6];
-    for (std::size_t i = 0; i < 6; ++i) {
-      const Complex density = k * u[i];
-      f[i] = part == 0 ? density.real() : density.imag();
-    }
+    for (std::size_t i = 0; i < 6; ++i) f[i] = part_of(k * u[i]);
     const auto at = kernels::to_centres(placement, kernels::condensed_load(f, stiffness.alpha[pair], m));
     const double on_a[6] = {at.force_a.x, at.force_a.y, at.force_a.z, at.moment_a.x, at.moment_a.y, at.moment_a.z};
     const double on_b[6] = {-at.force_a.x, -at.force_a.y, -at.force_a.z, at.moment_b.x, at.moment_b.y, at.moment_b.z};
-    const Complex unit = part == 0 ? Complex(1, 0) : Complex(0, 1);
-    for (int i = 0; i < 6; ++i) {
-      load.a[i] += unit * on_a[i];
-      load.b[i] += unit * on_b[i];
-    }
-  }
+    for (int i = 0; i < 6; ++i) set(load.a[i], on_a[i]), set(load.b[i], on_b[i]);
+  };
+  part([](Complex z) { return z.real(); }, [](Complex& z, double v) { z.real(v); });
+  part([](Complex z) { return z.imag(); }, [](Complex& z, double v) { z.imag(v); });
   return load;
 }
 
-void ContactOperator::forces(const PairStiffness& stiffness, const Vector& motion, Complex wall, Vector& out) const {
-  const auto contacts = static_cast<std::int64_t>(network_.contacts.size());
-  loads_.resize(network_.contacts.size());
-#pragma omp parallel for schedule(static)
-  for (std::int64_t i = 0; i < contacts; ++i) {
-    const auto c = static_cast<std::size_t>(i);
-    loads_[c] = contact_load(network_.contacts[c], stiffness, motion, wall);
-  }
-  out.assign(6 * particles_, 0);
-#pragma omp parallel for schedule(static)
-  for (std::int64_t i = 0; i < static_cast<std::int64_t>(particles_); ++i) {
-    for (const std::uint32_t c : network_.row(static_cast<std::size_t>(i))) {
-      const Complex* load = network_.contacts[c].a == i ? loads_[c].a : loads_[c].b;
-      for (int k = 0; k < 6; ++k) out[6 * static_cast<std::size_t>(i) + static_cast<std::size_t>(k)] += load[k];
+ContactOperator::ContactOperator(const ContactNetwork& network, std::size_t particles)
+    : network_(network), particles_(particles) {
+  constexpr std::size_t piece = 1 << 16;
+  const std::size_t contacts = network.contacts.size();
+  std::vector<std::array<std::vector<std::uint32_t>, 2>> found((contacts + piece - 1) / piece);
+  for_each_in_parallel(found.size(), [&](std::size_t k) {
+    for (std::size_t c = k * piece; c < std::min(contacts, (k + 1) * piece); ++c) {
+      const std::int32_t b = network.contacts[c].b;
+      if (b == wall_z_lo || b == wall_z_hi) found[k][b == wall_z_hi].push_back(static_cast<std::uint32_t>(c));
     }
+  });
+  for (const auto& [bottom, top] : found) {
+    on_bottom_.insert(on_bottom_.end(), bottom.begin(), bottom.end());
+    on_top_.insert(on_top_.end(), top.begin(), top.end());
   }
+}
+
+Vector ContactOperator::wall_forces(const PairStiffness& stiffness) const {
+  const Complex rest[6] = {};
+  Vector out(6 * particles_);
+  for (const std::uint32_t number : on_top_) {
+    const Contact& c = network_.contacts[number];
+    const Load load = contact_load(c, stiffness, relative_motion(c, rest, nullptr, 1.0));
+    for (std::size_t k = 0; k < 6; ++k) out[6 * static_cast<std::size_t>(c.a) + k] += load.a[k];
+  }
+  return out;
 }
 
 void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia,
-                                 const Vector& motion, Vector& out) const {
-  forces(stiffness, motion, 0.0, out);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = -out[i] - factor * inertia_at(inertia, i) * motion[i];
+                                 const Vector& motion, Vector& out, double* magnitude) const {
+  out.resize(6 * particles_);
+  std::vector<double> squares(magnitude ? particles_ : 0);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < particles_; ++i) {
+    Complex sum[6] = {};
+    double force = 0, moment = 0;  // by magnitude
+    for (const std::uint32_t number : network_.row(i)) {
+      const Contact& c = network_.contacts[number];
+      const Load load = contact_load(c, stiffness, relative_motion(c, motion, 0.0));
+      const bool is_a = static_cast<std::size_t>(c.a) == i;
+      for (std::size_t k = 0; k < 6; ++k) sum[k] -= is_a ? load.a[k] : load.b[k];
+      if (!magnitude) continue;
+      const auto [linear, angular] = largest_load(c, stiffness, motion);
+      force += linear;
+      moment += angular + std::abs(is_a ? c.arm_a : c.arm_b) * linear;
+    }
+    for (std::size_t k = 0; k < 6; ++k) {
+      out[6 * i + k] = sum[k] - factor * inertia_at(inertia, 6 * i + k) * motion[6 * i + k];
+    }
+    if (magnitude) squares[i] = 3 * (force * force + moment * moment);
+  }
+  if (magnitude) *magnitude = std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0));
 }
 
 ModulusParts ContactOperator::energy_parts(const PairStiffness& stiffness, const Vector& motion, Complex wall) const {
+  // sums of pieces and then of these, in order: the same bits for any number of threads
+  constexpr std::size_t piece = 4096;
   const auto& contacts = network_.contacts;
-  std::vector<std::array<Complex, 2>> share(contacts.size());  // normal and shear
-#pragma omp parallel for schedule(static)
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Contact& c = contacts[i];
-    const auto pair = static_cast<std::size_t>(c.pair);
-    const std::array<Complex, 6> u = relative_motion(c, motion, wall);
-    Complex density[6];
-    for (std::size_t k = 0; k < 6; ++k) density[k] = stiffness.k[pair] * u[k];
-    const std::array<double, 6> real = moments_over_distance(c);
-    const Complex alpha = stiffness.alpha[pair], m[6] = {real[0], real[1], real[2], real[3], real[4], real[5]};
-    const kernels::FacetLoad<Complex> load = kernels::condensed_load(density, alpha, m);
-    share[i] = {load.n * u[0] - load.moment_t * u[1] + load.moment_s * u[2],
-                load.s * u[3] + load.t * u[4] + load.moment_n * u[5]};
-  }
+  std::vector<ModulusParts> pieces((contacts.size() + piece - 1) / piece);
+  for_each_in_parallel(pieces.size(), [&](std::size_t number) {
+    ModulusParts& own = pieces[number];
+    for (std::size_t i = number * piece; i < std::min(contacts.size(), (number + 1) * piece); ++i) {
+      const Contact& c = contacts[i];
+      const auto pair = static_cast<std::size_t>(c.pair);
+      const std::array<Complex, 6> u = relative_motion(c, motion, wall);
+      Complex density[6];
+      for (std::size_t k = 0; k < 6; ++k) density[k] = stiffness.k[pair] * u[k];
+      const std::array<double, 6> real = moments_over_distance(c);
+      const Complex alpha = stiffness.alpha[pair], m[6] = {real[0], real[1], real[2], real[3], real[4], real[5]};
+      const kernels::FacetLoad<Complex> load = kernels::condensed_load(density, alpha, m);
+      own.normal[pair] += load.n * u[0] - load.moment_t * u[1] + load.moment_s * u[2];
+      own.shear[pair] += load.s * u[3] + load.t * u[4] + load.moment_n * u[5];
+    }
+  });
   ModulusParts out;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {  // in order: the same bits for any number of threads
-    const auto pair = static_cast<std::size_t>(contacts[i].pair);
-    out.normal[pair] += share[i][0];
-    out.shear[pair] += share[i][1];
+  for (const ModulusParts& p : pieces) {
+    for (std::size_t pair = 0; pair < pair_types; ++pair) {
+      out.normal[pair] += p.normal[pair];
+      out.shear[pair] += p.shear[pair];
+    }
   }
   return out;
 }
 
 Complex ContactOperator::bottom_force(const PairStiffness& stiffness, const Vector& motion) const {
   Complex out = 0;
-  for (const Contact& c : network_.contacts) {
-    if (c.b == wall_z_lo) out += contact_load(c, stiffness, motion, 0.0).a[2];
+  for (const std::uint32_t c : on_bottom_) {
+    const Contact& contact = network_.contacts[c];
+    out += contact_load(contact, stiffness, relative_motion(contact, motion, 0.0)).a[2];
   }
   return out;
 }

@@ -24,8 +24,9 @@ struct PairStiffness {
   std::array<double, pair_types> alpha{};
 };
 
-/// The laws at one frequency.
-PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& laws, double omega);
+/// The laws for motions as e^(s·t).
+PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& laws, Complex s);
+PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& laws, double) = delete;  // iω, not ω
 
 /// The six relative displacements (Eq. 8 about x0) of a contact while the particles move by `motion` and the top wall
 /// by `wall` along z.
@@ -33,15 +34,16 @@ std::array<Complex, 6> relative_motion(const Contact& contact, const Vector& mot
 
 class ContactOperator {
  public:
-  ContactOperator(const ContactNetwork& network, std::size_t particles) : network_(network), particles_(particles) {}
+  ContactOperator(const ContactNetwork& network, std::size_t particles);
 
-  /// Forces and moments on the particles that move by `motion` while the top wall moves by `wall`. Deterministic for
-  /// any number of threads: every contact's load is kept and each particle sums its row.
-  void forces(const PairStiffness& stiffness, const Vector& motion, Complex wall, Vector& out) const;
+  /// Forces and moments on the particles at rest while the top wall moves by one.
+  Vector wall_forces(const PairStiffness& stiffness) const;
 
-  /// (K* − factor·M)·motion: the loads that hold the motion at one frequency; factor: (ω² − iωβ)·density scaling.
+  /// (K* − factor·M)·motion: the loads that hold the motion; factor: −(s² + s·β)·density scaling.
+  /// Every particle sums its own row, so that the bits do not depend on the number of threads. `magnitude`, where
+  /// given: length of what the loads would be if nothing cancelled, of which rounding is a share.
   void resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia, const Vector& motion,
-                  Vector& out) const;
+                  Vector& out, double* magnitude = nullptr) const;
 
   /// Σ u·k*·u over the contacts of each pair, u their relative displacements, without conjugates: twice the energy,
   /// where real. Not yet over the specimen's size, and without inertia.
@@ -54,11 +56,12 @@ class ContactOperator {
   struct Load {
     Complex a[6], b[6];
   };
-  Load contact_load(const Contact& contact, const PairStiffness& stiffness, const Vector& motion, Complex wall) const;
+  /// `u`: relative displacements of the contact.
+  static Load contact_load(const Contact& contact, const PairStiffness& stiffness, const std::array<Complex, 6>& u);
 
   const ContactNetwork& network_;
   std::size_t particles_;
-  mutable std::vector<Load> loads_;
+  std::vector<std::uint32_t> on_bottom_, on_top_;  ///< contacts of the two walls, ascending
 };
 
 }  // namespace macadam::harmonic

@@ -2,6 +2,7 @@
 /// \file linear_solver.hpp  (K*(ω) − inertia·M)·u = f, by whichever means.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,7 +16,7 @@ namespace macadam::harmonic {
 /// One system to be solved.
 struct LinearTask {
   PairStiffness stiffness;
-  Complex inertia = 0;      ///< (ω² − iωβ)·density scaling; 0: without inertia
+  Complex inertia = 0;      ///< −(s² + s·β)·density scaling; 0: without inertia
   Vector right;             ///< f
   double tolerance = 0;     ///< of ‖f − K·u‖ / ‖f‖
   double energy_limit = 0;  ///< of rᴴ·P⁻¹·r, P the solver's preconditioner; none where 0
@@ -30,8 +31,12 @@ struct LinearTask {
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
-  virtual void solve(const std::vector<LinearTask*>& tasks) = 0;
+  /// \throws InterruptedError where `stop`, if there is one, says so.
+  virtual void solve(const std::vector<LinearTask*>& tasks, const std::function<bool()>& stop) = 0;
 };
+
+/// \throws InterruptedError where `stop`, if there is one, says so.
+void require_not_stopped(const std::function<bool()>& stop);
 
 /// Preconditioned by Cholesky factors of Re K at one frequency: some ten iterations, but memory grows as n^(4/3).
 /// \throws RunError when the stiffness is singular, or memory does not suffice.
@@ -44,10 +49,12 @@ std::unique_ptr<LinearSolver> make_direct_solver(const ContactNetwork& network, 
 std::size_t usual_boxes(std::size_t particles);
 
 /// Preconditioned by each particle itself and by the rigid motions of boxes of particles: no factors but of a small
-/// matrix. Up to four tasks are solved side by side. `boxes`: another number of them, about; 0: each particle alone.
-/// \throws RunError when a particle alone can move without force, or the whole in more than six ways.
+/// matrix. Up to four tasks are solved side by side. `backend`: cpu, or cuda on that device, where all of the iteration
+/// runs. `boxes`: another number of them, about; 0: each particle alone. \throws RunError when a particle alone can
+/// move without force, or the whole in more than six ways, or a device has too little memory.
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
-                                                    const FreeMotions& free, std::optional<std::size_t> boxes = {});
+                                                    const FreeMotions& free, Backend backend = Backend::cpu,
+                                                    int device = 0, std::optional<std::size_t> boxes = {});
 
 }  // namespace macadam::harmonic

@@ -68,6 +68,7 @@ FreeMotions find_free_motions(const Specimen& specimen, const ContactNetwork& ne
     const std::vector<std::int32_t>& members = cluster.particles;
     // displacements (not rotations) of all members under the free motions; pivoting picks independent, far apart ones
     Eigen::MatrixXd motion(free, static_cast<Eigen::Index>(3 * members.size()));
+#pragma omp parallel for schedule(static)
     for (std::size_t k = 0; k < members.size(); ++k) {
       motion.middleCols<3>(static_cast<Eigen::Index>(3 * k)) =
           (rigid(specimen, members[k]).topRows<3>() * modes.eigenvectors().leftCols(free)).transpose();
@@ -77,7 +78,9 @@ FreeMotions find_free_motions(const Specimen& specimen, const ContactNetwork& ne
       const auto column = static_cast<std::size_t>(pivots.colsPermutation().indices()(m));
       out.pins.push_back({6 * static_cast<std::size_t>(members[column / 3]) + column % 3, largest});
       std::vector<double>& whole = out.motions.emplace_back(6 * specimen.size(), 0.0);
-      for (const std::int32_t particle : members) {
+#pragma omp parallel for schedule(static)
+      for (std::size_t k = 0; k < members.size(); ++k) {
+        const std::int32_t particle = members[k];
         Eigen::Map<Eigen::Matrix<double, 6, 1>> at(&whole[6 * static_cast<std::size_t>(particle)]);
         at = rigid(specimen, particle) * modes.eigenvectors().col(m);
       }

@@ -15,9 +15,8 @@ Complex ModulusParts::modulus() const {
 }
 
 std::vector<Sensitivity> sensitivities(const ModulusParts& parts,
-                                       const std::array<std::optional<Law>, pair_types>& laws, double frequency_hz) {
+                                       const std::array<std::optional<Law>, pair_types>& laws, Complex s) {
   const Complex modulus = parts.modulus();
-  const double omega = 2 * std::numbers::pi * frequency_hz;
   std::vector<Sensitivity> out;
   const auto add = [&](std::string parameter, Complex change) {  // d|E| = |E|·Re(dE/E), dφ = Im(dE/E)
     const Complex relative = change / modulus;
@@ -30,8 +29,7 @@ std::vector<Sensitivity> sensitivities(const ModulusParts& parts,
     const std::string prefix = std::string(to_string(static_cast<PairType>(pair))) + ".";
     std::visit(
         [&](const auto& law) {
-          law.each_parameter(omega,
-                             [&](const std::string& name, Complex change) { add(prefix + name, whole * change); });
+          law.each_parameter(s, [&](const std::string& name, Complex change) { add(prefix + name, whole * change); });
           if (law.alpha != 0) add(prefix + "alpha", parts.shear[pair]);
         },
         *laws[pair]);

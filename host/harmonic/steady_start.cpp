@@ -15,6 +15,7 @@ StartState steady_start(const ContactNetwork& network, const std::array<std::opt
   const Complex before = -loading.amplitude * std::polar(1.0, -omega * dt);
   const Complex rate =
       -loading.amplitude * Complex(2 * std::pow(std::sin(omega * dt / 2), 2), std::sin(omega * dt)) / dt;
+  const Complex s(0, omega);
   StartState out;
   const std::size_t particles = motion.size() / 6;
   for (std::size_t i = 0; i < particles; ++i) {
@@ -33,9 +34,9 @@ StartState steady_start(const ContactNetwork& network, const std::array<std::opt
     std::visit(
         [&](const auto& law) {
           for (const Complex& x : rates) {
-            const Complex f = before * law.stiffness(omega) * x;
+            const Complex f = before * law.stiffness(s) * x;
             out.chain.push_back(f.imag());
-            for (int l = 0; l < law.units(); ++l) out.chain.push_back((f * law.unit_compliance(l, omega)).imag());
+            for (int l = 0; l < law.units(); ++l) out.chain.push_back((f * law.unit_compliance(l, s)).imag());
           }
         },
         *laws[static_cast<std::size_t>(c.pair)]);

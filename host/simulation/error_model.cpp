@@ -24,7 +24,8 @@ std::pair<double, double> stiffness_range(const Scene& scene, const Preparation&
   double least = std::numeric_limits<double>::infinity(), largest = 0;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (prepared.network.count[pair] == 0) continue;
-    const double k = std::visit([&](const auto& law) { return std::abs(law.stiffness(omega)); }, *scene.laws[pair]);
+    const double k = std::visit(
+        [&](const auto& law) { return std::abs(law.stiffness(std::complex<double>(0, omega))); }, *scene.laws[pair]);
     least = std::min(least, k);
     largest = std::max(largest, k);
   }

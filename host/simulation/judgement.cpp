@@ -48,7 +48,8 @@ double stiffest_contact(const Scene& scene, const ContactNetwork& network, doubl
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (network.count[pair] == 0) continue;
     const auto modulus = [&](const auto& law) {
-      return std::max(1.0, law.alpha) * std::abs(law.stiffness(2 * std::numbers::pi * frequency_hz));
+      return std::max(1.0, law.alpha) *
+             std::abs(law.stiffness(std::complex<double>(0, 2 * std::numbers::pi * frequency_hz)));
     };
     stiffest = std::max(stiffest, std::visit(modulus, *scene.laws[pair]));
   }

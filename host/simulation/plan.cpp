@@ -21,9 +21,15 @@ constexpr double inertia_share = 0.9, estimate_share = 0.5, precision_share = 0.
 
 class Planner {
  public:
-  Planner(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress,
-          PhaseSeconds& phases)
-      : scene_(scene), prepared_(prepared), inertia_(inertia), progress_(progress), phases_(phases) {}
+  Planner(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Watcher& watcher,
+          Backend backend, PhaseSeconds& phases)
+      : scene_(scene),
+        prepared_(prepared),
+        inertia_(inertia),
+        progress_(watcher.progress),
+        stop_(watcher.stop),
+        backend_(backend),
+        phases_(phases) {}
 
   Plan make() {
     choose_form_and_geometry();
@@ -35,7 +41,7 @@ class Planner {
     if (scene_.solver.time_step && scene_.solver.safety && (!automatic() || scene_.solver.density_scaling)) {
       decide("safety has no part in it: time_step is given");
     }
-    for (std::size_t i = 0; i < scene_.loading.frequencies.size(); ++i) plan_frequency(i);
+    plan_frequencies();
     choose_precision();
     return std::move(plan_);
   }
@@ -47,6 +53,11 @@ class Planner {
   }
   bool automatic() const { return scene_.solver.tolerance.has_value(); }
   double tolerance() const { return *scene_.solver.tolerance; }
+  /// Residuals enter E* squared, and the motion of the start as they are, times the condition of K, some 1e5 at most.
+  double planning_residual() const {
+    return automatic() ? std::clamp(1e-5 * tolerance(), HarmonicOptions{}.tolerance, 1e-8)
+                       : HarmonicOptions{}.tolerance;
+  }
   double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
 
   void choose_form_and_geometry() {
@@ -80,7 +91,8 @@ class Planner {
     const InPhase in(phases_, &PhaseSeconds::preconditioner);
     try {
       harmonic_.emplace(prepared_.specimen, prepared_.network, scene_.laws, inertia_,
-                        HarmonicOptions{.linear = scene_.solver.linear}, geometric_mean(scene_.loading.frequencies));
+                        harmonic_options(scene_, backend_, stop_, planning_residual()),
+                        geometric_mean(scene_.loading.frequencies));
     } catch (const RunError& error) { no_harmonic_ = error.what(); }
   }
 
@@ -107,35 +119,95 @@ class Planner {
     }
   }
 
-  /// None where there is none, or none is found, which is said.
-  std::optional<HarmonicResult> solution(double frequency, double scaling, double damping) {
-    if (!harmonic_) return {};
+  /// One solution for each load, side by side; those that have none are said, and left out.
+  std::vector<std::optional<HarmonicResult>> solutions(const std::vector<HarmonicLoad>& loads) {
+    std::vector<std::optional<HarmonicResult>> out(loads.size());
+    if (!harmonic_) return out;
+    if (progress_) progress_("harmonic: " + std::to_string(loads.size()) + " solutions", 0);
     const InPhase in(phases_, &PhaseSeconds::harmonic);
     try {
-      return harmonic_->solve(frequency, scaling, damping);
-    } catch (const RunError& error) {
-      decide("{} Hz: {}", frequency, error.what());
-      return {};
+      std::vector<HarmonicResult> all = harmonic_->solve(loads);
+      std::move(all.begin(), all.end(), out.begin());
+      return out;
+    } catch (const InterruptedError&) { throw; } catch (const RunError&) {
+    }
+    for (std::size_t i = 0; i < loads.size(); ++i) {  // one without a solution must not cost the others theirs
+      try {
+        out[i] = harmonic_->solve({loads[i]}).front();
+      } catch (const InterruptedError&) { throw; } catch (const RunError& error) {
+        decide("{} Hz: {}", loads[i].frequency_hz, error.what());
+      }
+    }
+    return out;
+  }
+
+  /// All frequencies at once: what they are at true mass, then with the inertia that they will be stepped with.
+  void plan_frequencies() {
+    const std::vector<double>& frequencies = scene_.loading.frequencies;
+    std::vector<HarmonicLoad> loads;
+    for (const double f : frequencies) loads.push_back({f, 1, 0});  // undamped: damping is no property of the specimen
+    const auto known = solutions(loads);
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+      loads[i] = {frequencies[i], scaling_of(i, known[i]), viscous()};
+    }
+    auto scaled = solutions(loads);
+    correct(loads, known, scaled);
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+      FrequencyPlan f;
+      if (known[i]) f.known = known[i]->top;
+      f.density_scaling = loads[i].density_scaling;
+      finish(std::move(f), frequencies[i], std::move(scaled[i]));
     }
   }
 
-  void plan_frequency(std::size_t i) {
-    const double frequency = scene_.loading.frequencies[i];
-    if (progress_ && harmonic_) progress_(fmt::format("harmonic: {} Hz", frequency), 0);
-    FrequencyPlan f;
-    // undamped: damping is no property of the specimen
-    if (const auto solved = solution(frequency, 1, 0)) f.known = solved->top;
-    std::optional<HarmonicResult> scaled;
-    if (scene_.solver.density_scaling || !automatic()) {
-      f.density_scaling = density_scaling_of(scene_.solver, i);
-    } else if (scene_.solver.time_step) {  // as little as the given step needs
-      f.density_scaling = std::max(1.0, std::pow(*scene_.solver.time_step / (safety() * plan_.critical.dt), 2));
-    } else if (f.known) {
-      scaled = choose_scaling(frequency, *f.known, f.density_scaling);
-    } else {
-      f.density_scaling = std::max(1.0, estimate_share * tolerance() / inertia_estimate(scene_, prepared_, frequency));
+  double scaling_of(std::size_t i, const std::optional<HarmonicResult>& known) const {
+    if (scene_.solver.density_scaling || !automatic()) return density_scaling_of(scene_.solver, i);
+    if (scene_.solver.time_step) {  // as little as the given step needs
+      return std::max(1.0, std::pow(*scene_.solver.time_step / (safety() * plan_.critical.dt), 2));
     }
-    if (!scaled) scaled = solution(frequency, f.density_scaling, viscous());
+    const double frequency = scene_.loading.frequencies[i];
+    if (known) return 1 + largest_excess(*known, 0.97 * inertia_share * tolerance());
+    return std::max(1.0, estimate_share * tolerance() / inertia_estimate(scene_, prepared_, frequency));
+  }
+
+  /// The largest scaling, less one, whose inertia and damping change E* by no more than `wanted`, by the derivative of
+  /// E* at true mass: it is straight as long as the change is small.
+  double largest_excess(const HarmonicResult& known, double wanted) const {
+    using Complex = std::complex<double>;
+    const Complex s(0, 2 * std::numbers::pi * known.frequency_hz), modulus = known.parts.modulus();
+    const Complex each =
+        known.parts.inertia / (s * s) / modulus;  // relative change of E* per unit of (s² + s·β)·scaling
+    const auto change = [&](double excess) {
+      const Complex relative = each * ((1 + excess) * (s * s + s * viscous()) - s * s);
+      return largest({std::abs(1.0 + relative) - 1, std::arg(1.0 + relative)});
+    };
+    if (!(change(0) < wanted)) return 0;  // by damping alone
+    double low = 0, high = 1;
+    while (change(high) < wanted && high < 1e15) low = high, high *= 2;
+    for (int k = 0; k < 60; ++k) {
+      const double middle = (low + high) / 2;
+      (change(middle) < wanted ? low : high) = middle;
+    }
+    return low;
+  }
+
+  /// A tolerance so large, or a resonance so near, that the change is not straight: what came out too far off is found
+  /// by more solutions.
+  void correct(std::vector<HarmonicLoad>& loads, const std::vector<std::optional<HarmonicResult>>& known,
+               std::vector<std::optional<HarmonicResult>>& scaled) {
+    if (!automatic() || scene_.solver.density_scaling || scene_.solver.time_step) return;
+    const double wanted = inertia_share * tolerance();
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      for (int attempt = 0; attempt < 6 && known[i] && loads[i].density_scaling > 1; ++attempt) {
+        const double error = scaled[i] ? largest(difference(scaled[i]->top, known[i]->top)) : 10 * wanted;
+        if (error <= wanted) break;
+        loads[i].density_scaling = 1 + (loads[i].density_scaling - 1) * std::clamp(0.9 * wanted / error, 1e-3, 0.9);
+        scaled[i] = std::move(solutions({loads[i]}).front());
+      }
+    }
+  }
+
+  void finish(FrequencyPlan f, double frequency, std::optional<HarmonicResult> scaled) {
     f.start = scaled ? start_ : Start::rest;
     const double ramp = choose_cycles(f);
     f.loading = make_loading(f, frequency, ramp);
@@ -167,32 +239,6 @@ class Planner {
     }
     const double share = f.loading.dt() / (plan_.critical.dt * std::sqrt(f.density_scaling));
     if (share > 1) decide("{} Hz: the given step is {:.2f} of the largest that is surely stable", frequency, share);
-  }
-
-  /// The largest scaling found whose inertia costs no more than `inertia_share` of the tolerance, and its solution. The
-  /// error grows as s − 1 while it is small, so that two or three solutions do.
-  std::optional<HarmonicResult> choose_scaling(double frequency, const Stiffness& known, double& scaling) {
-    const InPhase in(phases_, &PhaseSeconds::harmonic);
-    const double wanted = inertia_share * tolerance(), estimate = inertia_estimate(scene_, prepared_, frequency);
-    std::optional<HarmonicResult> best;
-    scaling = 1;
-    double excess = 0.95 * wanted / (estimate * error_over_estimate_.value_or(1));
-    for (int attempt = 0; attempt < 6; ++attempt) {
-      try {
-        HarmonicResult solved = harmonic_->solve(frequency, 1 + excess, viscous());
-        const double error = largest(difference(solved.top, known));
-        if (error <= wanted && 1 + excess > scaling) {
-          best = std::move(solved);
-          scaling = 1 + excess;
-          if (error >= 0.85 * wanted) {
-            error_over_estimate_ = error / (excess * estimate);
-            break;
-          }
-        }
-        excess *= std::clamp(0.95 * wanted / error, 1e-3, 1e3);
-      } catch (const RunError&) { excess /= 10; }  // at a resonance of the scaled specimen
-    }
-    return best;
   }
 
   /// Also returns the cycles of the ramp.
@@ -263,11 +309,12 @@ class Planner {
   const Preparation& prepared_;
   const Inertia& inertia_;
   const Progress& progress_;
+  const std::function<bool()>& stop_;
+  Backend backend_;
   PhaseSeconds& phases_;
   Plan plan_;
   std::optional<Harmonic> harmonic_;
   std::string no_harmonic_;
-  std::optional<double> error_over_estimate_;  ///< of the last scaling that was chosen
   Start start_ = Start::rest;
   double ramp_ = 0;       ///< [cycles] from rest where the scene gives none
   double nonlinear_ = 0;  ///< what the strain changes of |E*| that the harmonic solution does not see
@@ -281,9 +328,19 @@ double geometric_mean(const std::vector<double>& values) {
   return std::exp(sum / static_cast<double>(values.size()));
 }
 
-Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress,
-               PhaseSeconds& phases) {
-  return Planner(scene, prepared, inertia, progress, phases).make();
+HarmonicOptions harmonic_options(const Scene& scene, Backend backend, const std::function<bool()>& stop,
+                                 double residual) {
+  HarmonicOptions out;
+  out.tolerance = residual;
+  out.linear = scene.solver.linear;
+  out.backend = backend == Backend::cuda ? Backend::cuda : Backend::cpu;
+  out.stop = stop;
+  return out;
+}
+
+Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Watcher& watcher,
+               Backend backend, PhaseSeconds& phases) {
+  return Planner(scene, prepared, inertia, watcher, backend, phases).make();
 }
 
 }  // namespace macadam

@@ -36,8 +36,13 @@ struct Plan {
 /// Keeps what the scene gives; where it gives a tolerance, chooses the rest so that |E*| and φ are expected to differ
 /// by less from those of true mass, else takes fixed defaults. \throws RunError when the step would be hopelessly
 /// small.
-Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Progress& progress,
-               PhaseSeconds& phases);
+/// `backend`: on which it is stepped, which also solves. `phases`: what takes how long is added there.
+Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Watcher& watcher,
+               Backend backend, PhaseSeconds& phases);
+
+/// How a scene's linear systems are solved; beside backend reference, on the CPU.
+HarmonicOptions harmonic_options(const Scene& scene, Backend backend, const std::function<bool()>& stop,
+                                 double residual = HarmonicOptions{}.tolerance);
 
 /// The frequency at which factors serve all of these best: halfway for a relaxation spectrum.
 double geometric_mean(const std::vector<double>& values);

@@ -54,12 +54,13 @@ class HarmonicSolution : public Solution {
       : scene_(scene), prepared_(prepared), watcher_(watcher) {
     const SolverSpec& solver = scene.solver;
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
-    result.solver = described(scene, viscous_);
+    if (result.backend == Backend::reference) result.backend = Backend::cpu;  // it writes the time step again, not this
+    result.solver = described(scene, viscous_) + ", " + to_string(result.backend);
     if (watcher.progress) watcher.progress("harmonic: preconditioner", 0);
     const InPhase in(result.phases, &PhaseSeconds::preconditioner);
     const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
     harmonic_.emplace(prepared.specimen, prepared.network, scene.laws, inertia,
-                      HarmonicOptions{.linear = solver.linear}, geometric_mean(scene.loading.frequencies));
+                      harmonic_options(scene, result.backend, watcher.stop), geometric_mean(scene.loading.frequencies));
   }
 
   void solve(const std::filesystem::path&, const Saving& save, RunResult& result) override {
@@ -70,16 +71,16 @@ class HarmonicSolution : public Solution {
     for (std::size_t i = 0; i < frequencies.size(); i += block) {
       const std::size_t end = std::min(i + block, frequencies.size());
       const std::string where = fmt::format("{} Hz ({} of {})", frequencies[i], i + 1, frequencies.size());
-      if (watcher_.stop && watcher_.stop()) {
-        throw InterruptedError("interrupted before " + where +
-                               "; summary.json has those before it; method harmonic keeps no checkpoints");
-      }
       if (watcher_.progress) {
         watcher_.progress("harmonic: " + where, static_cast<double>(i) / static_cast<double>(frequencies.size()));
       }
       std::vector<HarmonicResult> solved;
       try {
+        if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
         solved = solve(i, end);
+      } catch (const InterruptedError&) {
+        throw InterruptedError("interrupted before " + where +
+                               "; summary.json has those before it; method harmonic keeps no checkpoints");
       } catch (const RunError&) {  // one of them has no solution: those before it are not lost for that
         for (std::size_t k = i; k < end; ++k) take(solve(k, k + 1), result, save);
       }

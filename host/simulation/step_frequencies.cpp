@@ -274,7 +274,7 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
   if (resumed) {
     at = *std::move(resumed);
   } else {
-    at.plan = make_plan(scene, prepared, inertia, watcher.progress, result.phases);
+    at.plan = make_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
     at.seconds_planning = seconds_since(start);
   }
   auto steps = std::make_unique<Steps>(scene, prepared, watcher, inertia, std::move(at), resumed.has_value());

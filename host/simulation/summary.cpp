@@ -37,7 +37,7 @@ Json error_json(const ErrorEstimate& error) { return {{"e_star", error.e_star}, 
 /// Derivatives by the logarithms of the parameters, and what each pair carries.
 void add_sensitivities(const FrequencyResult& f, const LawTable& laws, Json& out) {
   out["sensitivities"] = Json::array();
-  for (const Sensitivity& s : sensitivities(*f.parts, laws, f.frequency_hz)) {
+  for (const Sensitivity& s : sensitivities(*f.parts, laws, {0, 2 * std::numbers::pi * f.frequency_hz})) {
     out["sensitivities"].push_back(
         {{"parameter", s.parameter}, {"d_e_star_pa", s.d_e_star_pa}, {"d_phase_deg", s.d_phase_deg}});
   }
@@ -88,7 +88,7 @@ Json solver_json(const Scene& scene, const RunResult& result) {
   Json out = {{"method", to_string(scene.solver.method)},
               {"dt_s", last_step},
               {"steps", stepped ? Json(steps) : Json()},
-              {"backend", stepped ? Json(to_string(result.backend)) : Json()},
+              {"backend", to_string(result.backend)},
               {"precision", stepped ? to_string(result.precision) : "double"},
               {"description", result.solver},
               {"quadrature", to_string(scene.network.quadrature)},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file harmonic.hpp  The steady state of a linear scene at one frequency: (K*(ω) − ω²M)·u = f.
+/// \file harmonic.hpp  The steady state of a linear scene, (K*(s) + s²·M)·u = f for motions as e^(s·t).
 ///
 /// Same contact network, same area moments, same wall contacts as the time stepping (geometry of the start), so that it
 /// is both the accuracy reference of every explicit run and the fast way to |E*| and φ.
@@ -7,10 +7,13 @@
 
 #include <array>
 #include <complex>
+#include <functional>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
+#include "macadam/backend.hpp"
 #include "macadam/contact_network.hpp"
 #include "macadam/laws/all.hpp"
 #include "macadam/linear_method.hpp"
@@ -25,22 +28,32 @@ inline constexpr std::size_t largest_direct = 100'000;
 
 /// What the harmonic solver is told once.
 struct HarmonicOptions {
-  double tolerance = 1e-11;  ///< largest relative residual ‖f − K·u‖ / ‖f‖
+  /// Largest relative residual ‖f − K·u‖ / ‖f‖; more is taken where rounding of K·u alone is as much.
+  double tolerance = 1e-11;
   LinearMethod linear = LinearMethod::automatic;
+  /// Where the iteration without factors runs, cpu or cuda (automatic: as select_backend() has it); all else is on the
+  /// CPU.
+  Backend backend = Backend::cpu;
+  int device = 0;              ///< number of the CUDA device
+  std::function<bool()> stop = {};  ///< asked between iterations: true ends a solution with InterruptedError
 };
 
-/// A frequency [Hz] with the inertia and viscous damping of a run; see Harmonic::solve().
+/// Motions as e^(s·t), s = growth + 2πi·frequency, with the inertia and viscous damping of a run; see
+/// Harmonic::solve().
 struct HarmonicLoad {
   double frequency_hz = 0, density_scaling = 0, viscous_damping = 0;
+  double growth = 0;  ///< real part of s [1/s]: 0 for the steady state; Laplace transforms take others
+
+  std::complex<double> s() const { return {growth, 2 * std::numbers::pi * frequency_hz}; }
 };
 
 /// One frequency's steady state.
 struct HarmonicResult {
-  double frequency_hz = 0;
-  Stiffness top;        ///< from the reaction of the top wall, as the energy of the motion gives it
-  Stiffness bottom;     ///< from the reaction of the bottom wall; equal without inertia
-  ModulusParts parts;   ///< of which top is the sum
-  double residual = 0;  ///< relative, computed anew from the solution
+  double frequency_hz = 0, growth = 0;  ///< of the load
+  Stiffness top;                        ///< from the reaction of the top wall, as the energy of the motion gives it
+  Stiffness bottom;                     ///< from the reaction of the bottom wall; equal without inertia
+  ModulusParts parts;                   ///< of which top is the sum
+  double residual = 0;                  ///< relative, computed anew from the solution
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< that found the solution
   double held_force = 0;  ///< force that holds free rigid motions / reaction; rounding, where nothing is wrong
@@ -54,15 +67,15 @@ struct HarmonicResult {
 class Harmonic {
  public:
   /// \throws InputError naming the particles of a cluster that does not touch both walls, or a pair without a law;
-  /// RunError when the stiffness is singular (a mechanism).
+  /// RunError when the stiffness is singular (a mechanism), a device is not there or has too little memory.
   Harmonic(const Specimen& specimen, const ContactNetwork& network,
            const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
            const HarmonicOptions& options, double typical_frequency);
   ~Harmonic();
 
-  /// Without inertia where `density_scaling` is 0; else with −ω²M times it, as an explicit run of that scaling has, and
-  /// with viscous damping β, (−ω² + iωβ)·M, likewise scaled.
-  /// \throws RunError when the residual does not come down to the tolerance.
+  /// Without inertia where `density_scaling` is 0; else with s²·M times it, as an explicit run of that scaling has, and
+  /// with viscous damping β, (s² + s·β)·M, likewise scaled.
+  /// \throws RunError when the residual does not come down to the tolerance; InterruptedError.
   HarmonicResult solve(double frequency_hz, double density_scaling = 0, double viscous_damping = 0);
 
   /// Several at once, which share what is read of the network, four at a time.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file sensitivity.hpp  What a solution of the frequency domain says of its parameters, for nothing.
 ///
-/// E* = H/A · uᵀ·(K*(ω) − inertia·M)·u at unit displacement of the top wall is stationary in u, so that
+/// E* = H/A · uᵀ·(K*(s) − inertia·M)·u at unit displacement of the top wall is stationary in u, so that
 /// dE*/dθ = H/A · uᵀ·(∂K*/∂θ)·u: one sum over the contacts of the solution at hand.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace macadam {
 struct ModulusParts {
   std::array<std::complex<double>, pair_types> normal{};  ///< by PairType: opening and bending
   std::array<std::complex<double>, pair_types> shear{};   ///< slip and twist, α included
-  std::complex<double> inertia = 0;                       ///< −(ω² − iωβ)·density scaling · uᵀ·M·u
+  std::complex<double> inertia = 0;                       ///< (s² + s·β)·density scaling · uᵀ·M·u
 
   std::complex<double> modulus() const;
 };
@@ -32,9 +32,11 @@ struct Sensitivity {
 };
 
 /// By every parameter of every pair that is there, δ and α (where it is not 0), and the density scaling where there is
-/// inertia. δ multiplies all moduli and viscosities of a pair.
+/// inertia, for motions as e^(s·t). δ multiplies all moduli and viscosities of a pair.
 std::vector<Sensitivity> sensitivities(const ModulusParts& parts,
-                                       const std::array<std::optional<Law>, pair_types>& laws, double frequency_hz);
+                                       const std::array<std::optional<Law>, pair_types>& laws, std::complex<double> s);
+std::vector<Sensitivity> sensitivities(const ModulusParts&, const std::array<std::optional<Law>, pair_types>&,
+                                       double) = delete;  // s = iω, not ω
 
 /// The share of E* that each pair carries, by PairType: its part along E*, over |E*|. Without inertia they add up to 1.
 std::array<double, pair_types> shares(const ModulusParts& parts);

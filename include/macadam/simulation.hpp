@@ -92,7 +92,7 @@ struct RunResult {
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
   std::string solver;                    ///< what ran, in words: Stepper::description(), or "harmonic, …"
-  Backend backend = Backend::automatic;  ///< explicit: that ran
+  Backend backend = Backend::automatic;  ///< that ran
   std::int64_t bytes = 0;                ///< explicit: Stepper::bytes()
   std::int32_t critical_particle = -1;   ///< explicit: the particle that sets the critical step
   double critical_dt_s = 0;              ///< explicit: the critical step at true mass
@@ -118,8 +118,8 @@ struct Watcher {
   /// Decisions, once nothing can refuse the scene any more and the specimen's files are written: before the first step.
   std::function<void(const RunResult&)> planned;
   std::function<void(const std::string&)> warn;  ///< at once; all warnings are in RunResult::warnings too
-  /// Asked before each sample and within a second between samples, and before each harmonic frequency: true ends the
-  /// run, a stepped one with a checkpoint.
+  /// Asked before each sample and within a second between samples, and between iterations of the frequency domain: true
+  /// ends the run, a stepped one with a checkpoint.
   std::function<bool()> stop;
 };
 

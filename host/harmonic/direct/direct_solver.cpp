@@ -41,12 +41,12 @@ class DirectSolver : public LinearSolver {
         free_(free),
         factors_(network, inertia.mass.size(), typical, free.pins) {}
 
-  void solve(const std::vector<LinearTask*>& tasks) override {
-    for (LinearTask* task : tasks) solve(*task);
+  void solve(const std::vector<LinearTask*>& tasks, const std::function<bool()>& stop) override {
+    for (LinearTask* task : tasks) solve(*task, stop);
   }
 
  private:
-  void solve(LinearTask& task) const {
+  void solve(LinearTask& task, const std::function<bool()>& stop) const {
     Vector& x = task.motion;
     Vector r = task.right, z, p, q;
     if (x.empty()) {
@@ -59,6 +59,7 @@ class DirectSolver : public LinearSolver {
     const double scale = length(task.right), limit = task.energy_limit > 0 ? task.energy_limit : infinity;
     Complex rho_before = 0;
     for (int k = 0;; ++k) {
+      require_not_stopped(stop);
       factors_.solve(r, z);
       if (task.inertia != 0.0) remove_free_motions(z);
       task.energy = energy_of(r, z);

@@ -7,22 +7,28 @@
 #include <cmath>
 #include <limits>
 
+#include "host/harmonic/iterative/apply_row.hpp"
+#include "kernels/harmonic/particle_block.hpp"
+
 namespace macadam::harmonic {
 namespace {
 
 constexpr std::size_t chunk = 128;  ///< particles whose sums are made by one thread
-constexpr int most_iterations = 5000;
 constexpr double infinite_tolerance = std::numeric_limits<double>::infinity();
-constexpr int stagnation = 500;  ///< iterations without a tenth of progress
 
 template <int F>
 class BlockCocg {
   using L = Lanes<F>;
 
  public:
-  BlockCocg(const ContactRows& rows, const TwoLevel& levels, const kernels::Layout& layout, const Inertia& inertia,
-            const FreeMotions& free, const std::vector<LinearTask*>& tasks)
-      : rows_(rows), levels_(levels), layout_(layout), tasks_(tasks), n_(rows.bodies()), free_(free.motions.size()) {
+  BlockCocg(const kernels::LinearSystem& system, const std::vector<double>& inverse, const kernels::Layout& layout,
+            const std::vector<LinearTask*>& tasks)
+      : system_(system),
+        inverse_(inverse),
+        layout_(layout),
+        tasks_(tasks),
+        n_(system.bodies()),
+        free_(static_cast<std::size_t>(system.free)) {
     for (int f = 0; f < F; ++f) {
       const LinearTask& task = *tasks[static_cast<std::size_t>(f)];
       for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -32,37 +38,13 @@ class BlockCocg {
       stiffness_.inertia.set(f, task.inertia);
       if (task.inertia != 0.0) stiffness_.inert = false;
     }
-    mass_.resize(6 * n_);
-    motion_.resize(6 * n_ * free_);
-    for (std::size_t i = 0; i < n_; ++i) {
-      const auto particle = static_cast<std::size_t>(layout.particle[i]);
-      for (std::size_t c = 0; c < 6; ++c) {
-        mass_[6 * i + c] = inertia_at(inertia, 6 * particle + c);
-        for (std::size_t m = 0; m < free_; ++m) {
-          motion_[(i * free_ + m) * 6 + c] = free.motions[m][6 * particle + c];
-        }
-      }
-    }
     for (auto* v : {&x_, &r_, &p_, &q_, &z_}) v->resize(6 * n_);
     partial_.resize((n_ + chunk - 1) / chunk);
-    load_.resize(6 * levels.boxes());
-    coarse_.resize(6 * levels.boxes());
-    // what the free motions of the whole have in common with the boxes' motions, times mass
-    weight_.assign(free_ * 6 * levels.boxes(), 0);
-    for (std::size_t b = 0; b < levels.boxes(); ++b) {
-      for (auto i = static_cast<std::size_t>(levels.box_body[b]); i < static_cast<std::size_t>(levels.box_body[b + 1]);
-           ++i) {
-        for (std::size_t m = 0; m < free_; ++m) {
-          double v[6], out[6];
-          for (std::size_t c = 0; c < 6; ++c) v[c] = mass_[6 * i + c] * motion_[(i * free_ + m) * 6 + c];
-          restricted(levels.lever[i], v, out);
-          for (std::size_t c = 0; c < 6; ++c) weight_[(m * levels.boxes() + b) * 6 + c] += out[c];
-        }
-      }
-    }
+    load_.resize(6 * system.boxes());
+    coarse_.resize(6 * system.boxes());
   }
 
-  void solve() {
+  void solve(const std::function<bool()>& stop) {
     load_tasks();
     for (int f = 0; f < F; ++f) {
       const LinearTask& task = *tasks_[static_cast<std::size_t>(f)];
@@ -74,12 +56,14 @@ class BlockCocg {
     Sums sums = start();
     double best = infinity;
     for (int k = 0, best_at = 0;; ++k) {
-      L drop[most_free_motions];
+      L drop[kernels::most_free_motions];
       precondition(sums, drop);
       Factor<F> beta;
       const double worst = judge(k, sums, beta);  // of those that are not done
       if (worst < 0.9 * best) best = worst, best_at = k;
-      if (worst == 0 || !std::isfinite(worst) || k >= most_iterations || k - best_at > stagnation) break;
+      if (worst == 0 || !std::isfinite(worst) || k >= kernels::most_iterations || k - best_at > kernels::most_stagnant)
+        break;
+      require_not_stopped(stop);
       turn(beta, drop);
       const Products<F> pq = apply();
       Factor<F> alpha;
@@ -97,10 +81,10 @@ class BlockCocg {
 
   struct Sums {
     Products<F> rz, rr;
-    L drop[most_free_motions];
+    L drop[kernels::most_free_motions];
     void add(const Sums& o) {
       rz.add(o.rz), rr.add(o.rr);
-      for (std::size_t m = 0; m < most_free_motions; ++m) drop[m] += o.drop[m];
+      for (std::size_t m = 0; m < kernels::most_free_motions; ++m) drop[m] += o.drop[m];
     }
   };
 
@@ -115,15 +99,6 @@ class BlockCocg {
     Sums out;
     for (const Sums& s : partial_) out.add(s);
     return out;
-  }
-
-  template <class T, class U>
-  static void restricted(const TwoLevel::Lever& l, const T (&v)[6], U (&out)[6]) {
-    for (int c = 0; c < 3; ++c) out[c] = v[c];
-    const double w = 1 / l.width;
-    out[3] = w * (v[3] + l.y * v[2] - l.z * v[1]);
-    out[4] = w * (v[4] + l.z * v[0] - l.x * v[2]);
-    out[5] = w * (v[5] + l.x * v[1] - l.y * v[0]);
   }
 
   void load_tasks() {
@@ -173,7 +148,7 @@ class BlockCocg {
   Sums start() {
     return sum([&](std::size_t i, Sums& own) {
       L kx[6];
-      apply_row<F>(rows_, stiffness_, &mass_[6 * i], i, x_, kx);
+      apply_row<F>(system_, stiffness_, i, x_, kx);
       for (std::size_t c = 0; c < 6; ++c) r_[6 * i + c] -= kx[c];
       fine(i, own);
     });
@@ -181,7 +156,7 @@ class BlockCocg {
 
   /// z = K_ii⁻¹·r of one body, and its shares in the sums.
   void fine(std::size_t i, Sums& own) {
-    const double* inverse = &levels_.inverse[36 * i];
+    const double* inverse = &inverse_[36 * i];
     const L* r = &r_[6 * i];
     L* z = &z_[6 * i];
     for (std::size_t a = 0; a < 6; ++a) {
@@ -191,31 +166,25 @@ class BlockCocg {
       own.rz.add(r[a], sum);
       own.rr.add(r[a], r[a]);
       for (std::size_t m = 0; m < free_; ++m) {
-        own.drop[m] += (mass_[6 * i + a] * motion_[(i * free_ + m) * 6 + a]) * sum;
+        own.drop[m] += (system_.mass[2 * i + a / 3] * system_.motion[(i * free_ + m) * 6 + a]) * sum;
       }
     }
   }
 
   /// coarse = (RᵀKR)⁻¹·Rᵀ·r
-  void precondition(const Sums& sums, L (&drop)[most_free_motions]) {
-    const std::size_t boxes = levels_.boxes();
+  void precondition(const Sums& sums, L (&drop)[kernels::most_free_motions]) {
+    const std::size_t boxes = system_.boxes();
 #pragma omp parallel for schedule(static)
     for (std::size_t b = 0; b < boxes; ++b) {
       L own[6];
-      for (auto i = static_cast<std::size_t>(levels_.box_body[b]);
-           i < static_cast<std::size_t>(levels_.box_body[b + 1]); ++i) {
-        const L* r = &r_[6 * i];
-        const L v[6] = {r[0], r[1], r[2], r[3], r[4], r[5]};
-        L out[6];
-        restricted(levels_.lever[i], v, out);
-        for (int c = 0; c < 6; ++c) own[c] += out[c];
-      }
+      for_each_body(b,
+                    [&](std::size_t i) { kernels::add_to_box(system_.lever[i], kernels::to_twist(&r_[6 * i]), own); });
       for (std::size_t c = 0; c < 6; ++c) load_[6 * b + c] = own[c];
     }
 #pragma omp parallel for schedule(static)
     for (std::size_t a = 0; a < 6 * boxes; ++a) {
       L sum;
-      const double* row = levels_.coarse.data() + a * 6 * boxes;
+      const double* row = system_.coarse.data() + a * 6 * boxes;
       for (std::size_t b = 0; b < 6 * boxes; ++b) sum += row[b] * load_[b];
       coarse_[a] = sum;
     }
@@ -223,32 +192,31 @@ class BlockCocg {
     for (std::size_t a = 0; a < 6 * boxes; ++a) coarse_product_.add(load_[a], coarse_[a]);
     for (std::size_t m = 0; m < free_; ++m) {
       drop[m] = sums.drop[m];
-      for (std::size_t a = 0; a < 6 * boxes; ++a) drop[m] += weight_[m * 6 * boxes + a] * coarse_[a];
+      for (std::size_t a = 0; a < 6 * boxes; ++a) drop[m] += system_.weight[m * 6 * boxes + a] * coarse_[a];
     }
   }
 
+  template <class Work>
+  void for_each_body(std::size_t box, Work&& work) const {
+    const auto end = static_cast<std::size_t>(system_.box_body[box + 1]);
+    for (auto i = static_cast<std::size_t>(system_.box_body[box]); i < end; ++i) work(i);
+  }
+
   /// p = z + β·p with the coarse correction added to z and the free motions taken out.
-  void turn(const Factor<F>& beta, const L (&drop)[most_free_motions]) {
+  void turn(const Factor<F>& beta, const L (&drop)[kernels::most_free_motions]) {
 #pragma omp parallel for schedule(static)
-    for (std::size_t b = 0; b < levels_.boxes(); ++b) {
-      const L* y = &coarse_[6 * b];
-      for (auto i = static_cast<std::size_t>(levels_.box_body[b]);
-           i < static_cast<std::size_t>(levels_.box_body[b + 1]); ++i) {
-        const TwoLevel::Lever& l = levels_.lever[i];
-        const double w = 1 / l.width;
-        const L turn[3] = {w * y[3], w * y[4], w * y[5]};
-        const L add[6] = {y[0] + l.z * turn[1] - l.y * turn[2],
-                          y[1] + l.x * turn[2] - l.z * turn[0],
-                          y[2] + l.y * turn[0] - l.x * turn[1],
-                          turn[0],
-                          turn[1],
-                          turn[2]};
+    for (std::size_t b = 0; b < system_.boxes(); ++b) {
+      L y[6];
+      for (std::size_t c = 0; c < 6; ++c) y[c] = coarse_[6 * b + c];
+      for_each_body(b, [&](std::size_t i) {
+        L add[6];
+        kernels::to_array(kernels::moved_with_box(system_.lever[i], y), add);
         for (std::size_t c = 0; c < 6; ++c) {
           L z = z_[6 * i + c] + add[c];
-          for (std::size_t m = 0; m < free_; ++m) z -= motion_[(i * free_ + m) * 6 + c] * drop[m];
+          for (std::size_t m = 0; m < free_; ++m) z -= system_.motion[(i * free_ + m) * 6 + c] * drop[m];
           p_[6 * i + c] = z + beta(p_[6 * i + c]);
         }
-      }
+      });
     }
   }
 
@@ -256,7 +224,7 @@ class BlockCocg {
   Products<F> apply() {
     return sum([&](std::size_t i, Sums& own) {
              L q[6];
-             apply_row<F>(rows_, stiffness_, &mass_[6 * i], i, p_, q);
+             apply_row<F>(system_, stiffness_, i, p_, q);
              for (std::size_t c = 0; c < 6; ++c) {
                q_[6 * i + c] = q[c];
                own.rz.add(p_[6 * i + c], q[c]);
@@ -276,13 +244,12 @@ class BlockCocg {
     });
   }
 
-  const ContactRows& rows_;
-  const TwoLevel& levels_;
+  const kernels::LinearSystem& system_;
+  const std::vector<double>& inverse_;
   const kernels::Layout& layout_;
   const std::vector<LinearTask*>& tasks_;
   std::size_t n_, free_;
   BlockStiffness<F> stiffness_;
-  std::vector<double> mass_, motion_, weight_;
   LaneVector<F> x_, r_, p_, q_, z_, load_, coarse_;
   Products<F> coarse_product_;
   Complex rho_[F] = {};
@@ -293,17 +260,17 @@ class BlockCocg {
 
 }  // namespace
 
-void solve_block(const ContactRows& rows, const TwoLevel& preconditioner, const kernels::Layout& layout,
-                 const Inertia& inertia, const FreeMotions& free, std::vector<LinearTask*> tasks) {
+void solve_block(const kernels::LinearSystem& system, const std::vector<double>& inverse, const kernels::Layout& layout,
+                 std::vector<LinearTask*> tasks, const std::function<bool()>& stop) {
   for (LinearTask* task : tasks) task->converged = false;
   if (tasks.size() == 1) {
-    BlockCocg<1>(rows, preconditioner, layout, inertia, free, tasks).solve();
+    BlockCocg<1>(system, inverse, layout, tasks).solve(stop);
     return;
   }
   LinearTask spare = *tasks.front();  // fills the block; it is done before it begins
   spare.tolerance = infinite_tolerance;
   while (tasks.size() < 4) tasks.push_back(&spare);
-  BlockCocg<4>(rows, preconditioner, layout, inertia, free, tasks).solve();
+  BlockCocg<4>(system, inverse, layout, tasks).solve(stop);
 }
 
 }  // namespace macadam::harmonic

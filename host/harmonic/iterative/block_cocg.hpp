@@ -4,17 +4,14 @@
 
 #include <vector>
 
-#include "host/harmonic/iterative/contact_rows.hpp"
-#include "host/harmonic/iterative/two_level.hpp"
 #include "host/harmonic/linear_solver.hpp"
+#include "kernels/harmonic/linear_system.hpp"
+#include "kernels/layout.hpp"
 
 namespace macadam::harmonic {
 
-/// Free motions of the whole that it can keep out: of two specimens side by side in a box.
-inline constexpr std::size_t most_free_motions = 6;
-
-/// Solves up to four tasks at once.
-void solve_block(const ContactRows& rows, const TwoLevel& preconditioner, const kernels::Layout& layout,
-                 const Inertia& inertia, const FreeMotions& free, std::vector<LinearTask*> tasks);
+/// Solves up to four tasks at once. `inverse`: of invert_particle_blocks().
+void solve_block(const kernels::LinearSystem& system, const std::vector<double>& inverse, const kernels::Layout& layout,
+                 std::vector<LinearTask*> tasks, const std::function<bool()>& stop);
 
 }  // namespace macadam::harmonic

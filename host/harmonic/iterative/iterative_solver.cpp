@@ -1,48 +1,104 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// iterative_solver.cpp  A network made ready for block_cocg: order, rows and preconditioner.
+// iterative_solver.cpp  A network made ready for the iteration, on the CPU or on a device.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "host/harmonic/iterative/block_cocg.hpp"
+#include "host/harmonic/iterative/make_system.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {
 namespace {
 
-std::size_t contacts_of_a_box(const Specimen& specimen, const ContactNetwork& network, std::size_t boxes) {
-  if (boxes == 0) boxes = usual_boxes(specimen.size());  // threads share the particles by boxes
-  return std::max<std::size_t>(network.contacts.size() / boxes, 1);
+constexpr std::size_t block = 4;  ///< tasks that are solved side by side
+
+/// f for each block of tasks.
+template <class F>
+void for_each_block(const std::vector<LinearTask*>& tasks, F&& f) {
+  for (std::size_t first = 0; first < tasks.size(); first += block) {
+    const auto begin = tasks.begin() + static_cast<std::ptrdiff_t>(first);
+    f(std::vector<LinearTask*>(begin, begin + static_cast<std::ptrdiff_t>(std::min(block, tasks.size() - first))));
+  }
 }
 
-class IterativeSolver : public LinearSolver {
+class CpuSolver : public LinearSolver {
  public:
-  IterativeSolver(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& typical,
-                  const Inertia& inertia, const FreeMotions& free, std::size_t boxes)
-      : layout_(kernels::make_layout(specimen, network, 1, contacts_of_a_box(specimen, network, boxes))),
-        rows_(network, layout_),
-        levels_(specimen, network, layout_, typical, free),
-        inertia_(inertia),
-        free_(free) {
-    if (boxes == 0) levels_.coarse.setZero();
-  }
+  CpuSolver(kernels::Layout layout, kernels::LinearSystem system)
+      : layout_(std::move(layout)), system_(std::move(system)), inverse_(invert_particle_blocks(system_, layout_)) {}
 
-  void solve(const std::vector<LinearTask*>& tasks) override {
-    constexpr std::size_t block = 4;
-    for (std::size_t first = 0; first < tasks.size(); first += block) {
-      const auto begin = tasks.begin() + static_cast<std::ptrdiff_t>(first);
-      solve_block(rows_, levels_, layout_, inertia_, free_,
-                  {begin, begin + static_cast<std::ptrdiff_t>(std::min(block, tasks.size() - first))});
-    }
+  void solve(const std::vector<LinearTask*>& tasks, const std::function<bool()>& stop) override {
+    for_each_block(tasks,
+                   [&](const std::vector<LinearTask*>& some) { solve_block(system_, inverse_, layout_, some, stop); });
   }
 
  private:
   kernels::Layout layout_;
-  ContactRows rows_;
-  TwoLevel levels_;
-  const Inertia& inertia_;
-  const FreeMotions& free_;
+  kernels::LinearSystem system_;
+  std::vector<double> inverse_;
 };
+
+#ifdef MACADAM_CUDA
+class CudaSolver : public LinearSolver {
+ public:
+  CudaSolver(kernels::Layout layout, const kernels::LinearSystem& system, int device) : layout_(std::move(layout)) {
+    std::int64_t loose = -1;
+    solver_ = kernels::make_device_solver(system, device, loose);
+    if (loose >= 0) refuse_loose_particle(loose, layout_);
+  }
+
+  void solve(const std::vector<LinearTask*>& tasks, const std::function<bool()>& stop) override {
+    for_each_block(tasks, [&](const std::vector<LinearTask*>& some) { solve_some(some, stop); });
+  }
+
+ private:
+  void solve_some(const std::vector<LinearTask*>& tasks, const std::function<bool()>& stop) {
+    std::vector<kernels::LinearLoad> loads;
+    std::vector<Vector> right, motion;
+    for (const LinearTask* task : tasks) {
+      double square = 0;
+      for (const Complex& v : task->right) square += std::norm(v);
+      loads.push_back({task->stiffness.k, task->stiffness.alpha, task->inertia, std::sqrt(square), task->tolerance,
+                       task->energy_limit > 0 ? task->energy_limit : std::numeric_limits<double>::infinity()});
+      right.push_back(in_order(task->right));
+      motion.push_back(task->motion.empty() ? Vector(task->right.size()) : in_order(task->motion));
+    }
+    std::vector<const Complex*> rights;
+    std::vector<Complex*> motions;
+    for (std::size_t t = 0; t < tasks.size(); ++t)
+      rights.push_back(right[t].data()), motions.push_back(motion[t].data());
+    const std::vector<kernels::LinearState> states =
+        solver_->solve(loads, rights, motions, [&] { require_not_stopped(stop); });
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+      LinearTask& task = *tasks[t];
+      task.energy = states[t].energy;
+      task.iterations += states[t].iterations;
+      task.converged = states[t].converged;
+      task.motion.resize(task.right.size());
+      for_each_number([&](std::size_t body, std::size_t particle) { task.motion[particle] = motion[t][body]; });
+    }
+  }
+
+  Vector in_order(const Vector& by_particle) const {
+    Vector out(by_particle.size());
+    for_each_number([&](std::size_t body, std::size_t particle) { out[body] = by_particle[particle]; });
+    return out;
+  }
+
+  /// f(where a number stands in the order of bodies, in that of particles)
+  template <class F>
+  void for_each_number(F&& f) const {
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < layout_.particles(); ++i) {
+      const std::size_t particle = 6 * static_cast<std::size_t>(layout_.particle[i]);
+      for (std::size_t c = 0; c < 6; ++c) f(6 * i + c, particle + c);
+    }
+  }
+
+  kernels::Layout layout_;
+  std::unique_ptr<kernels::DeviceSolver> solver_;
+};
+#endif
 
 }  // namespace
 
@@ -50,13 +106,20 @@ std::size_t usual_boxes(std::size_t particles) { return std::clamp<std::size_t>(
 
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
-                                                    const FreeMotions& free, std::optional<std::size_t> boxes) {
-  if (free.motions.size() > most_free_motions) {
+                                                    const FreeMotions& free, Backend backend, int device,
+                                                    std::optional<std::size_t> asked) {
+  if (free.motions.size() > kernels::most_free_motions) {
     throw RunError(fmt::format("harmonic: found {} motions of the whole that no wall resists, expected at most {}",
-                               free.motions.size(), most_free_motions));
+                               free.motions.size(), kernels::most_free_motions));
   }
-  return std::make_unique<IterativeSolver>(specimen, network, typical, inertia, free,
-                                           boxes.value_or(usual_boxes(specimen.size())));
+  const std::size_t usual = usual_boxes(specimen.size()), boxes = asked.value_or(usual);
+  kernels::Layout layout = kernels::make_order(specimen, boxes > 0 ? boxes : usual);
+  kernels::LinearSystem system = make_system(network, specimen, layout, typical, inertia, free);
+  if (boxes == 0) std::fill(system.coarse.begin(), system.coarse.end(), 0.0);
+#ifdef MACADAM_CUDA
+  if (backend == Backend::cuda) return std::make_unique<CudaSolver>(std::move(layout), system, device);
+#endif
+  return std::make_unique<CpuSolver>(std::move(layout), std::move(system));
 }
 
 }  // namespace macadam::harmonic

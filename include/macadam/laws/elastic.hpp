@@ -20,10 +20,11 @@ struct Elastic {
   int units() const { return 0; }
   double instantaneous() const { return E; }
   double shortest_time() const { return std::numeric_limits<double>::infinity(); }
-  std::complex<double> stiffness(double) const { return E; }
-  std::complex<double> unit_compliance(int, double) const { return 0; }
+  std::complex<double> stiffness(std::complex<double>) const { return E; }
+  std::complex<double> stiffness(double) const = delete;  // iω, not ω
+  std::complex<double> unit_compliance(int, std::complex<double>) const { return 0; }
   template <class F>
-  void each_parameter(double, F&& f) const {
+  void each_parameter(std::complex<double>, F&& f) const {
     f(std::string("E"), std::complex<double>(1));
   }
 

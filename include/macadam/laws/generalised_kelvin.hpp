@@ -37,31 +37,31 @@ struct GeneralisedKelvin {
     return out;
   }
 
-  /// 1/k*(ω) = 1/k_m + 1/(iω·η_m) + Σ 1/(k_l + iω·η_l)
-  std::complex<double> stiffness(double omega) const {
-    const std::complex<double> i(0, 1);
+  /// 1/k*(s) = 1/k_m + 1/(s·η_m) + Σ 1/(k_l + s·η_l)
+  std::complex<double> stiffness(std::complex<double> s) const {
     std::complex<double> compliance = 1 / E_m;
-    if (std::isfinite(C_m)) compliance += 1.0 / (i * omega * C_m);
-    for (int l = 0; l < units(); ++l) compliance += unit_compliance(l, omega);
+    if (std::isfinite(C_m)) compliance += 1.0 / (s * C_m);
+    for (int l = 0; l < units(); ++l) compliance += unit_compliance(l, s);
     return 1.0 / compliance;
   }
-  /// x_l/f = 1/(k_l + iω·η_l)
-  std::complex<double> unit_compliance(int l, double omega) const {
+  std::complex<double> stiffness(double) const = delete;  // iω, not ω
+  /// x_l/f = 1/(k_l + s·η_l)
+  std::complex<double> unit_compliance(int l, std::complex<double> s) const {
     const auto unit = static_cast<std::size_t>(l);
-    return 1.0 / std::complex<double>(E[unit], omega * C[unit]);
+    return 1.0 / (E[unit] + s * C[unit]);
   }
 
   /// k = 1/Σ c_j, so that ∂ln k/∂ln θ = −k·∂c/∂ln θ: E_m, C_m where it is finite, E_1, C_1, E_2, …
   template <class F>
-  void each_parameter(double omega, F&& f) const {
-    const std::complex<double> k = stiffness(omega), i(0, 1);
+  void each_parameter(std::complex<double> s, F&& f) const {
+    const std::complex<double> k = stiffness(s);
     f(std::string("E_m"), k / E_m);
-    if (std::isfinite(C_m)) f(std::string("C_m"), k / (i * omega * C_m));
+    if (std::isfinite(C_m)) f(std::string("C_m"), k / (s * C_m));
     for (int l = 0; l < units(); ++l) {
       const auto unit = static_cast<std::size_t>(l);
-      const std::complex<double> c = unit_compliance(l, omega);
+      const std::complex<double> c = unit_compliance(l, s);
       f("E_" + std::to_string(l + 1), k * c * c * E[unit]);
-      f("C_" + std::to_string(l + 1), k * c * c * i * omega * C[unit]);
+      f("C_" + std::to_string(l + 1), k * c * c * s * C[unit]);
     }
   }
 

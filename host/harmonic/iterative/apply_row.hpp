@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file apply_row.hpp  K*(s) without a matrix: every particle adds up the loads of its own contacts.
+#pragma once
+
+#include "host/harmonic/iterative/lanes.hpp"
+#include "kernels/harmonic/linear_system.hpp"
+
+namespace macadam::harmonic {
+
+/// Stiffness of each pair at F frequencies, and the inertia that is taken off.
+template <int F>
+struct BlockStiffness {
+  std::array<Factor<F>, pair_types> k{};
+  std::array<double, pair_types> alpha{};
+  Factor<F> inertia{};
+  bool inert = true;  ///< no inertia at any frequency
+};
+
+/// (K* − inertia·M)·x of one body.
+template <int F>
+void apply_row(const kernels::LinearSystem& system, const BlockStiffness<F>& stiffness, std::size_t body,
+               const LaneVector<F>& x, Lanes<F> (&out)[6]);
+
+extern template void apply_row<1>(const kernels::LinearSystem&, const BlockStiffness<1>&, std::size_t,
+                                  const LaneVector<1>&, Lanes<1> (&)[6]);
+extern template void apply_row<4>(const kernels::LinearSystem&, const BlockStiffness<4>&, std::size_t,
+                                  const LaneVector<4>&, Lanes<4> (&)[6]);
+
+}  // namespace macadam::harmonic

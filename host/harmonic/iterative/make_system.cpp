@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// make_system.cpp  Contacts between boxes make up the coarse matrix: a rigid motion strains none inside.
+#include "host/harmonic/iterative/make_system.hpp"
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "host/parallel.hpp"
+#include "kernels/harmonic/particle_block.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam::harmonic {
+
+using kernels::ContactEnd;
+using kernels::Lever;
+using kernels::LinearSystem;
+using kernels::Twist;
+
+namespace {
+
+using Coarse = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+ContactEnd seen_from_a(const Contact& c, const kernels::Layout& layout) {
+  const double d = c.distance;
+  const AreaMoments& m = c.moments;
+  return {{c.n.x, c.n.y, c.n.z},
+          {c.s.x, c.s.y, c.s.z},
+          c.arm_a,
+          c.arm_b,
+          {m.a / d, m.s / d, m.t / d, m.ss / d, m.st / d, m.tt / d},
+          c.b >= 0 ? layout.body_of(c.b) : kernels::wall_at_rest,
+          static_cast<std::int32_t>(c.pair)};
+}
+
+/// The frame (−n, s, −t): local coordinates t change their sign.
+ContactEnd seen_from_b(const Contact& c, const kernels::Layout& layout) {
+  ContactEnd e = seen_from_a(c, layout);
+  for (double& x : e.n) x = -x;
+  std::swap(e.arm, e.arm_other);
+  e.moments[2] = -e.moments[2];
+  e.moments[4] = -e.moments[4];
+  e.other = layout.body_of(c.a);
+  return e;
+}
+
+void make_rows(const ContactNetwork& network, const kernels::Layout& layout, LinearSystem& out) {
+  const std::size_t n = layout.particles();
+  out.row_begin.assign(n + 1, 0);
+#pragma omp parallel for schedule(static)
+  for (std::size_t body = 0; body < n; ++body) {
+    out.row_begin[body + 1] = network.row(static_cast<std::size_t>(layout.particle[body])).size();
+  }
+  std::partial_sum(out.row_begin.begin(), out.row_begin.end(), out.row_begin.begin());
+  out.ends.resize(out.row_begin.back());
+#pragma omp parallel for schedule(static)
+  for (std::size_t body = 0; body < n; ++body) {
+    const std::int32_t particle = layout.particle[body];
+    ContactEnd* to = out.ends.data() + out.row_begin[body];
+    for (const std::uint32_t number : network.row(static_cast<std::size_t>(particle))) {
+      const Contact& c = network.contacts[number];
+      *to++ = c.a == particle ? seen_from_a(c, layout) : seen_from_b(c, layout);
+    }
+  }
+}
+
+/// f(box, body) for the bodies of every box.
+template <class F>
+void for_each_body(const LinearSystem& system, F&& f) {
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t b = 0; b < system.boxes(); ++b) {
+    for (auto i = system.box_body[b]; i < system.box_body[b + 1]; ++i) f(b, static_cast<std::size_t>(i));
+  }
+}
+
+void make_levers(const Specimen& specimen, const kernels::Layout& layout, LinearSystem& out) {
+  out.box_body = layout.tile_body;
+  out.lever.resize(layout.particles());
+  std::vector<Vec3d> low(out.boxes(), Vec3d{1e300, 1e300, 1e300}), high(out.boxes(), Vec3d{-1e300, -1e300, -1e300});
+  const auto centre = [&](std::size_t i) { return specimen.centre[static_cast<std::size_t>(layout.particle[i])]; };
+  for_each_body(out, [&](std::size_t b, std::size_t i) {
+    const Vec3d c = centre(i);
+    low[b] = {std::min(low[b].x, c.x), std::min(low[b].y, c.y), std::min(low[b].z, c.z)};
+    high[b] = {std::max(high[b].x, c.x), std::max(high[b].y, c.y), std::max(high[b].z, c.z)};
+  });
+  for_each_body(out, [&](std::size_t b, std::size_t i) {
+    const Vec3d l = centre(i) - 0.5 * (low[b] + high[b]);
+    const double width = std::max(0.5 * norm(high[b] - low[b]), 1e-3 * norm(specimen.box.size));
+    out.lever[i] = {l.x, l.y, l.z, width};
+  });
+}
+
+/// R's columns of one box for one of its bodies: motion c of the box.
+Twist<double> box_motion(const Lever& lever, int c) {
+  double y[6] = {};
+  y[c] = 1;
+  return kernels::moved_with_box(lever, y);
+}
+
+/// RᵀKR, every box its own six rows.
+Coarse coarse_stiffness(const LinearSystem& system) {
+  const auto size = static_cast<Eigen::Index>(6 * system.boxes());
+  std::vector<std::int32_t> box_of(system.bodies());
+  for_each_body(system, [&](std::size_t b, std::size_t i) { box_of[i] = static_cast<std::int32_t>(b); });
+  Coarse k = Coarse::Zero(size, size);
+  for_each_body(system, [&](std::size_t box, std::size_t i) {
+    const auto row = static_cast<Eigen::Index>(6 * box);
+    for (std::size_t at = system.row_begin[i]; at < system.row_begin[i + 1]; ++at) {
+      const ContactEnd& e = system.ends[at];
+      const auto pair = static_cast<std::size_t>(e.pair);
+      const auto other = static_cast<std::size_t>(e.other);
+      if (e.other >= 0 && box_of[other] == static_cast<std::int32_t>(box)) continue;
+      const auto add = [&](Eigen::Index column, const Twist<double>& own, const Twist<double>& far) {
+        double y[6] = {};
+        kernels::add_to_box(
+            system.lever[i],
+            kernels::end_load(
+                e, own, far, [&](double u) { return system.typical.k[pair] * u; }, system.typical.alpha[pair]),
+            y);
+        for (int c = 0; c < 6; ++c) k(row + c, column) -= y[c];
+      };
+      for (int c = 0; c < 6; ++c) {
+        add(row + c, box_motion(system.lever[i], c), {});
+        if (e.other >= 0) add(6 * box_of[other] + c, {}, box_motion(system.lever[other], c));
+      }
+    }
+  });
+  return k;
+}
+
+/// A rigid motion of the whole as motions of the boxes; any body of a box says which.
+Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(6 * system.boxes()));
+  for (std::size_t b = 0; b < system.boxes(); ++b) {
+    const auto body = static_cast<std::size_t>(system.box_body[b]);
+    const double* u =
+        &system.motion[(body * static_cast<std::size_t>(system.free) + static_cast<std::size_t>(motion)) * 6];
+    const Lever& l = system.lever[body];
+    const Vec3d turn{u[3], u[4], u[5]}, middle = Vec3d{u[0], u[1], u[2]} - cross(turn, Vec3d{l.x, l.y, l.z});
+    out.segment<6>(static_cast<Eigen::Index>(6 * b)) << middle.x, middle.y, middle.z, l.width * turn.x,
+        l.width * turn.y, l.width * turn.z;
+  }
+  return out;
+}
+
+/// Columns of the inverse side by side on all threads.
+void invert(Coarse& k, std::vector<double>& out) {
+  const Eigen::LLT<Eigen::MatrixXd> factor(k);
+  if (factor.info() != Eigen::Success) throw RunError("harmonic: boxes of particles can move without force");
+  const Eigen::Index size = k.rows(), strip = 48;
+  out.resize(static_cast<std::size_t>(size * size));
+  Eigen::Map<Eigen::MatrixXd> inverse(out.data(), size, size);  // symmetric: rows are columns
+  for_each_in_parallel(static_cast<std::size_t>((size + strip - 1) / strip), [&](std::size_t number) {
+    const Eigen::Index first = strip * static_cast<Eigen::Index>(number), columns = std::min(strip, size - first);
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size, columns);
+    for (Eigen::Index c = 0; c < columns; ++c) unit(first + c, c) = 1;
+    factor.solveInPlace(unit);
+    inverse.middleCols(first, columns) = unit;
+  });
+}
+
+void make_motions(const kernels::Layout& layout, const Inertia& inertia, const FreeMotions& free, LinearSystem& out) {
+  const std::size_t n = layout.particles(), motions = free.motions.size();
+  out.free = static_cast<int>(motions);
+  out.mass.resize(2 * n);
+  out.motion.resize(6 * n * motions);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto particle = static_cast<std::size_t>(layout.particle[i]);
+    out.mass[2 * i] = inertia.mass[particle];
+    out.mass[2 * i + 1] = inertia.inertia[particle];
+    for (std::size_t m = 0; m < motions; ++m) {
+      for (std::size_t c = 0; c < 6; ++c) out.motion[(i * motions + m) * 6 + c] = free.motions[m][6 * particle + c];
+    }
+  }
+}
+
+/// What the free motions of the whole have in common with the boxes', times mass.
+void make_weights(LinearSystem& out) {
+  const auto motions = static_cast<std::size_t>(out.free);
+  out.weight.assign(motions * 6 * out.boxes(), 0);
+  for_each_body(out, [&](std::size_t b, std::size_t i) {
+    for (std::size_t m = 0; m < motions; ++m) {
+      double load[6], sum[6] = {};
+      for (std::size_t c = 0; c < 6; ++c) load[c] = out.mass[2 * i + c / 3] * out.motion[(i * motions + m) * 6 + c];
+      kernels::add_to_box(out.lever[i], kernels::to_twist(load), sum);
+      for (std::size_t c = 0; c < 6; ++c) out.weight[(m * out.boxes() + b) * 6 + c] += sum[c];
+    }
+  });
+}
+
+}  // namespace
+
+LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen, const kernels::Layout& layout,
+                         const PairStiffness& typical, const Inertia& inertia, const FreeMotions& free) {
+  LinearSystem out;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    out.typical.k[pair] = typical.k[pair].real();
+    out.typical.alpha[pair] = typical.alpha[pair];
+  }
+  make_rows(network, layout, out);
+  make_levers(specimen, layout, out);
+  make_motions(layout, inertia, free, out);
+  make_weights(out);
+  Coarse k = coarse_stiffness(out);
+  // Motions of the whole that no wall resists have no stiffness among the boxes either. They are given some: what of
+  // them gets into z is taken out of it anyway.
+  const double usual = k.trace() / static_cast<double>(k.rows());
+  for (int m = 0; m < out.free; ++m) {
+    const Eigen::VectorXd boxes_move = motions_of_boxes(out, m);
+    k += usual / boxes_move.squaredNorm() * boxes_move * boxes_move.transpose();
+  }
+  invert(k, out.coarse);
+  return out;
+}
+
+std::vector<double> invert_particle_blocks(const LinearSystem& system, const kernels::Layout& layout) {
+  std::vector<double> out(36 * system.bodies());
+  std::int64_t loose = std::numeric_limits<std::int64_t>::max();
+#pragma omp parallel for schedule(static) reduction(min : loose)
+  for (std::size_t i = 0; i < system.bodies(); ++i) {
+    double block[36] = {};
+    for (std::size_t at = system.row_begin[i]; at < system.row_begin[i + 1]; ++at) {
+      const auto pair = static_cast<std::size_t>(system.ends[at].pair);
+      kernels::add_block(system.ends[at], system.typical.k[pair], system.typical.alpha[pair], block);
+    }
+    if (!kernels::invert_block(block)) loose = std::min(loose, static_cast<std::int64_t>(i));
+    std::copy(std::begin(block), std::end(block), &out[36 * i]);
+  }
+  if (loose < std::numeric_limits<std::int64_t>::max()) refuse_loose_particle(loose, layout);
+  return out;
+}
+
+void refuse_loose_particle(std::int64_t body, const kernels::Layout& layout) {
+  throw RunError(fmt::format("harmonic: particle {} can move by itself without force",
+                             layout.particle[static_cast<std::size_t>(body)]));
+}
+
+}  // namespace macadam::harmonic

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file box_motion.hpp  The rigid motions of a box of particles, and what a load on a particle does on them.
+#pragma once
+
+#include "kernels/contact_kinematics.hpp"
+
+namespace macadam::kernels {
+
+/// Where a particle lies in its box: from the box's middle, over its half width [m]. The motions are three
+/// displacements y[0…2] and three turns y[3…5] about the middle over the half width, so that all are lengths.
+struct Lever {
+  double x, y, z, width;
+};
+
+/// Motion of the particle under those of its box: u = d + θ × lever / width, rotation θ / width.
+template <class T>
+MACADAM_HD Twist<T> moved_with_box(const Lever& l, const T (&y)[6]) {
+  const double w = 1 / l.width;
+  const Vec3<T> turn{w * y[3], w * y[4], w * y[5]};
+  return {{y[0] + (l.z * turn.y - l.y * turn.z), y[1] + (l.x * turn.z - l.z * turn.x),
+           y[2] + (l.y * turn.x - l.x * turn.y)},
+          turn};
+}
+
+/// Load on the box's motions by that on the particle: the transpose of moved_with_box().
+template <class T>
+MACADAM_HD void add_to_box(const Lever& l, const Twist<T>& v, T (&y)[6]) {
+  const double w = 1 / l.width;
+  y[0] += v.linear.x, y[1] += v.linear.y, y[2] += v.linear.z;
+  y[3] += w * (v.angular.x + (l.y * v.linear.z - l.z * v.linear.y));
+  y[4] += w * (v.angular.y + (l.z * v.linear.x - l.x * v.linear.z));
+  y[5] += w * (v.angular.z + (l.x * v.linear.y - l.y * v.linear.x));
+}
+
+}  // namespace macadam::kernels

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cocg_kernels.hpp  An iteration of conjugate gradients on a device: four kernels, whose last blocks do the
+/// scalars.
+///
+///   turn     p = z + coarse correction − free motions + β·p
+///   apply    q = K·p;  α = rᵀz / pᵀq
+///   advance  x += α·p, r −= α·q, z = K_ii⁻¹·r;  Rᵀr of every box
+///   coarse   (RᵀKR)⁻¹·Rᵀr;  where each load stands, and β
+///
+/// A segment is a run of bodies of one box that one block of threads works on.
+#pragma once
+
+#include "kernels/harmonic/cocg_sums.hpp"
+#include "kernels/harmonic/linear_system.hpp"
+#include "kernels/harmonic/particle_block.hpp"
+
+namespace macadam::kernels {
+
+struct Segment {
+  std::int32_t first, end;  ///< bodies
+  std::int32_t box;
+};
+
+/// What the loads of a block have in common with no vector: on the device.
+template <int F>
+struct CocgScalars {
+  double2 k[pair_types][F], inertia[F];
+  double alpha[pair_types];
+  double scale[F], tolerance[F], energy_limit[F];
+  double2 rho[F], step[F], turn[F];  ///< rᵀz, α and β of the iteration
+  double drop[most_free_motions][2 * F];
+  LinearState state[F];
+  bool done[F];
+  bool inert, running;
+  int iteration, best_at;
+  double best;
+};
+
+/// Sums of a box: rᵀz straight and crossed, rᴴr, free motions in z, Rᵀr.
+inline constexpr int sums_rr = 2, sums_drop = 3, sums_load = 3 + most_free_motions, box_sums = sums_load + 6;
+
+template <int F>
+struct CocgView {
+  static constexpr int lanes = 2 * F;
+  const Segment* segment;
+  const std::int32_t* box_segment;  ///< box → first segment; boxes + 1 entries
+  const std::size_t* row_begin;
+  const ContactEnd* ends;
+  const double *mass, *inverse, *coarse, *motion, *weight;
+  const Lever* lever;
+  double *x, *r, *p, *q, *z;    ///< [6·bodies][lanes]
+  double* products;             ///< [segment][2][lanes]: pᵀq straight and crossed
+  double *segment_sums, *sums;  ///< [segment], [box]: [box_sums][lanes]
+  double* boxes_move;           ///< [6·boxes][lanes]
+  unsigned *ticket, *box_ticket;
+  CocgScalars<F>* scalars;
+  unsigned segments, boxes;
+  int free;
+};
+
+/// Numbers whose lanes hold Σ re·re, Σ im·im (straight) and Σ re·im, Σ im·re (crossed).
+__device__ inline double2 plain_product(const double* straight, const double* crossed, int f) {
+  return {straight[2 * f] - straight[2 * f + 1], crossed[2 * f] + crossed[2 * f + 1]};
+}
+__device__ inline double conjugate_product(const double* straight, int f) {
+  return straight[2 * f] + straight[2 * f + 1];
+}
+
+/// Eight threads a body: one a lane, and where there are fewer lanes several share its contacts.
+template <int F>
+__global__ void __launch_bounds__(cocg_threads) cocg_apply(CocgView<F> d, const double* from, bool first) {
+  constexpr unsigned W = 2 * F, group = 8, slices = group / W;
+  CocgScalars<F>& s = *d.scalars;
+  if (!s.running) return;
+  __shared__ double own_k[pair_types][W], cross_k[pair_types][W], alpha[pair_types];
+  const unsigned lane = threadIdx.x % W, slice = threadIdx.x % group / W;
+  const bool imaginary = lane % 2;
+  if (threadIdx.x < W) {
+    for (int pair = 0; pair < pair_types; ++pair) {
+      const LaneFactor k = lane_factor(s.k[pair][lane / 2], imaginary);
+      own_k[pair][lane] = k.own, cross_k[pair][lane] = k.cross, alpha[pair] = s.alpha[pair];
+    }
+  }
+  const LaneFactor inertia = lane_factor(s.inertia[lane / 2], imaginary);
+  __syncthreads();
+  const Segment segment = d.segment[blockIdx.x];
+  double product[2] = {0, 0};
+  for (int base = segment.first; base < segment.end; base += cocg_threads / group) {
+    const int asked = base + static_cast<int>(threadIdx.x / group);
+    const bool active = asked < segment.end;
+    const std::size_t body = static_cast<std::size_t>(active ? asked : segment.first);
+    const std::size_t begin = d.row_begin[body];
+    const auto count = static_cast<unsigned>(d.row_begin[body + 1] - begin);
+    const unsigned trips = __reduce_max_sync(0xffffffffu, (count + slices - 1) / slices);
+    const auto twist = [&](std::size_t i) {
+      double v[6];
+      for (int c = 0; c < 6; ++c) v[c] = from[(6 * i + c) * W + lane];
+      return to_twist(v);
+    };
+    const Twist<double> own = twist(body);
+    Twist<double> sum;
+    for (unsigned trip = 0; trip < trips; ++trip) {  // alike for a whole warp, whose lanes exchange numbers
+      const unsigned i = trip * slices + slice;
+      const ContactEnd e = d.ends[begin + (i < count ? i : 0)];
+      const LaneFactor k{own_k[e.pair][lane], cross_k[e.pair][lane]};
+      const Twist<double> load =
+          end_load(e, own, e.other >= 0 ? twist(static_cast<std::size_t>(e.other)) : Twist<double>{}, k, alpha[e.pair]);
+      if (i < count) {
+        sum.linear += load.linear;
+        sum.angular += load.angular;
+      }
+    }
+    double held[6], at[6];
+    to_array(sum, held);
+    to_array(own, at);
+    for (int c = 0; c < 6; ++c) {
+      for (unsigned step = W; step < group; step *= 2) held[c] += __shfl_xor_sync(0xffffffffu, held[c], step);
+      double q = -held[c];
+      if (!s.inert) q -= d.mass[2 * body + c / 3] * inertia(at[c]);
+      const double q_partner = partner(q);
+      if (active && slice == 0) {
+        d.q[(6 * body + c) * W + lane] = q;
+        product[0] += at[c] * q;
+        product[1] += at[c] * q_partner;
+      }
+    }
+  }
+  block_sum<2, W>(product, &d.products[blockIdx.x * 2 * W]);
+  if (!comes_last(d.ticket, d.segments)) return;
+  __shared__ double whole[2 * W];
+  sum_rows<2, W>(d.products, d.segments, 2 * W, whole);
+  if (threadIdx.x < F) {
+    const int f = static_cast<int>(threadIdx.x);
+    const double2 pq = plain_product(whole, whole + W, f);
+    const bool still = s.done[f] || (pq.x == 0 && pq.y == 0);
+    s.step[f] = first ? double2{1, 0} : still ? double2{0, 0} : over(s.rho[f], pq);
+  }
+}
+
+/// W threads a body.
+template <int F>
+__global__ void __launch_bounds__(cocg_threads) cocg_advance(CocgView<F> d) {
+  constexpr unsigned W = 2 * F;
+  const CocgScalars<F>& s = *d.scalars;
+  if (!s.running) return;
+  const unsigned lane = threadIdx.x % W;
+  const LaneFactor step = lane_factor(s.step[lane / 2], lane % 2);
+  const Segment segment = d.segment[blockIdx.x];
+  double sums[box_sums] = {};
+  for (int base = segment.first; base < segment.end; base += cocg_threads / W) {
+    const int asked = base + static_cast<int>(threadIdx.x / W);
+    const bool active = asked < segment.end;
+    const std::size_t body = static_cast<std::size_t>(active ? asked : segment.first);
+    double r[6];
+    for (int c = 0; c < 6; ++c) {
+      const std::size_t at = (6 * body + c) * W + lane;
+      const double go = step(d.p[at]), back = step(d.q[at]);
+      r[c] = d.r[at] - back;
+      if (active) {
+        d.x[at] += go;
+        d.r[at] = r[c];
+      }
+    }
+    const double* inverse = &d.inverse[36 * body];
+    for (int a = 0; a < 6; ++a) {
+      double z = 0;
+      for (int b = 0; b < 6; ++b) z += inverse[6 * a + b] * r[b];
+      const double z_partner = partner(z);
+      if (!active) continue;
+      d.z[(6 * body + a) * W + lane] = z;
+      sums[0] += r[a] * z;
+      sums[1] += r[a] * z_partner;
+      sums[sums_rr] += r[a] * r[a];
+      for (int m = 0; m < most_free_motions; ++m) {
+        if (m < d.free) sums[sums_drop + m] += d.mass[2 * body + a / 3] * d.motion[(body * d.free + m) * 6 + a] * z;
+      }
+    }
+    if (active) {
+      double load[6] = {};
+      add_to_box(d.lever[body], to_twist(r), load);
+      for (int c = 0; c < 6; ++c) sums[sums_load + c] += load[c];
+    }
+  }
+  constexpr std::size_t row = box_sums * W;
+  block_sum<box_sums, W>(sums, &d.segment_sums[blockIdx.x * row]);
+  const auto box = static_cast<unsigned>(segment.box);
+  const auto begin = static_cast<unsigned>(d.box_segment[box]), end = static_cast<unsigned>(d.box_segment[box + 1]);
+  if (!comes_last(&d.box_ticket[box], end - begin)) return;
+  for (unsigned i = threadIdx.x; i < row; i += cocg_threads) {
+    double sum = 0;
+    for (unsigned b = begin; b < end; ++b) sum += __ldcg(&d.segment_sums[b * row + i]);
+    d.sums[box * row + i] = sum;
+  }
+}
+
+/// Looks where each load stands, and finds β = rᵀz / rᵀz before. What is done no longer moves.
+template <int F>
+__device__ void judge(CocgScalars<F>& s, const double* sums, const double* coarse_product) {
+  constexpr int W = 2 * F;
+  double worst = 0;
+  for (int f = 0; f < F; ++f) {
+    LinearState& state = s.state[f];
+    const double2 fine = plain_product(sums, sums + W, f),
+                  coarse = plain_product(coarse_product, coarse_product + W, f);
+    if (!s.done[f]) {
+      state.residual = sqrt(conjugate_product(sums + sums_rr * W, f)) / s.scale[f];
+      state.energy = fmax(conjugate_product(sums, f) + conjugate_product(coarse_product, f), 0.0);
+      state.converged = s.done[f] = state.residual <= s.tolerance[f] && state.energy <= s.energy_limit[f];
+      state.iterations += s.iteration > 0;
+      if (!s.done[f]) worst = fmax(worst, isfinite(state.residual) ? state.residual : INFINITY);
+    }
+    const double2 rho = s.done[f] ? double2{0, 0} : double2{fine.x + coarse.x, fine.y + coarse.y};
+    const bool begins = s.iteration == 0 || (s.rho[f].x == 0 && s.rho[f].y == 0);
+    s.turn[f] = s.done[f] || begins ? double2{0, 0} : over(rho, s.rho[f]);
+    s.rho[f] = rho;
+  }
+  if (worst < 0.9 * s.best) s.best = worst, s.best_at = s.iteration;
+  s.running = worst > 0 && isfinite(worst) && s.iteration < most_iterations && s.iteration - s.best_at <= most_stagnant;
+  ++s.iteration;
+}
+
+/// A warp a row of the coarse matrix.
+template <int F>
+__global__ void __launch_bounds__(cocg_threads) cocg_coarse(CocgView<F> d) {
+  constexpr unsigned W = 2 * F;
+  CocgScalars<F>& s = *d.scalars;
+  if (!s.running) return;
+  const unsigned size = 6 * d.boxes, row = blockIdx.x * (cocg_threads / 32) + threadIdx.x / 32, lane = threadIdx.x % 32;
+  const auto load_of = [&](unsigned b) { return &d.sums[(b / 6 * box_sums + sums_load + b % 6) * W]; };
+  if (row < size) {
+    double sum[W] = {};
+    for (unsigned b = lane; b < size; b += 32) {
+      const double k = d.coarse[static_cast<std::size_t>(row) * size + b];
+      const double* load = load_of(b);
+      for (unsigned w = 0; w < W; ++w) sum[w] += k * load[w];
+    }
+    for (unsigned w = 0; w < W; ++w) {
+      for (unsigned step = 16; step > 0; step /= 2) sum[w] += __shfl_xor_sync(0xffffffffu, sum[w], step);
+      if (lane == w) d.boxes_move[row * W + w] = sum[w];
+    }
+  }
+  if (!comes_last(d.ticket, gridDim.x)) return;
+  __shared__ double sums[sums_load * W], of_boxes[(2 + most_free_motions) * W];
+  sum_rows<sums_load, W>(d.sums, d.boxes, box_sums * W, sums);
+  double own[2 + most_free_motions] = {};
+  const unsigned mine = threadIdx.x % W;
+  for (unsigned a = threadIdx.x / W; a < size; a += cocg_threads / W) {
+    const double move = __ldcg(&d.boxes_move[a * W + mine]);
+    own[0] += load_of(a)[mine] * move;
+    own[1] += load_of(a)[mine ^ 1] * move;
+    for (int m = 0; m < most_free_motions; ++m) {
+      if (m < d.free) own[2 + m] += d.weight[static_cast<std::size_t>(m) * size + a] * move;
+    }
+  }
+  block_sum<2 + most_free_motions, W>(own, of_boxes);
+  __syncthreads();
+  for (unsigned i = threadIdx.x; i < d.free * W; i += cocg_threads) {
+    s.drop[i / W][i % W] = sums[sums_drop * W + i] + of_boxes[2 * W + i];
+  }
+  if (threadIdx.x == 0) judge(s, sums, of_boxes);
+}
+
+/// W threads a body.
+template <int F>
+__global__ void __launch_bounds__(cocg_threads) cocg_turn(CocgView<F> d) {
+  constexpr unsigned W = 2 * F;
+  const CocgScalars<F>& s = *d.scalars;
+  if (!s.running) return;
+  const unsigned lane = threadIdx.x % W;
+  const LaneFactor turn = lane_factor(s.turn[lane / 2], lane % 2);
+  const Segment segment = d.segment[blockIdx.x];
+  double y[6], drop[most_free_motions];
+  for (int c = 0; c < 6; ++c) y[c] = d.boxes_move[(6 * segment.box + c) * W + lane];
+  for (int m = 0; m < most_free_motions; ++m) drop[m] = m < d.free ? s.drop[m][lane] : 0;
+  for (int base = segment.first; base < segment.end; base += cocg_threads / W) {
+    const int asked = base + static_cast<int>(threadIdx.x / W);
+    const bool active = asked < segment.end;
+    const std::size_t body = static_cast<std::size_t>(active ? asked : segment.first);
+    double add[6];
+    to_array(moved_with_box(d.lever[body], y), add);
+    for (int c = 0; c < 6; ++c) {
+      const std::size_t at = (6 * body + c) * W + lane;
+      double z = d.z[at] + add[c];
+      for (int m = 0; m < most_free_motions; ++m) {
+        if (m < d.free) z -= d.motion[(body * d.free + m) * 6 + c] * drop[m];
+      }
+      const double p = z + turn(d.p[at]);
+      if (active) d.p[at] = p;
+    }
+  }
+}
+
+/// K_ii⁻¹ of every body; the first whose own stiffness is singular goes to `loose`.
+inline __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
+                                     RealStiffness typical, double* inverse, unsigned long long* loose) {
+  const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
+  if (i >= bodies) return;
+  double block[36] = {};
+  for (std::size_t at = row_begin[i]; at < row_begin[i + 1]; ++at) {
+    const auto pair = static_cast<std::size_t>(ends[at].pair);
+    add_block(ends[at], typical.k[pair], typical.alpha[pair], block);
+  }
+  if (!invert_block(block)) atomicMin(loose, static_cast<unsigned long long>(i));
+  for (int c = 0; c < 36; ++c) inverse[36 * i + c] = block[c];
+}
+
+/// One load's numbers between an array of its own and the lanes of all.
+template <int F>
+__global__ void to_lanes(const double2* one, double* all, std::size_t size, int f) {
+  const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
+  if (i < size) all[i * 2 * F + 2 * f] = one[i].x, all[i * 2 * F + 2 * f + 1] = one[i].y;
+}
+template <int F>
+__global__ void from_lanes(const double* all, double2* one, std::size_t size, int f) {
+  const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
+  if (i < size) one[i] = {all[i * 2 * F + 2 * f], all[i * 2 * F + 2 * f + 1]};
+}
+
+}  // namespace macadam::kernels

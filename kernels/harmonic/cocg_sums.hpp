@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cocg_sums.hpp  Sums over a block of threads and over the blocks of a launch, in an order that never changes.
+///
+/// Every vector holds the real and imaginary part of F loads side by side: W = 2F lanes. A thread works on one lane,
+/// its number modulo W; the partner of a real part is its imaginary part.
+#pragma once
+
+#include <cuda_runtime.h>
+
+namespace macadam::kernels {
+
+inline constexpr unsigned cocg_threads = 256;
+
+__device__ inline double partner(double v) { return __shfl_xor_sync(0xffffffffu, v, 1); }
+
+/// A complex factor as one lane needs it: factor·x = own·x + cross·partner(x).
+struct LaneFactor {
+  double own, cross;
+  __device__ double operator()(double x) const { return own * x + cross * partner(x); }
+};
+__device__ inline LaneFactor lane_factor(double2 z, bool imaginary) { return {z.x, imaginary ? z.y : -z.y}; }
+
+__device__ inline double2 times(double2 a, double2 b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
+__device__ inline double2 over(double2 a, double2 b) {
+  const double square = b.x * b.x + b.y * b.y;
+  return {(a.x * b.x + a.y * b.y) / square, (a.y * b.x - a.x * b.y) / square};
+}
+
+/// Adds up v over the threads of a block that share a lane, to out[N][W] (global or shared memory).
+template <int N, int W>
+__device__ void block_sum(const double (&v)[N], double* out) {
+  __shared__ double warps[cocg_threads / 32][N * W];
+  const unsigned lane = threadIdx.x % 32, warp = threadIdx.x / 32;
+  for (int n = 0; n < N; ++n) {
+    double sum = v[n];
+    for (unsigned step = W; step < 32; step *= 2) sum += __shfl_xor_sync(0xffffffffu, sum, step);
+    if (lane < W) warps[warp][n * W + lane] = sum;
+  }
+  __syncthreads();
+  for (unsigned i = threadIdx.x; i < N * W; i += cocg_threads) {
+    double sum = 0;
+    for (unsigned w = 0; w < cocg_threads / 32; ++w) sum += warps[w][i];
+    out[i] = sum;
+  }
+  __syncthreads();
+}
+
+/// Whether this block is the last of `blocks` to come here: it then sees what the others wrote.
+__device__ inline bool comes_last(unsigned* counter, unsigned blocks) {
+  __shared__ bool last;
+  __threadfence();
+  __syncthreads();
+  if (threadIdx.x == 0) {
+    last = atomicAdd(counter, 1u) == blocks - 1;
+    if (last) *counter = 0;
+  }
+  __syncthreads();
+  if (last) __threadfence();
+  return last;
+}
+
+/// Σ over `rows` rows of N·W numbers each, by the whole block, to out[N][W] in shared memory.
+template <int N, int W>
+__device__ void sum_rows(const double* rows_of, unsigned rows, unsigned stride, double* out) {
+  double own[N] = {};
+  for (unsigned r = threadIdx.x / W; r < rows; r += cocg_threads / W) {
+    for (int n = 0; n < N; ++n)
+      own[n] += __ldcg(&rows_of[static_cast<std::size_t>(r) * stride + n * W + threadIdx.x % W]);
+  }
+  block_sum<N, W>(own, out);
+}
+
+}  // namespace macadam::kernels

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_end.hpp  A contact as one of its ends sees it, and the load that it puts on that end.
+///
+/// Each contact is computed by both ends, which costs less than to sort out who adds where, and gives the same bits for
+/// any number of threads.
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/contact_kinematics.hpp"
+
+namespace macadam::kernels {
+
+/// The normal points away from this end. Two cache lines.
+struct alignas(64) ContactEnd {
+  double n[3], s[3];  ///< t = n × s
+  double arm, arm_other;
+  double moments[6];   ///< over the distance [m] [m²] [m³]
+  std::int32_t other;  ///< body of the other end; `wall_at_rest` for walls
+  std::int32_t pair;
+};
+inline constexpr std::int32_t wall_at_rest = -1;
+
+/// Force and moment on this end while the two ends move by `own` and `other`. T carries any number of real numbers that
+/// go the same way; `times(u)` multiplies them by k*(s) of the pair.
+template <class T, class Times>
+MACADAM_HD Twist<T> end_load(const ContactEnd& e, const Twist<T>& own, const Twist<T>& other, Times&& times, T alpha) {
+  const Vec3<double> n{e.n[0], e.n[1], e.n[2]}, s{e.s[0], e.s[1], e.s[2]}, t = cross(n, s);
+  const Placement<T> frame{
+      {T(n.x), T(n.y), T(n.z)}, {T(s.x), T(s.y), T(s.z)}, {T(t.x), T(t.y), T(t.z)}, T(e.arm), T(e.arm_other)};
+  T u[6], m[6];
+  relative_rates(frame, own, other, u);
+  for (int c = 0; c < 6; ++c) {
+    u[c] = times(u[c]);
+    m[c] = T(e.moments[c]);
+  }
+  const ContactLoad<T> load = to_centres(frame, condensed_load(u, alpha, m));
+  return {load.force_a, load.moment_a};
+}
+
+}  // namespace macadam::kernels
