@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "host/counted.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -388,6 +389,13 @@ TEST(ContactNetwork, NothingLeftIsAnError) {
 TEST(ContactNetwork, TessellationOfAnotherSpecimenIsRefused) {
   const Specimen s = cubic(2, 0.01);
   EXPECT_THROW(build_network(s, tessellate(cubic(3, 0.01))), InputError);
+}
+
+// Networks of billions of contacts do not fit this machine; what guards their numbers does.
+TEST(ContactNetwork, CountsBeyond32BitsAreRefused) {
+  EXPECT_EQ(counted<std::uint32_t>(4294967295u, "contact points"), 4294967295u);
+  EXPECT_THROW(counted<std::uint32_t>(std::size_t{4294967296u}, "contact points"), RunError);
+  EXPECT_THROW(counted<int>(std::size_t{2147483648u}, "entries of the stiffness"), RunError);
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ Stiffness modulus(Complex e) { return {std::abs(e), std::arg(e) * 180 / std::num
 /// A task with what was found of it so far.
 struct Work {
   LinearTask task;
+  ModulusParts parts;  ///< of the motion, as sums over contacts
   double residual = 0, energy_error = 0;
   LinearMethod method = LinearMethod::iterative;
   bool good = false;
@@ -161,7 +162,8 @@ class Harmonic::Implementation {
     double magnitude = 0;
     contacts_.resistance(task.stiffness, task.inertia, inertia_, task.motion, rest, &magnitude);
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = task.right[i] - rest[i];
-    const double whole = std::abs(contacts_.energy_parts(task.stiffness, task.motion, 1.0).modulus());
+    w.parts = contacts_.energy_parts(task.stiffness, task.motion, 1.0);
+    const double whole = std::abs(w.parts.modulus());
     const double scale = length(task.right);
     w.residual = length(rest) / scale;
     w.energy_error = std::sqrt(task.energy / whole);
@@ -189,7 +191,7 @@ class Harmonic::Implementation {
     const LinearTask& task = w.task;
     const Vector& x = task.motion;
     HarmonicResult out;
-    out.parts = contacts_.energy_parts(task.stiffness, x, 1.0);
+    out.parts = w.parts;
     if (task.inertia != 0.0) {
       for (std::size_t i = 0; i < x.size(); ++i) {
         out.parts.inertia -= task.inertia * inertia_at(inertia_, i) * x[i] * x[i];

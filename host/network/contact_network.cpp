@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "host/counted.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -199,6 +200,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
       difference += std::abs(lumped.ss + lumped.tt - exact.ss - exact.tt);
       total += exact.ss + exact.tt;
     }
+    counted<std::uint32_t>(out.point_s.size(), "contact points");
     ++out.count[static_cast<std::size_t>(c.pair)];
     out.contacts.push_back(c);
   }
@@ -209,6 +211,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
                                  tessellation.facets.size(), out.dropped_gap, out.dropped_area),
                      "at least one");
   if (total > 0) out.second_moment_difference = difference / total;
+  counted<std::uint32_t>(2 * out.contacts.size(), "ends of contacts");
   build_rows(specimen.size(), out);
   return out;
 }

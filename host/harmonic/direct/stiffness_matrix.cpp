@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host/counted.hpp"
 #include "host/network/contact_stiffness.hpp"
 
 namespace macadam::harmonic {
@@ -25,7 +26,7 @@ Eigen::SparseMatrix<double> assemble_lower(const ContactNetwork& network, const 
   Eigen::SparseMatrix<double> out(static_cast<Eigen::Index>(6 * n), static_cast<Eigen::Index>(6 * n));
   std::size_t entries = 0;
   for (auto& column : columns) entries += 21 + 36 * column.size();
-  out.reserve(static_cast<Eigen::Index>(entries));
+  out.reserve(counted<Eigen::SparseMatrix<double>::StorageIndex>(entries, "entries of the stiffness"));
   auto parameters = [&](const Contact& c) {
     const auto pair = static_cast<std::size_t>(c.pair);
     return std::pair{stiffness.k[pair].real(), stiffness.alpha[pair]};

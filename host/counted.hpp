@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file counted.hpp  Counts that are kept in 32 bits.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+/// The count in T. \throws RunError where it does not fit, naming what was counted.
+template <class T>
+T counted(std::size_t found, const char* what) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<T>::max());
+  if (found > most) {
+    throw RunError("found " + std::to_string(found) + " " + what + ", expected at most " + std::to_string(most) +
+                   ": they are numbered in " + std::to_string(8 * sizeof(T)) + " bits");
+  }
+  return static_cast<T>(found);
+}
+
+}  // namespace macadam
