@@ -16,22 +16,26 @@ constexpr std::int32_t part = 1 << 28;
 constexpr int most_levels = 40;           // of sizes, each twice the one before
 constexpr std::size_t block = 64;         // rows listed at once
 constexpr std::size_t ranked_up_to = 64;  // keys that are sorted faster by counting those before each
-constexpr std::size_t few = 64;           // one in so many may stray before all are listed again
+constexpr std::size_t few = 24;           // one in so many may stray before all are listed again
 constexpr std::uint32_t spare = 2;        // room in a row for those that come near later
 
-/// Bins of the spheres from `first` to `last`, whose radii differ by a factor of two at most in each.
-std::vector<SphereBins> by_size(const Box& box, std::span<const Ball> spheres, std::size_t first, std::size_t last,
-                                double skin) {
-  std::vector<SphereBins> bins;
-  if (first == last) return bins;
-  double smallest = spheres[first].radius;
-  for (const Ball& b : spheres.subspan(first, last - first)) smallest = std::min(smallest, b.radius);
+double largest(std::span<const Ball> spheres) {
+  double r = 0;
+  for (const Ball& b : spheres) r = std::max(r, b.radius);
+  return r;
+}
+
+/// Bins of the spheres from `first` on, whose radii differ by a factor of two at most in each.
+std::vector<SphereBins> by_size(const Box& box, std::span<const Ball> spheres, std::size_t first, double skin) {
+  double smallest = largest(spheres);
+  for (const Ball& b : spheres.subspan(first)) smallest = std::min(smallest, b.radius);
   std::map<int, std::vector<std::int32_t>> level;
-  for (std::size_t i = first; i < last; ++i) {
+  for (std::size_t i = first; i < spheres.size(); ++i) {
     int k = 0;
     for (double r = spheres[i].radius; k < most_levels && r >= 2 * smallest; r /= 2) ++k;
     level[k].push_back(static_cast<std::int32_t>(i));
   }
+  std::vector<SphereBins> bins;
   for (auto& [k, ids] : level) bins.emplace_back(box, spheres, std::move(ids), skin);
   return bins;
 }
@@ -44,8 +48,8 @@ Neighbours::Neighbours(const Box& box, std::span<const Ball> spheres, double ski
       skin_(skin),
       far2_(skin * skin / 4),
       first_(first),
-      still_(by_size(box, spheres, 0, first, skin)),
-      moving_(by_size(box, spheres, first, spheres.size(), skin)),
+      still_(box, first > 0 && first < spheres.size() ? 2 * largest(spheres.subspan(first)) : norm(box.size)),
+      moving_(by_size(box, spheres, first, skin)),
       number_(std::move(number)),
       place_(spheres.size()),
       bins_of_(spheres.size() - first),
@@ -57,6 +61,9 @@ Neighbours::Neighbours(const Box& box, std::span<const Ball> spheres, double ski
     std::iota(number_.begin(), number_.end(), 0);
   }
   for (std::size_t i = 0; i < spheres.size(); ++i) place_[number_[i]] = static_cast<std::int32_t>(i);
+  const double reach = largest(spheres.subspan(first)) + skin;
+  for (std::size_t i = 0; i < first; ++i)
+    still_.insert(static_cast<std::int32_t>(i), spheres[i].centre, spheres[i].radius + reach);
   for (std::size_t b = 0; b < moving_.size(); ++b)
     for (std::int32_t i : moving_[b].ids()) bins_of_[i - first_] = static_cast<std::uint8_t>(b);
   rebuild();
@@ -85,6 +92,16 @@ void Neighbours::write_sorted(std::vector<std::int32_t>& key, std::int32_t* out)
   }
 }
 
+/// Keys of the neighbours among those that stand still.
+void Neighbours::find_still(std::int32_t i, Buffer& buffer) const {
+  const auto [centre, radius] = spheres_[i];
+  for (const std::int32_t j : still_.near(still_.cell_of(centre))) {
+    const Vec3d d = spheres_[j].centre - centre;
+    const double range = radius + spheres_[j].radius + skin_;
+    if (dot(d, d) < range * range) buffer.key.push_back(key(i, j));
+  }
+}
+
 /// Keys of the neighbours among the spheres of `bins`.
 void Neighbours::find(std::int32_t i, const SphereBins& bins, Buffer& buffer) const {
   const auto [centre, radius] = spheres_[i];
@@ -110,7 +127,7 @@ void Neighbours::find(std::int32_t i, const SphereBins& bins, Buffer& buffer) co
 
 void Neighbours::find_all(std::int32_t i, Buffer& buffer) const {
   buffer.key.clear();
-  for (const SphereBins& bins : still_) find(i, bins, buffer);
+  if (first_ > 0) find_still(i, buffer);
   for (const SphereBins& bins : moving_) find(i, bins, buffer);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/spheres/sphere_bins.hpp"
+#include "host/spheres/sphere_grid.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {
@@ -52,6 +53,7 @@ class Neighbours {
   };
   std::int32_t key(std::int32_t sphere, std::int32_t neighbour) const;
   void find_all(std::int32_t sphere, Buffer& buffer) const;
+  void find_still(std::int32_t sphere, Buffer& buffer) const;
   void find(std::int32_t sphere, const SphereBins& bins, Buffer& buffer) const;
   void list_block(std::size_t number);
   void set(std::int32_t sphere, Buffer& buffer);
@@ -62,7 +64,8 @@ class Neighbours {
   std::span<const Ball> spheres_;
   double skin_, far2_;  ///< [m], [m²]
   std::size_t first_;
-  std::vector<SphereBins> still_, moving_;    ///< each of spheres of about one size, where they were listed
+  SphereGrid still_;                ///< tells whom of those that stand still a moving sphere in a cell can be near
+  std::vector<SphereBins> moving_;  ///< each of spheres of about one size, where they were listed
   std::vector<std::int32_t> number_, place_;  ///< by place, by number
   std::vector<std::uint8_t> bins_of_;         ///< number in moving_ of each sphere with a list
   std::vector<Vec3d> listed_at_;
