@@ -25,6 +25,7 @@ ShapeInsertion::ShapeInsertion(const Box& box, const std::vector<ShapeBody>& bod
     : box_(box),
       radius_to_come_(bodies.size()),
       inner_to_come_(bodies.size()),
+      near_(box, 2 * smallest_radius(bodies)),
       grid_(box, smallest_radius(bodies) / 2),
       attempts_(attempts),
       random_(random) {
@@ -58,7 +59,7 @@ bool ShapeInsertion::place(std::size_t k, ShapeBody& body) {
   }
   if (!placed) return false;
   if (k + 1 < radius_to_come_.size())
-    grid_.insert(static_cast<std::int32_t>(placed_.size()), body.centre, body.radius() + radius_to_come_[k + 1]);
+    near_.insert(static_cast<std::int32_t>(placed_.size()), body.centre, body.radius() + radius_to_come_[k + 1]);
   placed_.push_back(body);
   return true;
 }
@@ -84,7 +85,7 @@ bool ShapeInsertion::inside(const ShapeBody& body, const Extent& e) const {
 
 /// Most tries fail, and most of these by their centre alone.
 bool ShapeInsertion::clear_at_centre(const ShapeBody& body) const {
-  const std::vector<std::int32_t>& near = grid_.near(grid_.cell_of(body.centre));
+  const std::vector<std::int32_t>& near = near_.near(near_.cell_of(body.centre));
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) {
     const Vec3d d = placed_[j].centre - body.centre;
     const double far = placed_[j].radius() + body.inner_radius();
@@ -94,7 +95,7 @@ bool ShapeInsertion::clear_at_centre(const ShapeBody& body) const {
 
 bool ShapeInsertion::clear(const ShapeBody& body) const {
   if (!clear_at_centre(body)) return false;
-  const std::vector<std::int32_t>& near = grid_.near(grid_.cell_of(body.centre));
+  const std::vector<std::int32_t>& near = near_.near(near_.cell_of(body.centre));
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) { return overlap(placed_[j], body); });
 }
 

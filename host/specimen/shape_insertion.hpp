@@ -36,7 +36,8 @@ class ShapeInsertion {
 
   const Box& box_;
   std::vector<double> radius_to_come_, inner_to_come_;  ///< largest of this body and those after it [m]
-  SphereGrid grid_;
+  SphereGrid near_;                                     ///< lists the bodies that one to come may touch
+  SphereGrid grid_;                                     ///< cells that may be open; no lists
   std::int64_t attempts_;
   DrawsAhead random_;
   std::vector<ShapeBody> placed_;
