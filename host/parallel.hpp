@@ -8,12 +8,12 @@
 
 namespace macadam {
 
-/// f(k) for k < n on all threads, in any order. An exception may not leave OpenMP's threads: all work is done, then the
-/// first of those thrown, by k, is thrown again.
+/// f(k) for k < n on all threads (or on this one where `threads` is false), in any order. An exception may not leave
+/// OpenMP's threads: all work is done, then the first of those thrown, by k, is thrown again.
 template <class F>
-void for_each_in_parallel(std::size_t n, F&& f) {
+void for_each_in_parallel(std::size_t n, F&& f, bool threads = true) {
   std::vector<std::exception_ptr> thrown(n);
-#pragma omp parallel for schedule(dynamic, 1)
+#pragma omp parallel for schedule(dynamic, 1) if (threads)
   for (std::size_t k = 0; k < n; ++k) {
     try {
       f(k);

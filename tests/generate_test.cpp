@@ -86,8 +86,10 @@ TEST(Generate, SameBitsForAnyNumberOfThreads) {
     omp_set_num_threads(1);
     const Specimen one = generate_specimen(spec).specimen;
     ASSERT_GT(one.size(), 1000u);  // fewer are left to one thread
-    omp_set_num_threads(2);
-    EXPECT_TRUE(same_bits(one, generate_specimen(spec).specimen)) << "fix_aggregates " << fix;
+    for (int t : {2, 3, 16}) {
+      omp_set_num_threads(t);
+      EXPECT_TRUE(same_bits(one, generate_specimen(spec).specimen)) << t << " threads, fix_aggregates " << fix;
+    }
   }
   omp_set_num_threads(threads);
 }

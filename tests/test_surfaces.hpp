@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/spheres/random_stream.hpp"
 #include "host/shapes/icosahedron.hpp"
 #include "host/specimen/rotation.hpp"
 #include "macadam/shape.hpp"

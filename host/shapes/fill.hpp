@@ -25,7 +25,9 @@ class ShapeFiller {
   const ShapeMeasure& measure() const { return measure_; }
 
   /// Whether a point, in the surface's own frame and scale, lies within.
-  bool contains(const Vec3d& point) const { return distance_.below(point, 0).depth > 0; }
+  bool contains(const Vec3d& point) const {
+    return distance_.may_contain(point) && distance_.below(point, 0).depth > 0;
+  }
 
   /// fill_shape() of a copy `scale` times as large about the origin of the surface's frame. `spec` is of the copy.
   /// \throws InputError for an impossible spec or scale; RunError where spheres remain without a Laguerre cell.

@@ -100,7 +100,8 @@ double largest_overlap(const MultiSphere& cluster) {
   const auto [low, high] = bounds_of(cluster.centre);
   const double r = *std::min_element(cluster.radius.begin(), cluster.radius.end());
   const Specimen boxed = in_box(cluster, low - Vec3d{r, r, r}, high + Vec3d{r, r, r});
-  const Neighbours neighbours(boxed, 2 * r, 0);
+  const std::vector<Ball> balls = balls_of(boxed);
+  const Neighbours neighbours(boxed.box, balls, 0);
   double largest = 0;
   for (std::size_t i = 0; i < boxed.size(); ++i)
     for (std::int32_t j : neighbours.of(i))

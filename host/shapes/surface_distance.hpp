@@ -24,6 +24,11 @@ class SurfaceDistance {
   /// `reach` [m] a lower bound may come in its place, which exceeds `reach` as well, and no direction.
   WallDepth below(const Vec3d& point, double reach) const;
 
+  /// Whether a point is in the box around the surface: at once, where a depth outside it takes all facets.
+  bool may_contain(const Vec3d& p) const {
+    return p.x >= low_.x && p.x <= high_.x && p.y >= low_.y && p.y <= high_.y && p.z >= low_.z && p.z <= high_.z;
+  }
+
   /// Depth [m], negative outside.
   double depth(const Vec3d& point) const;
 

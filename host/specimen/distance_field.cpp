@@ -8,6 +8,11 @@
 #include "host/shapes/surface_numbers.hpp"
 
 namespace macadam {
+namespace {
+
+double mix(double a, double b, double t) { return a + t * (b - a); }
+
+}  // namespace
 
 DistanceField::DistanceField(const Surface& surface, const ShapeSolid& solid, int cells) {
   const auto [low, high] = bounds_of(surface.points);
@@ -52,7 +57,6 @@ DistanceField::Value DistanceField::value(const Vec3d& point) const {
   const Cell c = cell_of(point);
   const float* f = distance_.data() + c.node;
   const std::int64_t down = nx_, deep = nx_ * ny_;
-  const auto mix = [](double a, double b, double t) { return a + t * (b - a); };
   // Along x on the four edges, then along y on the two faces, then along z.
   const double e00 = mix(f[0], f[1], c.share.x), e10 = mix(f[down], f[down + 1], c.share.x);
   const double e01 = mix(f[deep], f[deep + 1], c.share.x), e11 = mix(f[deep + down], f[deep + down + 1], c.share.x);
@@ -68,9 +72,20 @@ DistanceField::Value DistanceField::value(const Vec3d& point) const {
   return {d, steep > 0 ? (1 / steep) * slope : Vec3d{}};
 }
 
+double DistanceField::at(const Vec3d& point) const {
+  const Cell c = cell_of(point);
+  const float* f = distance_.data() + c.node;
+  const std::int64_t down = nx_, deep = nx_ * ny_;
+  const double e00 = mix(f[0], f[1], c.share.x), e10 = mix(f[down], f[down + 1], c.share.x);
+  const double e01 = mix(f[deep], f[deep + 1], c.share.x), e11 = mix(f[deep + down], f[deep + down + 1], c.share.x);
+  const double d = mix(mix(e00, e10, c.share.y), mix(e01, e11, c.share.y), c.share.z);
+  const double beyond2 = dot(c.beyond, c.beyond);
+  return beyond2 > 0 ? std::sqrt(d * d + beyond2) : d;
+}
+
 double DistanceField::at_most(const Vec3d& point) const {
   const Vec3d beyond = cell_of(point).beyond;
-  return value(point - beyond).distance + norm(beyond) + error_;
+  return at(point - beyond) + norm(beyond) + error_;
 }
 
 }  // namespace macadam

@@ -24,13 +24,14 @@ class DistanceField {
   DistanceField(const Surface& surface, const ShapeSolid& solid, int cells);
 
   /// Interpolated signed distance; beyond the grid it is no more than the true one.
-  double at(const Vec3d& point) const { return value(point).distance; }
+  double at(const Vec3d& point) const;
 
   /// The same with its direction.
   Value value(const Vec3d& point) const;
 
   /// Bounds of the true signed distance.
   double at_least(const Vec3d& point) const { return at(point) - error_; }
+  double error() const { return error_; }  ///< what at_least() is below at()
   double at_most(const Vec3d& point) const;
 
  private:

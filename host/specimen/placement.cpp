@@ -15,10 +15,16 @@ namespace {
 
 /// Plain tries before the open cells are listed; a listing costs about as much as this many tries.
 constexpr std::int64_t plain_attempts = 20'000;
+constexpr std::int64_t tries_at_once = 128;  // of one thread
 
 double squared_distance(const Vec3d& a, const Vec3d& b) {
   const Vec3d d = a - b;
   return dot(d, d);
+}
+
+Vec3d random_point(Draws& draws, const Vec3d& low, const Vec3d& high) {
+  const double x = draws.uniform(low.x, high.x), y = draws.uniform(low.y, high.y);
+  return {x, y, draws.uniform(low.z, high.z)};
 }
 
 /// One aggregate that waits for its place.
@@ -86,14 +92,26 @@ void Placement::add_aggregate(const Vec3d& centre, double radius, std::int32_t b
 }
 
 void Placement::place_mastic(const Population& mastic) {
-  for (double radius : mastic.radius) add(point_outside_aggregates(), radius, Phase::mastic, -1);
+  if (mastic.radius.empty()) return;
+  std::size_t placed = 0;
+  const auto place = [&](Draws draws) {
+    add(random_point(draws, {0, 0, 0}, specimen_.box.size), mastic.radius[placed], Phase::mastic, -1);
+    return ++placed < mastic.radius.size();
+  };
+  const auto free = [&](Draws draws) { return outside(random_point(draws, {0, 0, 0}, specimen_.box.size)); };
+  if (!random_.each_good(attempts_, 3, tries_at_once, free, place)) no_room_for_mastic();
 }
 
 Vec3d Placement::point_outside_aggregates() {
-  for (std::int64_t k = 0; k < attempts_; ++k) {
-    const Vec3d point = random_point({0, 0, 0}, specimen_.box.size);
-    if (clear_of_placed(point, 0) && !(taken_ && taken_(point))) return point;
-  }
+  const auto free = [&](Draws draws) { return outside(random_point(draws, {0, 0, 0}, specimen_.box.size)); };
+  auto found = random_.first_good(attempts_, 3, tries_at_once, free);
+  if (!found) no_room_for_mastic();
+  return random_point(*found, {0, 0, 0}, specimen_.box.size);
+}
+
+bool Placement::outside(const Vec3d& point) const { return clear_of_placed(point, 0) && !(taken_ && taken_(point)); }
+
+void Placement::no_room_for_mastic() const {
   throw RunError(origin_.text() + "no room for mastic outside the aggregates in " + std::to_string(attempts_) +
                  " attempts; ask for less aggregate");
 }
@@ -101,27 +119,25 @@ Vec3d Placement::point_outside_aggregates() {
 std::optional<Vec3d> Placement::position_for(double radius) {
   const Vec3d low{radius, radius, radius}, high = specimen_.box.size - low;
   const std::int64_t plain = std::min(attempts_, plain_attempts);
-  for (std::int64_t k = 0; k < plain; ++k) {
-    const Vec3d point = random_point(low, high);
-    if (clear_of_placed(point, radius)) return point;
-  }
+  const auto anywhere = [&](Draws draws) { return clear_of_placed(random_point(draws, low, high), radius); };
+  if (auto found = random_.first_good(plain, 3, tries_at_once, anywhere)) return random_point(*found, low, high);
+  if (plain == attempts_) return std::nullopt;
   // Points drawn evenly over the cells that are not wholly taken are distributed as plain tries are, only more of them
   // succeed.
   const std::vector<std::size_t> open = open_cells(radius);
   if (open.empty()) return std::nullopt;
-  for (std::int64_t k = plain; k < attempts_; ++k) {
-    const Vec3d corner = grid_.corner(open[random_.index(open.size())]);
-    const Vec3d point = random_point(corner, corner + grid_.edge());
+  const auto in_the_open = [&](Draws& draws) {
+    const Vec3d corner = grid_.corner(open[draws.index(open.size())]);
+    return random_point(draws, corner, corner + grid_.edge());
+  };
+  const auto free = [&](Draws draws) {
+    const Vec3d point = in_the_open(draws);
     const bool inside = point.x >= low.x && point.x <= high.x && point.y >= low.y && point.y <= high.y &&
                         point.z >= low.z && point.z <= high.z;
-    if (inside && clear_of_placed(point, radius)) return point;
-  }
+    return inside && clear_of_placed(point, radius);
+  };
+  if (auto found = random_.first_good(attempts_ - plain, 4, tries_at_once, free)) return in_the_open(*found);
   return std::nullopt;
-}
-
-Vec3d Placement::random_point(const Vec3d& low, const Vec3d& high) {
-  const double x = random_.uniform(low.x, high.x), y = random_.uniform(low.y, high.y);
-  return {x, y, random_.uniform(low.z, high.z)};
 }
 
 bool Placement::clear_of_placed(const Vec3d& point, double distance) const {

@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "host/specimen/composition.hpp"
-#include "host/spheres/random_stream.hpp"
+#include "host/spheres/draws_ahead.hpp"
 #include "host/spheres/sphere_grid.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {
 
-/// Places spheres one by one, uniformly over the room that is left to each.
+/// Places spheres one by one, uniformly over the room that is left to each. Tries run on all threads; the places are
+/// those that one thread alone would have found.
 class Placement {
  public:
   /// `specimen` receives the spheres and must outlive this; `smallest` is the smallest aggregate radius [m]; `taken`
-  /// tells of points where nothing else may be; `origin`
-  /// is the recipe's.
+  /// tells of points where nothing else may be, on several threads at a time; `origin` is the recipe's.
   Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random, const Origin& origin,
             std::function<bool(const Vec3d&)> taken = {});
 
@@ -39,7 +39,8 @@ class Placement {
 
  private:
   std::optional<Vec3d> position_for(double radius);
-  Vec3d random_point(const Vec3d& low, const Vec3d& high);
+  bool outside(const Vec3d& point) const;
+  [[noreturn]] void no_room_for_mastic() const;
   bool clear_of_placed(const Vec3d& point, double distance) const;
   std::vector<std::size_t> open_cells(double radius) const;
   void add(const Vec3d& centre, double radius, Phase phase, std::int32_t body);
@@ -47,7 +48,7 @@ class Placement {
   Specimen& specimen_;
   SphereGrid grid_;
   std::int64_t attempts_;
-  RandomStream random_;
+  DrawsAhead random_;
   Origin origin_;
   std::function<bool(const Vec3d&)> taken_;
 };

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/spheres/random_stream.hpp"
 #include "macadam/numeric.hpp"
 
 namespace macadam {
@@ -30,7 +29,8 @@ struct Rotation {
 };
 
 /// A rotation drawn evenly over all rotations (Shoemake 1992).
-inline Quaternion random_turn(RandomStream& random) {
+template <class Random>
+Quaternion random_turn(Random& random) {
   const double u = random.uniform(), a = 2 * std::numbers::pi * random.uniform(),
                b = 2 * std::numbers::pi * random.uniform();
   const double low = std::sqrt(1 - u), high = std::sqrt(u);

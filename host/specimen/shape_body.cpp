@@ -85,6 +85,18 @@ bool sphere_touches(const ShapeBody& sphere, const ShapeBody& body) {
   return body.geometry->solid.contains(own) || body.scale * body.geometry->solid.distance(own) <= r;
 }
 
+/// Whether the field of `b` shows a sample of `a` inside. What it does not show may still be.
+bool sample_inside(const ShapeBody& a, const ShapeBody& b) {
+  const Transfer transfer(a, b);
+  const DistanceField& field = b.geometry->field;
+  const double ratio = a.scale / b.scale, sure = -field.error();
+  bool inside = false;
+  a.geometry->samples.visit(
+      [&](const Vec3d& centre, double radius) { return !inside && field.at(transfer(centre)) - ratio * radius < sure; },
+      [&](const Vec3d& point) { inside = inside || field.at(transfer(point)) < sure; });
+  return inside;
+}
+
 /// Whether the surface of `a` cuts that of `b`, or some point of it is inside `b`.
 bool surface_enters(const ShapeBody& a, const ShapeBody& b) {
   const Transfer transfer(a, b);
@@ -92,17 +104,16 @@ bool surface_enters(const ShapeBody& a, const ShapeBody& b) {
   const double ratio = a.scale / b.scale;
   const std::vector<Vec3d>& points = ga.shape.surface.points;
   std::vector<Vec3d> moved(points.size());
-  std::vector<double> distance(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    moved[i] = transfer(points[i]);
-    distance[i] = gb.field.at_least(moved[i]);
-  }
+  for (std::size_t i = 0; i < points.size(); ++i) moved[i] = transfer(points[i]);
   for (std::size_t f = 0; f < ga.facet_reach.size(); ++f) {
     const auto& v = ga.shape.surface.facets[f];
-    if (distance[v[0]] > ratio * ga.facet_reach[f]) continue;
-    if (gb.solid.touches(moved[v[0]], moved[v[1]], moved[v[2]])) return true;
+    const Vec3d& p = moved[v[0]];
+    const double reach = ratio * ga.facet_reach[f], ball = (gb.radius + reach) * (1 + 1e-9);
+    if (dot(p, p) > ball * ball || gb.field.at_least(p) > reach) continue;
+    if (gb.solid.touches(p, moved[v[1]], moved[v[2]])) return true;
   }
-  return distance.front() <= 0 && gb.solid.contains(moved.front());  // without a cut all points are on one side
+  // Without a cut all points are on one side.
+  return gb.field.at_least(moved.front()) <= 0 && gb.solid.contains(moved.front());
 }
 
 /// Whether `a` holds `b`, whose surface does not cut its own.
@@ -144,7 +155,7 @@ bool overlap(const ShapeBody& a, const ShapeBody& b) {
   if (b.sphere) return sphere_touches(b, a);
   // A body's own inner ball is in it: where the other's field is too low for that ball there is an overlap.
   if (b.distance_at_most(a.centre) < a.inner_radius() || a.distance_at_most(b.centre) < b.inner_radius()) return true;
-  return surface_enters(a, b) || holds(a, b);
+  return sample_inside(a, b) || sample_inside(b, a) || surface_enters(a, b) || holds(a, b);
 }
 
 Extent extent(const ShapeBody& body) {

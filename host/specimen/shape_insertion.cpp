@@ -4,10 +4,13 @@
 
 #include <algorithm>
 
+#include "host/parallel.hpp"
+
 namespace macadam {
 namespace {
 
 constexpr std::int64_t plain_attempts = 2'000;  // a listing of open cells costs about as much
+constexpr std::int64_t tries_at_once = 4;       // of one thread
 
 double smallest_radius(const std::vector<ShapeBody>& bodies) {
   double r = bodies.empty() ? 1 : bodies.front().radius();
@@ -21,66 +24,109 @@ ShapeInsertion::ShapeInsertion(const Box& box, const std::vector<ShapeBody>& bod
                                RandomStream random)
     : box_(box),
       radius_to_come_(bodies.size()),
+      inner_to_come_(bodies.size()),
+      near_(box, 2 * smallest_radius(bodies)),
       grid_(box, smallest_radius(bodies) / 2),
       attempts_(attempts),
       random_(random) {
-  double largest = 0;
-  for (std::size_t k = bodies.size(); k-- > 0;) radius_to_come_[k] = largest = std::max(largest, bodies[k].radius());
+  double largest = 0, inner = 0;
+  for (std::size_t k = bodies.size(); k-- > 0;) {
+    radius_to_come_[k] = largest = std::max(largest, bodies[k].radius());
+    inner_to_come_[k] = inner = std::max(inner, bodies[k].inner_radius());
+  }
 }
 
 bool ShapeInsertion::place(std::size_t k, ShapeBody& body) {
-  std::optional<std::vector<std::size_t>> open;
-  for (std::int64_t attempt = 0; attempt < attempts_; ++attempt) {
-    if (attempt == plain_attempts) {
-      // Points drawn evenly over the cells that are not wholly taken are distributed as plain ones are; more succeed.
-      open = open_cells(body.inner_radius());
-      if (open->empty()) return false;
-    }
-    body.set_turn(random_turn(random_));
-    const Extent e = extent(body);
-    const Vec3d low = -e.low, high = box_.size - e.high;
-    const auto point = [&](const Vec3d& from, const Vec3d& to) {
-      const double x = random_.uniform(from.x, to.x), y = random_.uniform(from.y, to.y);
-      return Vec3d{x, y, random_.uniform(from.z, to.z)};
+  const std::int64_t plain = std::min(attempts_, plain_attempts);
+  const auto anywhere = [&](Draws draws, ShapeBody& b) {
+    b.set_turn(random_turn(draws));
+    const Extent e = extent(b);
+    b.centre = point(draws, -e.low, box_.size - e.high);
+    return inside(b, e) && clear(b);
+  };
+  bool placed = find(plain, 6, anywhere, body);
+  if (!placed && attempts_ > plain) {
+    // Points drawn evenly over the cells that are not wholly taken are distributed as plain ones are; more succeed.
+    const std::vector<std::size_t> open = open_cells(k, body.inner_radius());
+    if (open.empty()) return false;
+    const auto in_the_open = [&](Draws draws, ShapeBody& b) {
+      b.set_turn(random_turn(draws));
+      const Vec3d corner = grid_.corner(open[draws.index(open.size())]);
+      b.centre = point(draws, corner, corner + grid_.edge());
+      return clear_at_centre(b) && inside(b, extent(b)) && clear(b);
     };
-    if (open) {
-      const Vec3d corner = grid_.corner((*open)[random_.index(open->size())]);
-      body.centre = point(corner, corner + grid_.edge());
-    } else {
-      body.centre = point(low, high);
-    }
-    const Vec3d c = body.centre;
-    const bool inside = c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z;
-    if (!inside || !clear(body)) continue;
-    if (k + 1 < radius_to_come_.size())
-      grid_.insert(static_cast<std::int32_t>(placed_.size()), c, body.radius() + radius_to_come_[k + 1]);
-    placed_.push_back(body);
-    return true;
+    placed = find(attempts_ - plain, 7, in_the_open, body);
   }
-  return false;
+  if (!placed) return false;
+  if (k + 1 < radius_to_come_.size())
+    near_.insert(static_cast<std::int32_t>(placed_.size()), body.centre, body.radius() + radius_to_come_[k + 1]);
+  placed_.push_back(body);
+  return true;
+}
+
+template <class Attempt>
+bool ShapeInsertion::find(std::int64_t most, std::size_t draws, const Attempt& attempt, ShapeBody& body) {
+  const auto found = random_.first_good(most, draws, tries_at_once, [&](Draws next) {
+    ShapeBody tried = body;
+    return attempt(next, tried);
+  });
+  return found && attempt(*found, body);
+}
+
+Vec3d ShapeInsertion::point(Draws& draws, const Vec3d& from, const Vec3d& to) {
+  const double x = draws.uniform(from.x, to.x), y = draws.uniform(from.y, to.y);
+  return Vec3d{x, y, draws.uniform(from.z, to.z)};
+}
+
+bool ShapeInsertion::inside(const ShapeBody& body, const Extent& e) const {
+  const Vec3d c = body.centre, low = -e.low, high = box_.size - e.high;
+  return c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z;
+}
+
+/// Most tries fail, and most of these by their centre alone.
+bool ShapeInsertion::clear_at_centre(const ShapeBody& body) const {
+  const std::vector<std::int32_t>& near = near_.near(near_.cell_of(body.centre));
+  return std::none_of(near.begin(), near.end(), [&](std::int32_t j) {
+    const Vec3d d = placed_[j].centre - body.centre;
+    const double far = placed_[j].radius() + body.inner_radius();
+    return dot(d, d) < far * far && placed_[j].distance_at_most(body.centre) < body.inner_radius();
+  });
 }
 
 bool ShapeInsertion::clear(const ShapeBody& body) const {
-  const std::vector<std::int32_t>& near = grid_.near(grid_.cell_of(body.centre));
-  // Most tries fail, and most of these by their centre alone.
-  for (std::int32_t j : near)
-    if (placed_[j].distance_at_most(body.centre) < body.inner_radius()) return false;
+  if (!clear_at_centre(body)) return false;
+  const std::vector<std::int32_t>& near = near_.near(near_.cell_of(body.centre));
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) { return overlap(placed_[j], body); });
 }
 
-std::vector<std::size_t> ShapeInsertion::open_cells(double inner_radius) const {
-  std::vector<std::size_t> open;
-  const double half = norm(grid_.edge()) / 2;
-  const Vec3d l = box_.size;
-  for (std::size_t cell = 0; cell < grid_.cells(); ++cell) {
-    const Vec3d c = grid_.corner(cell) + 0.5 * grid_.edge();
-    const double farthest = inner_radius - half;  // no point of the cell has more room than its centre and half
-    const std::vector<std::int32_t>& near = grid_.near(cell);
-    const bool taken = std::min({c.x, c.y, c.z, l.x - c.x, l.y - c.y, l.z - c.z}) < farthest ||
-                       std::any_of(near.begin(), near.end(),
-                                   [&](std::int32_t j) { return placed_[j].distance_at_most(c) < farthest; });
-    if (!taken) open.push_back(cell);
+/// Takes into account the bodies that were placed since the last time, as far as a body to come can be told by them.
+void ShapeInsertion::measure_room(std::size_t k) {
+  if (room_.empty()) {
+    room_.resize(grid_.cells());
+    const Vec3d l = box_.size;
+    for (std::size_t cell = 0; cell < room_.size(); ++cell) {
+      const Vec3d c = middle(cell);
+      room_[cell] = std::min({c.x, c.y, c.z, l.x - c.x, l.y - c.y, l.z - c.z});
+    }
   }
+  for_each_in_parallel(grid_.layers(), [&](std::size_t layer) {
+    for (std::size_t j = measured_; j < placed_.size(); ++j) {
+      const double reach = placed_[j].radius() + inner_to_come_[k];
+      grid_.within(placed_[j].centre, reach, layer, [&](std::size_t cell) {
+        room_[cell] = std::min(room_[cell], placed_[j].distance_at_most(middle(cell)));
+      });
+    }
+  });
+  measured_ = placed_.size();
+}
+
+std::vector<std::size_t> ShapeInsertion::open_cells(std::size_t k, double inner_radius) {
+  measure_room(k);
+  // No point of a cell has more room than its middle and half of its diagonal.
+  const double least = inner_radius - norm(grid_.edge()) / 2;
+  std::vector<std::size_t> open;
+  for (std::size_t cell = 0; cell < room_.size(); ++cell)
+    if (!(room_[cell] < least)) open.push_back(cell);
   return open;
 }
 

@@ -42,8 +42,8 @@ class Packing {
         gap_(gap),
         grown_(from),
         smallest_(smallest(bodies)),
-        proxies_(proxies(box, bodies)),
-        neighbours_(proxies_, smallest_, skin_share * smallest_),
+        proxies_(proxies(bodies)),
+        neighbours_(box, proxies_, skin_share * smallest_),
         extra_(bodies.size(), 1),
         travel_(bodies.size()),
         motion_(bodies.size()),
@@ -52,7 +52,7 @@ class Packing {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const double ratio = bodies_[i].size / smallest_;
       mass_.push_back(ratio * ratio);  // the number of contacts that a body may have grows with its area
-      lever_.push_back(proxies_.radius[i] / 2);
+      lever_.push_back(proxies_[i].radius / 2);
     }
     list_pairs();
     grow(0);
@@ -88,13 +88,10 @@ class Packing {
   }
 
   /// The balls that hold the bodies at full size, for lists of neighbours.
-  static Specimen proxies(const Box& box, const std::vector<ShapeBody>& bodies) {
-    Specimen s{box, {}, {}, {}, {}};
-    for (const ShapeBody& b : bodies) {
-      s.centre.push_back(b.centre);
-      s.radius.push_back(ShapeBody(*b.geometry, b.size, b.sphere).radius());
-    }
-    return s;
+  static std::vector<Ball> proxies(const std::vector<ShapeBody>& bodies) {
+    std::vector<Ball> balls;
+    for (const ShapeBody& b : bodies) balls.push_back({b.centre, ShapeBody(*b.geometry, b.size, b.sphere).radius()});
+    return balls;
   }
 
   double gap(std::size_t i) const { return extra_[i] * gap_ * bodies_[i].size; }
@@ -111,7 +108,6 @@ class Packing {
   }
 
   void list_pairs() {
-    listed_at_ = proxies_.centre;
     pairs_.clear();
     for (std::size_t i = 0; i < bodies_.size(); ++i)
       for (std::int32_t j : neighbours_.of(i))
@@ -170,7 +166,7 @@ class Packing {
   }
 
   void move() {
-    const double most = longest_move * smallest_, far = 0.5 * skin_share * smallest_;
+    const double most = longest_move * smallest_;
     bool stale = false;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       Motion& v = motion_[i];
@@ -186,9 +182,8 @@ class Packing {
         b.set_turn(turned(b.turn, angle));
         travel_[i] += norm(angle) * b.radius();
       }
-      proxies_.centre[i] = b.centre;
-      const Vec3d moved = b.centre - listed_at_[i];
-      stale = stale || dot(moved, moved) > far * far;
+      proxies_[i].centre = b.centre;
+      stale = stale || neighbours_.strayed(i);
     }
     if (!stale) return;
     neighbours_.rebuild();
@@ -199,9 +194,8 @@ class Packing {
   std::vector<ShapeBody>& bodies_;
   double gap_;  // over the smaller body's D^I
   double grown_, smallest_;
-  Specimen proxies_;
+  std::vector<Ball> proxies_;
   Neighbours neighbours_;
-  std::vector<Vec3d> listed_at_;
   std::vector<PairContact> pairs_;
   std::vector<double> extra_, mass_, lever_;
   std::vector<double> travel_;  ///< no point of a body has moved farther since the beginning [m]

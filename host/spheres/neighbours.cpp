@@ -1,55 +1,203 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file neighbours.cpp  Each pair is found by its smaller sphere, then entered in both rows.
+/// \file neighbours.cpp  Spheres by size into bins; each row is searched for in all of them, then put in order.
 #include "host/spheres/neighbours.hpp"
 
-namespace macadam {
+#include <algorithm>
+#include <map>
+#include <numeric>
 
-Neighbours::Neighbours(const Specimen& specimen, double cell, double skin)
-    : specimen_(specimen), skin_(skin), grid_(specimen.box, cell) {
+#include "host/parallel.hpp"
+
+namespace macadam {
+namespace {
+
+// Parts of a row in front of the numbers, of which there are fewer than most_particles.
+constexpr std::int32_t part = 1 << 28;
+constexpr int most_levels = 40;           // of sizes, each twice the one before
+constexpr std::size_t block = 64;         // rows listed at once
+constexpr std::size_t ranked_up_to = 64;  // keys that are sorted faster by counting those before each
+constexpr std::size_t few = 24;           // one in so many may stray before all are listed again
+constexpr std::uint32_t spare = 2;        // room in a row for those that come near later
+
+double largest(std::span<const Ball> spheres) {
+  double r = 0;
+  for (const Ball& b : spheres) r = std::max(r, b.radius);
+  return r;
+}
+
+/// Bins of the spheres from `first` on, whose radii differ by a factor of two at most in each.
+std::vector<SphereBins> by_size(const Box& box, std::span<const Ball> spheres, std::size_t first, double skin) {
+  double smallest = largest(spheres);
+  for (const Ball& b : spheres.subspan(first)) smallest = std::min(smallest, b.radius);
+  std::map<int, std::vector<std::int32_t>> level;
+  for (std::size_t i = first; i < spheres.size(); ++i) {
+    int k = 0;
+    for (double r = spheres[i].radius; k < most_levels && r >= 2 * smallest; r /= 2) ++k;
+    level[k].push_back(static_cast<std::int32_t>(i));
+  }
+  std::vector<SphereBins> bins;
+  for (auto& [k, ids] : level) bins.emplace_back(box, spheres, std::move(ids), skin);
+  return bins;
+}
+
+}  // namespace
+
+Neighbours::Neighbours(const Box& box, std::span<const Ball> spheres, double skin, std::size_t first,
+                       std::vector<std::int32_t> number)
+    : spheres_(spheres),
+      skin_(skin),
+      far2_(skin * skin / 4),
+      first_(first),
+      still_(box, first > 0 && first < spheres.size() ? 2 * largest(spheres.subspan(first)) : norm(box.size)),
+      moving_(by_size(box, spheres, first, skin)),
+      number_(std::move(number)),
+      place_(spheres.size()),
+      bins_of_(spheres.size() - first),
+      listed_at_(spheres.size() - first),
+      list_((spheres.size() - first + block - 1) / block),
+      row_(spheres.size() - first) {
+  if (number_.empty()) {
+    number_.resize(spheres.size());
+    std::iota(number_.begin(), number_.end(), 0);
+  }
+  for (std::size_t i = 0; i < spheres.size(); ++i) place_[number_[i]] = static_cast<std::int32_t>(i);
+  const double reach = largest(spheres.subspan(first)) + skin;
+  for (std::size_t i = 0; i < first; ++i)
+    still_.insert(static_cast<std::int32_t>(i), spheres[i].centre, spheres[i].radius + reach);
+  for (std::size_t b = 0; b < moving_.size(); ++b)
+    for (std::int32_t i : moving_[b].ids()) bins_of_[i - first_] = static_cast<std::uint8_t>(b);
   rebuild();
 }
 
-/// Calls `visit` with the neighbours that are larger than a sphere, or as large and of higher number.
-template <class Visit>
-void Neighbours::larger_neighbours(std::size_t i, const Visit& visit) const {
-  const Vec3d centre = specimen_.centre[i];
-  const double radius = specimen_.radius[i];
-  for (std::int32_t j : grid_.near(grid_.cell_of(centre))) {
-    const double other = specimen_.radius[j], range = radius + other + skin_;
-    if (other < radius || (other == radius && j <= static_cast<std::int32_t>(i))) continue;
-    const Vec3d d = specimen_.centre[j] - centre;
-    if (dot(d, d) < range * range) visit(j);
+/// What a neighbour is sorted by in a row: its part of the row, then its number.
+std::int32_t Neighbours::key(std::int32_t sphere, std::int32_t neighbour) const {
+  const double own = spheres_[sphere].radius, radius = spheres_[neighbour].radius;
+  const std::int32_t i = number_[sphere], j = number_[neighbour];
+  const bool larger = radius > own || (radius == own && j > i);
+  return (larger ? part : j < i ? 0 : 2 * part) + j;
+}
+
+/// The spheres behind keys, which all differ, in the order of the keys.
+void Neighbours::write_sorted(std::vector<std::int32_t>& key, std::int32_t* out) const {
+  const std::size_t n = key.size();
+  if (n > ranked_up_to) {
+    std::sort(key.begin(), key.end());
+    for (std::size_t k = 0; k < n; ++k) out[k] = place_[key[k] & (part - 1)];
+    return;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    std::int32_t rank = 0;
+    for (std::size_t l = 0; l < n; ++l) rank += key[l] < key[k];
+    out[rank] = place_[key[k] & (part - 1)];
   }
 }
 
-void Neighbours::rebuild() {
-  const auto n = static_cast<std::int64_t>(specimen_.size());
-  grid_.clear();
-  for (std::int64_t i = 0; i < n; ++i)
-    grid_.insert(static_cast<std::int32_t>(i), specimen_.centre[i], 2 * specimen_.radius[i] + skin_);
-
-  larger_start_.assign(n + 1, 0);
-#pragma omp parallel for schedule(static) if (specimen_.size() >= parallel_from)
-  for (std::int64_t i = 0; i < n; ++i) larger_neighbours(i, [&](std::int32_t) { ++larger_start_[i + 1]; });
-  for (std::int64_t i = 0; i < n; ++i) larger_start_[i + 1] += larger_start_[i];
-  larger_.resize(larger_start_[n]);
-#pragma omp parallel for schedule(static) if (specimen_.size() >= parallel_from)
-  for (std::int64_t i = 0; i < n; ++i) {
-    std::size_t k = larger_start_[i];
-    larger_neighbours(i, [&](std::int32_t j) { larger_[k++] = j; });
+/// Keys of the neighbours among those that stand still.
+void Neighbours::find_still(std::int32_t i, Buffer& buffer) const {
+  const auto [centre, radius] = spheres_[i];
+  for (const std::int32_t j : still_.near(still_.cell_of(centre))) {
+    const Vec3d d = spheres_[j].centre - centre;
+    const double range = radius + spheres_[j].radius + skin_;
+    if (dot(d, d) < range * range) buffer.key.push_back(key(i, j));
   }
+}
 
-  start_.assign(n + 1, 0);
-  for (std::int64_t i = 0; i < n; ++i) start_[i + 1] += larger_start_[i + 1] - larger_start_[i];
-  for (std::int32_t j : larger_) ++start_[j + 1];
-  for (std::int64_t i = 0; i < n; ++i) start_[i + 1] += start_[i];
-  end_.assign(start_.begin(), start_.end() - 1);
-  list_.resize(start_[n]);
-  for (std::int64_t i = 0; i < n; ++i)
-    for (std::size_t k = larger_start_[i]; k < larger_start_[i + 1]; ++k) {
-      list_[end_[i]++] = larger_[k];
-      list_[end_[larger_[k]]++] = static_cast<std::int32_t>(i);
-    }
+/// Keys of the neighbours among the spheres of `bins`.
+void Neighbours::find(std::int32_t i, const SphereBins& bins, Buffer& buffer) const {
+  const auto [centre, radius] = spheres_[i];
+  std::size_t found = 0;
+  bins.near(centre, (radius + bins.largest() + skin_) * (1 + 1e-9),
+            [&, centre = centre, radius = radius](std::uint32_t first, std::uint32_t last) {
+              if (buffer.slot.size() < found + (last - first)) buffer.slot.resize(2 * (found + (last - first)));
+              std::uint32_t* next = buffer.slot.data() + found;
+              for (std::uint32_t k = first; k < last; ++k) {  // without a branch: nobody could foresee it
+                const Ball& other = bins.ball(k);
+                const Vec3d d = other.centre - centre;
+                const double range = radius + other.radius + skin_;
+                *next = k;
+                next += dot(d, d) < range * range;
+              }
+              found = static_cast<std::size_t>(next - buffer.slot.data());
+            });
+  for (std::size_t k = 0; k < found; ++k) {
+    const std::int32_t j = bins.id(buffer.slot[k]);
+    if (j != i) buffer.key.push_back(key(i, j));
+  }
+}
+
+void Neighbours::find_all(std::int32_t i, Buffer& buffer) const {
+  buffer.key.clear();
+  if (first_ > 0) find_still(i, buffer);
+  for (const SphereBins& bins : moving_) find(i, bins, buffer);
+}
+
+void Neighbours::rebuild() {
+  for (SphereBins& bins : moving_) bins.sort(spheres_);
+  for (std::size_t k = 0; k < listed_at_.size(); ++k) listed_at_[k] = spheres_[first_ + k].centre;
+  for_each_in_parallel(
+      list_.size(), [&](std::size_t b) { list_block(b); }, row_.size() >= parallel_from);
+}
+
+void Neighbours::list_block(std::size_t number) {
+  Buffer buffer;
+  list_[number].clear();
+  for (std::size_t k = number * block; k < std::min(row_.size(), (number + 1) * block); ++k) {
+    const auto i = static_cast<std::int32_t>(first_ + k);
+    row_[k] = {static_cast<std::uint32_t>(number), 0, 0, 0};
+    find_all(i, buffer);
+    make_room(row_[k], buffer.key.size() + spare);
+    set(i, buffer);
+  }
+}
+
+void Neighbours::make_room(Row& row, std::size_t size) {
+  if (row.room >= size) return;
+  std::vector<std::int32_t>& list = list_[row.block];
+  const std::size_t begin = list.size();
+  list.resize(begin + size);
+  std::copy_n(list.begin() + row.begin, row.size, list.begin() + static_cast<std::ptrdiff_t>(begin));
+  row.begin = static_cast<std::uint32_t>(begin), row.room = static_cast<std::uint32_t>(size);
+}
+
+void Neighbours::set(std::int32_t i, Buffer& buffer) {
+  Row& row = row_[i - first_];
+  row.size = 0;
+  make_room(row, buffer.key.size());
+  row.size = static_cast<std::uint32_t>(buffer.key.size());
+  write_sorted(buffer.key, list_[row.block].data() + row.begin);
+}
+
+void Neighbours::add(std::int32_t i, std::int32_t neighbour) {
+  const std::int32_t wanted = key(i, neighbour);
+  Row& row = row_[i - first_];
+  const std::span<const std::int32_t> now = of(static_cast<std::size_t>(i));
+  const auto place = std::find_if(now.begin(), now.end(), [&](std::int32_t j) { return key(i, j) >= wanted; });
+  if (place != now.end() && *place == neighbour) return;
+  const auto at = place - now.begin();
+  if (row.size == row.room) make_room(row, 2 * row.size + spare);
+  std::int32_t* begin = list_[row.block].data() + row.begin;
+  std::copy_backward(begin + at, begin + row.size, begin + row.size + 1);
+  begin[at] = neighbour;
+  ++row.size;
+}
+
+/// Two spheres are in each other's lists if they were near where each was listed last. Pairs that have parted since
+/// stay in the other's list, which does no harm, until all are listed again.
+void Neighbours::relist(std::span<const std::int32_t> strayed) {
+  std::size_t moved = strayed.size();
+  for (const SphereBins& bins : moving_) moved += bins.moved();
+  if (moved * few > row_.size()) return rebuild();
+  for (std::int32_t i : strayed) {
+    listed_at_[i - first_] = spheres_[i].centre;
+    moving_[bins_of_[i - first_]].move(i, spheres_[i].centre);
+  }
+  Buffer buffer;
+  for (std::int32_t i : strayed) {
+    find_all(i, buffer);
+    set(i, buffer);
+    for (std::int32_t j : of(static_cast<std::size_t>(i)))
+      if (static_cast<std::size_t>(j) >= first_) add(j, i);
+  }
 }
 
 }  // namespace macadam

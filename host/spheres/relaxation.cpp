@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "host/spheres/neighbours.hpp"
@@ -22,30 +24,61 @@ constexpr double wall_stiffness = 10;       // of a wall other than the box: wha
 constexpr int most_iterations = 3000, stall_window = 50;
 constexpr double stalled = 5e-4;  // relative fall of the energy in one window
 
+/// Terms of the sums over all spheres.
 struct Dots {
   double power = 0, v2 = 0, a2 = 0;
 };
 
+/// The moving spheres so that near ones stand near each other, aggregates before mastic: then loops find their data in
+/// the cache. Those before number `first` keep their places.
+std::vector<std::int32_t> by_place(const Specimen& s, std::size_t first, std::size_t first_mastic) {
+  const std::vector<Ball> balls = balls_of(s);
+  std::vector<std::int32_t> order(first);
+  std::iota(order.begin(), order.end(), 0);
+  for (const auto& [from, to] : {std::pair{first, first_mastic}, std::pair{first_mastic, s.size()}}) {
+    if (from == to) continue;
+    std::vector<std::int32_t> ids(to - from);
+    std::iota(ids.begin(), ids.end(), static_cast<std::int32_t>(from));
+    const SphereBins bins(s.box, balls, std::move(ids), 0);
+    order.insert(order.end(), bins.in_order().begin(), bins.in_order().end());
+  }
+  return order;
+}
+
+/// Works on a copy of the spheres in another order; all arrays but those that are summed have that order.
 class Relaxation {
  public:
   Relaxation(Specimen& specimen, bool fix_aggregates, const Wall& wall)
       : s_(specimen),
+        box_(specimen.box.size),
         wall_(wall),
         first_mastic_(std::find(s_.phase.begin(), s_.phase.end(), Phase::mastic) - s_.phase.begin()),
         first_(fix_aggregates ? first_mastic_ : 0),
         unit_(mean_radius()),
-        neighbours_(s_, 2 * unit_, skin_share * unit_),
-        listed_at_(s_.centre),
+        number_(by_place(s_, first_, first_mastic_)),
+        ball_(sorted(s_, number_)),
+        neighbours_(s_.box, ball_, skin_share * unit_, first_, number_),
         velocity_(s_.size()),
         acceleration_(s_.size()),
-        energy_(s_.size()) {}
+        energy_(s_.size()),
+        dots_(s_.size()),
+        strayed_(s_.size()) {}
 
+  /// Moves the specimen's spheres.
+  int relax(const std::function<void(double)>& progress) {
+    const int iterations = run(progress);
+    for (std::size_t i = first_; i < ball_.size(); ++i) s_.centre[number_[i]] = ball_[i].centre;
+    return iterations;
+  }
+
+ private:
   int run(const std::function<void(double)>& progress) {
     double dt = first_step, mixing = 0.1, last_energy = 0;
     int downhill = 0;
     for (int k = 0; k < most_iterations; ++k) {
-      compute_accelerations();
-      if (k % stall_window == 0) {
+      const bool look = k % stall_window == 0;
+      compute_accelerations(look);
+      if (look) {
         const double energy = total_energy();
         if (energy == 0 || (k > 0 && last_energy - energy < stalled * energy)) return k;
         last_energy = energy;
@@ -63,7 +96,13 @@ class Relaxation {
     return most_iterations;
   }
 
- private:
+  static std::vector<Ball> sorted(const Specimen& s, const std::vector<std::int32_t>& number) {
+    std::vector<Ball> balls;
+    balls.reserve(number.size());
+    for (const std::int32_t i : number) balls.push_back({s.centre[i], s.radius[i]});
+    return balls;
+  }
+
   double mean_radius() const {
     const std::size_t from = first_mastic_ < s_.size() ? first_mastic_ : 0;
     double sum = 0;
@@ -75,43 +114,68 @@ class Relaxation {
 
   /// Aggregates are heavier by volume, and by stiffness too, so that they allow the mastic's time step.
   double mass(std::size_t i) const {
-    const double ratio = s_.radius[i] / unit_;
+    const double ratio = ball_[i].radius / unit_;
     return is_aggregate(i) ? aggregate_stiffness * std::max(1.0, ratio * ratio * ratio) : 1;
   }
 
-  void compute_accelerations() {
-    for_each_in_blocks(s_.size() - first_, s_.size() >= parallel_from, [&](std::size_t k) {  // a wall may throw
-      const std::size_t i = first_ + k;
-      const Vec3d c = s_.centre[i];
-      const double r = s_.radius[i], k_wall = is_aggregate(i) ? aggregate_stiffness : 1;
-      Vec3d force{};
-      double energy = 0;
-      for (std::int32_t j : neighbours_.of(i)) {
-        const Vec3d d = c - s_.centre[j];
-        const double touch = r + s_.radius[j], d2 = dot(d, d);
-        if (d2 >= touch * touch || d2 == 0) continue;
-        const double distance = std::sqrt(d2), overlap = touch - distance;
-        const double stiffness = is_aggregate(i) && is_aggregate(j) ? aggregate_stiffness : 1;
-        force += (stiffness * overlap / distance) * d;
-        // A pair of two moving spheres is met from both sides.
-        energy += (static_cast<std::size_t>(j) >= first_ ? 0.25 : 0.5) * stiffness * overlap * overlap;
+  void compute_accelerations(bool with_energy) {
+    for_each_in_blocks(s_.size() - first_, s_.size() >= parallel_from,
+                       [&](std::size_t k) { accelerate(first_ + k, with_energy); });
+  }
+
+  void accelerate(std::size_t i, bool with_energy) {  // a wall may throw
+    const auto [c, r] = ball_[i];
+    const double k_wall = is_aggregate(i) ? aggregate_stiffness : 1;
+    Vec3d force{};
+    double energy = 0;
+    const std::span<const std::int32_t> near = neighbours_.of(i);
+    for (std::size_t from = 0; from < near.size(); from += most_at_once)
+      push(i, near.subspan(from, std::min(most_at_once, near.size() - from)), force, with_energy ? &energy : nullptr);
+    const auto side = [&energy, r = r, k_wall](double& component, double position, double length) {
+      const double low = std::max(0.0, r - position), high = std::max(0.0, r - (length - position));
+      component += k_wall * (low - high);
+      energy += 0.5 * k_wall * (low * low + high * high);
+    };
+    side(force.x, c.x, box_.x), side(force.y, c.y, box_.y), side(force.z, c.z, box_.z);
+    if (wall_) {
+      const auto [depth, inward] = wall_(c, r);
+      if (const double overlap = r - depth; overlap > 0) {
+        force += (wall_stiffness * overlap) * inward;
+        energy += 0.5 * wall_stiffness * overlap * overlap;
       }
-      const auto side = [&](double& component, double position, double length) {
-        const double low = std::max(0.0, r - position), high = std::max(0.0, r - (length - position));
-        component += k_wall * (low - high);
-        energy += 0.5 * k_wall * (low * low + high * high);
-      };
-      side(force.x, c.x, s_.box.size.x), side(force.y, c.y, s_.box.size.y), side(force.z, c.z, s_.box.size.z);
-      if (wall_) {
-        const auto [depth, inward] = wall_(c, r);
-        if (const double overlap = r - depth; overlap > 0) {
-          force += (wall_stiffness * overlap) * inward;
-          energy += 0.5 * wall_stiffness * overlap * overlap;
-        }
-      }
-      acceleration_[i] = (1 / mass(i)) * force;
-      energy_[i] = energy;
-    });
+    }
+    const double m = mass(i);
+    const Vec3d a = (1 / m) * force, v = velocity_[i];
+    acceleration_[i] = a;
+    energy_[number_[i]] = energy;
+    dots_[number_[i]] = {m * dot(a, v), m * dot(v, v), m * dot(a, a)};
+  }
+
+  /// Adds what the spheres of a part of a row do to sphere i, in the order of the row. Loops are kept apart so that
+  /// roots and quotients of several pairs are on their way at a time.
+  void push(std::size_t i, std::span<const std::int32_t> near, Vec3d& force, double* energy) const {
+    double x[most_at_once], y[most_at_once], z[most_at_once];
+    double distance[most_at_once], reach[most_at_once], stiffness[most_at_once], push[most_at_once];
+    std::int32_t number[most_at_once];
+    const auto [c, r] = ball_[i];
+    const auto stiff = static_cast<std::int32_t>(is_aggregate(i) ? first_mastic_ : 0);  // with those before
+    std::size_t n = 0;
+    for (const std::int32_t j : near) {  // without a branch: nobody could foresee it
+      const Vec3d d = c - ball_[j].centre;
+      const double d2 = dot(d, d), touch = r + ball_[j].radius;
+      x[n] = d.x, y[n] = d.y, z[n] = d.z, distance[n] = d2, reach[n] = touch, number[n] = j;
+      stiffness[n] = j < stiff ? aggregate_stiffness : 1;
+      n += static_cast<std::size_t>(d2 < touch * touch) & static_cast<std::size_t>(d2 > 0);
+    }
+    for (std::size_t k = 0; k < n; ++k) distance[k] = std::sqrt(distance[k]);
+    for (std::size_t k = 0; k < n; ++k) push[k] = stiffness[k] * (reach[k] - distance[k]) / distance[k];
+    for (std::size_t k = 0; k < n; ++k) force += push[k] * Vec3d{x[k], y[k], z[k]};
+    if (!energy) return;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double overlap = reach[k] - distance[k];
+      // A pair of two moving spheres is met from both sides.
+      *energy += (static_cast<std::size_t>(number[k]) >= first_ ? 0.25 : 0.5) * stiffness[k] * overlap * overlap;
+    }
   }
 
   // The sums run over the particles in order, on one thread: the same bits for any number of threads.
@@ -123,66 +187,68 @@ class Relaxation {
 
   Dots dot_products() const {
     Dots sum;
-    for (std::size_t i = first_; i < s_.size(); ++i) {
-      const double m = mass(i);
-      sum.power += m * dot(acceleration_[i], velocity_[i]);
-      sum.v2 += m * dot(velocity_[i], velocity_[i]);
-      sum.a2 += m * dot(acceleration_[i], acceleration_[i]);
-    }
+    for (std::size_t i = first_; i < s_.size(); ++i)
+      sum.power += dots_[i].power, sum.v2 += dots_[i].v2, sum.a2 += dots_[i].a2;
     return sum;
   }
 
   void move(double dt, double mixing, double v_per_a) {
     const double most = longest_move * unit_ / dt;
-    const double far = 0.5 * skin_share * unit_;
-    bool stale = false;
-#pragma omp parallel for schedule(static) if (s_.size() >= parallel_from) reduction(|| : stale)
+    bool any = false;
+#pragma omp parallel for schedule(static) if (s_.size() >= parallel_from) reduction(|| : any)
     for (std::size_t i = first_; i < s_.size(); ++i) {
       Vec3d v = (1 - mixing) * velocity_[i] + (dt + mixing * v_per_a) * acceleration_[i];
       const double speed = norm(v);
       if (speed > most) v = (most / speed) * v;
       velocity_[i] = v;
-      const Vec3d p = s_.centre[i] + dt * v, l = s_.box.size;
+      const Vec3d p = ball_[i].centre + dt * v;
       // No centre may reach a wall: beyond it there is no cell.
       const auto inside = [&](double x, double length) { return std::clamp(x, 1e-3 * length, 0.999 * length); };
-      s_.centre[i] = {inside(p.x, l.x), inside(p.y, l.y), inside(p.z, l.z)};
-      const Vec3d moved = s_.centre[i] - listed_at_[i];
-      stale = stale || dot(moved, moved) > far * far;
+      ball_[i].centre = {inside(p.x, box_.x), inside(p.y, box_.y), inside(p.z, box_.z)};
+      strayed_[i] = neighbours_.strayed(i);
+      any = any || strayed_[i];
     }
-    if (!stale) return;
-    neighbours_.rebuild();
-    listed_at_ = s_.centre;
+    if (!any) return;
+    std::vector<std::int32_t> strayed;
+    for (std::size_t i = first_; i < s_.size(); ++i)
+      if (strayed_[i]) strayed.push_back(static_cast<std::int32_t>(i));
+    neighbours_.relist(strayed);
   }
 
+  static constexpr std::size_t most_at_once = 64;  // pairs
+
   Specimen& s_;
+  Vec3d box_;  ///< edges [m]
   const Wall& wall_;
   std::size_t first_mastic_, first_;  ///< first mastic sphere, first sphere that moves
   double unit_;                       ///< mean radius of the mastic [m]
+  std::vector<std::int32_t> number_;  ///< in the specimen
+  std::vector<Ball> ball_;
   Neighbours neighbours_;
-  std::vector<Vec3d> listed_at_;  ///< centres at the last listing of the neighbours
   std::vector<Vec3d> velocity_, acceleration_;
-  std::vector<double> energy_;
+  std::vector<double> energy_;  ///< by number
+  std::vector<Dots> dots_;      ///< by number, with the velocity before the move
+  std::vector<std::uint8_t> strayed_;
 };
 
 }  // namespace
 
 int relax(Specimen& specimen, bool fix_aggregates, const std::function<void(double share)>& progress,
           const Wall& wall) {
-  const int iterations = Relaxation(specimen, fix_aggregates, wall).run(progress);
+  const int iterations = Relaxation(specimen, fix_aggregates, wall).relax(progress);
   progress(1);
   return iterations;
 }
 
 double largest_aggregate_overlap(const Specimen& specimen) {
   Specimen aggregates{specimen.box, {}, {}, {}, {}};
-  double smallest = specimen.box.size.x;
   for (std::size_t i = 0; i < specimen.size(); ++i) {
     if (specimen.phase[i] != Phase::aggregate) continue;
     aggregates.centre.push_back(specimen.centre[i]);
     aggregates.radius.push_back(specimen.radius[i]);
-    smallest = std::min(smallest, specimen.radius[i]);
   }
-  const Neighbours neighbours(aggregates, smallest, 0);
+  const std::vector<Ball> balls = balls_of(aggregates);
+  const Neighbours neighbours(aggregates.box, balls, 0);
   double largest = 0;
   for (std::size_t i = 0; i < aggregates.size(); ++i)
     for (std::int32_t j : neighbours.of(i))

@@ -14,11 +14,6 @@ std::int64_t clamped_cell(double position, double edge, std::int64_t n) {
   return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(position / edge)), 0, n - 1);
 }
 
-double squared(double x) { return x * x; }
-
-/// Distance of `p` from the interval low … low + edge, squared.
-double gap2(double p, double low, double edge) { return squared(std::max({low - p, p - low - edge, 0.0})); }
-
 }  // namespace
 
 SphereGrid::SphereGrid(const Box& box, double cell) {
@@ -36,21 +31,15 @@ void SphereGrid::clear() {
   for (auto& list : list_) list.clear();
 }
 
+std::pair<std::int64_t, std::int64_t> SphereGrid::range(double position, double reach, double edge, std::int64_t n) {
+  return {clamped_cell(position - reach, edge, n), clamped_cell(position + reach, edge, n)};
+}
+
 void SphereGrid::insert(std::int32_t id, const Vec3d& c, double reach) {
   reach *= 1 + 1e-9;  // a point on the border between two cells may be rounded into either
-  const std::int64_t x0 = clamped_cell(c.x - reach, edge_.x, nx_), x1 = clamped_cell(c.x + reach, edge_.x, nx_);
-  const std::int64_t y0 = clamped_cell(c.y - reach, edge_.y, ny_), y1 = clamped_cell(c.y + reach, edge_.y, ny_);
-  const std::int64_t z0 = clamped_cell(c.z - reach, edge_.z, nz_), z1 = clamped_cell(c.z + reach, edge_.z, nz_);
-  const double reach2 = reach * reach;
-  for (std::int64_t z = z0; z <= z1; ++z) {
-    const double in_z = gap2(c.z, static_cast<double>(z) * edge_.z, edge_.z);
-    for (std::int64_t y = y0; y <= y1; ++y) {
-      const double in_yz = in_z + gap2(c.y, static_cast<double>(y) * edge_.y, edge_.y);
-      for (std::int64_t x = x0; x <= x1; ++x)
-        if (in_yz + gap2(c.x, static_cast<double>(x) * edge_.x, edge_.x) <= reach2)
-          list_[static_cast<std::size_t>((z * ny_ + y) * nx_ + x)].push_back(id);
-    }
-  }
+  const auto [z0, z1] = range(c.z, reach, edge_.z, nz_);
+  for (std::int64_t z = z0; z <= z1; ++z)
+    within(c, reach, static_cast<std::size_t>(z), [&](std::size_t cell) { list_[cell].push_back(id); });
 }
 
 std::size_t SphereGrid::cell_of(const Vec3d& p) const {

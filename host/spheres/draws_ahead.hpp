@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file draws_ahead.hpp  Random tries on several threads with the results of tries one after another.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "host/parallel.hpp"
+#include "host/spheres/random_stream.hpp"
+
+namespace macadam {
+
+/// What a try reads in place of the stream itself.
+class Draws {
+ public:
+  explicit Draws(const double* next) : next_(next) {}
+
+  /// As those of RandomStream.
+  double uniform() { return *next_++; }
+  double uniform(double low, double high) { return low + (high - low) * uniform(); }
+  std::size_t index(std::size_t n) { return static_cast<std::size_t>(uniform() * static_cast<double>(n)); }
+
+ private:
+  const double* next_;
+};
+
+/// A stream whose numbers are looked at before they are used up. Tries run on all threads, more of them than are
+/// needed: which ones are good, and what the stream gives next, is as if they were made in order on one thread.
+class DrawsAhead {
+ public:
+  explicit DrawsAhead(RandomStream random) : random_(random) {}
+
+  /// The first of up to `most` tries for which attempt(Draws) is true: its draws, if there is one, valid until the next
+  /// call. Its draws and those of all before it are used up. Every try takes `size`
+  /// draws, whether or not it reads them all; `chunk` tries are worth handing to a thread.
+  template <class Attempt>
+  std::optional<Draws> first_good(std::int64_t most, std::size_t size, std::int64_t chunk, const Attempt& attempt) {
+    constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
+    for (std::int64_t begin = 0, block = chunk; begin < most; block = std::min(2 * block, 256 * chunk)) {
+      const std::int64_t n = std::min(block, most - begin);
+      look(static_cast<std::size_t>(n) * size);
+      std::atomic<std::int64_t> good = none;
+      const auto run = [&](std::size_t part) {
+        const std::int64_t from = static_cast<std::int64_t>(part) * chunk;
+        for (std::int64_t k = from; k < std::min(n, from + chunk) && k < good; ++k) {
+          if (!attempt(draws(k, size))) continue;
+          std::int64_t first = good;
+          while (k < first && !good.compare_exchange_weak(first, k)) continue;
+          break;
+        }
+      };
+      for_each_in_parallel(static_cast<std::size_t>((n + chunk - 1) / chunk), run, n > chunk);
+      const std::int64_t used = good == none ? n : good + 1;
+      const Draws last = draws(used - 1, size);
+      used_ += static_cast<std::size_t>(used) * size;
+      if (good != none) return last;
+      begin += used;
+    }
+    return std::nullopt;
+  }
+
+  /// Calls take(Draws) for the good ones among the next tries, in order, until it returns false; the draws of this one
+  /// and of all before it are used up. \returns false where `most` tries in a row were no good. For tries that do not
+  /// depend on what is taken.
+  template <class Attempt, class Take>
+  bool each_good(std::int64_t most, std::size_t size, std::int64_t chunk, const Attempt& attempt, const Take& take) {
+    std::vector<std::uint8_t> good;
+    for (std::int64_t failed = 0, n = chunk;; n = std::min(2 * n, 256 * chunk)) {
+      look(static_cast<std::size_t>(n) * size);
+      good.assign(static_cast<std::size_t>(n), 0);
+      const auto run = [&](std::size_t part) {
+        const std::int64_t from = static_cast<std::int64_t>(part) * chunk;
+        for (std::int64_t k = from; k < std::min(n, from + chunk); ++k) good[k] = attempt(draws(k, size));
+      };
+      for_each_in_parallel(static_cast<std::size_t>((n + chunk - 1) / chunk), run, n > chunk);
+      for (std::int64_t k = 0; k < n; ++k) {
+        failed = good[k] ? 0 : failed + 1;
+        const bool more = good[k] ? take(draws(k, size)) : failed < most;
+        if (more) continue;
+        used_ += static_cast<std::size_t>(k + 1) * size;
+        return good[k];
+      }
+      used_ += static_cast<std::size_t>(n) * size;
+    }
+  }
+
+ private:
+  Draws draws(std::int64_t attempt, std::size_t size) const {
+    return Draws(drawn_.data() + used_ + static_cast<std::size_t>(attempt) * size);
+  }
+
+  /// Makes the next `n` draws known.
+  void look(std::size_t n) {
+    if (drawn_.size() - used_ >= n) return;
+    drawn_.erase(drawn_.begin(), drawn_.begin() + static_cast<std::ptrdiff_t>(used_));
+    used_ = 0;
+    while (drawn_.size() < n) drawn_.push_back(random_.uniform());
+  }
+
+  RandomStream random_;
+  std::vector<double> drawn_;
+  std::size_t used_ = 0;
+};
+
+}  // namespace macadam

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// draws_ahead_test.cpp  Tries on many threads take from a stream what tries one after another do.
+#include "host/spheres/draws_ahead.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+/// What a search finds, by the numbers of the try, and then the next number of the stream.
+using Found = std::vector<double>;
+
+/// Tries of two draws: good ones are those whose product exceeds a limit.
+bool good(double a, double b, double limit) { return a * b > limit; }
+
+Found one_by_one(std::uint64_t seed, double limit, std::int64_t most, int searches) {
+  RandomStream random(seed, 0);
+  Found found;
+  for (int s = 0; s < searches; ++s)
+    for (std::int64_t k = 0; k < most; ++k) {
+      const double a = random.uniform(), b = random.uniform();
+      if (!good(a, b, limit)) continue;
+      found.push_back(a), found.push_back(b);
+      break;
+    }
+  found.push_back(random.uniform());
+  return found;
+}
+
+Found next_of(DrawsAhead& random, Found found) {
+  found.push_back(random.first_good(1, 1, 1, [](Draws) { return true; })->uniform());
+  return found;
+}
+
+class SearchesOf : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override { omp_set_num_threads(GetParam()); }
+  void TearDown() override { omp_set_num_threads(threads_); }
+  int threads_ = omp_get_max_threads();
+};
+INSTANTIATE_TEST_SUITE_P(Threads, SearchesOf, testing::Values(1, 2, 3, 16));
+
+TEST_P(SearchesOf, TheFirstGoodTry) {
+  for (const double limit : {0.0, 0.5, 0.9, 0.999, 1.0})
+    for (const std::int64_t most : {1, 7, 1000}) {
+      DrawsAhead random(RandomStream(5, 0));
+      Found found;
+      for (int s = 0; s < 20; ++s) {
+        const auto attempt = [&](Draws d) {
+          const double a = d.uniform();
+          return good(a, d.uniform(), limit);
+        };
+        if (auto draws = random.first_good(most, 2, 4, attempt)) {
+          found.push_back(draws->uniform());
+          found.push_back(draws->uniform());
+        }
+      }
+      EXPECT_EQ(one_by_one(5, limit, most, 20), next_of(random, found)) << limit << ", " << most << " tries";
+    }
+}
+
+TEST_P(SearchesOf, ManyGoodTries) {
+  for (const int wanted : {1, 3, 500})
+    for (const double limit : {0.0, 0.5, 0.9}) {
+      DrawsAhead random(RandomStream(6, 0));
+      Found found;
+      const auto attempt = [&](Draws d) {
+        const double a = d.uniform();
+        return good(a, d.uniform(), limit);
+      };
+      const auto take = [&](Draws d) {
+        found.push_back(d.uniform());
+        found.push_back(d.uniform());
+        return found.size() < 2 * static_cast<std::size_t>(wanted);
+      };
+      EXPECT_TRUE(random.each_good(100'000, 2, 4, attempt, take));
+      EXPECT_EQ(one_by_one(6, limit, 100'000, wanted), next_of(random, found)) << wanted << " above " << limit;
+    }
+}
+
+TEST_P(SearchesOf, GiveUpAfterSoManyTriesInARow) {
+  int taken = 0;
+  const auto rare = [](Draws d) { return d.uniform() > 0.99; };
+  const auto take = [&](Draws) { return ++taken > 0; };
+  DrawsAhead random(RandomStream(7, 0));
+  EXPECT_FALSE(random.each_good(300, 1, 4, rare, take));
+  // By hand: the good ones before the first gap of 300.
+  RandomStream same(7, 0);
+  int expected = 0;
+  for (int failed = 0; failed < 300;) same.uniform() > 0.99 ? (failed = 0, ++expected) : ++failed;
+  EXPECT_EQ(taken, expected);
+  EXPECT_EQ(next_of(random, {}), Found{same.uniform()});
+}
+
+TEST_P(SearchesOf, WhatATryThrowsIsThrown) {
+  DrawsAhead random(RandomStream(8, 0));
+  const auto attempt = [](Draws d) -> bool {
+    if (d.uniform() > 0.9) throw RunError("a try");
+    return false;
+  };
+  EXPECT_THROW(random.first_good(10'000, 1, 4, attempt), RunError);
+}
+
+}  // namespace
+}  // namespace macadam
