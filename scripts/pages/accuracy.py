@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/accuracy.md: from bench/accuracy's accuracy.csv and accuracy-full.csv, all rows of a study; what to use when,
 and each setting."""
-from pages import (accuracy_asked, accuracy_elsewhere, accuracy_iterations, accuracy_linear, accuracy_rounding,
-                   stability)
+from pages import (accuracy_asked, accuracy_device, accuracy_elsewhere, accuracy_iterations, accuracy_linear,
+                   accuracy_rounding, stability)
 from pages.accuracy_rows import (E, FILES, PHI, TRUE_E, TRUE_PHI, both, done, scene, scenes, signed, study, tried,
                                  within)
 from pages.data import (between, downto, head, largest, listed, memory, minus, one, plain, power, rows, table, upto,
@@ -10,7 +10,7 @@ from pages.data import (between, downto, head, largest, listed, memory, minus, o
 from pages.marks import mark
 
 DOCUMENT = "docs/accuracy.md"
-PARTS = (accuracy_asked, accuracy_elsewhere, accuracy_iterations, accuracy_linear,
+PARTS = (accuracy_asked, accuracy_device, accuracy_elsewhere, accuracy_iterations, accuracy_linear,
          accuracy_rounding)  # more functions of this document
 
 
