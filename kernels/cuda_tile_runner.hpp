@@ -2,36 +2,16 @@
 /// \file cuda_tile_runner.hpp  Runs blocks of steps over tiles: condensed contacts in mixed and single precision.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <memory>
-#include <numbers>
 
+#include "kernels/block_length.hpp"
 #include "kernels/cuda_blocks.hpp"
 #include "kernels/cuda_tile_limits.hpp"
 #include "kernels/cuda_tiles_resident.hpp"
 #include "kernels/cuda_tiles_streamed.hpp"
 
 namespace macadam::kernels {
-
-/// Steps of a block: a 4,000th of the shortest time in the load or the laws, so that what a block neglects, of second
-/// order in it, is below 1e-6; and so few that at the specimen's strain a carried normal turns by less than 1e-6 in it.
-/// 0: blocks would be too short to pay, or nothing says how fast the load changes. `height`: of the specimen [m].
-inline int block_steps(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
-                       double height) {
-  if (!options.loading) return 0;
-  constexpr double pi = std::numbers::pi;
-  double shortest = 1 / options.loading->frequency;
-  if (options.geometry == Geometry::updated) {
-    const double strain_rate = std::abs(options.loading->amplitude) / height * 2 * pi * options.loading->frequency;
-    if (strain_rate > 0) shortest = std::min(shortest, 4000 * 1e-6 / strain_rate);
-  }
-  for (const auto& law : laws) {
-    if (law) shortest = std::min(shortest, 2 * pi * std::visit([](const auto& l) { return l.shortest_time(); }, *law));
-  }
-  const double steps = std::min(256.0, std::floor(shortest / (4000 * options.dt)));
-  return steps < 4 ? 0 : static_cast<int>(steps);
-}
 
 /// Runs a scene in blocks of steps; made once, before the first step.
 template <class P>

@@ -26,6 +26,11 @@ double single_precision_error(std::int64_t steps);
 /// Of `mixed`, however many steps (6e-7 was measured): single-precision geometry and gathered velocities.
 inline constexpr double mixed_precision_error = 1.2e-6;
 
+/// Where a device takes steps in blocks: what it costs that the shortest time of load and laws holds so many of them.
+double block_error(double blocks);
+/// As few blocks as cost no more than this; never more than the 4,000 of a run without a tolerance.
+double blocks_within(double error);
+
 /// Normals and arms of the start kept under this strain.
 double fixed_geometry_error(double strain);
 

@@ -21,6 +21,9 @@
 namespace macadam {
 namespace {
 
+/// The share of the tolerance that steps in blocks may cost, where a device takes them so.
+constexpr double block_share = 0.02;
+
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -121,7 +124,18 @@ StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
   options.damping_kind = solver.damping_kind;
   options.damping = solver.damping;
   options.threads = solver.threads;
+  if (solver.tolerance) options.blocks = blocks_within(block_share * *solver.tolerance);
   return options;
+}
+
+/// Says how long blocks of steps are, where a tolerance decides it and the backend may take them.
+void decide_blocks(const SolverSpec& solver, Backend backend, Plan& plan) {
+  const bool may = backend == Backend::cuda && plan.form == ContactForm::condensed;
+  if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
+  const double blocks = common_options(plan, solver).blocks;
+  plan.decisions.push_back(
+      fmt::format("laws settled {:.0f} times in the shortest time of load and laws: that costs at most {:.1e}",
+                  std::ceil(blocks), block_error(blocks)));
 }
 
 /// The stepper of one frequency: from rest, from the steady state, or, where there is one, from a checkpoint's state.
@@ -132,6 +146,7 @@ std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepa
   options.density_scaling = p.density_scaling;
   options.loading = p.loading;
   options.dt = p.loading.dt();
+  if (scene.solver.tolerance) options.observed_every = p.loading.steps_per_period / scene.loading.samples_per_cycle;
   StartState start;
   if (p.start == Start::steady && from.empty()) {
     start = steady_start(prepared.network, scene.laws, p.motion, p.loading);
@@ -267,6 +282,7 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
     at = *std::move(resumed);
   } else {
     at.plan = make_plan(scene, prepared, inertia, watcher.progress);
+    decide_blocks(scene.solver, result.backend, at.plan);
     at.seconds_planning = seconds_since(start);
   }
   auto steps = std::make_unique<Steps>(scene, prepared, watcher, inertia, std::move(at), resumed.has_value());

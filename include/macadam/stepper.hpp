@@ -45,6 +45,11 @@ struct StepperOptions {
   int threads = 0;                          ///< cpu: 0 is OpenMP's choice; results do not depend on it
   std::optional<loadings::Cyclic> loading;  ///< drives the top wall along z; its dt() must equal dt. None: walls rest
   const StartState* start = nullptr;        ///< read by make_stepper() only; a loading must then be without a ramp
+  /// Where a device takes steps in blocks, within which laws change little: how many of them the shortest time of load
+  /// and laws holds at the least. What a block neglects is of second order in its length.
+  double blocks = 4000;
+  /// Steps from one observe() to the next, 0: not known. Blocks end there where they can.
+  std::int64_t observed_every = 0;
 };
 
 /// Mass and moment of inertia of every particle, density scaling not included.
