@@ -57,7 +57,7 @@ class DeviceArray {
                      " MiB left, and the next array needs " + std::to_string(bytes() >> 20) +
                      " MiB: " + cudaGetErrorString(status));
     }
-    check_cuda(cudaMemset(data_, 0, bytes()), "clearing an array");
+    clear();
   }
   template <class Array>
   static DeviceArray of(const Array& host) {
@@ -73,6 +73,9 @@ class DeviceArray {
   }
   ~DeviceArray() { cudaFree(data_); }
 
+  void clear() {
+    if (size_ > 0) check_cuda(cudaMemset(data_, 0, bytes()), "clearing an array");
+  }
   void upload(const T* host) {
     if (size_ > 0) check_cuda(cudaMemcpy(data_, host, bytes(), cudaMemcpyHostToDevice), "copy to the device");
   }

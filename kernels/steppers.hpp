@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "kernels/precision.hpp"
 #include "macadam/stepper.hpp"
@@ -18,20 +19,21 @@ class ExecCuda;  // only in builds with CUDA
 template <class Exec>
 std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
                                          const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                                         const StepperOptions& options);
+                                         const StepperOptions& options, std::unique_ptr<Stepper> used);
 
 /// The stepper of a family of executors in the precision that the options ask for.
 template <template <class> class Exec>
 std::unique_ptr<Stepper> make_in_precision(const Specimen& specimen, const ContactNetwork& network,
                                            const std::array<std::optional<Law>, pair_types>& laws,
-                                           const Inertia& inertia, const StepperOptions& options) {
+                                           const Inertia& inertia, const StepperOptions& options,
+                                           std::unique_ptr<Stepper> used) {
   switch (options.precision) {
     case Precision::single:
-      return make_stepper_on<Exec<SinglePrecision>>(specimen, network, laws, inertia, options);
+      return make_stepper_on<Exec<SinglePrecision>>(specimen, network, laws, inertia, options, std::move(used));
     case Precision::mixed:
-      return make_stepper_on<Exec<MixedPrecision>>(specimen, network, laws, inertia, options);
+      return make_stepper_on<Exec<MixedPrecision>>(specimen, network, laws, inertia, options, std::move(used));
     default:
-      return make_stepper_on<Exec<DoublePrecision>>(specimen, network, laws, inertia, options);
+      return make_stepper_on<Exec<DoublePrecision>>(specimen, network, laws, inertia, options, std::move(used));
   }
 }
 

@@ -139,9 +139,10 @@ void decide_blocks(const SolverSpec& solver, Backend backend, Plan& plan) {
 }
 
 /// The stepper of one frequency: from rest, from the steady state, or, where there is one, from a checkpoint's state.
+/// `used`: that of the frequency before.
 std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepared, const Inertia& inertia,
                                     Backend backend, const Plan& plan, const FrequencyPlan& p,
-                                    const std::vector<StateArray>& from) {
+                                    const std::vector<StateArray>& from, std::unique_ptr<Stepper> used) {
   StepperOptions options = common_options(plan, scene.solver);
   options.density_scaling = p.density_scaling;
   options.loading = p.loading;
@@ -152,7 +153,8 @@ std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepa
     start = steady_start(prepared.network, scene.laws, p.motion, p.loading);
     options.start = &start;
   }
-  auto stepper = make_stepper(backend, prepared.specimen, prepared.network, scene.laws, inertia, options);
+  auto stepper =
+      make_stepper(backend, prepared.specimen, prepared.network, scene.laws, inertia, options, std::move(used));
   if (!from.empty()) stepper->set_state(from);
   return stepper;
 }
@@ -175,7 +177,7 @@ class Steps : public Solution {
     const FrequencyPlan& p = at_.plan.frequencies[at_.seconds.size()];
     const bool resumed = !at_.state.empty();
     try {
-      first_ = stepper_of(scene_, prepared_, inertia_, backend, at_.plan, p, std::exchange(at_.state, {}));
+      stepper_ = stepper_of(scene_, prepared_, inertia_, backend, at_.plan, p, std::exchange(at_.state, {}), nullptr);
     } catch (const Error& error) {
       if (resumed) throw InputError(checkpoint.string() + ": checkpoint of another machine: " + error.what());
       throw;
@@ -225,15 +227,17 @@ class Steps : public Solution {
     const auto start = Clock::now();
     const double before = std::exchange(at_.seconds_running, 0);
     const FrequencyPlan& p = at_.plan.frequencies[i];
-    const auto stepper =
-        first_ ? std::move(first_) : stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, {});
-    result.solver = stepper->description();
-    result.bytes = stepper->bytes();
+    if (used_) {
+      stepper_ = stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, {}, std::move(stepper_));
+    }
+    used_ = true;
+    result.solver = stepper_->description();
+    result.bytes = stepper_->bytes();
     save("running");
     const double per_cycle = static_cast<double>(p.loading.steps_per_period);
-    const std::int64_t begun = stepper->observe().step;
+    const std::int64_t begun = stepper_->observe().step;
     const auto look = [&] {
-      checkpoints.look(at_, before + seconds_since(start), *stepper, fmt::format("{} Hz", p.loading.frequency));
+      checkpoints.look(at_, before + seconds_since(start), *stepper_, fmt::format("{} Hz", p.loading.frequency));
     };
     const auto stepped = [&](std::int64_t done) {
       if (!watcher_.progress || done == 0) return;
@@ -243,7 +247,7 @@ class Steps : public Solution {
                                     static_cast<double>(done - begun) / seconds_since(start)),
                         steps / (per_cycle * p.cycles));
     };
-    run_cyclic(scene_, prepared_.specimen, *stepper, p, at_.samples, writer, look, stepped);
+    run_cyclic(scene_, prepared_.specimen, *stepper_, p, at_.samples, writer, look, stepped);
     at_.seconds.push_back(before + seconds_since(start));
   }
 
@@ -260,8 +264,9 @@ class Steps : public Solution {
   const Watcher& watcher_;
   Inertia inertia_;
   RunState at_;
-  std::unique_ptr<Stepper> first_;  ///< of the frequency that runs first
-  std::size_t samples_read_ = 0;    ///< of finished frequencies
+  std::unique_ptr<Stepper> stepper_;  ///< of the frequency that runs, or is to run first
+  bool used_ = false;                 ///< it has run one
+  std::size_t samples_read_ = 0;      ///< of finished frequencies
   bool owns_checkpoint_;
 };
 

@@ -4,6 +4,8 @@
 
 #include <omp.h>
 
+#include <utility>
+
 #include "host/reference/reference_stepper.hpp"
 #include "kernels/steppers.hpp"
 #include "macadam/error.hpp"
@@ -94,7 +96,7 @@ Backend select_backend(Backend asked, std::string* reason) {
 
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                       const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                                      const StepperOptions& options) {
+                                      const StepperOptions& options, std::unique_ptr<Stepper> used) {
   for (int pair = 0; pair < pair_types; ++pair) {
     const auto p = static_cast<std::size_t>(pair);
     if (network.count[p] > 0 && !laws[p]) {
@@ -112,10 +114,10 @@ std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen,
       return make_reference_stepper(specimen, network, laws, inertia, options);
 #ifdef MACADAM_CUDA
     case Backend::cuda:
-      return kernels::make_in_precision<kernels::ExecCuda>(specimen, network, laws, inertia, options);
+      return kernels::make_in_precision<kernels::ExecCuda>(specimen, network, laws, inertia, options, std::move(used));
 #endif
     default:
-      return kernels::make_in_precision<kernels::ExecCpu>(specimen, network, laws, inertia, options);
+      return kernels::make_in_precision<kernels::ExecCpu>(specimen, network, laws, inertia, options, std::move(used));
   }
 }
 

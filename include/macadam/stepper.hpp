@@ -137,11 +137,13 @@ class Stepper {
 /// the line of its centres (first moments below 1e-12 of area × size, which is rounding).
 bool nothing_turns(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws);
 
-/// Makes the stepper of a backend (`automatic` is resolved first).
+/// Makes the stepper of a backend (`automatic` is resolved first). `used`: one made of the same specimen, network and
+/// laws that is no longer needed. What it holds that does not depend on time step, masses, loading and start is then
+/// kept; the new one takes the same steps, to the bit, as if it had been made without it.
 /// \throws RunError when the backend is not there; InputError when an option does not fit the backend.
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                       const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                                      const StepperOptions& options);
+                                      const StepperOptions& options, std::unique_ptr<Stepper> used = nullptr);
 
 /// A step that no scene of this network can make unstable: √(2/max λ_max(M_i⁻¹·K_ii)) over the particles' own 6 × 6
 /// blocks with instantaneous stiffnesses, rotations included; local damping χ shortens it by √(1 + χ).
