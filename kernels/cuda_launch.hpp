@@ -37,7 +37,9 @@ KernelUse kernel_use(const char* name, void (*kernel)(Parameters...), unsigned t
   check_cuda(cudaFuncGetAttributes(&attributes, kernel), name);
   int blocks = 0, most_threads = 0;
   check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, static_cast<int>(threads), shared), name);
-  check_cuda(cudaDeviceGetAttribute(&most_threads, cudaDevAttrMaxThreadsPerMultiProcessor, 0), name);
+  int device = 0;
+  check_cuda(cudaGetDevice(&device), name);
+  check_cuda(cudaDeviceGetAttribute(&most_threads, cudaDevAttrMaxThreadsPerMultiProcessor, device), name);
   return {name, attributes.numRegs, static_cast<std::int64_t>(attributes.sharedSizeBytes + shared),
           static_cast<double>(blocks) * threads / most_threads};
 }

@@ -32,7 +32,8 @@ class ExecCuda {
 
   /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that several tiles share
   /// one. A contact takes some 75 bytes of shared memory there: two slots of loads and its share of the bodies.
-  static std::size_t tile_contacts_of(const ContactNetwork& network) {
+  static std::size_t tile_contacts_of(const ContactNetwork& network, const StepperOptions& options) {
+    check_cuda(cudaSetDevice(options.device.value()), "device");
     const DeviceLimits limits = DeviceLimits::query();
     const auto chips = static_cast<std::size_t>(limits.multiprocessors),
                shared = static_cast<std::size_t>(limits.shared);
@@ -41,8 +42,10 @@ class ExecCuda {
     return std::max<std::size_t>(128, contacts / (chips + 1) + 1);
   }
 
-  ExecCuda(const ContactNetwork& network, const Layout& layout, const StepperOptions&)
-      : network_(&network),
+  /// Takes what the options leave to every start: the device.
+  ExecCuda(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
+      : device_(options.device.value()),
+        network_(&network),
         layout_(layout),
         views_(layout.groups.size()),
         rows_(network, layout),
@@ -57,6 +60,9 @@ class ExecCuda {
     forget_graphs();
     cudaStreamDestroy(stream_);
   }
+
+  /// Makes the stepper's device the calling thread's; that it answers is known by then.
+  void use_device() const { cudaSetDevice(device_); }
 
   /// Whether groups once taken may be stepped with these options: in blocks or not, as before.
   bool suits(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
@@ -205,8 +211,9 @@ class ExecCuda {
 
   std::string description() const {
     cudaDeviceProp properties{};
-    check_cuda(cudaGetDeviceProperties(&properties, 0), "device properties");
-    return std::string("cuda, ") + properties.name + ", " + (tiles_ ? tiles_->description() : "two kernels a step");
+    check_cuda(cudaGetDeviceProperties(&properties, device_), "device properties");
+    return "cuda" + (device_ > 0 ? " device " + std::to_string(device_) : "") + ", " + properties.name + ", " +
+           (tiles_ ? tiles_->description() : "two kernels a step");
   }
   /// The kernels of a step.
   std::vector<KernelUse> kernels() const {
@@ -321,6 +328,7 @@ class ExecCuda {
     std::int64_t traffic() const { return 0; }
   };
 
+  int device_;
   const ContactNetwork* network_;  // until it is known whether steps are taken in blocks
   const Layout& layout_;
   std::vector<ContactView<P>> views_;  // of the groups

@@ -54,11 +54,12 @@ class StepperImpl final : public Stepper {
       : options_(decided(options, network, laws)),
         radius_(specimen.radius),
         height_(specimen.box.size.z),
-        layout_(make_layout(specimen, network, Exec::lanes, tile_contacts(network))),
+        layout_(make_layout(specimen, network, Exec::lanes, tile_contacts(network, options))),
         exec_(network, layout_, options_) {
     begin(network, laws, inertia, true);
   }
   StepperImpl(const StepperImpl&) = delete;
+  ~StepperImpl() override { use_device(); }
 
   /// Begins anew with other options, of the network and the laws that it was made of. False, with nothing changed,
   /// where what is kept does not suit them.
@@ -66,7 +67,7 @@ class StepperImpl final : public Stepper {
                    const Inertia& inertia, const StepperOptions& options) {
     const StepperOptions next = decided(options, network, laws);
     const auto kept = [](const StepperOptions& o) {
-      return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads);
+      return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.device);
     };
     if (kept(next) != kept(options_) || network.contacts.size() != contacts_ || !exec_.suits(next, laws, height_))
       return false;
@@ -77,6 +78,7 @@ class StepperImpl final : public Stepper {
 
   /// The step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void advance(std::int64_t steps) override {
+    use_device();
     exec_.repeat(step_, steps, [this](auto& team, std::int64_t k) {
       team.bodies(motion_, k);
       team.contacts();
@@ -85,6 +87,7 @@ class StepperImpl final : public Stepper {
   }
 
   Observation observe() const override {
+    use_device();
     Observation out;
     out.step = step_;
     out.time = static_cast<double>(step_) * options_.dt;
@@ -98,6 +101,7 @@ class StepperImpl final : public Stepper {
   }
 
   ParticleState particles() const override {
+    use_device();
     const std::size_t n = layout_.particles();
     ParticleState out{std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<Vec3d>(n),
                       std::vector<Vec3d>(n)};
@@ -119,6 +123,7 @@ class StepperImpl final : public Stepper {
   }
 
   void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) override {
+    use_device();
     if (options_.skip_rotations && largest(spin) > 0) {
       throw InputError("a spin was given to particles that nothing can turn: set skip_rotations to false");
     }
@@ -134,12 +139,14 @@ class StepperImpl final : public Stepper {
   }
 
   std::vector<StateArray> state() const override {
+    use_device();
     std::vector<StateArray> out{{"step", "1", std::vector{step_}}, {"layout", "1", order()}};
     for (StateArray& array : exec_.states().copy()) out.push_back(std::move(array));
     return out;
   }
 
   void set_state(const std::vector<StateArray>& arrays) override {
+    use_device();
     const auto integers = [&](const char* name) {
       for (const StateArray& array : arrays) {
         const auto* values = std::get_if<std::vector<std::int64_t>>(&array.values);
@@ -159,6 +166,7 @@ class StepperImpl final : public Stepper {
   }
 
   std::int64_t first_divergent() const override {
+    use_device();
     if constexpr (requires { exec_.first_divergent(radius_, options_.dt); }) {
       return exec_.first_divergent(radius_, options_.dt);
     }
@@ -181,6 +189,7 @@ class StepperImpl final : public Stepper {
            to_string(options_.geometry);
   }
   std::vector<KernelUse> kernels() const override {
+    use_device();
     if constexpr (requires { exec_.kernels(); })
       return exec_.kernels();
     else
@@ -195,9 +204,13 @@ class StepperImpl final : public Stepper {
   }
 
  private:
-  static std::size_t tile_contacts(const ContactNetwork& network) {
-    if constexpr (requires { Exec::tile_contacts_of(network); })
-      return Exec::tile_contacts_of(network);
+  /// A thread has a current device of its own, and may serve several steppers.
+  void use_device() const {
+    if constexpr (requires { exec_.use_device(); }) exec_.use_device();
+  }
+  static std::size_t tile_contacts(const ContactNetwork& network, const StepperOptions& options) {
+    if constexpr (requires { Exec::tile_contacts_of(network, options); })
+      return Exec::tile_contacts_of(network, options);
     else
       return Exec::tile_contacts;
   }
@@ -222,6 +235,7 @@ class StepperImpl final : public Stepper {
   /// All that the options decide. The first time, the groups are made and kept; later only their states are.
   void begin(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
              const Inertia& inertia, bool first) {
+    use_device();
     const StepperOptions& options = options_;
     step_ = 0;
     contacts_ = network.contacts.size();

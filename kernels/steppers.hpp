@@ -37,7 +37,9 @@ std::unique_ptr<Stepper> make_in_precision(const Specimen& specimen, const Conta
   }
 }
 
-/// Only in builds with CUDA: the devices that answer; `status` says in words why there are none.
-std::vector<DeviceInfo> cuda_devices(std::string& status);
+/// Only in builds with CUDA: fills the report's devices and status, without a context on any of them.
+void report_cuda_devices(BackendReport& report);
+/// Only in builds with CUDA: why this device cannot run the kernels, as the one that is to; empty where it can.
+std::string cuda_refusal(int device);
 
 }  // namespace macadam::kernels

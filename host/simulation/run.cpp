@@ -77,7 +77,8 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   require_backend_fits(scene);
   RunResult result;
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
-  if (stepped) result.backend = select_backend(scene.solver.backend);  // before any work: cuda may not be there
+  // before any work: cuda may not be there
+  if (stepped) result.backend = select_backend(scene.solver.backend, nullptr, scene.solver.device);
   require_checkpoints(scene, result.backend, resume);
   const ResultFolder folder(out);
   std::optional<RunState> resumed;

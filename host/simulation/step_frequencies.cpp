@@ -124,6 +124,7 @@ StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
   options.damping_kind = solver.damping_kind;
   options.damping = solver.damping;
   options.threads = solver.threads;
+  options.device = solver.device;
   if (solver.tolerance) options.blocks = blocks_within(block_share * *solver.tolerance);
   return options;
 }

@@ -43,6 +43,7 @@ struct StepperOptions {
   bool skip_shear = true;                   ///< no shear chains where α = 0
   bool skip_rotations = true;               ///< no rotations where nothing_turns()
   int threads = 0;                          ///< cpu: 0 is OpenMP's choice; results do not depend on it
+  std::optional<int> device;                ///< cuda: made the calling thread's; none: the first that can run
   std::optional<loadings::Cyclic> loading;  ///< drives the top wall along z; its dt() must equal dt. None: walls rest
   const StartState* start = nullptr;        ///< read by make_stepper() only; a loading must then be without a ramp
   /// Where a device takes steps in blocks, within which laws change little: how many of them the shortest time of load
