@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_data.hpp  The arrays of one group of contacts, and how they are filled from the network.
+/// \file contact_data.hpp  The arrays of one group of contacts, filled from the network once; states anew for every
+/// start.
 ///
 /// Blocked structure-of-arrays: word w of the contact in lane j of packet p is at [(p·words + w)·lanes + j]. On the CPU
 /// a packet is a SIMD register, on the device a warp: both load one word of all lanes at once.
@@ -12,7 +13,6 @@
 
 #include "kernels/aligned.hpp"
 #include "kernels/layout.hpp"
-#include "kernels/start_frame.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam::kernels {
@@ -113,74 +113,15 @@ struct GroupShape {
   }
 };
 
-/// Fills the arrays of a group. Inert slots touch `body_a` of a real contact with zero arms and moments: they add zero.
-/// `options.skip_rotations` is taken as decided.
+/// The arrays of a group that no step changes, its numbers and its law. Inert slots touch `body_a` of a real contact
+/// with zero arms and moments: they add zero. `options.skip_rotations` is taken as decided.
 template <class P>
 ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
-                               const Law& law, const StepperOptions& options) {
-  using Geo = typename P::Geometry;
-  const GroupShape<P> sizes(layout, group, law, options);
-  ContactArrays<P> out;
-  out.law = law;
-  const auto& shape = out.shape = sizes.view;
-  const bool turns = !options.skip_rotations, by_points = sizes.by_points, stateless = sizes.stateless;
-  const std::size_t slots = sizes.slots, lanes = sizes.lanes;
-  const auto words = static_cast<std::size_t>(1 + shape.units), components = static_cast<std::size_t>(shape.components);
-  out.body_a.resize(slots);
-  out.body_b.resize(slots);
-  out.geometry.assign(sizes.geometry(), Geo(0));
-  out.frame.assign(sizes.frame(), typename P::State(0));
-  out.chain.assign(sizes.chain(), typename P::State(0));
-  out.points.assign(sizes.points(), Geo(0));
-  if (by_points) out.packet_row.assign(group.packet_row.begin(), group.packet_row.end());
+                               const Law& law, const StepperOptions& options);
 
-  for (std::size_t slot = 0; slot < slots; ++slot) {
-    const std::size_t packet = slot / lanes, lane = slot % lanes;
-    const bool real = group.contact[slot] != inert;
-    const Contact& c = network.contacts[group.contact[real ? slot : packet * lanes]];  // lane 0 is always real
-    out.body_a[slot] = layout.body_of(c.a);
-    out.body_b[slot] = layout.body_of(real ? c.b : c.a);
-    auto word = [&](int w) -> Geo& {
-      return out
-          .geometry[(packet * static_cast<std::size_t>(shape.geometry_words) + static_cast<std::size_t>(w)) * lanes +
-                    lane];
-    };
-    word(n_x) = static_cast<Geo>(c.n.x);
-    word(n_y) = static_cast<Geo>(c.n.y);
-    word(n_z) = static_cast<Geo>(c.n.z);
-    if (options.geometry == Geometry::updated) word(distance) = static_cast<Geo>(c.distance);
-    const Vec3d from = options.start && real && shape.frame_words > 0 ? carried_to_start(c, *options.start) : c.s;
-    const double s[3] = {from.x, from.y, from.z};
-    for (int k = 0; k < shape.frame_words && k < 3; ++k) {
-      out.frame[(packet * static_cast<std::size_t>(shape.frame_words) + static_cast<std::size_t>(k)) * lanes + lane] =
-          static_cast<typename P::State>(s[k]);
-    }
-    if (!real) continue;
-    word(arm_a) = static_cast<Geo>(c.arm_a);
-    word(arm_b) = static_cast<Geo>(c.arm_b);
-    const double moments[6] = {c.moments.a, c.moments.s, c.moments.t, c.moments.ss, c.moments.st, c.moments.tt};
-    for (int k = 0; k < (turns ? 6 : 1); ++k) word(moment_0 + k) = static_cast<Geo>(moments[k] / c.distance);
-    const StartChain start{
-        options.start && !stateless ? &options.start->chain[options.start->chain_begin[group.contact[slot]]] : nullptr,
-        words};
-    auto set_chain = [&](std::size_t row, auto&& value) {
-      for (std::size_t i = 0; start.six && i < components * words; ++i) {
-        out.chain[(row * components * words + i) * lanes + lane] =
-            static_cast<typename P::State>(value(static_cast<int>(i / words), i % words));
-      }
-    };
-    if (!by_points) set_chain(packet, [&](int component, std::size_t w) { return start.facet(component, w); });
-    for (std::uint32_t j = 0; by_points && j < c.point_end - c.point_begin; ++j) {
-      Geo* row = &out.points[(group.packet_row[packet] + j) * point_words * lanes];
-      row[point_s * lanes + lane] = static_cast<Geo>(network.point_s[c.point_begin + j]);
-      row[point_t * lanes + lane] = static_cast<Geo>(network.point_t[c.point_begin + j]);
-      row[point_weight * lanes + lane] = static_cast<Geo>(network.point_area[c.point_begin + j] / c.distance);
-      set_chain(group.packet_row[packet] + j, [&](int component, std::size_t w) {
-        return start.point(component, w, network.point_s[c.point_begin + j], network.point_t[c.point_begin + j]);
-      });
-    }
-  }
-  return out;
-}
+/// The arrays that a step changes, as they are at the start that the options give, or at rest.
+template <class P>
+void fill_states(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const Law& law,
+                 const StepperOptions& options, ContactArrays<P>& out);
 
 }  // namespace macadam::kernels

@@ -11,6 +11,9 @@
 
 namespace macadam::kernels {
 
+/// In place of the steps of the block that ends: nothing has been stepped, and constants are to be those of the start.
+inline constexpr int settling_starts = -1;
+
 /// Settles the contacts of one group.
 template <class P, class Block, int Units, Geometry geometry>
 struct SettleContact {
@@ -19,13 +22,18 @@ struct SettleContact {
   ContactView<P> view;
   Block law;
 
-  /// `place`: where the contact is among the tiles', UINT32_MAX for none. `steps`: of the block that ends; 0: none.
+  /// `place`: where the contact is among the tiles', UINT32_MAX for none. `steps`: of the block that ends; 0: none;
+  /// settling_starts.
   __device__ void operator()(std::uint32_t slot, uint2 place, float4* constant, float4* state, const double* now,
                              const double* before, int steps, const LoadRecords<typename P::Particle>& records,
                              std::uint32_t record) const {
     if (place.x == UINT32_MAX) return;
     constexpr bool carried = geometry == Geometry::updated;
     const std::uint32_t lane = slot % 32, packet = slot / 32;
+    if (steps == settling_starts) {
+      begin(slot, place, constant);
+      return;
+    }
     float change[6], sum[6];
     load_state(at(state, place.x, tile_states), change, sum);
     const int units = Units >= 0 ? Units : view.units;
@@ -89,6 +97,24 @@ struct SettleContact {
   __device__ __forceinline__ static Vec3<double> vector(const double* u, std::int32_t body, int first) {
     const double* w = u + static_cast<std::size_t>(body) * displacement_words + first;
     return {w[0], w[1], w[2]};
+  }
+
+  /// No drive, and the frame of the undeformed contact.
+  __device__ void begin(std::uint32_t slot, uint2 place, float4* constant) const {
+    const auto* g = view.geometry + static_cast<std::size_t>(slot / 32) * view.geometry_words * 32 + slot % 32;
+    const auto word = [&](int k) { return static_cast<float>(g[k * 32]); };
+    constexpr bool carried = geometry == Geometry::updated;
+    for (const std::uint32_t p : {place.x, place.y}) {
+      if (p == UINT32_MAX) continue;
+      float4* out = at(constant, p, tile_constants(carried));
+      out[tile_drive_a * 32] = {0, 0, 0, 0};
+      *reinterpret_cast<float2*>(out + tile_drive_b * 32) = {0, 0};
+      if constexpr (carried) {
+        out[tile_normal * 32] = {word(n_x), word(n_y), word(n_z), word(arm_a)};
+        out[tile_moment_a * 32].x = word(arm_b);
+        out[tile_tangent * 32] = {0, 0, 0, 0};
+      }
+    }
   }
 
   /// Eq. 5–6 over a block: as ContactForces::carry() over a step, with the motion since the last block.

@@ -1,36 +1,50 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cuda_devices.cu  What CUDA devices answer.
+// cuda_devices.cu  What CUDA devices answer. A context is made on the one that is to run, on no other.
 #include <cuda_runtime.h>
 
+#include <string>
+
+#include "kernels/device_code.hpp"
 #include "kernels/steppers.hpp"
 
 namespace macadam::kernels {
 
-/// Asked whether the device has code for it: compiled for it, or to be compiled by its driver.
+/// Asked whether the device can be used and takes this build's code.
 __global__ void probe() {}
 
-std::vector<DeviceInfo> cuda_devices(std::string& status) {
+void report_cuda_devices(BackendReport& report) {
   int count = 0;
-  std::vector<DeviceInfo> devices;
   if (const cudaError_t error = cudaGetDeviceCount(&count); error != cudaSuccess) {
-    status = std::string("no usable device: ") + cudaGetErrorString(error);
-    return devices;
+    report.cuda_status = std::string("no usable device: ") + cudaGetErrorString(error);
+    cudaGetLastError();
+    return;
   }
   for (int i = 0; i < count; ++i) {
     cudaDeviceProp p{};
-    if (cudaGetDeviceProperties(&p, i) != cudaSuccess || cudaSetDevice(i) != cudaSuccess) continue;
-    cudaFuncAttributes attributes{};
-    if (cudaFuncGetAttributes(&attributes, probe) != cudaSuccess) {
-      status = std::string(p.name) + " cannot run this build's kernels: " + cudaGetErrorString(cudaGetLastError());
-      continue;
-    }
-    devices.push_back(
-        {p.name, 10 * p.major + p.minor, static_cast<std::int64_t>(p.totalGlobalMem), p.multiProcessorCount});
+    if (cudaGetDeviceProperties(&p, i) != cudaSuccess) continue;
+    const DeviceInfo device{i, p.name, 10 * p.major + p.minor, static_cast<std::int64_t>(p.totalGlobalMem),
+                            p.multiProcessorCount};
+    (has_code_for(MACADAM_CUDA_CODE, p.major, p.minor) ? report.devices : report.devices_without_code)
+        .push_back(device);
   }
-  if (devices.empty()) return devices;
-  cudaSetDevice(0);
-  status = std::to_string(devices.size()) + (devices.size() == 1 ? " device answers" : " devices answer");
-  return devices;
+  const std::size_t usable = report.devices.size();
+  if (usable > 0) {
+    report.cuda_status = std::to_string(usable) + (usable == 1 ? " device answers" : " devices answer");
+  } else if (report.devices_without_code.empty()) {
+    report.cuda_status = "no usable device: none answers";
+  } else {
+    report.cuda_status = report.devices_without_code.front().name + " cannot run this build's kernels, which are for " +
+                         MACADAM_CUDA_CODE;
+  }
+}
+
+std::string cuda_refusal(int device) {
+  cudaFuncAttributes attributes{};
+  cudaError_t error = cudaSetDevice(device);
+  if (error == cudaSuccess) error = cudaFuncGetAttributes(&attributes, probe);
+  if (error == cudaSuccess) return "";
+  cudaGetLastError();
+  return cudaGetErrorString(error);
 }
 
 }  // namespace macadam::kernels

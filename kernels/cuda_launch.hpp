@@ -37,7 +37,9 @@ KernelUse kernel_use(const char* name, void (*kernel)(Parameters...), unsigned t
   check_cuda(cudaFuncGetAttributes(&attributes, kernel), name);
   int blocks = 0, most_threads = 0;
   check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, static_cast<int>(threads), shared), name);
-  check_cuda(cudaDeviceGetAttribute(&most_threads, cudaDevAttrMaxThreadsPerMultiProcessor, 0), name);
+  int device = 0;
+  check_cuda(cudaGetDevice(&device), name);
+  check_cuda(cudaDeviceGetAttribute(&most_threads, cudaDevAttrMaxThreadsPerMultiProcessor, device), name);
   return {name, attributes.numRegs, static_cast<std::int64_t>(attributes.sharedSizeBytes + shared),
           static_cast<double>(blocks) * threads / most_threads};
 }
@@ -57,7 +59,7 @@ class DeviceArray {
                      " MiB left, and the next array needs " + std::to_string(bytes() >> 20) +
                      " MiB: " + cudaGetErrorString(status));
     }
-    check_cuda(cudaMemset(data_, 0, bytes()), "clearing an array");
+    clear();
   }
   template <class Array>
   static DeviceArray of(const Array& host) {
@@ -73,6 +75,9 @@ class DeviceArray {
   }
   ~DeviceArray() { cudaFree(data_); }
 
+  void clear() {
+    if (size_ > 0) check_cuda(cudaMemset(data_, 0, bytes()), "clearing an array");
+  }
   void upload(const T* host) {
     if (size_ > 0) check_cuda(cudaMemcpy(data_, host, bytes(), cudaMemcpyHostToDevice), "copy to the device");
   }

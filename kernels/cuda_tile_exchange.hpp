@@ -37,13 +37,41 @@ __device__ __forceinline__ void put_velocity(ulonglong2* to, const float (&y)[6]
   put_word(to, pair(__float_as_uint(y[0]), __float_as_uint(y[1])), pair(__float_as_uint(y[2]), tag));
   put_word(to + 1, pair(__float_as_uint(y[3]), __float_as_uint(y[4])), pair(__float_as_uint(y[5]), tag));
 }
-/// Three numbers of one word, once it bears the tag.
-__device__ __forceinline__ float4 wait_for_word(const ulonglong2* from, std::uint32_t tag) {
-  ulonglong2 word = get_word(from);
-  while (static_cast<std::uint32_t>(word.y >> 32) != tag) word = get_word(from);
+/// Whether a word bears the tag, and its three numbers.
+__device__ __forceinline__ bool bears(const ulonglong2& word, std::uint32_t tag) {
+  return static_cast<std::uint32_t>(word.y >> 32) == tag;
+}
+__device__ __forceinline__ float4 numbers_of(const ulonglong2& word) {
   return {__uint_as_float(static_cast<std::uint32_t>(word.x)),
           __uint_as_float(static_cast<std::uint32_t>(word.x >> 32)),
           __uint_as_float(static_cast<std::uint32_t>(word.y)), 0};
+}
+
+/// Calls take(h, numbers) for the words h = first, first + stride, … < count at from(h) as they come to bear the tag. A
+/// word's way from the second-level cache is long: a thread asks for two at once, and calls meanwhile() once before it
+/// looks at the first answer.
+template <class From, class Meanwhile, class Take>
+__device__ __forceinline__ void wait_for_words(std::uint32_t first, std::uint32_t stride, std::uint32_t count,
+                                               std::uint32_t tag, From&& from, Meanwhile&& meanwhile, Take&& take) {
+  bool called = false;
+  for (std::uint32_t h = first; h < count || !called; h += 2 * stride) {
+    bool wait_a = h < count, wait_b = h + stride < count;
+    const ulonglong2 *at_a = wait_a ? from(h) : nullptr, *at_b = wait_b ? from(h + stride) : nullptr;
+    ulonglong2 a{}, b{};
+    if (wait_a) a = get_word(at_a);
+    if (wait_b) b = get_word(at_b);
+    if (!called) meanwhile();
+    called = true;
+    while (true) {
+      wait_a = wait_a && !bears(a, tag);
+      wait_b = wait_b && !bears(b, tag);
+      if (!wait_a && !wait_b) break;
+      if (wait_a) a = get_word(at_a);
+      if (wait_b) b = get_word(at_b);
+    }
+    if (at_a) take(h, numbers_of(a));
+    if (at_b) take(h + stride, numbers_of(b));
+  }
 }
 
 }  // namespace macadam::kernels

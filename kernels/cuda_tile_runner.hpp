@@ -2,36 +2,18 @@
 /// \file cuda_tile_runner.hpp  Runs blocks of steps over tiles: condensed contacts in mixed and single precision.
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <memory>
-#include <numbers>
+#include <utility>
 
+#include "kernels/block_length.hpp"
 #include "kernels/cuda_blocks.hpp"
+#include "kernels/cuda_record_rows.hpp"
 #include "kernels/cuda_tile_limits.hpp"
 #include "kernels/cuda_tiles_resident.hpp"
 #include "kernels/cuda_tiles_streamed.hpp"
 
 namespace macadam::kernels {
-
-/// Steps of a block: a 4,000th of the shortest time in the load or the laws, so that what a block neglects, of second
-/// order in it, is below 1e-6; and so few that at the specimen's strain a carried normal turns by less than 1e-6 in it.
-/// 0: blocks would be too short to pay, or nothing says how fast the load changes. `height`: of the specimen [m].
-inline int block_steps(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
-                       double height) {
-  if (!options.loading) return 0;
-  constexpr double pi = std::numbers::pi;
-  double shortest = 1 / options.loading->frequency;
-  if (options.geometry == Geometry::updated) {
-    const double strain_rate = std::abs(options.loading->amplitude) / height * 2 * pi * options.loading->frequency;
-    if (strain_rate > 0) shortest = std::min(shortest, 4000 * 1e-6 / strain_rate);
-  }
-  for (const auto& law : laws) {
-    if (law) shortest = std::min(shortest, 2 * pi * std::visit([](const auto& l) { return l.shortest_time(); }, *law));
-  }
-  const double steps = std::min(256.0, std::floor(shortest / (4000 * options.dt)));
-  return steps < 4 ? 0 : static_cast<int>(steps);
-}
 
 /// Runs a scene in blocks of steps; made once, before the first step.
 template <class P>
@@ -61,17 +43,16 @@ class TileRunner {
   std::string description() const { return resident_ ? "tiles on the chip" : "tiles streamed"; }
   std::vector<KernelUse> kernels() const { return {use_}; }
 
-  /// Takes group `number`; `view` points to device arrays.
-  template <Geometry geometry>
-  void add_group(int number, const ContactArrays<P>& arrays, const ContactView<P>& view, double dt) {
+  /// Ends whatever ran: the steps to come are of blocks of another length.
+  void begin(int block) {
+    block_ = block;
+    begun_ = false;
+    in_block_ = 0;
+  }
+
+  /// Takes the contacts of group `number`; `view` points to device arrays.
+  void add_contacts(int number, const ContactArrays<P>& arrays, const ContactView<P>& view) {
     const auto g = static_cast<std::uint32_t>(number);
-    std::visit(
-        [&](const auto& law) {
-          const auto block = law.block(dt, block_);
-          scene_.law[number] = {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
-                                static_cast<float>(view.alpha), static_cast<float>(block.follow)};
-        },
-        arrays.law);
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
       const TileContact& c = plan_.contact[i];
       if (c.group_slot == UINT32_MAX || c.group != g) continue;
@@ -88,42 +69,36 @@ class TileRunner {
       out[tile_drive_b * 32] = {0, 0, bits(c.slot_a | static_cast<std::uint32_t>(c.slot_b) << 16),
                                 bits(g | std::min(c.wall_row, no_wall_row) << 4)};
     }
-    add_to_settle<geometry>(number, arrays, view, dt);
   }
 
-  /// Ends the set-up: `motion`, and the rows of records as ExecCuda keeps them.
-  void prepare(const ParticleMotion<P>& motion, const std::uint32_t* row_begin, const std::uint32_t* record,
-               std::size_t records, const std::vector<std::uint32_t>& long_rows) {
-    for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
-      if (plan_.contact[i].group_slot != UINT32_MAX) continue;  // inert: adds nothing to nobody
-      float4* out = &constants_[i / 32 * static_cast<std::size_t>(tile_constants(carried_)) * 32 + i % 32];
-      out[tile_drive_b * 32] = {0, 0, bits(UINT32_MAX), bits(no_wall_row << 4)};
-    }
+  /// Takes the law of group `number` for steps of `dt`.
+  template <Geometry geometry>
+  void set_group(int number, const Law& law, const ContactView<P>& view, double dt) {
+    std::visit(
+        [&](const auto& l) {
+          const auto block = l.block(dt, block_);
+          scene_.law[number] = {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
+                                static_cast<float>(view.alpha), static_cast<float>(block.follow)};
+        },
+        law);
+    set_settling<geometry>(number, law, view, dt);
+  }
+
+  /// Ends every set-up: everything as it is before the first step. Words of the exchange may stay, as tags go on.
+  void prepare(const ParticleMotion<P>& motion, const RecordRows& rows) {
+    if (!std::exchange(prepared_, true)) keep_arrays(rows);
     scene_.motion = motion;
-    scene_.tile = store_.keep(plan_.tile);
-    scene_.body = store_.keep(plan_.body);
-    scene_.row = reinterpret_cast<const uint2*>(store_.keep(plan_.row));
-    scene_.diagonal = store_.keep(plan_.diagonal);
-    scene_.halo = store_.keep(plan_.halo);
-    constant_ = DeviceArray<float4>::of(constants_);
-    scene_.constant = constant_.data();
-    state_count_ = plan_.contact.size() * tile_states;
-    scene_.state = store_.template zeros<float4>(state_count_);
-    scene_.base = base_ = store_.template zeros<R>((bodies_ + walls) * velocity_words);
-    scene_.force = store_.template zeros<R>((bodies_ + walls) * velocity_words);
-    wall_load_count_ = 2 * (plan_.wall_begin.back() + 1);
-    scene_.wall_load = store_.template zeros<float4>(wall_load_count_);
-    scene_.exchange = store_.template zeros<ulonglong2>(4 * bodies_);
-    scene_.wall_velocity = wall_velocity_ = store_.template zeros<double>(table_steps);
-    before_ = store_.template zeros<double>((bodies_ + walls) * displacement_words);
-    wall_begin_ = store_.keep(plan_.wall_begin);
-    long_body_ = store_.keep(long_rows);
-    long_rows_ = static_cast<std::uint32_t>(long_rows.size());
-    records_ = {store_.template zeros<R>(records * record_words), row_begin, record};
-    settle_place_ = store_.keep(places_);
-    constants_ = {};
-    places_ = {};
-    plan_.contact = {};
+    const auto clear = [&](auto* data, std::size_t n) {
+      check_cuda(cudaMemsetAsync(data, 0, n * sizeof *data, stream_), "start");
+    };
+    const std::size_t loads = (bodies_ + walls) * velocity_words;
+    clear(scene_.state, state_count_);
+    clear(base_, loads);
+    clear(scene_.force, loads);
+    clear(scene_.wall_load, wall_load_count_);
+    clear(before_, (bodies_ + walls) * displacement_words);
+    if (settle_contacts_) settle_contacts_(settling_starts);
+    check_cuda(cudaStreamSynchronize(stream_), "start");
   }
 
   /// Of all that prepare() will keep on the device, but for some bytes a tile.
@@ -269,23 +244,58 @@ class TileRunner {
     };
   }
 
+  /// Takes to the device what no start changes.
+  void keep_arrays(const RecordRows& rows) {
+    for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
+      if (plan_.contact[i].group_slot != UINT32_MAX) continue;  // inert: adds nothing to nobody
+      float4* out = &constants_[i / 32 * static_cast<std::size_t>(tile_constants(carried_)) * 32 + i % 32];
+      out[tile_drive_b * 32] = {0, 0, bits(UINT32_MAX), bits(no_wall_row << 4)};
+    }
+    scene_.tile = store_.keep(plan_.tile);
+    scene_.body = store_.keep(plan_.body);
+    scene_.row = reinterpret_cast<const uint2*>(store_.keep(plan_.row));
+    scene_.diagonal = store_.keep(plan_.diagonal);
+    scene_.halo = store_.keep(plan_.halo);
+    constant_ = DeviceArray<float4>::of(constants_);
+    scene_.constant = constant_.data();
+    state_count_ = plan_.contact.size() * tile_states;
+    scene_.state = store_.template zeros<float4>(state_count_);
+    scene_.base = base_ = store_.template zeros<R>((bodies_ + walls) * velocity_words);
+    scene_.force = store_.template zeros<R>((bodies_ + walls) * velocity_words);
+    wall_load_count_ = 2 * (plan_.wall_begin.back() + 1);
+    scene_.wall_load = store_.template zeros<float4>(wall_load_count_);
+    scene_.exchange = store_.template zeros<ulonglong2>(4 * bodies_);
+    scene_.wall_velocity = wall_velocity_ = store_.template zeros<double>(table_steps);
+    before_ = store_.template zeros<double>((bodies_ + walls) * displacement_words);
+    wall_begin_ = store_.keep(plan_.wall_begin);
+    long_body_ = store_.keep(rows.long_body);
+    long_rows_ = static_cast<std::uint32_t>(rows.long_body.size());
+    records_ = {store_.template zeros<R>(rows.records * record_words), rows.begin.data(), rows.place.data()};
+    settle_place_ = store_.keep(places_);
+    constants_ = {};
+    places_ = {};
+    plan_.contact = {};
+  }
+
   template <Geometry geometry>
-  void add_to_settle(int number, const ContactArrays<P>& arrays, const ContactView<P>& view, double dt) {
+  void set_settling(int number, const Law& law, const ContactView<P>& view, double dt) {
     using Groups = SettleGroups<P, geometry>;
     if (!settle_groups_) settle_groups_ = std::make_shared<Groups>();
     auto groups = std::static_pointer_cast<Groups>(settle_groups_);
     auto& g = groups->group[number];
-    g.first_block = settle_blocks_;
-    g.first_slot = static_cast<std::uint32_t>(group_slot_[static_cast<std::size_t>(number)]);
-    g.slots = static_cast<std::uint32_t>(arrays.body_a.size());
-    settle_blocks_ += (g.slots + contact_threads - 1) / contact_threads;
+    if (g.first_block == UINT32_MAX) {
+      g.first_block = settle_blocks_;
+      g.first_slot = static_cast<std::uint32_t>(group_slot_[static_cast<std::size_t>(number)]);
+      g.slots = view.packets * 32;
+      settle_blocks_ += (g.slots + contact_threads - 1) / contact_threads;
+    }
     const auto put = [&](int kind, const auto& functor) {
       g.kind = kind;
       std::memcpy(g.functor, &functor, sizeof functor);
     };
-    if (const auto* elastic = std::get_if<laws::Elastic>(&arrays.law))
+    if (const auto* elastic = std::get_if<laws::Elastic>(&law))
       put(0, typename Groups::Elastic{view, elastic->block(dt, block_)});
-    else if (const auto& kelvin = std::get<laws::GeneralisedKelvin>(arrays.law); kelvin.units() == 3)
+    else if (const auto& kelvin = std::get<laws::GeneralisedKelvin>(law); kelvin.units() == 3)
       put(1, typename Groups::KelvinThree{view, kelvin.block(dt, block_)});
     else
       put(2, typename Groups::KelvinAny{view, kelvin.block(dt, block_)});
@@ -313,7 +323,7 @@ class TileRunner {
   }
 
   TilePlan plan_;
-  bool carried_, resident_ = false, begun_ = false;
+  bool carried_, resident_ = false, prepared_ = false, begun_ = false;
   int block_, in_block_ = 0;
   std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;
   cudaStream_t stream_;

@@ -96,8 +96,18 @@ __global__ void __launch_bounds__(Threads, 1)
 
   const auto top_wall = static_cast<std::size_t>(s.motion.body.particles) + 5;
   double wall_at = s.motion.body.displacement[top_wall * displacement_words + 2];
+  // A thread's last body is displaced while the thread waits for the neighbours: by then its velocity is on its way.
+  constexpr std::uint32_t nobody = UINT32_MAX;
+  std::uint32_t moved = nobody;
+  R x[6];
+  const auto displace = [&] {
+    if (moved == nobody) return;
+    for (int c = 0; c < 6; ++c) displacement[c * stride + moved] += s.motion.dt * x[c];
+    moved = nobody;
+  };
   const auto move = [&](std::uint32_t r, const R(&force)[6], std::uint32_t tag) {
-    R x[6];
+    displace();
+    moved = r;
     for (int c = 0; c < 6; ++c) {
       x[c] = s.motion.moved(own[c * stride + r], force[c], inverse[c / 3 * stride + r]);
       own[c * stride + r] = x[c];
@@ -106,14 +116,13 @@ __global__ void __launch_bounds__(Threads, 1)
     put_velocity(s.exchange + 2 * (static_cast<std::size_t>(tag & 1) * s.bodies + tile.first_body + r), y, tag);
     v[r] = {y[0], y[1], y[2], 0};
     w[r] = {y[3], y[4], y[5], 0};
-    for (int c = 0; c < 6; ++c) displacement[c * stride + r] += s.motion.dt * x[c];
   };
   const auto receive = [&](std::uint32_t tag) {
     const ulonglong2* from = s.exchange + 2 * static_cast<std::size_t>(tag & 1) * s.bodies;
-    for (std::uint32_t h = tid; h < 2 * tile.halo; h += Threads) {
-      (h % 2 ? w : v)[tile.bodies + h / 2] =
-          wait_for_word(from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2, tag);
-    }
+    wait_for_words(
+        tid, Threads, 2 * tile.halo, tag,
+        [&](std::uint32_t h) { return from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2; }, displace,
+        [&](std::uint32_t h, const float4& numbers) { (h % 2 ? w : v)[tile.bodies + h / 2] = numbers; });
   };
 
   __syncthreads();

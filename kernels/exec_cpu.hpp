@@ -26,12 +26,21 @@ class ExecCpu {
   static constexpr int lanes = static_cast<int>(Item::lanes());
   static constexpr std::size_t tile_contacts = 1024;  ///< a tile's states (200 kB) fit a core's second-level cache
 
-  ExecCpu(const ContactNetwork& network, const Layout& layout, int threads)
+  ExecCpu(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
       : layout_(layout),
         accumulators_(network, layout),
-        threads_(std::min(threads > 0 ? threads : omp_get_max_threads(), static_cast<int>(layout.tiles()))),
-        choice_(threads_, threads > 0) {
-    const std::size_t bodies = layout.particles() + walls;
+        groups_(layout.groups.size()),
+        threads_(
+            std::min(options.threads > 0 ? options.threads : omp_get_max_threads(), static_cast<int>(layout.tiles()))),
+        choice_(threads_, options.threads > 0) {}
+
+  /// Whether groups once taken may be stepped with these options.
+  bool suits(const StepperOptions&, const std::array<std::optional<Law>, pair_types>&, double) const { return true; }
+
+  /// Puts all bodies at rest.
+  void begin() {
+    const std::size_t bodies = layout_.particles() + walls;
+    states_.clear();
     sums_.assign(accumulators_.size() * velocity_words, R(0));
     master_.assign(bodies * velocity_words, R(0));
     displacement_.assign(bodies * displacement_words, 0.0);
@@ -49,21 +58,29 @@ class ExecCpu {
             static_cast<std::int32_t>(layout_.particles())};
   }
 
-  /// Takes a group: its arrays, and the functor that steps its contacts.
+  /// Takes group `number` for good, the first time, or its states alone; and the functor that steps its contacts.
   template <class Forces>
-  void add_group(ContactArrays<P> arrays, Forces forces) {
-    auto group = std::make_unique<GroupOf<Forces>>(std::move(arrays), forces);
-    group->number = groups_.size();
-    group->arrays.for_each_array(group->forces.view, [&](auto name, auto unit, auto& array, auto& pointer) {
+  void set_group(std::size_t number, bool first, ContactArrays<P> arrays, const Forces& forces) {
+    auto& group = groups_[number];
+    if (first) {
+      group = std::make_unique<GroupOf<Forces>>();
+      group->number = number;
+      group->arrays = std::move(arrays);
+    } else {
+      std::swap(group->arrays.chain, arrays.chain);
+      std::swap(group->arrays.frame, arrays.frame);
+    }
+    auto& own = static_cast<GroupOf<Forces>&>(*group).forces;  // the same law in the same form and geometry
+    own = forces;
+    own.view = group->arrays.shape;
+    group->arrays.for_each_array(own.view, [&](auto name, auto unit, auto& array, auto& pointer) {
+      constexpr bool state = !std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>;
       pointer = array.data();
       const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
-      bytes_ += size;
-      if constexpr (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) {
-        state_bytes_ += size;
-        add_state(std::string(name) + "_" + to_string(layout_.groups[group->number].pair), unit, array);
-      }
+      if (first) bytes_ += size;
+      if (first && state) state_bytes_ += size;
+      if constexpr (state) add_state(std::string(name) + "_" + to_string(layout_.groups[number].pair), unit, array);
     });
-    groups_.push_back(std::move(group));
   }
 
   /// What one thread may call inside repeat().
@@ -183,13 +200,12 @@ class ExecCpu {
     virtual ~Group() = default;
     virtual void run(ExecCpu& exec, std::size_t tile, const MotionView<P>& motion) = 0;
     std::size_t number = 0;
+    ContactArrays<P> arrays;
   };
 
   template <class Forces>
   struct GroupOf final : Group {
-    GroupOf(ContactArrays<P> a, Forces f) : arrays(std::move(a)), forces(f) { forces.view = arrays.shape; }
-    ContactArrays<P> arrays;
-    Forces forces;
+    Forces forces{};
 
     void run(ExecCpu& exec, std::size_t tile, const MotionView<P>& motion) override {
       const auto& packets = exec.layout_.groups[this->number].tile_packet;

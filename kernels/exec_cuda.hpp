@@ -12,6 +12,7 @@
 #include <string>
 
 #include "kernels/cuda_divergence.hpp"
+#include "kernels/cuda_record_rows.hpp"
 #include "kernels/cuda_tile_runner.hpp"
 #include "kernels/layout.hpp"
 #include "kernels/state_list.hpp"
@@ -31,7 +32,8 @@ class ExecCuda {
 
   /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that several tiles share
   /// one. A contact takes some 75 bytes of shared memory there: two slots of loads and its share of the bodies.
-  static std::size_t tile_contacts_of(const ContactNetwork& network) {
+  static std::size_t tile_contacts_of(const ContactNetwork& network, const StepperOptions& options) {
+    check_cuda(cudaSetDevice(options.device.value()), "device");
     const DeviceLimits limits = DeviceLimits::query();
     const auto chips = static_cast<std::size_t>(limits.multiprocessors),
                shared = static_cast<std::size_t>(limits.shared);
@@ -40,76 +42,107 @@ class ExecCuda {
     return std::max<std::size_t>(128, contacts / (chips + 1) + 1);
   }
 
-  ExecCuda(const ContactNetwork& network, const Layout& layout, int)
-      : network_(network),
+  /// Takes what the options leave to every start: the device.
+  ExecCuda(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
+      : device_(options.device.value()),
+        network_(&network),
         layout_(layout),
+        views_(layout.groups.size()),
+        rows_(network, layout),
         master_(bodies() * velocity_words),
         displacement_(bodies() * displacement_words),
         velocity_(std::is_same_v<G, R> ? 0 : bodies() * velocity_words),
         step_(1) {
     check_cuda(cudaStreamCreate(&stream_), "stream");
-    make_rows(network);
   }
   ExecCuda(const ExecCuda&) = delete;
   ~ExecCuda() {
-    for (auto* graph : {many_, one_}) {
-      if (graph) cudaGraphExecDestroy(graph);
-    }
+    forget_graphs();
     cudaStreamDestroy(stream_);
   }
 
-  /// Decides whether steps are taken in blocks. `height`: of the specimen [m]; `group_bytes`: of the groups to come.
-  /// \throws RunError where the device has not enough memory for all that is to come.
+  /// Makes the stepper's device the calling thread's; that it answers is known by then.
+  void use_device() const { cudaSetDevice(device_); }
+
+  /// Whether groups once taken may be stepped with these options: in blocks or not, as before.
+  bool suits(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
+             double height) const {
+    return (block_of(options, laws, height) > 0) == in_blocks_;
+  }
+
+  /// Puts all bodies at rest.
+  void begin() {
+    forget_graphs();
+    states_.clear();
+    contacts_ = {};
+    slots_ = 0;
+    master_.clear();
+    displacement_.clear();
+    velocity_.clear();
+    records_.clear();
+  }
+
+  /// Decides, the first time, whether steps are taken in blocks. `height`: of the specimen [m]; `group_bytes`: of the
+  /// groups to come. \throws RunError where the device has not enough memory for all that is to come.
   void set_options(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws, double height,
-                   std::size_t group_bytes) {
+                   bool first, std::size_t group_bytes) {
     dt_ = options.dt;
+    const int block = block_of(options, laws, height);
+    if (!first) {
+      if (tiles_) tiles_->begin(block);
+      return;
+    }
+    in_blocks_ = block > 0;
     if constexpr (blocks) {
-      const int block = options.form == ContactForm::condensed ? block_steps(options, laws, height) : 0;
-      if (block > 0) tiles_ = std::make_unique<TileRunner<P>>(network_, layout_, options, block, stream_);
+      if (in_blocks_) tiles_ = std::make_unique<TileRunner<P>>(*network_, layout_, options, block, stream_);
       if (tiles_ && !tiles_->possible()) tiles_.reset();
     }
-    const std::size_t records = record_count_ * record_words * sizeof(G);
-    require_memory(group_bytes + (tiles_ ? tiles_->bytes_to_come(record_count_) : records));
-    if (!tiles_) records_ = DeviceArray<G>(record_count_ * record_words);
+    network_ = nullptr;
+    const std::size_t records = rows_.records * record_words * sizeof(G);
+    require_memory(group_bytes + (tiles_ ? tiles_->bytes_to_come(rows_.records) : records));
+    if (!tiles_) records_ = DeviceArray<G>(rows_.records * record_words);
   }
 
   BodyView<P> set_bodies(const std::vector<R>& inverse) {
-    inverse_ = DeviceArray<R>::of(inverse);
+    if (inverse_.size() == 0) inverse_ = DeviceArray<R>(inverse.size());
+    inverse_.upload(inverse.data());
     return {gathered(), master_.data(), displacement_.data(), inverse_.data(),
             static_cast<std::int32_t>(layout_.particles())};
   }
 
-  /// Takes a group: its arrays, and the functor that steps its contacts.
+  /// Takes group `number` for good, the first time, or its states alone; and the functor that steps its contacts.
   template <class Forces>
-  void add_group(ContactArrays<P> arrays, Forces forces) {
-    const auto slots = static_cast<std::uint32_t>(arrays.body_a.size());
-    forces.view = arrays.shape;
+  void set_group(std::size_t number, bool first, ContactArrays<P> arrays, Forces forces) {
+    const auto& group = layout_.groups[number];
+    const auto slots = static_cast<std::uint32_t>(group.contact.size());
+    forces.view = first ? arrays.shape : views_[number];
     arrays.for_each_array(forces.view, [&](auto name, auto unit, auto& array, auto& pointer) {
-      pointer = store_.keep(array);
+      constexpr bool state = !std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>;
       const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
-      bytes_ += size;
-      if constexpr (!std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>) {
-        state_bytes_ += size;
-        const char* pair = to_string(layout_.groups[static_cast<std::size_t>(groups_)].pair);
-        add_device_state(states_, std::string(name) + "_" + pair, unit, pointer, array.size());
+      if (first) {
+        pointer = store_.keep(array);
+        bytes_ += size;
+        if (state) state_bytes_ += size;
+      }
+      if constexpr (state) {
+        if (!first && size > 0) {
+          check_cuda(cudaMemcpy(pointer, array.data(), static_cast<std::size_t>(size), cudaMemcpyHostToDevice),
+                     "states of the start");
+        }
+        add_device_state(states_, std::string(name) + "_" + to_string(group.pair), unit, pointer, array.size());
       }
     });
+    views_[number] = forces.view;
     if (tiles_)
-      add_to_tiles(arrays, forces);
+      add_to_tiles(static_cast<int>(number), first, arrays, forces);
     else
       contacts_.add(forces, slots_, slots);
     slots_ += slots;
-    ++groups_;
   }
 
   /// Ends the set-up.
   void prepare(const ParticleMotion<P>& motion) {
-    std::vector<std::uint32_t> long_rows;
-    for (std::size_t i = 0; i < bodies(); ++i) {
-      if (row_lengths_[i + 1] - row_lengths_[i] > long_row) long_rows.push_back(static_cast<std::uint32_t>(i));
-    }
-    if (tiles_) tiles_->prepare(motion, row_begin_.data(), place_.data(), record_count_, long_rows);
-    row_lengths_ = {};
+    if (tiles_) tiles_->prepare(motion, rows_);
     const auto add = [&](const char* name, const char* unit, const auto& array) {
       add_device_state(states_, name, unit, array.data(), array.size());
     };
@@ -121,9 +154,9 @@ class ExecCuda {
   }
 
   void bodies(const ParticleMotion<P>& motion, std::int64_t) {
-    const std::size_t blocks = long_body_.size() + (bodies() + bodies_a_block - 1) / bodies_a_block;
-    launch("bodies", step_bodies<P>, blocks, body_threads, 0, stream_, motion, records(), long_body_.data(),
-           static_cast<std::uint32_t>(long_body_.size()), step_.data());
+    const std::size_t blocks = rows_.long_particle.size() + (bodies() + bodies_a_block - 1) / bodies_a_block;
+    launch("bodies", step_bodies<P>, blocks, body_threads, 0, stream_, motion, records(), rows_.long_particle.data(),
+           static_cast<std::uint32_t>(rows_.long_particle.size()), step_.data());
   }
   void contacts() { contacts_.run(stream_, {gathered(), displacement_.data()}, records(), step_.data()); }
 
@@ -178,8 +211,9 @@ class ExecCuda {
 
   std::string description() const {
     cudaDeviceProp properties{};
-    check_cuda(cudaGetDeviceProperties(&properties, 0), "device properties");
-    return std::string("cuda, ") + properties.name + ", " + (tiles_ ? tiles_->description() : "two kernels a step");
+    check_cuda(cudaGetDeviceProperties(&properties, device_), "device properties");
+    return "cuda" + (device_ > 0 ? " device " + std::to_string(device_) : "") + ", " + properties.name + ", " +
+           (tiles_ ? tiles_->description() : "two kernels a step");
   }
   /// The kernels of a step.
   std::vector<KernelUse> kernels() const {
@@ -192,7 +226,7 @@ class ExecCuda {
   std::int64_t traffic() const {
     const std::size_t bodies = 2 * (master_.bytes() + displacement_.bytes() + velocity_.bytes()) + inverse_.bytes();
     if (tiles_) return tiles_->traffic() + static_cast<std::int64_t>(bodies);
-    return bytes_ + state_bytes_ + static_cast<std::int64_t>(bodies + 2 * records_.bytes() + place_.bytes());
+    return bytes_ + state_bytes_ + static_cast<std::int64_t>(bodies + 2 * records_.bytes() + rows_.place.bytes());
   }
   /// Everything that a step changes.
   const StateList& states() const { return states_; }
@@ -200,7 +234,7 @@ class ExecCuda {
   std::int64_t bytes() const {
     return bytes_ +
            static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() + velocity_.bytes() +
-                                     records_.bytes() + place_.bytes()) +
+                                     records_.bytes() + rows_.place.bytes()) +
            (tiles_ ? tiles_->bytes() : 0);
   }
 
@@ -209,20 +243,33 @@ class ExecCuda {
 
   std::size_t bodies() const { return layout_.particles() + walls; }
 
+  static int block_of(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
+                      double height) {
+    return blocks && options.form == ContactForm::condensed ? block_steps(options, laws, height) : 0;
+  }
+  void forget_graphs() {
+    for (auto* graph : {&many_, &one_}) {
+      if (*graph) cudaGraphExecDestroy(*graph);
+      *graph = nullptr;
+    }
+  }
+
   void require_memory(std::size_t needed) const {
     std::size_t free = 0, total = 0;
     check_cuda(cudaMemGetInfo(&free, &total), "memory");
     if (needed <= free) return;
     const auto mib = [](std::size_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; };
     throw RunError("CUDA: the scene of " + std::to_string(layout_.particles()) + " particles and " +
-                   std::to_string(network_.contacts.size()) + " contacts needs another " + mib(needed) +
+                   std::to_string(rows_.records / 2) + " contacts needs another " + mib(needed) +
                    " on the device: found " + mib(free) + " free of " + mib(total));
   }
 
   template <class LawStep, int Units, ContactForm form, Geometry geometry>
-  void add_to_tiles(const ContactArrays<P>& arrays, const ContactForces<P, LawStep, Units, form, geometry>& forces) {
+  void add_to_tiles(int number, bool first, const ContactArrays<P>& arrays,
+                    const ContactForces<P, LawStep, Units, form, geometry>& forces) {
     if constexpr (form == ContactForm::condensed) {
-      tiles_->template add_group<geometry>(groups_, arrays, forces.view, dt_);
+      if (first) tiles_->add_contacts(number, arrays, forces.view);
+      tiles_->template set_group<geometry>(number, arrays.law, forces.view, dt_);
     }
   }
 
@@ -254,38 +301,7 @@ class ExecCuda {
     return out;
   }
 
-  /// Gives every end of a contact its record.
-  void make_rows(const ContactNetwork& network) {
-    std::vector<std::uint32_t> begin(bodies() + 1, 0), place;
-    const auto for_each_slot = [&](auto&& f) {
-      for (const auto& group : layout_.groups) {
-        for (const std::uint32_t c : group.contact) f(c);
-      }
-    };
-    const auto body_of = [&](std::int32_t end) { return static_cast<std::size_t>(layout_.body_of(end)); };
-    for_each_slot([&](std::uint32_t c) {
-      if (c == inert) return;
-      ++begin[body_of(network.contacts[c].a) + 1];
-      ++begin[body_of(network.contacts[c].b) + 1];
-    });
-    std::vector<std::uint32_t> long_body;
-    for (std::size_t i = 0; i < bodies(); ++i) {
-      if (begin[i + 1] > long_row && i < layout_.particles()) long_body.push_back(static_cast<std::uint32_t>(i));
-      begin[i + 1] += begin[i];
-    }
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for_each_slot([&](std::uint32_t c) {
-      place.push_back(c == inert ? UINT32_MAX : next[body_of(network.contacts[c].a)]++);
-      place.push_back(c == inert ? UINT32_MAX : next[body_of(network.contacts[c].b)]++);
-    });
-    row_begin_ = DeviceArray<std::uint32_t>::of(begin);
-    place_ = DeviceArray<std::uint32_t>::of(place);
-    long_body_ = DeviceArray<std::uint32_t>::of(long_body);
-    record_count_ = begin.back();
-    row_lengths_ = begin;
-  }
-
-  LoadRecords<G> records() const { return {records_.data(), row_begin_.data(), place_.data()}; }
+  LoadRecords<G> records() const { return {records_.data(), rows_.begin.data(), rows_.place.data()}; }
   G* gathered() const {
     if constexpr (std::is_same_v<G, R>)
       return master_.data();
@@ -296,10 +312,13 @@ class ExecCuda {
   /// Nothing in double precision, which takes no blocks.
   struct NoTiles {
     void run(std::int64_t, std::int64_t) {}
+    void begin(int) {}
     template <class... Any>
     void prepare(Any&&...) {}
+    template <class... Any>
+    void add_contacts(Any&&...) {}
     template <Geometry, class... Any>
-    void add_group(Any&&...) {}
+    void set_group(Any&&...) {}
     const R* forces() const { return nullptr; }
     std::string description() const { return ""; }
     std::vector<KernelUse> kernels() const { return {}; }
@@ -309,24 +328,24 @@ class ExecCuda {
     std::int64_t traffic() const { return 0; }
   };
 
-  const ContactNetwork& network_;  // until prepare()
+  int device_;
+  const ContactNetwork* network_;  // until it is known whether steps are taken in blocks
   const Layout& layout_;
+  std::vector<ContactView<P>> views_;  // of the groups
+  RecordRows rows_;
+  bool in_blocks_ = false;  // wanted, whether or not the device can
   double dt_ = 0;
-  std::size_t record_count_ = 0;
-  std::vector<std::uint32_t> row_lengths_;
   std::unique_ptr<std::conditional_t<blocks, TileRunner<P>, NoTiles>> tiles_;
   cudaStream_t stream_ = nullptr;
   cudaGraphExec_t many_ = nullptr, one_ = nullptr;
   DeviceArray<R> master_, inverse_;
   DeviceArray<double> displacement_;
   DeviceArray<G> velocity_, records_;
-  DeviceArray<std::uint32_t> row_begin_, place_, long_body_;
   DeviceArray<std::int64_t> step_;
   mutable std::unique_ptr<DivergenceSearch<P>> divergence_;  // made when first asked
   DeviceStore store_;
   StateList states_;
   ContactLaunches<P> contacts_;
-  int groups_ = 0;
   std::uint32_t slots_ = 0;
   std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
 };

@@ -22,7 +22,7 @@ inline Vec3d carried_to_start(const Contact& c, const StartState& start) {
 /// Chains of a contact with `words` numbers each. A point (s, t) follows the facet's rigid motion and the law is
 /// linear, so its chains are sums of the facet's six.
 struct StartChain {
-  const double* six;  ///< null: at rest
+  const double* six;
   std::size_t words;
   double facet(int component, std::size_t word) const {
     return six[static_cast<std::size_t>(component) * words + word];

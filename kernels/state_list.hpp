@@ -32,6 +32,8 @@ class StateList {
          [replace = std::move(replace)](const StateArray::Values& values) { replace(std::get<List>(values)); }});
   }
 
+  void clear() { entries_.clear(); }
+
   /// Host copies of all, in the order in which they were added.
   std::vector<StateArray> copy() const {
     std::vector<StateArray> out;

@@ -8,6 +8,6 @@ namespace macadam::kernels {
 
 template std::unique_ptr<Stepper> make_stepper_on<ExecCpu<DoublePrecision>>(
     const Specimen&, const ContactNetwork&, const std::array<std::optional<Law>, pair_types>&, const Inertia&,
-    const StepperOptions&);
+    const StepperOptions&, std::unique_ptr<Stepper>);
 
 }  // namespace macadam::kernels

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "kernels/contact_forces.hpp"
@@ -52,41 +53,32 @@ class StepperImpl final : public Stepper {
               const StepperOptions& options)
       : options_(decided(options, network, laws)),
         radius_(specimen.radius),
-        layout_(make_layout(specimen, network, Exec::lanes, tile_contacts(network))),
-        exec_(network, layout_, options.threads) {
-    std::vector<R> inverse(2 * (layout_.particles() + walls), R(0));
-    for (std::size_t b = 0; b < layout_.particles(); ++b) {
-      const auto i = static_cast<std::size_t>(layout_.particle[b]);
-      inverse[2 * b] = static_cast<R>(options.dt / (inertia.mass[i] * options.density_scaling));
-      if (!options_.skip_rotations) {
-        inverse[2 * b + 1] = static_cast<R>(options.dt / (inertia.inertia[i] * options.density_scaling));
-      }
-    }
-    const double beta = options.damping_kind == Damping::viscous ? options.damping : 0;
-    motion_ = {exec_.set_bodies(std::move(inverse)),
-               options.damping_kind,
-               static_cast<R>(options.damping),
-               static_cast<R>((1 - beta * options.dt / 2) / (1 + beta * options.dt / 2)),
-               static_cast<R>(1 / (1 + beta * options.dt / 2)),
-               options.dt,
-               options.loading.has_value(),
-               options.loading.value_or(loadings::Cyclic{})};
-    const double height = specimen.box.size.z;
-    if constexpr (requires { exec_.set_options(options_, laws, height, std::size_t{}); }) {
-      std::size_t bytes = 0;
-      for (const auto& group : layout_.groups)
-        bytes += GroupShape<P>(layout_, group, laws[static_cast<std::size_t>(group.pair)].value(), options_).bytes();
-      exec_.set_options(options_, laws, height, bytes);
-    }
-    for (const auto& group : layout_.groups)
-      add_group(network, group, laws[static_cast<std::size_t>(group.pair)].value());
-    if constexpr (requires { exec_.prepare(motion_); }) exec_.prepare(motion_);
-    if (options.start) start_from(*options.start);
-    options_.start = nullptr;
+        height_(specimen.box.size.z),
+        layout_(make_layout(specimen, network, Exec::lanes, tile_contacts(network, options))),
+        exec_(network, layout_, options_) {
+    begin(network, laws, inertia, true);
+  }
+  StepperImpl(const StepperImpl&) = delete;
+  ~StepperImpl() override { use_device(); }
+
+  /// Begins anew with other options, of the network and the laws that it was made of. False, with nothing changed,
+  /// where what is kept does not suit them.
+  bool begin_again(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
+                   const Inertia& inertia, const StepperOptions& options) {
+    const StepperOptions next = decided(options, network, laws);
+    const auto kept = [](const StepperOptions& o) {
+      return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.device);
+    };
+    if (kept(next) != kept(options_) || network.contacts.size() != contacts_ || !exec_.suits(next, laws, height_))
+      return false;
+    options_ = next;
+    begin(network, laws, inertia, false);
+    return true;
   }
 
   /// The step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void advance(std::int64_t steps) override {
+    use_device();
     exec_.repeat(step_, steps, [this](auto& team, std::int64_t k) {
       team.bodies(motion_, k);
       team.contacts();
@@ -95,6 +87,7 @@ class StepperImpl final : public Stepper {
   }
 
   Observation observe() const override {
+    use_device();
     Observation out;
     out.step = step_;
     out.time = static_cast<double>(step_) * options_.dt;
@@ -108,6 +101,7 @@ class StepperImpl final : public Stepper {
   }
 
   ParticleState particles() const override {
+    use_device();
     const std::size_t n = layout_.particles();
     ParticleState out{std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<Vec3d>(n),
                       std::vector<Vec3d>(n)};
@@ -129,6 +123,7 @@ class StepperImpl final : public Stepper {
   }
 
   void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) override {
+    use_device();
     if (options_.skip_rotations && largest(spin) > 0) {
       throw InputError("a spin was given to particles that nothing can turn: set skip_rotations to false");
     }
@@ -144,12 +139,14 @@ class StepperImpl final : public Stepper {
   }
 
   std::vector<StateArray> state() const override {
+    use_device();
     std::vector<StateArray> out{{"step", "1", std::vector{step_}}, {"layout", "1", order()}};
     for (StateArray& array : exec_.states().copy()) out.push_back(std::move(array));
     return out;
   }
 
   void set_state(const std::vector<StateArray>& arrays) override {
+    use_device();
     const auto integers = [&](const char* name) {
       for (const StateArray& array : arrays) {
         const auto* values = std::get_if<std::vector<std::int64_t>>(&array.values);
@@ -169,6 +166,7 @@ class StepperImpl final : public Stepper {
   }
 
   std::int64_t first_divergent() const override {
+    use_device();
     if constexpr (requires { exec_.first_divergent(radius_, options_.dt); }) {
       return exec_.first_divergent(radius_, options_.dt);
     }
@@ -191,6 +189,7 @@ class StepperImpl final : public Stepper {
            to_string(options_.geometry);
   }
   std::vector<KernelUse> kernels() const override {
+    use_device();
     if constexpr (requires { exec_.kernels(); })
       return exec_.kernels();
     else
@@ -205,9 +204,13 @@ class StepperImpl final : public Stepper {
   }
 
  private:
-  static std::size_t tile_contacts(const ContactNetwork& network) {
-    if constexpr (requires { Exec::tile_contacts_of(network); })
-      return Exec::tile_contacts_of(network);
+  /// A thread has a current device of its own, and may serve several steppers.
+  void use_device() const {
+    if constexpr (requires { exec_.use_device(); }) exec_.use_device();
+  }
+  static std::size_t tile_contacts(const ContactNetwork& network, const StepperOptions& options) {
+    if constexpr (requires { Exec::tile_contacts_of(network, options); })
+      return Exec::tile_contacts_of(network, options);
     else
       return Exec::tile_contacts;
   }
@@ -227,6 +230,45 @@ class StepperImpl final : public Stepper {
   /// What the order of all arrays rests on besides the scene.
   std::vector<std::int64_t> order() const {
     return {layout_.lanes, static_cast<std::int64_t>(layout_.tiles()), static_cast<std::int64_t>(layout_.particles())};
+  }
+
+  /// All that the options decide. The first time, the groups are made and kept; later only their states are.
+  void begin(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
+             const Inertia& inertia, bool first) {
+    use_device();
+    const StepperOptions& options = options_;
+    step_ = 0;
+    contacts_ = network.contacts.size();
+    exec_.begin();
+    std::vector<R> inverse(2 * (layout_.particles() + walls), R(0));
+    for (std::size_t b = 0; b < layout_.particles(); ++b) {
+      const auto i = static_cast<std::size_t>(layout_.particle[b]);
+      inverse[2 * b] = static_cast<R>(options.dt / (inertia.mass[i] * options.density_scaling));
+      if (!options.skip_rotations) {
+        inverse[2 * b + 1] = static_cast<R>(options.dt / (inertia.inertia[i] * options.density_scaling));
+      }
+    }
+    const double beta = options.damping_kind == Damping::viscous ? options.damping : 0;
+    motion_ = {exec_.set_bodies(std::move(inverse)),
+               options.damping_kind,
+               static_cast<R>(options.damping),
+               static_cast<R>((1 - beta * options.dt / 2) / (1 + beta * options.dt / 2)),
+               static_cast<R>(1 / (1 + beta * options.dt / 2)),
+               options.dt,
+               options.loading.has_value(),
+               options.loading.value_or(loadings::Cyclic{})};
+    if constexpr (requires { exec_.set_options(options, laws, height_, first, std::size_t{}); }) {
+      std::size_t bytes = 0;
+      for (const auto& group : layout_.groups) {
+        if (first)
+          bytes += GroupShape<P>(layout_, group, laws[static_cast<std::size_t>(group.pair)].value(), options).bytes();
+      }
+      exec_.set_options(options, laws, height_, first, bytes);
+    }
+    for (std::size_t g = 0; g < layout_.groups.size(); ++g) set_group(network, g, laws, first);
+    if constexpr (requires { exec_.prepare(motion_); }) exec_.prepare(motion_);
+    if (options.start) start_from(*options.start);
+    options_.start = nullptr;
   }
 
   /// Takes the step from −1 to 0: forces of step −1 are not needed, as velocities are given half a step later.
@@ -252,15 +294,22 @@ class StepperImpl final : public Stepper {
     advance(1);
   }
 
-  void add_group(const ContactNetwork& network, const GroupLayout& group, const Law& law) {
+  void set_group(const ContactNetwork& network, std::size_t number,
+                 const std::array<std::optional<Law>, pair_types>& laws, bool first) {
     using State = typename P::State;
+    const GroupLayout& group = layout_.groups[number];
+    const Law& law = laws[static_cast<std::size_t>(group.pair)].value();
+    ContactArrays<P> arrays;
+    if (first) arrays = fill_contacts<P>(network, layout_, group, law, options_);
+    fill_states<P>(network, layout_, group, law, options_, arrays);
+    arrays.law = law;
     std::visit(
         [&](const auto& l) {
           constexpr bool five = requires { Exec::room_for_five; };
           dispatch_units<State, five>(l, options_.dt, [&](const auto& step, auto units) {
             dispatch<ContactForm::condensed, ContactForm::points>(options_.form, [&](auto form) {
               dispatch<Geometry::updated, Geometry::fixed>(options_.geometry, [&](auto geometry) {
-                exec_.add_group(fill_contacts<P>(network, layout_, group, law, options_),
+                exec_.set_group(number, first, std::move(arrays),
                                 ContactForces<P, std::decay_t<decltype(step)>, units(), form(), geometry()>{
                                     {}, step, static_cast<State>(options_.dt)});
               });
@@ -272,6 +321,8 @@ class StepperImpl final : public Stepper {
 
   StepperOptions options_;
   std::vector<double> radius_;
+  double height_;  // of the specimen [m]
+  std::size_t contacts_ = 0;
   Layout layout_;
   Exec exec_;
   ParticleMotion<P> motion_{};
@@ -282,7 +333,10 @@ class StepperImpl final : public Stepper {
 template <class Exec>
 std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
                                          const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                                         const StepperOptions& options) {
+                                         const StepperOptions& options, std::unique_ptr<Stepper> used) {
+  auto* again = dynamic_cast<StepperImpl<Exec>*>(used.get());
+  if (again && again->begin_again(network, laws, inertia, options)) return used;
+  used.reset();  // before another takes memory
   return std::make_unique<StepperImpl<Exec>>(specimen, network, laws, inertia, options);
 }
 

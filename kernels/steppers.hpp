@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "kernels/precision.hpp"
 #include "macadam/stepper.hpp"
@@ -18,24 +19,27 @@ class ExecCuda;  // only in builds with CUDA
 template <class Exec>
 std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
                                          const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                                         const StepperOptions& options);
+                                         const StepperOptions& options, std::unique_ptr<Stepper> used);
 
 /// The stepper of a family of executors in the precision that the options ask for.
 template <template <class> class Exec>
 std::unique_ptr<Stepper> make_in_precision(const Specimen& specimen, const ContactNetwork& network,
                                            const std::array<std::optional<Law>, pair_types>& laws,
-                                           const Inertia& inertia, const StepperOptions& options) {
+                                           const Inertia& inertia, const StepperOptions& options,
+                                           std::unique_ptr<Stepper> used) {
   switch (options.precision) {
     case Precision::single:
-      return make_stepper_on<Exec<SinglePrecision>>(specimen, network, laws, inertia, options);
+      return make_stepper_on<Exec<SinglePrecision>>(specimen, network, laws, inertia, options, std::move(used));
     case Precision::mixed:
-      return make_stepper_on<Exec<MixedPrecision>>(specimen, network, laws, inertia, options);
+      return make_stepper_on<Exec<MixedPrecision>>(specimen, network, laws, inertia, options, std::move(used));
     default:
-      return make_stepper_on<Exec<DoublePrecision>>(specimen, network, laws, inertia, options);
+      return make_stepper_on<Exec<DoublePrecision>>(specimen, network, laws, inertia, options, std::move(used));
   }
 }
 
-/// Only in builds with CUDA: the devices that answer; `status` says in words why there are none.
-std::vector<DeviceInfo> cuda_devices(std::string& status);
+/// Only in builds with CUDA: fills the report's devices and status, without a context on any of them.
+void report_cuda_devices(BackendReport& report);
+/// Only in builds with CUDA: why this device cannot run the kernels, as the one that is to; empty where it can.
+std::string cuda_refusal(int device);
 
 }  // namespace macadam::kernels

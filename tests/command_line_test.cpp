@@ -22,7 +22,7 @@ TEST_F(CommandLine, InfoNamesVersionBackendsAndChoice) {
 TEST_F(CommandLine, HelpOnEachCommand) {
   const std::map<std::string, std::vector<std::string>> expected{
       {"", {"run", "specimen", "info"}},
-      {"run", {"--out", "--backend", "--precision", "--threads", "scene"}},
+      {"run", {"--out", "--backend", "--precision", "--threads", "--device", "scene"}},
       {"specimen", {"--out", "scene", "--section"}},
       {"info", {"--help"}}};
   for (const auto& [command, words] : expected) {
@@ -38,7 +38,8 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
   for (const std::string& arguments : std::vector<std::string>{
            "", "fly", "info --colour", "run " + path("scene.toml"), "run --out x", "run " + job + " --frobnicate",
            "run " + job + " --backend gpu", "run " + job + " --precision half", "run " + job + " --threads 0",
-           "run " + job + " --threads two", "specimen " + job + " --threads 1"}) {
+           "run " + job + " --threads two", "run " + job + " --device -1", "run " + job + " --device one",
+           "specimen " + job + " --threads 1"}) {
     const Outcome outcome = macadam(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
@@ -233,6 +234,37 @@ TEST_F(CommandLine, CudaWithoutADeviceFailsAndLeavesOldResultsAlone) {
   EXPECT_TRUE(contains(cuda.err, report_backends().cuda_status)) << cuda.err;        // why
   EXPECT_TRUE(read(folder_ / "out/response.csv") == response);
   EXPECT_TRUE(read(folder_ / "out/summary.json") == summary);
+}
+
+TEST_F(CommandLine, ACudaDeviceIsChosenByNumber) {
+  write_scene();
+  ASSERT_EQ(run_quick("cpu", "--backend cpu").code, 0);
+  const Outcome beside = run_quick("beside", "--backend cpu --device 0");
+  EXPECT_EQ(beside.code, 2);
+  EXPECT_TRUE(contains(beside.err, "device: found 0 beside backend cpu, expected backend cuda or auto")) << beside.err;
+  const BackendReport report = report_backends();
+  const Outcome missing = run_quick("missing", "--device 1023");
+  EXPECT_TRUE(contains(missing.err, report.cuda_status)) << missing.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "missing/summary.json"));
+  EXPECT_EQ(missing.code, report.devices.empty() ? 1 : 2) << missing.err;
+  const Outcome info = macadam("info");
+  for (const DeviceInfo& d : report.devices) {
+    EXPECT_TRUE(contains(info.out, fmt::format("device {}: {}, ", d.number, d.name))) << info.out;
+    EXPECT_TRUE(contains(missing.err, fmt::format("{} ({})", d.number, d.name))) << missing.err;
+    const Outcome one = run_quick(fmt::format("device_{}", d.number), fmt::format("--device {}", d.number));
+    EXPECT_EQ(one.code, 0) << one.err;
+    const std::string solver = summary(fmt::format("device_{}", d.number)).at("solver").at("description");
+    EXPECT_TRUE(
+        contains(solver, d.number > 0 ? fmt::format("cuda device {}, {}", d.number, d.name) : "cuda, " + d.name))
+        << solver;
+  }
+}
+
+// The scene's device belongs to the scene's backend: another one on the command line does without it.
+TEST_F(CommandLine, AnotherBackendDoesWithoutTheScenesCudaDevice) {
+  write_scene(quick, "device = 1023\n");
+  EXPECT_NE(run_quick("scene", "").code, 0);
+  EXPECT_EQ(run_quick("cpu", "--backend cpu").code, 0);
 }
 
 // A step of 1e-4 s is 1.5 times the limit for this mass: it takes some samples to leave the range of sense.

@@ -17,6 +17,7 @@ void expect_foretold(const TestScene& scene, const StepperOptions& options) {
   for (const auto& group : layout.groups) {
     const Law law = scene.laws[static_cast<std::size_t>(group.pair)].value();
     auto arrays = kernels::fill_contacts<P>(scene.network, layout, group, law, options);
+    kernels::fill_states<P>(scene.network, layout, group, law, options, arrays);
     kernels::ContactView<P> view = arrays.shape;
     std::size_t bytes = 0;
     arrays.for_each_array(view, [&](auto, auto, auto& array, auto&) { bytes += array.size() * sizeof(array[0]); });

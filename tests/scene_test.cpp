@@ -345,6 +345,8 @@ const std::vector<Wrong> wrong_scenes = {
     {"SafetyZero", {{38, "safety = 0"}}, 38, "0", "above 0"},
     {"ScalingZero", {{37, "density_scaling = 0"}}, 37, "0", "positive"},
     {"NegativeThreads", {{38, "threads = -1"}}, 38, "-1", "an integer from 0"},
+    {"NegativeDevice", {{38, "device = -1"}}, 38, "-1", "an integer from 0"},
+    {"DeviceOfTheProcessor", {{38, "backend = \"cpu\"\ndevice = 1"}}, 39, "1", "\"cuda\" or \"auto\""},
     {"LocalDampingOfOne", {{40, "damping = 1.0"}}, 40, "1", "below 1"},
     // Choices
     {"UnknownPair", {{15, "pair = \"M-B\""}}, 15, "\"M-B\"", "\"M-M\", \"M-A\", \"A-A\", \"inner\""},

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <complex>
+#include <random>
+
 #include "general_laws.hpp"
 #include "test_files.hpp"
 #include "stepper_cases.hpp"
@@ -74,6 +77,72 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
   check("slow load", slow);
   scene_.laws = general_laws(scene_.laws, 5);
   check("laws of five units", options_);
+}
+
+/// Any complex motion, for a start of no particular meaning.
+std::vector<std::complex<double>> some_motion(std::size_t particles) {
+  std::mt19937 random(5);
+  std::vector<std::complex<double>> out(6 * particles);
+  const auto draw = [&] { return 1e-3 * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
+  for (auto& z : out) {
+    const double real = draw();
+    z = {real, draw()};
+  }
+  return out;
+}
+
+// Frequencies of a run follow one another so: other steps, masses, loads and starts, and what is kept is as it was.
+TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
+  StepperOptions slow = slow_options(scene_);
+  std::tie(slow.precision, slow.form, slow.geometry) = std::tie(options_.precision, options_.form, options_.geometry);
+  StepperOptions slower = slow;
+  slower.loading->frequency = 70;
+  slower.loading->ramp_steps = 0;
+  slower.dt = slower.loading->dt();
+  slower.density_scaling = 3;
+  slower.blocks = 900;
+  slower.observed_every = 60;
+  slower.damping_kind = Damping::viscous;
+  slower.damping = 100;
+  StepperOptions started = slow;
+  started.loading->ramp_steps = 0;
+  const StartState start =
+      steady_start(scene_.network, scene_.laws, some_motion(scene_.specimen.size()), *started.loading);
+  started.start = &start;
+  StepperOptions resting = slow;
+  resting.loading.reset();
+  StepperOptions other_geometry = slow;
+  other_geometry.geometry = slow.geometry == Geometry::fixed ? Geometry::updated : Geometry::fixed;
+  struct Use {
+    const char* name;
+    const StepperOptions* options;
+    bool kept;  ///< on the processor; a device keeps less where it takes steps in blocks before or after
+  };
+  std::unique_ptr<Stepper> used;
+  for (const Use& use :
+       {Use{"slow", &slow, false}, Use{"slower, heavier, damped", &slower, true},
+        Use{"from a steady state", &started, true}, Use{"slow again", &slow, true}, Use{"fast", &options_, true},
+        Use{"fast again", &options_, true}, Use{"at rest", &resting, true},
+        Use{"of another geometry", &other_geometry, false}, Use{"slow once more", &slow, false}}) {
+    SCOPED_TRACE(use.name);
+    const Stepper* before = used.get();
+    used = make_stepper(backend_, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, *use.options,
+                        std::move(used));
+    if (use.kept && backend_ == Backend::cpu) { EXPECT_EQ(used.get(), before); }
+    const auto fresh = stepper(*use.options);
+    EXPECT_TRUE(same_bits(used->state(), fresh->state()));
+    for (const std::int64_t steps : {1, 277}) {
+      used->advance(steps);
+      fresh->advance(steps);
+      EXPECT_TRUE(same_bits(used->state(), fresh->state()));
+      EXPECT_EQ(used->observe().step, steps == 1 ? 1 : 278);
+      EXPECT_EQ(used->observe().wall_force[5].z, fresh->observe().wall_force[5].z);
+      EXPECT_EQ(used->first_divergent(), fresh->first_divergent());
+    }
+    EXPECT_EQ(used->description(), fresh->description());
+    EXPECT_EQ(used->bytes(), fresh->bytes());
+    EXPECT_EQ(used->traffic(), fresh->traffic());
+  }
 }
 
 TEST_P(StepperState, OfAnotherPrecisionIsRefused) {

@@ -105,6 +105,17 @@ TEST_F(Tolerance, IsKeptOnTheDemo) {
   expect_kept(scene_of(read_scene(MACADAM_EXAMPLES "/demo/scene.toml").specimen, 1e-2));
 }
 
+// The laws are settled as seldom as the tolerance allows, and the plan says so.
+TEST_F(Tolerance, IsKeptInBlocksOfStepsOnCuda) {
+  if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+  Scene scene = scene_of(t8(), 1e-3);
+  scene.solver.backend = Backend::cuda;
+  scene.solver.precision = Precision::mixed;
+  expect_kept(scene);
+  const std::string decisions = summary().at("solver").at("decisions").dump();
+  EXPECT_NE(decisions.find("laws settled 315 times"), std::string::npos) << decisions;  // 2π/√(20·0.02·1e-3)
+}
+
 TEST_F(Tolerance, GivenSettingsWin) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.loading.frequencies = {20};

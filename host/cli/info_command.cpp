@@ -14,10 +14,15 @@ void info_command() {
   say("cpu        yes, {} threads\n", report.threads);
   say("reference  yes, for checking: per point, double, one thread\n");
   say("cuda       {}: {}\n", report.devices.empty() ? "no" : "yes", report.cuda_status);
-  for (const DeviceInfo& d : report.devices) {
-    say("           {}, compute capability {}.{}, {} multiprocessors, {:.1f} GiB\n", d.name, d.compute_capability / 10,
-        d.compute_capability % 10, d.multiprocessors, static_cast<double>(d.memory_bytes) / (1 << 30));
-  }
+  const auto list = [](const std::vector<DeviceInfo>& devices, const char* remark) {
+    for (const DeviceInfo& d : devices) {
+      say("           device {}: {}, compute capability {}.{}, {} multiprocessors, {:.1f} GiB{}\n", d.number, d.name,
+          d.compute_capability / 10, d.compute_capability % 10, d.multiprocessors,
+          static_cast<double>(d.memory_bytes) / (1 << 30), remark);
+    }
+  };
+  list(report.devices, "");
+  list(report.devices_without_code, "; this build has no code for it");
   std::string reason;
   const Backend chosen = select_backend(Backend::automatic, &reason);
   say("auto       {} ({})\n", to_string(chosen), reason);

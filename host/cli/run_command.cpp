@@ -18,7 +18,7 @@ struct Arguments {
   std::optional<Precision> precision;
   std::optional<SolverMethod> method;
   std::optional<LinearMethod> linear;
-  std::optional<int> threads;
+  std::optional<int> threads, device;
   bool resume = false;
 };
 
@@ -49,7 +49,12 @@ void say_results(const RunResult& result) {
 void run_command(const Arguments& arguments) {
   Scene scene = scene_of(arguments.job);
   if (arguments.method) scene.solver.method = *arguments.method;
-  if (arguments.backend) scene.solver.backend = *arguments.backend;
+  if (arguments.backend) {
+    scene.solver.backend = *arguments.backend;
+    const bool may = scene.solver.backend == Backend::cuda || scene.solver.backend == Backend::automatic;
+    if (!may) scene.solver.device.reset();  // the scene's: it belongs to the backend that is replaced
+  }
+  if (arguments.device) scene.solver.device = arguments.device;
   if (arguments.precision) scene.solver.precision = *arguments.precision;
   if (arguments.linear) scene.solver.linear = *arguments.linear;
   if (arguments.threads) scene.solver.threads = *arguments.threads;
@@ -108,6 +113,7 @@ void add_run_command(CLI::App& app) {
       command, "--linear", arguments->linear, "of the harmonic solutions, instead of the scene's",
       {{"auto", LinearMethod::automatic}, {"iterative", LinearMethod::iterative}, {"direct", LinearMethod::direct}});
   add_number(command, "--threads", arguments->threads, "cpu threads; results do not depend on it", 1, 1024);
+  add_number(command, "--device", arguments->device, "number of the CUDA device (macadam info lists them)", 0, 1023);
   command.add_flag("--resume", arguments->resume, "go on from the checkpoint that an interrupted run left in DIR");
   command.callback([arguments] { run_command(*arguments); });
 }

@@ -73,15 +73,14 @@ class Harmonic::Implementation {
         contacts_(network, specimen.size()) {
     require_laws_of(network, laws);
     typical_ = pair_stiffness(laws, Complex(0, 2 * std::numbers::pi * typical_frequency));
-    options_.backend = select_backend(options.backend);
+    options_.backend = select_backend(options.backend, nullptr, options.device);
     free_ = find_free_motions(specimen, network, typical_, inertia);
     if (options.linear == LinearMethod::direct) {
       direct();
       return;
     }
     try {
-      iterative_ =
-          make_iterative_solver(specimen, network, typical_, inertia_, free_, options_.backend, options.device);
+      iterative_ = make_iterative_solver(specimen, network, typical_, inertia_, free_, options_.backend);
     } catch (const RunError& error) {
       if (options.linear == LinearMethod::iterative || specimen.size() > largest_direct) throw;
       direct();  // which says what is wrong, if it is

@@ -49,12 +49,12 @@ std::unique_ptr<LinearSolver> make_direct_solver(const ContactNetwork& network, 
 std::size_t usual_boxes(std::size_t particles);
 
 /// Preconditioned by each particle itself and by the rigid motions of boxes of particles: no factors but of a small
-/// matrix. Up to four tasks are solved side by side. `backend`: cpu, or cuda on that device, where all of the iteration
-/// runs. `boxes`: another number of them, about; 0: each particle alone. \throws RunError when a particle alone can
-/// move without force, or the whole in more than six ways, or a device has too little memory.
+/// matrix. Up to four tasks are solved side by side. `backend`: cpu, or cuda on the calling thread's device, where all
+/// of the iteration runs. `boxes`: another number of them, about; 0: each particle alone. \throws RunError when a
+/// particle alone can move without force, or the whole in more than six ways, or a device has too little memory.
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
                                                     const FreeMotions& free, Backend backend = Backend::cpu,
-                                                    int device = 0, std::optional<std::size_t> boxes = {});
+                                                    std::optional<std::size_t> boxes = {});
 
 }  // namespace macadam::harmonic

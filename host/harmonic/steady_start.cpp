@@ -28,18 +28,36 @@ StartState steady_start(const ContactNetwork& network, const std::array<std::opt
     out.velocity.push_back(vector(rate, m));
     out.spin.push_back(vector(rate, m + 3));
   }
-  for (const Contact& c : network.contacts) {
-    out.chain_begin.push_back(out.chain.size());
-    const std::array<Complex, 6> rates = relative_motion(c, motion, 1.0);
+  struct Response {  // of a law at ω
+    Complex stiffness;
+    std::vector<Complex> unit_compliance;
+  };
+  std::array<Response, pair_types> response;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (!laws[pair]) continue;
     std::visit(
         [&](const auto& law) {
-          for (const Complex& x : rates) {
-            const Complex f = before * law.stiffness(s) * x;
-            out.chain.push_back(f.imag());
-            for (int l = 0; l < law.units(); ++l) out.chain.push_back((f * law.unit_compliance(l, s)).imag());
-          }
+          response[pair].stiffness = before * law.stiffness(s);
+          for (int l = 0; l < law.units(); ++l) response[pair].unit_compliance.push_back(law.unit_compliance(l, s));
         },
-        *laws[static_cast<std::size_t>(c.pair)]);
+        *laws[pair]);
+  }
+  std::size_t numbers = 0;
+  for (const Contact& c : network.contacts) {
+    out.chain_begin.push_back(numbers);
+    numbers += 6 * (1 + response[static_cast<std::size_t>(c.pair)].unit_compliance.size());
+  }
+  out.chain.resize(numbers);
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < network.contacts.size(); ++i) {
+    const Contact& c = network.contacts[i];
+    const Response& of = response[static_cast<std::size_t>(c.pair)];
+    double* chain = &out.chain[out.chain_begin[i]];
+    for (const Complex& x : relative_motion(c, motion, 1.0)) {
+      const Complex f = of.stiffness * x;
+      *chain++ = f.imag();
+      for (const Complex& unit : of.unit_compliance) *chain++ = (f * unit).imag();
+    }
   }
   return out;
 }

@@ -43,7 +43,7 @@ SolverSpec read_solver(const Section& section, const LoadingSpec& loading) {
   constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a share of the critical step, above 0 and at most 1"};
   // below 1e-7 the harmonic solution that everything is measured against has too few digits itself
   constexpr Rule error{[](double v) { return v >= 1e-7 && v <= 0.1; }, "an error from 1e-7 to 0.1"};
-  constexpr std::int64_t most_threads = 65'536;
+  constexpr std::int64_t most_threads = 65'536, most_devices = 1023;
   SolverSpec spec;
   section.read(
       {{"method", Need::optional,
@@ -74,12 +74,16 @@ SolverSpec read_solver(const Section& section, const LoadingSpec& loading) {
                                          {"iterative", LinearMethod::iterative},
                                          {"direct", LinearMethod::direct}})},
        {"threads", Need::optional, into(spec.threads, 0, most_threads)},
+       {"device", Need::optional, into(spec.device, 0, most_devices)},
        {"inertia", Need::optional, into(spec.inertia)}});
   read_damping(section, spec);
 
   if (spec.inertia && spec.method == SolverMethod::explicit_) {
     section.refuse("inertia", "true beside method \"explicit\", which always has inertia",
                    "false, or method = \"harmonic\"");
+  }
+  if (spec.device && (spec.backend == Backend::cpu || spec.backend == Backend::reference)) {
+    section.refuse("device", std::to_string(*spec.device), "none beside a backend other than \"cuda\" or \"auto\"");
   }
   // A fit of the fundamental with offset and trend is meaningless with fewer than eight samples a cycle, and a sample
   // takes a step.

@@ -48,6 +48,11 @@ double mixed_precision_error(const RoundingScale& scale);
 /// What of a run lies beyond the measurements, in words; empty where nothing does.
 std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured);
 
+/// Where a device takes steps in blocks: what it costs that the shortest time of load and laws holds so many of them.
+double block_error(double blocks);
+/// As few blocks as cost no more than this; never more than the 4,000 of a run without a tolerance.
+double blocks_within(double error);
+
 /// Normals and arms of the start kept under this strain.
 double fixed_geometry_error(double strain);
 

@@ -79,7 +79,8 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   RunResult result;
   std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
-  result.backend = select_backend(scene.solver.backend);  // before any work: cuda may not be there
+  result.backend =
+      select_backend(scene.solver.backend, nullptr, scene.solver.device);  // before any work: it may not be there
   require_checkpoints(scene, result.backend, resume);
   const ResultFolder folder(out);
   std::optional<RunState> resumed;

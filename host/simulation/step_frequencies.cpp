@@ -22,6 +22,9 @@
 namespace macadam {
 namespace {
 
+/// The share of the tolerance that steps in blocks may cost, where a device takes them so.
+constexpr double block_share = 0.02;
+
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -122,23 +125,38 @@ StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
   options.damping_kind = solver.damping_kind;
   options.damping = solver.damping;
   options.threads = solver.threads;
+  options.device = solver.device;
+  if (solver.tolerance) options.blocks = blocks_within(block_share * *solver.tolerance);
   return options;
 }
 
+/// Says how long blocks of steps are, where a tolerance decides it and the backend may take them.
+void decide_blocks(const SolverSpec& solver, Backend backend, Plan& plan) {
+  const bool may = backend == Backend::cuda && plan.form == ContactForm::condensed;
+  if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
+  const double blocks = common_options(plan, solver).blocks;
+  plan.decisions.push_back(
+      fmt::format("laws settled {:.0f} times in the shortest time of load and laws: that costs at most {:.1e}",
+                  std::ceil(blocks), block_error(blocks)));
+}
+
 /// The stepper of one frequency: from rest, from the steady state, or, where there is one, from a checkpoint's state.
+/// `used`: that of the frequency before.
 std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepared, const Inertia& inertia,
                                     Backend backend, const Plan& plan, const FrequencyPlan& p,
-                                    const std::vector<StateArray>& from) {
+                                    const std::vector<StateArray>& from, std::unique_ptr<Stepper> used) {
   StepperOptions options = common_options(plan, scene.solver);
   options.density_scaling = p.density_scaling;
   options.loading = p.loading;
   options.dt = p.loading.dt();
+  if (scene.solver.tolerance) options.observed_every = p.loading.steps_per_period / scene.loading.samples_per_cycle;
   StartState start;
   if (p.start == Start::steady && from.empty()) {
     start = steady_start(prepared.network, scene.laws, p.motion, p.loading);
     options.start = &start;
   }
-  auto stepper = make_stepper(backend, prepared.specimen, prepared.network, scene.laws, inertia, options);
+  auto stepper =
+      make_stepper(backend, prepared.specimen, prepared.network, scene.laws, inertia, options, std::move(used));
   if (!from.empty()) stepper->set_state(from);
   return stepper;
 }
@@ -161,7 +179,7 @@ class Steps : public Solution {
     const FrequencyPlan& p = at_.plan.frequencies[at_.seconds.size()];
     const bool resumed = !at_.state.empty();
     try {
-      first_ = make(p, std::exchange(at_.state, {}), result);
+      stepper_ = make(p, std::exchange(at_.state, {}), result);
     } catch (const Error& error) {
       if (resumed) throw InputError(checkpoint.string() + ": checkpoint of another machine: " + error.what());
       throw;
@@ -207,9 +225,10 @@ class Steps : public Solution {
   bool owns_checkpoint() const override { return owns_checkpoint_; }
 
  private:
-  std::unique_ptr<Stepper> make(const FrequencyPlan& p, const std::vector<StateArray>& from, RunResult& result) const {
+  /// From the stepper of another frequency, where there is one.
+  std::unique_ptr<Stepper> make(const FrequencyPlan& p, const std::vector<StateArray>& from, RunResult& result) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
-    return stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, from);
+    return stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, from, std::move(stepper_));
   }
 
   void step(std::size_t i, ResponseWriter* writer, Checkpoints& checkpoints, const Saving& save, RunResult& result) {
@@ -217,15 +236,16 @@ class Steps : public Solution {
     const auto start = Clock::now();
     const double before = std::exchange(at_.seconds_running, 0);
     const FrequencyPlan& p = at_.plan.frequencies[i];
-    const auto stepper = first_ ? std::move(first_) : make(p, {}, result);
-    result.solver = stepper->description();
-    result.bytes = stepper->bytes();
+    if (used_) stepper_ = make(p, {}, result);
+    used_ = true;
+    result.solver = stepper_->description();
+    result.bytes = stepper_->bytes();
     save("running");
     const double per_cycle = static_cast<double>(p.loading.steps_per_period);
-    const std::int64_t begun = stepper->observe().step;
+    const std::int64_t begun = stepper_->observe().step;
     const auto look = [&] {
       const InPhase writing(result.phases, &PhaseSeconds::writing);  // nearly nothing where no checkpoint is due
-      checkpoints.look(at_, before + seconds_since(start), *stepper, fmt::format("{} Hz", p.loading.frequency));
+      checkpoints.look(at_, before + seconds_since(start), *stepper_, fmt::format("{} Hz", p.loading.frequency));
     };
     const auto stepped = [&](std::int64_t done) {
       if (!watcher_.progress || done == 0) return;
@@ -235,7 +255,7 @@ class Steps : public Solution {
                                     static_cast<double>(done - begun) / seconds_since(start)),
                         steps / (per_cycle * p.cycles));
     };
-    run_cyclic(scene_, prepared_.specimen, *stepper, p, at_.samples, writer, look, stepped);
+    run_cyclic(scene_, prepared_.specimen, *stepper_, p, at_.samples, writer, look, stepped);
     at_.seconds.push_back(before + seconds_since(start));
   }
 
@@ -252,8 +272,9 @@ class Steps : public Solution {
   const Watcher& watcher_;
   Inertia inertia_;
   RunState at_;
-  std::unique_ptr<Stepper> first_;  ///< of the frequency that runs first
-  std::size_t samples_read_ = 0;    ///< of finished frequencies
+  std::unique_ptr<Stepper> stepper_;  ///< of the frequency that runs, or is to run first
+  bool used_ = false;                 ///< it has run one
+  std::size_t samples_read_ = 0;      ///< of finished frequencies
   bool owns_checkpoint_;
 };
 
@@ -275,6 +296,7 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
     at = *std::move(resumed);
   } else {
     at.plan = make_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
+    decide_blocks(scene.solver, result.backend, at.plan);
     at.seconds_planning = seconds_since(start);
   }
   auto steps = std::make_unique<Steps>(scene, prepared, watcher, inertia, std::move(at), resumed.has_value());

@@ -4,6 +4,8 @@
 
 #include <omp.h>
 
+#include <utility>
+
 #include "host/reference/reference_stepper.hpp"
 #include "kernels/steppers.hpp"
 #include "macadam/error.hpp"
@@ -35,6 +37,30 @@ void require_start(const Specimen& specimen, const ContactNetwork& network,
   }
   require("numbers of the chains", start.chain.size(), numbers);
   if (options.loading) require("ramp steps", static_cast<std::size_t>(options.loading->ramp_steps), 0);
+}
+
+/// The device of a number, or the first of the report, which has one at least. \throws InputError listing them.
+const DeviceInfo& chosen_device(const BackendReport& report, std::optional<int> number) {
+  std::string list;
+  for (const DeviceInfo& d : report.devices) {
+    if (d.number == number.value_or(d.number)) return d;
+    list += (list.empty() ? "" : ", ") + std::to_string(d.number) + " (" + d.name + ")";
+  }
+  for (const DeviceInfo& d : report.devices_without_code) {
+    if (d.number == number) list += "; " + std::to_string(d.number) + " (" + d.name + ") has no code in this build";
+  }
+  throw InputError("device: found " + std::to_string(*number) +
+                   ", expected the number of one that can run: " + report.cuda_status + ": " + list);
+}
+
+/// Why a device that answers cannot be used after all; empty where it can.
+std::string refusal_of([[maybe_unused]] const DeviceInfo& device) {
+#ifdef MACADAM_CUDA
+  const std::string why = kernels::cuda_refusal(device.number);
+  return why.empty() ? "" : device.name + " cannot be used: " + why;
+#else
+  return "";
+#endif
 }
 
 }  // namespace
@@ -70,22 +96,36 @@ BackendReport report_backends() {
   report.threads = omp_get_max_threads();
 #ifdef MACADAM_CUDA
   report.cuda_compiled = true;
-  report.devices = kernels::cuda_devices(report.cuda_status);
+  kernels::report_cuda_devices(report);
 #else
   report.cuda_status = "this build has no CUDA backend (no CUDA toolkit was found when it was configured)";
 #endif
   return report;
 }
 
-Backend select_backend(Backend asked, std::string* reason) {
+Backend select_backend(Backend asked, std::string* reason, std::optional<int> device) {
+  if (device && (asked == Backend::cpu || asked == Backend::reference)) {
+    throw InputError("device: found " + std::to_string(*device) + " beside backend " + to_string(asked) +
+                     ", expected backend cuda or auto");
+  }
   std::string why = "asked for";
   Backend chosen = asked;
   if (asked == Backend::automatic || asked == Backend::cuda) {
     const BackendReport report = report_backends();
-    chosen = report.devices.empty() ? Backend::cpu : Backend::cuda;
-    why = report.devices.empty() ? report.cuda_status : report.devices.front().name;
-    if (asked == Backend::cuda && chosen != Backend::cuda) {
-      throw RunError("backend cuda was asked for but cannot run: " + why + "; use --backend cpu or auto");
+    why = report.cuda_status;
+    chosen = Backend::cpu;
+    if (!report.devices.empty()) {
+      const DeviceInfo& taken = chosen_device(report, device);
+      why = refusal_of(taken);
+      if (why.empty()) {
+        why = taken.name;
+        chosen = Backend::cuda;
+      }
+    }
+    if (chosen != Backend::cuda && (asked == Backend::cuda || device)) {
+      throw RunError(std::string(asked == Backend::cuda ? "backend cuda" : "a CUDA device") +
+                     " was asked for but cannot run: " + why + "; use --backend cpu or auto" +
+                     (device ? ", and no device" : ""));
     }
   }
   if (reason) *reason = why;
@@ -94,7 +134,7 @@ Backend select_backend(Backend asked, std::string* reason) {
 
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                       const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                                      const StepperOptions& options) {
+                                      const StepperOptions& options, std::unique_ptr<Stepper> used) {
   for (int pair = 0; pair < pair_types; ++pair) {
     const auto p = static_cast<std::size_t>(pair);
     if (network.count[p] > 0 && !laws[p]) {
@@ -107,15 +147,17 @@ std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen,
                      ", expected below 2 (a smaller time_step, or less damping)");
   }
   if (options.start) require_start(specimen, network, laws, options);
-  switch (select_backend(backend)) {
+  StepperOptions given = options;
+  switch (select_backend(backend, nullptr, options.device)) {
     case Backend::reference:
-      return make_reference_stepper(specimen, network, laws, inertia, options);
+      return make_reference_stepper(specimen, network, laws, inertia, given);
 #ifdef MACADAM_CUDA
     case Backend::cuda:
-      return kernels::make_in_precision<kernels::ExecCuda>(specimen, network, laws, inertia, options);
+      given.device = chosen_device(report_backends(), options.device).number;
+      return kernels::make_in_precision<kernels::ExecCuda>(specimen, network, laws, inertia, given, std::move(used));
 #endif
     default:
-      return kernels::make_in_precision<kernels::ExecCpu>(specimen, network, laws, inertia, options);
+      return kernels::make_in_precision<kernels::ExecCpu>(specimen, network, laws, inertia, given, std::move(used));
   }
 }
 

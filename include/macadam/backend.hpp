@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ const char* to_string(Damping);
 
 /// What one CUDA device says of itself.
 struct DeviceInfo {
+  int number = 0;  ///< CUDA's own, from 0
   std::string name;
   int compute_capability = 0;  ///< e.g. 90
   std::int64_t memory_bytes = 0;
@@ -35,16 +37,20 @@ struct DeviceInfo {
 /// What this build can do on this machine.
 struct BackendReport {
   bool cuda_compiled = false;
-  std::vector<DeviceInfo> devices;  ///< empty without a usable device
-  std::string cuda_status;          ///< in words: why there is no device, or how many there are
-  int threads = 1;                  ///< OpenMP's maximum
+  std::vector<DeviceInfo> devices;               ///< empty without a usable device
+  std::vector<DeviceInfo> devices_without_code;  ///< too old or too new for what this build was compiled for
+  std::string cuda_status;                       ///< in words: why there is no device, or how many there are
+  int threads = 1;                               ///< OpenMP's maximum
 };
 
-/// Looks at the machine. Never throws.
+/// Looks at the machine; makes no context on any device. Never throws.
 BackendReport report_backends();
 
 /// Resolves `automatic` to cuda where the build has it and a device answers, else cpu; `reason` (optional) says why.
-/// \throws RunError when cuda is asked for explicitly and is not there.
-Backend select_backend(Backend asked, std::string* reason = nullptr);
+/// `device` is the number of the CUDA device that is meant, where one is; `automatic` then is cuda. A context is made
+/// on that device or, without a number, the first usable one.
+/// \throws RunError when cuda is asked for and is not there; InputError for a number that no usable device has, or
+/// beside another backend.
+Backend select_backend(Backend asked, std::string* reason = nullptr, std::optional<int> device = std::nullopt);
 
 }  // namespace macadam

@@ -34,7 +34,7 @@ struct HarmonicOptions {
   /// Where the iteration without factors runs, cpu or cuda (automatic: as select_backend() has it); all else is on the
   /// CPU.
   Backend backend = Backend::cpu;
-  int device = 0;              ///< number of the CUDA device
+  std::optional<int> device;        ///< cuda: made the calling thread's; none: the first that can run
   std::function<bool()> stop = {};  ///< asked between iterations: true ends a solution with InterruptedError
 };
 

@@ -43,8 +43,14 @@ struct StepperOptions {
   bool skip_shear = true;                   ///< no shear chains where α = 0
   bool skip_rotations = true;               ///< no rotations where nothing_turns()
   int threads = 0;                          ///< cpu: 0 is OpenMP's choice; results do not depend on it
+  std::optional<int> device;                ///< cuda: made the calling thread's; none: the first that can run
   std::optional<loadings::Cyclic> loading;  ///< drives the top wall along z; its dt() must equal dt. None: walls rest
   const StartState* start = nullptr;        ///< read by make_stepper() only; a loading must then be without a ramp
+  /// Where a device takes steps in blocks, within which laws change little: how many of them the shortest time of load
+  /// and laws holds at the least. What a block neglects is of second order in its length.
+  double blocks = 4000;
+  /// Steps from one observe() to the next, 0: not known. Blocks end there where they can.
+  std::int64_t observed_every = 0;
 };
 
 /// Mass and moment of inertia of every particle, density scaling not included.
@@ -132,11 +138,13 @@ class Stepper {
 /// the line of its centres (first moments below 1e-12 of area × size, which is rounding).
 bool nothing_turns(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws);
 
-/// Makes the stepper of a backend (`automatic` is resolved first).
+/// Makes the stepper of a backend (`automatic` is resolved first). `used`: one made of the same specimen, network and
+/// laws that is no longer needed. What it holds that does not depend on time step, masses, loading and start is then
+/// kept; the new one takes the same steps, to the bit, as if it had been made without it.
 /// \throws RunError when the backend is not there; InputError when an option does not fit the backend.
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                       const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                                      const StepperOptions& options);
+                                      const StepperOptions& options, std::unique_ptr<Stepper> used = nullptr);
 
 /// A step that no scene of this network can make unstable: √(2/max λ_max(M_i⁻¹·K_ii)) over the particles' own 6 × 6
 /// blocks with instantaneous stiffnesses, rotations included; local damping χ shortens it by √(1 + χ).

@@ -32,8 +32,8 @@ struct Vectors {
 
 class Solver : public DeviceSolver {
  public:
-  Solver(const LinearSystem& system, int device, std::int64_t& loose) : device_(device), free_(system.free) {
-    check_cuda(cudaSetDevice(device_), "device");
+  Solver(const LinearSystem& system, std::int64_t& loose) : free_(system.free) {
+    check_cuda(cudaGetDevice(&device_), "device");
     bodies_ = system.bodies();
     row_begin_ = DeviceArray<std::size_t>::of(system.row_begin);
     ends_ = DeviceArray<ContactEnd>::of(system.ends);
@@ -220,7 +220,7 @@ class Solver : public DeviceSolver {
 
   static constexpr int batch_length = 8;
 
-  int device_, free_;
+  int device_ = 0, free_;
   std::size_t bodies_ = 0, boxes_ = 0;
   DeviceArray<std::size_t> row_begin_;
   DeviceArray<ContactEnd> ends_;
@@ -235,8 +235,8 @@ class Solver : public DeviceSolver {
 
 }  // namespace
 
-std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, int device, std::int64_t& loose) {
-  return std::make_unique<Solver>(system, device, loose);
+std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, std::int64_t& loose) {
+  return std::make_unique<Solver>(system, loose);
 }
 
 }  // namespace macadam::kernels

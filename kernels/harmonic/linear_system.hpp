@@ -76,8 +76,8 @@ class DeviceSolver {
                                          const std::function<void()>& look) = 0;
 };
 
-/// Only in builds with CUDA. Copies the system. `loose`: set to the first body whose own stiffness is singular, else
-/// −1. \throws RunError where the device has too little memory.
-std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, int device, std::int64_t& loose);
+/// Only in builds with CUDA. Copies the system to the calling thread's device. `loose`: set to the first body whose own
+/// stiffness is singular, else −1. \throws RunError where the device has too little memory.
+std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, std::int64_t& loose);
 
 }  // namespace macadam::kernels

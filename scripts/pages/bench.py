@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """bench/README.md."""
 import csv
+import math
 
 from pages import bench_command
 from pages.data import head, one, opened, rows, span, table, text
@@ -142,6 +143,31 @@ def blocks():
 @mark
 def block_setting():
     return head("tried-gpu-blocks.csv")[0]
+
+
+# ---- length of blocks
+
+BLOCKS = "block-lengths.csv"
+
+
+@mark
+def block_cases():
+    return str(len({tuple(r[c] for c in ("binder", "hz", "cycles", "particles", "steps_per_period")) for r in rows(BLOCKS)}))
+
+
+@mark
+def block_worst():
+    return f"{max(r['over_envelope'] for r in rows(BLOCKS)):.2f}"
+
+
+@mark
+def block_lengths():
+    out = []
+    for n in sorted({r["blocks"] for r in rows(BLOCKS)}, reverse=True):
+        of = [r for r in rows(BLOCKS) if r["blocks"] == n]
+        out.append((f"{n:,.0f}", f"{max(abs(r['e_star']) for r in of):.1e}", f"{max(abs(r['phase_rad']) for r in of):.1e}",
+                    f"{(2 * math.pi / n)**2 / 20:.1e}"))
+    return table(["N", "error of \\|E\\*\\|, at most", "of φ (rad), at most", "counted with"], out)
 
 
 # ---- one command to a result on the GPU

@@ -41,9 +41,9 @@ class CpuSolver : public LinearSolver {
 #ifdef MACADAM_CUDA
 class CudaSolver : public LinearSolver {
  public:
-  CudaSolver(kernels::Layout layout, const kernels::LinearSystem& system, int device) : layout_(std::move(layout)) {
+  CudaSolver(kernels::Layout layout, const kernels::LinearSystem& system) : layout_(std::move(layout)) {
     std::int64_t loose = -1;
-    solver_ = kernels::make_device_solver(system, device, loose);
+    solver_ = kernels::make_device_solver(system, loose);
     if (loose >= 0) refuse_loose_particle(loose, layout_);
   }
 
@@ -106,7 +106,7 @@ std::size_t usual_boxes(std::size_t particles) { return std::clamp<std::size_t>(
 
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
-                                                    const FreeMotions& free, Backend backend, int device,
+                                                    const FreeMotions& free, Backend backend,
                                                     std::optional<std::size_t> asked) {
   if (free.motions.size() > kernels::most_free_motions) {
     throw RunError(fmt::format("harmonic: found {} motions of the whole that no wall resists, expected at most {}",
@@ -117,7 +117,7 @@ std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, co
   kernels::LinearSystem system = make_system(network, specimen, layout, typical, inertia, free);
   if (boxes == 0) std::fill(system.coarse.begin(), system.coarse.end(), 0.0);
 #ifdef MACADAM_CUDA
-  if (backend == Backend::cuda) return std::make_unique<CudaSolver>(std::move(layout), system, device);
+  if (backend == Backend::cuda) return std::make_unique<CudaSolver>(std::move(layout), system);
 #endif
   return std::make_unique<CpuSolver>(std::move(layout), std::move(system));
 }

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file block_length.hpp  How many steps a device takes before it settles the laws.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <variant>
+
+#include "macadam/stepper.hpp"
+
+namespace macadam::kernels {
+
+/// Steps of a block: at most `options.blocks`-th of the shortest time in the load or the laws, and so few that at the
+/// specimen's strain a carried normal turns by less than 1e-6 in a 4,000th of that time. Where this allows it, blocks
+/// end at the observations, which otherwise cut them. 0: blocks would be too short to pay, or nothing says how fast the
+/// load changes. `height`: of the specimen [m].
+inline int block_steps(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
+                       double height) {
+  if (!options.loading) return 0;
+  constexpr double pi = std::numbers::pi;
+  double shortest = 1 / options.loading->frequency;
+  if (options.geometry == Geometry::updated) {
+    const double strain_rate = std::abs(options.loading->amplitude) / height * 2 * pi * options.loading->frequency;
+    if (strain_rate > 0) shortest = std::min(shortest, 4000 * 1e-6 / strain_rate);
+  }
+  for (const auto& law : laws) {
+    if (law) shortest = std::min(shortest, 2 * pi * std::visit([](const auto& l) { return l.shortest_time(); }, *law));
+  }
+  const auto most = static_cast<std::int64_t>(std::min(256.0, std::floor(shortest / (options.blocks * options.dt))));
+  if (most < 4) return 0;
+  for (std::int64_t steps = most; 2 * steps >= most; --steps) {  // of less than half, more would be lost than is won
+    const std::int64_t observed = options.observed_every;
+    if (observed > 0 && (observed % steps == 0 || steps % observed == 0)) return static_cast<int>(steps);
+  }
+  return static_cast<int>(most);
+}
+
+}  // namespace macadam::kernels

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// block_length_test.cpp  Steps of a block: of the shortest time, never longer than it allows, and to the observations.
+#include "kernels/block_length.hpp"
+
+#include <gtest/gtest.h>
+
+#include "test_networks.hpp"
+
+namespace macadam::test {
+namespace {
+
+using kernels::block_steps;
+constexpr double height = 0.1;
+
+/// 10 Hz: the period is the shortest time, 0.1 s; 1e6 steps of it.
+StepperOptions options_of_10_hz() {
+  StepperOptions out;
+  out.loading = loadings::Cyclic{1e-5, 10, 1000000, 0};
+  out.dt = out.loading->dt();
+  out.geometry = Geometry::fixed;
+  return out;
+}
+Laws elastic() {
+  Laws out;
+  out[0] = laws::Elastic{1e10, 0};
+  return out;
+}
+
+TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
+  StepperOptions options = options_of_10_hz();
+  EXPECT_EQ(block_steps(options, elastic(), height), 250);
+  Laws slow = elastic();
+  slow[1] = laws::GeneralisedKelvin{1e10, 1e8, {}, {}, 0};  // 2π·0.01 s
+  EXPECT_EQ(block_steps(options, slow, height), 157);
+  options.geometry = Geometry::updated;  // 4e-3 / (1e-4·20π/s) = 0.64 s
+  EXPECT_EQ(block_steps(options, elastic(), height), 250);
+  options.loading->amplitude = 1e-3;  // 4e-3 / (1e-2·20π/s) = 6.4e-3 s
+  EXPECT_EQ(block_steps(options, elastic(), height), 15);
+  options.loading.reset();
+  EXPECT_EQ(block_steps(options, elastic(), height), 0);
+}
+
+TEST(BlockLength, FollowsTheNumberOfBlocks) {
+  StepperOptions options = options_of_10_hz();
+  options.blocks = 8000;
+  EXPECT_EQ(block_steps(options, elastic(), height), 125);
+  options.blocks = 1e6 / 3.9;  // three steps do not pay
+  EXPECT_EQ(block_steps(options, elastic(), height), 0);
+  options.blocks = 10;  // sums of so many steps are still good in single precision
+  EXPECT_EQ(block_steps(options, elastic(), height), 256);
+}
+
+TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
+  StepperOptions options = options_of_10_hz();
+  const auto steps = [&](std::int64_t observed_every) {
+    options.observed_every = observed_every;
+    return block_steps(options, elastic(), height);
+  };
+  EXPECT_EQ(steps(0), 250);
+  EXPECT_EQ(steps(500), 250);
+  EXPECT_EQ(steps(212), 212);
+  EXPECT_EQ(steps(424), 212);
+  EXPECT_EQ(steps(600), 200);
+  EXPECT_EQ(steps(251), 250);  // a prime
+  EXPECT_EQ(steps(100), 200);  // observed twice a block
+  EXPECT_EQ(steps(1), 250);
+}
+
+}  // namespace
+}  // namespace macadam::test

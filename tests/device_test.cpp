@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// device_test.cpp  Which CUDA device runs, and which a build has code for.
+#include <gtest/gtest.h>
+
+#include "kernels/device_code.hpp"
+#include "test_files.hpp"
+#include "test_scenes.hpp"
+
+namespace macadam::test {
+namespace {
+
+TEST(DeviceCode, MachineCodeServesItsGenerationAndVirtualCodeAllLater) {
+  struct Case {
+    const char* list;
+    int major, minor;
+    bool expected;
+  };
+  for (const Case& c : {Case{"90-real", 9, 0, true},
+                        {"90-real", 8, 9, false},
+                        {"90-real", 10, 0, false},
+                        {"75-virtual,90-real", 7, 5, true},
+                        {"75-virtual,90-real", 12, 0, true},
+                        {"75-virtual,90-real", 7, 0, false},
+                        {"86", 8, 6, true},
+                        {"86", 8, 9, true},
+                        {"86", 8, 0, false},
+                        {"86", 12, 0, true},
+                        {"80-real", 8, 9, true},
+                        {"89-real,80-real", 8, 6, true},
+                        {"120-real,120-virtual", 12, 1, true},
+                        {"120-real,120-virtual", 10, 0, false},
+                        {"90a", 9, 0, true},
+                        {"90a", 10, 0, false},
+                        {"native", 3, 5, true},
+                        {"", 9, 0, false}}) {
+    EXPECT_EQ(kernels::has_code_for(c.list, c.major, c.minor), c.expected)
+        << c.list << " on " << c.major << "." << c.minor;
+  }
+}
+
+TEST(DeviceChoice, BesideAnotherBackendIsRefused) {
+  for (const Backend backend : {Backend::cpu, Backend::reference}) {
+    EXPECT_HAS(message_of([&] { select_backend(backend, nullptr, 0); }), "device: found 0 beside backend");
+    EXPECT_THROW(select_backend(backend, nullptr, 0), InputError);
+    EXPECT_EQ(select_backend(backend), backend);
+  }
+}
+
+TEST(DeviceChoice, WithoutACudaDeviceIsAnErrorThatSaysWhy) {
+  const BackendReport report = report_backends();
+  if (!report.devices.empty()) GTEST_SKIP() << report.cuda_status;
+  for (const Backend backend : {Backend::automatic, Backend::cuda}) {
+    const auto choose = [&] { select_backend(backend, nullptr, 0); };
+    EXPECT_THROW(choose(), RunError);
+    EXPECT_HAS(message_of(choose), report.cuda_status);
+  }
+}
+
+TEST(DeviceChoice, OfACudaDeviceThatIsNotThereListsThoseThatAre) {
+  const BackendReport report = report_backends();
+  if (report.devices.empty()) GTEST_SKIP() << report.cuda_status;
+  for (const int number : {-1, 1023}) {
+    const auto choose = [&] { select_backend(Backend::automatic, nullptr, number); };
+    EXPECT_THROW(choose(), InputError);
+    EXPECT_HAS(message_of(choose), "found " + std::to_string(number));
+    EXPECT_HAS(message_of(choose), report.cuda_status);
+    for (const DeviceInfo& d : report.devices) {
+      EXPECT_HAS(message_of(choose), std::to_string(d.number) + " (" + d.name + ")");
+    }
+  }
+}
+
+// Steppers on different devices may serve in turn: each makes its own device the thread's.
+TEST(DeviceChoice, EveryCudaDeviceTakesTheSameSteps) {
+  const BackendReport report = report_backends();
+  if (report.devices.empty()) GTEST_SKIP() << report.cuda_status;
+  const TestScene scene = make_scene(random_specimen(4));
+  StepperOptions options = slow_options(scene);
+  options.precision = Precision::mixed;
+  std::vector<std::unique_ptr<Stepper>> steppers;
+  for (const DeviceInfo& d : report.devices) {
+    options.device = d.number;
+    std::string reason;
+    EXPECT_EQ(select_backend(Backend::automatic, &reason, d.number), Backend::cuda);
+    EXPECT_EQ(reason, d.name);
+    steppers.push_back(make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options));
+    EXPECT_HAS(steppers.back()->description(), d.name);
+    if (d.number > 0) { EXPECT_HAS(steppers.back()->description(), "device " + std::to_string(d.number)); }
+  }
+  for (int part = 0; part < 3; ++part) {
+    for (const auto& stepper : steppers) stepper->advance(100);
+  }
+  for (std::size_t i = 0; i < steppers.size(); ++i) {
+    EXPECT_EQ(steppers[i]->observe().step, 300);
+    if (report.devices[i].name != report.devices[0].name) continue;  // another device may have other tiles
+    EXPECT_EQ(steppers[i]->observe().wall_force[5].z, steppers[0]->observe().wall_force[5].z);
+  }
+}
+
+}  // namespace
+}  // namespace macadam::test
