@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file block_length.hpp  How many steps a device takes before it settles the laws.
+/// \file block_length.hpp  How many steps a device takes before it settles the laws, and with which coefficients.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <variant>
@@ -36,6 +37,19 @@ inline int block_steps(const StepperOptions& options, const std::array<std::opti
     if (observed > 0 && (observed % steps == 0 || steps % observed == 0)) return static_cast<int>(steps);
   }
   return static_cast<int>(most);
+}
+
+/// The coefficients with which a block of `steps` is begun where the one before it had `ended` steps.
+inline laws::Elastic::Block block_after(const laws::Elastic& law, double dt, int, int steps) {
+  return law.block(dt, steps);
+}
+inline laws::GeneralisedKelvin::Block block_after(const laws::GeneralisedKelvin& law, double dt, int ended, int steps) {
+  laws::GeneralisedKelvin::Block out = law.block(dt, steps);
+  if (ended == steps) return out;
+  const laws::GeneralisedKelvin::Block before = law.block(dt, ended);
+  std::copy(std::begin(before.lost), std::end(before.lost), out.lost);
+  std::copy(std::begin(before.gain), std::end(before.gain), out.gain);
+  return out;
 }
 
 }  // namespace macadam::kernels

@@ -2,6 +2,7 @@
 /// \file cuda_tile_runner.hpp  Runs blocks of steps over tiles: condensed contacts in mixed and single precision.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -21,11 +22,9 @@ class TileRunner {
  public:
   using R = typename P::Particle;
 
-  TileRunner(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, int block,
-             cudaStream_t stream)
+  TileRunner(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, cudaStream_t stream)
       : plan_(plan_tiles(network, layout)),
         carried_(options.geometry == Geometry::updated),
-        block_(block),
         bodies_(layout.particles()),
         stream_(stream),
         constants_(plan_.contact.size() * static_cast<std::size_t>(tile_constants(carried_))) {
@@ -44,10 +43,11 @@ class TileRunner {
   std::vector<KernelUse> kernels() const { return {use_}; }
 
   /// Ends whatever ran: the steps to come are of blocks of another length.
-  void begin(int block) {
+  void begin(int block, bool to_observations) {
     block_ = block;
+    to_observations_ = to_observations;
     begun_ = false;
-    in_block_ = 0;
+    in_block_ = length_ = 0;
   }
 
   /// Takes the contacts of group `number`; `view` points to device arrays.
@@ -97,7 +97,7 @@ class TileRunner {
     clear(scene_.force, loads);
     clear(scene_.wall_load, wall_load_count_);
     clear(before_, (bodies_ + walls) * displacement_words);
-    if (settle_contacts_) settle_contacts_(settling_starts);
+    if (settle_contacts_) settle_contacts_(settling_starts, block_);
     check_cuda(cudaStreamSynchronize(stream_), "start");
   }
 
@@ -122,13 +122,14 @@ class TileRunner {
       add_device_state(states, "displacement_at_block", "m, rad", before_, (bodies_ + walls) * displacement_words);
     }
     states.add<std::int64_t>(
-        "block", "1", 2,
+        "block", "1", 3,
         [this] {
-          return std::vector<std::int64_t>{begun_, in_block_};
+          return std::vector<std::int64_t>{begun_, in_block_, length_};
         },
         [this](const std::vector<std::int64_t>& values) {
           begun_ = values[0] != 0;
           in_block_ = static_cast<int>(values[1]);
+          length_ = static_cast<int>(values[2]);
         });
   }
 
@@ -144,9 +145,12 @@ class TileRunner {
         scene_.wall_velocity = wall_velocity_;
         table += n;
       }
-      if (in_block_ == block_ || !begun_) settle();
+      if (in_block_ == length_ || !begun_) {
+        // a steady start begins at step −1: a block of one step, and those that follow end at the observations
+        settle(!begun_ && to_observations_ && first + done < 0 ? static_cast<int>(-first - done) : block_);
+      }
       const auto n =
-          static_cast<std::uint32_t>(std::min<std::int64_t>({block_ - in_block_, steps - done, table - done}));
+          static_cast<std::uint32_t>(std::min<std::int64_t>({length_ - in_block_, steps - done, table - done}));
       run_(n);
       scene_.wall_velocity += n;
       tag_ += n;
@@ -289,42 +293,54 @@ class TileRunner {
       g.slots = view.packets * 32;
       settle_blocks_ += (g.slots + contact_threads - 1) / contact_threads;
     }
-    const auto put = [&](int kind, const auto& functor) {
-      g.kind = kind;
-      std::memcpy(g.functor, &functor, sizeof functor);
+    fill_settling_[number] = [groups, number, law, view, dt](int ended, int steps) {
+      auto& g = groups->group[number];
+      const auto put = [&](int kind, const auto& functor) {
+        g.kind = kind;
+        std::memcpy(g.functor, &functor, sizeof functor);
+      };
+      if (const auto* elastic = std::get_if<laws::Elastic>(&law))
+        put(0, typename Groups::Elastic{view, block_after(*elastic, dt, ended, steps)});
+      else if (const auto& kelvin = std::get<laws::GeneralisedKelvin>(law); kelvin.units() == 3)
+        put(1, typename Groups::KelvinThree{view, block_after(kelvin, dt, ended, steps)});
+      else
+        put(2, typename Groups::KelvinAny{view, block_after(kelvin, dt, ended, steps)});
     };
-    if (const auto* elastic = std::get_if<laws::Elastic>(&law))
-      put(0, typename Groups::Elastic{view, elastic->block(dt, block_)});
-    else if (const auto& kelvin = std::get<laws::GeneralisedKelvin>(law); kelvin.units() == 3)
-      put(1, typename Groups::KelvinThree{view, kelvin.block(dt, block_)});
-    else
-      put(2, typename Groups::KelvinAny{view, kelvin.block(dt, block_)});
-    settle_contacts_ = [this, groups](int steps) {
+    filled_ended_ = filled_steps_ = 0;  // for other laws and time steps
+    settle_contacts_ = [this, groups](int ended, int steps) {
+      const int known = ended > 0 ? ended : steps;
+      if (filled_ended_ != known || filled_steps_ != steps) {
+        filled_ended_ = known, filled_steps_ = steps;
+        for (const auto& fill : fill_settling_) {
+          if (fill) fill(known, steps);
+        }
+      }
       groups->place = settle_place_;
       launch("settling", settle_contacts<P, geometry>, settle_blocks_, contact_threads, 0, stream_, *groups,
-             constant_.data(), scene_.state, scene_.motion.body.displacement, before_, steps, records_);
+             constant_.data(), scene_.state, scene_.motion.body.displacement, before_, ended, records_);
     };
   }
 
-  /// Ends a block, if one has begun, and begins the next.
-  void settle() {
+  /// Ends a block, if one has begun, and begins the next, of so many steps.
+  void settle(int steps) {
     if (!begun_) {
       check_cuda(
           cudaMemcpyAsync(before_, scene_.motion.body.displacement,
                           (bodies_ + walls) * displacement_words * sizeof(*before_), cudaMemcpyDeviceToDevice, stream_),
           "first block");
     }
-    settle_contacts_(begun_ ? in_block_ : 0);
+    settle_contacts_(begun_ ? in_block_ : 0, steps);
     launch("base loads", sum_base<P>, long_rows_ + (bodies_ + walls + bodies_a_block - 1) / bodies_a_block,
            body_threads, 0, stream_, records_, long_body_, long_rows_, static_cast<std::uint32_t>(bodies_ + walls),
            base_, scene_.motion.body.displacement, before_);
     begun_ = true;
+    length_ = steps;
     in_block_ = 0;
   }
 
   TilePlan plan_;
-  bool carried_, resident_ = false, prepared_ = false, begun_ = false;
-  int block_, in_block_ = 0;
+  bool carried_, resident_ = false, prepared_ = false, begun_ = false, to_observations_ = false;
+  int block_ = 0, in_block_ = 0, length_ = 0;  // length_: of the block that runs, the first may be another
   std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;
   cudaStream_t stream_;
   DeviceLimits limits_;
@@ -342,7 +358,9 @@ class TileRunner {
   std::uint32_t long_rows_ = 0, settle_blocks_ = 0;
   LoadRecords<R> records_{};
   std::shared_ptr<void> settle_groups_;
-  std::function<void(int)> settle_contacts_;
+  std::array<std::function<void(int, int)>, pair_types> fill_settling_;  // steps of the blocks that end and begin
+  int filled_ended_ = 0, filled_steps_ = 0;
+  std::function<void(int, int)> settle_contacts_;
   std::function<void(std::uint32_t)> run_;
   KernelUse use_;
   DeviceStore store_;

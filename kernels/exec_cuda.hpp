@@ -88,15 +88,13 @@ class ExecCuda {
                    bool first, std::size_t group_bytes) {
     dt_ = options.dt;
     const int block = block_of(options, laws, height);
-    if (!first) {
-      if (tiles_) tiles_->begin(block);
-      return;
-    }
     in_blocks_ = block > 0;
     if constexpr (blocks) {
-      if (in_blocks_) tiles_ = std::make_unique<TileRunner<P>>(*network_, layout_, options, block, stream_);
+      if (first && in_blocks_) tiles_ = std::make_unique<TileRunner<P>>(*network_, layout_, options, stream_);
       if (tiles_ && !tiles_->possible()) tiles_.reset();
     }
+    if (tiles_) tiles_->begin(block, options.observed_every > 0);
+    if (!first) return;
     network_ = nullptr;
     const std::size_t records = rows_.records * record_words * sizeof(G);
     require_memory(group_bytes + (tiles_ ? tiles_->bytes_to_come(rows_.records) : records));
@@ -312,7 +310,7 @@ class ExecCuda {
   /// Nothing in double precision, which takes no blocks.
   struct NoTiles {
     void run(std::int64_t, std::int64_t) {}
-    void begin(int) {}
+    void begin(int, bool) {}
     template <class... Any>
     void prepare(Any&&...) {}
     template <class... Any>

@@ -66,5 +66,26 @@ TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
   EXPECT_EQ(steps(1), 250);
 }
 
+// What settles the block that ends is of its own length; what is prepared is of the next one's.
+TEST(BlockLength, MayChangeFromABlockToTheNext) {
+  const laws::GeneralisedKelvin law = mastic_am1();
+  constexpr double dt = 1e-5;
+  const auto changed = kernels::block_after(law, dt, 1, 50), one = law.block(dt, 1), fifty = law.block(dt, 50);
+  const auto settled = [&](const auto& block) {
+    std::vector<double> x{1e-3, 2e-3, 3e-3};
+    block.template settle<-1>(1e6, [&](int l) -> double& { return x[static_cast<std::size_t>(l)]; });
+    return x;
+  };
+  const auto drive = [&](const auto& block) {
+    std::vector<double> x{1e-3, 2e-3, 3e-3};
+    return block.template drive<-1>(1e6, [&](int l) -> double& { return x[static_cast<std::size_t>(l)]; });
+  };
+  EXPECT_EQ(settled(changed), settled(one));
+  EXPECT_NE(settled(changed), settled(fifty));
+  EXPECT_EQ(drive(changed), drive(fifty));
+  EXPECT_NE(drive(changed), drive(one));
+  EXPECT_EQ(settled(kernels::block_after(law, dt, 50, 50)), settled(fifty));
+}
+
 }  // namespace
 }  // namespace macadam::test

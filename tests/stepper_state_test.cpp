@@ -109,6 +109,7 @@ TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   const StartState start =
       steady_start(scene_.network, scene_.laws, some_motion(scene_.specimen.size()), *started.loading);
   started.start = &start;
+  started.observed_every = 60;  // blocks end there, though the start is one step before
   StepperOptions resting = slow;
   resting.loading.reset();
   StepperOptions other_geometry = slow;
