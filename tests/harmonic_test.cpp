@@ -112,6 +112,29 @@ TEST(Harmonic, AgreesWithADenseSolutionOnFreshSpecimens) {
   }
 }
 
+// The scaled specimen's first resonances lie below these: the matrix is indefinite, and near one of them nearly
+// singular. A number is right then, or there is none. The conditions of the matrices, some 1e8, times a residual of
+// 1e-11.
+TEST(Harmonic, BeyondResonanceTheNumberIsRightOrThereIsNone) {
+  const TestScene scene = make_scene(random_specimen(8));
+  int found = 0, by_factors = 0;
+  for (double scaling = 1e6; scaling < 1e10; scaling *= 1.7) {
+    const Complex expected = dense_modulus(scene, 20, scaling);
+    try {
+      const HarmonicResult r = solve(scene, 20, scaling);
+      const Complex modulus = r.parts.modulus();
+      EXPECT_NEAR(std::abs(modulus / expected - 1.0), 0, 1e-6) << scaling;
+      ++found;
+      by_factors += r.linear == LinearMethod::direct;
+    } catch (const RunError& error) {
+      EXPECT_NE(std::string(error.what()).find("near a resonance"), std::string::npos);
+    }
+  }
+  EXPECT_GT(found, 5);
+  RecordProperty("found", found);
+  RecordProperty("by_factors", by_factors);
+}
+
 TEST(Harmonic, ElasticSceneIsTheStaticModulus) {
   Laws laws;
   for (std::size_t pair = 0; pair < pair_types; ++pair) laws[pair] = laws::Elastic{1e10 * (1.0 + double(pair)), 0.2};

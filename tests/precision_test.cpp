@@ -181,8 +181,10 @@ class PlannedPrecision : public testing::Test {
   }
   static Plan plan(const Scene& scene) {
     const Preparation prepared = prepare(scene);
+    PhaseSeconds phases;
     return make_plan(scene, prepared,
-                     make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic), {});
+                     make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic), {},
+                     Backend::cpu, phases);
   }
   static std::string said(const Plan& plan) {
     std::string out;

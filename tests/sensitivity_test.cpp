@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cluster_specimens.hpp"
+#include "host/simulation/error_model.hpp"
+#include "host/simulation/scaling.hpp"
 #include "macadam/harmonic.hpp"
 #include "program.hpp"
 #include "test_scenes.hpp"
@@ -83,7 +85,8 @@ TEST(Sensitivity, AllDeltasTogetherScaleTheModulus) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   const HarmonicResult r = solve(scene, scene.laws, 0);
   double e_star = 0, phase = 0, share = 0;
-  for (const Sensitivity& s : sensitivities(r.parts, scene.laws, std::complex<double>(0, 2 * std::numbers::pi * frequency))) {
+  for (const Sensitivity& s :
+       sensitivities(r.parts, scene.laws, std::complex<double>(0, 2 * std::numbers::pi * frequency))) {
     if (!s.parameter.ends_with(".delta")) continue;
     e_star += s.d_e_star_pa;
     phase += s.d_phase_deg;
@@ -112,6 +115,23 @@ TEST_F(SensitivityCommand, AreWrittenWhereTheSceneAsks) {
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   }
   EXPECT_EQ(std::count(names.begin(), names.end(), "M-W.alpha"), 0);  // it is 0
+}
+
+// The change that the derivative foretells is that of a solution with this scaling, to the square of the change.
+TEST(Scaling, IsAsLargeAsAChangeOfTheModulusAllows) {
+  const TestScene scene = make_scene(random_specimen(test_seed()));
+  Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, frequency);
+  const HarmonicResult known = harmonic.solve(frequency, 1);
+  for (const double wanted : {1e-6, 1e-4, 1e-2}) {
+    for (const double viscous : {0.0, 30.0}) {
+      const double scaling = largest_scaling(known, viscous, wanted);
+      EXPECT_GT(scaling, 1);
+      const HarmonicResult scaled = harmonic.solve(frequency, scaling, viscous);
+      const double reached = largest(difference(scaled.top, known.top));
+      EXPECT_NEAR(reached / wanted, 1, 3 * wanted + 1e-4) << wanted << " " << viscous;  // 1e-4: digits of 1e-6
+    }
+  }
+  EXPECT_EQ(largest_scaling(known, 1e9, 1e-6), 1);  // damping alone is too much
 }
 
 }  // namespace

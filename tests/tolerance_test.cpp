@@ -69,8 +69,9 @@ class Tolerance : public testing::Test {
   std::filesystem::path folder_;
 };
 
+// At 0.1 the change by inertia is no longer straight: a first guess of the scaling may miss.
 TEST_F(Tolerance, IsKeptOnT8) {
-  for (const double tolerance : long_tests ? std::vector{1e-2, 1e-3, 1e-4} : std::vector{1e-2}) {
+  for (const double tolerance : long_tests ? std::vector{1e-1, 1e-2, 1e-3, 1e-4} : std::vector{1e-1, 1e-2}) {
     SCOPED_TRACE(tolerance);
     expect_kept(scene_of(t8(), tolerance));
   }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_operator.cpp  A contact's complex load: its real kinematics on real and imaginary parts, times k*(ω).
+// contact_operator.cpp  A contact's complex load: its real kinematics on real and imaginary parts, times k*(s).
 #include "host/harmonic/contact_operator.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "host/parallel.hpp"
 #include "kernels/contact_kinematics.hpp"
@@ -129,9 +128,9 @@ Vector ContactOperator::wall_forces(const PairStiffness& stiffness) const {
 }
 
 void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia,
-                                 const Vector& motion, Vector& out, double* magnitude) const {
+                                 const Vector& motion, Vector& out, std::vector<double>* largest) const {
   out.resize(6 * particles_);
-  std::vector<double> squares(magnitude ? particles_ : 0);
+  if (largest) largest->resize(6 * particles_);
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < particles_; ++i) {
     Complex sum[6] = {};
@@ -141,17 +140,16 @@ void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor,
       const Load load = contact_load(c, stiffness, relative_motion(c, motion, 0.0));
       const bool is_a = static_cast<std::size_t>(c.a) == i;
       for (std::size_t k = 0; k < 6; ++k) sum[k] -= is_a ? load.a[k] : load.b[k];
-      if (!magnitude) continue;
+      if (!largest) continue;
       const auto [linear, angular] = largest_load(c, stiffness, motion);
       force += linear;
       moment += angular + std::abs(is_a ? c.arm_a : c.arm_b) * linear;
     }
     for (std::size_t k = 0; k < 6; ++k) {
       out[6 * i + k] = sum[k] - factor * inertia_at(inertia, 6 * i + k) * motion[6 * i + k];
+      if (largest) (*largest)[6 * i + k] = k < 3 ? force : moment;
     }
-    if (magnitude) squares[i] = 3 * (force * force + moment * moment);
   }
-  if (magnitude) *magnitude = std::sqrt(std::accumulate(squares.begin(), squares.end(), 0.0));
 }
 
 ModulusParts ContactOperator::energy_parts(const PairStiffness& stiffness, const Vector& motion, Complex wall) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_operator.hpp  Forces of all contacts for given complex motions: K*(ω) without a matrix.
+/// \file contact_operator.hpp  Forces of all contacts for given complex motions: K*(s) without a matrix.
 #pragma once
 
 #include <complex>
@@ -40,10 +40,10 @@ class ContactOperator {
   Vector wall_forces(const PairStiffness& stiffness) const;
 
   /// (K* − factor·M)·motion: the loads that hold the motion; factor: −(s² + s·β)·density scaling.
-  /// Every particle sums its own row, so that the bits do not depend on the number of threads. `magnitude`, where
-  /// given: length of what the loads would be if nothing cancelled, of which rounding is a share.
+  /// Every particle sums its own row, so that the bits do not depend on the number of threads. `largest`, where given:
+  /// [6·particles], what each load would be if nothing cancelled, of which rounding is a share.
   void resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia, const Vector& motion,
-                  Vector& out, double* magnitude = nullptr) const;
+                  Vector& out, std::vector<double>* largest = nullptr) const;
 
   /// Σ u·k*·u over the contacts of each pair, u their relative displacements, without conjugates: twice the energy,
   /// where real. Not yet over the specimen's size, and without inertia.

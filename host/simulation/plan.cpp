@@ -9,6 +9,7 @@
 
 #include "host/simulation/error_model.hpp"
 #include "host/simulation/phases.hpp"
+#include "host/simulation/scaling.hpp"
 #include "host/simulation/solution.hpp"
 #include "macadam/error.hpp"
 
@@ -128,17 +129,24 @@ class Planner {
     try {
       std::vector<HarmonicResult> all = harmonic_->solve(loads);
       std::move(all.begin(), all.end(), out.begin());
-      return out;
     } catch (const InterruptedError&) { throw; } catch (const RunError&) {
+      for (std::size_t i = 0; i < loads.size(); ++i)
+        out[i] = solution(loads[i]);  // one must not cost the others theirs
     }
-    for (std::size_t i = 0; i < loads.size(); ++i) {  // one without a solution must not cost the others theirs
-      try {
-        out[i] = harmonic_->solve({loads[i]}).front();
-      } catch (const InterruptedError&) { throw; } catch (const RunError& error) {
-        decide("{} Hz: {}", loads[i].frequency_hz, error.what());
-      }
+    for (const auto& r : out) {
+      if (r && !r->why_factors.empty()) decide("{} Hz: solved with factors: {}", r->frequency_hz, r->why_factors);
     }
     return out;
+  }
+
+  std::optional<HarmonicResult> solution(const HarmonicLoad& load) {
+    try {
+      return harmonic_->solve(std::vector{load}).front();
+    } catch (const InterruptedError&) { throw; } catch (const RunError& error) {
+      decide("{} Hz, density scaling {:.4g}: no harmonic solution: {}", load.frequency_hz, load.density_scaling,
+             error.what());
+      return {};
+    }
   }
 
   /// All frequencies at once: what they are at true mass, then with the inertia that they will be stepped with.
@@ -148,7 +156,9 @@ class Planner {
     for (const double f : frequencies) loads.push_back({f, 1, 0});  // undamped: damping is no property of the specimen
     const auto known = solutions(loads);
     for (std::size_t i = 0; i < frequencies.size(); ++i) {
-      loads[i] = {frequencies[i], scaling_of(i, known[i]), viscous()};
+      loads[i].density_scaling = scaling_of(i, known[i]);
+      loads[i].viscous_damping = viscous();
+      if (known[i]) loads[i].near = &known[i]->motion;
     }
     auto scaled = solutions(loads);
     correct(loads, known, scaled);
@@ -166,29 +176,8 @@ class Planner {
       return std::max(1.0, std::pow(*scene_.solver.time_step / (safety() * plan_.critical.dt), 2));
     }
     const double frequency = scene_.loading.frequencies[i];
-    if (known) return 1 + largest_excess(*known, 0.97 * inertia_share * tolerance());
+    if (known) return largest_scaling(*known, viscous(), 0.97 * inertia_share * tolerance());
     return std::max(1.0, estimate_share * tolerance() / inertia_estimate(scene_, prepared_, frequency));
-  }
-
-  /// The largest scaling, less one, whose inertia and damping change E* by no more than `wanted`, by the derivative of
-  /// E* at true mass: it is straight as long as the change is small.
-  double largest_excess(const HarmonicResult& known, double wanted) const {
-    using Complex = std::complex<double>;
-    const Complex s(0, 2 * std::numbers::pi * known.frequency_hz), modulus = known.parts.modulus();
-    const Complex each =
-        known.parts.inertia / (s * s) / modulus;  // relative change of E* per unit of (s² + s·β)·scaling
-    const auto change = [&](double excess) {
-      const Complex relative = each * ((1 + excess) * (s * s + s * viscous()) - s * s);
-      return largest({std::abs(1.0 + relative) - 1, std::arg(1.0 + relative)});
-    };
-    if (!(change(0) < wanted)) return 0;  // by damping alone
-    double low = 0, high = 1;
-    while (change(high) < wanted && high < 1e15) low = high, high *= 2;
-    for (int k = 0; k < 60; ++k) {
-      const double middle = (low + high) / 2;
-      (change(middle) < wanted ? low : high) = middle;
-    }
-    return low;
   }
 
   /// A tolerance so large, or a resonance so near, that the change is not straight: what came out too far off is found
@@ -197,13 +186,20 @@ class Planner {
                std::vector<std::optional<HarmonicResult>>& scaled) {
     if (!automatic() || scene_.solver.density_scaling || scene_.solver.time_step) return;
     const double wanted = inertia_share * tolerance();
-    for (std::size_t i = 0; i < loads.size(); ++i) {
-      for (int attempt = 0; attempt < 6 && known[i] && loads[i].density_scaling > 1; ++attempt) {
+    for (int attempt = 0; attempt < 6; ++attempt) {
+      std::vector<std::size_t> missed;
+      std::vector<HarmonicLoad> again;
+      for (std::size_t i = 0; i < loads.size(); ++i) {
+        if (!known[i] || loads[i].density_scaling <= 1) continue;
         const double error = scaled[i] ? largest(difference(scaled[i]->top, known[i]->top)) : 10 * wanted;
-        if (error <= wanted) break;
+        if (error <= wanted) continue;
         loads[i].density_scaling = 1 + (loads[i].density_scaling - 1) * std::clamp(0.9 * wanted / error, 1e-3, 0.9);
-        scaled[i] = std::move(solutions({loads[i]}).front());
+        missed.push_back(i);
+        again.push_back(loads[i]);
       }
+      if (missed.empty()) return;
+      auto found = solutions(again);
+      for (std::size_t k = 0; k < missed.size(); ++k) scaled[missed[k]] = std::move(found[k]);
     }
   }
 

@@ -54,7 +54,8 @@ class HarmonicSolution : public Solution {
       : scene_(scene), prepared_(prepared), watcher_(watcher) {
     const SolverSpec& solver = scene.solver;
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
-    if (result.backend == Backend::reference) result.backend = Backend::cpu;  // it writes the time step again, not this
+    // the reference writes the time step again, not this; factors are the CPU's
+    if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
     result.solver = described(scene, viscous_) + ", " + to_string(result.backend);
     if (watcher.progress) watcher.progress("harmonic: preconditioner", 0);
     const InPhase in(result.phases, &PhaseSeconds::preconditioner);
@@ -74,21 +75,31 @@ class HarmonicSolution : public Solution {
       if (watcher_.progress) {
         watcher_.progress("harmonic: " + where, static_cast<double>(i) / static_cast<double>(frequencies.size()));
       }
-      std::vector<HarmonicResult> solved;
       try {
         if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
-        solved = solve(i, end);
+        const std::optional<std::vector<HarmonicResult>> solved = try_to_solve(i, end);
+        if (solved) {
+          take(*solved, result, save);
+        } else {  // one of them has no solution: those before it are not lost for that
+          for (std::size_t k = i; k < end; ++k) take(solve(k, k + 1), result, save);
+        }
       } catch (const InterruptedError&) {
-        throw InterruptedError("interrupted before " + where +
+        throw InterruptedError("interrupted at " + where +
                                "; summary.json has those before it; method harmonic keeps no checkpoints");
-      } catch (const RunError&) {  // one of them has no solution: those before it are not lost for that
-        for (std::size_t k = i; k < end; ++k) take(solve(k, k + 1), result, save);
       }
-      take(solved, result, save);
     }
   }
 
  private:
+  std::optional<std::vector<HarmonicResult>> try_to_solve(std::size_t first, std::size_t end) {
+    try {
+      return solve(first, end);
+    } catch (const InterruptedError&) { throw; } catch (const RunError&) {
+      if (end - first == 1) throw;
+      return {};
+    }
+  }
+
   std::vector<HarmonicResult> solve(std::size_t first, std::size_t end) {
     std::vector<HarmonicLoad> loads;
     for (std::size_t i = first; i < end; ++i) {
@@ -106,6 +117,9 @@ class HarmonicSolution : public Solution {
       f.frequency_hz = s.frequency_hz;
       f.method = SolverMethod::harmonic;
       f.linear = s.linear;
+      if (!s.why_factors.empty()) {
+        result.warnings.push_back(fmt::format("{} Hz: solved with factors: {}", s.frequency_hz, s.why_factors));
+      }
       f.stiffness = s.top;
       f.parts = s.parts;
       f.bottom = s.bottom;

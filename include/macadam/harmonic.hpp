@@ -11,6 +11,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "macadam/backend.hpp"
@@ -28,13 +29,13 @@ inline constexpr std::size_t largest_direct = 100'000;
 
 /// What the harmonic solver is told once.
 struct HarmonicOptions {
-  /// Largest relative residual ‖f − K·u‖ / ‖f‖; more is taken where rounding of K·u alone is as much.
+  /// Largest relative residual ‖f − K·u‖ / ‖f‖, beyond what rounding of u alone leaves of K·u.
   double tolerance = 1e-11;
   LinearMethod linear = LinearMethod::automatic;
   /// Where the iteration without factors runs, cpu or cuda (automatic: as select_backend() has it); all else is on the
   /// CPU.
   Backend backend = Backend::cpu;
-  std::optional<int> device;        ///< cuda: made the calling thread's; none: the first that can run
+  std::optional<int> device = {};   ///< cuda: made the calling thread's; none: the first that can run
   std::function<bool()> stop = {};  ///< asked between iterations: true ends a solution with InterruptedError
 };
 
@@ -43,6 +44,9 @@ struct HarmonicOptions {
 struct HarmonicLoad {
   double frequency_hz = 0, density_scaling = 0, viscous_damping = 0;
   double growth = 0;  ///< real part of s [1/s]: 0 for the steady state; Laplace transforms take others
+
+  /// Where to begin, of a similar load, or nullptr: HarmonicResult::motion.
+  const std::vector<std::complex<double>>* near = nullptr;
 
   std::complex<double> s() const { return {growth, 2 * std::numbers::pi * frequency_hz}; }
 };
@@ -56,6 +60,7 @@ struct HarmonicResult {
   double residual = 0;                  ///< relative, computed anew from the solution
   int iterations = 0;
   LinearMethod linear = LinearMethod::iterative;  ///< that found the solution
+  std::string why_factors;                        ///< why factors were taken, where they were not asked for
   double held_force = 0;  ///< force that holds free rigid motions / reaction; rounding, where nothing is wrong
   double seconds = 0;
   /// Complex displacement and rotation of each particle (ux uy uz θx θy θz) per unit displacement of the top wall.

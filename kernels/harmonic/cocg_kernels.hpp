@@ -32,7 +32,7 @@ struct CocgScalars {
   LinearState state[F];
   bool done[F];
   bool inert, running;
-  int iteration, best_at;
+  int most_iterations, iteration, best_at;
   double best;
 };
 
@@ -207,7 +207,8 @@ __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coars
       state.energy = fmax(conjugate_product(sums, f) + conjugate_product(coarse_product, f), 0.0);
       state.converged = s.done[f] = state.residual <= s.tolerance[f] && state.energy <= s.energy_limit[f];
       state.iterations += s.iteration > 0;
-      if (!s.done[f]) worst = fmax(worst, isfinite(state.residual) ? state.residual : INFINITY);
+      if (!isfinite(state.residual)) s.done[f] = true;  // lost; the others go on
+      if (!s.done[f]) worst = fmax(worst, state.residual);
     }
     const double2 rho = s.done[f] ? double2{0, 0} : double2{fine.x + coarse.x, fine.y + coarse.y};
     const bool begins = s.iteration == 0 || (s.rho[f].x == 0 && s.rho[f].y == 0);
@@ -215,7 +216,7 @@ __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coars
     s.rho[f] = rho;
   }
   if (worst < 0.9 * s.best) s.best = worst, s.best_at = s.iteration;
-  s.running = worst > 0 && isfinite(worst) && s.iteration < most_iterations && s.iteration - s.best_at <= most_stagnant;
+  s.running = worst > 0 && s.iteration < s.most_iterations && s.iteration - s.best_at <= most_stagnant;
   ++s.iteration;
 }
 
@@ -288,32 +289,6 @@ __global__ void __launch_bounds__(cocg_threads) cocg_turn(CocgView<F> d) {
       if (active) d.p[at] = p;
     }
   }
-}
-
-/// K_ii⁻¹ of every body; the first whose own stiffness is singular goes to `loose`.
-inline __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
-                                     RealStiffness typical, double* inverse, unsigned long long* loose) {
-  const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
-  if (i >= bodies) return;
-  double block[36] = {};
-  for (std::size_t at = row_begin[i]; at < row_begin[i + 1]; ++at) {
-    const auto pair = static_cast<std::size_t>(ends[at].pair);
-    add_block(ends[at], typical.k[pair], typical.alpha[pair], block);
-  }
-  if (!invert_block(block)) atomicMin(loose, static_cast<unsigned long long>(i));
-  for (int c = 0; c < 36; ++c) inverse[36 * i + c] = block[c];
-}
-
-/// One load's numbers between an array of its own and the lanes of all.
-template <int F>
-__global__ void to_lanes(const double2* one, double* all, std::size_t size, int f) {
-  const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
-  if (i < size) all[i * 2 * F + 2 * f] = one[i].x, all[i * 2 * F + 2 * f + 1] = one[i].y;
-}
-template <int F>
-__global__ void from_lanes(const double* all, double2* one, std::size_t size, int f) {
-  const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
-  if (i < size) one[i] = {all[i * 2 * F + 2 * f], all[i * 2 * F + 2 * f + 1]};
 }
 
 }  // namespace macadam::kernels

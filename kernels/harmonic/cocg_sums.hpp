@@ -20,10 +20,9 @@ struct LaneFactor {
 };
 __device__ inline LaneFactor lane_factor(double2 z, bool imaginary) { return {z.x, imaginary ? z.y : -z.y}; }
 
-__device__ inline double2 times(double2 a, double2 b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
 __device__ inline double2 over(double2 a, double2 b) {
-  const double square = b.x * b.x + b.y * b.y;
-  return {(a.x * b.x + a.y * b.y) / square, (a.y * b.x - a.x * b.y) / square};
+  const double scale = 1 / (fabs(b.x) + fabs(b.y)), x = scale * b.x, y = scale * b.y, square = x * x + y * y;
+  return {scale * (a.x * x + a.y * y) / square, scale * (a.y * x - a.x * y) / square};
 }
 
 /// Adds up v over the threads of a block that share a lane, to out[N][W] (global or shared memory).

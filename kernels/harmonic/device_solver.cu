@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // device_solver.cu  Arrays of a system on the device, and the queue of iterations.
+#include <algorithm>
 #include <limits>
 
 #include "kernels/cuda_launch.hpp"
 #include "kernels/harmonic/cocg_kernels.hpp"
+#include "kernels/harmonic/cocg_setup.hpp"
 
 namespace macadam::kernels {
 namespace {
@@ -134,6 +136,7 @@ class Solver : public DeviceSolver {
       out.scale[f] = load.scale;
       out.tolerance[f] = load.tolerance;
       out.energy_limit[f] = load.energy_limit;
+      out.most_iterations = std::max(out.most_iterations, load.most_iterations);
     }
     return out;
   }

@@ -49,6 +49,7 @@ struct LinearLoad {
   double scale = 1;                  ///< ‖f‖
   double tolerance = 0;              ///< of ‖r‖ / ‖f‖
   double energy_limit = 0;           ///< of rᴴ·P⁻¹·r
+  int most_iterations = 0;           ///< 0: the motion is only judged
 };
 
 /// What became of it.
@@ -59,14 +60,16 @@ struct LinearState {
   bool converged = false;
 };
 
-/// Iterations after which, and without a tenth of progress in so many, no solution is expected any more.
-inline constexpr int most_iterations = 5000, most_stagnant = 500;
+/// Iterations without a tenth of progress after which no solution is expected any more.
+inline constexpr int most_stagnant = 500;
+
+/// Loads that are solved side by side.
+inline constexpr int most_loads = 4;
 
 /// Conjugate gradients for complex symmetric matrices on one CUDA device: several loads side by side, all of it on the
 /// device. The same device gives the same bits every run.
 class DeviceSolver {
  public:
-  static constexpr int most_loads = 4;
   virtual ~DeviceSolver() = default;
   /// `right` and `motion`: of each load, [6·bodies]; motion: where to begin, then the solution. `look` is called
   /// between iterations and may throw.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // direct_solver.cpp  COCG (conjugate gradients for complex symmetric matrices) with a real Cholesky preconditioner.
 //
-// K*(ω) is the real network with each contact multiplied by the complex number of its pair. Preconditioned by the real
+// K*(s) is the real network with each contact multiplied by the complex number of its pair. Preconditioned by the real
 // parts at one frequency, its eigenvalues gather about a few such ratios: some ten iterations do.
 #include <algorithm>
 #include <cmath>
@@ -52,11 +52,10 @@ class DirectSolver : public LinearSolver {
     if (x.empty()) {
       x.assign(r.size(), 0);
     } else {
-      if (task.inertia != 0.0) remove_free_motions(x);
       apply(task, x, q);
       for (std::size_t i = 0; i < r.size(); ++i) r[i] -= q[i];
     }
-    const double scale = length(task.right), limit = task.energy_limit > 0 ? task.energy_limit : infinity;
+    const double scale = length(task.right);
     Complex rho_before = 0;
     for (int k = 0;; ++k) {
       require_not_stopped(stop);
@@ -64,8 +63,8 @@ class DirectSolver : public LinearSolver {
       if (task.inertia != 0.0) remove_free_motions(z);
       task.energy = energy_of(r, z);
       const double residual = length(r) / scale;
-      task.converged = residual <= task.tolerance && task.energy <= limit;
-      if (task.converged || k >= most_iterations || !std::isfinite(residual)) return;
+      task.converged = residual <= task.tolerance && task.energy <= task.energy_limit;
+      if (task.converged || k >= std::min(most_iterations, task.most_iterations) || !std::isfinite(residual)) return;
       const Complex rho = product(r, z);
       if (k == 0) {
         p = z;
@@ -101,7 +100,6 @@ class DirectSolver : public LinearSolver {
     }
   }
 
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   const ContactOperator& contacts_;
   const Inertia& inertia_;
   const FreeMotions& free_;

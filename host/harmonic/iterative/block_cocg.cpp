@@ -14,7 +14,6 @@ namespace macadam::harmonic {
 namespace {
 
 constexpr std::size_t chunk = 128;  ///< particles whose sums are made by one thread
-constexpr double infinite_tolerance = std::numeric_limits<double>::infinity();
 
 template <int F>
 class BlockCocg {
@@ -51,7 +50,7 @@ class BlockCocg {
       double sum = 0;
       for (const Complex& v : task.right) sum += std::norm(v);
       scale_[f] = std::sqrt(sum);
-      energy_limit_[f] = task.energy_limit > 0 ? task.energy_limit : infinity;
+      most_ = std::max(most_, task.most_iterations);
     }
     Sums sums = start();
     double best = infinity;
@@ -61,8 +60,7 @@ class BlockCocg {
       Factor<F> beta;
       const double worst = judge(k, sums, beta);  // of those that are not done
       if (worst < 0.9 * best) best = worst, best_at = k;
-      if (worst == 0 || !std::isfinite(worst) || k >= kernels::most_iterations || k - best_at > kernels::most_stagnant)
-        break;
+      if (worst == 0 || k >= most_ || k - best_at > kernels::most_stagnant) break;
       require_not_stopped(stop);
       turn(beta, drop);
       const Products<F> pq = apply();
@@ -132,10 +130,11 @@ class BlockCocg {
       if (!done_[f]) {
         const double residual = std::sqrt(sums.rr.conjugated(f)) / scale_[f];
         task.energy = std::max(sums.rz.conjugated(f) + coarse_product_.conjugated(f), 0.0);
-        done_[f] = residual <= task.tolerance && task.energy <= energy_limit_[f];
+        done_[f] = residual <= task.tolerance && task.energy <= task.energy_limit;
         task.converged = done_[f];
         task.iterations += k > 0;
-        if (!done_[f]) worst = std::max(worst, std::isfinite(residual) ? residual : infinity);
+        if (!std::isfinite(residual)) done_[f] = true;  // lost; the others go on
+        if (!done_[f]) worst = std::max(worst, residual);
       }
       const Complex rho = done_[f] ? Complex(0) : sums.rz.plain(f) + coarse_product_.plain(f);
       beta.set(f, done_[f] || k == 0 || rho_[f] == 0.0 ? Complex(0) : rho / rho_[f]);
@@ -254,7 +253,8 @@ class BlockCocg {
   Products<F> coarse_product_;
   Complex rho_[F] = {};
   bool done_[F] = {};
-  double scale_[F], energy_limit_[F];
+  double scale_[F];
+  int most_ = 0;
   std::vector<Sums, kernels::AlignedAllocator<Sums>> partial_;
 };
 
@@ -268,9 +268,9 @@ void solve_block(const kernels::LinearSystem& system, const std::vector<double>&
     return;
   }
   LinearTask spare = *tasks.front();  // fills the block; it is done before it begins
-  spare.tolerance = infinite_tolerance;
-  while (tasks.size() < 4) tasks.push_back(&spare);
-  BlockCocg<4>(system, inverse, layout, tasks).solve(stop);
+  spare.tolerance = std::numeric_limits<double>::infinity();
+  while (tasks.size() < static_cast<std::size_t>(kernels::most_loads)) tasks.push_back(&spare);
+  BlockCocg<kernels::most_loads>(system, inverse, layout, tasks).solve(stop);
 }
 
 }  // namespace macadam::harmonic

@@ -11,7 +11,7 @@
 namespace macadam::harmonic {
 namespace {
 
-constexpr std::size_t block = 4;  ///< tasks that are solved side by side
+constexpr auto block = static_cast<std::size_t>(kernels::most_loads);
 
 /// f for each block of tasks.
 template <class F>
@@ -59,7 +59,7 @@ class CudaSolver : public LinearSolver {
       double square = 0;
       for (const Complex& v : task->right) square += std::norm(v);
       loads.push_back({task->stiffness.k, task->stiffness.alpha, task->inertia, std::sqrt(square), task->tolerance,
-                       task->energy_limit > 0 ? task->energy_limit : std::numeric_limits<double>::infinity()});
+                       task->energy_limit, task->most_iterations});
       right.push_back(in_order(task->right));
       motion.push_back(task->motion.empty() ? Vector(task->right.size()) : in_order(task->motion));
     }
@@ -109,8 +109,8 @@ std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, co
                                                     const FreeMotions& free, Backend backend,
                                                     std::optional<std::size_t> asked) {
   if (free.motions.size() > kernels::most_free_motions) {
-    throw RunError(fmt::format("harmonic: found {} motions of the whole that no wall resists, expected at most {}",
-                               free.motions.size(), kernels::most_free_motions));
+    throw NotIterable(fmt::format("harmonic: found {} motions of the whole that no wall resists, expected at most {}",
+                                  free.motions.size(), kernels::most_free_motions));
   }
   const std::size_t usual = usual_boxes(specimen.size()), boxes = asked.value_or(usual);
   kernels::Layout layout = kernels::make_order(specimen, boxes > 0 ? boxes : usual);

@@ -2,6 +2,8 @@
 // make_system.cpp  Contacts between boxes make up the coarse matrix: a rigid motion strains none inside.
 #include "host/harmonic/iterative/make_system.hpp"
 
+#include "host/harmonic/linear_solver.hpp"
+
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
@@ -11,7 +13,6 @@
 
 #include "host/parallel.hpp"
 #include "kernels/harmonic/particle_block.hpp"
-#include "macadam/error.hpp"
 
 namespace macadam::harmonic {
 
@@ -149,7 +150,7 @@ Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
 /// Columns of the inverse side by side on all threads.
 void invert(Coarse& k, std::vector<double>& out) {
   const Eigen::LLT<Eigen::MatrixXd> factor(k);
-  if (factor.info() != Eigen::Success) throw RunError("harmonic: boxes of particles can move without force");
+  if (factor.info() != Eigen::Success) throw NotIterable("harmonic: boxes of particles can move without force");
   const Eigen::Index size = k.rows(), strip = 48;
   out.resize(static_cast<std::size_t>(size * size));
   Eigen::Map<Eigen::MatrixXd> inverse(out.data(), size, size);  // symmetric: rows are columns
@@ -235,8 +236,8 @@ std::vector<double> invert_particle_blocks(const LinearSystem& system, const ker
 }
 
 void refuse_loose_particle(std::int64_t body, const kernels::Layout& layout) {
-  throw RunError(fmt::format("harmonic: particle {} can move by itself without force",
-                             layout.particle[static_cast<std::size_t>(body)]));
+  throw NotIterable(fmt::format("harmonic: particle {} can move by itself without force",
+                                layout.particle[static_cast<std::size_t>(body)]));
 }
 
 }  // namespace macadam::harmonic

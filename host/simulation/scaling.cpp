@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// scaling.cpp  The derivative of E* by the density scaling is its inertia part: nothing is solved again.
+#include "host/simulation/scaling.hpp"
+
+#include <cmath>
+
+#include "host/simulation/error_model.hpp"
+
+namespace macadam {
+
+double largest_scaling(const HarmonicResult& known, double viscous, double wanted) {
+  using Complex = std::complex<double>;
+  const Complex s(0, 2 * std::numbers::pi * known.frequency_hz);
+  const Complex each = known.parts.inertia / (s * s) / known.parts.modulus();  // per unit of (s² + s·β)·scaling
+  const auto change = [&](double scaling) {
+    const Complex relative = each * (scaling * (s * s + s * viscous) - s * s);
+    return largest({std::abs(1.0 + relative) - 1, std::arg(1.0 + relative)});
+  };
+  if (!(change(1) < wanted)) return 1;  // by damping alone
+  double low = 1, high = 2;
+  while (change(high) < wanted && high < 1e15) low = high, high *= 2;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = (low + high) / 2;
+    (change(middle) < wanted ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace macadam

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cocg_setup.hpp  What is computed on a device before the iterations and after them.
+#pragma once
+
+#include <cuda_runtime.h>
+
+#include "kernels/harmonic/linear_system.hpp"
+#include "kernels/harmonic/particle_block.hpp"
+
+namespace macadam::kernels {
+
+/// K_ii⁻¹ of every body; the first whose own stiffness is singular goes to `loose`.
+inline __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
+                                     RealStiffness typical, double* inverse, unsigned long long* loose) {
+  const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
+  if (i >= bodies) return;
+  double block[36] = {};
+  for (std::size_t at = row_begin[i]; at < row_begin[i + 1]; ++at) {
+    const auto pair = static_cast<std::size_t>(ends[at].pair);
+    add_block(ends[at], typical.k[pair], typical.alpha[pair], block);
+  }
+  if (!invert_block(block)) atomicMin(loose, static_cast<unsigned long long>(i));
+  for (int c = 0; c < 36; ++c) inverse[36 * i + c] = block[c];
+}
+
+/// One load's numbers between an array of its own and the lanes of all.
+template <int F>
+__global__ void to_lanes(const double2* one, double* all, std::size_t size, int f) {
+  const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
+  if (i < size) all[i * 2 * F + 2 * f] = one[i].x, all[i * 2 * F + 2 * f + 1] = one[i].y;
+}
+template <int F>
+__global__ void from_lanes(const double* all, double2* one, std::size_t size, int f) {
+  const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
+  if (i < size) one[i] = {all[i * 2 * F + 2 * f], all[i * 2 * F + 2 * f + 1]};
+}
+
+}  // namespace macadam::kernels
