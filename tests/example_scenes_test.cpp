@@ -2,6 +2,7 @@
 // example_scenes_test.cpp  The scenes in examples/ hold what the paper's tables give, and a law for every contact.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -25,7 +26,7 @@ TEST_P(ExampleScene, HasTheSolverAndLoadingOfThePaper) {
   EXPECT_EQ(scene.loading.strain_amplitude, 1e-4);
   EXPECT_EQ(scene.solver.tolerance, 1e-3);
   EXPECT_FALSE(scene.solver.density_scaling);
-  EXPECT_EQ(scene.materials.mastic, 2110);
+  if (!scene.recipe) { EXPECT_EQ(scene.materials.mastic, 2110); }
   EXPECT_EQ(scene.specimen.mastic->radius_min, 0.75e-3);
   EXPECT_EQ(scene.specimen.mastic->radius_max, 1e-3);
 }
@@ -81,7 +82,7 @@ TEST_P(ExampleScene, HasThePapersElasticLaws) {
 INSTANTIATE_TEST_SUITE_P(Scene, ExampleScene,
                          ::testing::Values("demo", "ac14_ss_am1", "ac14_ss_am2", "ac14_ms_poly_coarse",
                                            "ac14_ms_poly_fine", "ac14_ms_ico_coarse", "ac14_ms_ico_fine",
-                                           "ac14_ms_design", "mastic"));
+                                           "ac14_ms_design", "mastic", "ac14_recipe", "ac20_recipe"));
 
 /// The M–A row of Table 4 is δ times the M–M row, to half a unit of the fourth digit of each: at most 5e-4, twice. A
 /// digit mistyped in an example shows here.
@@ -93,6 +94,8 @@ TEST(ExampleScenes, TheMasticAggregateLawIsDeltaTimesTheMasticLaw) {
                                       {"ac14_ms_ico_coarse", 3.15},
                                       {"ac14_ms_ico_fine", 3.15},
                                       {"ac14_ms_design", 3.15},
+                                      {"ac14_recipe", 3.15},
+                                      {"ac20_recipe", 3.15},
                                       {"demo", 3.15}}) {
     const Scene scene = read_scene(fs::path(MACADAM_EXAMPLES) / folder / "scene.toml");
     const auto& mm = std::get<laws::GeneralisedKelvin>(*scene.laws[int(PairType::mm)]);
@@ -120,6 +123,31 @@ TEST(ExampleScenes, AC14HasTheCountsOfTable3AndTheModuliOfTable4) {
   EXPECT_EQ(mm.C, (std::vector<double>{2.854e8, 5.865e8, 5.354e9}));
   EXPECT_EQ(std::get<laws::Elastic>(*scene.laws[int(PairType::mw)]).E, 8.909e9);
   EXPECT_EQ(std::get<laws::Elastic>(*scene.laws[int(PairType::aa)]).alpha, 0.05);
+}
+
+/// The paper's AC 14 by mass: 16.3, 12.5, 23.4 and 15.3 % of the aggregate are above 2 mm, which with its density and
+/// 5.2 % of binder are nearly its design formulation by volume, 14.0, 11.0, 20.7 and 13.6 % of the solids. They differ
+/// by what the paper rounds and does not say (the binder's density): half a percentage point.
+TEST(ExampleScenes, AC14ByMassIsTheDesignFormulation) {
+  const Scene scene = read_scene(fs::path(MACADAM_EXAMPLES) / "ac14_recipe" / "scene.toml");
+  const Scene design = read_scene(fs::path(MACADAM_EXAMPLES) / "ac14_ms_design" / "scene.toml");
+  ASSERT_EQ(scene.specimen.aggregate.size(), design.specimen.aggregate.size());
+  const double retained[] = {0.163, 0.125, 0.234, 0.153};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto& curve = scene.recipe->gradation;
+    EXPECT_NEAR(curve[k].passing - curve[k + 1].passing, retained[k], 1e-12);
+    EXPECT_EQ(scene.specimen.aggregate[k].sieve_min, design.specimen.aggregate[k].sieve_min);
+    EXPECT_EQ(scene.specimen.aggregate[k].sieve_max, design.specimen.aggregate[k].sieve_max);
+    EXPECT_NEAR(*scene.specimen.aggregate[k].volume_fraction, *design.specimen.aggregate[k].volume_fraction, 0.005);
+  }
+  EXPECT_EQ(scene.materials.aggregate, design.materials.aggregate);
+}
+
+/// Its curve is the formula that the scene names, to the digits given.
+TEST(ExampleScenes, AC20IsAFullerCurve) {
+  const Scene scene = read_scene(fs::path(MACADAM_EXAMPLES) / "ac20_recipe" / "scene.toml");
+  for (const SievePassing& s : scene.recipe->gradation)
+    EXPECT_NEAR(s.passing, std::pow(s.size / 0.020, 0.45), 0.0005) << s.size;
 }
 
 }  // namespace

@@ -27,6 +27,28 @@ Scene scene_of(const Job& job) {
   return scene;
 }
 
+void say_recipe(const Scene& scene, const Preparation& prepared) {
+  if (!scene.recipe) return;
+  const MixDesign& design = *scene.recipe;
+  const MixVolumes v = volumes_of(design);
+  say("recipe: binder {:.2f} % of the mix, {:.2f} % of the aggregate; effective {:.2f} % of the mix\n", 100 * v.binder,
+      100 * v.binder / (1 - v.binder), 100 * v.effective_binder);
+  say("maximum density {:.1f} kg/m3, bulk density {:.1f} kg/m3, air voids {:.2f} %, VMA {:.2f} %, VFB {:.2f} %\n",
+      v.maximum_density, v.bulk_density, 100 * v.air_voids, 100 * v.vma, 100 * v.vfb);
+  const auto phase = [](const char* name, double mass, double volume, double density) {
+    say("{:<9} {:6.2f} % of the mass, {:6.2f} % of the box, {:.1f} kg/m3\n", name, 100 * mass, 100 * volume, density);
+  };
+  if (!v.classes.empty()) phase("aggregate", v.aggregate_mass, v.aggregate_volume, v.aggregate_density);
+  phase("mastic", v.mastic_mass, v.mastic_volume, v.mastic_density);
+  say("{:>9} {:>13} {:>9}\n", "sieve", "passing asked", "reached");
+  for (const GradationRow& row : gradation_of(design, prepared.composition)) {
+    say("{:>6.6g} mm {:>12.2f}% {:>8.2f}%{}\n", 1e3 * row.size, 100 * row.asked, 100 * row.reached,
+        row.size < design.cut ? " (in the mastic)" : "");
+  }
+  for (const SievePassing& s : outside_of_envelope(design))
+    say("outside of the envelope: {:.4g} % passing {:.6g} mm\n", 100 * s.passing, 1e3 * s.size);
+}
+
 void say_preparation(const Preparation& p) {
   if (!p.composition.empty()) {
     say("{:<14} {:>9} {:>9} {:>12} {:>12}\n", "class", "asked", "reached", "asked/box", "reached/box");

@@ -24,6 +24,9 @@ void add_job_options(CLI::App& command, Job& job);
 /// Reads the scene. \throws InputError.
 Scene scene_of(const Job& job);
 
+/// What follows from a recipe by mass, and what the specimen reached of its curve; nothing where there is none.
+void say_recipe(const Scene& scene, const Preparation& prepared);
+
 /// Composition, contacts and times of a specimen, on standard output.
 void say_preparation(const Preparation& prepared);
 

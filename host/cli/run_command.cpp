@@ -70,6 +70,7 @@ void run_command(const Arguments& arguments) {
   };
   watcher.prepared = [&](const Preparation& prepared) {
     line.clear();
+    say_recipe(scene, prepared);
     say_preparation(prepared);
     flush_output();
   };

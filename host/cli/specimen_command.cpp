@@ -38,6 +38,7 @@ void specimen_command(const Arguments& arguments) {
       prepare_into(arguments.job.out, scene, planes,
                    [&](const std::string& stage, double share) { show_or_stop(line, stage, share); });
   line.clear();
+  say_recipe(scene, prepared);
   say_preparation(prepared);
   const TessellationInvariants i = measure_invariants(prepared.specimen, prepared.tessellation);
   say("tessellation errors: volume {:.1e}, closure {:.1e}, flatness {:.1e}, power {:.1e}, walls {:.1e}\n", i.volume,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_specimen.cpp  `[specimen]`: a file or a recipe. Recipes that no generator could follow are refused here.
+/// \file read_specimen.cpp  `[specimen]`: a file, or a mixture by volume or by mass. Mixtures that no generator could
+/// follow are refused here.
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 #include "host/scene/sections.hpp"
 #include "host/spheres/size_law.hpp"
 #include "host/spheres/specimen_check.hpp"
+#include "macadam/error.hpp"
 
 namespace macadam::scene {
 namespace {
@@ -51,14 +53,18 @@ AggregateClass read_aggregate(const Section& section, const Box& box) {
   return out;
 }
 
-MasticSpec read_mastic(const Section& section, const Box& box) {
+MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
   constexpr Rule porosity{[](double v) { return v > -1 && v < 1; }, "a porosity between -1 and 1"};
   MasticSpec out;
   out.line = section.line();
   section.read({{"radius", Need::required, range_into(out.radius_min, out.radius_max)},
                 {"porosity", Need::optional, into(out.porosity, ratio, porosity)},
                 {"count", Need::optional, into(out.count, 1, most_particles)}});
-  need_one_of(section, "porosity", "count");
+  for (const char* key : {"porosity", "count"}) {
+    if (by_mass && section.has(key))
+      section.refuse(key, "this key beside [specimen.recipe]", "the recipe alone: its air voids are the porosity");
+  }
+  if (!by_mass) need_one_of(section, "porosity", "count");
   need_to_fit(section, "radius", 2 * out.radius_max, box);
   return out;
 }
@@ -117,6 +123,22 @@ void need_possible(const Section& section, const SpecimenSpec& spec) {
   }
 }
 
+/// Classes and porosity of the recipe, which stands in a section of its own.
+void follow_recipe(const Section& section, const MixDesign& recipe, SpecimenSpec& spec) {
+  if (section.has("aggregate"))
+    section.refuse("aggregate", "classes of aggregate beside [specimen.recipe]", "one of the two");
+  if (!spec.mastic)
+    section.refuse("recipe", "[specimen.recipe] without [specimen.mastic]", "[specimen.mastic] with its radius");
+  follow(recipe, spec);
+  const double edge = std::min({spec.box.size.x, spec.box.size.y, spec.box.size.z});
+  for (const AggregateClass& c : spec.aggregate) {
+    if (c.sieve_max >= edge)
+      throw InputError(spec.source, c.line, "[specimen.recipe] gradation",
+                       fmt::format("aggregate of {:.6g} to {:.6g} mm", 1e3 * c.sieve_min, 1e3 * c.sieve_max),
+                       fmt::format("sizes below the smallest edge of the box, {:.6g} mm", 1e3 * edge));
+  }
+}
+
 }  // namespace
 
 Reader range_into(double& low, double& high) {
@@ -128,7 +150,8 @@ Reader range_into(double& low, double& high) {
   };
 }
 
-SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder) {
+SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
+                           std::optional<MixDesign>& recipe) {
   SpecimenSpec spec;
   spec.source = section.file(), spec.line = section.line();
   const auto read_file = [&](const Value& value) {
@@ -141,6 +164,9 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
   const auto read_classes = [&](const Value& value) {
     for (const Section& entry : value.sections()) spec.aggregate.push_back(read_aggregate(entry, spec.box));
   };
+  const auto read_the_mastic = [&](const Value& v) {
+    spec.mastic = read_mastic(v.section(), spec.box, section.has("recipe"));
+  };
   section.read({{"box", Need::required, box_into(spec.box)},
                 {"file", Need::optional, read_file},
                 {"seed", Need::optional, into(spec.seed, 0)},
@@ -152,14 +178,17 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
                 {"attempts", Need::optional, into(spec.attempts, 1)},
                 {"aggregate", Need::optional, read_classes},
                 {"shapes", Need::optional, [&](const Value& v) { spec.shapes = read_shapes(v.section(), folder); }},
-                {"mastic", Need::optional, [&](const Value& v) { spec.mastic = read_mastic(v.section(), spec.box); }}});
+                {"recipe", Need::optional, [&](const Value& v) { recipe = read_recipe(v.section()); }},
+                {"mastic", Need::optional, read_the_mastic}});
   if (spec.file) {
-    for (const char* key : {"aggregate", "shapes", "mastic", "seed", "size_law", "fix_aggregates", "attempts"}) {
+    for (const char* key :
+         {"recipe", "aggregate", "shapes", "mastic", "seed", "size_law", "fix_aggregates", "attempts"}) {
       if (section.has(key)) section.refuse(key, "this key of the generator beside file", "one of the two");
     }
-  } else if (spec.aggregate.empty() && !spec.mastic) {
+  } else if (spec.aggregate.empty() && !spec.mastic && !recipe) {
     section.refuse("file", "neither a file nor aggregate or mastic to generate", "one of the two");
   } else {
+    if (recipe) follow_recipe(section, *recipe, spec);
     need_possible(section, spec);
     if (spec.shapes && spec.aggregate.empty())
       section.refuse("shapes", "shapes without aggregates", "[[specimen.aggregate]] with sieves of the shapes' D^I");

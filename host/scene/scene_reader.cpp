@@ -59,11 +59,12 @@ toml::table parse_toml(const std::filesystem::path& file, const std::string& tex
   }
 }
 
-Materials read_materials(const Section& section) {
+/// Densities may be left out where they follow from a recipe.
+Materials read_materials(const Section& section, Need need) {
   Materials materials;
-  const auto phase = [](double& target) {
-    return [&target](const Value& value) {
-      value.section().read({{"density", Need::required, into(target, density, positive)}});
+  const auto phase = [need](double& target) {
+    return [&target, need](const Value& value) {
+      value.section().read({{"density", need, into(target, density, positive)}});
     };
   };
   section.read(
@@ -169,8 +170,10 @@ Scene read_scene(const std::filesystem::path& file) {
   const toml::table table = parse_toml(file, out.text);
   const Section root(file.string(), 0, "", "", table);
   const std::filesystem::path folder = file.parent_path();
-  root.read({{"specimen", Need::required, [&](const Value& v) { out.specimen = read_specimen(v.section(), folder); }},
-             {"materials", Need::required, [&](const Value& v) { out.materials = read_materials(v.section()); }},
+  const Need densities = table["specimen"]["recipe"] ? Need::optional : Need::required;
+  const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
+  root.read({{"specimen", Need::required, read_the_specimen},
+             {"materials", densities, [&](const Value& v) { out.materials = read_materials(v.section(), densities); }},
              {"contacts", Need::required, [&](const Value& v) { out.laws = read_contacts(v.sections()); }},
              {"network", Need::optional, [&](const Value& v) { out.network = read_network(v.section()); }},
              {"loading", Need::required, [&](const Value& v) { out.loading = read_loading(v.section()); }},
@@ -181,6 +184,7 @@ Scene read_scene(const std::filesystem::path& file) {
                                   {"sensitivities", Need::optional, into(out.output.sensitivities)},
                                   {"checkpoint", Need::optional, into(out.output.checkpoint, duration, non_negative)}});
               }}});
+  if (out.recipe) take_densities(*out.recipe, root, out.materials);
   check_together(out, root);
   return out;
 }

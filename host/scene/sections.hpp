@@ -7,9 +7,18 @@
 
 namespace macadam::scene {
 
-/// Reads `[specimen]`: a file or a recipe, whichever it is, that is not impossible. Paths are taken from `folder`.
+/// Reads `[specimen]`: a file or what the generator needs, whichever it is, that is not impossible; `recipe` is what
+/// its classes follow from, where there is one. Paths are taken from `folder`. \throws InputError
+SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
+                           std::optional<MixDesign>& recipe);
+
+/// Reads `[specimen.recipe]`.
 /// \throws InputError
-SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder);
+MixDesign read_recipe(const Section& section);
+
+/// Gives the materials the densities that follow from the recipe. `root` is the whole scene.
+/// \throws InputError where the scene gives others.
+void take_densities(const MixDesign& recipe, const Section& root, Materials& materials);
 
 /// Reads `[specimen.shapes]`; paths are taken from `folder`.
 /// \throws InputError

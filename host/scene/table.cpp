@@ -60,12 +60,19 @@ const toml::array& Value::array(const std::string& expected) const {
   return *array;
 }
 
+std::vector<Value> Value::entries(const std::string& expected) const {
+  std::vector<Value> out;
+  for (const toml::node& node : array(expected)) {
+    const std::string entry = fmt::format("{}, entry {}", name_, out.size() + 1);
+    out.emplace_back(file_, line_of(node.source()), entry, path_, node);
+  }
+  return out;
+}
+
 std::vector<double> Value::numbers(const Quantity& quantity, const Rule& rule) const {
   std::vector<double> out;
-  for (const toml::node& node : array("an array, each entry " + accepted(quantity))) {
-    const std::string entry = fmt::format("{}, entry {}", name_, out.size() + 1);
-    out.push_back(Value(file_, line_of(node.source()), entry, path_, node).number(quantity, rule));
-  }
+  for (const Value& entry : entries("an array, each entry " + accepted(quantity)))
+    out.push_back(entry.number(quantity, rule));
   return out;
 }
 

@@ -46,11 +46,14 @@ class Value {
   std::string text() const;
   /// The position in `names` of this text.
   std::size_t choice(const std::vector<std::string>& names) const;
+  /// The entries of an array.
+  std::vector<Value> entries(const std::string& expected) const;
   /// The value as a section `[path]`.
   Section section() const;
   /// The value as sections `[[path]]`, at least one.
   std::vector<Section> sections() const;
 
+  int line() const { return line_; }
   /// Whether the value is an array.
   bool is_array() const { return node_->is_array(); }
   /// Whether the value is written `inf`.

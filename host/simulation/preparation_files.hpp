@@ -8,8 +8,9 @@
 
 namespace macadam {
 
-/// specimen.csv, aggregates.csv, contacts.csv (where the scene asks) and summary.json without results, into a folder
-/// that is there. Files of another specimen that these do not replace are removed: aggregates, contacts, sections.
+/// specimen.csv, aggregates.csv, gradation.csv (of a recipe by mass), contacts.csv (where the scene asks) and
+/// summary.json without results, into a folder that is there. Files of another specimen that these do not replace are
+/// removed: aggregates, gradation, contacts, sections.
 /// \throws RunError.
 void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 

@@ -80,6 +80,11 @@ void write_preparation(const Scene& scene, const Preparation& prepared, const st
   } else if (!same_specimen) {
     remove_older(out / "aggregates.csv");
   }
+  if (scene.recipe) {
+    write_gradation_csv(out / "gradation.csv", gradation_of(*scene.recipe, prepared.composition));
+  } else if (!same_specimen) {
+    remove_older(out / "gradation.csv");
+  }
   if (scene.output.contacts) {
     write_contacts_csv(out / "contacts.csv", prepared.network);
   } else {

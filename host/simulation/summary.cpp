@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "host/simulation/checkpoints.hpp"
+#include "host/simulation/recipe_summary.hpp"
 #include "macadam/error.hpp"
 #include "macadam/version.hpp"
 
@@ -141,6 +142,7 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
                        {"aggregates_held", scene.specimen.fix_aggregates},
                        {"relaxation_iterations", prepared.relaxation_iterations}};
   }
+  if (scene.recipe) out["recipe"] = recipe_json(*scene.recipe, prepared.composition);
   out["results"] = Json::array();
   const PhaseSeconds& phases = result.phases;
   const bool stepped = scene.solver.method == SolverMethod::explicit_;

@@ -14,6 +14,7 @@
 #include "macadam/backend.hpp"
 #include "macadam/shape.hpp"
 #include "macadam/specimen.hpp"
+#include "macadam/recipe.hpp"
 #include "macadam/tessellation.hpp"
 #include "macadam/cross_section.hpp"
 #include "macadam/contact_network.hpp"

@@ -13,6 +13,7 @@
 #include "macadam/contact_network.hpp"
 #include "macadam/laws/all.hpp"
 #include "macadam/linear_method.hpp"
+#include "macadam/recipe.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {
@@ -79,6 +80,7 @@ struct Scene {
   std::filesystem::path file;
   std::string text;  ///< of the file; a checkpoint belongs to it. Empty for a scene that was not read from one
   SpecimenSpec specimen;
+  std::optional<MixDesign> recipe;  ///< that classes and porosity of the specimen, and the densities, follow from
   Materials materials;
   LawTable laws;
   NetworkSpec network;

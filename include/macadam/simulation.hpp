@@ -104,8 +104,9 @@ using Progress = std::function<void(const std::string& stage, double share)>;
 /// Specimen (read or generated), tessellation, network; checks that every pair present has a law.
 Preparation prepare(const Scene& scene, const Progress& progress = {});
 
-/// Prepares a scene and writes specimen.csv, aggregates.csv (of a generated specimen), contacts.csv (where the scene
-/// asks), section_*.csv of the planes and summary.json without results. Nothing is written before the work is done.
+/// Prepares a scene and writes specimen.csv, aggregates.csv (of a generated specimen), gradation.csv (of a recipe by
+/// mass), contacts.csv (where the scene asks), section_*.csv of the planes and summary.json without results. Nothing is
+/// written before the work is done.
 /// \throws InputError also where the folder holds a run, whose results these files would replace, or where another
 /// command is writing into it; RunError.
 Preparation prepare_into(const std::filesystem::path& out, const Scene& scene,

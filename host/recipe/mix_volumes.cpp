@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// mix_volumes.cpp  From masses to volumes: EN 12697-5 and EN 12697-8, all for 1 kg of mix.
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host/recipe/check_design.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+/// Measured densities are reported to 1 kg/m³: half of it is rounding.
+constexpr double rounding = 0.5;
+
+/// Dry mass [kg] and volume with its pores [m³] of an aggregate in 1 kg of mix.
+struct Portion {
+  double mass = 0, volume = 0;
+  Portion& operator+=(const Portion& other) {
+    mass += other.mass, volume += other.volume;
+    return *this;
+  }
+};
+
+Portion portion(double mass, double density) { return {mass, mass / density}; }
+
+/// What lies between the sieves k and k + 1.
+Portion fraction(const MixDesign& design, std::size_t k, double aggregate) {
+  const double density =
+      design.aggregate_density.size() == 1 ? design.aggregate_density[0] : design.aggregate_density[k];
+  return portion(aggregate * (design.gradation[k].passing - design.gradation[k + 1].passing), density);
+}
+
+/// `0.948 kg / 2630 kg/m3 + 0.052 kg / 1030 kg/m3`, the sum of EN 12697-5 for messages; several aggregates have their
+/// mean density.
+std::string sum_of(const Portion& all, double binder, double binder_density) {
+  return fmt::format("1 kg / ({:.6g} kg / {:.6g} kg/m3 + {:.6g} kg / {:.6g} kg/m3)", all.mass, all.mass / all.volume,
+                     binder, binder_density);
+}
+
+/// Mass of the binder in the pores [kg], given or from the measured maximum density.
+double absorbed_of(const MixDesign& design, const Portion& all, double binder) {
+  double absorbed = all.mass * design.absorbed_binder.value_or(0);
+  if (design.maximum_density) {
+    // 1/ρ = v_a + (b − absorbed)/ρ_b
+    const double measured = *design.maximum_density, solid = all.volume + binder / design.binder_density;
+    if (measured < 1 / solid - rounding)
+      refuse(design, "maximum_density",
+             fmt::format("{}, by which {} of the aggregate's mass would be absorbed", in_kg_m3(measured),
+                         in_percent((binder - design.binder_density * (1 / measured - all.volume)) / all.mass)),
+             fmt::format("at least {}, without absorption: {}", in_kg_m3(1 / solid),
+                         sum_of(all, binder, design.binder_density)));
+    absorbed = std::max(0.0, binder - design.binder_density * (1 / measured - all.volume));
+    if (absorbed > binder)
+      refuse(design, "maximum_density",
+             fmt::format("{}, by which {} of the mix is absorbed: an effective binder of {}", in_kg_m3(measured),
+                         in_percent(absorbed), in_percent(binder - absorbed)),
+             fmt::format("at most {}, with all the binder absorbed: 1 kg / ({:.6g} kg / {:.6g} kg/m3)",
+                         in_kg_m3(1 / all.volume), all.mass, all.mass / all.volume));
+  }
+  if (absorbed > binder)
+    refuse(design, "absorbed_binder",
+           fmt::format("{} of the aggregate's mass, {} of the mix: an effective binder of {} - {} = {}, so that the "
+                       "air voids are beyond the VMA",
+                       in_percent(*design.absorbed_binder), in_percent(absorbed), in_percent(binder),
+                       in_percent(absorbed), in_percent(binder - absorbed)),
+           fmt::format("at most {} of the aggregate's mass, all of the binder", in_percent(binder / all.mass)));
+  return absorbed;
+}
+
+double air_voids_of(const MixDesign& design, double maximum_density) {
+  if (design.air_voids) return *design.air_voids;
+  const double bulk = *design.bulk_density, voids = 1 - bulk / maximum_density;  // EN 12697-8
+  if (bulk > maximum_density + rounding)
+    refuse(design, "bulk_density",
+           fmt::format("{}, by which the air voids are 1 - {:.6g} / {:.6g} = {}", in_kg_m3(bulk), bulk, maximum_density,
+                       in_percent(voids)),
+           "at most the maximum density, " + in_kg_m3(maximum_density));
+  return std::max(0.0, voids);
+}
+
+}  // namespace
+
+MixVolumes volumes_of(const MixDesign& design) {
+  check(design);
+  MixVolumes out;
+  out.binder = design.binder_of == BinderOf::mix ? design.binder : design.binder / (1 + design.binder);
+  const double aggregate = 1 - out.binder;
+  const auto& curve = design.gradation;
+
+  Portion coarse, fine;
+  for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
+    const Portion p = fraction(design, k, aggregate);
+    if (!(p.mass > 0)) continue;
+    if (curve[k + 1].size < design.cut) {
+      fine += p;
+      continue;
+    }
+    coarse += p;  // its volume is still of 1 kg of mix; below it becomes that of the box
+    out.classes.push_back({curve[k + 1].size, curve[k].size, p.mass, p.volume, p.mass / p.volume, curve[k + 1].line});
+  }
+  const Portion filler =
+      portion(aggregate * curve.back().passing, design.filler_density.value_or(design.aggregate_density.back()));
+  Portion all = coarse;
+  (all += fine) += filler;
+
+  const double absorbed = absorbed_of(design, all, out.binder);
+  out.absorbed_binder = absorbed / all.mass;
+  out.effective_binder = out.binder - absorbed;
+  const double solid = all.volume + out.effective_binder / design.binder_density;  // [m³] of 1 kg
+  out.maximum_density = 1 / solid;                                                 // EN 12697-5
+  out.air_voids = air_voids_of(design, out.maximum_density);
+  out.bulk_density = out.maximum_density * (1 - out.air_voids);
+  out.vma = 1 - out.bulk_density * all.volume;  // EN 12697-8; the same as V_m + B·ρ_bulk/ρ_B where none is absorbed
+  out.vfb = out.vma > 0 ? (out.vma - out.air_voids) / out.vma : 0;
+
+  for (MixClass& c : out.classes) c.volume *= out.bulk_density;
+  const double wet = 1 + out.absorbed_binder;
+  out.aggregate_mass = coarse.mass * wet;
+  out.aggregate_volume = coarse.volume * out.bulk_density;
+  out.aggregate_density = coarse.volume > 0 ? out.aggregate_mass / coarse.volume : 0;
+  out.mastic_fine_mass = fine.mass;
+  out.mastic_filler_mass = filler.mass;
+  out.mastic_binder_mass = out.effective_binder + out.absorbed_binder * (fine.mass + filler.mass);
+  out.mastic_mass = fine.mass + filler.mass + out.mastic_binder_mass;
+  const double mastic = fine.volume + filler.volume + out.effective_binder / design.binder_density;
+  if (!(mastic > 0))
+    refuse(design, "binder",
+           fmt::format("no mastic: nothing passes {} and all binder is absorbed", in_millimetres(design.cut)),
+           "binder or fines to fill the mastic with");
+  out.mastic_volume = mastic * out.bulk_density;
+  out.mastic_density = out.mastic_mass / mastic;
+  return out;
+}
+
+void follow(const MixDesign& design, SpecimenSpec& spec) {
+  const MixVolumes volumes = volumes_of(design);
+  const auto alone = [&](bool wrong, const std::string& found, const std::string& expected) {
+    if (wrong) throw InputError(design.source, design.line, "[specimen.recipe]", found, expected);
+  };
+  alone(!spec.mastic, "no mastic beside it", "[specimen.mastic] with its radii");
+  alone(!spec.aggregate.empty(), "classes of aggregate beside it", "none: they follow from the recipe");
+  alone(spec.mastic->porosity || spec.mastic->count, "a porosity or count of the mastic beside it",
+        "none: both follow from the recipe");
+  spec.mastic->porosity = volumes.air_voids;
+  for (const MixClass& c : volumes.classes) {
+    AggregateClass& out = spec.aggregate.emplace_back();
+    out.sieve_min = c.sieve_min, out.sieve_max = c.sieve_max;
+    out.volume_fraction = c.volume / (1 - volumes.air_voids);
+    out.line = c.line;
+  }
+}
+
+}  // namespace macadam
