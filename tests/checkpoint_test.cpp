@@ -43,11 +43,13 @@ class CheckpointedRun : public testing::Test {
   fs::path out(const std::string& name) const { return folder_ / name; }
   fs::path file(const std::string& name) const { return out(name) / "checkpoint.h5"; }
 
-  /// Runs until `stop` was asked so many times. Whether it was interrupted.
+  /// Runs until `stop` was asked so many times after planning. Whether it was interrupted.
   bool run_until(const Scene& scene, const std::string& name, int asked, bool resume) const {
     Watcher watcher;
     int count = 0;
-    watcher.stop = [&] { return ++count >= asked; };
+    bool planned = false;
+    watcher.planned = [&](const RunResult&) { planned = true; };
+    watcher.stop = [&] { return planned && ++count >= asked; };
     try {
       run(scene, out(name), watcher, resume);
       return false;
@@ -285,7 +287,9 @@ TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
     EXPECT_FALSE(fs::exists(out("limited") / "checkpoint.h5.part"));
 
     int asked = 0;
-    watcher.stop = [&] { return ++asked > 20; };
+    bool planned = false;
+    watcher.planned = [&](const RunResult&) { planned = true; };
+    watcher.stop = [&] { return planned && ++asked > 20; };
     EXPECT_HAS(message_of([&] { run(scene, out("stopped"), watcher); }), "it cannot be resumed");
     EXPECT_EQ(summary("stopped").at("status"), "interrupted");
     EXPECT_HAS(message_of([&] { run(scene, out("out"), watcher, true); }), "--resume goes on from the one before");

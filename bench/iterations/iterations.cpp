@@ -44,12 +44,6 @@ SpecimenSpec resized(SpecimenSpec spec, std::int64_t particles) {
   return spec;
 }
 
-double length(const Vector& x) {
-  double sum = 0;
-  for (const Complex& v : x) sum += std::norm(v);
-  return std::sqrt(sum);
-}
-
 /// Specimen, network, and the one system that is solved in several ways.
 class Case {
  public:

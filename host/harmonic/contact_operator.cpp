@@ -72,6 +72,10 @@ std::array<Complex, 6> relative_motion(const Contact& c, const Complex* a, const
 
 }  // namespace
 
+double length(const Vector& x) {
+  return std::sqrt(sum_in_parallel<double>(x.size(), [&](std::size_t i) { return std::norm(x[i]); }));
+}
+
 std::array<Complex, 6> relative_motion(const Contact& c, const Vector& motion, Complex wall) {
   const auto of = [&](std::int32_t end) { return end >= 0 ? &motion[6 * static_cast<std::size_t>(end)] : nullptr; };
   return relative_motion(c, of(c.a), of(c.b), wall);

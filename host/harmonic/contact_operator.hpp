@@ -18,6 +18,9 @@ inline double inertia_at(const Inertia& inertia, std::size_t dof) {
   return dof % 6 < 3 ? inertia.mass[dof / 6] : inertia.inertia[dof / 6];
 }
 
+/// ‖x‖.
+double length(const Vector& x);
+
 /// Complex stiffness per unit of area over distance, and α, of each pair type.
 struct PairStiffness {
   std::array<Complex, pair_types> k{};

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "host/harmonic/linear_solver.hpp"
+#include "host/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -33,12 +34,6 @@ void require_laws_of(const ContactNetwork& network, const std::array<std::option
                        std::to_string(network.count[pair]) + " contacts but no law");
     }
   }
-}
-
-double length(const Vector& x) {
-  double sum = 0;
-  for (const Complex& v : x) sum += std::norm(v);
-  return std::sqrt(sum);
 }
 
 Stiffness modulus(Complex e) { return {std::abs(e), std::arg(e) * 180 / std::numbers::pi}; }
@@ -142,8 +137,8 @@ class Harmonic::Implementation {
   /// With inertia no iteration finds its way out of motions that nothing resists.
   Vector without_free_motions(Vector x) const {
     for (const std::vector<double>& motion : free_.motions) {
-      Complex share = 0;
-      for (std::size_t i = 0; i < x.size(); ++i) share += motion[i] * inertia_at(inertia_, i) * x[i];
+      const auto share =
+          sum_in_parallel<Complex>(x.size(), [&](std::size_t i) { return motion[i] * inertia_at(inertia_, i) * x[i]; });
       for (std::size_t i = 0; i < x.size(); ++i) x[i] -= share * motion[i];
     }
     return x;
@@ -193,14 +188,14 @@ class Harmonic::Implementation {
     contacts_.resistance(task.stiffness, task.inertia, inertia_, task.motion, rest, &largest);
     w.parts = contacts_.energy_parts(task.stiffness, task.motion, 1.0);
     const double whole = std::abs(w.parts.modulus()), scale = length(task.right);
-    double beyond = 0;
-    for (std::size_t i = 0; i < rest.size(); ++i) {
+    const double beyond = sum_in_parallel<double>(rest.size(), [&](std::size_t i) {
       rest[i] = task.right[i] - rest[i];
       // Motions are known to rounding, and loads of stiff contacts to that of them: where the load is far less, that is
       // all that can be asked.
       const double rounding = std::numeric_limits<double>::epsilon() * largest[i];
-      beyond += std::pow(std::max(std::abs(rest[i]) - rounding, 0.0), 2);
-    }
+      const double excess = std::max(std::sqrt(std::norm(rest[i])) - rounding, 0.0);
+      return excess * excess;
+    });
     w.residual = length(rest) / scale;
     w.beyond_rounding = std::sqrt(beyond) / scale;
     w.energy_error = std::sqrt(task.energy / whole);
@@ -229,9 +224,9 @@ class Harmonic::Implementation {
     HarmonicResult out;
     out.parts = w.parts;
     if (task.inertia != 0.0) {
-      for (std::size_t i = 0; i < x.size(); ++i) {
-        out.parts.inertia -= task.inertia * inertia_at(inertia_, i) * x[i] * x[i];
-      }
+      out.parts.inertia -= task.inertia * sum_in_parallel<Complex>(x.size(), [&](std::size_t i) {
+                             return inertia_at(inertia_, i) * x[i] * x[i];
+                           });
     }
     const double top = std::abs(out.parts.modulus());
     const Vec3d& box = specimen_.box.size;

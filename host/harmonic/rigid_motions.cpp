@@ -3,11 +3,11 @@
 #include "host/harmonic/rigid_motions.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <cmath>
 
 #include "host/network/clusters.hpp"
 #include "host/network/contact_stiffness.hpp"
+#include "host/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {
@@ -27,9 +27,7 @@ Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
 /// Makes the last of the motions orthonormal to those before.
 void orthonormalise(std::vector<std::vector<double>>& motions, const Inertia& inertia) {
   const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * inertia_at(inertia, i) * b[i];
-    return sum;
+    return sum_in_parallel<double>(a.size(), [&](std::size_t i) { return a[i] * inertia_at(inertia, i) * b[i]; });
   };
   std::vector<double>& last = motions.back();
   for (std::size_t m = 0; m + 1 < motions.size(); ++m) {
@@ -38,6 +36,33 @@ void orthonormalise(std::vector<std::vector<double>>& motions, const Inertia& in
   }
   const double norm = std::sqrt(product(last, last));
   for (double& v : last) v /= norm;
+}
+
+/// So many columns that are independent: each time the longest, whose direction is then taken out of all.
+std::vector<std::size_t> independent_columns(Eigen::MatrixXd& matrix, int wanted) {
+  const auto columns = static_cast<std::size_t>(matrix.cols());
+  struct Longest {
+    double square = -1;
+    std::size_t column = 0;
+    Longest& operator+=(const Longest& o) {
+      if (o.square > square) *this = o;  // the first of equals
+      return *this;
+    }
+  };
+  std::vector<std::size_t> out;
+  for (int k = 0; k < wanted; ++k) {
+    const auto longest = sum_in_parallel<Longest>(columns, [&](std::size_t c) {
+      return Longest{matrix.col(static_cast<Eigen::Index>(c)).squaredNorm(), c};
+    });
+    out.push_back(longest.column);
+    const Eigen::VectorXd direction = matrix.col(static_cast<Eigen::Index>(longest.column)).normalized();
+#pragma omp parallel for schedule(static)
+    for (std::size_t c = 0; c < columns; ++c) {
+      auto column = matrix.col(static_cast<Eigen::Index>(c));
+      column -= direction.dot(column) * direction;
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -73,9 +98,9 @@ FreeMotions find_free_motions(const Specimen& specimen, const ContactNetwork& ne
       motion.middleCols<3>(static_cast<Eigen::Index>(3 * k)) =
           (rigid(specimen, members[k]).topRows<3>() * modes.eigenvectors().leftCols(free)).transpose();
     }
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivots(motion);
+    const std::vector<std::size_t> pivots = independent_columns(motion, free);
     for (int m = 0; m < free; ++m) {
-      const auto column = static_cast<std::size_t>(pivots.colsPermutation().indices()(m));
+      const std::size_t column = pivots[static_cast<std::size_t>(m)];
       out.pins.push_back({6 * static_cast<std::size_t>(members[column / 3]) + column % 3, largest});
       std::vector<double>& whole = out.motions.emplace_back(6 * specimen.size(), 0.0);
 #pragma omp parallel for schedule(static)

@@ -99,7 +99,9 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   try {
     solution = stepped ? plan_steps(scene, prepared, watcher, std::move(resumed), out / checkpoint_name, result)
                        : plan_harmonic(scene, prepared, watcher, result);
-  } catch (const InterruptedError&) { throw; } catch (const RunError&) {
+  } catch (const InterruptedError&) {
+    throw InterruptedError("interrupted while planning: the folder is as it was");
+  } catch (const RunError&) {
     if (std::filesystem::exists(out / "summary.json")) throw;
     unsolvable = std::current_exception();  // whoever has nothing yet wants to look at the specimen
   }

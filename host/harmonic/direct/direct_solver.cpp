@@ -26,12 +26,6 @@ double energy_of(const Vector& r, const Vector& z) {
   for (std::size_t i = 0; i < r.size(); ++i) sum += (std::conj(r[i]) * z[i]).real();
   return std::max(sum, 0.0);  // of a residual of rounding it may be below
 }
-double length(const Vector& x) {
-  double sum = 0;
-  for (const Complex& v : x) sum += std::norm(v);
-  return std::sqrt(sum);
-}
-
 class DirectSolver : public LinearSolver {
  public:
   DirectSolver(const ContactNetwork& network, const ContactOperator& contacts, const PairStiffness& typical,

@@ -47,9 +47,7 @@ class BlockCocg {
     load_tasks();
     for (int f = 0; f < F; ++f) {
       const LinearTask& task = *tasks_[static_cast<std::size_t>(f)];
-      double sum = 0;
-      for (const Complex& v : task.right) sum += std::norm(v);
-      scale_[f] = std::sqrt(sum);
+      scale_[f] = length(task.right);
       most_ = std::max(most_, task.most_iterations);
     }
     Sums sums = start();

@@ -56,9 +56,7 @@ class CudaSolver : public LinearSolver {
     std::vector<kernels::LinearLoad> loads;
     std::vector<Vector> right, motion;
     for (const LinearTask* task : tasks) {
-      double square = 0;
-      for (const Complex& v : task->right) square += std::norm(v);
-      loads.push_back({task->stiffness.k, task->stiffness.alpha, task->inertia, std::sqrt(square), task->tolerance,
+      loads.push_back({task->stiffness.k, task->stiffness.alpha, task->inertia, length(task->right), task->tolerance,
                        task->energy_limit, task->most_iterations});
       right.push_back(in_order(task->right));
       motion.push_back(task->motion.empty() ? Vector(task->right.size()) : in_order(task->motion));
