@@ -35,6 +35,10 @@ std::pair<double, double> stiffness_range(const Scene& scene, const Preparation&
 /// Largest relative rounding of a float.
 constexpr double roundoff = 0x1p-24;
 
+/// θ: about a peak, over so much on either side a number that turns by 2π/N of itself changes by less than half of its
+/// last bit in a step.
+double angle_lost(const RoundingScale& s) { return roundoff * static_cast<double>(s.steps) / (2 * std::numbers::pi); }
+
 }  // namespace
 
 double inertia_estimate(const Scene& scene, const Preparation& prepared, double frequency) {
@@ -64,9 +68,12 @@ double block_error(double blocks) {
 double blocks_within(double error) { return std::min(4000.0, 2 * std::numbers::pi / std::sqrt(20 * error)); }
 
 // Velocities that contacts gather are known to u = 2⁻²⁴ of themselves, and are as many times the relative velocities of
-// two layers as there are layers; normals, arms and moments are known to u. Nothing adds up in `mixed`: states, master
-// velocities and sums are double.
-double mixed_precision_error(const RoundingScale& s) { return roundoff * (10 + s.layers); }
+// two layers as there are layers; normals, arms and moments are known to u. States, master velocities and sums are
+// double in `mixed`. But a device that steps in blocks has what a force changes by within a block in single precision:
+// where stiff walls carry inertia, a share of it is lost as a velocity's in `single` is. θ = u·N/2π.
+double mixed_precision_error(const RoundingScale& s) {
+  return roundoff * (10 + s.layers) + 2 * angle_lost(s) * s.inertia;
+}
 
 // Besides, in `single`: a chain's f and x_l change by 2π/N of their amplitude in a step, times the cosine of the phase.
 // About their peaks, where that is less than half of the last bit, they stay: over θ = u·N/2π on either side, where
@@ -74,8 +81,8 @@ double mixed_precision_error(const RoundingScale& s) { return roundoff * (10 + s
 // run of many cycles loses less than one cycle of as many steps. A velocity, likewise, changes only where the force
 // moves it by half of its last bit in a step: a share of up to θ/2 of inertia is lost.
 double single_precision_error(const RoundingScale& s) {
-  const double theta = roundoff * static_cast<double>(s.steps) / (2 * std::numbers::pi);
-  return mixed_precision_error(s) + 4 * theta * theta + 2 * theta * s.inertia;
+  const double theta = angle_lost(s);
+  return mixed_precision_error(s) + 4 * theta * theta;
 }
 
 std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured) {
