@@ -10,6 +10,7 @@ find_package(ZLIB REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS CXX)
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL 5.5 REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers: distributions of Math
 
 # Debian's SuiteSparse and METIS bring no CMake targets of their own
 function(macadam_find_library target header suffix library)
@@ -22,6 +23,9 @@ function(macadam_find_library target header suffix library)
 endfunction()
 macadam_find_library(SuiteSparse::CHOLMOD cholmod.h suitesparse cholmod)
 macadam_find_library(METIS::METIS metis.h "" metis)
+# Ceres brings some, which link ATLAS beside the BLAS that SuiteSparse takes; the shared library asks for what it needs itself
+macadam_find_library(Ceres::ceres ceres/ceres.h "" ceres)
+macadam_find_library(glog::glog glog/logging.h "" glog)
 
 # Machine code for the generations in use, as far as this nvcc knows them, and code of the newest for what comes after.
 function(macadam_release_architectures result)

@@ -23,7 +23,8 @@ struct Arguments {
 };
 
 void say_results(const RunResult& result) {
-  say("\n{:>8} {:>11} {:>9}", "f (Hz)", "|E*| (GPa)", "phi (deg)");
+  const bool warm = !result.frequencies.empty() && result.frequencies.front().temperature_c;
+  say("\n{}{:>8} {:>11} {:>9}", warm ? "   T (C) " : "", "f (Hz)", "|E*| (GPa)", "phi (deg)");
   const bool stepped = !result.frequencies.empty() && result.frequencies.front().method == SolverMethod::explicit_;
   const bool known = stepped && result.frequencies.front().achieved;
   if (stepped) {
@@ -33,6 +34,7 @@ void say_results(const RunResult& result) {
     say(" {:>9} {:>10} {:>11} {:>9}\n", "residual", "iterations", "held force", "time (s)");
   }
   for (const FrequencyResult& f : result.frequencies) {
+    if (warm) say("{:>8g} ", f.temperature_c.value_or(0));
     say("{:>8g} {:>11.5f} {:>9.4f}", f.frequency_hz, f.stiffness.e_star_pa / 1e9, f.stiffness.phase_deg);
     if (f.cyclic) {
       const double e_star = f.achieved ? f.achieved->e_star : f.cyclic->change_e_star;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/scene/sections.hpp"
+#include "host/scene/shift_keys.hpp"
 
 namespace macadam::scene {
 namespace {
@@ -79,7 +80,7 @@ Law law_named_in(const Section& section) {
 
 }  // namespace
 
-LawTable read_contacts(const std::vector<Section>& sections) {
+LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts) {
   std::vector<std::string> pairs;
   for (int i = 0; i < pair_types; ++i) pairs.emplace_back(to_string(static_cast<PairType>(i)));
 
@@ -87,6 +88,7 @@ LawTable read_contacts(const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     std::size_t pair = 0;
     double delta = 1;
+    ShiftKeys shift;
     Law read_law = law_named_in(section);
     std::visit(
         [&](auto& law) {
@@ -95,7 +97,11 @@ LawTable read_contacts(const std::vector<Section>& sections) {
                                 {"alpha", Need::optional, into(law.alpha, ratio, non_negative)},
                                 {"delta", Need::optional, into(delta, ratio, positive)}};
           for (Key& key : keys_of(law)) keys.push_back(std::move(key));
+          constexpr bool flows = !std::is_same_v<std::decay_t<decltype(law)>, laws::Elastic>;
+          if constexpr (flows)
+            for (Key& key : shift.keys()) keys.push_back(std::move(key));
           section.read(keys);
+          if constexpr (flows) shifts[pair] = shift.shift(section);
           check(law, section);
           scale(law, delta);
           if (!usable(law)) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "host/scene/sections.hpp"
+#include "host/scene/shift_keys.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -18,18 +19,19 @@ constexpr std::uintmax_t longest_file = 1u << 20;
 /// A dotted key `a.a.a.…` nests a table a dot, and nested tables are destroyed by recursion: a line's length bounds it.
 constexpr std::size_t longest_line = 2000;
 
-std::string read_text(const std::filesystem::path& file) {
+std::string read_text(const std::filesystem::path& file, const std::string& what) {
   std::error_code error;
   const auto refuse = [&](const std::string& found, const std::string& expected) {
-    throw InputError(file.string(), 0, "scene", found, expected);
+    throw InputError(file.string(), 0, what, found, expected);
   };
+  const std::string kind = "a " + what + " file (TOML)";
   const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) refuse("no such file", "a scene file (TOML)");
-  if (std::filesystem::is_directory(status)) refuse("a directory", "a scene file (TOML)");
-  if (!std::filesystem::is_regular_file(status)) refuse("a device or pipe", "a scene file (TOML)");
+  if (!std::filesystem::exists(status)) refuse("no such file", kind);
+  if (std::filesystem::is_directory(status)) refuse("a directory", kind);
+  if (!std::filesystem::is_regular_file(status)) refuse("a device or pipe", kind);
   const auto bytes = std::filesystem::file_size(file, error);
   if (!error && bytes > longest_file) {
-    refuse(fmt::format("{} bytes", bytes), fmt::format("a scene file (TOML) of at most {} bytes", longest_file));
+    refuse(fmt::format("{} bytes", bytes), fmt::format("{} of at most {} bytes", kind, longest_file));
   }
   std::ifstream in(file, std::ios::binary);
   std::string text(error ? 0 : bytes, '\0');
@@ -37,25 +39,15 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
-void check_line_lengths(const std::string& text, const std::string& file) {
+void check_line_lengths(const std::string& text, const std::string& file, const std::string& what) {
   int line = 1;
   for (std::size_t begin = 0; begin < text.size(); ++line) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     if (end - begin > longest_line) {
-      throw InputError(file, line, "scene", fmt::format("{} characters in a line", end - begin),
+      throw InputError(file, line, what, fmt::format("{} characters in a line", end - begin),
                        fmt::format("at most {}", longest_line));
     }
     begin = end + 1;
-  }
-}
-
-toml::table parse_toml(const std::filesystem::path& file, const std::string& text) {
-  check_line_lengths(text, file.string());
-  try {
-    return toml::parse(text, file.string());
-  } catch (const toml::parse_error& error) {
-    throw InputError(file.string(), static_cast<int>(error.source().begin.line), "TOML syntax",
-                     std::string(error.description()), "valid TOML");
   }
 }
 
@@ -67,8 +59,9 @@ Materials read_materials(const Section& section, Need need) {
       value.section().read({{"density", need, into(target, density, positive)}});
     };
   };
-  section.read(
-      {{"aggregate", Need::optional, phase(materials.aggregate)}, {"mastic", Need::optional, phase(materials.mastic)}});
+  section.read({{"aggregate", Need::optional, phase(materials.aggregate)},
+                {"mastic", Need::optional, phase(materials.mastic)},
+                {"temperature", Need::optional, into(materials.temperature, temperature, celsius)}});
   return materials;
 }
 
@@ -120,6 +113,17 @@ void check_together(const Scene& scene, const Section& root) {
 
 }  // namespace
 
+toml::table read_toml(const std::filesystem::path& file, const std::string& what, std::string& text) {
+  text = read_text(file, what);
+  check_line_lengths(text, file.string(), what);
+  try {
+    return toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(file.string(), static_cast<int>(error.source().begin.line), "TOML syntax",
+                     std::string(error.description()), "valid TOML");
+  }
+}
+
 LoadingSpec read_loading(const Section& section) {
   // below 1e-20 the increments of a step leave the range of single precision; rounding of the geometry is far larger
   constexpr Rule strain{[](double v) { return v >= 1e-20 && v < 1; }, "a strain from 1e-20 to below 1"};
@@ -128,18 +132,22 @@ LoadingSpec read_loading(const Section& section) {
   LoadingSpec spec;
   section.read({{"kind", Need::required, [](const Value& v) { v.choice({"cyclic"}); }},
                 {"frequencies", Need::required, into(spec.frequencies, frequency, positive)},
+                {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius)},
                 {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain)},
                 {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}})},
                 {"cycles", Need::optional, into(spec.cycles, 1, most)},
                 {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp)},
                 {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most)},
                 {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most)}});
-  if (spec.frequencies.empty()) section.refuse("frequencies", "none", "at least one");
-  std::vector<double> sorted = spec.frequencies;
-  std::sort(sorted.begin(), sorted.end());
-  if (const auto twin = std::adjacent_find(sorted.begin(), sorted.end()); twin != sorted.end()) {
-    section.refuse("frequencies", fmt::format("{} Hz twice", *twin), "each frequency once");
-  }
+  const auto once = [&](const std::string& key, std::vector<double> sorted, const char* unit, const char* what) {
+    if (sorted.empty() && section.has(key)) section.refuse(key, "none", "at least one");
+    std::sort(sorted.begin(), sorted.end());
+    if (const auto twin = std::adjacent_find(sorted.begin(), sorted.end()); twin != sorted.end()) {
+      section.refuse(key, fmt::format("{} {} twice", *twin, unit), fmt::format("each {} once", what));
+    }
+  };
+  once("frequencies", spec.frequencies, "Hz", "frequency");
+  once("temperatures", spec.temperatures, "degrees C", "temperature");
   if (spec.start == Start::steady && spec.ramp_cycles.value_or(0) > 0) {
     section.refuse("ramp_cycles", fmt::format("{} beside start = \"steady\"", *spec.ramp_cycles),
                    "0: a steady start is in motion at once");
@@ -166,15 +174,14 @@ Scene read_scene(const std::filesystem::path& file) {
   using namespace scene;
   Scene out;
   out.file = file;
-  out.text = read_text(file);
-  const toml::table table = parse_toml(file, out.text);
+  const toml::table table = read_toml(file, "scene", out.text);
   const Section root(file.string(), 0, "", "", table);
   const std::filesystem::path folder = file.parent_path();
   const Need densities = table["specimen"]["recipe"] ? Need::optional : Need::required;
   const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
   root.read({{"specimen", Need::required, read_the_specimen},
              {"materials", densities, [&](const Value& v) { out.materials = read_materials(v.section(), densities); }},
-             {"contacts", Need::required, [&](const Value& v) { out.laws = read_contacts(v.sections()); }},
+             {"contacts", Need::required, [&](const Value& v) { out.laws = read_contacts(v.sections(), out.shifts); }},
              {"network", Need::optional, [&](const Value& v) { out.network = read_network(v.section()); }},
              {"loading", Need::required, [&](const Value& v) { out.loading = read_loading(v.section()); }},
              {"solver", Need::optional, [&](const Value& v) { out.solver = read_solver(v.section(), out.loading); }},
@@ -186,6 +193,7 @@ Scene read_scene(const std::filesystem::path& file) {
               }}});
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   check_together(out, root);
+  apply_temperature(out, root);
   return out;
 }
 

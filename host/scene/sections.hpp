@@ -7,6 +7,9 @@
 
 namespace macadam::scene {
 
+/// The text of a TOML file and its tables; `what` it is in messages. \throws InputError
+toml::table read_toml(const std::filesystem::path& file, const std::string& what, std::string& text);
+
 /// Reads `[specimen]`: a file or what the generator needs, whichever it is, that is not impossible; `recipe` is what
 /// its classes follow from, where there is one. Paths are taken from `folder`. \throws InputError
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
@@ -27,9 +30,13 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
 /// A reader of `[min, max]` [m] with 0 < min ≤ max.
 Reader range_into(double& low, double& high);
 
-/// Reads every `[[contacts]]`.
+/// Reads every `[[contacts]]`; laws are at their reference temperatures, how they shift goes into `shifts`.
 /// \throws InputError
-LawTable read_contacts(const std::vector<Section>& sections);
+LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts);
+
+/// Brings the laws to the scene's temperature, and checks that each temperature that it names means something.
+/// \throws InputError
+void apply_temperature(Scene& scene, const Section& root);
 
 /// Reads `[loading]`.
 /// \throws InputError

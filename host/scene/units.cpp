@@ -19,6 +19,9 @@ constexpr Unit frequencies[] = {{"Hz", 0}, {"mHz", -3}, {"kHz", 3}};
 constexpr Unit durations[] = {{"s", 0},        {"ms", -3}, {"us", -6},     {"\u00b5s", -6},
                               {"\u03bcs", -6}, {"ns", -9}, {"min", 0, 60}, {"h", 0, 3600}};
 constexpr Unit rates[] = {{"1/s", 0}, {"s^-1", 0}, {"1/ms", 3}};
+constexpr Unit temperatures[] = {{"degC", 0}, {"\u00b0C", 0}, {"C", 0}};
+constexpr Unit differences[] = {{"K", 0}, {"degC", 0}, {"\u00b0C", 0}};
+constexpr Unit molar_energies[] = {{"J/mol", 0}, {"kJ/mol", 3}};
 constexpr Unit ratios[] = {{"%", -2}};
 
 std::string_view trimmed(std::string_view text) {
@@ -53,6 +56,9 @@ const Quantity density{"density", densities};
 const Quantity frequency{"frequency", frequencies};
 const Quantity duration{"time", durations};
 const Quantity rate{"rate", rates};
+const Quantity temperature{"temperature", temperatures};
+const Quantity temperature_difference{"difference of temperatures", differences};
+const Quantity molar_energy{"molar energy", molar_energies};
 const Quantity ratio{"ratio", ratios};
 
 std::string accepted(const Quantity& quantity) {

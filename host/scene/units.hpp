@@ -21,14 +21,17 @@ struct Quantity {
   std::span<const Unit> units;
 };
 
-extern const Quantity length;     ///< [m]
-extern const Quantity modulus;    ///< [Pa]
-extern const Quantity viscosity;  ///< [Pa·s]
-extern const Quantity density;    ///< [kg/m³]
-extern const Quantity frequency;  ///< [Hz]
-extern const Quantity duration;   ///< [s]
-extern const Quantity rate;       ///< [1/s]
-extern const Quantity ratio;      ///< [1]; as text a percentage
+extern const Quantity length;                  ///< [m]
+extern const Quantity modulus;                 ///< [Pa]
+extern const Quantity viscosity;               ///< [Pa·s]
+extern const Quantity density;                 ///< [kg/m³]
+extern const Quantity frequency;               ///< [Hz]
+extern const Quantity duration;                ///< [s]
+extern const Quantity rate;                    ///< [1/s]
+extern const Quantity temperature;             ///< [°C]
+extern const Quantity temperature_difference;  ///< [K]
+extern const Quantity molar_energy;            ///< [J/mol]
+extern const Quantity ratio;                   ///< [1]; as text a percentage
 
 /// How a value of this quantity may be written, for messages: `a number in Pa, or text with one of: Pa, kPa, …`.
 std::string accepted(const Quantity& quantity);

@@ -24,6 +24,11 @@ void require_backend_fits(const Scene& scene) {
     throw InputError(scene.file.string(), 0, "inertia", "true beside method \"explicit\", which always has inertia",
                      "false, or method \"harmonic\"");
   }
+  if (scene.solver.method == SolverMethod::explicit_ && !scene.loading.temperatures.empty()) {
+    throw InputError(scene.file.string(), 0, "temperatures in [loading]",
+                     fmt::format("{} of them beside method \"explicit\"", scene.loading.temperatures.size()),
+                     "method \"harmonic\", or one as temperature in [materials]");
+  }
   if (scene.solver.method != SolverMethod::explicit_ || scene.solver.backend != Backend::reference) return;
   const auto refuse = [&](const char* what, const char* found, const char* expected) {
     throw InputError(scene.file.string(), 0, std::string(what) + " with backend reference", found, expected);

@@ -58,20 +58,44 @@ class HarmonicSolution : public Solution {
     if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
     result.solver = described(scene, viscous_) + ", " + to_string(result.backend);
     if (watcher.progress) watcher.progress("harmonic: preconditioner", 0);
-    const InPhase in(result.phases, &PhaseSeconds::preconditioner);
-    const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
-    harmonic_.emplace(prepared.specimen, prepared.network, scene.laws, inertia,
-                      harmonic_options(scene, result.backend, watcher.stop), geometric_mean(scene.loading.frequencies));
+    backend_ = result.backend;
+    if (!scene.loading.temperatures.empty()) set_temperature(scene.loading.temperatures.front());
+    prepare_solver(result);
   }
 
   void solve(const std::filesystem::path&, const Saving& save, RunResult& result) override {
-    const InPhase in(result.phases, &PhaseSeconds::harmonic);
     save("running");
+    const auto& temperatures = scene_.loading.temperatures;
+    solve_isotherm(save, result);
+    for (std::size_t i = 1; i < temperatures.size(); ++i) {
+      set_temperature(temperatures[i]);
+      prepare_solver(result);
+      solve_isotherm(save, result);
+    }
+  }
+
+ private:
+  void set_temperature(double temperature) {
+    isothermal_.laws = laws_at(scene_, temperature);
+    isothermal_.materials.temperature = temperature;
+  }
+
+  void prepare_solver(RunResult& result) {
+    const InPhase in(result.phases, &PhaseSeconds::preconditioner);
+    const Inertia inertia = make_inertia(prepared_.specimen, scene_.materials.aggregate, scene_.materials.mastic);
+    harmonic_.emplace(prepared_.specimen, prepared_.network, isothermal_.laws, inertia,
+                      harmonic_options(scene_, backend_, watcher_.stop), geometric_mean(scene_.loading.frequencies));
+  }
+
+  void solve_isotherm(const Saving& save, RunResult& result) {
+    const InPhase in(result.phases, &PhaseSeconds::harmonic);
     const auto& frequencies = scene_.loading.frequencies;
+    const std::optional<double>& temperature = isothermal_.materials.temperature;
+    const std::string at = temperature ? fmt::format(" at {} degrees C", *temperature) : "";
     constexpr std::size_t block = 4;  // solved side by side
     for (std::size_t i = 0; i < frequencies.size(); i += block) {
       const std::size_t end = std::min(i + block, frequencies.size());
-      const std::string where = fmt::format("{} Hz ({} of {})", frequencies[i], i + 1, frequencies.size());
+      const std::string where = fmt::format("{} Hz{} ({} of {})", frequencies[i], at, i + 1, frequencies.size());
       if (watcher_.progress) {
         watcher_.progress("harmonic: " + where, static_cast<double>(i) / static_cast<double>(frequencies.size()));
       }
@@ -90,7 +114,6 @@ class HarmonicSolution : public Solution {
     }
   }
 
- private:
   std::optional<std::vector<HarmonicResult>> try_to_solve(std::size_t first, std::size_t end) {
     try {
       return solve(first, end);
@@ -111,10 +134,11 @@ class HarmonicSolution : public Solution {
 
   void take(const std::vector<HarmonicResult>& solved, RunResult& result, const Saving& save) const {
     for (const HarmonicResult& s : solved) {
-      const std::size_t i = result.frequencies.size();
+      const std::size_t i = result.frequencies.size() % scene_.loading.frequencies.size();
       FrequencyResult f;
       f.density_scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
       f.frequency_hz = s.frequency_hz;
+      f.temperature_c = isothermal_.materials.temperature;
       f.method = SolverMethod::harmonic;
       f.linear = s.linear;
       if (!s.why_factors.empty()) {
@@ -127,7 +151,7 @@ class HarmonicSolution : public Solution {
       f.iterations = s.iterations;
       f.held_force = s.held_force;
       f.seconds = s.seconds;
-      judge(f, stiffest_contact(scene_, prepared_.network, f.frequency_hz), {}, result.warnings);
+      judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), {}, result.warnings);
       result.frequencies.push_back(f);
     }
     save("running");
@@ -136,6 +160,8 @@ class HarmonicSolution : public Solution {
   const Scene& scene_;
   const Preparation& prepared_;
   const Watcher& watcher_;
+  Backend backend_ = Backend::cpu;
+  Scene isothermal_ = scene_;  ///< the scene with the laws of the temperature at hand
   double viscous_ = 0;
   std::optional<Harmonic> harmonic_;
 };

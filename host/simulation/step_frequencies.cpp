@@ -264,6 +264,7 @@ class Steps : public Solution {
     samples_read_ += samples.size();
     result.frequencies.push_back(finished(at_.plan, i, samples, at_.seconds[i], scene_.solver.tolerance));
     FrequencyResult& f = result.frequencies.back();
+    f.temperature_c = scene_.materials.temperature;
     judge(f, stiffest_contact(scene_, prepared_.network, f.frequency_hz), scene_.solver.tolerance, result.warnings);
   }
 

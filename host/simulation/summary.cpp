@@ -2,6 +2,7 @@
 // summary.cpp  The run as JSON; keys of the first level are fixed for readers of older runs.
 #include "host/simulation/summary.hpp"
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -56,6 +57,13 @@ Json frequency_json(const FrequencyResult& f, const Scene& scene) {
               {"residual", f.residual},
               {"density_scaling", f.density_scaling},
               {"solve_s", f.seconds}};
+  if (f.temperature_c) {
+    out["temperature_c"] = *f.temperature_c;
+    if (const auto shift = common_log10_shift(scene, *f.temperature_c)) {
+      out["log10_a_T"] = *shift;
+      out["reduced_frequency_hz"] = f.frequency_hz * std::pow(10.0, *shift);
+    }
+  }
   if (f.cyclic) {
     out["e_star_peaks_pa"] = f.cyclic->peaks.e_star_pa;
     out["phase_peaks_deg"] = f.cyclic->peaks.phase_deg;
@@ -74,7 +82,8 @@ Json frequency_json(const FrequencyResult& f, const Scene& scene) {
     out["phase_bottom_deg"] = f.bottom->phase_deg;
     out["iterations"] = f.iterations;
     out["linear"] = to_string(f.linear);
-    if (scene.output.sensitivities && f.parts) add_sensitivities(f, scene.laws, out);
+    if (scene.output.sensitivities && f.parts)
+      add_sensitivities(f, f.temperature_c ? laws_at(scene, *f.temperature_c) : scene.laws, out);
     out["held_force"] = f.held_force;
   }
   return out;

@@ -19,6 +19,8 @@
 #include "macadam/cross_section.hpp"
 #include "macadam/contact_network.hpp"
 #include "macadam/laws/all.hpp"
+#include "macadam/laws/shift.hpp"
+#include "macadam/fit.hpp"
 #include "macadam/scene.hpp"
 #include "macadam/loadings/cyclic.hpp"
 #include "macadam/stepper.hpp"

@@ -12,20 +12,25 @@
 #include "macadam/backend.hpp"
 #include "macadam/contact_network.hpp"
 #include "macadam/laws/all.hpp"
+#include "macadam/laws/shift.hpp"
 #include "macadam/linear_method.hpp"
 #include "macadam/recipe.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {
 
-/// Densities by phase [kg/m³]; 0 where the scene gives none.
+/// Densities by phase [kg/m³]; 0 where the scene gives none. And the temperature.
 struct Materials {
   double aggregate = 0, mastic = 0;
+  std::optional<double> temperature = {};  ///< of the whole specimen [°C]
   double density(Phase phase) const { return phase == Phase::aggregate ? aggregate : mastic; }
 };
 
 /// One law for each pair type; empty where the scene gives none.
 using LawTable = std::array<std::optional<Law>, pair_types>;
+
+/// How temperature shifts each pair's law.
+using ShiftLaws = std::array<laws::Shift, pair_types>;
 
 /// `rest`: from zero displacement. `steady`: from the harmonic solution, so that the first cycle is periodic already.
 enum class Start : std::uint8_t { rest, steady };
@@ -33,8 +38,9 @@ const char* to_string(Start);
 
 /// `[loading]`, kind "cyclic". What is empty was not given: make_plan() decides it.
 struct LoadingSpec {
-  std::vector<double> frequencies;  ///< [Hz]
-  double strain_amplitude = 1e-4;   ///< of the height
+  std::vector<double> frequencies;   ///< [Hz]
+  std::vector<double> temperatures;  ///< [°C], every frequency at each; harmonic only; empty: Materials::temperature
+  double strain_amplitude = 1e-4;    ///< of the height
   std::optional<Start> start;
   std::optional<int> cycles;
   std::optional<double> ramp_cycles;  ///< smooth start over so many cycles, ≤ cycles − fit_cycles
@@ -82,7 +88,8 @@ struct Scene {
   SpecimenSpec specimen;
   std::optional<MixDesign> recipe;  ///< that classes and porosity of the specimen, and the densities, follow from
   Materials materials;
-  LawTable laws;
+  LawTable laws;     ///< at Materials::temperature; where there is none, each at its own reference temperature
+  ShiftLaws shifts;  ///< of these laws
   NetworkSpec network;
   LoadingSpec loading;
   SolverSpec solver;
@@ -93,6 +100,13 @@ struct Scene {
 /// one is named), wrong types, impossible values, missing sections, units ("12.5 mm", "35 GPa").
 /// \throws InputError with file, line, what was found, what was expected.
 Scene read_scene(const std::filesystem::path& file);
+
+/// A scene's laws at a temperature [°C]; NaN in viscosities where a shift law has no value there.
+LawTable laws_at(const Scene& scene, double temperature);
+
+/// log10 a_T at a temperature where all laws that flow follow the same shift, so that the specimen follows it too; else
+/// nothing.
+std::optional<double> common_log10_shift(const Scene& scene, double temperature);
 
 /// Checks that every pair type present in the network has a law and every phase present a density.
 /// \throws InputError naming the pair or phase.

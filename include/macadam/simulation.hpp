@@ -44,6 +44,7 @@ struct ErrorEstimate {
 /// One frequency's outcome.
 struct FrequencyResult {
   double frequency_hz = 0;
+  std::optional<double> temperature_c;  ///< where the scene has one
   SolverMethod method = SolverMethod::explicit_;
   Stiffness stiffness;  ///< the result, from the reaction of the top wall
   double residual = 0;  ///< explicit: rms of stress that the fit leaves / amplitude; harmonic: ‖f − K·u‖/‖f‖

@@ -8,7 +8,7 @@ function(run)
 endfunction()
 
 # The installed package may ask its users for none of these
-foreach(library CGAL Eigen3 fmt nlohmann_json tomlplusplus CLI11 ZLIB HDF5 OpenMP CUDAToolkit)
+foreach(library CGAL Boost Eigen3 fmt nlohmann_json tomlplusplus CLI11 ZLIB HDF5 OpenMP CUDAToolkit)
   list(APPEND absent -D CMAKE_DISABLE_FIND_PACKAGE_${library}=ON)
 endforeach()
 
@@ -19,3 +19,9 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G Ninja ${ab
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/macadam_user)
 run(${WORK}/prefix/bin/macadam info)
+run(${WORK}/prefix/bin/macadam fit ${WORK}/prefix/share/macadam/examples/laws/mastic.csv --shift wlf --units 3 --out ${WORK}/law)
+foreach(file prefix/share/macadam/draw-fit law/law.toml)
+  if(NOT EXISTS ${WORK}/${file})
+    message(FATAL_ERROR "${file} is not there")
+  endif()
+endforeach()

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fit_command.cpp  macadam fit DATA.csv --out DIR, or --parameters MODEL.toml in place of the data.
+#include "host/cli/fit_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "host/cli/draw_fit.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/streams.hpp"
+#include "host/fit/fit_files.hpp"
+#include "host/results/files.hpp"
+#include "host/results/result_folder.hpp"
+#include "macadam/error.hpp"
+#include "macadam/fit.hpp"
+
+namespace macadam {
+namespace {
+
+struct Arguments {
+  std::string data, parameters, out;
+  std::optional<double> poisson, from, to;
+  double error = 0.01;
+  bool flow = false, no_flow = false, no_pictures = false;
+  FitOptions fit;
+};
+
+/// A range that was given, or the whole of the data.
+std::pair<double, double> range_of(const Arguments& arguments, std::optional<std::pair<double, double>> data) {
+  if (!data && !(arguments.from && arguments.to)) {
+    throw InputError("command line", 0, "range of the Kelvin chain", "not both of --from and --to",
+                     "both: a model alone has no range");
+  }
+  return {arguments.from.value_or(data ? data->first : 0), arguments.to.value_or(data ? data->second : 0)};
+}
+
+void say_conversion(const KelvinConversion& conversion, double low, double high) {
+  say("Kelvin chain of {} units for it from {:.4g} to {:.4g} Hz: largest error {:.2g} % of |E*|\n",
+      conversion.law.units(), low, high, 100 * conversion.largest_error);
+}
+
+/// No data: a model that somebody else has fitted becomes a chain.
+void convert(const Arguments& arguments) {
+  const ShiftedAnalogue analogue = read_analogue(arguments.parameters);
+  const auto [low, high] = range_of(arguments, {});
+  const KelvinConversion conversion = to_kelvin(analogue.model, low, high, arguments.error);
+  const ResultFolder folder(arguments.out);
+  write_whole(std::filesystem::path(arguments.out) / "law.toml",
+              law_toml(conversion.law, analogue.shift,
+                       fmt::format("macadam fit: stands for {} from {} to {} Hz, largest error {:.2g} of |E*|",
+                                   std::isfinite(analogue.model.beta) ? "2S2P1D" : "Huet-Sayegh", low, high,
+                                   conversion.largest_error)));
+  say_conversion(conversion, low, high);
+  say("files in {}: law.toml\n", arguments.out);
+}
+
+void fit_command(Arguments arguments) {
+  if (arguments.data.empty() == arguments.parameters.empty()) {
+    throw InputError("command line", 0, "what to fit",
+                     arguments.data.empty() ? "nothing" : "both data and --parameters",
+                     "a CSV file of measurements, or --parameters with a model's TOML file");
+  }
+  if (arguments.data.empty()) return convert(arguments);
+  if (arguments.flow || arguments.no_flow) arguments.fit.flow = arguments.flow;
+  const Fit fit = fit_modulus(read_modulus_data(arguments.data, arguments.poisson), arguments.fit);
+  std::optional<KelvinConversion> conversion;
+  const auto [low, high] = range_of(arguments, fit.reduced_range());
+  if (const auto* analogue = std::get_if<AnalogueModel>(&fit.model))
+    conversion = to_kelvin(*analogue, low, high, arguments.error);
+  const laws::GeneralisedKelvin& law = conversion ? conversion->law : std::get<laws::GeneralisedKelvin>(fit.model);
+  const FitErrors& e = fit.errors;
+  const std::string origin =
+      fmt::format("macadam fit: |E*| of {} measurements within {:.3g} % (rms), phase {:.3g} degrees", fit.points.size(),
+                  100 * e.e_star_rms, e.phase_rms_deg);
+  const std::filesystem::path out = arguments.out;
+  const std::string json = fit_json(fit, conversion ? &*conversion : nullptr), curve = curve_csv(fit);
+  const ResultFolder folder(out);
+  write_whole(out / "law.toml", law_toml(law, fit.shift, origin));
+  write_whole(out / "fit.json", json);
+  write_whole(out / "fit.csv", fit_csv(fit));
+  write_whole(out / "curve.csv", curve);
+  say("{}", fit_text(fit));
+  if (conversion) say_conversion(*conversion, low, high);
+  for (const std::string& warning : fit.warnings) say("warning: {}\n", warning);
+  say("files in {}: law.toml fit.json fit.csv curve.csv\n", arguments.out);
+  if (!arguments.no_pictures) say("{}", draw_fit(out));
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("fit", "a contact law from measured complex moduli");
+  const auto arguments = std::make_shared<Arguments>();
+  FitOptions& fit = arguments->fit;
+  command.add_option(
+      "data", arguments->data,
+      "CSV file: frequency_hz, e_star_pa or g_star_pa, phase_deg, maybe temperature_c, e_star_std, phase_std");
+  add_text(command, "--out", arguments->out, "folder of the results; made if it is not there")->required();
+  add_choice(command, "--model", fit.model, "what is fitted (kelvin)",
+             {{"kelvin", FitModel::kelvin}, {"2s2p1d", FitModel::two_s2p1d}, {"huet-sayegh", FitModel::huet_sayegh}});
+  add_number(command, "--units", fit.units, "Kelvin units; without it the criterion chooses", 0,
+             laws::GeneralisedKelvin::max_units);
+  add_number(command, "--most-units", fit.most_units, "that the criterion may choose", 0,
+             laws::GeneralisedKelvin::max_units);
+  add_choice(command, "--criterion", fit.criterion, "that weighs misfit against parameters (aicc)",
+             {{"aicc", Criterion::aicc}, {"bic", Criterion::bic}});
+  auto* flow = command.add_flag("--flow", arguments->flow, "a dashpot in series, whatever the criterion says");
+  command.add_flag("--no-flow", arguments->no_flow, "no dashpot in series")->excludes(flow);
+  add_choice(command, "--shift", fit.shift, "how temperature shifts the curves (none)",
+             {{"none", ShiftKind::none},
+              {"wlf", ShiftKind::wlf},
+              {"arrhenius", ShiftKind::arrhenius},
+              {"free", ShiftKind::free}});
+  add_number(command, "--reference-temperature", fit.reference_temperature,
+             "degrees Celsius (the measured one in the middle)", -273.0, 1000.0);
+  add_number(command, "--poisson", arguments->poisson, "ratio, for |E*| from a column g_star_pa", -0.99, 0.5);
+  add_text(command, "--parameters", arguments->parameters,
+           "in place of data: TOML file of a 2S2P1D or Huet-Sayegh model");
+  add_number(command, "--from", arguments->from, "Hz: range of the Kelvin chain for such a model (that of the data)",
+             1e-15, 1e15);
+  add_number(command, "--to", arguments->to, "Hz: its end", 1e-15, 1e15);
+  add_number(command, "--error", arguments->error, "largest relative error of that chain", 1e-6, 0.5);
+  command.add_flag("--no-pictures", arguments->no_pictures, "do not draw");
+  command.callback([arguments] { fit_command(*arguments); });
+}
+
+}  // namespace macadam

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// analogue_fit.cpp  2S2P1D and Huet-Sayegh: starts on a grid of usual values, the best of which are refined.
+#include "host/fit/analogue_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+
+#include "macadam/error.hpp"
+
+namespace macadam::fitting {
+namespace {
+
+struct Extent {
+  double soft = std::numeric_limits<double>::infinity(), stiff = -soft, slow = soft, fast = -soft;  // logarithms
+};
+
+Extent extent_of(const std::vector<Target>& targets) {
+  Extent e;
+  for (const Target& t : targets) {
+    e.soft = std::min(e.soft, t.log_modulus);
+    e.stiff = std::max(e.stiff, t.log_modulus);
+    e.slow = std::min(e.slow, std::log(t.place.omega));
+    e.fast = std::max(e.fast, std::log(t.place.omega));
+  }
+  return e;
+}
+
+/// The same curve with k < h: 1 + δ·(sτ)^(−k) + (sτ)^(−h) with the two elements' names exchanged.
+void order(const Unknowns& u, std::vector<double>& theta) {
+  double &k = theta[2], &h = theta[3], &log_delta = theta[4], &log_tau = theta[5];
+  if (k <= h) return;
+  const double longer = log_tau - log_delta / k;                     // δ·τ^(−k) = τ'^(−k)
+  log_delta = h * (longer - log_tau);                                // δ'·τ'^(−h) = τ^(−h)
+  if (u.model == FitModel::two_s2p1d) theta[6] += log_tau - longer;  // βτ stays
+  log_tau = longer;
+  std::swap(k, h);
+}
+
+}  // namespace
+
+std::vector<Limits> analogue_limits(const Unknowns& u, const std::vector<Target>& targets) {
+  const Extent e = extent_of(targets);
+  const double shifts = u.shift == ShiftKind::none ? 0 : 25;  // eleven decades for what temperature adds
+  std::vector<Limits> out{{e.stiff - 0.5, e.stiff + 7},
+                          {e.soft - 14, e.soft + 0.5},
+                          {0.01, 1},
+                          {0.01, 1},
+                          {-8, 8},
+                          {-e.fast - 30 - shifts, -e.slow + 10 + shifts}};
+  if (u.model == FitModel::two_s2p1d) out.push_back({-3, 40});
+  return out;
+}
+
+Minimum fit_analogue(const Unknowns& u, const std::vector<Target>& targets, const std::vector<Limits>& limits,
+                     const std::vector<double>& shift) {
+  const Extent e = extent_of(targets);
+  struct Start {
+    double misfit;
+    std::vector<double> theta;
+  };
+  std::vector<Start> starts;
+  for (double log_tau = -e.fast - 15; log_tau < -e.slow + 8; log_tau += 1.5) {
+    for (const double statics : {e.soft - 0.7, e.soft - 7}) {
+      for (const double log_delta : {0.0, 1.0}) {
+        std::vector<double> theta{e.stiff + 0.7, statics, 0.2, 0.6, log_delta, log_tau};
+        if (u.model == FitModel::two_s2p1d) theta.push_back(5);
+        theta.insert(theta.end(), shift.begin(), shift.end());
+        starts.push_back({misfit_at(u, targets, theta), std::move(theta)});
+      }
+    }
+  }
+  std::erase_if(starts, [](const Start& s) { return !std::isfinite(s.misfit); });
+  std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.misfit < b.misfit; });
+  std::optional<Minimum> out;
+  for (std::size_t i = 0; i < std::min<std::size_t>(starts.size(), 6); ++i) {
+    Minimum minimum = refine(u, targets, limits, starts[i].theta);
+    if (!out || minimum.misfit < out->misfit) out = std::move(minimum);
+  }
+  if (!out || !std::isfinite(out->misfit)) throw RunError("fit: no start of the model gives a finite misfit");
+  order(u, out->theta);
+  return *out;
+}
+
+AnalogueModel analogue_of(const Unknowns& u, const std::vector<double>& theta) {
+  AnalogueModel model;
+  model.E_0 = std::exp(theta[0]);
+  model.E_00 = std::exp(theta[1]);
+  model.k = theta[2];
+  model.h = theta[3];
+  model.delta = std::exp(theta[4]);
+  model.tau = std::exp(theta[5]);
+  if (u.model == FitModel::two_s2p1d) model.beta = std::exp(theta[6]);
+  return model;
+}
+
+}  // namespace macadam::fitting

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file criterion.hpp  How many parameters the data carry.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "macadam/fit.hpp"
+
+namespace macadam::fitting {
+
+/// Parameters that a criterion counts: where the size of the errors comes from the misfit, that is one more.
+inline double counted(std::size_t parameters, bool deviations) {
+  return static_cast<double>(parameters) + (deviations ? 0 : 1);
+}
+
+/// Whether so many numbers are enough for the parameters: one is left to tell the errors' size, and the correction in
+/// AICc is finite.
+inline bool enough(std::size_t numbers, std::size_t parameters, Criterion criterion) {
+  return numbers >= parameters + (criterion == Criterion::aicc ? 3 : 1);
+}
+
+/// −2·ln(likelihood) + penalty, with normal errors of known (`deviations`) or unknown size:
+/// AICc = … + 2p + 2p(p + 1)/(n − p − 1) (Hurvich and Tsai), BIC = … + p·ln n (Schwarz).
+inline double criterion(Criterion kind, double misfit, std::size_t numbers, std::size_t parameters, bool deviations) {
+  // A misfit of 1e-16 an entry is a relative error of 1e-8 standard deviations: rounding, which tells nothing.
+  constexpr double rounding = 1e-16;
+  const auto n = static_cast<double>(numbers);
+  const double p = counted(parameters, deviations);
+  const double fit = deviations ? misfit : n * std::log(std::max(misfit / n, rounding));
+  return fit + (kind == Criterion::bic ? p * std::log(n) : 2 * p + 2 * p * (p + 1) / (n - p - 1));
+}
+
+}  // namespace macadam::fitting

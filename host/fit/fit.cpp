@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fit.cpp  fit_modulus: chains of every length tried, one chosen and judged.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/fit/analogue_fit.hpp"
+#include "host/fit/chain_fit.hpp"
+#include "host/fit/criterion.hpp"
+#include "host/fit/problem.hpp"
+#include "host/fit/shift_start.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace fitting {
+namespace {
+
+std::vector<Limits> joined(std::vector<Limits> first, const std::vector<Limits>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+struct Trial {
+  Unknowns unknowns;
+  Minimum minimum;
+};
+
+/// Chains of every length that is asked for, flowing or not, in `fit.candidates`; the chosen one is returned.
+Trial choose_chain(const Problem& problem, const ModulusData& data, Fit& fit) {
+  const FitOptions& options = fit.options;
+  const std::size_t numbers = 2 * problem.targets.size();
+  std::vector<Trial> trials;
+  const std::vector<double> shift = start_shift(problem.unknowns, problem.targets, problem.temperatures);
+  for (const bool flow : {true, false}) {
+    if (options.flow.value_or(flow) != flow) continue;
+    std::optional<Minimum> fewer;
+    double best = std::numeric_limits<double>::infinity();
+    const int most = options.units.value_or(options.most_units);
+    for (int units = 0, worse = 0; units <= most && (options.units || worse < 2); ++units) {
+      Unknowns u = problem.unknowns;
+      u.units = units;
+      u.flow = flow;
+      if (!enough(numbers, u.count(), options.criterion)) break;
+      const auto limits = joined(chain_limits(u, problem.targets), shift_limits(u, problem.temperatures));
+      Minimum minimum = fit_chain(u, problem.targets, limits, shift, fewer ? &*fewer : nullptr);
+      fewer = minimum;
+      const double value = criterion(options.criterion, minimum.misfit, numbers, u.count(), data.deviations);
+      worse = value < best ? 0 : worse + 1;
+      best = std::min(best, value);
+      if (options.units.value_or(units) != units) continue;
+      fit.candidates.push_back({units, flow, static_cast<int>(u.count()), minimum.misfit, value, minimum.determined});
+      trials.push_back({u, std::move(minimum)});
+    }
+  }
+  if (trials.empty()) {
+    throw InputError(data.source, 0, "measurements", fmt::format("{}", data.points.size()),
+                     options.units ? fmt::format("more, for {} Kelvin units and their shift", *options.units)
+                                   : "more: not even a chain without units is determined");
+  }
+  for (std::size_t i = 1; i < trials.size(); ++i) {
+    const FitCandidate &at = fit.candidates[i], &taken = fit.candidates[fit.chosen];
+    const bool better = at.determined == taken.determined ? at.criterion < taken.criterion : at.determined;
+    if (better) fit.chosen = i;
+  }
+  if (!options.units && trials.size() > 1 && fit.candidates[fit.chosen].units == options.most_units) {
+    fit.warnings.push_back(
+        fmt::format("{} would take more than {} Kelvin units", to_string(options.criterion), options.most_units));
+  }
+  return trials[fit.chosen];
+}
+
+Trial fit_any(const Problem& problem, const ModulusData& data, Fit& fit) {
+  if (problem.unknowns.model == FitModel::kelvin) return choose_chain(problem, data, fit);
+  const Unknowns& u = problem.unknowns;
+  if (!enough(2 * problem.targets.size(), u.count(), Criterion::bic)) {
+    throw InputError(data.source, 0, "measurements", fmt::format("{}", data.points.size()),
+                     fmt::format("more, for the {} parameters of {}", u.count(), to_string(u.model)));
+  }
+  const auto limits = joined(analogue_limits(u, problem.targets), shift_limits(u, problem.temperatures));
+  return {u, fit_analogue(u, problem.targets, limits, start_shift(u, problem.targets, problem.temperatures))};
+}
+
+laws::Shift shift_of(const Unknowns& u, const std::vector<double>& theta, const std::vector<double>& temperatures) {
+  const double* own = theta.data() + u.of_model();
+  switch (u.shift) {
+    case ShiftKind::wlf:
+      return laws::Wlf{std::exp(own[0]), std::exp(own[1]), u.reference_temperature};
+    case ShiftKind::arrhenius:
+      return laws::Arrhenius{std::exp(own[0]), u.reference_temperature};
+    case ShiftKind::free: {
+      laws::ShiftTable table{temperatures, {}};
+      for (std::size_t i = 0; i < temperatures.size(); ++i)
+        table.log10_a_T.push_back(i == u.reference_isotherm ? 0 : theta[u.of_isotherm(i)]);
+      return table;
+    }
+    default:
+      return laws::NoShift{};
+  }
+}
+
+/// Names, units and the logarithmic ones of θ, in its order.
+std::vector<FitParameter> named(const Unknowns& u, const std::vector<double>& temperatures) {
+  std::vector<FitParameter> out;
+  const auto add = [&](const std::string& name, const std::string& unit, bool logarithmic = true) {
+    out.push_back({name, unit, 0, 0, logarithmic});
+  };
+  if (u.model == FitModel::kelvin) {
+    add("E_m", "Pa");
+    if (u.flow) add("C_m", "Pa s");
+    for (int l = 1; l <= u.units; ++l) {
+      add(fmt::format("E_{}", l), "Pa");
+      add(fmt::format("C_{}", l), "Pa s");
+    }
+  } else {
+    add("E_0", "Pa");
+    add("E_00", "Pa");
+    add("k", "", false);
+    add("h", "", false);
+    add("delta", "");
+    add("tau", "s");
+    if (u.model == FitModel::two_s2p1d) add("beta", "");
+  }
+  if (u.shift == ShiftKind::wlf) {
+    add("C1", "");
+    add("C2", "K");
+  }
+  if (u.shift == ShiftKind::arrhenius) add("activation_energy", "J/mol");
+  if (u.shift == ShiftKind::free) {
+    for (std::size_t i = 0; i < temperatures.size(); ++i)
+      if (i != u.reference_isotherm) add(fmt::format("log10_a_T({} C)", temperatures[i]), "", false);
+  }
+  return out;
+}
+
+/// Units of a chain by rising retardation time.
+void sort_units(const Unknowns& u, std::vector<double>& theta) {
+  if (u.model != FitModel::kelvin) return;
+  std::vector<std::pair<double, double>> units;
+  const std::size_t first = u.flow ? 2 : 1;
+  for (std::size_t i = first; i < u.of_model(); i += 2) units.emplace_back(theta[i], theta[i + 1]);
+  std::sort(units.begin(), units.end(),
+            [](const auto& a, const auto& b) { return a.second - a.first < b.second - b.first; });
+  for (std::size_t l = 0; l < units.size(); ++l) {
+    theta[first + 2 * l] = units[l].first;
+    theta[first + 2 * l + 1] = units[l].second;
+  }
+}
+
+/// Parameters with their standard deviations, and the covariance.
+void add_statistics(const Problem& problem, const Trial& trial, Fit& fit) {
+  const std::vector<double>& theta = trial.minimum.theta;
+  const Covariance covariance = covariance_at(trial.unknowns, problem.targets, theta);
+  fit.covariance = covariance.matrix;
+  const double scale = fit.deviations ? 1 : fit.misfit / fit.degrees_of_freedom;
+  for (double& c : fit.covariance) c *= scale;
+  fit.parameters = named(trial.unknowns, problem.temperatures);
+  std::string unknown;
+  for (std::size_t i = 0; i < theta.size(); ++i) {
+    FitParameter& p = fit.parameters[i];
+    const double deviation = std::sqrt(fit.covariance[i * theta.size() + i]);
+    p.value = p.logarithmic ? std::exp(theta[i]) : theta[i];
+    p.deviation = p.logarithmic ? p.value * deviation : deviation;
+    if (covariance.undetermined[i]) p.deviation = std::numeric_limits<double>::infinity();
+    if (!(p.logarithmic ? deviation < 1 : true) || covariance.undetermined[i])
+      unknown += (unknown.empty() ? "" : ", ") + p.name;
+  }
+  if (!unknown.empty())
+    fit.warnings.push_back(fmt::format("the data hardly determine {}: standard deviations of 100 % and more", unknown));
+  if (!trial.minimum.determined)
+    fit.warnings.emplace_back(
+        "a parameter lies at the bounds of sense: fewer units, or another model, would do as well");
+}
+
+void add_points(const Problem& problem, const ModulusData& data, const Trial& trial, Fit& fit) {
+  double modulus = 0, phase = 0;
+  for (std::size_t i = 0; i < problem.targets.size(); ++i) {
+    const Target& t = problem.targets[i];
+    const Polar<double> value = modulus_at(trial.unknowns, trial.minimum.theta.data(), t.place);
+    FittedPoint p;
+    p.measured = data.points[i];
+    p.log10_a_T = log_shift(trial.unknowns, trial.minimum.theta.data(), t.place) / std::numbers::ln10;
+    p.e_star_pa = std::exp(value.log_modulus);
+    p.phase_deg = value.phase / degree;
+    const double e = p.e_star_pa / p.measured.e_star_pa - 1, d = p.phase_deg - p.measured.phase_deg;
+    modulus += e * e;
+    phase += d * d;
+    fit.errors.e_star_largest = std::max(fit.errors.e_star_largest, std::abs(e));
+    fit.errors.phase_largest_deg = std::max(fit.errors.phase_largest_deg, std::abs(d));
+    fit.points.push_back(p);
+  }
+  const auto n = static_cast<double>(problem.targets.size());
+  fit.errors.e_star_rms = std::sqrt(modulus / n);
+  fit.errors.phase_rms_deg = std::sqrt(phase / n);
+}
+
+}  // namespace
+}  // namespace fitting
+
+Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
+  using namespace fitting;
+  const Problem problem = make_problem(data, options);
+  Fit fit;
+  fit.options = options;
+  fit.temperatures = data.temperatures;
+  if (data.temperatures) fit.options.reference_temperature = problem.unknowns.reference_temperature;
+  fit.deviations = data.deviations;
+  Trial trial = fit_any(problem, data, fit);
+  sort_units(trial.unknowns, trial.minimum.theta);
+  if (options.model == FitModel::kelvin) {
+    fit.model = chain_of(trial.unknowns, trial.minimum.theta);
+  } else {
+    fit.model = analogue_of(trial.unknowns, trial.minimum.theta);
+  }
+  fit.shift = shift_of(trial.unknowns, trial.minimum.theta, problem.temperatures);
+  fit.misfit = trial.minimum.misfit;
+  fit.degrees_of_freedom = static_cast<double>(2 * problem.targets.size() - trial.unknowns.count());
+  add_statistics(problem, trial, fit);
+  add_points(problem, data, trial, fit);
+  if (fit.errors.e_star_rms > 0.1) {
+    fit.warnings.push_back(
+        fmt::format("the fit misses |E*| by {:.3g} % (rms): too few measurements for more parameters, or "
+                    "no moduli of one linear material",
+                    100 * fit.errors.e_star_rms));
+  }
+  if (fit.deviations && fit.misfit > 2 * fit.degrees_of_freedom + 10) {
+    fit.warnings.push_back(
+        fmt::format("the misfit is {:.3g} times what the standard deviations of the data allow: the "
+                    "model or they are wrong, and the bands too narrow",
+                    fit.misfit / fit.degrees_of_freedom));
+  }
+  return fit;
+}
+
+}  // namespace macadam

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// problem.cpp  What may be fitted: measurements with sense, temperatures that determine their shift.
+#include "host/fit/problem.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "macadam/error.hpp"
+
+namespace macadam::fitting {
+namespace {
+
+/// Refuses what cannot be fitted.
+void check(const ModulusData& data, const FitOptions& options) {
+  const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
+    throw InputError(data.source, 0, what, found, expected);
+  };
+  if (data.points.empty()) refuse("measurements", "none", "at least two");
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const ModulusPoint& p = data.points[i];
+    const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
+    if (!positive(p.frequency_hz) || !positive(p.e_star_pa) || !std::isfinite(p.phase_deg) ||
+        (data.temperatures && !(p.temperature_c > -laws::zero_celsius && std::isfinite(p.temperature_c))) ||
+        (data.deviations && !(positive(p.e_star_std) && positive(p.phase_std)))) {
+      refuse(fmt::format("measurement {}", i + 1), "a number without sense",
+             "finite ones; frequency, |E*| and standard deviations positive");
+    }
+  }
+  constexpr int most = laws::GeneralisedKelvin::max_units;
+  if (options.units && (*options.units < 0 || *options.units > most)) {
+    refuse("units", fmt::format("{}", *options.units), fmt::format("0 to {}", most));
+  }
+  if (options.most_units < 0 || options.most_units > most) {
+    refuse("most units", fmt::format("{}", options.most_units), fmt::format("0 to {}", most));
+  }
+  if (!(options.e_star_deviation > 0 && options.phase_deviation > 0)) {
+    refuse("standard deviations", fmt::format("{} and {}", options.e_star_deviation, options.phase_deviation),
+           "positive numbers");
+  }
+}
+
+/// The temperatures that were measured must determine the shift that is asked for.
+void check_shift(const ModulusData& data, const FitOptions& options, const std::vector<double>& temperatures) {
+  const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
+    throw InputError(data.source, 0, what, found, expected);
+  };
+  const std::size_t count = temperatures.size();
+  if (options.shift == ShiftKind::none && count > 1) {
+    refuse("temperatures", fmt::format("{} of them", count), "one, or a shift law: wlf, arrhenius or free");
+  }
+  const std::size_t least = options.shift == ShiftKind::none ? 0 : options.shift == ShiftKind::wlf ? 3 : 2;
+  if (count < least) {
+    refuse(fmt::format("temperatures for the shift law {}", to_string(options.shift)),
+           data.temperatures ? fmt::format("{}", count) : "no column temperature_c", fmt::format("at least {}", least));
+  }
+  if (!options.reference_temperature) return;
+  const double wanted = *options.reference_temperature;
+  if (options.shift == ShiftKind::none && !(count == 1 && data.temperatures && temperatures.front() == wanted)) {
+    refuse("reference temperature", fmt::format("{} without a shift law", wanted),
+           "none, or measurements at several temperatures");
+  }
+  if (!(wanted > -laws::zero_celsius && std::isfinite(wanted))) {
+    refuse("reference temperature", fmt::format("{}", wanted), "a temperature in degrees Celsius");
+  }
+  if (options.shift == ShiftKind::free &&
+      std::find(temperatures.begin(), temperatures.end(), wanted) == temperatures.end()) {
+    refuse("reference temperature", fmt::format("{}", wanted),
+           fmt::format("a measured one where the shift is free: {}", fmt::join(temperatures, ", ")));
+  }
+}
+
+}  // namespace
+
+Problem make_problem(const ModulusData& data, const FitOptions& options) {
+  check(data, options);
+  Problem out;
+  std::vector<double>& temperatures = out.temperatures;
+  for (const ModulusPoint& p : data.points) temperatures.push_back(data.temperatures ? p.temperature_c : 0);
+  std::sort(temperatures.begin(), temperatures.end());
+  temperatures.erase(std::unique(temperatures.begin(), temperatures.end()), temperatures.end());
+  check_shift(data, options, temperatures);
+  const auto number = [&](double t) {
+    return static_cast<std::size_t>(std::lower_bound(temperatures.begin(), temperatures.end(), t) -
+                                    temperatures.begin());
+  };
+  Unknowns& u = out.unknowns;
+  u.model = options.model;
+  u.shift = options.shift;
+  u.isotherms = temperatures.size();
+  u.reference_temperature = options.reference_temperature.value_or(temperatures[(temperatures.size() - 1) / 2]);
+  u.reference_isotherm = number(u.reference_temperature);
+  for (const ModulusPoint& p : data.points) {
+    Target t;
+    t.place = {2 * std::numbers::pi * p.frequency_hz, data.temperatures ? p.temperature_c : 0, 0};
+    t.place.isotherm = number(t.place.temperature);
+    t.log_modulus = std::log(p.e_star_pa);
+    t.phase = p.phase_deg * degree;
+    t.modulus_deviation = data.deviations ? p.e_star_std / p.e_star_pa : options.e_star_deviation;
+    t.phase_deviation = (data.deviations ? p.phase_std : options.phase_deviation) * degree;
+    out.targets.push_back(t);
+  }
+  return out;
+}
+
+}  // namespace macadam::fitting

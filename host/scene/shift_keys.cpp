@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// shift_keys.cpp  `shift = "wlf"`, `"arrhenius"` or `"table"`, and what each takes.
+#include "host/scene/shift_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace macadam::scene {
+namespace {
+
+const std::vector<std::string> kinds{"wlf", "arrhenius", "table"};
+const std::vector<std::vector<std::string>> taken{{"C1", "C2", "reference_temperature"},
+                                                  {"activation_energy", "reference_temperature"},
+                                                  {"temperatures", "log10_a_T"}};
+constexpr Rule any{[](double) { return true; }, "a number"};
+
+}  // namespace
+
+std::vector<Key> ShiftKeys::keys() {
+  return {{"shift", Need::optional, [this](const Value& value) { kind_ = value.choice(kinds); }},
+          {"C1", Need::optional, into(wlf_.C1, ratio, positive)},
+          {"C2", Need::optional, into(wlf_.C2, temperature_difference, positive)},
+          {"activation_energy", Need::optional, into(arrhenius_.activation_energy, molar_energy, positive)},
+          {"reference_temperature", Need::optional, into(reference_, temperature, celsius)},
+          {"temperatures", Need::optional, into(table_.temperatures, temperature, celsius)},
+          {"log10_a_T", Need::optional, into(table_.log10_a_T, ratio, any)}};
+}
+
+laws::Shift ShiftKeys::shift(const Section& section) const {
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    for (const std::string& key : taken[kind]) {
+      const bool wanted = kind_ && std::count(taken[*kind_].begin(), taken[*kind_].end(), key) > 0;
+      if (kind_ == kind && !section.has(key)) {
+        section.refuse(key, "nothing", fmt::format("this key, which shift = \"{}\" takes", kinds[kind]));
+      }
+      if (!wanted && section.has(key)) {
+        section.refuse(
+            key, "this key",
+            kind_ ? fmt::format("{}, which shift = \"{}\" takes", fmt::join(taken[*kind_], ", "), kinds[*kind_])
+                  : "a key shift beside it");
+      }
+    }
+  }
+  if (!kind_) return laws::NoShift{};
+  if (*kind_ == 0) return laws::Wlf{wlf_.C1, wlf_.C2, reference_};
+  if (*kind_ == 1) return laws::Arrhenius{arrhenius_.activation_energy, reference_};
+  const std::vector<double>& t = table_.temperatures;
+  if (t.empty()) section.refuse("temperatures", "none", "at least one");
+  if (std::adjacent_find(t.begin(), t.end(), [](double a, double b) { return a >= b; }) != t.end()) {
+    section.refuse("temperatures", fmt::format("[{}]", fmt::join(t, ", ")), "rising ones, each once");
+  }
+  if (table_.log10_a_T.size() != t.size()) {
+    section.refuse("log10_a_T", fmt::format("{} numbers for {} temperatures", table_.log10_a_T.size(), t.size()),
+                   "as many");
+  }
+  return table_;
+}
+
+}  // namespace macadam::scene

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file shift_keys.hpp  The keys of a shift law beside those of a contact law or a model: `shift` and what it takes.
+#pragma once
+
+#include "host/scene/table.hpp"
+#include "macadam/laws/shift.hpp"
+
+namespace macadam::scene {
+
+/// A temperature in °C, at rest above −273.15.
+inline constexpr Rule celsius{[](double v) { return v > -laws::zero_celsius; },
+                              "a temperature above -273.15 degrees C"};
+
+/// Keys to be read with others; they store here, so this must outlive Section::read. Then shift() is what they make.
+class ShiftKeys {
+ public:
+  std::vector<Key> keys();
+  /// \throws InputError for a key that is missing, or there without the shift that takes it.
+  laws::Shift shift(const Section& section) const;
+
+ private:
+  std::optional<std::size_t> kind_;
+  laws::Wlf wlf_;
+  laws::Arrhenius arrhenius_;
+  laws::ShiftTable table_;
+  double reference_ = 0;
+};
+
+}  // namespace macadam::scene

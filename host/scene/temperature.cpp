@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// temperature.cpp  The laws of a scene at its temperature, or at those of its loading.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/scene/sections.hpp"
+
+namespace macadam {
+namespace {
+
+bool shifts(const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); }
+
+/// Whether viscosities are what a run can work with: numbers within the range of a double.
+bool usable(const std::optional<Law>& law) {
+  const auto* chain = law ? std::get_if<laws::GeneralisedKelvin>(&*law) : nullptr;
+  return !chain || (chain->C_m > 0 &&
+                    std::all_of(chain->C.begin(), chain->C.end(), [](double c) { return c > 0 && std::isfinite(c); }));
+}
+
+/// 0 where the scene's laws are at their own reference temperatures.
+double present(const Scene& scene, const laws::Shift& shift) {
+  return scene.materials.temperature ? laws::log10_shift(shift, *scene.materials.temperature) : 0;
+}
+
+}  // namespace
+
+LawTable laws_at(const Scene& scene, double temperature) {
+  LawTable out = scene.laws;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    const laws::Shift& shift = scene.shifts[pair];
+    if (!out[pair] || !shifts(shift)) continue;
+    out[pair] =
+        laws::shifted(*out[pair], std::pow(10.0, laws::log10_shift(shift, temperature) - present(scene, shift)));
+  }
+  return out;
+}
+
+std::optional<double> common_log10_shift(const Scene& scene, double temperature) {
+  std::optional<double> out;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (!scene.laws[pair] || !std::holds_alternative<laws::GeneralisedKelvin>(*scene.laws[pair])) continue;
+    const double own = laws::log10_shift(scene.shifts[pair], temperature);
+    if (out && *out != own) return {};
+    out = own;
+  }
+  return out;
+}
+
+namespace scene {
+
+void apply_temperature(Scene& scene, const Section& root) {
+  const auto check = [&](const std::string& in, const std::string& key, double temperature) {
+    const Section section = root.find(in)->section();
+    if (std::none_of(scene.shifts.begin(), scene.shifts.end(), shifts)) {
+      section.refuse(key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
+                     "shift = \"wlf\", \"arrhenius\" or \"table\" in a [[contacts]]");
+    }
+    const LawTable laws = laws_at(scene, temperature);
+    for (std::size_t pair = 0; pair < pair_types; ++pair) {
+      if (usable(laws[pair])) continue;
+      section.refuse(key,
+                     fmt::format("{} degrees C, where the shift of {} has no value", temperature,
+                                 to_string(static_cast<PairType>(pair))),
+                     "a temperature of its range");
+    }
+    return laws;
+  };
+  const auto& several = scene.loading.temperatures;
+  if (!several.empty()) {
+    const Section loading = root.find("loading")->section();
+    if (scene.materials.temperature) {
+      loading.refuse("temperatures", "this key beside temperature in [materials]", "one of the two");
+    }
+    for (const double temperature : several) check("loading", "temperatures", temperature);
+  }
+  if (const std::optional<double> temperature = scene.materials.temperature) {
+    scene.materials.temperature.reset();  // the laws are at their reference temperatures until here
+    LawTable laws = check("materials", "temperature", *temperature);
+    scene.laws = std::move(laws);
+    scene.materials.temperature = temperature;
+  }
+}
+
+}  // namespace scene
+}  // namespace macadam
