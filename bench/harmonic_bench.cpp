@@ -6,8 +6,7 @@
 //
 // A scene's specimen and network are made first and not timed. --fcc: a jittered lattice of three pair types between
 // two walls. `setup_s`: order, rows, preconditioner and its copy to the device; `solve_s`: all frequencies side by
-// side, the check of the solutions included. Each is the median of the runs; the first run of a process also makes the
-// device's context, which `first_s` has: setup and solutions of the first run.
+// side, the check of the solutions included. Each is the median of the runs; `first_s` has both of the first run.
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>

@@ -11,13 +11,12 @@
 ///   - `double alpha` — shear stiffness over normal stiffness; all moduli already include δ;
 ///   - `int units() const` — extra state numbers a component besides f (Kelvin units);
 ///   - `double instantaneous() const` — stiffness of an infinitely fast displacement [Pa], for the critical step;
-///   - `std::complex<double> stiffness(std::complex<double> s) const` — exact stiffness [Pa] for motions as e^(s·t), s
-///   = iω
-///     for the steady state at ω [1/s];
+///   - `std::complex<double> stiffness(std::complex<double> s) const` — exact stiffness [Pa] for motions as e^(s·t);
+///     s = iω for the steady state at ω [1/s];
 ///   - `template <class F> void each_parameter(std::complex<double> s, F&& f) const` — calls f(name, ∂ln k*/∂ln θ) for
 ///     each parameter θ of the stiffness, by the paper's symbol;
-///   - `std::complex<double> unit_compliance(int l, std::complex<double> s) const` — x_l per unit of f [1/Pa], l <
-///     units();
+///   - `std::complex<double> unit_compliance(int l, std::complex<double> s) const` — x_l per unit of f [1/Pa], for l
+///     below units();
 ///   - `template <class R> struct Step` — coefficients of one time step in precision R, made by
 ///     `template <class R> Step<R> step(double dt) const` (computed in double, then rounded once), with
 ///     `template <int L, class S, class Units> S advance(S f, S dx, Units&& x) const` — returns f(t+Δt) for the
