@@ -7,7 +7,7 @@
 #include <cmath>
 #include <memory>
 
-#include "host/cli/draw_fit.hpp"
+#include "host/cli/draw_results.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
 #include "host/fit/fit_files.hpp"
@@ -85,7 +85,7 @@ void fit_command(Arguments arguments) {
   if (conversion) say_conversion(*conversion, low, high);
   for (const std::string& warning : fit.warnings) say("warning: {}\n", warning);
   say("files in {}: law.toml fit.json fit.csv curve.csv\n", arguments.out);
-  if (!arguments.no_pictures) say("{}", draw_fit(out));
+  if (!arguments.no_pictures) { say("{}", draw_results("draw-fit", out, "master-curve.png cole-cole.png black.png")); }
 }
 
 }  // namespace

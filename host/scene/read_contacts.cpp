@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/law_values.hpp"
 #include "host/scene/sections.hpp"
 #include "host/scene/shift_keys.hpp"
 
@@ -22,16 +23,6 @@ std::vector<Key> keys_of(laws::GeneralisedKelvin& law) {
           {"C_m", Need::optional, dashpot},
           {"E", Need::optional, into(law.E, modulus, positive)},
           {"C", Need::optional, into(law.C, viscosity, positive)}};
-}
-
-/// Multiplies every modulus and viscosity by δ.
-void scale(laws::Elastic& law, double delta) { law.E *= delta; }
-
-void scale(laws::GeneralisedKelvin& law, double delta) {
-  law.E_m *= delta;
-  law.C_m *= delta;
-  for (double& spring : law.E) spring *= delta;
-  for (double& dashpot : law.C) dashpot *= delta;
 }
 
 /// What the values of a law, each good by itself, must satisfy together.
@@ -80,7 +71,7 @@ Law law_named_in(const Section& section) {
 
 }  // namespace
 
-LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts) {
+LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas) {
   std::vector<std::string> pairs;
   for (int i = 0; i < pair_types; ++i) pairs.emplace_back(to_string(static_cast<PairType>(i)));
 
@@ -103,7 +94,7 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts) 
           section.read(keys);
           if constexpr (flows) shifts[pair] = shift.shift(section);
           check(law, section);
-          scale(law, delta);
+          each_value(law, [delta](const std::string&, double& value, ValueKind) { value *= delta; });
           if (!usable(law)) {
             section.refuse("delta", fmt::format("a product of {} and a coefficient that is 0 or infinite", delta),
                            "products within the range of a double");
@@ -112,6 +103,7 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts) 
         read_law);
     if (table[pair]) section.refuse("pair", fmt::format("\"{}\" again", pairs[pair]), "each pair once");
     table[pair] = std::move(read_law);
+    deltas[pair] = delta;
   }
   return table;
 }

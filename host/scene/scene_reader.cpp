@@ -181,7 +181,8 @@ Scene read_scene(const std::filesystem::path& file) {
   const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
   root.read({{"specimen", Need::required, read_the_specimen},
              {"materials", densities, [&](const Value& v) { out.materials = read_materials(v.section(), densities); }},
-             {"contacts", Need::required, [&](const Value& v) { out.laws = read_contacts(v.sections(), out.shifts); }},
+             {"contacts", Need::required,
+              [&](const Value& v) { out.laws = read_contacts(v.sections(), out.shifts, out.deltas); }},
              {"network", Need::optional, [&](const Value& v) { out.network = read_network(v.section()); }},
              {"loading", Need::required, [&](const Value& v) { out.loading = read_loading(v.section()); }},
              {"solver", Need::optional, [&](const Value& v) { out.solver = read_solver(v.section(), out.loading); }},

@@ -28,3 +28,4 @@
 #include "macadam/sensitivity.hpp"
 #include "macadam/harmonic.hpp"
 #include "macadam/simulation.hpp"
+#include "macadam/calibration.hpp"

@@ -29,6 +29,11 @@ struct Materials {
 /// One law for each pair type; empty where the scene gives none.
 using LawTable = std::array<std::optional<Law>, pair_types>;
 
+/// The factor on all moduli and viscosities of each pair.
+using Deltas = std::array<double, pair_types>;
+inline constexpr Deltas all_one{1, 1, 1, 1, 1, 1};
+static_assert(all_one.back() == 1);
+
 /// How temperature shifts each pair's law.
 using ShiftLaws = std::array<laws::Shift, pair_types>;
 
@@ -88,8 +93,9 @@ struct Scene {
   SpecimenSpec specimen;
   std::optional<MixDesign> recipe;  ///< that classes and porosity of the specimen, and the densities, follow from
   Materials materials;
-  LawTable laws;     ///< at Materials::temperature; where there is none, each at its own reference temperature
-  ShiftLaws shifts;  ///< of these laws
+  LawTable laws;            ///< at Materials::temperature; where there is none, each at its own reference temperature
+  Deltas deltas = all_one;  ///< that the laws contain
+  ShiftLaws shifts;         ///< of these laws
   NetworkSpec network;
   LoadingSpec loading;
   SolverSpec solver;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// draw_fit.cpp  Finds the script share/macadam/draw-fit and a Python that can run it.
-#include "host/cli/draw_fit.hpp"
+// draw_results.cpp  Finds a script of share/macadam and a Python that can run it.
+#include "host/cli/draw_results.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -17,11 +17,11 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Beside an installed program, or where it was built from; empty where it is in neither place.
-fs::path script() {
+fs::path find(const std::string& script) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  for (const fs::path& file : {program.parent_path().parent_path() / "share/macadam/draw-fit",
-                               fs::path(MACADAM_SOURCE) / "scripts/draw-fit"}) {
+  for (const fs::path& file : {program.parent_path().parent_path() / "share/macadam" / script,
+                               fs::path(MACADAM_SOURCE) / "scripts" / script}) {
     if (fs::is_regular_file(file, error)) return file;
   }
   return {};
@@ -49,13 +49,12 @@ bool runs(std::vector<std::string> words) {
 
 }  // namespace
 
-std::string draw_fit(const fs::path& folder) {
-  const fs::path file = script();
-  if (file.empty()) return "no pictures: share/macadam/draw-fit is not installed beside the program\n";
+std::string draw_results(const std::string& script, const fs::path& folder, const std::string& pictures) {
+  const fs::path file = find(script);
+  if (file.empty()) return fmt::format("no pictures: share/macadam/{} is not installed beside the program\n", script);
   // a python3 of somebody's own comes first in the search path and may lack what Debian's has
   for (const char* python : {"python3", "/usr/bin/python3"})
-    if (runs({python, "-B", file.string(), folder.string()}))
-      return "pictures: master-curve.png cole-cole.png black.png\n";
+    if (runs({python, "-B", file.string(), folder.string()})) return fmt::format("pictures: {}\n", pictures);
   return fmt::format("no pictures: they take python3 with matplotlib; where that is, python3 {} {} draws them\n",
                      file.string(), folder.string());
 }

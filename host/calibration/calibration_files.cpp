@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// calibration_files.cpp  A calibration as JSON, CSV and text.
+#include "host/calibration/calibration_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "macadam/version.hpp"
+
+namespace macadam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity: null.
+Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json matrix(const std::vector<double>& values, std::size_t n) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto row = values.begin() + static_cast<std::ptrdiff_t>(i * n);
+    out.push_back(std::vector<double>(row, row + static_cast<std::ptrdiff_t>(n)));
+  }
+  return out;
+}
+
+Json parameter_json(const CalibratedParameter& p, const FreeParameter& asked) {
+  Json out{{"name", p.name},   {"unit", p.unit}, {"value", p.value}, {"standard_deviation", finite(p.deviation)},
+           {"start", p.start}, {"low", p.low},   {"high", p.high},   {"at_bound", p.at_bound}};
+  if (asked.prior) out["prior"] = {{"value", *asked.prior}, {"relative_deviation", asked.prior_deviation}};
+  return out;
+}
+
+Json residual_json(const CalibratedPoint& p, bool scatter) {
+  Json out{{"frequency_hz", p.measured.frequency_hz}};
+  if (p.temperature_c) out["temperature_c"] = *p.temperature_c;
+  out["e_star_pa"] = p.measured.e_star_pa;
+  out["phase_deg"] = p.measured.phase_deg;
+  out["predicted_e_star_pa"] = p.e_star_pa;
+  out["predicted_phase_deg"] = p.phase_deg;
+  out["e_star_error"] = p.e_star_pa / p.measured.e_star_pa - 1;
+  out["phase_error_deg"] = p.phase_deg - p.measured.phase_deg;
+  if (scatter) out["scatter"] = {{"e_star", p.e_star_scatter}, {"phase_deg", p.phase_scatter_deg}};
+  return out;
+}
+
+}  // namespace
+
+std::string calibration_json(const Calibration& c) {
+  Json out;
+  out["macadam"] = version();
+  out["solver"] = c.solver;
+  out["seeds"] = c.seeds;
+  out["misfit"] = {
+      {"of", to_string(c.options.misfit)}, {"value", c.misfit}, {"degrees_of_freedom", c.degrees_of_freedom}};
+  out["deviations"] = c.deviations ? "of the data" : c.degrees_of_freedom > 0 ? "from the misfit" : "assumed";
+  const std::size_t n = c.parameters.size();
+  out["parameters"] = Json::array();
+  for (std::size_t i = 0; i < n; ++i) out["parameters"].push_back(parameter_json(c.parameters[i], c.options.free[i]));
+  out["correlation"] = matrix(c.correlation, n);
+  out["covariance_of_logarithms"] = matrix(c.covariance, n);
+  out["combinations"] = Json::array();
+  for (const Combination& combination : c.combinations) {
+    Json exponents;
+    for (std::size_t i = 0; i < n; ++i) exponents[c.parameters[i].name] = combination.exponents[i];
+    out["combinations"].push_back(
+        {{"exponents", exponents}, {"deviation_of_logarithm", finite(combination.deviation)}});
+  }
+  out["errors"] = {{"e_star_rms", c.errors.e_star_rms},
+                   {"e_star_largest", c.errors.e_star_largest},
+                   {"phase_rms_deg", c.errors.phase_rms_deg},
+                   {"phase_largest_deg", c.errors.phase_largest_deg}};
+  out["residuals"] = Json::array();
+  for (const CalibratedPoint& p : c.points) out["residuals"].push_back(residual_json(p, c.seeds.size() > 1));
+  out["evaluations"] = c.evaluations;
+  out["timing_s"] = {{"preparing", c.seconds_preparing}, {"solving", c.seconds_solving}};
+  out["warnings"] = c.warnings;
+  return out.dump(2) + "\n";
+}
+
+std::string predicted_csv(const Calibration& c) {
+  std::string out =
+      "frequency_hz,temperature_c,e_star_pa,phase_deg,predicted_e_star_pa,predicted_phase_deg,e_star_error,"
+      "phase_error_deg,e_star_scatter,phase_scatter_deg\n";
+  for (const CalibratedPoint& p : c.points) {
+    const ModulusPoint& m = p.measured;
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", m.frequency_hz,
+                       p.temperature_c ? fmt::format("{}", *p.temperature_c) : "", m.e_star_pa, m.phase_deg,
+                       p.e_star_pa, p.phase_deg, p.e_star_pa / m.e_star_pa - 1, p.phase_deg - m.phase_deg,
+                       p.e_star_scatter, p.phase_scatter_deg);
+  }
+  return out;
+}
+
+std::string calibration_text(const Calibration& c) {
+  std::string out = fmt::format("{:<16} {:>13} {:>13} {:>13}\n", "parameter", "scene", "calibrated", "std. dev.");
+  for (const CalibratedParameter& p : c.parameters) {
+    out += fmt::format("{:<16} {:>13.6g} {:>13.6g} {:>13} {}\n", p.name, p.start, p.value,
+                       std::isfinite(p.deviation) ? fmt::format("{:.2g}", p.deviation) : "unknown", p.unit);
+  }
+  const bool warm = !c.points.empty() && c.points.front().temperature_c;
+  out += fmt::format("\n{}{:>10} {:>12} {:>12} {:>8} {:>9} {:>9} {:>8}\n", warm ? "   T (C) " : "", "f (Hz)",
+                     "|E*| (GPa)", "predicted", "error", "phi (deg)", "predicted", "error");
+  for (const CalibratedPoint& p : c.points) {
+    if (warm) out += fmt::format("{:>8g} ", p.temperature_c.value_or(0));
+    out +=
+        fmt::format("{:>10.5g} {:>12.6g} {:>12.6g} {:>+7.2f}% {:>9.4g} {:>9.4g} {:>+8.2f}\n", p.measured.frequency_hz,
+                    p.measured.e_star_pa / 1e9, p.e_star_pa / 1e9, 100 * (p.e_star_pa / p.measured.e_star_pa - 1),
+                    p.measured.phase_deg, p.phase_deg, p.phase_deg - p.measured.phase_deg);
+  }
+  out += fmt::format(
+      "|E*|: rms {:.3g} %, largest {:.3g} %; phase: rms {:.3g}, largest {:.3g} degrees\n{}: {} trials, preparing "
+      "{:.1f} "
+      "s, solving {:.1f} s\n",
+      100 * c.errors.e_star_rms, 100 * c.errors.e_star_largest, c.errors.phase_rms_deg, c.errors.phase_largest_deg,
+      c.solver, c.evaluations, c.seconds_preparing, c.seconds_solving);
+  return out;
+}
+
+}  // namespace macadam

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file misfit.hpp  Measured against predicted, in standard deviations.
+#pragma once
+
+#include <vector>
+
+#include "host/calibration/minimise.hpp"
+#include "host/calibration/specimens.hpp"
+
+namespace macadam::calibration {
+
+/// Adds the residuals of every measurement and, row by row, their derivatives by the logarithms of the parameters.
+void add_residuals(const ModulusData& data, const CalibrationOptions& options, const std::vector<Predicted>& predicted,
+                   std::vector<double>& residuals, std::vector<double>& jacobian);
+
+/// How many of them a measurement has.
+int residuals_each(Misfit misfit);
+
+}  // namespace macadam::calibration

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// parameters.cpp  Names, values and changes of the parameters of a scene's laws.
+#include "host/calibration/parameters.hpp"
+
+#include <cmath>
+
+#include "host/scene/law_values.hpp"
+
+namespace macadam::calibration {
+
+using scene::each_value;
+using scene::ValueKind;
+
+std::vector<Parameter> parameters_of(const Scene& scene) {
+  std::vector<Parameter> out;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (!scene.laws[pair]) continue;
+    const auto add = [&](const std::string& key, const char* unit, double value) {
+      if (value > 0 && std::isfinite(value))
+        out.push_back({std::string(to_string(static_cast<PairType>(pair))) + "." + key, unit,
+                       static_cast<PairType>(pair), key, value});
+    };
+    const double delta = scene.deltas[pair];
+    // the scene's laws are those of its temperature; the file has them at the reference temperature
+    const double shift = scene.materials.temperature
+                             ? std::pow(10.0, laws::log10_shift(scene.shifts[pair], *scene.materials.temperature))
+                             : 1;
+    add("delta", "", delta);
+    Law law = *scene.laws[pair];
+    std::visit(
+        [&](auto& l) {
+          add("alpha", "", l.alpha);
+          each_value(l, [&](const std::string& key, double& value, ValueKind kind) {
+            const bool viscous = kind == ValueKind::viscosity;
+            add(key, viscous ? "Pa s" : "Pa", value / delta / (viscous ? shift : 1));
+          });
+        },
+        law);
+  }
+  return out;
+}
+
+void multiply(LawTable& laws, const Parameter& parameter, double factor) {
+  std::visit(
+      [&](auto& law) {
+        if (parameter.key == "alpha") law.alpha *= factor;
+        each_value(law, [&](const std::string& key, double& value, ValueKind) {
+          if (parameter.key == "delta" || parameter.key == key) value *= factor;
+        });
+      },
+      *laws[static_cast<std::size_t>(parameter.pair)]);
+}
+
+}  // namespace macadam::calibration

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// specimens.cpp  Solutions of the frequency domain for the laws of a trial, each begun at that of the trial before.
+#include "host/calibration/specimens.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/simulation/plan.hpp"
+#include "host/simulation/solution.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam::calibration {
+namespace {
+
+using Complex = std::complex<double>;
+
+bool shifts(const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); }
+
+/// The scene's laws, with those of a trial in their place, at a temperature.
+LawTable laws_of(Scene& scene, const LawTable& laws, std::optional<double> temperature) {
+  scene.laws = laws;
+  return temperature ? laws_at(scene, *temperature) : laws;
+}
+
+bool usable(const Law& law) {
+  const auto* chain = std::get_if<laws::GeneralisedKelvin>(&law);
+  return !chain || (chain->C_m > 0 &&
+                    std::all_of(chain->C.begin(), chain->C.end(), [](double c) { return c > 0 && std::isfinite(c); }));
+}
+
+/// Standard deviation of a sample.
+double scatter(const std::vector<double>& values) {
+  double mean = 0, sum = 0;
+  for (const double v : values) mean += v / static_cast<double>(values.size());
+  for (const double v : values) sum += (v - mean) * (v - mean);
+  return values.size() > 1 ? std::sqrt(sum / static_cast<double>(values.size() - 1)) : 0;
+}
+
+double degrees(Complex modulus) { return std::arg(modulus) * 180 / std::numbers::pi; }
+
+}  // namespace
+
+std::vector<std::optional<double>> temperatures_of(const Scene& scene, const ModulusData& data) {
+  const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
+    throw InputError(data.source, 0, what, found, expected);
+  };
+  std::vector<std::optional<double>> out;
+  const std::vector<double>& several = scene.loading.temperatures;
+  if (!data.temperatures && several.size() > 1) {
+    refuse("column temperature_c", fmt::format("none beside the {} temperatures of the scene", several.size()),
+           "it, or one temperature in the scene");
+  }
+  for (const ModulusPoint& p : data.points) {
+    if (data.temperatures) {
+      out.emplace_back(p.temperature_c);
+    } else if (!several.empty()) {
+      out.emplace_back(several.front());
+    } else {
+      out.push_back(scene.materials.temperature);
+    }
+  }
+  const bool shifted = std::any_of(scene.shifts.begin(), scene.shifts.end(), shifts);
+  for (const std::optional<double>& t : out) {
+    if (!t) continue;
+    if (!shifted && *t != *out.front()) {
+      refuse("column temperature_c",
+             fmt::format("{} and {} degrees C, between which no law of the scene changes", *out.front(), *t),
+             "one temperature, or a scene with shift = \"wlf\", \"arrhenius\" or \"table\" in a [[contacts]]");
+    }
+    const LawTable laws = laws_at(scene, *t);
+    for (std::size_t pair = 0; pair < pair_types; ++pair) {
+      if (laws[pair] && !usable(*laws[pair])) {
+        refuse(
+            "column temperature_c",
+            fmt::format("{} degrees C, where the shift of {} has no value", *t, to_string(static_cast<PairType>(pair))),
+            "a temperature of its range");
+      }
+    }
+  }
+  return out;
+}
+
+double Specimens::density_scaling_at(double frequency) const {
+  const auto& scaling = scene_.solver.density_scaling;
+  if (!inertia_) return 0;
+  if (!scaling || scaling->size() == 1) return density_scaling_of(scene_.solver, 0);
+  const auto& known = scene_.loading.frequencies;
+  const auto at = std::find(known.begin(), known.end(), frequency);
+  if (at == known.end()) {
+    throw InputError(data_.source, 0, "column frequency_hz",
+                     fmt::format("{}, for which density_scaling of the scene has no entry", frequency),
+                     fmt::format("frequencies of the scene ({}), one density_scaling for all, or method = \"harmonic\" "
+                                 "without inertia",
+                                 fmt::join(known, ", ")));
+  }
+  return density_scaling_of(scene_.solver, static_cast<std::size_t>(at - known.begin()));
+}
+
+Specimens::Specimens(const Scene& scene, const ModulusData& data, int seeds, const Watcher& watcher)
+    : scene_(scene), data_(data), watcher_(watcher) {
+  const SolverSpec& solver = scene.solver;
+  inertia_ = solver.inertia || solver.method == SolverMethod::explicit_;  // a stepped run has it always
+  viscous_ = inertia_ && solver.damping_kind == Damping::viscous ? solver.damping : 0;
+  backend_ = select_backend(solver.backend, nullptr, solver.device);
+  if (backend_ == Backend::reference || solver.linear == LinearMethod::direct) backend_ = Backend::cpu;
+  solver_ = fmt::format("harmonic, {} inertia{}, {}", inertia_ ? "with" : "without",
+                        viscous_ > 0 ? " and viscous damping" : "", to_string(backend_));
+  const std::vector<std::optional<double>> temperatures = temperatures_of(scene, data);
+  for (std::size_t i = 0; i < data.points.size(); ++i) {
+    const Place place{data.points[i].frequency_hz, density_scaling_at(data.points[i].frequency_hz), temperatures[i]};
+    const auto same = std::find_if(places_.begin(), places_.end(), [&](const Place& p) {
+      return p.frequency == place.frequency && p.temperature == place.temperature;
+    });
+    place_of_.push_back(static_cast<std::size_t>(same - places_.begin()));
+    if (same != places_.end()) continue;
+    const auto isotherm = std::find_if(isotherms_.begin(), isotherms_.end(), [&](const auto& of) {
+      return places_[of.front()].temperature == place.temperature;
+    });
+    if (isotherm == isotherms_.end()) {
+      isotherms_.push_back({places_.size()});
+    } else {
+      isotherm->push_back(places_.size());
+    }
+    places_.push_back(place);
+  }
+  for (int k = 0; k < seeds; ++k) {
+    if (!scene.specimen.file) {
+      scene_.specimen.seed = scene.specimen.seed + static_cast<std::uint64_t>(k);
+      seeds_.push_back(scene_.specimen.seed);
+    }
+    Preparation prepared = prepare(scene_, watcher.progress);
+    const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
+    bodies_.push_back({std::move(prepared.specimen), std::move(prepared.network), inertia, {}});
+    bodies_.back().near.resize(places_.size());
+  }
+}
+
+void Specimens::solve_isotherm(Body& body, const std::vector<std::size_t>& places, const LawTable& laws,
+                               const std::vector<Parameter>& free, std::vector<Answer>& out) {
+  std::vector<double> frequencies;
+  for (const std::size_t p : places) frequencies.push_back(places_[p].frequency);
+  const LawTable at = laws_of(scene_, laws, places_[places.front()].temperature);
+  Harmonic harmonic(body.specimen, body.network, at, body.inertia, harmonic_options(scene_, backend_, watcher_.stop),
+                    geometric_mean(frequencies));
+  constexpr std::size_t block = 4;  // solved side by side
+  for (std::size_t begin = 0; begin < places.size(); begin += block) {
+    if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
+    const std::size_t end = std::min(begin + block, places.size());
+    std::vector<HarmonicLoad> loads;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Place& p = places_[places[i]];
+      const auto& near = body.near[places[i]];
+      loads.push_back({p.frequency, p.density_scaling, viscous_, 0, near.empty() ? nullptr : &near});
+    }
+    std::vector<HarmonicResult> solved = harmonic.solve(loads);
+    for (std::size_t i = begin; i < end; ++i) {
+      HarmonicResult& r = solved[i - begin];
+      Answer& answer = out[places[i]];
+      answer.modulus = r.parts.modulus();
+      const auto all = sensitivities(r.parts, at, loads[i - begin].s());
+      for (const Parameter& parameter : free) {
+        const auto found =
+            std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.parameter == parameter.name; });
+        if (found == all.end()) {
+          throw InputError("free parameters", 0, parameter.name,
+                           fmt::format("a specimen without {} contacts", to_string(parameter.pair)),
+                           "parameters that change something in it");
+        }
+        answer.by.push_back(answer.modulus * Complex(found->d_e_star_pa / std::abs(answer.modulus),
+                                                     found->d_phase_deg * std::numbers::pi / 180));
+      }
+      body.near[places[i]] = std::move(r.motion);
+    }
+  }
+}
+
+std::vector<Specimens::Answer> Specimens::solve(Body& body, const LawTable& laws, const std::vector<Parameter>& free) {
+  std::vector<Answer> out(places_.size());
+  for (const auto& places : isotherms_) solve_isotherm(body, places, laws, free, out);
+  return out;
+}
+
+std::vector<Predicted> Specimens::at(const LawTable& laws, const std::vector<Parameter>& free) {
+  ++trial_;
+  std::vector<std::vector<Answer>> answers;
+  for (Body& body : bodies_) {
+    if (watcher_.progress) {
+      watcher_.progress(fmt::format("trial {}", trial_),
+                        static_cast<double>(answers.size()) / static_cast<double>(bodies_.size()));
+    }
+    answers.push_back(solve(body, laws, free));
+  }
+  std::vector<Predicted> out(data_.points.size());
+  const double share = 1 / static_cast<double>(bodies_.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].by.assign(free.size(), 0);
+    std::vector<double> log_moduli, phases;
+    for (const auto& of_body : answers) {
+      const Answer& a = of_body[place_of_[i]];
+      out[i].modulus += share * a.modulus;
+      for (std::size_t k = 0; k < free.size(); ++k) out[i].by[k] += share * a.by[k];
+      log_moduli.push_back(std::log(std::abs(a.modulus)));
+      phases.push_back(degrees(a.modulus));
+    }
+    out[i].e_star_scatter = scatter(log_moduli);
+    out[i].phase_scatter_deg = scatter(phases);
+  }
+  return out;
+}
+
+}  // namespace macadam::calibration

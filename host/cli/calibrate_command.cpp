@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// calibrate_command.cpp  macadam calibrate SCENE --target lab.csv --free M-A.delta,M-M.delta --out DIR
+#include "host/cli/calibrate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+
+#include "host/calibration/calibration_files.hpp"
+#include "host/cli/draw_results.hpp"
+#include "host/cli/job.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/stop_signals.hpp"
+#include "host/cli/streams.hpp"
+#include "host/results/files.hpp"
+#include "host/results/result_folder.hpp"
+#include "macadam/calibration.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+struct Arguments {
+  Job job;
+  std::string target;
+  std::vector<std::string> free, bounds, priors;
+  std::optional<Backend> backend;
+  double e_star_deviation = 3;  // %
+  bool no_pictures = false;
+  CalibrationOptions options;
+};
+
+/// "NAME=A:B" as a free parameter's name and two numbers.
+struct Pair {
+  FreeParameter* parameter;
+  double first, second;
+};
+
+Pair pair_of(const std::string& option, const std::string& text, std::vector<FreeParameter>& free,
+             const std::string& form) {
+  const auto refuse = [&](const std::string& expected) {
+    throw InputError("command line", 0, option, '"' + text + '"', expected);
+  };
+  const std::size_t equals = text.find('='), colon = text.find(':', equals == std::string::npos ? 0 : equals);
+  if (equals == std::string::npos || colon == std::string::npos) refuse(form);
+  Pair out{nullptr, 0, 0};
+  for (FreeParameter& p : free)
+    if (p.name == text.substr(0, equals)) out.parameter = &p;
+  if (!out.parameter) refuse(form + " of a parameter that --free names");
+  const auto number = [&](std::size_t begin, std::size_t end, double& value) {
+    const auto [stop, error] = std::from_chars(text.data() + begin, text.data() + end, value);
+    if (error != std::errc{} || stop != text.data() + end) refuse(form);
+  };
+  number(equals + 1, colon, out.first);
+  number(colon + 1, text.size(), out.second);
+  return out;
+}
+
+void read_parameters(Arguments& arguments) {
+  std::vector<FreeParameter>& free = arguments.options.free;
+  for (const std::string& name : arguments.free) free.push_back({name, {}, {}, {}, 0});
+  for (const std::string& text : arguments.bounds) {
+    const Pair p = pair_of("--bounds", text, free, "NAME=LOW:HIGH");
+    p.parameter->low = p.first, p.parameter->high = p.second;
+  }
+  for (const std::string& text : arguments.priors) {
+    const Pair p = pair_of("--prior", text, free, "NAME=VALUE:RELATIVE_DEVIATION");
+    p.parameter->prior = p.first, p.parameter->prior_deviation = p.second;
+  }
+}
+
+/// The calibrated scene must say what was found. \throws RunError where its text could not be made to.
+void write_scene(const Scene& scene, const Calibration& calibration, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "scene.toml";
+  write_whole(file, calibrated_scene(scene, calibration, folder));
+  try {
+    require_calibrated(read_scene(file), calibration);
+  } catch (const Error& error) {
+    std::filesystem::remove(file);
+    throw RunError(fmt::format("{}: the calibrated values do not go into the text of the scene ({}); they are in {}",
+                               file.string(), error.what(), (folder / "calibration.json").string()));
+  }
+}
+
+void calibrate_command(Arguments arguments) {
+  read_parameters(arguments);
+  arguments.options.e_star_deviation = arguments.e_star_deviation / 100;
+  Scene scene = scene_of(arguments.job);
+  const ModulusData data = read_modulus_data(arguments.target);
+  if (arguments.backend) {
+    scene.solver.backend = *arguments.backend;
+    if (scene.solver.backend == Backend::cpu) scene.solver.device.reset();
+  }
+  const std::filesystem::path out = arguments.job.out;
+  std::error_code error;
+  if (std::filesystem::equivalent(scene.file, out / "scene.toml", error)) {
+    throw InputError("command line", 0, "--out", "the folder of the scene, whose scene.toml would be replaced",
+                     "another folder");
+  }
+  const ResultFolder folder(out);
+  ProgressLine line;
+  Watcher watcher;
+  watcher.progress = [&](const std::string& stage, double share) { show_or_stop(line, stage, share); };
+  watcher.stop = stop_asked;
+  listen_to_stop_signals();
+  const Calibration calibration = calibrate(scene, data, arguments.options, watcher);
+  line.clear();
+  write_whole(out / "calibration.json", calibration_json(calibration));
+  write_whole(out / "predicted.csv", predicted_csv(calibration));
+  write_scene(scene, calibration, out);
+  say("{}", calibration_text(calibration));
+  for (const std::string& warning : calibration.warnings) say("warning: {}\n", warning);
+  say("files in {}: scene.toml calibration.json predicted.csv\n", arguments.job.out);
+  if (!arguments.no_pictures) say("{}", draw_results("draw-calibration", out, "calibration.png"));
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& app) {
+  CLI::App& command = *app.add_subcommand("calibrate", "parameters of a scene from measured moduli of the mixture");
+  const auto arguments = std::make_shared<Arguments>();
+  CalibrationOptions& options = arguments->options;
+  add_job_options(command, arguments->job);
+  add_text(command, "--target", arguments->target,
+           "CSV file: frequency_hz, e_star_pa, phase_deg, maybe temperature_c, e_star_std, phase_std")
+      ->required();
+  command
+      .add_option("--free", arguments->free, "parameters to be found, with commas: M-A.delta,M-M.E_1,inner.E,A-A.alpha")
+      ->delimiter(',')
+      ->required();
+  command.add_option("--bounds", arguments->bounds, "NAME=LOW:HIGH, with commas (four decades to either side)")
+      ->delimiter(',');
+  command.add_option("--prior", arguments->priors, "NAME=VALUE:RELATIVE_DEVIATION, with commas: known beforehand")
+      ->delimiter(',');
+  add_number(command, "--seeds", options.seeds,
+             "specimens of the scene's seed and those after it, whose E* is averaged", 1, 1000);
+  add_choice(command, "--misfit", options.misfit, "what counts (modulus-and-phase); parts: E' and E''",
+             {{"modulus-and-phase", Misfit::modulus_and_phase},
+              {"modulus", Misfit::modulus},
+              {"phase", Misfit::phase},
+              {"parts", Misfit::parts}});
+  add_number(command, "--e-star-deviation", arguments->e_star_deviation, "%: of |E*| where the file has no e_star_std",
+             1e-6, 100.0);
+  add_number(command, "--phase-deviation", options.phase_deviation, "degrees: of phase where the file has no phase_std",
+             1e-6, 90.0);
+  command.add_flag("--nearest", options.nearest,
+                   "where the targets cannot be reached, the nearest values with a warning");
+  add_choice(command, "--backend", arguments->backend, "instead of the scene's",
+             {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}});
+  command.add_flag("--no-pictures", arguments->no_pictures, "do not draw");
+  command.callback([arguments] { calibrate_command(*arguments); });
+}
+
+}  // namespace macadam

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file draw_results.hpp  Pictures of results, drawn by a script that comes with the program.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace macadam {
+
+/// Has a script draw its pictures into the folder of the results, where python3 with matplotlib is there. What is to be
+/// told of it: `pictures`, their names, or how to draw them.
+std::string draw_results(const std::string& script, const std::filesystem::path& folder, const std::string& pictures);
+
+}  // namespace macadam

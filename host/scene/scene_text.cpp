@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// scene_text.cpp  Where a value stands in the text is what the TOML parser says; it is asked anew for every change.
+#include "host/scene/scene_text.hpp"
+
+#include <fmt/format.h>
+
+#include "host/scene/toml.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam::scene {
+namespace {
+
+/// Byte of a place in the text; the parser's columns count characters of UTF-8.
+std::size_t offset_of(const std::string& text, const toml::source_position& place) {
+  std::size_t at = 0;
+  for (toml::source_index line = 1; line < place.line; ++line) at = text.find('\n', at) + 1;
+  if (at == 0 && text.starts_with("\xEF\xBB\xBF")) at = 3;  // a byte-order mark
+  for (toml::source_index column = 1; column < place.column && at < text.size(); ++column) {
+    ++at;
+    while (at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0) == 0x80) ++at;
+  }
+  return at;
+}
+
+/// A TOML number that is read as the same double.
+std::string real(double v) {
+  const std::string text = fmt::format("{}", v);
+  return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+}
+
+/// In TOML's basic quotes.
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+struct Change {
+  std::size_t begin, end;  ///< bytes that are replaced
+  std::string by;
+};
+
+Change replaced(const std::string& text, const toml::node& node, std::string by) {
+  return {offset_of(text, node.source().begin), offset_of(text, node.source().end), std::move(by)};
+}
+
+/// A key, set where it is there, else added before the first one of the table.
+Change set(const std::string& text, const toml::table& table, const std::string& key, std::string value) {
+  if (const toml::node* node = table.get(key)) return replaced(text, *node, std::move(value));
+  toml::source_position first{~toml::source_index{0}, 0};
+  for (const auto& [k, v] : table)
+    if (!v.is_table() || v.as_table()->is_inline()) first = std::min(first, k.source().begin);
+  const std::size_t at = offset_of(text, first);
+  return {at, at, key + " = " + value + (table.is_inline() ? ", " : "\n")};
+}
+
+}  // namespace
+
+void SceneText::set_contact(PairType pair, const std::string& name, double value) {
+  const toml::table root = toml::parse(text_);
+  Change change{0, 0, ""};
+  for (const toml::node& node : *root["contacts"].as_array()) {
+    const toml::table& section = *node.as_table();
+    if (section["pair"].value<std::string>() != to_string(pair)) continue;
+    const toml::array* entries =
+        name.size() > 2 && name[1] == '_' && name[2] != 'm' ? section[name.substr(0, 1)].as_array() : nullptr;
+    change = entries ? replaced(text_, *entries->get(std::stoul(name.substr(2)) - 1), real(value))
+                     : set(text_, section, name, real(value));
+  }
+  replace(change.begin, change.end, change.by);
+}
+
+void SceneText::set_seed(std::uint64_t seed) {
+  const toml::table root = toml::parse(text_);
+  const Change change = set(text_, *root["specimen"].as_table(), "seed", fmt::format("{}", seed));
+  replace(change.begin, change.end, change.by);
+}
+
+void SceneText::move(const std::filesystem::path& from, const std::filesystem::path& to) {
+  namespace fs = std::filesystem;
+  // each parse serves one change, after which places in the text are others
+  for (const bool shapes : {false, true}) {
+    const toml::table root = toml::parse(text_);
+    const auto view = shapes ? root["specimen"]["shapes"]["library"] : root["specimen"]["file"];
+    const auto name = view.value<std::string>();
+    if (!name || (shapes && (*name == "aggregates" || *name == "icosahedron")) || fs::path(*name).is_absolute())
+      continue;
+    const fs::path moved =
+        fs::weakly_canonical(fs::absolute(from) / *name).lexically_relative(fs::weakly_canonical(fs::absolute(to)));
+    // "./" keeps a folder named as a built-in library a folder
+    const Change change = replaced(text_, *view.node(), quoted((shapes ? "./" : "") + moved.string()));
+    replace(change.begin, change.end, change.by);
+  }
+}
+
+}  // namespace macadam::scene

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// calibration_test.cpp  Known parameters are found again from the moduli that they give; targets without sense are
+// refused.
+#include "macadam/calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "aggregate_cube.hpp"
+#include "test_files.hpp"
+
+namespace macadam::test {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// The 175 particles of t8 with the laws of binder AM1, two of which follow temperature.
+Scene t8_scene(bool inertia = false) {
+  Scene scene;
+  scene.file = "t8";
+  scene.specimen.file = MACADAM_TEST_DATA "/t8.csv";
+  scene.specimen.box.size = {0.008, 0.008, 0.011};
+  scene.materials.aggregate = 2630, scene.materials.mastic = 2110;
+  scene.laws = am1_laws();
+  scene.loading.frequencies = {2, 20};
+  scene.solver.method = SolverMethod::harmonic;
+  scene.solver.backend = Backend::cpu;
+  scene.solver.inertia = inertia;
+  if (inertia) scene.solver.density_scaling = std::vector<double>{2e5};  // of a tenth of |E*| at 20 Hz
+  return scene;
+}
+
+const laws::GeneralisedKelvin& chain(const Scene& scene, PairType pair) {
+  return std::get<laws::GeneralisedKelvin>(*scene.laws[static_cast<std::size_t>(pair)]);
+}
+
+/// What the specimen of a scene has, as if it had been measured.
+ModulusData measured(const Scene& scene, const std::vector<double>& frequencies,
+                     const std::vector<double>& temperatures = {}) {
+  const Preparation prepared = prepare(scene);
+  const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
+  ModulusData out;
+  out.source = "lab.csv";
+  out.temperatures = !temperatures.empty();
+  for (const double t : out.temperatures ? temperatures : std::vector<double>{0}) {
+    const LawTable laws = out.temperatures ? laws_at(scene, t) : scene.laws;
+    Harmonic harmonic(prepared.specimen, prepared.network, laws, inertia, {}, 6);
+    for (const double f : frequencies) {
+      const double scaling = scene.solver.inertia ? scene.solver.density_scaling->front() : 0;
+      const Stiffness found = harmonic.solve(f, scaling).top;
+      out.points.push_back({f, found.e_star_pa, found.phase_deg, t, 0, 0});
+    }
+  }
+  return out;
+}
+
+CalibrationOptions freeing(const std::vector<std::string>& names) {
+  CalibrationOptions out;
+  for (const std::string& name : names) out.free.push_back({name, {}, {}, {}, 0});
+  return out;
+}
+
+/// Multiplies a pair's moduli and viscosities.
+void scale(Scene& scene, PairType pair, double delta) {
+  auto& law = std::get<laws::GeneralisedKelvin>(*scene.laws[static_cast<std::size_t>(pair)]);
+  law.E_m *= delta, law.C_m *= delta;
+  for (double& e : law.E) e *= delta;
+  for (double& c : law.C) c *= delta;
+}
+
+std::string message_of(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const Error& error) { return error.what(); }
+  return "no error";
+}
+#define EXPECT_SAYS(what, part) EXPECT_NE(message_of(what).find(part), std::string::npos) << message_of(what)
+
+class Truth : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Calibration, Truth, testing::Bool(),
+                         [](const auto& info) { return info.param ? "with_inertia" : "without_inertia"; });
+
+TEST_P(Truth, IsRecovered) {
+  Scene truth = t8_scene(GetParam());
+  scale(truth, PairType::ma, 1.68);
+  scale(truth, PairType::mm, 0.7);
+  auto& mm = std::get<laws::GeneralisedKelvin>(*truth.laws[static_cast<std::size_t>(PairType::mm)]);
+  mm.alpha *= 1.5, mm.E[1] *= 2;
+  const ModulusData data = measured(truth, {0.5, 2, 8, 20});
+  for (const Misfit misfit : {Misfit::modulus_and_phase, Misfit::parts}) {
+    CalibrationOptions options = freeing({"M-A.delta", "M-M.delta", "M-M.alpha", "M-M.E_2"});
+    options.misfit = misfit;
+    const Calibration c = calibrate(t8_scene(GetParam()), data, options);
+    const double expected[] = {1.68, 0.7, 0.15, chain(t8_scene(), PairType::mm).E[1] * 2};
+    for (std::size_t i = 0; i < c.parameters.size(); ++i)
+      EXPECT_NEAR(c.parameters[i].value / expected[i], 1, 1e-6) << c.parameters[i].name;
+    EXPECT_LT(c.errors.e_star_largest, 1e-7);
+    EXPECT_TRUE(c.warnings.empty()) << c.warnings.front();
+    EXPECT_LT(c.evaluations, 20);
+  }
+}
+
+/// The spread of what is found from noisy measurements is the deviation that is stated.
+TEST(Calibration, DeviationsAreThoseOfNoise) {
+  ModulusData data = measured(t8_scene(), {0.5, 2, 8, 20});
+  data.deviations = true;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  const int trials = long_tests ? 60 : 4;
+  double sum = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    ModulusData noisy = data;
+    for (ModulusPoint& p : noisy.points) {
+      p.e_star_std = 0.03 * p.e_star_pa, p.phase_std = 1;
+      p.e_star_pa *= 1 + 0.03 * normal(random), p.phase_deg += normal(random);
+    }
+    const Calibration c = calibrate(t8_scene(), noisy, freeing({"M-A.delta", "M-M.delta"}));
+    sum += std::pow((c.parameters[0].value - 1) / c.parameters[0].deviation, 2);
+  }
+  // a χ² of `trials` degrees of freedom, within four of its standard deviations
+  EXPECT_NEAR(sum / trials, 1, 4 * std::sqrt(2.0 / trials));
+}
+
+TEST(Calibration, SeveralTemperaturesAndTheirShift) {
+  Scene start = t8_scene();
+  for (const PairType pair : {PairType::mm, PairType::ma})
+    start.shifts[static_cast<std::size_t>(pair)] = laws::Arrhenius{200e3, 15};
+  Scene truth = start;
+  scale(truth, PairType::ma, 2);
+  std::get<laws::GeneralisedKelvin>(*truth.laws[static_cast<std::size_t>(PairType::mm)]).C[0] *= 3;
+  const ModulusData data = measured(truth, {1, 10}, {5, 25});
+  const Calibration c = calibrate(start, data, freeing({"M-A.delta", "M-M.C_1"}));
+  EXPECT_NEAR(c.parameters[0].value, 2, 2e-6);
+  EXPECT_NEAR(c.parameters[1].value / (3 * chain(start, PairType::mm).C[0]), 1, 1e-6);
+  ASSERT_EQ(c.points.size(), 4u);
+  EXPECT_EQ(c.points[2].temperature_c, 25);
+
+  const CalibrationOptions free = freeing({"M-A.delta"});
+  EXPECT_SAYS([&] { calibrate(t8_scene(), data, free); }, "between which no law of the scene changes");
+  start.shifts[0] = start.shifts[1] = laws::ShiftTable{{0, 10}, {0, -1}};
+  EXPECT_SAYS([&] { calibrate(start, data, free); }, "25 degrees C, where the shift of");
+}
+
+TEST(Calibration, WhatCannotBeToldApartIsNamed) {
+  const ModulusData data = measured(t8_scene(), {2, 20});
+  const Calibration c = calibrate(t8_scene(), data, freeing({"A-A.E", "A-A.delta", "M-M.delta"}));
+  ASSERT_EQ(c.combinations.size(), 1u);
+  EXPECT_NEAR(c.combinations[0].exponents[0], -c.combinations[0].exponents[1], 1e-6);
+  EXPECT_NEAR(c.combinations[0].exponents[2], 0, 1e-6);
+  EXPECT_TRUE(std::isinf(c.parameters[0].deviation) && std::isinf(c.parameters[1].deviation));
+  EXPECT_TRUE(std::isfinite(c.parameters[2].deviation));
+  EXPECT_NE(c.warnings.at(0).find("A-A.E"), std::string::npos) << c.warnings[0];
+
+  CalibrationOptions known = freeing({"A-A.E", "A-A.delta", "M-M.delta"});
+  known.free[1].prior = 1, known.free[1].prior_deviation = 0.1;
+  const Calibration with_prior = calibrate(t8_scene(), data, known);
+  EXPECT_NEAR(with_prior.parameters[1].value, 1, 1e-6);
+  EXPECT_NEAR(with_prior.parameters[1].deviation, 0.1, 1e-3) << "what was known of it, no more";
+  EXPECT_EQ(with_prior.combinations.size(), 1u) << "of the measurements alone";
+}
+
+TEST(Calibration, SeedsAreAveraged) {
+  Scene scene = t8_scene();
+  scene.specimen = {};
+  scene.specimen.box.size = {0.008, 0.008, 0.011};
+  scene.specimen.mastic = MasticSpec{0.75e-3, 1e-3, 0.05, {}};
+  scene.specimen.seed = 3;
+  std::complex<double> mean;
+  for (const std::uint64_t seed : {3, 4}) {
+    Scene one = scene;
+    one.specimen.seed = seed;
+    const ModulusPoint p = measured(one, {5}).points.front();
+    mean += 0.5 * std::polar(p.e_star_pa, degree * p.phase_deg);
+  }
+  ModulusData data;
+  data.points = {{5, 2 * std::abs(mean), std::arg(mean) / degree, 0, 0, 0}};
+  CalibrationOptions options = freeing({"M-M.delta"});
+  scene.laws[static_cast<std::size_t>(PairType::mw)] = scene.laws[static_cast<std::size_t>(PairType::mm)];
+  options.seeds = 2;
+  const Calibration both = calibrate(scene, data, options);
+  EXPECT_EQ(both.seeds, (std::vector<std::uint64_t>{3, 4}));
+  EXPECT_GT(both.points[0].e_star_scatter, 1e-4);
+  EXPECT_NEAR(both.points[0].e_star_pa / data.points[0].e_star_pa, 1, 0.03);
+}
+
+/// The inner contacts of a cube of aggregate such that it is as stiff as the rock (bench/results/aggregate-cube.csv).
+TEST(Calibration, TheCubeOfAggregateIsAsStiffAsItsRock) {
+  const fs::path file = fs::path(testing::TempDir()) / fmt::format("cube_{}.csv", getpid());
+  write_specimen_csv(file, aggregate_cube(coarse_spheres, CubeFilling::shape, scene_porosity, 1));
+  Scene scene;
+  scene.specimen.file = file;
+  scene.specimen.box.size = {cube_edge, cube_edge, cube_edge};
+  scene.materials.aggregate = 2630;
+  scene.laws[static_cast<std::size_t>(PairType::inner)] = laws::Elastic{aggregate_modulus, inner_alpha};
+  scene.laws[static_cast<std::size_t>(PairType::aw)] = laws::Elastic{paper_wall_modulus, 0};
+  scene.loading.frequencies = {1};
+  scene.solver.method = SolverMethod::harmonic;
+  scene.solver.backend = Backend::cpu;
+  ModulusData rock;
+  rock.points = {{1, aggregate_modulus, 0, 0, 0, 0}};
+  const Calibration c = calibrate(scene, rock, freeing({"inner.E"}));
+  fs::remove(file);
+  fmt::print("inner.E {}\n", c.parameters[0].value);
+  EXPECT_NEAR(c.points[0].e_star_pa / aggregate_modulus, 1, 1e-8);
+}
+
+TEST(Calibration, TargetsWithoutSenseAreRefused) {
+  const ModulusData good = measured(t8_scene(), {2, 20});
+  const CalibrationOptions free = freeing({"M-A.delta"});
+  const auto with = [&](auto&& change) {
+    ModulusData data = good;
+    change(data);
+    return message_of([&] { calibrate(t8_scene(), data, free); });
+  };
+  for (const double wrong : {-1e9, 0.0, std::nan(""), HUGE_VAL})
+    EXPECT_NE(with([&](ModulusData& d) { d.points[1].e_star_pa = wrong; }).find("measurement 2"), std::string::npos);
+  EXPECT_NE(with([](ModulusData& d) { d.points[0].phase_deg = std::nan(""); }).find("measurement 1"),
+            std::string::npos);
+  EXPECT_NE(with([](ModulusData& d) { d.points.clear(); }).find("measurements: found none"), std::string::npos);
+  // M-A contacts alone cannot make of it what is stiffer than all the others together, nor what flows like water
+  for (const double factor : {1e3, 1e-3}) {
+    const std::string said = with([&](ModulusData& d) {
+      for (ModulusPoint& p : d.points) p.e_star_pa *= factor;
+    });
+    EXPECT_NE(said.find("the targets are not reached"), std::string::npos) << said;
+  }
+  const std::string flows = with([](ModulusData& d) {
+    for (ModulusPoint& p : d.points) p.phase_deg = 89;
+  });
+  EXPECT_NE(flows.find("the targets are not reached"), std::string::npos) << flows;
+  ModulusData stiff = good;
+  for (ModulusPoint& p : stiff.points) p.e_star_pa *= 1e3;
+  CalibrationOptions nearest = free;
+  nearest.nearest = true;
+  EXPECT_NE(calibrate(t8_scene(), stiff, nearest).warnings.at(0).find("not reached"), std::string::npos);
+}
+
+TEST(Calibration, ParametersAreChecked) {
+  const ModulusData data = measured(t8_scene(), {2});
+  const auto said = [&](CalibrationOptions options) {
+    return message_of([&] { calibrate(t8_scene(), data, options); });
+  };
+  const auto bounded = [](double low, double high) {
+    CalibrationOptions options = freeing({"M-A.delta"});
+    options.free[0].low = low, options.free[0].high = high;
+    return options;
+  };
+  CalibrationOptions prior = freeing({"M-A.delta"}), seeds = prior;
+  prior.free[0].prior = -1;
+  seeds.seeds = 2;
+  for (const auto& [options, part] : {std::pair{freeing({}), "found none"},
+                                      {freeing({"M-A.dleta"}), "M-A.delta (the nearest"},
+                                      {freeing({"M-M.E_4"}), "M-M.E_3"},
+                                      {freeing({"M-W.alpha"}), "nearest"},
+                                      {freeing({"M-A.delta", "M-A.delta"}), "twice"},
+                                      {freeing({"M-A.delta", "M-M.delta", "M-A.alpha"}), "2 numbers"},
+                                      {bounded(-1, 2), "positive numbers"},
+                                      {bounded(3, 2), "the lower one first"},
+                                      {bounded(2, 3), "hold the value of the scene"},
+                                      {prior, "prior of M-A.delta"},
+                                      {seeds, "only generated specimens"}}) {
+    EXPECT_NE(said(options).find(part), std::string::npos) << part << " | " << said(options);
+  }
+  EXPECT_EQ(calibrate(t8_scene(), data, bounded(0.5, 2)).warnings.size(), 0u);
+}
+
+}  // namespace
+}  // namespace macadam::test
