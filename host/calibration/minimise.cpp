@@ -55,7 +55,12 @@ bool minimise(const Residuals& residuals, std::size_t count, const std::vector<B
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 100;
+  options.max_num_iterations = 200;
+  // parameters that the data hardly tell apart lie in a narrow bent valley, along which steps that may go up for a
+  // while are much longer; the line search that bounds bring along would shorten them
+  options.use_nonmonotonic_steps = true;
+  options.initial_trust_region_radius = 1e6;
+  options.max_num_line_search_step_size_iterations = 0;
   // the solutions have eleven digits, and the way to the minimum is of second order where the residuals are small
   options.function_tolerance = 1e-12;
   options.gradient_tolerance = 1e-11;
@@ -74,7 +79,7 @@ Directions directions(const std::vector<double>& jacobian, std::size_t columns) 
   full.topRows(full.rows() - n) = Eigen::Map<const RowMajor>(jacobian.data(), full.rows() - n, n);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(full, Eigen::ComputeThinV);
   const Eigen::VectorXd& s = svd.singularValues();
-  const double least = 1e-8 * s[0];  // below it is what the tolerance of the solutions leaves of nothing
+  const double least = 1e-10 * s[0];  // below it is what the tolerance of the solutions leaves of nothing
   Directions out;
   for (Eigen::Index i = 0; i < n; ++i) {
     out.deviation.push_back(s[i] > least ? 1 / s[i] : std::numeric_limits<double>::infinity());

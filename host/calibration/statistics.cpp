@@ -29,9 +29,11 @@ Combination combination(const std::vector<double>& vector, double deviation) {
 
 void add_statistics(Calibration& out, const std::vector<double>& data, const std::vector<double>& priors) {
   const std::size_t n = out.parameters.size();
-  // deviations that nobody stated are those that the misfit shows
+  // deviations that nobody stated are those that the misfit shows; numbers that were computed leave none, and then
+  // priors must not vanish beside them
+  constexpr double least = 1e-4;
   const bool scaled = !out.deviations && out.degrees_of_freedom > 0;
-  const double scale = scaled ? std::max(std::sqrt(out.misfit / out.degrees_of_freedom), 1e-12) : 1;
+  const double scale = scaled ? std::max(std::sqrt(out.misfit / out.degrees_of_freedom), least) : 1;
   std::vector<double> all = data;
   for (double& v : all) v /= scale;
   const Directions by_data = directions(all, n);
