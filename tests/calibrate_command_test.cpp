@@ -87,6 +87,16 @@ TEST_F(CalibrateCommand, OnlyTheValuesOfTheTextChange) {
   EXPECT_EQ(made, expected);
 }
 
+/// As bench/results/aggregate-cube.csv has it for this cube, there by the secant of two solutions.
+TEST_F(CalibrateCommand, TheCubeOfAggregateGivesItsInnerModulus) {
+  const std::string cube = MACADAM_EXAMPLES "/aggregate_cube";
+  const Outcome outcome = macadam(fmt::format(
+      "calibrate '{0}/scene.toml' --target '{0}/rock.csv' --free inner.E --out {1} --backend cpu --no-pictures", cube,
+      path("found")));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NEAR(found()["parameters"][0]["value"].get<double>() / 105.45e9, 1, 1e-4);
+}
+
 TEST_F(CalibrateCommand, GeneratedSpecimensTakeSeeds) {
   write(folder_ / "scene.toml",
         "[specimen]\nbox = [0.008, 0.008, 0.011]\n[specimen.mastic]\nradius = [0.75e-3, 1e-3]\nporosity = 0.05\n"
