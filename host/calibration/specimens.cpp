@@ -39,6 +39,9 @@ double scatter(const std::vector<double>& values) {
   return values.size() > 1 ? std::sqrt(sum / static_cast<double>(values.size() - 1)) : 0;
 }
 
+/// E* is stationary in the motion: its error is about the square of this, that of its derivatives this itself.
+constexpr double residual = 1e-7;
+
 double degrees(Complex modulus) { return std::arg(modulus) * 180 / std::numbers::pi; }
 
 }  // namespace
@@ -143,8 +146,8 @@ void Specimens::solve_isotherm(Body& body, const std::vector<std::size_t>& place
   std::vector<double> frequencies;
   for (const std::size_t p : places) frequencies.push_back(places_[p].frequency);
   const LawTable at = laws_of(scene_, laws, places_[places.front()].temperature);
-  Harmonic harmonic(body.specimen, body.network, at, body.inertia, harmonic_options(scene_, backend_, watcher_.stop),
-                    geometric_mean(frequencies));
+  Harmonic harmonic(body.specimen, body.network, at, body.inertia,
+                    harmonic_options(scene_, backend_, watcher_.stop, residual), geometric_mean(frequencies));
   constexpr std::size_t block = 4;  // solved side by side
   for (std::size_t begin = 0; begin < places.size(); begin += block) {
     if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
