@@ -62,7 +62,7 @@ bool minimise(const Residuals& residuals, std::size_t count, const std::vector<B
   options.initial_trust_region_radius = 1e6;
   options.max_num_line_search_step_size_iterations = 0;
   // the solutions have eleven digits, and the way to the minimum is of second order where the residuals are small
-  options.function_tolerance = 1e-12;
+  options.function_tolerance = 1e-9;
   options.gradient_tolerance = 1e-11;
   options.parameter_tolerance = 1e-10;
   options.num_threads = 1;
