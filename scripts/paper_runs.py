@@ -5,6 +5,7 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import time
 from pathlib import Path
@@ -64,6 +65,23 @@ def processor():
     except OSError:
         lines = []
     return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "unknown processor")
+
+
+def said(*command):
+    try:
+        return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+
+
+def commit_of_tree():
+    return said("git", "-C", ROOT, "rev-parse", "--short", "HEAD").strip() or "unknown"
+
+
+def device(macadam):
+    """The GPU that the program finds, by its name, else nothing."""
+    found = re.search(r"^cuda +yes.*\n +([^,\n]+),", said(macadam, "info"), re.M)
+    return found[1] if found else ""
 
 
 def status(folder):

@@ -8,10 +8,9 @@
 #include <exception>
 #include <numbers>
 
+#include "host/calibration/free_parameters.hpp"
 #include "host/calibration/misfit.hpp"
 #include "host/calibration/statistics.hpp"
-#include "host/in_quotes.hpp"
-#include "host/nearest.hpp"
 #include "macadam/calibration.hpp"
 #include "macadam/error.hpp"
 
@@ -19,85 +18,28 @@ namespace macadam {
 namespace calibration {
 namespace {
 
-/// Decades that a parameter without bounds may go from where it starts: beyond them nothing is meant.
-constexpr double unbounded = 1e4;
 /// Root mean square errors beyond which a target counts as not reached. Models miss good data by less, by far.
 constexpr double worst_modulus = 0.3, worst_phase = 15;
+/// Standard deviations, root mean square, beyond which the result says that it misses them: noise alone stays below 2.
+constexpr double worst_miss = 2;
 
-[[noreturn]] void refuse(const std::string& what, const std::string& found, const std::string& expected) {
-  throw InputError("calibration", 0, what, found, expected);
-}
-
-void check(const ModulusData& data, const CalibrationOptions& options, const Scene& scene) {
-  const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
-  if (data.points.empty()) throw InputError(data.source, 0, "measurements", "none", "at least one");
-  for (std::size_t i = 0; i < data.points.size(); ++i) {
-    const ModulusPoint& p = data.points[i];
-    if (!positive(p.frequency_hz) || !positive(p.e_star_pa) || !(std::abs(p.phase_deg) < 180) ||
-        (data.temperatures && !std::isfinite(p.temperature_c)) ||
-        (data.deviations && !(positive(p.e_star_std) && positive(p.phase_std)))) {
-      throw InputError(data.source, 0, fmt::format("measurement {}", i + 1), "a number without sense",
-                       "finite ones; frequency, |E*| and standard deviations positive");
-    }
-  }
-  if (!positive(options.e_star_deviation) || !positive(options.phase_deviation)) {
-    refuse("standard deviations", fmt::format("{} and {}", options.e_star_deviation, options.phase_deviation),
-           "positive numbers");
-  }
-  if (options.seeds < 1) refuse("seeds", fmt::format("{}", options.seeds), "at least 1");
-  if (options.seeds > 1 && scene.specimen.file) {
-    refuse("seeds", fmt::format("{} for a specimen from a file", options.seeds),
-           "1: only generated specimens have seeds");
-  }
-}
-
-/// The free parameters with their bounds. \throws InputError.
-std::vector<Parameter> free_parameters(const Scene& scene, const CalibrationOptions& options, Calibration& out) {
-  const std::vector<Parameter> known = parameters_of(scene);
-  std::vector<std::string> names;
-  for (const Parameter& p : known) names.push_back(p.name);
-  if (options.free.empty()) refuse("free parameters", "none", fmt::format("one or more of {}", fmt::join(names, ", ")));
-  std::vector<Parameter> free;
-  for (const FreeParameter& asked : options.free) {
-    const auto at = std::find(names.begin(), names.end(), asked.name);
-    if (at == names.end()) {
-      refuse("free parameters", in_quotes(asked.name),
-             names.empty() ? "nothing: the scene has no laws"
-                           : fmt::format("{} (the nearest of those that the scene has: {})", nearest(asked.name, names),
-                                         fmt::join(names, ", ")));
-    }
-    const Parameter& p = known[static_cast<std::size_t>(at - names.begin())];
-    for (const Parameter& other : free)
-      if (other.name == p.name) refuse("free parameters", p.name + " twice", "each once");
-    const double low = asked.low.value_or(p.value / unbounded), high = asked.high.value_or(p.value * unbounded);
-    if (!(low > 0 && high > low && std::isfinite(high))) {
-      refuse("bounds of " + p.name, fmt::format("{:g} and {:g}", low, high), "positive numbers, the lower one first");
-    }
-    if (!(p.value >= low && p.value <= high)) {
-      refuse("bounds of " + p.name, fmt::format("{:g} to {:g}, without the scene's {:g}", low, high, p.value),
-             "bounds that hold the value of the scene, from which the way begins");
-    }
-    if (asked.prior && !(*asked.prior > 0 && std::isfinite(*asked.prior) && asked.prior_deviation > 0 &&
-                         std::isfinite(asked.prior_deviation))) {
-      refuse("prior of " + p.name, fmt::format("{:g} with deviation {:g}", *asked.prior, asked.prior_deviation),
-             "a positive value and a positive relative standard deviation");
-    }
-    free.push_back(p);
-    out.parameters.push_back({p.name, p.unit, p.value, p.value, 0, low, high, false});
-  }
-  return free;
-}
+/// Of a logarithm, in a round: how far it may go, and how little ends the way: so near to a solution the error of an
+/// estimate is about the square of that, below 1e-12.
+constexpr double farthest = 2, least_move = 1e-6;
+/// Share of the misfit whose loss ends the way: parameters then move by 1e-5 of their deviations.
+constexpr double least_gain = 1e-10;
+constexpr int most_rounds = 40;
 
 /// One calibration from start to end.
 class Calibrator {
  public:
   Calibrator(const Scene& scene, const ModulusData& data, const CalibrationOptions& options, const Watcher& watcher)
       : scene_(scene), data_(data), options_(options), watcher_(watcher) {
-    check(data, options, scene);
+    require_sense(scene, data, options);
     out_.options = options;
     out_.temperatures = data.temperatures;
     out_.deviations = data.deviations;
-    free_ = free_parameters(scene, options, out_);
+    free_ = free_parameters(scene, options, out_.parameters);
     for (const FreeParameter& p : options.free) priors_ += p.prior ? 1 : 0;
     const std::size_t told = static_cast<std::size_t>(residuals_each(options.misfit)) * data.points.size() + priors_;
     if (told < free_.size()) {
@@ -114,8 +56,11 @@ class Calibrator {
     out_.solver = specimens.solver();
     const auto prepared = Clock::now();
     out_.seconds_preparing = seconds(prepared - start);
-    find(specimens);
-    finish(specimens);
+    try {
+      finish(find(specimens));
+    } catch (const InterruptedError&) {
+      throw InterruptedError("interrupted while calibrating; nothing was written, what the folder held is as it was");
+    }
     out_.seconds_solving = seconds(Clock::now() - prepared);
     return std::move(out_);
   }
@@ -131,98 +76,129 @@ class Calibrator {
     return laws;
   }
 
-  /// Residuals of the measurements, then of the priors.
-  void evaluate(Specimens& specimens, const std::vector<double>& theta, std::vector<double>& residuals,
-                std::vector<double>& jacobian) {
-    ++out_.evaluations;
-    predicted_ = specimens.at(laws_at_theta(theta), free_);
-    residuals.clear(), jacobian.clear();
-    add_residuals(data_, options_, predicted_, residuals, jacobian);
+  /// What laws predict, the residuals of the measurements and then of the priors, with their derivatives.
+  struct State {
+    std::vector<double> theta;  ///< logarithms of the free parameters
+    std::vector<Predicted> predicted;
+    std::vector<double> residuals, jacobian;
+    double misfit = 0;  ///< Σ of squares, priors included
+  };
+
+  State state_of(const std::vector<double>& theta, std::vector<Predicted> predicted) const {
+    State out{theta, std::move(predicted), {}, {}, 0};
+    add_residuals(data_, options_, out.predicted, out.residuals, out.jacobian);
     for (std::size_t i = 0; i < free_.size(); ++i) {
       const FreeParameter& p = options_.free[i];
       if (!p.prior) continue;
-      residuals.push_back((theta[i] - std::log(*p.prior)) / p.prior_deviation);
-      for (std::size_t k = 0; k < free_.size(); ++k) jacobian.push_back(k == i ? 1 / p.prior_deviation : 0);
+      out.residuals.push_back((theta[i] - std::log(*p.prior)) / p.prior_deviation);
+      for (std::size_t k = 0; k < free_.size(); ++k) out.jacobian.push_back(k == i ? 1 / p.prior_deviation : 0);
     }
+    for (const double r : out.residuals) out.misfit += r * r;
+    return out;
   }
 
-  void find(Specimens& specimens) {
+  State solved(Specimens& specimens, const std::vector<double>& theta) {
+    ++out_.solutions;
+    return state_of(theta, specimens.solve(laws_at_theta(theta), free_));
+  }
+
+  /// The least misfit by the estimates, from θ and within a factor of e² of it: farther away they are worth little.
+  State least_by_estimate(const Specimens& specimens, std::vector<double> theta) const {
     std::vector<Bounds> bounds;
-    theta_.clear();
-    for (const CalibratedParameter& p : out_.parameters) {
-      bounds.push_back({std::log(p.low), std::log(p.high)});
-      theta_.push_back(std::clamp(std::log(p.start), bounds.back().low, bounds.back().high));
+    for (std::size_t i = 0; i < theta.size(); ++i) {
+      bounds.push_back({std::max(std::log(out_.parameters[i].low), theta[i] - farthest),
+                        std::min(std::log(out_.parameters[i].high), theta[i] + farthest)});
     }
-    std::exception_ptr failure, stopped;
-    bool any = false;
-    const Residuals residuals = [&](const std::vector<double>& theta, std::vector<double>& r, std::vector<double>& j) {
-      if (stopped) return false;
+    std::exception_ptr interrupted;
+    const Residuals residuals = [&](const std::vector<double>& at, std::vector<double>& r, std::vector<double>& j) {
+      if (interrupted) return false;
       try {
-        evaluate(specimens, theta, r, j);
-        any = true;
+        const State state = state_of(at, specimens.estimate(laws_at_theta(at), free_));
+        r = state.residuals, j = state.jacobian;
         const auto finite = [](double v) { return std::isfinite(v); };
         return std::all_of(r.begin(), r.end(), finite) && std::all_of(j.begin(), j.end(), finite);
-      } catch (const InterruptedError&) { stopped = std::current_exception(); } catch (const InputError&) {
-        stopped = std::current_exception();
-      } catch (const RunError&) {  // laws of a trial that have no solution: a shorter step is tried
-        failure = std::current_exception();
-      }
+      } catch (const InterruptedError&) {  // may not pass through Ceres
+        interrupted = std::current_exception();
+      } catch (const RunError&) {}  // no solution: a shorter step is tried
       return false;
     };
     const std::size_t count = static_cast<std::size_t>(residuals_each(options_.misfit)) * data_.points.size() + priors_;
-    const bool usable = minimise(residuals, count, bounds, theta_);
-    if (stopped) {
-      try {
-        std::rethrow_exception(stopped);
-      } catch (const InterruptedError&) {
-        throw InterruptedError("interrupted while calibrating; nothing was written, what the folder held is as it was");
-      }
-    }
-    if (!any && failure) std::rethrow_exception(failure);
-    if (!usable)
-      throw RunError("calibration: no way to a least misfit was found: no finite one near the scene's values");
+    minimise(residuals, count, bounds, theta);
+    if (interrupted) std::rethrow_exception(interrupted);
+    return state_of(theta, specimens.estimate(laws_at_theta(theta), free_));
   }
 
-  void finish(Specimens& specimens) {
-    std::vector<double> residuals, jacobian;
-    evaluate(specimens, theta_, residuals, jacobian);
-    out_.laws = laws_at_theta(theta_);
-    const std::size_t n = free_.size(), measured = residuals.size() - priors_;
-    for (std::size_t i = 0; i < measured; ++i) out_.misfit += residuals[i] * residuals[i];
-    out_.degrees_of_freedom = static_cast<double>(residuals.size()) - static_cast<double>(n);
+  /// Solves at a place, or nearer to a good one where there is no solution.
+  State solved_near(Specimens& specimens, std::vector<double> theta, const State& good) {
+    constexpr int halvings = 5;
+    for (int i = 0;; ++i) {
+      try {
+        return solved(specimens, theta);
+      } catch (const InterruptedError&) { throw; } catch (const RunError&) {
+        if (i == halvings) throw;
+      }
+      for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = (theta[k] + good.theta[k]) / 2;
+    }
+  }
+
+  /// To where the estimates, which are exact at the best solution and have its derivatives, find nothing better.
+  State find(Specimens& specimens) {
+    std::vector<double> theta;
+    for (const CalibratedParameter& p : out_.parameters)
+      theta.push_back(std::clamp(std::log(p.start), std::log(p.low), std::log(p.high)));
+    State best = solved(specimens, theta);
+    for (int round = 0; round < most_rounds; ++round) {
+      const State next = least_by_estimate(specimens, best.theta);
+      double moved = 0;
+      for (std::size_t i = 0; i < theta.size(); ++i) moved = std::max(moved, std::abs(next.theta[i] - best.theta[i]));
+      if (moved < least_move || best.misfit - next.misfit < least_gain * best.misfit) return next;
+      State there = solved_near(specimens, next.theta, best);
+      if (there.misfit < best.misfit) best = std::move(there);
+    }
+    out_.warnings.push_back(
+        fmt::format("the way to the least misfit did not end within {} solutions: these are the best values on it",
+                    out_.solutions));
+    return best;
+  }
+
+  void finish(const State& found) {
+    out_.laws = laws_at_theta(found.theta);
+    const std::size_t n = free_.size(), measured = found.residuals.size() - priors_;
+    for (std::size_t i = 0; i < measured; ++i) out_.misfit += found.residuals[i] * found.residuals[i];
+    out_.degrees_of_freedom = static_cast<double>(found.residuals.size()) - static_cast<double>(n);
     for (std::size_t i = 0; i < n; ++i) {
       CalibratedParameter& p = out_.parameters[i];
-      p.value = std::exp(theta_[i]);
+      p.value = std::exp(found.theta[i]);
       const double near = 1e-6 * std::log(p.high / p.low);
-      p.at_bound = theta_[i] < std::log(p.low) + near || theta_[i] > std::log(p.high) - near;
+      p.at_bound = found.theta[i] < std::log(p.low) + near || found.theta[i] > std::log(p.high) - near;
     }
-    compare();
-    const auto split = jacobian.begin() + static_cast<std::ptrdiff_t>(measured * n);
-    add_statistics(out_, {jacobian.begin(), split}, {split, jacobian.end()});
+    compare(found.predicted);
+    const auto split = found.jacobian.begin() + static_cast<std::ptrdiff_t>(measured * n);
+    add_statistics(out_, {found.jacobian.begin(), split}, {split, found.jacobian.end()});
     judge();
     warn();
   }
 
   /// Measured against predicted.
-  void compare() {
+  void compare(const std::vector<Predicted>& predicted) {
     const std::vector<std::optional<double>> temperatures = temperatures_of(scene_, data_);
     FitErrors& e = out_.errors;
-    for (std::size_t i = 0; i < predicted_.size(); ++i) {
+    for (std::size_t i = 0; i < predicted.size(); ++i) {
       const ModulusPoint& m = data_.points[i];
       CalibratedPoint p{m,
                         temperatures[i],
-                        std::abs(predicted_[i].modulus),
-                        std::arg(predicted_[i].modulus) * 180 / std::numbers::pi,
-                        predicted_[i].e_star_scatter,
-                        predicted_[i].phase_scatter_deg};
+                        std::abs(predicted[i].modulus),
+                        std::arg(predicted[i].modulus) * 180 / std::numbers::pi,
+                        predicted[i].e_star_scatter,
+                        predicted[i].phase_scatter_deg};
       const double modulus = p.e_star_pa / m.e_star_pa - 1, phase = p.phase_deg - m.phase_deg;
       e.e_star_rms += modulus * modulus, e.phase_rms_deg += phase * phase;
       e.e_star_largest = std::max(e.e_star_largest, std::abs(modulus));
       e.phase_largest_deg = std::max(e.phase_largest_deg, std::abs(phase));
       out_.points.push_back(p);
     }
-    e.e_star_rms = std::sqrt(e.e_star_rms / static_cast<double>(predicted_.size()));
-    e.phase_rms_deg = std::sqrt(e.phase_rms_deg / static_cast<double>(predicted_.size()));
+    e.e_star_rms = std::sqrt(e.e_star_rms / static_cast<double>(predicted.size()));
+    e.phase_rms_deg = std::sqrt(e.phase_rms_deg / static_cast<double>(predicted.size()));
   }
 
   /// What was found must be near the targets, and nearest for another reason than that the way ended there.
@@ -242,11 +218,15 @@ class Calibrator {
     std::string what =
         fmt::format("|E*| is missed by {:.3g} % (rms), phase by {:.3g} degrees", 100 * e.e_star_rms, e.phase_rms_deg);
     for (const std::string& end : ends) what += "; " + end;
+    const std::string first = modulus || phase
+                                  ? "the targets are not reached by any values of the free parameters"
+                                  : "the targets do not determine the free parameters, the misfit falls without end";
     if (!options_.nearest) {
-      throw RunError(data_.source + ": the targets are not reached by any values of the free parameters: " + what +
-                     "; bounds that stop a parameter, or other free parameters, may mend it");
+      throw RunError(
+          fmt::format("{}: {}: {}; bounds that stop a parameter, a prior, or other free parameters may mend it",
+                      data_.source, first, what));
     }
-    out_.warnings.push_back("the targets are not reached: " + what);
+    out_.warnings.push_back(first + ": " + what);
   }
 
   void warn() {
@@ -259,6 +239,14 @@ class Calibrator {
       out_.warnings.push_back(fmt::format("the measurements {} {}",
                                           std::isfinite(c.deviation) ? "hardly determine" : "say nothing of",
                                           words(out_, c)));
+    }
+    const double missed = std::sqrt(out_.misfit / static_cast<double>(out_.points.size()) /
+                                    residuals_each(options_.misfit));  // in standard deviations
+    if (missed > worst_miss) {
+      out_.warnings.push_back(
+          fmt::format("the measurements are missed by {:.3g} of their standard deviations (rms): these parameters do "
+                      "not describe them",
+                      missed));
     }
     if (!out_.deviations && out_.degrees_of_freedom <= 0) {
       out_.warnings.push_back(
@@ -277,8 +265,6 @@ class Calibrator {
   Calibration out_;
   std::vector<Parameter> free_;
   std::size_t priors_ = 0;
-  std::vector<double> theta_;  ///< logarithms of the free parameters
-  std::vector<Predicted> predicted_;
 };
 
 }  // namespace

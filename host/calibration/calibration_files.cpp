@@ -74,7 +74,7 @@ std::string calibration_json(const Calibration& c) {
                    {"phase_largest_deg", c.errors.phase_largest_deg}};
   out["residuals"] = Json::array();
   for (const CalibratedPoint& p : c.points) out["residuals"].push_back(residual_json(p, c.seeds.size() > 1));
-  out["evaluations"] = c.evaluations;
+  out["solutions"] = c.solutions;
   out["timing_s"] = {{"preparing", c.seconds_preparing}, {"solving", c.seconds_solving}};
   out["warnings"] = c.warnings;
   return out.dump(2) + "\n";
@@ -111,11 +111,11 @@ std::string calibration_text(const Calibration& c) {
                     p.measured.phase_deg, p.phase_deg, p.phase_deg - p.measured.phase_deg);
   }
   out += fmt::format(
-      "|E*|: rms {:.3g} %, largest {:.3g} %; phase: rms {:.3g}, largest {:.3g} degrees\n{}: {} trials, preparing "
+      "|E*|: rms {:.3g} %, largest {:.3g} %; phase: rms {:.3g}, largest {:.3g} degrees\n{}: {} solutions, preparing "
       "{:.1f} "
       "s, solving {:.1f} s\n",
       100 * c.errors.e_star_rms, 100 * c.errors.e_star_largest, c.errors.phase_rms_deg, c.errors.phase_largest_deg,
-      c.solver, c.evaluations, c.seconds_preparing, c.seconds_solving);
+      c.solver, c.solutions, c.seconds_preparing, c.seconds_solving);
   return out;
 }
 

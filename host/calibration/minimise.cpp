@@ -55,16 +55,10 @@ bool minimise(const Residuals& residuals, std::size_t count, const std::vector<B
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 200;
-  // parameters that the data hardly tell apart lie in a narrow bent valley, along which steps that may go up for a
-  // while are much longer; the line search that bounds bring along would shorten them
-  options.use_nonmonotonic_steps = true;
-  options.initial_trust_region_radius = 1e6;
-  options.max_num_line_search_step_size_iterations = 0;
-  // the solutions have eleven digits, and the way to the minimum is of second order where the residuals are small
-  options.function_tolerance = 1e-9;
-  options.gradient_tolerance = 1e-11;
-  options.parameter_tolerance = 1e-10;
+  options.max_num_iterations = 1000;  // of some milliseconds, along valleys that are narrow and bent
+  options.function_tolerance = 1e-14;
+  options.gradient_tolerance = 1e-14;
+  options.parameter_tolerance = 1e-12;
   options.num_threads = 1;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// specimens.cpp  Solutions of the frequency domain for the laws of a trial, each begun at that of the trial before.
+// specimens.cpp  Solutions of the frequency domain for other laws, each begun at its estimate, and these estimates.
 #include "host/calibration/specimens.hpp"
 
 #include <fmt/format.h>
@@ -19,12 +19,6 @@ using Complex = std::complex<double>;
 
 bool shifts(const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); }
 
-/// The scene's laws, with those of a trial in their place, at a temperature.
-LawTable laws_of(Scene& scene, const LawTable& laws, std::optional<double> temperature) {
-  scene.laws = laws;
-  return temperature ? laws_at(scene, *temperature) : laws;
-}
-
 bool usable(const Law& law) {
   const auto* chain = std::get_if<laws::GeneralisedKelvin>(&law);
   return !chain || (chain->C_m > 0 &&
@@ -39,8 +33,8 @@ double scatter(const std::vector<double>& values) {
   return values.size() > 1 ? std::sqrt(sum / static_cast<double>(values.size() - 1)) : 0;
 }
 
-/// E* is stationary in the motion: its error is about the square of this, that of its derivatives this itself.
-constexpr double residual = 1e-7;
+/// E* has nine digits by it (harmonic.cpp), and its derivatives, which are first order in the motion, seven.
+constexpr double residual = 1e-8;
 
 double degrees(Complex modulus) { return std::arg(modulus) * 180 / std::numbers::pi; }
 
@@ -135,76 +129,102 @@ Specimens::Specimens(const Scene& scene, const ModulusData& data, int seeds, con
       seeds_.push_back(scene_.specimen.seed);
     }
     Preparation prepared = prepare(scene_, watcher.progress);
-    const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
-    bodies_.push_back({std::move(prepared.specimen), std::move(prepared.network), inertia, {}});
-    bodies_.back().near.resize(places_.size());
+    Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
+    bodies_.push_back(std::make_unique<Body>(
+        Body{std::move(prepared.specimen), std::move(prepared.network), std::move(inertia), nullptr}));
+    Body& body = *bodies_.back();
+    body.seen =
+        std::make_unique<harmonic::ReducedModel>(body.specimen, body.network, inertia_ ? body.inertia : Inertia{});
   }
 }
 
-void Specimens::solve_isotherm(Body& body, const std::vector<std::size_t>& places, const LawTable& laws,
-                               const std::vector<Parameter>& free, std::vector<Answer>& out) {
-  std::vector<double> frequencies;
-  for (const std::size_t p : places) frequencies.push_back(places_[p].frequency);
-  const LawTable at = laws_of(scene_, laws, places_[places.front()].temperature);
-  Harmonic harmonic(body.specimen, body.network, at, body.inertia,
-                    harmonic_options(scene_, backend_, watcher_.stop, residual), geometric_mean(frequencies));
-  constexpr std::size_t block = 4;  // solved side by side
-  for (std::size_t begin = 0; begin < places.size(); begin += block) {
-    if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
-    const std::size_t end = std::min(begin + block, places.size());
-    std::vector<HarmonicLoad> loads;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Place& p = places_[places[i]];
-      const auto& near = body.near[places[i]];
-      loads.push_back({p.frequency, p.density_scaling, viscous_, 0, near.empty() ? nullptr : &near});
+Specimens::Answer Specimens::answer_of(const ModulusParts& parts, const LawTable& laws, const HarmonicLoad& load,
+                                       const std::vector<Parameter>& free) const {
+  Answer out{parts.modulus(), {}};
+  const auto all = sensitivities(parts, laws, load.s());
+  for (const Parameter& parameter : free) {
+    const auto found =
+        std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.parameter == parameter.name; });
+    if (found == all.end()) {
+      throw InputError("free parameters", 0, parameter.name,
+                       fmt::format("a specimen without {} contacts", to_string(parameter.pair)),
+                       "parameters that change something in it");
     }
-    std::vector<HarmonicResult> solved = harmonic.solve(loads);
-    for (std::size_t i = begin; i < end; ++i) {
-      HarmonicResult& r = solved[i - begin];
-      Answer& answer = out[places[i]];
-      answer.modulus = r.parts.modulus();
-      const auto all = sensitivities(r.parts, at, loads[i - begin].s());
-      for (const Parameter& parameter : free) {
-        const auto found =
-            std::find_if(all.begin(), all.end(), [&](const auto& s) { return s.parameter == parameter.name; });
-        if (found == all.end()) {
-          throw InputError("free parameters", 0, parameter.name,
-                           fmt::format("a specimen without {} contacts", to_string(parameter.pair)),
-                           "parameters that change something in it");
-        }
-        answer.by.push_back(answer.modulus * Complex(found->d_e_star_pa / std::abs(answer.modulus),
-                                                     found->d_phase_deg * std::numbers::pi / 180));
-      }
-      body.near[places[i]] = std::move(r.motion);
-    }
+    out.by.push_back(out.modulus *
+                     Complex(found->d_e_star_pa / std::abs(out.modulus), found->d_phase_deg * std::numbers::pi / 180));
   }
-}
-
-std::vector<Specimens::Answer> Specimens::solve(Body& body, const LawTable& laws, const std::vector<Parameter>& free) {
-  std::vector<Answer> out(places_.size());
-  for (const auto& places : isotherms_) solve_isotherm(body, places, laws, free, out);
   return out;
 }
 
-std::vector<Predicted> Specimens::at(const LawTable& laws, const std::vector<Parameter>& free) {
-  ++trial_;
-  std::vector<std::vector<Answer>> answers;
-  for (Body& body : bodies_) {
+Specimens::Answers Specimens::solve(Body& body, const LawTable& laws, const std::vector<Parameter>& free) const {
+  Answers out(places_.size());
+  std::vector<harmonic::Vector> motions;
+  for (const auto& places : isotherms_) {
+    const LawTable at = laws_of(places_[places.front()], laws);
+    std::vector<double> frequencies;
+    for (const std::size_t p : places) frequencies.push_back(places_[p].frequency);
+    Harmonic harmonic(body.specimen, body.network, at, body.inertia,
+                      harmonic_options(scene_, backend_, watcher_.stop, residual), geometric_mean(frequencies));
+    constexpr std::size_t block = 4;  // solved side by side
+    for (std::size_t begin = 0; begin < places.size(); begin += block) {
+      if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
+      const std::size_t count = std::min(block, places.size() - begin);
+      std::vector<harmonic::Vector> near(count);
+      std::vector<HarmonicLoad> loads;
+      for (std::size_t i = 0; i < count; ++i) {
+        loads.push_back(load_of(places_[places[begin + i]]));
+        if (body.seen->motions() == 0) continue;
+        near[i] = body.seen->motion(body.seen->solve(at, loads[i]));
+        loads[i].near = &near[i];
+      }
+      std::vector<HarmonicResult> solved = harmonic.solve(loads);
+      for (std::size_t i = 0; i < count; ++i) {
+        out[places[begin + i]] = answer_of(solved[i].parts, at, loads[i], free);
+        motions.push_back(std::move(solved[i].motion));
+      }
+    }
+  }
+  body.seen->add(motions);
+  return out;
+}
+
+std::vector<Predicted> Specimens::solve(const LawTable& laws, const std::vector<Parameter>& free) {
+  ++solutions_;
+  std::vector<Answers> answers;
+  for (const auto& body : bodies_) {
     if (watcher_.progress) {
-      watcher_.progress(fmt::format("trial {}", trial_),
+      watcher_.progress(fmt::format("solution {}", solutions_),
                         static_cast<double>(answers.size()) / static_cast<double>(bodies_.size()));
     }
-    answers.push_back(solve(body, laws, free));
+    answers.push_back(solve(*body, laws, free));
   }
+  return mean_of(answers, free.size());
+}
+
+std::vector<Predicted> Specimens::estimate(const LawTable& laws, const std::vector<Parameter>& free) const {
+  if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
+  std::vector<Answers> answers;
+  for (const auto& body : bodies_) {
+    answers.emplace_back();
+    for (const Place& place : places_) {
+      const LawTable at = laws_of(place, laws);
+      const HarmonicLoad load = load_of(place);
+      answers.back().push_back(answer_of(body->seen->solve(at, load).parts, at, load, free));
+    }
+  }
+  return mean_of(answers, free.size());
+}
+
+std::vector<Predicted> Specimens::mean_of(const std::vector<Answers>& by_body, std::size_t free) const {
   std::vector<Predicted> out(data_.points.size());
-  const double share = 1 / static_cast<double>(bodies_.size());
+  const double share = 1 / static_cast<double>(by_body.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    out[i].by.assign(free.size(), 0);
+    out[i].by.assign(free, 0);
     std::vector<double> log_moduli, phases;
-    for (const auto& of_body : answers) {
+    for (const Answers& of_body : by_body) {
       const Answer& a = of_body[place_of_[i]];
       out[i].modulus += share * a.modulus;
-      for (std::size_t k = 0; k < free.size(); ++k) out[i].by[k] += share * a.by[k];
+      for (std::size_t k = 0; k < free; ++k) out[i].by[k] += share * a.by[k];
       log_moduli.push_back(std::log(std::abs(a.modulus)));
       phases.push_back(degrees(a.modulus));
     }

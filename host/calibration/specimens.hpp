@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "host/calibration/parameters.hpp"
-#include "macadam/harmonic.hpp"
+#include "host/harmonic/reduced_model.hpp"
 
 namespace macadam::calibration {
 
@@ -29,9 +29,14 @@ class Specimens {
   /// which the scene does not say how they are solved.
   Specimens(const Scene& scene, const ModulusData& data, int seeds, const Watcher& watcher);
 
-  /// E* of every measurement with other laws. \throws RunError where there is no solution; InterruptedError; InputError
-  /// for a parameter that changes nothing in the specimen.
-  std::vector<Predicted> at(const LawTable& laws, const std::vector<Parameter>& free);
+  /// E* of every measurement with other laws: solutions of the frequency domain, whose motions are kept for estimates.
+  /// \throws RunError where there is no solution; InterruptedError; InputError for a parameter that changes nothing in
+  /// the specimen.
+  std::vector<Predicted> solve(const LawTable& laws, const std::vector<Parameter>& free);
+
+  /// The same by the motions of the solutions so far: exact, with its derivatives, at the laws of each, and near
+  /// between them. Takes milliseconds. \throws RunError, InterruptedError.
+  std::vector<Predicted> estimate(const LawTable& laws, const std::vector<Parameter>& free) const;
 
   const std::vector<std::uint64_t>& seeds() const { return seeds_; }
   const std::string& solver() const { return solver_; }
@@ -45,17 +50,23 @@ class Specimens {
     Specimen specimen;
     ContactNetwork network;
     Inertia inertia;
-    std::vector<std::vector<std::complex<double>>> near;  ///< by place: the motion found last
+    std::unique_ptr<harmonic::ReducedModel> seen;  ///< of the motions of all solutions
   };
   struct Answer {
     std::complex<double> modulus;
     std::vector<std::complex<double>> by;
   };
+  using Answers = std::vector<Answer>;  ///< by place
 
   double density_scaling_at(double frequency) const;
-  std::vector<Answer> solve(Body& body, const LawTable& laws, const std::vector<Parameter>& free);
-  void solve_isotherm(Body& body, const std::vector<std::size_t>& places, const LawTable& laws,
-                      const std::vector<Parameter>& free, std::vector<Answer>& out);
+  HarmonicLoad load_of(const Place& place) const { return {place.frequency, place.density_scaling, viscous_}; }
+  LawTable laws_of(const Place& place, const LawTable& laws) const {
+    return place.temperature ? laws_at(scene_, *place.temperature, laws) : laws;
+  }
+  Answer answer_of(const ModulusParts& parts, const LawTable& laws, const HarmonicLoad& load,
+                   const std::vector<Parameter>& free) const;
+  Answers solve(Body& body, const LawTable& laws, const std::vector<Parameter>& free) const;
+  std::vector<Predicted> mean_of(const std::vector<Answers>& by_body, std::size_t free) const;
 
   Scene scene_;
   const ModulusData& data_;
@@ -68,8 +79,8 @@ class Specimens {
   std::vector<std::size_t> place_of_;                ///< by measurement
   std::vector<std::vector<std::size_t>> isotherms_;  ///< places of one temperature
   std::vector<std::uint64_t> seeds_;
-  std::vector<Body> bodies_;
-  int trial_ = 0;
+  std::vector<std::unique_ptr<Body>> bodies_;
+  int solutions_ = 0;
 };
 
 }  // namespace macadam::calibration

@@ -26,15 +26,16 @@ double present(const Scene& scene, const laws::Shift& shift) {
 
 }  // namespace
 
-LawTable laws_at(const Scene& scene, double temperature) {
-  LawTable out = scene.laws;
+LawTable laws_at(const Scene& scene, double temperature) { return laws_at(scene, temperature, scene.laws); }
+
+LawTable laws_at(const Scene& scene, double temperature, LawTable laws) {
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     const laws::Shift& shift = scene.shifts[pair];
-    if (!out[pair] || !shifts(shift)) continue;
-    out[pair] =
-        laws::shifted(*out[pair], std::pow(10.0, laws::log10_shift(shift, temperature) - present(scene, shift)));
+    if (!laws[pair] || !shifts(shift)) continue;
+    laws[pair] =
+        laws::shifted(*laws[pair], std::pow(10.0, laws::log10_shift(shift, temperature) - present(scene, shift)));
   }
-  return out;
+  return laws;
 }
 
 std::optional<double> common_log10_shift(const Scene& scene, double temperature) {

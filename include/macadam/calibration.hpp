@@ -76,7 +76,7 @@ struct Calibration {
   bool temperatures = false, deviations = false;  ///< whether the data have them
   std::vector<std::uint64_t> seeds;               ///< empty for a specimen from a file
   std::string solver;                             ///< what was solved, in words
-  int evaluations = 0;                            ///< solutions of all frequencies of all specimens
+  int solutions = 0;                              ///< solutions of all frequencies of all specimens
   double seconds_preparing = 0, seconds_solving = 0;
   std::vector<std::string> warnings;
   LawTable laws;  ///< of the scene, calibrated

@@ -109,6 +109,8 @@ Scene read_scene(const std::filesystem::path& file);
 
 /// A scene's laws at a temperature [°C]; NaN in viscosities where a shift law has no value there.
 LawTable laws_at(const Scene& scene, double temperature);
+/// The same of laws in place of the scene's: parameters other than its own, at its temperature.
+LawTable laws_at(const Scene& scene, double temperature, LawTable laws);
 
 /// log10 a_T at a temperature where all laws that flow follow the same shift, so that the specimen follows it too; else
 /// nothing.

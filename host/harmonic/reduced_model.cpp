@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// reduced_model.cpp  Motions made orthonormal, the network's matrices between them, and the small systems.
+#include "host/harmonic/reduced_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/parallel.hpp"
+#include "kernels/contact_kinematics.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam::harmonic {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+
+/// What is left of a motion beside those that are there, as a share of it, below which it brings nothing new: solutions
+/// have some seven digits.
+constexpr double nothing_new = 1e-8;
+
+/// Sums are taken of so many pieces and then of these, in order: the same bits for any number of threads.
+constexpr std::size_t pieces = 16;
+
+auto as_columns(const Vector& motion) {
+  return Eigen::Map<const VectorXcd>(motion.data(), static_cast<Index>(motion.size()));
+}
+
+/// f(first row, rows) of each piece.
+template <class F>
+void for_each_piece(Index rows, F&& f) {
+  for_each_in_parallel(pieces, [&](std::size_t p) {
+    const Index begin = static_cast<Index>(p) * rows / static_cast<Index>(pieces);
+    f(p, begin, static_cast<Index>(p + 1) * rows / static_cast<Index>(pieces) - begin);
+  });
+}
+
+/// aᵀ·b.
+MatrixXd products(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const MatrixXd>& b) {
+  std::vector<MatrixXd> sums(pieces);
+  for_each_piece(a.rows(), [&](std::size_t p, Index begin, Index rows) {
+    sums[p] = a.middleRows(begin, rows).transpose() * b.middleRows(begin, rows);
+  });
+  for (std::size_t p = 1; p < pieces; ++p) sums[0] += sums[p];
+  return sums[0];
+}
+
+/// from −= columns·shares.
+void take_away(MatrixXd& from, const Eigen::Ref<const MatrixXd>& columns, const MatrixXd& shares) {
+  for_each_piece(from.rows(), [&](std::size_t, Index begin, Index rows) {
+    from.middleRows(begin, rows).noalias() -= columns.middleRows(begin, rows) * shares;
+  });
+}
+
+/// The three relative displacements of a contact that resist together (opening and bending, or slip and twist), of each
+/// motion, and the moments over the distance that join them.
+using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+struct ContactMotions {
+  Rows normal, shear;
+};
+
+/// `basis(dof)` is the row of a degree of freedom; the first motion moves the top wall by one.
+template <class Row>
+void relative_motions(const Contact& c, const Row& row, Index count, ContactMotions& out) {
+  double u[6];
+  const kernels::Placement<double> placement{c.n, c.s, c.t, c.arm_a, c.arm_b};
+  const auto twist = [&](std::int32_t end, Index j) -> kernels::Twist<double> {
+    if (end < 0) return {{0, 0, end == wall_z_hi && j == 0 ? 1.0 : 0.0}, {}};
+    const auto x = [&](std::size_t k) { return row(6 * static_cast<std::size_t>(end) + k, j); };
+    return {{x(0), x(1), x(2)}, {x(3), x(4), x(5)}};
+  };
+  for (Index j = 0; j < count; ++j) {
+    kernels::relative_rates(placement, twist(c.a, j), twist(c.b, j), u);
+    for (Index k = 0; k < 3; ++k) out.normal(k, j) = u[k], out.shear(k, j) = u[3 + k];
+  }
+}
+
+/// Forces per k* of a contact's displacements, by the same sums as condensed_load() with α = 1.
+Eigen::Matrix3d normal_form(const Contact& c) {
+  const auto& m = c.moments;
+  Eigen::Matrix3d out;
+  out << m.a, m.s, m.t, m.s, m.ss, m.st, m.t, m.st, m.tt;
+  return out / c.distance;
+}
+Eigen::Matrix3d shear_form(const Contact& c) {
+  const auto& m = c.moments;
+  Eigen::Matrix3d out;
+  out << m.a, 0, -m.t, 0, m.a, m.s, -m.t, m.s, m.ss + m.tt;
+  return out / c.distance;
+}
+
+}  // namespace
+
+ReducedModel::ReducedModel(const Specimen& specimen, const ContactNetwork& network, Inertia inertia)
+    : specimen_(specimen), network_(network), inertia_(std::move(inertia)) {}
+
+void ReducedModel::add(const std::vector<Vector>& motions) {
+  if (motions.empty()) return;
+  const Index before = basis_.cols();
+  if (before == 0) basis_ = as_columns(motions.front()).real();
+  const MatrixXd fresh = new_columns(motions);
+  basis_.conservativeResize(Eigen::NoChange, basis_.cols() + fresh.cols());
+  basis_.rightCols(fresh.cols()) = fresh;
+  project(before);
+}
+
+MatrixXd ReducedModel::new_columns(const std::vector<Vector>& motions) const {
+  MatrixXd out(basis_.rows(), 2 * std::ssize(motions));
+  Eigen::VectorXd whole(out.cols());
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const auto at = 2 * static_cast<Index>(i);
+    out.col(at) = as_columns(motions[i]).real() - basis_.col(0);
+    out.col(at + 1) = as_columns(motions[i]).imag();
+    whole[at] = whole[at + 1] = length(motions[i]);
+  }
+  const auto others = basis_.rightCols(basis_.cols() - 1);
+  Index kept = 0;
+  for (int twice = 0; twice < 2; ++twice)
+    take_away(out, others, products(others, out));  // twice: rounding of the first
+  for (Index j = 0; j < out.cols(); ++j) {
+    MatrixXd column = out.col(j);
+    for (int twice = 0; twice < 2; ++twice) {
+      const auto before = out.leftCols(kept);
+      take_away(column, before, products(before, column));
+    }
+    const double rest = std::sqrt(products(column, column)(0, 0));
+    if (rest > nothing_new * whole[j]) out.col(kept++) = column / rest;
+  }
+  return out.leftCols(kept);
+}
+
+/// Columns from `from` on of the matrices, and the rows that mirror them.
+void ReducedModel::project(Index from) {
+  constexpr Index stack = 48;  // contacts whose products are taken together
+  const Index count = basis_.cols(), added = count - from;
+  const auto& contacts = network_.contacts;
+  using Sums = std::array<MatrixXd, 2 * pair_types>;
+  std::vector<Sums> sums(pieces);
+  for_each_in_parallel(pieces, [&](std::size_t piece) {
+    std::array<MatrixXd, 2 * pair_types> motion, force;
+    std::array<Index, pair_types> filled{};
+    ContactMotions u{Rows(3, count), Rows(3, count)};
+    const auto flush = [&](std::size_t pair) {
+      for (const std::size_t form : {2 * pair, 2 * pair + 1}) {
+        sums[piece][form].noalias() +=
+            motion[form].topRows(3 * filled[pair]).transpose() * force[form].topRows(3 * filled[pair]);
+      }
+      filled[pair] = 0;
+    };
+    for (std::size_t i = piece * contacts.size() / pieces; i < (piece + 1) * contacts.size() / pieces; ++i) {
+      const Contact& c = contacts[i];
+      const auto pair = static_cast<std::size_t>(c.pair);
+      if (motion[2 * pair].size() == 0) {
+        for (const std::size_t form : {2 * pair, 2 * pair + 1}) {
+          motion[form].resize(3 * stack, count);
+          force[form].resize(3 * stack, added);
+          sums[piece][form] = MatrixXd::Zero(count, added);
+        }
+      }
+      relative_motions(
+          c, [&](std::size_t dof, Index j) { return basis_(static_cast<Index>(dof), j); }, count, u);
+      const Index row = 3 * filled[pair];
+      motion[2 * pair].middleRows<3>(row) = u.normal;
+      motion[2 * pair + 1].middleRows<3>(row) = u.shear;
+      force[2 * pair].middleRows<3>(row) = normal_form(c) * u.normal.rightCols(added);
+      force[2 * pair + 1].middleRows<3>(row) = shear_form(c) * u.shear.rightCols(added);
+      if (++filled[pair] == stack) flush(pair);
+    }
+    for (std::size_t pair = 0; pair < pair_types; ++pair)
+      if (filled[pair] > 0) flush(pair);
+  });
+  const auto widen = [&](MatrixXd& m, const MatrixXd& columns) {
+    m.conservativeResize(count, count);
+    m.rightCols(added) = columns;
+    m.bottomRows(added) = columns.transpose();
+  };
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    for (const bool shear : {false, true}) {
+      MatrixXd columns = MatrixXd::Zero(count, added);
+      for (const Sums& s : sums)
+        if (const MatrixXd& m = s[2 * pair + (shear ? 1 : 0)]; m.size() > 0) columns += m;
+      widen(shear ? shear_[pair] : normal_[pair], columns);
+    }
+  }
+  if (inertia_.mass.empty()) {
+    mass_ = MatrixXd::Zero(count, count);
+    return;
+  }
+  MatrixXd momentum = basis_.rightCols(added);
+  for (Index i = 0; i < momentum.rows(); ++i) momentum.row(i) *= inertia_at(inertia_, static_cast<std::size_t>(i));
+  widen(mass_, products(basis_, momentum));
+}
+
+ReducedModel::Solution ReducedModel::solve(const std::array<std::optional<Law>, pair_types>& laws,
+                                           const HarmonicLoad& load) const {
+  const Complex s = load.s(), inertia = load.density_scaling * (s * s + s * load.viscous_damping);
+  const PairStiffness stiffness = pair_stiffness(laws, s);
+  Eigen::MatrixXcd whole = inertia * mass_;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    whole += stiffness.k[pair] * normal_[pair];
+    whole += stiffness.k[pair] * stiffness.alpha[pair] * shear_[pair];
+  }
+  Solution out;
+  out.of_the_motions = VectorXcd::Ones(basis_.cols());
+  const Index free = basis_.cols() - 1;
+  if (free > 0) {
+    // degrees of freedom have no common unit, and stiff walls dwarf the rest: each row by its own diagonal
+    const Eigen::VectorXd scale = whole.diagonal().tail(free).cwiseAbs().cwiseSqrt().cwiseInverse();
+    const Eigen::MatrixXcd scaled = scale.asDiagonal() * whole.bottomRightCorner(free, free) * scale.asDiagonal();
+    const VectorXcd right = scale.asDiagonal() * whole.bottomLeftCorner(free, 1);
+    out.of_the_motions.tail(free) = -(scale.asDiagonal() * scaled.partialPivLu().solve(right));
+  }
+  if (!out.of_the_motions.allFinite()) throw RunError("harmonic: no solution between the motions known");
+  const Vec3d& box = specimen_.box.size;
+  const double to_modulus = box.z / (box.x * box.y);
+  const auto energy = [&](const Matrix& m) -> Complex {  // without conjugates
+    return to_modulus * (out.of_the_motions.transpose() * m * out.of_the_motions).value();
+  };
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    out.parts.normal[pair] = stiffness.k[pair] * energy(normal_[pair]);
+    out.parts.shear[pair] = stiffness.k[pair] * stiffness.alpha[pair] * energy(shear_[pair]);
+  }
+  out.parts.inertia = inertia * energy(mass_);
+  return out;
+}
+
+Vector ReducedModel::motion(const Solution& solution) const {
+  Vector out(static_cast<std::size_t>(basis_.rows()));
+#pragma omp parallel for schedule(static)
+  for (Index i = 0; i < basis_.rows(); ++i) {
+    Complex sum = 0;
+    for (Index j = 0; j < basis_.cols(); ++j) sum += basis_(i, j) * solution.of_the_motions[j];
+    out[static_cast<std::size_t>(i)] = sum;
+  }
+  return out;
+}
+
+}  // namespace macadam::harmonic
