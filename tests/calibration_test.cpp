@@ -78,12 +78,23 @@ std::string message_of(const std::function<void()>& f) {
 }
 #define EXPECT_SAYS(what, part) EXPECT_NE(message_of(what).find(part), std::string::npos) << message_of(what)
 
-class Truth : public testing::TestWithParam<bool> {};
-INSTANTIATE_TEST_SUITE_P(Calibration, Truth, testing::Bool(),
-                         [](const auto& info) { return info.param ? "with_inertia" : "without_inertia"; });
+/// Solved with inertia or without, on a backend.
+class Truth : public testing::TestWithParam<std::tuple<bool, Backend>> {
+ protected:
+  static Scene t8() {
+    Scene out = t8_scene(std::get<0>(GetParam()));
+    out.solver.backend = std::get<1>(GetParam());
+    return out;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Calibration, Truth, testing::Combine(testing::Bool(), testing::ValuesIn(tested_backends())),
+                         [](const auto& info) {
+                           return std::string(std::get<0>(info.param) ? "with" : "without") + "_inertia_" +
+                                  to_string(std::get<1>(info.param));
+                         });
 
 TEST_P(Truth, IsRecovered) {
-  Scene truth = t8_scene(GetParam());
+  Scene truth = t8();
   scale(truth, PairType::ma, 1.68);
   scale(truth, PairType::mm, 0.7);
   auto& mm = std::get<laws::GeneralisedKelvin>(*truth.laws[static_cast<std::size_t>(PairType::mm)]);
@@ -92,7 +103,7 @@ TEST_P(Truth, IsRecovered) {
   for (const Misfit misfit : {Misfit::modulus_and_phase, Misfit::parts}) {
     CalibrationOptions options = freeing({"M-A.delta", "M-M.delta", "M-M.alpha", "M-M.E_2"});
     options.misfit = misfit;
-    const Calibration c = calibrate(t8_scene(GetParam()), data, options);
+    const Calibration c = calibrate(t8(), data, options);
     const double expected[] = {1.68, 0.7, 0.15, chain(t8_scene(), PairType::mm).E[1] * 2};
     for (std::size_t i = 0; i < c.parameters.size(); ++i)
       EXPECT_NEAR(c.parameters[i].value / expected[i], 1, 1e-6) << c.parameters[i].name;
@@ -103,10 +114,11 @@ TEST_P(Truth, IsRecovered) {
 
 /// Pairs of spheres make up aggregates, in a specimen of 80 spheres.
 TEST_P(Truth, OfClustersIsRecovered) {
-  const fs::path file = fs::path(testing::TempDir()) / fmt::format("clusters_{}_{}.csv", GetParam(), getpid());
+  const fs::path file = fs::path(testing::TempDir()) / fmt::format("clusters_{}_{}_{}.csv", std::get<0>(GetParam()),
+                                                                   to_string(std::get<1>(GetParam())), getpid());
   const Specimen specimen = random_specimen(1);
   write_specimen_csv(file, specimen);
-  Scene start = t8_scene(GetParam());
+  Scene start = t8();
   start.specimen.file = file;
   start.specimen.box = specimen.box;
   Scene truth = start;
@@ -119,11 +131,10 @@ TEST_P(Truth, OfClustersIsRecovered) {
 }
 
 TEST_P(Truth, OfTwoFactorsTakesFewTrials) {
-  Scene truth = t8_scene(GetParam());
+  Scene truth = t8();
   scale(truth, PairType::ma, 1.68);
   scale(truth, PairType::mm, 0.7);
-  const Calibration c =
-      calibrate(t8_scene(GetParam()), measured(truth, {0.5, 2, 8, 20}), freeing({"M-A.delta", "M-M.delta"}));
+  const Calibration c = calibrate(t8(), measured(truth, {0.5, 2, 8, 20}), freeing({"M-A.delta", "M-M.delta"}));
   EXPECT_NEAR(c.parameters[0].value, 1.68, 1.68e-6);
   EXPECT_NEAR(c.parameters[1].value, 0.7, 0.7e-6);
   EXPECT_LT(c.solutions, 7);
