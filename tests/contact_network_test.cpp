@@ -272,6 +272,31 @@ TEST_F(RandomNetwork, Filters) {
   EXPECT_EQ(static_cast<std::int64_t>(n.contacts.size()), particle_facets + on_walls - wide - small);
 }
 
+/// A pair's own limit is in place of the network's, for that pair alone.
+TEST_F(RandomNetwork, LimitsOfOnePair) {
+  const auto left = [&](const NetworkSpec& s) { return build_network(specimen, tessellation, s).count; };
+  const auto filtered = [&](auto set) {
+    NetworkSpec s = spec;
+    set(s);
+    return left(s);
+  };
+  const auto all = left(spec);
+  const auto none = filtered([](NetworkSpec& s) { s.gap_max = -1.9; });
+  for (int k = 0; k < particle_pair_types; ++k) {
+    ASSERT_GT(all[k], none[k]) << to_string(static_cast<PairType>(k));
+    const auto one = filtered([k](NetworkSpec& s) { s.of_pair[k].gap_max = -1.9; });
+    const auto others = filtered([k](NetworkSpec& s) { s.gap_max = -1.9, s.of_pair[k].gap_max = 1e9; });
+    const auto large = filtered([k](NetworkSpec& s) { s.of_pair[k].area_min = 1e9; });
+    const auto others_large = filtered([k](NetworkSpec& s) { s.area_min = 1e9, s.of_pair[k].area_min = 0; });
+    for (int pair = 0; pair < particle_pair_types; ++pair) {
+      EXPECT_EQ(one[pair], pair == k ? none[pair] : all[pair]);
+      EXPECT_EQ(others[pair], pair == k ? all[pair] : none[pair]);
+      EXPECT_EQ(large[pair], pair == k ? 0 : all[pair]);
+      EXPECT_EQ(others_large[pair], pair == k ? all[pair] : 0);
+    }
+  }
+}
+
 TEST(ContactNetwork, PairTypesOfAChain) {
   Specimen s;
   s.box.size = {1, 1, 6};
@@ -384,6 +409,9 @@ TEST(ContactNetwork, NothingLeftIsAnError) {
   EXPECT_NE(message(s, no_contact).find("12 dropped by gap_max"), std::string::npos) << message(s, no_contact);
   EXPECT_NE(message(s, filters({}, -1)).find("area_min"), std::string::npos);
   EXPECT_NE(message(s, filters(NAN, {})).find("gap_max"), std::string::npos);
+  NetworkSpec of_pair;
+  of_pair.of_pair[static_cast<int>(PairType::aa)].area_min = -1;
+  EXPECT_NE(message(s, of_pair).find("area_min of A-A"), std::string::npos);
 }
 
 TEST(ContactNetwork, TessellationOfAnotherSpecimenIsRefused) {

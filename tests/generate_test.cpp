@@ -100,6 +100,16 @@ TEST(Generate, AggregatesAreInsideAndClearOfEachOther) {
   EXPECT_EQ(g.residual_overlap, 0);
 }
 
+TEST(Generate, AggregatesKeepTheSpacing) {
+  SpecimenSpec spec = small_mix();
+  spec.spacing = 4e-4;
+  const Specimen s = generate_specimen(spec).specimen;
+  expect_sound_aggregates(s);
+  for (std::size_t i = 0; s.phase[i] == Phase::aggregate; ++i)
+    for (std::size_t j = 0; j < i; ++j)  // 1e-15 m: rounding of positions in a box of centimetres
+      EXPECT_GE(norm(s.centre[i] - s.centre[j]), s.radius[i] + s.radius[j] + spec.spacing - 1e-15) << i << " and " << j;
+}
+
 TEST(Generate, CompositionIsWhatWasAsked) {
   const GeneratedSpecimen g = generate_specimen(small_mix());
   ASSERT_EQ(g.composition.size(), 3u);
@@ -270,10 +280,10 @@ TEST(Relax, WhatAWallThrowsIsThrown) {
     s.phase.push_back(Phase::mastic);
     s.body.push_back(-1);
   }
-  const Wall wall = [](const Vec3d& c, double) -> WallDepth {
+  const Wall wall{[](const Vec3d& c, double) -> WallDepth {
     if (c.z > 0.5) throw std::bad_alloc();
     return {1, {}};
-  };
+  }};
   EXPECT_THROW(relax(
                    s, false, [](double) {}, wall),
                std::bad_alloc);
@@ -287,6 +297,8 @@ TEST(Generate, ImpossibleRecipesAreRefused) {
     return spec;
   };
   using S = SpecimenSpec;
+  expect_refused(spoilt([](S& s) { s.spacing = -1e-4; }), "spacing");
+  expect_refused(spoilt([nan](S& s) { s.spacing = nan; }), "spacing");
   expect_refused(spoilt([](S& s) { s.box.size.y = 0; }), "box: edge: found 0");
   expect_refused(spoilt([&](S& s) { s.box.size.y = nan; }), "box: edge: found nan");
   expect_refused(spoilt([](S& s) { s.attempts = 0; }), "attempts: found 0");

@@ -37,7 +37,10 @@ least = 5
 single = "volume"
 placement = "insertion"
 allow_short = true
-)")
+test = "spheres"
+hold_out = 2.5
+)",
+                                "spacing = \"0.1 mm\"\n")
                               .specimen.shapes;
   EXPECT_EQ(spec.library, ShapeSpec::Library::icosahedron);
   EXPECT_EQ(spec.fill.radius_min, 0.75e-3);
@@ -47,6 +50,12 @@ allow_short = true
   EXPECT_EQ(spec.fill.single, SingleSphere::volume);
   EXPECT_EQ(spec.placement, PlacementMethod::insertion);
   EXPECT_TRUE(spec.allow_short);
+  EXPECT_EQ(spec.test, PlacementTest::spheres);
+  EXPECT_EQ(spec.hold_out, 2.5);
+  const std::string inserted = "[specimen.shapes]\nradius = [0.001, 0.002]\nplacement = \"insertion\"\n";
+  EXPECT_EQ(scene(inserted, "spacing = \"0.1 mm\"\n").specimen.spacing, 1e-4);
+  EXPECT_EQ(scene(inserted + "library = \"aggregates and icosahedron\"\n").specimen.shapes->library,
+            ShapeSpec::Library::aggregates_and_icosahedron);
 }
 
 TEST_F(SceneShapes, HaveDefaults) {
@@ -57,6 +66,9 @@ TEST_F(SceneShapes, HaveDefaults) {
   EXPECT_EQ(spec.fill.single, SingleSphere::intermediate);
   EXPECT_EQ(spec.placement, PlacementMethod::packing);
   EXPECT_FALSE(spec.allow_short);
+  EXPECT_EQ(spec.test, PlacementTest::surfaces);
+  EXPECT_EQ(spec.hold_out, 0);
+  EXPECT_EQ(scene("").specimen.spacing, 0);
   EXPECT_FALSE(scene("").specimen.shapes);
 }
 
@@ -80,6 +92,12 @@ TEST_F(SceneShapes, AreRefusedAtTheirLine) {
   EXPECT_HAS(refused(start + "allow_short = true\n"), "insertion");
   EXPECT_HAS(refused(start + "placement = \"insertion\"\ngap = 0.1\n"), "packing");
   EXPECT_HAS(refused(start, "fix_aggregates = false\n"), "fix_aggregates");
+  EXPECT_HAS(refused(start, "spacing = \"0.1 mm\"\n"), "gap in [specimen.shapes]");
+  EXPECT_HAS(refused(start, "spacing = -1e-4\n"), "not negative");
+  EXPECT_HAS(refused(start + "test = \"spheres\"\n"), "placement = \"insertion\"");
+  EXPECT_HAS(refused(start + "test = \"hulls\"\n"), "surfaces");
+  EXPECT_HAS(refused(start + "hold_out = 11\n"), "from 0 to 10");
+  EXPECT_HAS(refused(start + "hold_out = -1\n"), "from 0 to 10");
   for (const char* gap : {"0.9", "0.5", "0", "-0.01", "nan"})
     EXPECT_HAS(refused(fmt::format("{}gap = {}\n", start, gap)), ":8:") << gap;
 }

@@ -171,8 +171,8 @@ TEST_F(SceneFile, ReadsTheOtherChoices) {
                                     {6, "count = 12"},
                                     {9, "porosity = -0.017"},
                                     {18, "C_m = inf"},
-                                    {19, ""},
-                                    {20, ""},
+                                    {19, "gap_max = 0.5"},
+                                    {20, "area_min = 0"},
                                     {28, "quadrature = \"exact\"\ngap_max = 0\narea_min = 0.026\nlateral_walls = true"},
                                     {33, "cycles = 6\nfit_cycles = 3\nsamples_per_cycle = 8"},
                                     {36, "method = \"harmonic\"\ninertia = true\nsafety = 1"},
@@ -190,6 +190,9 @@ TEST_F(SceneFile, ReadsTheOtherChoices) {
   EXPECT_EQ(scene.network.quadrature, Quadrature::exact);
   EXPECT_EQ(scene.network.gap_max, 0.0);
   EXPECT_EQ(scene.network.area_min, 0.026);
+  EXPECT_EQ(scene.network.of_pair[int(PairType::mm)].gap_max, 0.5);
+  EXPECT_EQ(scene.network.of_pair[int(PairType::mm)].area_min, 0.0);
+  EXPECT_FALSE(scene.network.of_pair[int(PairType::ma)].gap_max);
   EXPECT_TRUE(scene.network.lateral_walls);
   EXPECT_EQ(scene.loading.fit_cycles, 3);
   EXPECT_EQ(scene.solver.method, SolverMethod::harmonic);
@@ -341,6 +344,10 @@ const std::vector<Wrong> wrong_scenes = {
     {"FewSamples", {{34, "samples_per_cycle = 7"}}, 34, "7", "an integer from 8"},
     {"NegativeGapTooLarge", {{28, "gap_max = -2"}}, 28, "-2", "above -2"},
     {"NegativeArea", {{28, "area_min = -0.1"}}, 28, "-0.1", "not negative"},
+    {"NegativeGapOfAPairTooLarge", {{21, "gap_max = -2"}}, 21, "-2", "above -2"},
+    {"NegativeAreaOfAPair", {{21, "area_min = -0.1"}}, 21, "-0.1", "not negative"},
+    {"GapOfAWall", {{26, "gap_max = 0"}}, 26, "a wall", "every facet on a wall is a contact"},
+    {"AreaOfAWall", {{26, "area_min = 0"}}, 26, "a wall", "every facet on a wall is a contact"},
     {"SafetyAboveOne", {{38, "safety = 1.2"}}, 38, "1.2", "at most 1"},
     {"SafetyZero", {{38, "safety = 0"}}, 38, "0", "above 0"},
     {"ScalingZero", {{37, "density_scaling = 0"}}, 37, "0", "positive"},

@@ -210,6 +210,78 @@ TEST(ShapePlacement, FailedInsertionSaysHowFarItGot) {
   EXPECT_GT(p.row[1].fraction, 0.1);
 }
 
+/// Two spheres in each shape, far apart and well within it.
+std::vector<MultiSphere> dumbbells(const ShapeComposition& c, const std::vector<ShapeTemplate>& shapes) {
+  std::vector<MultiSphere> out;
+  for (const AggregateRequest& r : c.aggregate) {
+    if (r.sphere)
+      out.push_back({{Vec3d{}}, {r.size * shapes[r.shape].sphere_size / 2}});
+    else
+      out.push_back({{{-0.3 * r.size, 0, 0}, {0.3 * r.size, 0, 0}}, {0.15 * r.size, 0.2 * r.size}});
+  }
+  return out;
+}
+
+/// Spheres that are tested in place of surfaces keep their distance, and let surfaces interlock that could not be
+/// placed.
+TEST(ShapePlacement, TestedBySpheresTheyInterlock) {
+  const std::vector<ShapeTemplate> shapes = stones();
+  const SpecimenSpec spec = small_mix(0.7);  // too much for surfaces: FailedInsertionSaysHowFarItGot
+  const ShapeComposition c = compose_shapes(spec, shapes, small_ones);
+  for (const double spacing : {0.0, 2e-4}) {
+    ShapePlacementSpec how;
+    how.method = PlacementMethod::insertion, how.attempts = 30'000;
+    how.spheres = dumbbells(c, shapes), how.spacing = spacing;
+    const ShapePlacement p = place_shapes(spec.box, shapes, c, how);
+    ASSERT_EQ(p.aggregate.size(), c.aggregate.size());
+    int interlocked = 0;
+    for (std::size_t i = 0; i < p.aggregate.size(); ++i) {
+      ASSERT_EQ(p.request[i], i);
+      const auto moved = [&](std::size_t k) {
+        MultiSphere s = how.spheres[k];
+        for (Vec3d& x : s.centre) x = Pose{p.aggregate[k].pose.centre, p.aggregate[k].pose.turn, 1}(x);
+        return s;
+      };
+      const MultiSphere a = moved(i);
+      for (std::size_t m = 0; m < a.size(); ++m) {  // 1e-15 m: rounding of a position in this box, as above
+        const Vec3d x = a.centre[m], l = spec.box.size;
+        EXPECT_GE(std::min({x.x, x.y, x.z, l.x - x.x, l.y - x.y, l.z - x.z}), a.radius[m] - 1e-15);
+      }
+      for (std::size_t j = 0; j < i; ++j) {
+        const MultiSphere b = moved(j);
+        for (std::size_t m = 0; m < a.size(); ++m)
+          for (std::size_t n = 0; n < b.size(); ++n)
+            EXPECT_GE(norm(a.centre[m] - b.centre[n]), a.radius[m] + b.radius[n] + spacing - 1e-15) << i << " " << j;
+        interlocked +=
+            !p.aggregate[i].sphere && !p.aggregate[j].sphere && brute_overlap(p.aggregate[i], p.aggregate[j], shapes);
+      }
+    }
+    EXPECT_GT(interlocked, 0);
+  }
+}
+
+TEST(ShapePlacement, SurfacesKeepTheSpacing) {
+  const std::vector<ShapeTemplate> shapes = stones();
+  const SpecimenSpec spec = small_mix(0.2);
+  const ShapeComposition c = compose_shapes(spec, shapes, small_ones);
+  ShapePlacementSpec how;
+  how.method = PlacementMethod::insertion, how.spacing = 5e-4;
+  const ShapePlacement p = place_shapes(spec.box, shapes, c, how);
+  expect_sound(spec.box, p, shapes);
+  std::vector<Surface> placed;
+  for (const PlacedAggregate& a : p.aggregate) placed.push_back(test::placed_surface(a, shapes));
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    for (std::size_t j = 0; j < placed.size(); ++j) {
+      const PlacedAggregate &a = p.aggregate[i], &b = p.aggregate[j];
+      if (i == j || b.sphere) continue;
+      const double reach = a.sphere ? a.pose.scale * shapes[a.shape].d_intermediate / 2 : 0;
+      // a field of 40 cells along a shape, and samples within 0.003 of D^I
+      const double rough = a.sphere ? 1e-12 : 0.03 * b.pose.scale * shapes[b.shape].d_intermediate;
+      for (const Vec3d& x : a.sphere ? std::vector{a.pose.centre} : placed[i].points)
+        EXPECT_GT(test::signed_distance(placed[j], x) - reach, how.spacing - rough) << i << " " << j;
+    }
+}
+
 TEST(ShapePlacement, JammedPackingSaysWhere) {
   const std::vector<ShapeTemplate> shapes = stones();
   SpecimenSpec spec = small_mix(0.9);
@@ -234,8 +306,15 @@ TEST(ShapePlacement, SizesAndSettingsOutOfRangeAreRefused) {
     c.aggregate[0] = bad;
     EXPECT_NE(message(c, {}).find("expected"), std::string::npos);
   }
-  for (const auto& spoil : {+[](ShapePlacementSpec& s) { s.attempts = 0; }, +[](ShapePlacementSpec& s) { s.gap = 0; },
-                            +[](ShapePlacementSpec& s) { s.gap = 0.5; }}) {
+  for (const auto& spoil :
+       {+[](ShapePlacementSpec& s) { s.attempts = 0; }, +[](ShapePlacementSpec& s) { s.gap = 0; },
+        +[](ShapePlacementSpec& s) { s.gap = 0.5; }, +[](ShapePlacementSpec& s) { s.spacing = 1e-3; },  // with packing
+        +[](ShapePlacementSpec& s) { s.method = PlacementMethod::insertion, s.spacing = -1e-3; },
+        +[](ShapePlacementSpec& s) { s.spheres.resize(1); },
+        +[](ShapePlacementSpec& s) {
+          s.method = PlacementMethod::insertion;
+          s.spheres.resize(2);
+        }}) {
     ShapePlacementSpec how;
     spoil(how);
     EXPECT_NE(message(good, how).find("expected"), std::string::npos);

@@ -15,14 +15,20 @@
 namespace macadam {
 namespace {
 
+void check_limits(const FacetLimits& limits, const std::string& of) {
+  if (limits.gap_max && !std::isfinite(*limits.gap_max))
+    throw InputError("network", 0, "gap_max" + of, fmt::format("{}", *limits.gap_max), "a finite number");
+  if (limits.area_min && !(*limits.area_min >= 0 && std::isfinite(*limits.area_min)))
+    throw InputError("network", 0, "area_min" + of, fmt::format("{}", *limits.area_min), "a finite number, 0 or more");
+}
+
 void check_input(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec) {
   if (tessellation.cell_volume.size() != specimen.size())
     throw InputError("network", 0, "cells of the tessellation", std::to_string(tessellation.cell_volume.size()),
                      std::to_string(specimen.size()) + ", the specimen's particles");
-  if (spec.gap_max && !std::isfinite(*spec.gap_max))
-    throw InputError("network", 0, "gap_max", fmt::format("{}", *spec.gap_max), "a finite number");
-  if (spec.area_min && !(*spec.area_min >= 0 && std::isfinite(*spec.area_min)))
-    throw InputError("network", 0, "area_min", fmt::format("{}", *spec.area_min), "a finite number, 0 or more");
+  check_limits(spec, "");
+  for (int k = 0; k < particle_pair_types; ++k)
+    check_limits(spec.of_pair[k], std::string(" of ") + to_string(static_cast<PairType>(k)));
   if (const auto& hidden = tessellation.hidden; !hidden.empty()) {
     constexpr std::size_t named = 10;
     std::string found = std::to_string(hidden.size()) + " without (particle";
@@ -177,14 +183,20 @@ void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t) {
 ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec) {
   check_input(specimen, tessellation, spec);
   ContactNetwork out;
-  const double smallest = spec.area_min.value_or(0) * mean_facet_area(tessellation);
+  std::array<FacetLimits, particle_pair_types> limits = spec.of_pair;
+  for (FacetLimits& l : limits) {
+    if (!l.gap_max) l.gap_max = spec.gap_max;
+    if (!l.area_min) l.area_min = spec.area_min;
+  }
+  const double mean_area = mean_facet_area(tessellation);
   double dropped = 0, kept = 0;
   const auto wanted = [&](const Facet& f) {
     if (f.b < 0) return f.b <= wall_z_lo ? spec.bottom_top_walls : spec.lateral_walls;
     const double radii = specimen.radius[f.a] + specimen.radius[f.b];
     const double gap = norm(specimen.centre[f.b] - specimen.centre[f.a]) - radii;
-    if (spec.gap_max && gap > *spec.gap_max * 0.5 * radii) return ++out.dropped_gap, false;
-    if (f.area < smallest) return ++out.dropped_area, dropped += f.area, false;
+    const FacetLimits& limit = limits[static_cast<std::size_t>(pair_of(specimen, f))];
+    if (limit.gap_max && gap > *limit.gap_max * 0.5 * radii) return ++out.dropped_gap, false;
+    if (f.area < limit.area_min.value_or(0) * mean_area) return ++out.dropped_area, dropped += f.area, false;
     return true;
   };
   double difference = 0, total = 0;

@@ -71,7 +71,14 @@ Law law_named_in(const Section& section) {
 
 }  // namespace
 
-LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas) {
+std::vector<Key> keys_of(FacetLimits& limits) {
+  // d − R_a − R_b over the mean radius is d/mean − 2.
+  constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, where centres coincide"};
+  return {{"gap_max", Need::optional, into(limits.gap_max, ratio, gap)},
+          {"area_min", Need::optional, into(limits.area_min, ratio, non_negative)}};
+}
+
+LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network) {
   std::vector<std::string> pairs;
   for (int i = 0; i < pair_types; ++i) pairs.emplace_back(to_string(static_cast<PairType>(i)));
 
@@ -80,6 +87,7 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
     std::size_t pair = 0;
     double delta = 1;
     ShiftKeys shift;
+    FacetLimits limits;
     Law read_law = law_named_in(section);
     std::visit(
         [&](auto& law) {
@@ -88,6 +96,7 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
                                 {"alpha", Need::optional, into(law.alpha, ratio, non_negative)},
                                 {"delta", Need::optional, into(delta, ratio, positive)}};
           for (Key& key : keys_of(law)) keys.push_back(std::move(key));
+          for (Key& key : keys_of(limits)) keys.push_back(std::move(key));
           constexpr bool flows = !std::is_same_v<std::decay_t<decltype(law)>, laws::Elastic>;
           if constexpr (flows)
             for (Key& key : shift.keys()) keys.push_back(std::move(key));
@@ -104,6 +113,12 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
     if (table[pair]) section.refuse("pair", fmt::format("\"{}\" again", pairs[pair]), "each pair once");
     table[pair] = std::move(read_law);
     deltas[pair] = delta;
+    if (pair < network.of_pair.size()) {
+      network.of_pair[pair] = limits;
+    } else if (limits.gap_max || limits.area_min) {
+      section.refuse(limits.gap_max ? "gap_max" : "area_min", "this key of a pair with a wall",
+                     "a pair of two particles: every facet on a wall is a contact");
+    }
   }
   return table;
 }

@@ -174,6 +174,7 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
                  into<SizeLaw>(spec.size_law, {{"log_uniform", SizeLaw::log_uniform},
                                                {"uniform", SizeLaw::uniform},
                                                {"volume_uniform", SizeLaw::volume_uniform}})},
+                {"spacing", Need::optional, into(spec.spacing, length, non_negative)},
                 {"fix_aggregates", Need::optional, into(spec.fix_aggregates)},
                 {"attempts", Need::optional, into(spec.attempts, 1)},
                 {"aggregate", Need::optional, read_classes},
@@ -182,7 +183,7 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
                 {"mastic", Need::optional, read_the_mastic}});
   if (spec.file) {
     for (const char* key :
-         {"recipe", "aggregate", "shapes", "mastic", "seed", "size_law", "fix_aggregates", "attempts"}) {
+         {"recipe", "aggregate", "shapes", "mastic", "seed", "size_law", "spacing", "fix_aggregates", "attempts"}) {
       if (section.has(key)) section.refuse(key, "this key of the generator beside file", "one of the two");
     }
   } else if (spec.aggregate.empty() && !spec.mastic && !recipe) {
@@ -192,6 +193,9 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
     need_possible(section, spec);
     if (spec.shapes && spec.aggregate.empty())
       section.refuse("shapes", "shapes without aggregates", "[[specimen.aggregate]] with sieves of the shapes' D^I");
+    if (spec.shapes && spec.shapes->placement == PlacementMethod::packing && spec.spacing > 0)
+      section.refuse("spacing", "a spacing with placement = \"packing\"",
+                     "gap in [specimen.shapes], or placement = \"insertion\" there");
     if (spec.shapes && !spec.fix_aggregates)
       section.refuse("fix_aggregates", "false with shapes", "true, as the spheres of a shape would part");
   }

@@ -65,18 +65,14 @@ Materials read_materials(const Section& section, Need need) {
   return materials;
 }
 
-NetworkSpec read_network(const Section& section) {
-  // d − R_a − R_b over the mean radius is d/mean − 2.
-  constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, where centres coincide"};
-  NetworkSpec spec;
-  section.read({{"gap_max", Need::optional, into(spec.gap_max, ratio, gap)},
-                {"area_min", Need::optional, into(spec.area_min, ratio, non_negative)},
-                {"quadrature", Need::optional,
-                 into<Quadrature>(spec.quadrature, {{"lumped", Quadrature::lumped},
-                                                    {"exact", Quadrature::exact},
-                                                    {"one_point", Quadrature::one_point}})},
-                {"lateral_walls", Need::optional, into(spec.lateral_walls)}});
-  return spec;
+void read_network(const Section& section, NetworkSpec& spec) {
+  std::vector<Key> keys = keys_of(spec);
+  keys.push_back({"quadrature", Need::optional,
+                  into<Quadrature>(spec.quadrature, {{"lumped", Quadrature::lumped},
+                                                     {"exact", Quadrature::exact},
+                                                     {"one_point", Quadrature::one_point}})});
+  keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls)});
+  section.read(keys);
 }
 
 /// What can only be said of two sections together.
@@ -182,8 +178,8 @@ Scene read_scene(const std::filesystem::path& file) {
   root.read({{"specimen", Need::required, read_the_specimen},
              {"materials", densities, [&](const Value& v) { out.materials = read_materials(v.section(), densities); }},
              {"contacts", Need::required,
-              [&](const Value& v) { out.laws = read_contacts(v.sections(), out.shifts, out.deltas); }},
-             {"network", Need::optional, [&](const Value& v) { out.network = read_network(v.section()); }},
+              [&](const Value& v) { out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network); }},
+             {"network", Need::optional, [&](const Value& v) { read_network(v.section(), out.network); }},
              {"loading", Need::required, [&](const Value& v) { out.loading = read_loading(v.section()); }},
              {"solver", Need::optional, [&](const Value& v) { out.solver = read_solver(v.section(), out.loading); }},
              {"output", Need::optional, [&](const Value& v) {

@@ -30,10 +30,14 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
 /// A reader of `[min, max]` [m] with 0 < min ≤ max.
 Reader range_into(double& low, double& high);
 
-/// Reads every `[[contacts]]`; laws are at their reference temperatures, how they shift goes into
-/// `shifts`, what was multiplied into them into `deltas`.
+/// The keys of limits on facets, in `[network]` or of one pair.
+std::vector<Key> keys_of(FacetLimits& limits);
+
+/// Reads every `[[contacts]]`; laws are at their reference temperatures, how they shift goes into `shifts`, what was
+/// multiplied into them into `deltas`, limits on
+/// a pair's facets into `network`.
 /// \throws InputError
-LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas);
+LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network);
 
 /// Brings the laws to the scene's temperature, and checks that each temperature that it names means something.
 /// \throws InputError

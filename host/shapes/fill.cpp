@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "host/spheres/random_stream.hpp"
@@ -71,6 +72,18 @@ double ShapeFiller::single_radius(SingleSphere rule) const {
   throw InputError(name_, 0, "fill: single", std::to_string(static_cast<int>(rule)), "a rule of SingleSphere");
 }
 
+bool ShapeFiller::may_reach(const Vec3d& p, double reach) const {
+  const Vec3d low = distance_.low(), high = distance_.high(), way = p - measure_.centre_bounding;
+  const double far = measure_.radius_bounding + reach;
+  return dot(way, way) <= far * far && p.x >= low.x - reach && p.x <= high.x + reach && p.y >= low.y - reach &&
+         p.y <= high.y + reach && p.z >= low.z - reach && p.z <= high.z + reach;
+}
+
+WallDepth ShapeFiller::above(const Vec3d& point) const {
+  const WallDepth below = distance_.below(point, std::numeric_limits<double>::infinity());
+  return {-below.depth, -below.inward};
+}
+
 /// A random point where a sphere has room below the surface; where that is rare, the deepest of those tried.
 Vec3d ShapeFiller::position(double radius, RandomStream& random) const {
   const Vec3d low = distance_.low(), high = distance_.high();
@@ -100,7 +113,7 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
   const double r = cluster.radius.front();  // the largest: no side of the box comes near a sphere
   const Vec3d low = distance_.low() - Vec3d{r, r, r}, high = distance_.high() + Vec3d{r, r, r};
   Specimen boxed = in_box(cluster, low, high);
-  const Wall wall = [&](const Vec3d& point, double reach) { return distance_.below(low + point, reach); };
+  const Wall wall{[&](const Vec3d& point, double reach) { return distance_.below(low + point, reach); }};
   std::vector<std::int32_t> hidden;
   for (int round = 0; round == 0 || !hidden.empty(); ++round) {
     if (round == most_rounds)

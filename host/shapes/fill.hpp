@@ -29,6 +29,12 @@ class ShapeFiller {
     return distance_.may_contain(point) && distance_.below(point, 0).depth > 0;
   }
 
+  /// Whether a point, in the surface's own frame and scale, may be within `reach` of the surface or inside.
+  bool may_reach(const Vec3d& point, double reach) const;
+
+  /// Signed distance of a point outside the surface, in its own frame and scale, and the way out.
+  WallDepth above(const Vec3d& point) const;
+
   /// fill_shape() of a copy `scale` times as large about the origin of the surface's frame. `spec` is of the copy.
   /// \throws InputError for an impossible spec or scale; RunError where spheres remain without a Laguerre cell.
   MultiSphere fill(double scale, const FillSpec& spec) const;

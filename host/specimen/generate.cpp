@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file generate.cpp  The generator: compose, place, relax, and make sure that every sphere has a Laguerre cell.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "host/specimen/composition.hpp"
@@ -8,6 +9,7 @@
 #include "host/specimen/shaped_aggregates.hpp"
 #include "host/spheres/relaxation.hpp"
 #include "host/spheres/size_law.hpp"
+#include "host/spheres/specimen_check.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"
 
@@ -47,13 +49,14 @@ Placement with_spheres(const SpecimenSpec& spec, GeneratedSpecimen& result,
     for (const Population& p : *populations) result.composition.push_back(p.row);
   Placement placement(result.specimen, smallest_aggregate(composition, spec.box), spec.attempts,
                       RandomStream(spec.seed, placement_stream), Origin(spec));
-  describe(result.specimen, placement.place_aggregates(composition.aggregate, progress), result.aggregates);
+  describe(result.specimen, placement.place_aggregates(composition.aggregate, spec.spacing, progress),
+           result.aggregates);
   for (const Population& p : composition.mastic) placement.place_mastic(p);
   return placement;
 }
 
-/// Aggregates of real shape, and the mastic.
-Placement with_shapes(const SpecimenSpec& spec, GeneratedSpecimen& result,
+/// Aggregates of real shape, and the mastic; `wall` will hold it out of the shapes where that is asked for.
+Placement with_shapes(const SpecimenSpec& spec, GeneratedSpecimen& result, Wall& wall,
                       const std::function<void(const char* stage, double share)>& progress) {
   if (!spec.fix_aggregates)
     throw InputError(spec.source, spec.line, "fix_aggregates", "false", "true, as the spheres of a shape would part");
@@ -70,6 +73,7 @@ Placement with_shapes(const SpecimenSpec& spec, GeneratedSpecimen& result,
     placement.place_mastic(p);
   }
   result.aggregates = std::move(shaped.aggregate);
+  wall = std::move(shaped.outside);
   return placement;
 }
 
@@ -94,6 +98,8 @@ GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
                                     const std::function<void(const char* stage, double share)>& progress) {
   if (spec.file)
     throw InputError(spec.source, spec.line, "recipe", "the file " + spec.file->string(), "no file to generate");
+  if (!(spec.spacing >= 0 && std::isfinite(spec.spacing)))
+    throw InputError(spec.source, spec.line, "spacing", shown(spec.spacing) + " m", "a finite length, not negative");
   const auto report = [&](const char* stage) {
     return [&progress, stage](double share) {
       if (progress) progress(stage, share);
@@ -104,13 +110,14 @@ GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
   Specimen& specimen = result.specimen;
   specimen.box = spec.box;
   specimen.source = spec.line > 0 ? "specimen generated from " + spec.source : "generated specimen";
-  Placement placement =
-      spec.shapes ? with_shapes(spec, result, progress) : with_spheres(spec, result, report("placing aggregates"));
+  Wall wall;
+  Placement placement = spec.shapes ? with_shapes(spec, result, wall, progress)
+                                    : with_spheres(spec, result, report("placing aggregates"));
 
   std::vector<std::int32_t> hidden;
   for (int round = 0; round < most_rounds; ++round) {
     reinsert(hidden, specimen, placement);
-    result.relaxation_iterations += relax(specimen, spec.fix_aggregates, report("relaxing mastic"));
+    result.relaxation_iterations += relax(specimen, spec.fix_aggregates, report("relaxing mastic"), wall);
     hidden = particles_without_cell(specimen);
     if (hidden.empty()) break;
   }

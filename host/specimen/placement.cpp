@@ -68,16 +68,16 @@ Placement::Placement(Specimen& specimen, double smallest, std::int64_t attempts,
       origin_(origin),
       taken_(std::move(taken)) {}
 
-std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Population>& classes,
+std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Population>& classes, double spacing,
                                                       const std::function<void(double share)>& progress) {
   const std::vector<Waiting> all = largest_first(classes);
   std::vector<std::int32_t> size_class;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const std::optional<Vec3d> centre = position_for(all[k].radius);
+    const std::optional<Vec3d> centre = position_for(all[k].radius, spacing);
     if (!centre)
       throw RunError(classes[all[k].population].origin.text() +
                      no_room(classes[all[k].population], all[k].rank, attempts_));
-    add_aggregate(*centre, all[k].radius, static_cast<std::int32_t>(specimen_.size()));
+    add_aggregate(*centre, all[k].radius, static_cast<std::int32_t>(specimen_.size()), spacing);
     size_class.push_back(static_cast<std::int32_t>(all[k].population));
     if (k % 64 == 0) progress(static_cast<double>(k) / static_cast<double>(all.size()));
   }
@@ -85,9 +85,9 @@ std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Populati
   return size_class;
 }
 
-void Placement::add_aggregate(const Vec3d& centre, double radius, std::int32_t body) {
-  // Later spheres are no larger: they look for this one from at most twice its radius away.
-  grid_.insert(static_cast<std::int32_t>(specimen_.size()), centre, 2 * radius);
+void Placement::add_aggregate(const Vec3d& centre, double radius, std::int32_t body, double spacing) {
+  // Later spheres are no larger: they look for this one from at most twice its radius and the spacing away.
+  grid_.insert(static_cast<std::int32_t>(specimen_.size()), centre, 2 * radius + spacing);
   add(centre, radius, Phase::aggregate, body);
 }
 
@@ -116,10 +116,10 @@ void Placement::no_room_for_mastic() const {
                  " attempts; ask for less aggregate");
 }
 
-std::optional<Vec3d> Placement::position_for(double radius) {
+std::optional<Vec3d> Placement::position_for(double radius, double spacing) {
   const Vec3d low{radius, radius, radius}, high = specimen_.box.size - low;
   const std::int64_t plain = std::min(attempts_, plain_attempts);
-  const auto anywhere = [&](Draws draws) { return clear_of_placed(random_point(draws, low, high), radius); };
+  const auto anywhere = [&](Draws draws) { return clear_of_placed(random_point(draws, low, high), radius + spacing); };
   if (auto found = random_.first_good(plain, 3, tries_at_once, anywhere)) return random_point(*found, low, high);
   if (plain == attempts_) return std::nullopt;
   // Points drawn evenly over the cells that are not wholly taken are distributed as plain tries are, only more of them
@@ -134,7 +134,7 @@ std::optional<Vec3d> Placement::position_for(double radius) {
     const Vec3d point = in_the_open(draws);
     const bool inside = point.x >= low.x && point.x <= high.x && point.y >= low.y && point.y <= high.y &&
                         point.z >= low.z && point.z <= high.z;
-    return inside && clear_of_placed(point, radius);
+    return inside && clear_of_placed(point, radius + spacing);
   };
   if (auto found = random_.first_good(attempts_ - plain, 4, tries_at_once, free)) return in_the_open(*found);
   return std::nullopt;

@@ -22,13 +22,13 @@ class Placement {
   Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random, const Origin& origin,
             std::function<bool(const Vec3d&)> taken = {});
 
-  /// Adds all aggregates, largest first over all classes, inside the box and clear of each other; returns the class of
-  /// each. \throws RunError naming the class that found no room, and how much of it had.
-  std::vector<std::int32_t> place_aggregates(const std::vector<Population>& classes,
+  /// Adds all aggregates, largest first over all classes, inside the box and `spacing` [m] from each other; returns the
+  /// class of each. \throws RunError naming the class that found no room, and how much of it had.
+  std::vector<std::int32_t> place_aggregates(const std::vector<Population>& classes, double spacing,
                                              const std::function<void(double share)>& progress);
 
-  /// Adds a sphere of aggregate number `body` where it is.
-  void add_aggregate(const Vec3d& centre, double radius, std::int32_t body);
+  /// Adds a sphere of aggregate number `body` where it is; none larger that comes later is nearer than `spacing` [m].
+  void add_aggregate(const Vec3d& centre, double radius, std::int32_t body, double spacing = 0);
 
   /// Adds the mastic with centres outside the aggregates; mastic spheres may overlap anything.
   void place_mastic(const Population& mastic);
@@ -38,7 +38,7 @@ class Placement {
   Vec3d point_outside_aggregates();
 
  private:
-  std::optional<Vec3d> position_for(double radius);
+  std::optional<Vec3d> position_for(double radius, double spacing);
   bool outside(const Vec3d& point) const;
   [[noreturn]] void no_room_for_mastic() const;
   bool clear_of_placed(const Vec3d& point, double distance) const;

@@ -122,6 +122,19 @@ bool holds(const ShapeBody& a, const ShapeBody& b) {
   return a.geometry->field.at_least(p) <= 0 && a.geometry->solid.contains(p);
 }
 
+/// Of the spheres of two bodies at least one of which has a cluster.
+bool spheres_nearer(const ShapeBody& a, const ShapeBody& b, double spacing) {
+  if (a.sphere) return b.cluster->touches(b.to_cluster(a.centre), a.sphere_radius() + spacing);
+  if (b.sphere) return spheres_nearer(b, a, spacing);
+  const ShapeBody& few = a.cluster->spheres().size() < b.cluster->spheres().size() ? a : b;
+  const ShapeBody& many = &few == &a ? b : a;
+  const MultiSphere& s = few.cluster->spheres();
+  for (std::size_t i = 0; i < s.size(); ++i)
+    if (many.cluster->touches(many.to_cluster(few.centre + few.rotation(s.centre[i])), s.radius[i] + spacing))
+      return true;
+  return false;
+}
+
 }  // namespace
 
 ShapeGeometry::ShapeGeometry(const ShapeTemplate& shape)
@@ -142,7 +155,16 @@ double ShapeBody::distance_at_least(const Vec3d& space) const {
 }
 
 double ShapeBody::distance_at_most(const Vec3d& space) const {
-  return sphere ? norm(space - centre) - sphere_radius() : scale * geometry->field.at_most(to_own(space));
+  if (sphere) return norm(space - centre) - sphere_radius();
+  return cluster ? cluster->distance_at_most(to_cluster(space)) : scale * geometry->field.at_most(to_own(space));
+}
+
+bool nearer(const ShapeBody& a, const ShapeBody& b, double spacing) {
+  const double apart = norm(a.centre - b.centre);
+  if (apart > a.radius() + b.radius() + spacing) return false;
+  if (a.sphere && b.sphere) return true;
+  if (a.cluster || b.cluster) return spheres_nearer(a, b, spacing);
+  return overlap(a, b) || (spacing > 0 && contact(a, b, spacing).depth > 0);
 }
 
 bool overlap(const ShapeBody& a, const ShapeBody& b) {
@@ -164,6 +186,15 @@ Extent extent(const ShapeBody& body) {
     return {{-r, -r, -r}, {r, r, r}};
   }
   Extent e;
+  if (body.cluster) {
+    const MultiSphere& s = body.cluster->spheres();
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const Vec3d q = body.rotation(s.centre[i]), r = s.radius[i] * Vec3d{1, 1, 1};
+      e.low = {std::min(e.low.x, q.x - r.x), std::min(e.low.y, q.y - r.y), std::min(e.low.z, q.z - r.z)};
+      e.high = {std::max(e.high.x, q.x + r.x), std::max(e.high.y, q.y + r.y), std::max(e.high.z, q.z + r.z)};
+    }
+    return e;
+  }
   for (const Vec3d& p : body.geometry->shape.surface.points) {
     const Vec3d q = body.scale * body.rotation(p);
     e.low = {std::min(e.low.x, q.x), std::min(e.low.y, q.y), std::min(e.low.z, q.z)};

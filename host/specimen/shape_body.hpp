@@ -7,6 +7,7 @@
 #include "host/specimen/distance_field.hpp"
 #include "host/specimen/rotation.hpp"
 #include "host/specimen/shape_placement.hpp"
+#include "host/specimen/sphere_cluster.hpp"
 #include "host/shapes/shape_solid.hpp"
 #include "host/specimen/surface_samples.hpp"
 
@@ -28,6 +29,7 @@ struct ShapeGeometry {
 /// A scaled copy of a shape, or a sphere.
 struct ShapeBody {
   const ShapeGeometry* geometry = nullptr;
+  const SphereCluster* cluster = nullptr;  ///< its spheres at full scale, which stand for its surface where given
   bool sphere = false;
   double size = 0;   ///< D^I at full scale [m]
   double scale = 0;  ///< of the template's lengths
@@ -42,10 +44,11 @@ struct ShapeBody {
   void set_turn(const Quaternion& q) { turn = q, rotation = Rotation(q); }
   double sphere_radius() const { return scale * geometry->shape.d_intermediate / 2 * geometry->shape.sphere_size; }
   /// Radii of balls about the centre that hold the body and that the body holds [m].
-  double radius() const { return sphere ? sphere_radius() : scale * geometry->radius; }
-  double inner_radius() const { return sphere ? sphere_radius() : scale * geometry->inner; }
+  double radius() const { return sphere ? sphere_radius() : cluster ? cluster->radius() : scale * geometry->radius; }
+  double inner_radius() const { return sphere ? sphere_radius() : cluster ? 0 : scale * geometry->inner; }
   Vec3d to_space(const Vec3d& own) const { return centre + scale * rotation(own); }
   Vec3d to_own(const Vec3d& space) const { return (1 / scale) * rotation.back(space - centre); }
+  Vec3d to_cluster(const Vec3d& space) const { return rotation.back(space - centre); }
 
   /// Bounds of the signed distance of a point from the surface [m], quickly found.
   double distance_at_least(const Vec3d& space) const;
@@ -55,6 +58,10 @@ struct ShapeBody {
 /// Whether two bodies touch, overlap or hold one another: exact for the triangles as they lie in the frame of one of
 /// the two, to the rounding of that transform.
 bool overlap(const ShapeBody& a, const ShapeBody& b);
+
+/// Whether they overlap or are nearer to each other than `spacing` [m]: exact for the spheres of bodies with clusters;
+/// between two surfaces a spacing above 0 is told by samples of each in the other's field.
+bool nearer(const ShapeBody& a, const ShapeBody& b, double spacing);
 
 /// Least and largest coordinates of a body about its centre.
 struct Extent {

@@ -20,13 +20,14 @@ double smallest_radius(const std::vector<ShapeBody>& bodies) {
 
 }  // namespace
 
-ShapeInsertion::ShapeInsertion(const Box& box, const std::vector<ShapeBody>& bodies, std::int64_t attempts,
-                               RandomStream random)
+ShapeInsertion::ShapeInsertion(const Box& box, const std::vector<ShapeBody>& bodies, double spacing,
+                               std::int64_t attempts, RandomStream random)
     : box_(box),
       radius_to_come_(bodies.size()),
       inner_to_come_(bodies.size()),
       near_(box, 2 * smallest_radius(bodies)),
       grid_(box, smallest_radius(bodies) / 2),
+      spacing_(spacing),
       attempts_(attempts),
       random_(random) {
   double largest = 0, inner = 0;
@@ -59,7 +60,8 @@ bool ShapeInsertion::place(std::size_t k, ShapeBody& body) {
   }
   if (!placed) return false;
   if (k + 1 < radius_to_come_.size())
-    near_.insert(static_cast<std::int32_t>(placed_.size()), body.centre, body.radius() + radius_to_come_[k + 1]);
+    near_.insert(static_cast<std::int32_t>(placed_.size()), body.centre,
+                 body.radius() + radius_to_come_[k + 1] + spacing_);
   placed_.push_back(body);
   return true;
 }
@@ -96,7 +98,7 @@ bool ShapeInsertion::clear_at_centre(const ShapeBody& body) const {
 bool ShapeInsertion::clear(const ShapeBody& body) const {
   if (!clear_at_centre(body)) return false;
   const std::vector<std::int32_t>& near = near_.near(near_.cell_of(body.centre));
-  return std::none_of(near.begin(), near.end(), [&](std::int32_t j) { return overlap(placed_[j], body); });
+  return std::none_of(near.begin(), near.end(), [&](std::int32_t j) { return nearer(placed_[j], body, spacing_); });
 }
 
 /// Takes into account the bodies that were placed since the last time, as far as a body to come can be told by them.

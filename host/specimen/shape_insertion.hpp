@@ -15,8 +15,9 @@ namespace macadam {
 /// Finds places for bodies that come in the order of their sizes, largest first.
 class ShapeInsertion {
  public:
-  /// `bodies` are those that will come; they and `box` must outlive this.
-  ShapeInsertion(const Box& box, const std::vector<ShapeBody>& bodies, std::int64_t attempts, RandomStream random);
+  /// `bodies` are those that will come; they and `box` must outlive this. Two are at least `spacing` apart [m].
+  ShapeInsertion(const Box& box, const std::vector<ShapeBody>& bodies, double spacing, std::int64_t attempts,
+                 RandomStream random);
 
   /// Turns body number `k` and moves it to where it is inside the box and touches nothing placed so far; false where
   /// `attempts` rotations and positions all failed. Bodies come in order; one may be left out. Tries run on all
@@ -38,6 +39,7 @@ class ShapeInsertion {
   std::vector<double> radius_to_come_, inner_to_come_;  ///< largest of this body and those after it [m]
   SphereGrid near_;                                     ///< lists the bodies that one to come may touch
   SphereGrid grid_;                                     ///< cells that may be open; no lists
+  double spacing_;                                      ///< [m]
   std::int64_t attempts_;
   DrawsAhead random_;
   std::vector<ShapeBody> placed_;

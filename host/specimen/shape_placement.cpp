@@ -34,6 +34,13 @@ void check(const std::vector<ShapeTemplate>& shapes, const ShapeComposition& com
            const ShapePlacementSpec& spec) {
   if (spec.attempts < 1) refuse("attempts", std::to_string(spec.attempts), "at least 1");
   if (!(spec.gap > 0 && spec.gap < 0.5)) refuse("gap", shown(spec.gap), "more than 0 and less than 0.5 of D^I");
+  if (!(spec.spacing >= 0 && std::isfinite(spec.spacing)))
+    refuse("spacing", shown(spec.spacing) + " m", "a finite length, not negative");
+  const bool insertion = spec.method == PlacementMethod::insertion;
+  if (!insertion && spec.spacing > 0) refuse("spacing", shown(spec.spacing) + " m with packing", "insertion, or a gap");
+  if (!spec.spheres.empty() && (!insertion || spec.spheres.size() != composition.aggregate.size()))
+    refuse("spheres", insertion ? std::to_string(spec.spheres.size()) : "a test by them with packing",
+           "insertion, and the spheres of each of " + std::to_string(composition.aggregate.size()) + " aggregates");
   for (const AggregateRequest& r : composition.aggregate) {
     if (r.shape < 0 || r.shape >= static_cast<int>(shapes.size()))
       refuse("shape number", std::to_string(r.shape), "0 to " + std::to_string(shapes.size()) + " - 1");
@@ -52,6 +59,20 @@ Geometries prepare(const std::vector<ShapeTemplate>& shapes, const std::vector<A
     if (used[k]) geometries[k] = std::make_unique<const ShapeGeometry>(shapes[k]);
   });
   return geometries;
+}
+
+/// What the bodies are tested with where spheres are given; nothing of single spheres.
+std::vector<std::unique_ptr<const SphereCluster>> clusters_of(const ShapeComposition& composition,
+                                                              const ShapePlacementSpec& spec) {
+  double largest = 0;
+  for (const MultiSphere& s : spec.spheres)
+    if (s.size() > 1) largest = std::max(largest, *std::max_element(s.radius.begin(), s.radius.end()));
+  std::vector<std::unique_ptr<const SphereCluster>> clusters(spec.spheres.size());
+  for_each_in_parallel(clusters.size(), [&](std::size_t k) {
+    if (!composition.aggregate[k].sphere)
+      clusters[k] = std::make_unique<const SphereCluster>(spec.spheres[k], largest + spec.spacing);
+  });
+  return clusters;
 }
 
 std::string no_room(const ShapeComposition& composition, const std::vector<ShapeTemplate>& shapes, std::size_t failed,
@@ -81,7 +102,7 @@ std::string no_room(const ShapeComposition& composition, const std::vector<Shape
 std::vector<std::uint8_t> insert(const Box& box, const std::vector<ShapeTemplate>& shapes,
                                  const ShapeComposition& composition, const ShapePlacementSpec& spec,
                                  std::vector<ShapeBody>& bodies, const std::function<void(double)>& progress) {
-  ShapeInsertion insertion(box, bodies, spec.attempts, RandomStream(spec.seed, place_stream));
+  ShapeInsertion insertion(box, bodies, spec.spacing, spec.attempts, RandomStream(spec.seed, place_stream));
   std::vector<std::uint8_t> placed(bodies.size()), given_up(composition.row.size());
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const int size_class = composition.aggregate[k].size_class;
@@ -101,8 +122,9 @@ void pack_all(const Box& box, const std::vector<ShapeTemplate>& shapes, const Sh
   for (const AggregateRequest& r : composition.aggregate) volume += aggregate_volume(shapes[r.shape], r.size, r.sphere);
   const double from = volume > 0 ? std::min(1.0, std::cbrt(share_at_first * box.volume() / volume)) : 1;
   for (ShapeBody& b : bodies) b.scale *= from;
-  ShapePlacementSpec first = spec;
-  first.attempts = std::min(spec.attempts, attempts_at_first), first.allow_short = false;
+  ShapePlacementSpec first;
+  first.seed = spec.seed, first.origin = spec.origin;
+  first.attempts = std::min(spec.attempts, attempts_at_first);
   insert(box, shapes, composition, first, bodies, report("placing aggregates"));
   const double reached = pack(box, bodies, from, spec.gap, report("packing aggregates"));
   if (reached == 1) return;
@@ -136,18 +158,21 @@ ShapePlacement place_shapes(const Box& box, const std::vector<ShapeTemplate>& sh
   const Geometries geometries = prepare(shapes, composition.aggregate);
   std::vector<ShapeBody> bodies;
   for (const AggregateRequest& r : composition.aggregate) bodies.emplace_back(*geometries[r.shape], r.size, r.sphere);
+  const std::vector<std::unique_ptr<const SphereCluster>> clusters = clusters_of(composition, spec);
+  for (std::size_t k = 0; k < clusters.size(); ++k) bodies[k].cluster = clusters[k].get();
   std::vector<std::uint8_t> placed(bodies.size(), 1);
   if (spec.method == PlacementMethod::insertion)
     placed = insert(box, shapes, composition, spec, bodies, report("placing aggregates"));
   else
     pack_all(box, shapes, composition, spec, bodies, report);
 
-  ShapePlacement result{{}, composition.row};
+  ShapePlacement result{{}, {}, composition.row};
   for (CompositionRow& row : result.row) row.count = 0, row.fraction = 0;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     if (!placed[k]) continue;
     const AggregateRequest& r = composition.aggregate[k];
     result.aggregate.push_back({r.size_class, r.shape, r.sphere, {bodies[k].centre, bodies[k].turn, bodies[k].scale}});
+    result.request.push_back(k);
     result.row[r.size_class].count += 1;
     result.row[r.size_class].fraction += aggregate_volume(shapes[r.shape], r.size, r.sphere) / box.volume();
   }

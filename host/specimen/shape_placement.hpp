@@ -62,6 +62,9 @@ struct ShapePlacementSpec {
   std::int64_t attempts = 2'000'000;  ///< insertion: rotations and positions tried for one aggregate
   bool allow_short = false;           ///< insertion: return what found a place where not all did
   double gap = 0.01;                  ///< packing: least distance of two surfaces, over the smaller one's D^I
+  double spacing = 0;                 ///< insertion: least distance of two aggregates [m]
+  /// Insertion: the spheres of each aggregate about its origin, unturned; they are tested in place of its surface.
+  std::vector<MultiSphere> spheres;
   std::uint64_t seed = 1;
   std::string origin = "aggregates: ";  ///< of the recipe: begins the messages
 };
@@ -69,12 +72,13 @@ struct ShapePlacementSpec {
 /// Aggregates in their places, largest first.
 struct ShapePlacement {
   std::vector<PlacedAggregate> aggregate;
-  std::vector<CompositionRow> row;  ///< what was asked and what found a place, one a class
+  std::vector<std::size_t> request;  ///< number of each in the composition
+  std::vector<CompositionRow> row;   ///< what was asked and what found a place, one a class
 };
 
 /// Turns and places the aggregates at random inside the box; no two surfaces touch, nor holds one another, by exact
-/// tests of their triangles. The same input gives the same bits for any number of threads.
-/// \throws RunError naming the class that found no room and how much of it had, unless `spec.allow_short`.
+/// tests of their triangles, or of the spheres that are given. The same input gives the same bits for any number of
+/// threads. \throws RunError naming the class that found no room and how much of it had, unless `spec.allow_short`.
 ShapePlacement place_shapes(const Box& box, const std::vector<ShapeTemplate>& shapes,
                             const ShapeComposition& composition, const ShapePlacementSpec& spec,
                             const std::function<void(const char* stage, double share)>& progress = {});

@@ -21,6 +21,11 @@ std::vector<Surface> surfaces_of(const ShapeSpec& spec) {
       return shape_library();
     case ShapeSpec::Library::icosahedron:
       return {subdivided_icosahedron()};
+    case ShapeSpec::Library::aggregates_and_icosahedron: {
+      std::vector<Surface> all = shape_library();
+      all.push_back(subdivided_icosahedron());
+      return all;
+    }
     case ShapeSpec::Library::folder:
       break;
   }
@@ -44,23 +49,42 @@ Vec3d back(const Pose& pose, const Vec3d& point) {
   return Pose{{}, {q[0], -q[1], -q[2], -q[3]}, 1 / pose.scale}(point - pose.centre);
 }
 
-/// Which shapes a point is in.
-class Inside {
+/// The shapes in their places, single spheres left out.
+class Placed {
  public:
-  Inside(const Box& box, std::vector<std::shared_ptr<const Shape>> shapes, std::vector<PlacedAggregate> placed)
+  /// `reach`: of the largest sphere that is to be held out [m].
+  Placed(const Box& box, std::vector<std::shared_ptr<const Shape>> shapes, std::vector<PlacedAggregate> placed,
+         double reach)
       : shapes_(std::move(shapes)), placed_(std::move(placed)), grid_(box, smallest_edge(box) / 20) {
     for (std::size_t k = 0; k < placed_.size(); ++k) {
       const PlacedAggregate& a = placed_[k];
       if (!a.sphere)
-        grid_.insert(static_cast<std::int32_t>(k), a.pose.centre, a.pose.scale * shape(a).measure().d_long);
+        grid_.insert(static_cast<std::int32_t>(k), a.pose.centre, a.pose.scale * shape(a).measure().d_long + reach);
     }
   }
-  bool operator()(const Vec3d& point) const {
+
+  /// Whether a point is in one of them.
+  bool hold(const Vec3d& point) const {
     const auto& near = grid_.near(grid_.cell_of(point));
     return std::any_of(near.begin(), near.end(), [&](std::int32_t k) {
       const PlacedAggregate& a = placed_[static_cast<std::size_t>(k)];
       return shape(a).filler.contains(back(a.pose, point));
     });
+  }
+
+  /// What keeps a sphere outside of all that it comes near to: the sum of how far it reaches into each, as one wall.
+  WallDepth outside(const Vec3d& point, double reach) const {
+    Vec3d push{};
+    for (const std::int32_t k : grid_.near(grid_.cell_of(point))) {
+      const PlacedAggregate& a = placed_[static_cast<std::size_t>(k)];
+      const Vec3d own = back(a.pose, point);
+      if (!shape(a).filler.may_reach(own, reach / a.pose.scale)) continue;
+      const WallDepth above = shape(a).filler.above(own);
+      const double into = reach - a.pose.scale * above.depth;
+      if (into > 0) push += into * Pose{{}, a.pose.turn, 1}(above.inward);
+    }
+    const double into = norm(push);
+    return into > 0 ? WallDepth{reach - into, (1 / into) * push} : WallDepth{2 * reach, {}};
   }
 
  private:
@@ -119,10 +143,23 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
   search.attempts = spec.attempts;
   search.allow_short = how.allow_short;
   search.gap = how.gap;
+  search.spacing = spec.spacing;
   search.seed = spec.seed;
   search.origin = Origin(spec).text();
-  ShapePlacement placed =
-      place_shapes(spec.box, templates, compose_shapes(spec, templates, is_sphere), search, progress);
+  const ShapeComposition composition = compose_shapes(spec, templates, is_sphere);
+  const auto filled = [&](std::size_t k) {
+    const AggregateRequest& r = composition.aggregate[k];
+    const Shape& shape = *shapes[static_cast<std::size_t>(r.shape)];
+    if (r.sphere) return MultiSphere{{Vec3d{}}, {r.size * shape.placed.sphere_size / 2}};
+    FillSpec fill = how.fill;
+    fill.seed = spec.seed * 1'000'003 + k;
+    return shape.filler.fill(r.size / shape.placed.d_intermediate, fill);
+  };
+  std::vector<MultiSphere> spheres(composition.aggregate.size());
+  if (progress) progress("filling aggregates", 0);
+  for_each_in_parallel(spheres.size(), [&](std::size_t k) { spheres[k] = filled(k); });
+  if (how.test == PlacementTest::spheres) search.spheres = spheres;
+  ShapePlacement placed = place_shapes(spec.box, templates, composition, search, progress);
 
   ShapedAggregates out;
   out.row = std::move(placed.row);
@@ -132,20 +169,19 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
     const PlacedAggregate& a = placed.aggregate[k];
     out.aggregate.push_back(described(a, *shapes[static_cast<std::size_t>(a.shape)], static_cast<std::int32_t>(k)));
   }
-  if (progress) progress("filling aggregates", 0);
-  for_each_in_parallel(n, [&](std::size_t k) {
-    const PlacedAggregate& a = placed.aggregate[k];
-    if (a.sphere) {
-      out.spheres[k] = {{a.pose.centre}, {out.aggregate[k].d_long / 2}};
-      return;
-    }
-    FillSpec fill = how.fill;
-    fill.seed = spec.seed * 1'000'003 + k;
-    MultiSphere& spheres = out.spheres[k] = shapes[static_cast<std::size_t>(a.shape)]->filler.fill(a.pose.scale, fill);
-    for (Vec3d& c : spheres.centre) c = Pose{a.pose.centre, a.pose.turn, 1}(c);
-    out.aggregate[k].spheres = static_cast<std::int64_t>(spheres.size());
-  });
-  out.inside = Inside(spec.box, std::move(shapes), std::move(placed.aggregate));
+  for (std::size_t k = 0; k < n; ++k) {
+    const Pose& pose = placed.aggregate[k].pose;
+    out.spheres[k] = std::move(spheres[placed.request[k]]);
+    for (Vec3d& c : out.spheres[k].centre) c = Pose{pose.centre, pose.turn, 1}(c);
+    out.aggregate[k].spheres = static_cast<std::int64_t>(out.spheres[k].size());
+  }
+  const auto all = std::make_shared<const Placed>(spec.box, std::move(shapes), std::move(placed.aggregate),
+                                                  spec.mastic ? spec.mastic->radius_max : 0);
+  out.inside = [all](const Vec3d& point) { return all->hold(point); };
+  if (how.hold_out > 0) {
+    out.outside.depth = [all](const Vec3d& point, double reach) { return all->outside(point, reach); };
+    out.outside.stiffness = how.hold_out;
+  }
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "host/spheres/relaxation.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {
@@ -16,6 +17,7 @@ struct ShapedAggregates {
   std::vector<CompositionRow> row;   ///< one a class
   /// Whether a point of the box lies in a shape; single spheres do not count.
   std::function<bool(const Vec3d&)> inside;
+  Wall outside;  ///< holds spheres out of the shapes, if any
 
   double volume() const;  ///< of all [m³]
   double smallest_radius() const;

@@ -20,7 +20,6 @@ constexpr double first_step = 0.1, longest_step = 0.3;
 constexpr double longest_move = 0.1;        // of the mean mastic radius, in one iteration
 constexpr double skin_share = 0.5;          // of the mean mastic radius
 constexpr double aggregate_stiffness = 20;  // free aggregates: they must not give way to each other as mastic does
-constexpr double wall_stiffness = 10;       // of a wall other than the box: what it holds may press hard against it
 constexpr int most_iterations = 3000, stall_window = 50;
 constexpr double stalled = 5e-4;  // relative fall of the energy in one window
 
@@ -137,11 +136,11 @@ class Relaxation {
       energy += 0.5 * k_wall * (low * low + high * high);
     };
     side(force.x, c.x, box_.x), side(force.y, c.y, box_.y), side(force.z, c.z, box_.z);
-    if (wall_) {
-      const auto [depth, inward] = wall_(c, r);
+    if (wall_.depth) {
+      const auto [depth, inward] = wall_.depth(c, r);
       if (const double overlap = r - depth; overlap > 0) {
-        force += (wall_stiffness * overlap) * inward;
-        energy += 0.5 * wall_stiffness * overlap * overlap;
+        force += (wall_.stiffness * overlap) * inward;
+        energy += 0.5 * wall_.stiffness * overlap * overlap;
       }
     }
     const double m = mass(i);

@@ -14,7 +14,7 @@ namespace macadam {
 
 /// Which materials meet. `inner`: two spheres of the same aggregate; W is a wall.
 enum class PairType : std::uint8_t { mm, ma, aa, inner, aw, mw };
-inline constexpr int pair_types = 6;
+inline constexpr int pair_types = 6, particle_pair_types = 4;  ///< the latter first
 /// `"M-M" "M-A" "A-A" "inner" "A-W" "M-W"`.
 const char* to_string(PairType pair);
 
@@ -23,10 +23,16 @@ const char* to_string(PairType pair);
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
 
-/// Which facets become contacts.
-struct NetworkSpec {
+/// Limits within which a facet between two particles is a contact; any facet where they are not given.
+struct FacetLimits {
   std::optional<double> gap_max;   ///< largest surface gap, in units of the mean of the two radii
-  std::optional<double> area_min;  ///< smallest facet, in units of the mean facet area
+  std::optional<double> area_min;  ///< smallest facet, in units of the mean area of facets between particles
+};
+
+/// Which facets become contacts.
+struct NetworkSpec : FacetLimits {
+  std::array<FacetLimits, particle_pair_types>
+      of_pair;  ///< of one PairType that is not a wall's: each that is given is in place of all's
   Quadrature quadrature = Quadrature::lumped;
   bool bottom_top_walls = true;  ///< facets on −z and +z are contacts
   bool lateral_walls = false;    ///< facets on ±x and ±y are contacts

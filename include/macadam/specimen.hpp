@@ -81,20 +81,31 @@ enum class PlacementMethod : std::uint8_t {
   packing     ///< all at once: grown from a smaller scale while overlaps push them apart; reaches higher fractions
 };
 
+/// What tells whether two shaped aggregates touch while they are inserted.
+enum class PlacementTest : std::uint8_t {
+  surfaces,  ///< those of the shapes
+  spheres    ///< those that fill the shapes: clusters may interlock
+};
+
 /// Aggregates of real shape, each a deformable cluster of spheres, in place of single spheres. An aggregate's size, by
 /// which sieves part and classes are drawn, is then its D^I.
 struct ShapeSpec {
   enum class Library : std::uint8_t {
-    aggregates,   ///< shape_library()
-    icosahedron,  ///< subdivided_icosahedron()
-    folder        ///< every surface of a folder
+    aggregates,                  ///< shape_library()
+    icosahedron,                 ///< subdivided_icosahedron()
+    aggregates_and_icosahedron,  ///< the icosahedron as one more of the library (the paper's section 3.3)
+    folder                       ///< every surface of a folder
   };
   Library library = Library::aggregates;
   std::filesystem::path folder;  ///< of surfaces, any unit of length; with Library::folder
   FillSpec fill;                 ///< its seed is not used: every aggregate has one of its own
   PlacementMethod placement = PlacementMethod::packing;
   bool allow_short = false;  ///< insertion: classes that find no more room stay short of what was asked
-  double gap = 0.01;         ///< packing: least distance of two surfaces, over the smaller one's D^I
+  PlacementTest test = PlacementTest::surfaces;  ///< insertion
+  double gap = 0.01;  ///< packing: least distance of two surfaces, over the smaller one's D^I
+  /// Stiffness of the shapes' surfaces against the mastic while it relaxes, over that of a pair of mastic spheres, 0 to
+  /// 10. At 0 only the spheres of the shapes hold the mastic out.
+  double hold_out = 0;
 };
 
 /// Everything needed to obtain a specimen: a file, or a recipe for the generator.
@@ -106,6 +117,7 @@ struct SpecimenSpec {
   std::optional<ShapeSpec> shapes;        ///< none: aggregates are single spheres
   std::optional<MasticSpec> mastic;
   SizeLaw size_law = SizeLaw::log_uniform;
+  double spacing = 0;                 ///< least distance of two aggregates one of which is inserted after the other [m]
   bool fix_aggregates = true;         ///< hold the aggregates while the mastic relaxes (moves |E*| by 6–7 % if not)
   std::int64_t attempts = 2'000'000;  ///< positions tried for one aggregate before its class is given up
   std::string source = "specimen";    ///< the scene's file, for messages
