@@ -19,15 +19,20 @@ namespace calibration {
 namespace {
 
 /// Root mean square errors beyond which a target counts as not reached. Models miss good data by less, by far.
-constexpr double worst_modulus = 0.3, worst_phase = 15;
+constexpr double worst_modulus = 0.15, worst_phase = 8;
 /// Standard deviations, root mean square, beyond which the result says that it misses them: noise alone stays below 2.
 constexpr double worst_miss = 2;
+
+/// Of measured over predicted |E*|: one unit for another.
+constexpr double wrong_unit = 1 / 300.0;
+/// Standard deviations to either side that hold 95 % of a normal distribution.
+constexpr double two_sided = 1.96;
 
 /// Of a logarithm, in a round: how far it may go, and how little ends the way: so near to a solution the error of an
 /// estimate is about the square of that, below 1e-12.
 constexpr double farthest = 2, least_move = 1e-6;
-/// Share of the misfit whose loss ends the way: parameters then move by 1e-5 of their deviations.
-constexpr double least_gain = 1e-10;
+/// Loss of misfit that ends the way, in squares of standard deviations: parameters then move by 1e-3 of theirs.
+constexpr double least_gain = 1e-6;
 constexpr int most_rounds = 40;
 
 /// One calibration from start to end.
@@ -151,7 +156,9 @@ class Calibrator {
       const State next = least_by_estimate(specimens, best.theta);
       double moved = 0;
       for (std::size_t i = 0; i < theta.size(); ++i) moved = std::max(moved, std::abs(next.theta[i] - best.theta[i]));
-      if (moved < least_move || best.misfit - next.misfit < least_gain * best.misfit) return next;
+      if (moved < least_move) return next;
+      // exact measurements leave no misfit in the end, and their parameters are wanted as exactly
+      if (best.misfit > least_gain && best.misfit - next.misfit < least_gain) return best;
       State there = solved_near(specimens, next.theta, best);
       if (there.misfit < best.misfit) best = std::move(there);
     }
@@ -165,7 +172,6 @@ class Calibrator {
     out_.laws = laws_at_theta(found.theta);
     const std::size_t n = free_.size(), measured = found.residuals.size() - priors_;
     for (std::size_t i = 0; i < measured; ++i) out_.misfit += found.residuals[i] * found.residuals[i];
-    out_.degrees_of_freedom = static_cast<double>(found.residuals.size()) - static_cast<double>(n);
     for (std::size_t i = 0; i < n; ++i) {
       CalibratedParameter& p = out_.parameters[i];
       p.value = std::exp(found.theta[i]);
@@ -215,9 +221,12 @@ class Calibrator {
     const bool modulus = options_.misfit != Misfit::phase && e.e_star_rms > worst_modulus;
     const bool phase = options_.misfit != Misfit::modulus && e.phase_rms_deg > worst_phase;
     if (ends.empty() && !modulus && !phase) return;
+    const double ratio = out_.points.front().measured.e_star_pa / out_.points.front().e_star_pa;
     std::string what =
         fmt::format("|E*| is missed by {:.3g} % (rms), phase by {:.3g} degrees", 100 * e.e_star_rms, e.phase_rms_deg);
     for (const std::string& end : ends) what += "; " + end;
+    if (ratio < wrong_unit || ratio > 1 / wrong_unit)
+      what += fmt::format("; what was measured is {:.1e} times the prediction: is it in Pa?", ratio);
     const std::string first = modulus || phase
                                   ? "the targets are not reached by any values of the free parameters"
                                   : "the targets do not determine the free parameters, the misfit falls without end";
@@ -233,12 +242,16 @@ class Calibrator {
     for (std::size_t i = 0; i < free_.size(); ++i) {
       const CalibratedParameter& p = out_.parameters[i];
       if (p.at_bound)
-        out_.warnings.push_back(fmt::format("{} lies at a bound, {:.4g}: its deviation means little", p.name, p.value));
+        out_.warnings.push_back(
+            fmt::format("{} lies at a bound, {:.4g}: the deviations are those with it held there", p.name, p.value));
     }
+    const std::string alone = priors_ > 0 ? " without the priors" : "";
     for (const Combination& c : out_.combinations) {
-      out_.warnings.push_back(fmt::format("the measurements {} {}",
-                                          std::isfinite(c.deviation) ? "hardly determine" : "say nothing of",
-                                          words(out_, c)));
+      out_.warnings.push_back(
+          std::isfinite(c.deviation)
+              ? fmt::format("the measurements{} hardly determine {}: within a factor of {:.2g} to either side, 95 %",
+                            alone, words(out_, c), std::exp(two_sided * c.deviation))
+              : fmt::format("the measurements{} say nothing of {}", alone, words(out_, c)));
     }
     const double missed = std::sqrt(out_.misfit / static_cast<double>(out_.points.size()) /
                                     residuals_each(options_.misfit));  // in standard deviations
@@ -248,11 +261,10 @@ class Calibrator {
                       "not describe them",
                       missed));
     }
-    if (!out_.deviations && out_.degrees_of_freedom <= 0) {
+    const auto shifts = [](const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); };
+    if (data_.temperatures && std::none_of(scene_.shifts.begin(), scene_.shifts.end(), shifts))
       out_.warnings.push_back(
-          "as many parameters as numbers measured: deviations are those that were assumed, " +
-          fmt::format("{:.3g} % and {:.3g} degrees", 100 * options_.e_star_deviation, options_.phase_deviation));
-    }
+          "no law of the scene changes with temperature: that of the measurements has no part in it");
     if (scene_.solver.method == SolverMethod::explicit_ && scene_.solver.damping_kind == Damping::local) {
       out_.warnings.push_back("local damping of the scene has no part in the frequency domain");
     }

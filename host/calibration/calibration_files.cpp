@@ -20,8 +20,9 @@ Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); 
 Json matrix(const std::vector<double>& values, std::size_t n) {
   Json out = Json::array();
   for (std::size_t i = 0; i < n; ++i) {
-    const auto row = values.begin() + static_cast<std::ptrdiff_t>(i * n);
-    out.push_back(std::vector<double>(row, row + static_cast<std::ptrdiff_t>(n)));
+    Json row = Json::array();
+    for (std::size_t k = 0; k < n; ++k) row.push_back(finite(values[i * n + k]));
+    out.push_back(row);
   }
   return out;
 }
@@ -55,7 +56,7 @@ std::string calibration_json(const Calibration& c) {
   out["seeds"] = c.seeds;
   out["misfit"] = {
       {"of", to_string(c.options.misfit)}, {"value", c.misfit}, {"degrees_of_freedom", c.degrees_of_freedom}};
-  out["deviations"] = c.deviations ? "of the data" : c.degrees_of_freedom > 0 ? "from the misfit" : "assumed";
+  out["deviations"] = c.deviations ? "of the data" : "assumed, or from the misfit where that is larger";
   const std::size_t n = c.parameters.size();
   out["parameters"] = Json::array();
   for (std::size_t i = 0; i < n; ++i) out["parameters"].push_back(parameter_json(c.parameters[i], c.options.free[i]));
@@ -95,10 +96,15 @@ std::string predicted_csv(const Calibration& c) {
 }
 
 std::string calibration_text(const Calibration& c) {
-  std::string out = fmt::format("{:<16} {:>13} {:>13} {:>13}\n", "parameter", "scene", "calibrated", "std. dev.");
+  std::string out = fmt::format("{:<16} {:>13} {:>13} {:>14}\n", "parameter", "scene", "calibrated", "within (95 %)");
   for (const CalibratedParameter& p : c.parameters) {
-    out += fmt::format("{:<16} {:>13.6g} {:>13.6g} {:>13} {}\n", p.name, p.start, p.value,
-                       std::isfinite(p.deviation) ? fmt::format("{:.2g}", p.deviation) : "unknown", p.unit);
+    // beyond a half the logarithm is normal, not the value
+    const double factor = std::exp(1.96 * p.deviation / p.value);
+    const std::string within = p.at_bound                    ? "at its bound"
+                               : !std::isfinite(p.deviation) ? "unknown"
+                               : factor < 1.5                ? fmt::format("+-{:.2g} %", 196 * p.deviation / p.value)
+                                                             : fmt::format("*/ {:.2g}", factor);
+    out += fmt::format("{:<16} {:>13.6g} {:>13.6g} {:>14} {}\n", p.name, p.start, p.value, within, p.unit);
   }
   const bool warm = !c.points.empty() && c.points.front().temperature_c;
   out += fmt::format("\n{}{:>10} {:>12} {:>12} {:>8} {:>9} {:>9} {:>8}\n", warm ? "   T (C) " : "", "f (Hz)",

@@ -67,10 +67,6 @@ std::vector<Parameter> free_parameters(const Scene& scene, const CalibrationOpti
     if (!(low > 0 && high > low && std::isfinite(high))) {
       refuse("bounds of " + p.name, fmt::format("{:g} and {:g}", low, high), "positive numbers, the lower one first");
     }
-    if (!(p.value >= low && p.value <= high)) {
-      refuse("bounds of " + p.name, fmt::format("{:g} to {:g}, without the scene's {:g}", low, high, p.value),
-             "bounds that hold the value of the scene, from which the way begins");
-    }
     if (asked.prior && !(*asked.prior > 0 && std::isfinite(*asked.prior) && asked.prior_deviation > 0 &&
                          std::isfinite(asked.prior_deviation))) {
       refuse("prior of " + p.name, fmt::format("{:g} with deviation {:g}", *asked.prior, asked.prior_deviation),

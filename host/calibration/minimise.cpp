@@ -55,10 +55,10 @@ bool minimise(const Residuals& residuals, std::size_t count, const std::vector<B
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 1000;  // of some milliseconds, along valleys that are narrow and bent
-  options.function_tolerance = 1e-14;
-  options.gradient_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-12;
+  options.max_num_iterations = 200;  // along valleys that are narrow and bent; the next round goes on
+  options.function_tolerance = 1e-9;
+  options.gradient_tolerance = 1e-13;
+  options.parameter_tolerance = 1e-10;
   options.num_threads = 1;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/parallel.hpp"
 #include "host/simulation/plan.hpp"
 #include "host/simulation/solution.hpp"
 #include "macadam/error.hpp"
@@ -205,12 +206,12 @@ std::vector<Predicted> Specimens::estimate(const LawTable& laws, const std::vect
   if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
   std::vector<Answers> answers;
   for (const auto& body : bodies_) {
-    answers.emplace_back();
-    for (const Place& place : places_) {
-      const LawTable at = laws_of(place, laws);
-      const HarmonicLoad load = load_of(place);
-      answers.back().push_back(answer_of(body->seen->solve(at, load).parts, at, load, free));
-    }
+    answers.emplace_back(places_.size());
+    for_each_in_parallel(places_.size(), [&](std::size_t i) {
+      const LawTable at = laws_of(places_[i], laws);
+      const HarmonicLoad load = load_of(places_[i]);
+      answers.back()[i] = answer_of(body->seen->solve(at, load).parts, at, load, free);
+    });
   }
   return mean_of(answers, free.size());
 }

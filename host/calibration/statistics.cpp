@@ -17,53 +17,72 @@ constexpr double untold = 0.7;
 /// Exponents of a combination below this share of the largest are not worth naming, parts in it none at all.
 constexpr double named = 0.02, no_part = 1e-3;
 
-Combination combination(const std::vector<double>& vector, double deviation) {
+/// Rows without the columns that are not in `kept`.
+std::vector<double> columns_of(const std::vector<double>& rows, std::size_t all, const std::vector<std::size_t>& kept) {
+  std::vector<double> out;
+  for (std::size_t row = 0; row < rows.size(); row += all)
+    for (const std::size_t k : kept) out.push_back(rows[row + k]);
+  return out;
+}
+
+/// In terms of all `count` parameters.
+Combination combination(const std::vector<double>& vector, const std::vector<std::size_t>& kept, std::size_t count,
+                        double deviation) {
   const double largest =
       *std::max_element(vector.begin(), vector.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  Combination out{vector, deviation / std::abs(largest)};
-  for (double& exponent : out.exponents) exponent /= largest;
+  Combination out{std::vector<double>(count, 0), deviation / std::abs(largest)};
+  for (std::size_t i = 0; i < kept.size(); ++i) out.exponents[kept[i]] = vector[i] / largest;
   return out;
 }
 
 }  // namespace
 
-void add_statistics(Calibration& out, const std::vector<double>& data, const std::vector<double>& priors) {
-  const std::size_t n = out.parameters.size();
-  // deviations that nobody stated are those that the misfit shows; numbers that were computed leave none, and then
-  // priors must not vanish beside them
-  constexpr double least = 1e-4;
-  const bool scaled = !out.deviations && out.degrees_of_freedom > 0;
-  const double scale = scaled ? std::max(std::sqrt(out.misfit / out.degrees_of_freedom), least) : 1;
-  std::vector<double> all = data;
-  for (double& v : all) v /= scale;
-  const Directions by_data = directions(all, n);
+void add_statistics(Calibration& out, std::vector<double> data, std::vector<double> priors) {
+  const std::size_t all = out.parameters.size();
+  std::vector<std::size_t> kept;  // a parameter at its bound is as if it were given
+  for (std::size_t i = 0; i < all; ++i)
+    if (!out.parameters[i].at_bound) kept.push_back(i);
+  const std::size_t n = kept.size();
+  data = columns_of(data, all, kept), priors = columns_of(priors, all, kept);
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  out.covariance.assign(all * all, nothing);
+  out.correlation.assign(all * all, nothing);
+  for (std::size_t i = 0; i < all; ++i) out.parameters[i].deviation = infinity, out.correlation[i * all + i] = 1;
+  out.degrees_of_freedom = n == 0 ? 0 : static_cast<double>(data.size() / n) - static_cast<double>(n);
+  if (n == 0) return;
+  // Deviations that nobody stated are those assumed, or what the misfit shows where that is more.
+  const double scale =
+      !out.deviations && out.degrees_of_freedom > 0 ? std::max(1.0, std::sqrt(out.misfit / out.degrees_of_freedom)) : 1;
+  for (double& v : data) v /= scale;
+  const Directions by_data = directions(data, n);
   for (std::size_t i = 0; i < n; ++i) {
-    // of an exact fit all deviations are small: what is flat as measured with the deviations assumed is named too
-    const double deviation = by_data.deviation[i] / std::min(scale, 1.0);
-    if (deviation > untold && n > 1) out.combinations.push_back(combination(by_data.vector[i], by_data.deviation[i]));
+    if (by_data.deviation[i] > untold)
+      out.combinations.push_back(combination(by_data.vector[i], kept, all, by_data.deviation[i]));
   }
-  all.insert(all.end(), priors.begin(), priors.end());
-  const Directions whole = directions(all, n);
-  out.covariance.assign(n * n, 0);
-  std::vector<bool> undetermined(n);
-  for (std::size_t d = 0; d < n; ++d) {
-    const std::vector<double>& v = whole.vector[d];
-    const double variance = whole.deviation[d] * whole.deviation[d];
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!std::isfinite(variance)) {
-        if (std::abs(v[i]) > no_part) undetermined[i] = true;
-        continue;
-      }
-      for (std::size_t k = 0; k < n; ++k) out.covariance[i * n + k] += v[i] * v[k] * variance;
+  data.insert(data.end(), priors.begin(), priors.end());
+  const Directions whole = directions(data, n);
+  const auto undetermined = [&](std::size_t i) {
+    for (std::size_t d = 0; d < n; ++d)
+      if (!std::isfinite(whole.deviation[d]) && std::abs(whole.vector[d][i]) > no_part) return true;
+    return false;
+  };
+  const auto covariance = [&](std::size_t i, std::size_t k) {
+    double sum = 0;
+    for (std::size_t d = 0; d < n; ++d) {
+      if (std::isfinite(whole.deviation[d]))
+        sum += whole.vector[d][i] * whole.vector[d][k] * whole.deviation[d] * whole.deviation[d];
     }
-  }
-  out.correlation.assign(n * n, 0);
+    return sum;
+  };
   for (std::size_t i = 0; i < n; ++i) {
-    CalibratedParameter& p = out.parameters[i];
-    p.deviation = undetermined[i] ? infinity : p.value * std::sqrt(out.covariance[i * n + i]);
+    if (undetermined(i)) continue;
+    CalibratedParameter& p = out.parameters[kept[i]];
+    p.deviation = p.value * std::sqrt(covariance(i, i));
     for (std::size_t k = 0; k < n; ++k) {
-      const double scale_of = std::sqrt(out.covariance[i * n + i] * out.covariance[k * n + k]);
-      out.correlation[i * n + k] = i == k ? 1 : scale_of > 0 ? out.covariance[i * n + k] / scale_of : 0;
+      if (undetermined(k)) continue;
+      const std::size_t at = kept[i] * all + kept[k];
+      out.covariance[at] = covariance(i, k);
+      if (i != k) out.correlation[at] = covariance(i, k) / std::sqrt(covariance(i, i) * covariance(k, k));
     }
   }
 }

@@ -7,9 +7,10 @@
 
 namespace macadam::calibration {
 
-/// Fills in deviations, covariance, correlation and combinations. `data`: derivatives of the measurements' residuals,
-/// row by row; `priors`: those of the priors; both by the logarithms of the parameters, in standard deviations.
-void add_statistics(Calibration& out, const std::vector<double>& data, const std::vector<double>& priors);
+/// Fills in degrees of freedom, deviations, covariance, correlation and combinations. `data`: derivatives of the
+/// measurements' residuals, row by row; `priors`: those of the priors; both by the logarithms of the parameters, in
+/// standard deviations. What a parameter at its bound would change is left out.
+void add_statistics(Calibration& out, std::vector<double> data, std::vector<double> priors);
 
 /// "M-A.delta * M-A.E_m^-0.98": a combination in words.
 std::string words(const Calibration& calibration, const Combination& combination);

@@ -26,6 +26,7 @@ struct Arguments {
   std::string target;
   std::vector<std::string> free, bounds, priors;
   std::optional<Backend> backend;
+  std::optional<int> threads;
   double e_star_deviation = 3;  // %
   bool no_pictures = false;
   CalibrationOptions options;
@@ -62,10 +63,12 @@ void read_parameters(Arguments& arguments) {
   for (const std::string& name : arguments.free) free.push_back({name, {}, {}, {}, 0});
   for (const std::string& text : arguments.bounds) {
     const Pair p = pair_of("--bounds", text, free, "NAME=LOW:HIGH");
+    if (p.parameter->low) throw InputError("command line", 0, "--bounds", p.parameter->name + " twice", "each once");
     p.parameter->low = p.first, p.parameter->high = p.second;
   }
   for (const std::string& text : arguments.priors) {
     const Pair p = pair_of("--prior", text, free, "NAME=VALUE:RELATIVE_DEVIATION");
+    if (p.parameter->prior) throw InputError("command line", 0, "--prior", p.parameter->name + " twice", "each once");
     p.parameter->prior = p.first, p.parameter->prior_deviation = p.second;
   }
 }
@@ -88,12 +91,17 @@ void calibrate_command(Arguments arguments) {
   arguments.options.e_star_deviation = arguments.e_star_deviation / 100;
   Scene scene = scene_of(arguments.job);
   const ModulusData data = read_modulus_data(arguments.target);
+  if (arguments.threads) scene.solver.threads = *arguments.threads;
   if (arguments.backend) {
     scene.solver.backend = *arguments.backend;
     if (scene.solver.backend == Backend::cpu) scene.solver.device.reset();
   }
   const std::filesystem::path out = arguments.job.out;
   std::error_code error;
+  if (std::filesystem::exists(out / "scene.toml", error) && !std::filesystem::exists(out / "calibration.json", error)) {
+    throw InputError("command line", 0, "--out", "a folder with a scene.toml that no calibration wrote",
+                     "another folder: it would be replaced");
+  }
   if (std::filesystem::equivalent(scene.file, out / "scene.toml", error)) {
     throw InputError("command line", 0, "--out", "the folder of the scene, whose scene.toml would be replaced",
                      "another folder");
@@ -106,6 +114,7 @@ void calibrate_command(Arguments arguments) {
   listen_to_stop_signals();
   const Calibration calibration = calibrate(scene, data, arguments.options, watcher);
   line.clear();
+  std::filesystem::remove(out / "calibration.png", error);  // of an older calibration
   write_whole(out / "calibration.json", calibration_json(calibration));
   write_whole(out / "predicted.csv", predicted_csv(calibration));
   write_scene(scene, calibration, out);
@@ -123,7 +132,8 @@ void add_calibrate_command(CLI::App& app) {
   CalibrationOptions& options = arguments->options;
   add_job_options(command, arguments->job);
   add_text(command, "--target", arguments->target,
-           "CSV file: frequency_hz, e_star_pa, phase_deg, maybe temperature_c, e_star_std, phase_std")
+           "CSV file: frequency_hz, e_star_pa, phase_deg (or e_prime_pa, e_double_prime_pa), maybe temperature_c, "
+           "e_star_std, phase_std")
       ->required();
   command
       .add_option("--free", arguments->free, "parameters to be found, with commas: M-A.delta,M-M.E_1,inner.E,A-A.alpha")
@@ -148,6 +158,7 @@ void add_calibrate_command(CLI::App& app) {
                    "where the targets cannot be reached, the nearest values with a warning");
   add_choice(command, "--backend", arguments->backend, "instead of the scene's",
              {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}});
+  add_number(command, "--threads", arguments->threads, "cpu threads; results do not depend on it", 1, 1024);
   command.add_flag("--no-pictures", arguments->no_pictures, "do not draw");
   command.callback([arguments] { calibrate_command(*arguments); });
 }

@@ -22,7 +22,7 @@ Scene scene_of(const Job& job) {
   if (job.seed && scene.specimen.file) throw InputError("--seed: the scene takes its specimen from a file");
   if (job.seed) {
     scene.specimen.seed = *job.seed;
-    scene.text += fmt::format("\n# --seed {}", *job.seed);  // a checkpoint belongs to the text
+    scene.text += fmt::format("\n# --seed {}\n", *job.seed);  // a checkpoint belongs to the text
   }
   return scene;
 }

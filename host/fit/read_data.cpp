@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <numbers>
 
 #include "host/in_quotes.hpp"
 #include "host/nearest.hpp"
@@ -27,15 +28,17 @@ struct Column {
 };
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // Measured angles scatter beyond 0 and 90 degrees; a negative sign throughout is another convention.
-constexpr std::array<Column, 8> columns{{{"frequency_hz", 0, infinity, "a positive number of Hz"},
-                                         {"e_star_pa", 0, infinity, "a positive number of Pa"},
-                                         {"g_star_pa", 0, infinity, "a positive number of Pa"},
-                                         {"phase_deg", -5, 95, "degrees between -5 and 95"},
-                                         {"temperature_c", -laws::zero_celsius, 1000, "degrees Celsius"},
-                                         {"e_star_std", 0, infinity, "a positive number of Pa"},
-                                         {"g_star_std", 0, infinity, "a positive number of Pa"},
-                                         {"phase_std", 0, infinity, "a positive number of degrees"}}};
-enum : std::size_t { frequency, e_star, g_star, phase, temperature, e_std, g_std, phase_std };
+constexpr std::array<Column, 10> columns{{{"frequency_hz", 0, infinity, "a positive number of Hz"},
+                                          {"e_star_pa", 0, infinity, "a positive number of Pa"},
+                                          {"g_star_pa", 0, infinity, "a positive number of Pa"},
+                                          {"phase_deg", -5, 95, "degrees between -5 and 95"},
+                                          {"temperature_c", -laws::zero_celsius, 1000, "degrees Celsius"},
+                                          {"e_star_std", 0, infinity, "a positive number of Pa"},
+                                          {"g_star_std", 0, infinity, "a positive number of Pa"},
+                                          {"phase_std", 0, infinity, "a positive number of degrees"},
+                                          {"e_prime_pa", 0, infinity, "a positive number of Pa"},
+                                          {"e_double_prime_pa", -infinity, infinity, "a number of Pa"}}};
+enum : std::size_t { frequency, e_star, g_star, phase, temperature, e_std, g_std, phase_std, storage, loss };
 
 std::vector<std::string> known_names() {
   std::vector<std::string> out;
@@ -127,10 +130,12 @@ class DataReader {
       if (has(column)) fail("header", in_quotes(name) + " twice", "each column once");
       order_.push_back(column);
     }
-    for (const std::size_t column : {frequency, phase})
+    const bool parts = has(storage) || has(loss);
+    for (const std::size_t column : {frequency, parts ? storage : phase, parts ? loss : phase})
       if (!has(column)) fail("header", in_quotes(line), fmt::format("a column {}", columns[column].name));
-    if (has(e_star) == has(g_star)) { fail("header", in_quotes(line), "either e_star_pa or g_star_pa"); }
-    if (has(has(e_star) ? g_std : e_std))
+    if (has(e_star) + has(g_star) + parts != 1 || (parts && has(phase)))
+      fail("header", in_quotes(line), "e_star_pa or g_star_pa with phase_deg, or e_prime_pa with e_double_prime_pa");
+    if (has(has(g_star) ? e_std : g_std))
       fail("header", in_quotes(line), "the standard deviation of the modulus that is there");
     data_.temperatures = has(temperature);
     data_.deviations = has(phase_std);
@@ -140,7 +145,7 @@ class DataReader {
     if (has(g_star) && !poisson_) {
       fail("column g_star_pa", "no Poisson's ratio", "one (--poisson): |E*| = 2 (1 + ratio) |G*|");
     }
-    if (has(e_star) && poisson_) fail("column e_star_pa", "a Poisson's ratio", "none: |E*| is what is fitted");
+    if (!has(g_star) && poisson_) fail("column e_star_pa", "a Poisson's ratio", "none: |E*| is what is fitted");
     if (poisson_ && !(*poisson_ > -1 && *poisson_ <= 0.5)) {
       fail("Poisson's ratio", fmt::format("{}", *poisson_), "a number above -1, at most 0.5");
     }
@@ -168,6 +173,14 @@ class DataReader {
     p.frequency_hz = value[frequency];
     p.e_star_pa = factor * value[has(g_star) ? g_star : e_star];
     p.phase_deg = value[phase];
+    if (has(storage)) {
+      p.e_star_pa = std::hypot(value[storage], value[loss]);
+      p.phase_deg = std::atan2(value[loss], value[storage]) * 180 / std::numbers::pi;
+      if (!(p.phase_deg > columns[phase].low && p.phase_deg < columns[phase].high)) {
+        fail("columns e_prime_pa and e_double_prime_pa", fmt::format("a phase of {:.3g} degrees", p.phase_deg),
+             columns[phase].words);
+      }
+    }
     p.temperature_c = value[temperature];
     p.e_star_std = factor * value[has(g_star) ? g_std : e_std];
     p.phase_std = value[phase_std];

@@ -53,6 +53,7 @@ Change set(const std::string& text, const toml::table& table, const std::string&
   toml::source_position first{~toml::source_index{0}, 0};
   for (const auto& [k, v] : table)
     if (!v.is_table() || v.as_table()->is_inline()) first = std::min(first, k.source().begin);
+  if (first.line == ~toml::source_index{0}) throw RunError("a table without keys of its own takes no " + key);
   const std::size_t at = offset_of(text, first);
   return {at, at, key + " = " + value + (table.is_inline() ? ", " : "\n")};
 }
@@ -75,6 +76,8 @@ void SceneText::set_contact(PairType pair, const std::string& name, double value
 
 void SceneText::set_seed(std::uint64_t seed) {
   const toml::table root = toml::parse(text_);
+  const std::uint64_t given = root["specimen"]["seed"].value<std::uint64_t>().value_or(SpecimenSpec{}.seed);
+  if (given == seed) return;
   const Change change = set(text_, *root["specimen"].as_table(), "seed", fmt::format("{}", seed));
   replace(change.begin, change.end, change.by);
 }

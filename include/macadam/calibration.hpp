@@ -66,13 +66,13 @@ struct Combination {
 struct Calibration {
   CalibrationOptions options;
   std::vector<CalibratedParameter> parameters;
-  std::vector<double> covariance;   ///< of the natural logarithms, row by row; without what is not determined
-  std::vector<double> correlation;  ///< row by row
+  std::vector<double> covariance;   ///< of the natural logarithms, row by row; NaN where something is not determined
+  std::vector<double> correlation;  ///< row by row, likewise
   std::vector<Combination> combinations;
   std::vector<CalibratedPoint> points;
   FitErrors errors;
   double misfit = 0;  ///< Σ of squares, without priors
-  double degrees_of_freedom = 0;
+  double degrees_of_freedom = 0;  ///< numbers measured less parameters that do not lie at a bound
   bool temperatures = false, deviations = false;  ///< whether the data have them
   std::vector<std::uint64_t> seeds;               ///< empty for a specimen from a file
   std::string solver;                             ///< what was solved, in words

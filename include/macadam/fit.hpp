@@ -35,7 +35,8 @@ struct ModulusData {
   bool deviations = false;    ///< each point has both
 };
 
-/// Reads a CSV file with the columns `frequency_hz`, `e_star_pa` or `g_star_pa`, `phase_deg` and, where they are there,
+/// Reads a CSV file with the columns `frequency_hz`, `e_star_pa` or `g_star_pa`, `phase_deg` (or `e_prime_pa` and
+/// `e_double_prime_pa`, the real and the imaginary part, in place of the two) and, where they are there,
 /// `temperature_c`, `e_star_std` or `g_star_std` [Pa] and `phase_std` [degrees], in any order; lines that begin with #
 /// are comments. E* = 2·(1 + ν)·G*, with Poisson's ratio ν in (−1, 0.5]. \throws InputError naming file, line and
 /// column.
