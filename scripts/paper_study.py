@@ -33,7 +33,8 @@ class Choice:
 
     @property
     def label(self):
-        words = ["voids" + (f" × {self.voids:g}" if self.voids != 1 else "")] * (self.voids > 0) + ["tested by spheres"] * (self.test == "spheres")
+        words = ["voids" if self.voids == 1 else f"voids × {self.voids:g}"] * (self.voids > 0)
+        words += ["tested by spheres"] * (self.test == "spheres")
         words += [f"hold-out {self.hold_out:g}"] * (self.hold_out > 0)
         words += [f"spacing {self.spacing_mm:g} mm"] * (self.spacing_mm > 0) + ["narrow radii"] * self.narrow
         words += [f"library {self.library}"] * bool(self.library)
