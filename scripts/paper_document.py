@@ -184,17 +184,12 @@ def pictures():
     return out
 
 
-def document(runs, of_design, reasons, prose):
-    """The text of the page. prose: the sections after the tables, as a function of the letters that are used."""
-    cells = Cells(reasons)
-    body = composition(runs, cells) + design(of_design) + contacts(runs, cells) + orientation(runs)
-    body += stiffness(runs, cells)
-    cells.check()
-    head = ["# The paper's five specimens", "",
-            *wrapped(f"""Made by `scripts/documents` of what `scripts/paper-specimens` measured
-                ([paper-specimens.csv](../bench/results/paper-specimens.csv)); do not edit. Ours, and the paper's in
-                brackets (Tables 3 and
-                5, Figs. 9 to 11); where the two differ by more than 10 % the cell is bold, and its letter stands for
-                the reason [below](#what-differs-and-why). Means of {len(runs['SS'])} seeds; ± is half the range over
-                the seeds, everywhere. Scenes: `examples/ac14_ss_am1` and `examples/ac14_ms_*`."""), ""]
-    return "\n".join(head + body + prose(cells.used) + pictures()).rstrip() + "\n"
+def head(runs):
+    return ["# The paper, and ours beside it", "",
+            *wrapped(f"""Every table and figure of the paper that has specimens in it. Made by `scripts/documents` of what
+                `scripts/paper` leaves in [bench/results](../bench/results); do not edit. Ours, and the paper's in
+                brackets; where the two differ by more than 10 % the cell is bold, and its letter stands for the reason
+                [below](#what-differs-and-why). Means of {len(runs['SS'])} seeds; ± is half the range over the seeds,
+                everywhere. Scenes: `examples/ac14_ss_am1` and `examples/ac14_ms_*`. Figures without numbers in the
+                paper's text are drawn for ours alone. Tables 1 and 2 and Figs. 5 and 6a, b, d are in
+                [shapes.md](shapes.md) and [filling.md](filling.md)."""), ""]

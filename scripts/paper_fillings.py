@@ -119,7 +119,7 @@ def fillings(facts):
             *hints(facts), *implied_voids(facts),
             *wrapped("""What voids and other laws would do, varied in Ico alone (in Poly only the composition, ⁱ), with
                 seed 1, at 2 and 20 Hz only; deviations are from SS of the same seed, at 2 … 20 Hz, and the means of
-                these two, the paper's of four frequencies. `bench/paper_variants` makes [the
+                these two, the paper's of four frequencies. An earlier `bench/paper_variants` made [the
                 data](../bench/results/paper-variants.csv)."""), "",
             *variants(facts), *changes,
             *wrapped(f"""So voids bring {', '.join(moved['nearer'])} nearer to the paper, and

@@ -11,7 +11,7 @@ from matplotlib.patches import Patch  # noqa: E402
 
 from pages.data import mean  # noqa: E402
 from paper_document import deviations  # noqa: E402
-from paper_runs import ROOT, committed  # noqa: E402
+from paper_runs import ROOT, committed, rows  # noqa: E402
 from paper_tables import DEVIATION, FREQUENCIES, PAPER  # noqa: E402
 
 PICTURES = ROOT / "docs" / "pictures"
@@ -28,6 +28,27 @@ def specimens(results):
             (folder / f"section_{cut}.png").replace(PICTURES / f"{paper.scene}_{cut}.png")
         subprocess.run([sys.executable, ROOT / "scripts" / "draw-specimen", folder / "specimen.csv", "--without-mastic",
                         "--pixels", "560", "--out", PICTURES / f"{paper.scene}_view.png"], check=True)
+
+
+def gradations(results):
+    for mix in ("ac14", "ac20"):
+        subprocess.run([sys.executable, ROOT / "scripts" / "draw-gradation", results / f"{mix}_recipe", "--out",
+                        PICTURES / f"gradation_{mix}.png", "--dpi", "90"], check=True)
+
+
+def axes(results):
+    """Figs. 9a and b: D^L of every cluster above 4.75 mm in its place."""
+    for name in ("MS-Poly-fine", "MS-Poly-coarse"):
+        scene = PAPER[name].scene
+        figure = plt.figure(figsize=(4.4, 6), layout="constrained")
+        ax = figure.add_subplot(projection="3d", box_aspect=(50, 50, 80))
+        for a in rows(results / f"{scene}_sections" / "aggregates.csv"):
+            if a["shape"] != "sphere" and int(a["size_class"]) < 3:
+                half = float(a["d_long"]) / 2
+                ends = [[1e3 * (float(a[x]) + s * half * float(a[f"axis_{x}"])) for s in (-1, 1)] for x in "xyz"]
+                ax.plot(*ends, color=f"C{a['size_class']}", lw=1)
+        ax.set(xlabel="x (mm)", ylabel="y (mm)", zlabel="z (mm)", xlim=(0, 50), ylim=(0, 50), zlim=(0, 80), title=name)
+        figure.savefig(PICTURES / f"{scene}_axes.png", dpi=90)
 
 
 def orientation(runs):
@@ -89,4 +110,6 @@ def draw(results):
     runs = {name: committed(p.scene) for name, p in PAPER.items()}
     orientation(runs)
     stiffness(runs)
+    gradations(results)
+    axes(results)
     specimens(results)

@@ -33,7 +33,8 @@ class Choice:
 
     @property
     def label(self):
-        words = ["voids" + (f" × {self.voids:g}" if self.voids != 1 else "")] * (self.voids > 0) + ["tested by spheres"] * (self.test == "spheres")
+        words = ["voids" if self.voids == 1 else f"voids × {self.voids:g}"] * (self.voids > 0)
+        words += ["tested by spheres"] * (self.test == "spheres")
         words += [f"hold-out {self.hold_out:g}"] * (self.hold_out > 0)
         words += [f"spacing {self.spacing_mm:g} mm"] * (self.spacing_mm > 0) + ["narrow radii"] * self.narrow
         words += [f"library {self.library}"] * bool(self.library)
@@ -52,8 +53,8 @@ MAKINGS = [OURS, Choice(voids=1), Choice(test="spheres"), Choice(voids=1, test="
            Choice(voids=1, test="spheres", narrow=True), Choice(voids=1, test="spheres", hold_out=1),
            Choice(voids=1, hold_out=3), Choice(voids=1, test="spheres", spacing_mm=0.2),
            Choice(test="spheres", hold_out=3), Choice(voids=0.5, test="spheres")]
-CONTACTS = [OURS, Choice(inner_gap=0.0), Choice(inner_gap=-0.1), Choice(inner_gap=-0.15), Choice(inner_modulus=0.5),
-            Choice(area_min=0.026), Choice(inner_gap=-0.1, area_min=0.026)]
+CONTACTS = [OURS, Choice(inner_gap=0.0), Choice(inner_gap=-0.05), Choice(inner_gap=-0.1), Choice(inner_gap=-0.15),
+            Choice(inner_modulus=0.5), Choice(area_min=0.026), Choice(inner_gap=-0.1, area_min=0.026)]
 NARROW = (1.35e-3, 1.55e-3)  # m: mean volume 0.82 of the uniform law's in 1 to 2 mm, what Table 3 has at the least
 
 

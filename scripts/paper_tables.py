@@ -77,5 +77,15 @@ CLUSTERS = list(PAPER)[1:]
 # Fig. 11 as the text gives it: mean deviation from SS over the frequencies, % of |E*| and of phi
 DEVIATION = {"MS-Poly-coarse": (19, -18), "MS-Poly-fine": (33, -31),
              "MS-Ico-coarse": (19, -18), "MS-Ico-fine": (34, -29)}
+# Section 4.4
+DELTA_MM = {"AM1": 1.88, "AM2": 1.90}
+ROCK = {"E": 60.0, "nu": 0.28}  # GPa
+INNER_GPA = {"fine": 112.5, "coarse": 111.6}
+# Figs. 12 and 13: delta_MA that brings |E*| to that of SS, by mix; each specimen's own
+DELTA_MA = {"AM1": {"SS": 3.15, "MS-Poly-coarse": 1.68, "MS-Ico-coarse": 1.68, "MS-Poly-fine": 1.00,
+                    "MS-Ico-fine": 1.00},
+            "AM2": {"SS": 6.75, "MS-Poly-coarse": 3.20, "MS-Poly-fine": 1.70}}
+# Mean deviations from SS then, %, over these specimens: |E*| (of AM1 its size), phi
+CALIBRATED = {"AM1": ("3", (-16, 15)), "AM2": ("−3 … +3", (-8, 23))}
 # Ico over Poly, %: "essentially identical" where coarse
 ICO_OVER_POLY = {"coarse": (0, 0), "fine": (0.8, 2.3)}

@@ -228,36 +228,36 @@ TEST(ShapePlacement, TestedBySpheresTheyInterlock) {
   const std::vector<ShapeTemplate> shapes = stones();
   const SpecimenSpec spec = small_mix(0.7);  // too much for surfaces: FailedInsertionSaysHowFarItGot
   const ShapeComposition c = compose_shapes(spec, shapes, small_ones);
-  for (const double spacing : {0.0, 2e-4}) {
-    ShapePlacementSpec how;
-    how.method = PlacementMethod::insertion, how.attempts = 30'000;
-    how.spheres = dumbbells(c, shapes), how.spacing = spacing;
-    const ShapePlacement p = place_shapes(spec.box, shapes, c, how);
-    ASSERT_EQ(p.aggregate.size(), c.aggregate.size());
-    int interlocked = 0;
-    for (std::size_t i = 0; i < p.aggregate.size(); ++i) {
-      ASSERT_EQ(p.request[i], i);
-      const auto moved = [&](std::size_t k) {
-        MultiSphere s = how.spheres[k];
-        for (Vec3d& x : s.centre) x = Pose{p.aggregate[k].pose.centre, p.aggregate[k].pose.turn, 1}(x);
-        return s;
-      };
-      const MultiSphere a = moved(i);
-      for (std::size_t m = 0; m < a.size(); ++m) {  // 1e-15 m: rounding of a position in this box, as above
-        const Vec3d x = a.centre[m], l = spec.box.size;
-        EXPECT_GE(std::min({x.x, x.y, x.z, l.x - x.x, l.y - x.y, l.z - x.z}), a.radius[m] - 1e-15);
-      }
-      for (std::size_t j = 0; j < i; ++j) {
-        const MultiSphere b = moved(j);
-        for (std::size_t m = 0; m < a.size(); ++m)
-          for (std::size_t n = 0; n < b.size(); ++n)
-            EXPECT_GE(norm(a.centre[m] - b.centre[n]), a.radius[m] + b.radius[n] + spacing - 1e-15) << i << " " << j;
-        interlocked +=
-            !p.aggregate[i].sphere && !p.aggregate[j].sphere && brute_overlap(p.aggregate[i], p.aggregate[j], shapes);
-      }
+  constexpr double spacing = 1e-4;
+  ShapePlacementSpec how;
+  how.method = PlacementMethod::insertion, how.attempts = 30'000;
+  how.spheres = dumbbells(c, shapes), how.spacing = spacing;
+  const ShapePlacement p = place_shapes(spec.box, shapes, c, how);
+  ASSERT_EQ(p.aggregate.size(), c.aggregate.size());
+  int interlocked = 0;
+  for (std::size_t i = 0; i < p.aggregate.size(); ++i) {
+    ASSERT_EQ(p.request[i], i);
+    const auto moved = [&](std::size_t k) {
+      MultiSphere s = how.spheres[k];
+      for (Vec3d& x : s.centre) x = Pose{p.aggregate[k].pose.centre, p.aggregate[k].pose.turn, 1}(x);
+      return s;
+    };
+    const MultiSphere a = moved(i);
+    for (std::size_t m = 0; m < a.size(); ++m) {  // 1e-15 m: rounding of a position in this box, as above
+      const Vec3d x = a.centre[m], l = spec.box.size;
+      EXPECT_GE(std::min({x.x, x.y, x.z, l.x - x.x, l.y - x.y, l.z - x.z}), a.radius[m] - 1e-15);
     }
-    EXPECT_GT(interlocked, 0);
+    for (std::size_t j = 0; j < i; ++j) {
+      const MultiSphere b = moved(j);
+      for (std::size_t m = 0; m < a.size(); ++m)
+        for (std::size_t n = 0; n < b.size(); ++n)
+          EXPECT_GE(norm(a.centre[m] - b.centre[n]), a.radius[m] + b.radius[n] + spacing - 1e-15) << i << " " << j;
+      if (interlocked > 0) continue;  // one will do
+      interlocked +=
+          !p.aggregate[i].sphere && !p.aggregate[j].sphere && brute_overlap(p.aggregate[i], p.aggregate[j], shapes);
+    }
   }
+  EXPECT_GT(interlocked, 0);
 }
 
 TEST(ShapePlacement, SurfacesKeepTheSpacing) {

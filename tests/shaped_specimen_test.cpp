@@ -315,18 +315,17 @@ TEST(ShapedSpecimens, HoldMasticOut) {
 
 TEST(ShapedSpecimens, TakeTheIcosahedronAsOneMoreOfTheLibrary) {
   SpecimenSpec spec = recipe(ShapeSpec::Library::aggregates_and_icosahedron);
-  spec.box = {{0.04, 0.04, 0.04}};
   spec.mastic.reset();
-  spec.aggregate = {{2e-3, 3e-3, std::nullopt, 500}};
+  spec.aggregate = {{2e-3, 3e-3, std::nullopt, 60}};
   spec.shapes->fill.radius_min = spec.shapes->fill.radius_max = 0.5e-3;
   spec.shapes->fill.least = 2;
   std::map<std::string, int> times;
-  for (const Aggregate& a : generate_specimen(spec).aggregates) ++times[a.shape];
-  // 500/83 = 6 times are expected: with seed 3 it is there, and not more often than four deviations
-  const int found = times[subdivided_icosahedron().name];
-  EXPECT_GT(found, 0);
-  EXPECT_LT(found, 6 + 4 * std::sqrt(6.0));
-  EXPECT_GT(times.size(), 75u);
+  const std::string icosahedron = subdivided_icosahedron().name;
+  for (spec.seed = 1; spec.seed <= 10 && times[icosahedron] == 0; ++spec.seed)  // 60/83 = 0.7 times each are expected
+    for (const Aggregate& a : generate_specimen(spec).aggregates) ++times[a.shape];
+  EXPECT_GT(times[icosahedron], 0);
+  EXPECT_LT(times[icosahedron], 6);
+  EXPECT_GT(times.size(), 30u);
 }
 
 TEST(ShapedSpecimens, OfAnotherSeedAreOthers) {

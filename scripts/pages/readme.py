@@ -110,15 +110,8 @@ def design_particles():
 def paper_minutes():
     """What the runs of scripts/paper-specimens took one after another."""
     every = rows("paper-specimens.csv")
-    return f"{plain(upto(sum(r['wall_s'] for r in every) / 60))} minutes"
+    return f"{plain(upto(sum(r['wall_s'] or 0 for r in every) / 60))} minutes"
 
-
-@mark
-def variants():
-    return f"{len(rows('paper-variants.csv'))}"
-
-
-# ---- how far to trust it
 
 @mark
 def prediction():

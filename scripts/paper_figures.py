@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Sections of docs/paper-specimens.md beside those of the five specimens at the same delta: the shapes' figures, the
+calibrated specimens (Figs. 12 and 13), and specimens stepped in time."""
+import math
+
+from pages.data import RESULTS, between, half_range, mean, minus, rows, span, thousands, upto, where
+from paper_document import table, wrapped
+from paper_runs import committed
+from paper_tables import CALIBRATED, CLASSES, DELTA_MA, FREQUENCIES, PAPER
+
+INDEXES = {"flatness": "F", "elongation": "E", "sphericity_true": "ψ^w", "sphericity_working": "ψ^A"}
+
+
+def correlation(x, y):
+    """Pearson's coefficient."""
+    dx, dy = ([v - mean(of) for v in of] for of in (x, y))
+    return sum(a * b for a, b in zip(dx, dy)) / math.sqrt(sum(a * a for a in dx) * sum(b * b for b in dy))
+
+
+def numbers_of_spheres():
+    """Fig. 6c: spheres of 0.5 mm in shapes of one D^I, against the shapes' indexes."""
+    found = where(rows("fill-study.csv"), radius_min_mm=0.5, radius_max_mm=0.5, seed=1.0)
+    lines = [[r["shape"], thousands(r["spheres"]), *[f"{r[key]:.2f}" for key in INDEXES]]
+             for r in sorted(found, key=lambda r: r["spheres"])]
+    n = [r["spheres"] for r in found]
+    r = {label: correlation(n, [row[key] for row in found]) for key, label in INDEXES.items()}
+    stones = [row for row in found if row["shape"] != "icosahedron"]
+    alone = {label: correlation([s["spheres"] for s in stones], [s[key] for s in stones])
+             for key, label in INDEXES.items()}
+    lines.append(["correlation with the number", "", *[minus(f"{v:+.2f}") for v in r.values()]])
+    lines.append(["… without the icosahedron", "", *[minus(f"{v:+.2f}") for v in alone.values()]])
+    return ["## Spheres against shape (Fig. 6c)", "", *wrapped(f"""Spheres of 0.5 mm that fill each of seven shapes of
+        the same D^I, 12.59 mm, and the coefficients of their correlation with the indexes of shape (Eqs. 18–23). The
+        paper draws them and says that none is strongly correlated; the text has no coefficients. Of
+        {len(found)} shapes a coefficient up to 0.75 may be chance, of {len(found) - 1} up to 0.81 (5 %, two-sided)
+        ([fill-study.csv](../bench/results/fill-study.csv); [filling.md](filling.md)):"""), "",
+            *table(["", "spheres", *INDEXES.values()], lines)]
+
+
+def gradation():
+    return ["## Gradation (Fig. 4)", "",
+            *wrapped("""Fig. 4 is drawn, without numbers in the text: the AC 20 whose aggregates the paper scanned. Ours
+                is `examples/ac20_recipe`, on a Fuller curve; `scripts/draw-gradation` draws the asked and the reached
+                one of any specimen of a recipe. The AC 14 is in the text by mass, and `examples/ac14_recipe` follows
+                it ([mix-design.md](mix-design.md)). Both are drawn here for ours alone:"""), "",
+            "| AC 14 | AC 20 |", "|---|---|",
+            "| ![](pictures/gradation_ac14.png) | ![](pictures/gradation_ac20.png) |", ""]
+
+
+def directions(runs):
+    """Figs. 9a and b."""
+    lines = []
+    for name in ("MS-Poly-fine", "MS-Poly-coarse"):
+        clusters = [mean(run.particles[k] - run.single[k] for run in runs[name]) for k in range(3)]
+        lines.append([name, *[f"{c:,.0f} ({PAPER[name].particles[k]})" for k, c in enumerate(clusters)],
+                      f"{sum(clusters):,.0f} ({sum(PAPER[name].particles[:3])})"])
+    return ["### Directions (Figs. 9a, b)", "", *wrapped("""D^L of every cluster above 4.75 mm, seed 1. The paper draws the
+        lines and gives no numbers; in brackets are its aggregates of these classes, single spheres among them."""), "",
+            *table(["clusters", *CLASSES[:3], "together"], lines),
+            "| MS-Poly-fine | MS-Poly-coarse |", "|---|---|",
+            "| ![](pictures/ac14_ms_poly_fine_axes.png) | ![](pictures/ac14_ms_poly_coarse_axes.png) |", ""]
+
+
+# ---- Figs. 12 and 13
+
+def am2_single_spheres():
+    runs = committed("ac14_ss_am2")
+    lines = [[label, *[f"{mean(s):.3f} ± {half_range(s):.3f}" for s in zip(*[getattr(run, key) for run in runs])]]
+             for key, label in (("e_star", "\\|E*\\| (GPa)"), ("phase", "φ (°)"))]
+    return ["Single spheres of AM2, with the paper's δ_MA of 6.75:", "",
+            *table(["", *[f"{hz} Hz" for hz in FREQUENCIES]], lines)]
+
+
+def of_mix(found, mix, figure):
+    lines = []
+    for name in (n for n in DELTA_MA[mix] if n != "SS"):
+        of = where(found, mix=mix, specimen=name)
+        delta = [r["delta_ma"] for r in of]
+        cells = [name, f"{mean(delta):.2f} ± {half_range(delta):.2f} ({DELTA_MA[mix][name]:.2f})"]
+        for key in ("e_star_pa", "phase_deg"):
+            d = [[100 * (r[f"{key}_{hz}"] / r[f"ss_{key}_{hz}"] - 1) for hz in FREQUENCIES] for r in of]
+            each = [mean(v) for v in zip(*d)]
+            cells += [minus(f"{mean(map(mean, d)):+.1f} ± {half_range(map(mean, d)):.1f}"),
+                      minus(f"{each[0]:+.0f} … {each[-1]:+.0f}")]
+        lines.append(cells)
+    e, phi = CALIBRATED[mix]
+    return [f"### {mix} (Fig. {figure})", "",
+            *table(["", "δ_MA (paper)", "d_m of \\|E*\\| (%)", "2 … 20 Hz", "d_m of φ (%)", "2 … 20 Hz"], lines),
+            *wrapped(f"""The paper's d_m of |E\\*| is {e} %, and that of φ from {minus(f'{phi[0]:+d}')} to
+                {phi[1]:+d} %."""), ""]
+
+
+def calibrated():
+    out = ["## Calibrated to the single spheres (Figs. 12 and 13)", "",
+           *wrapped("""δ_MA of each specimen of clusters so that its |E\\*| is that of the single spheres, by least squares
+               over the four frequencies; φ is left to come out as it does. `scripts/paper-deltas` calls `macadam
+               calibrate` for each mixture, specimen and seed."""), "", *am2_single_spheres()]
+    if not (RESULTS / "paper-deltas.csv").is_file():
+        return out + ["Figs. 12 and 13 are still to be made: `scripts/paper-deltas` writes the numbers, and",
+                      "`scripts/documents` the tables that stand here then.", ""]
+    found = rows("paper-deltas.csv")
+    return out + of_mix(found, "AM1", 12) + of_mix(found, "AM2", 13)
+
+
+# ---- stepped in time
+
+PAPERS_DAYS = (5, 40)  # MS-Poly-fine, at 20 and at 2 Hz; one core of an i9-10900KF
+
+
+def stepped():
+    if not (RESULTS / "paper-stepped.csv").is_file():
+        return []
+    found = rows("paper-stepped.csv")
+    lines = [[r["specimen"], f"{r['frequency_hz']:g}", f"{r['steps'] / 1e6:.2f}", f"{1e9 * r['dt_s']:.1f}",
+              f"{r['us_per_step']:.1f}", f"{r['stepping_s']:.0f}", f"{r['e_star_pa'] / 1e9:.4f}",
+              minus(f"{1e6 * r['off_e_star']:+.0f}"), f"{r['phase_deg']:.3f}",
+              minus(f"{1e6 * r['off_phase_rad']:+.0f}")] for r in found]
+    off = upto(max(abs(r[k]) for r in found for k in ("off_e_star", "off_phase_rad")), 2)
+    seconds = [r["stepping_s"] for r in found if r["frequency_hz"] in (20.0, 2.0)]
+    poly = {r["frequency_hz"]: r["stepping_s"] for r in found if r["specimen"] == "MS-Poly-fine"}
+    faster = [86400 * days / poly[hz] for hz, days in zip((20.0, 2.0), PAPERS_DAYS) if hz in poly]
+    out = ["## Stepped in time, at true mass", "",
+           *wrapped(f"""A cycle of each frequency from the steady start, mixed precision, no density scaling; the last
+               columns are what is off the frequency domain without inertia, on which the rest of this page rests:
+               {off:.1e} at most. `scripts/paper-stepped` makes [the
+               data](../bench/results/paper-stepped.csv)."""), "",
+           *table(["", "f (Hz)", "10⁶ steps", "step (ns)", "µs a step", "seconds", "\\|E*\\| (GPa)", "off (10⁻⁶)",
+                   "φ (°)", "off (10⁻⁶ rad)"], lines)]
+    text = f"""The paper's stepped runs of MS-Poly-fine took {PAPERS_DAYS[0]} days (20 Hz) to {PAPERS_DAYS[1]} days
+        (2 Hz) on one core of an i9-10900KF; it does not say of how many cycles. Here a cycle takes
+        {between(seconds)} s."""
+    if faster:
+        text += f""" Of MS-Poly-fine it is {span(faster, lambda x: thousands(round(x, -2)), ' to ')} times faster, if the
+            paper's were one cycle too, by the machine, the precision and the condensed contacts together."""
+    return out + [*wrapped(text), ""]
