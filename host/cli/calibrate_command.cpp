@@ -98,13 +98,13 @@ void calibrate_command(Arguments arguments) {
   }
   const std::filesystem::path out = arguments.job.out;
   std::error_code error;
-  if (std::filesystem::exists(out / "scene.toml", error) && !std::filesystem::exists(out / "calibration.json", error)) {
-    throw InputError("command line", 0, "--out", "a folder with a scene.toml that no calibration wrote",
-                     "another folder: it would be replaced");
-  }
   if (std::filesystem::equivalent(scene.file, out / "scene.toml", error)) {
     throw InputError("command line", 0, "--out", "the folder of the scene, whose scene.toml would be replaced",
                      "another folder");
+  }
+  if (std::filesystem::exists(out / "scene.toml", error) && !std::filesystem::exists(out / "calibration.json", error)) {
+    throw InputError("command line", 0, "--out", "a folder with a scene.toml that no calibration wrote",
+                     "another folder: it would be replaced");
   }
   const ResultFolder folder(out);
   ProgressLine line;
