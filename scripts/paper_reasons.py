@@ -4,18 +4,25 @@ Every number comes from the results or from the paper's tables."""
 import math
 from collections import namedtuple
 
-from pages.data import mean, minus
+from pages.data import between, listed, mean, minus
 from paper_document import deviations
+from paper_study import OURS, Choice, choice_of, merits
 from paper_tables import BOX, CLASSES, CLUSTERS, COARSE, DEVIATION, ICO_OVER_POLY, PAPER, mean_sphere
 
 Void = namedtuple("Void", "ratio size chance number spheres")
+
+
+def variant(name, choice):
+    """What a row of the study is called here: `MS-Ico-fine, voids`."""
+    return name if choice == OURS else f"{name}, {choice.label}"
 
 
 class Facts:
     """What the reasons need to know of the results."""
 
     def __init__(self, runs, variants):
-        self.runs, self.variants = runs, {v["variant"]: v for v in variants}
+        self.runs = runs
+        self.variants = {variant(v["specimen"], choice_of(v)): v for v in variants if v["seed"] == "1"}
 
     def of(self, name, key, k):
         return mean(getattr(run, key)[k] for run in self.runs[name])
@@ -44,6 +51,10 @@ class Facts:
         v, ss = self.variants[variant], self.variants["SS"]
         return [100 * (float(v[f"{key}_{hz}_hz"]) / float(ss[f"{key}_{hz}_hz"]) - 1) for hz in (2, 20)]
 
+    def counts(self, choice, key):
+        """Of the four specimens with a choice, in the order of CLUSTERS."""
+        return [self.count(variant(n, choice), key) for n in CLUSTERS]
+
     def between(self, variant, base, key="e_star_pa"):
         """Mean of a variant's two deviations from another one, %."""
         v, b = self.variants[variant], self.variants[base]
@@ -62,7 +73,7 @@ def number(f):
         return " / ".join(str(of(k)) for k in range(3))
 
     made = {v: counts(lambda k, v=v: f.count(v, f"aggregates_{k}"))
-            for v in ("coarse", "fine", "coarse, porosity 0.24", "fine, porosity 0.12")}
+            for v in ("MS-Ico-coarse", "MS-Ico-fine", "MS-Ico-coarse, voids", "MS-Ico-fine, voids")}
     paper = {r: counts(lambda k, r=r: PAPER[f"MS-Ico-{r}"].particles[k]) for r in ("coarse", "fine")}
     voids = [(n, k, f.void(n, [k])) for n in CLUSTERS for k in range(3)]
     by_size = [f"{n[3:]} {CLASSES[k]} (number × {v.ratio:.2f}, sizes give × {v.size:.2f})" for n, k, v in voids
@@ -71,9 +82,9 @@ def number(f):
         takes more clusters if they have voids, and more if they are smaller. The paper's mean L^I is smaller than ours
         in {', '.join(by_size)}: most of the larger number there, or all. Why it is smaller is *not explained*; the
         largest class is few enough for chance. In the other cells it is nearly ours, and voids would do (*inferred*):
-        made with voids of 0.24 (coarse) and 0.12 (fine), Ico has {made['coarse, porosity 0.24']} and
-        {made['fine, porosity 0.12']} aggregates, the paper {paper['coarse']} and {paper['fine']}, ours without voids
-        {made['coarse']} and {made['fine']}."""
+        made with voids of 0.24 (coarse) and 0.12 (fine), Ico has {made['MS-Ico-coarse, voids']} and
+        {made['MS-Ico-fine, voids']} aggregates, the paper {paper['coarse']} and {paper['fine']}, ours without voids
+        {made['MS-Ico-coarse']} and {made['MS-Ico-fine']}."""
 
 
 def small_class(f):
@@ -91,9 +102,10 @@ def small_class(f):
         aggregates is {several(weighted)} mm, near the paper's; but in the larger classes of Ico such a mean is {larger}
         mm, so that the paper's others are no such means. *Not explained.* The number of aggregates follows from the
         volume of one, which is not explained either. Spheres: voids of 0.12 make
-        {f.count('fine, porosity 0.12', 'spheres_3'):,} of Ico's {f.count('fine', 'spheres_3'):,} (paper
-        {ico.spheres[3]:,}), since a cluster of eight must be larger then. *Inferred:* that is most of it; Poly was not
-        varied so."""
+        {f.count('MS-Ico-fine, voids', 'spheres_3'):,} of Ico's {f.count('MS-Ico-fine', 'spheres_3'):,} (paper
+        {ico.spheres[3]:,}), since a cluster of eight must be larger then, and
+        {f.count('MS-Poly-fine, voids', 'spheres_3'):,} of Poly's {f.count('MS-Poly-fine', 'spheres_3'):,} (paper
+        {poly.spheres[3]:,}). *Inferred:* that is most of it."""
 
 
 def coarse_spheres(f):
@@ -127,40 +139,40 @@ def smaller_size(f):
 
 def aggregate_contacts(f):
     ss = 100 * abs(mean(run.contacts[0] for run in f.runs["SS"]) / PAPER["SS"].contacts[0] - 1)
-    coarse, fine = ([f.count(v, "A-A") for v in (r, void)] + [PAPER[f"MS-Ico-{r}"].contacts[0]]
-                    for r, void in (("coarse", "coarse, porosity 0.24"), ("fine", "fine, porosity 0.12")))
+    both = Choice(voids=1, test="spheres")
+    ours, voids, spheres, together = (listed([f"{n:,}" for n in f.counts(c, "A-A")])
+                                      for c in (OURS, Choice(voids=1), Choice(test="spheres"), both))
+    off = [100 * (n / PAPER[name].contacts[0] - 1) for n, name in zip(f.counts(both, "A-A"), CLUSTERS)]
     return f"""*Fewer A-A contacts.* In SS ours are within {ss:.0f} % of the paper's; the difference comes with the
-        clusters. Ours are kept apart by an exact test of their surfaces, so that mastic finds its way between most of
-        them. The paper does not say how it tests; if by the spheres, clusters may interlock, which would bring more
-        contacts (*inferred*). With voids {coarse[0]:,} become {coarse[1]:,} in Ico-coarse (paper {coarse[2]:,}), but
-        {fine[0]:,} become {fine[1]:,} in Ico-fine (paper {fine[2]:,}). *The rest is not explained.*"""
+        clusters. Ours are kept apart by an exact test of their surfaces, and mastic finds its way between most of them.
+        The paper fills an aggregate before it finds a place for it, and does not say what it tests; if by the spheres,
+        clusters interlock. In the order of the table {ours} become {voids} with voids, {spheres} tested by spheres, and
+        {together} with both, {between(off, '{:+.0f}')} % off the paper. *Inferred:* both, and
+        [more of it](#what-the-paper-leaves-open)."""
 
 
 def other_contacts(f):
-    ratio = [f.count(v, "M-A") / f.count("SS", "M-A") for v in ("coarse", "coarse, porosity 0.24")]
+    ratio = [f.count(v, "M-A") / f.count("SS", "M-A") for v in ("MS-Ico-coarse", "MS-Ico-coarse, voids")]
     paper = PAPER["MS-Ico-coarse"].contacts
     return f"""*M-M and M-A of Ico-coarse.* Without voids its shapes take less room and leave more to the mastic. With
-        voids of 0.24 M-M falls from {f.count('coarse', 'M-M'):,} to {f.count('coarse, porosity 0.24', 'M-M'):,} (paper
+        voids of 0.24 M-M falls from {f.count('MS-Ico-coarse', 'M-M'):,} to {f.count('MS-Ico-coarse, voids', 'M-M'):,} (paper
         {paper[2]:,}), and M-A over SS rises from {ratio[0]:.2f} to {ratio[1]:.2f} (paper
         {paper[1] / PAPER['SS'].contacts[1]:.2f}). *Inferred:* voids."""
 
 
 def deviation(f):
-    both = []
-    for label, variant in (("coarse", "coarse, porosity 0.24"), ("fine", "fine, porosity 0.12")):
-        e, phi = (mean(f.from_ss(f"{variant}, inner halved", key)) for key in ("e_star_pa", "phase_deg"))
-        paper = DEVIATION[f"MS-Ico-{label}"]
-        both.append(f"{e:+.0f} and {phi:+.0f} % ({label}; paper {paper[0]:+d} and {paper[1]:+d})")
     coarse, fine = ([mean(d[-1] for d in deviations(f.runs, f"MS-{s}-{r}", "SS", "e_star")) for s in ("Poly", "Ico")]
                     for r in ("coarse", "fine"))
+    _, best, of = merits(f.variants.values())[0]
+    e, phi = (listed([f"{of[n].deviations[k]:+.0f} ({DEVIATION[n][k]:+d})" for n in CLUSTERS]) for k in (0, 1))
     return f"""*|E\\*| and φ against SS.* The coarse ones are stiffer by {several(coarse, '{:.0f}')} % (Poly and Ico),
-        the fine ones by {several(fine, '{:.0f}')} %; φ falls by less than in the paper in all four. Two things that the
-        paper does not state would explain all of it in Ico: voids and inner contacts half as stiff give
-        {', '.join(both)}. *Inferred*, from Ico alone; Poly was not varied so."""
+        the fine ones by {several(fine, '{:.0f}')} %; φ falls by less than in the paper in all four. Of what was
+        [varied](#what-the-paper-leaves-open) the best set ({best.label}) has {e} % of |E\\*| and {phi} % of φ, the
+        paper's in brackets, in the order of the table."""
 
 
 def shape(f):
-    e, same, phi = ([f.between(r, f"Poly {r}{given}", key) for r in ("coarse", "fine")] for given, key in
+    e, same, phi = ([f.between(f"MS-Ico-{r}", f"MS-Poly-{r}{given}", key) for r in ("coarse", "fine")] for given, key in
                     (("", "e_star_pa"), (", composition of Ico", "e_star_pa"), (", composition of Ico", "phase_deg")))
     poly, ico = (PAPER[f"MS-{s}-coarse"] for s in ("Poly", "Ico"))
     box = [f"{sum(p.volume(k) for k in range(4)):.3f} and {p.volume(4):.3f}" for p in (ico, poly)]

@@ -19,5 +19,5 @@ def page():
             *design(committed(DESIGN[0])), *contacts(runs, cells), *orientation(runs), *paper_figures.directions(runs),
             *stiffness(runs, cells), *paper_figures.calibrated(), *paper_laws.section(), *paper_figures.stepped()]
     cells.check()
-    after = prose(runs, rows(RESULTS / "paper-variants.csv"), rows(RESULTS / "paper-specimens-time.csv"))
+    after = prose(runs, rows(RESULTS / "paper-study.csv"), rows(RESULTS / "paper-specimens-time.csv"))
     return "\n".join([*head(runs), *body, *after(cells.used), *paper_open.section(), *pictures()]).rstrip() + "\n"
