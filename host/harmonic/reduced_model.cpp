@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-/// What is left of a motion beside those that are there, as a share of it, below which it brings nothing new: E* has the
-/// square of it.
+/// What is left of a motion beside those that are there, as a share of it, below which it brings nothing new: E* has
+/// the square of it.
 constexpr double nothing_new = 1e-6;
 
 /// Sums are taken of so many pieces and then of these, in order: the same bits for any number of threads.

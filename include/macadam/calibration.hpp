@@ -71,8 +71,8 @@ struct Calibration {
   std::vector<Combination> combinations;
   std::vector<CalibratedPoint> points;
   FitErrors errors;
-  double misfit = 0;  ///< Σ of squares, without priors
-  double degrees_of_freedom = 0;  ///< numbers measured less parameters that do not lie at a bound
+  double misfit = 0;                              ///< Σ of squares, without priors
+  double degrees_of_freedom = 0;                  ///< numbers measured less parameters that do not lie at a bound
   bool temperatures = false, deviations = false;  ///< whether the data have them
   std::vector<std::uint64_t> seeds;               ///< empty for a specimen from a file
   std::string solver;                             ///< what was solved, in words
