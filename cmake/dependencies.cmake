@@ -27,6 +27,30 @@ macadam_find_library(METIS::METIS metis.h "" metis)
 macadam_find_library(Ceres::ceres ceres/ceres.h "" ceres)
 macadam_find_library(glog::glog glog/logging.h "" glog)
 
+# Images of computed tomography. In a function, because ITK's configuration looks for libraries of its own and would leave
+# other values in the variables of those above.
+function(macadam_find_itk)
+  find_package(ITK 5.2 QUIET COMPONENTS ITKIOMeta ITKIONRRD ITKIOTIFF ITKIOPNG ITKSmoothing ITKDistanceMap)
+  if(ITK_FOUND)
+    add_library(ITK::ITK INTERFACE IMPORTED)
+    target_include_directories(ITK::ITK SYSTEM INTERFACE ${ITK_INCLUDE_DIRS})
+    # the libraries of code; the rest of the list is what modules of headers alone depend on
+    target_link_libraries(ITK::ITK INTERFACE ITKCommon ITKIOImageBase ITKIOMeta ITKIONRRD ITKIOTIFF ITKIOPNG ITKSmoothing)
+  endif()
+  set(ITK_FOUND ${ITK_FOUND} PARENT_SCOPE)
+endfunction()
+set(MACADAM_HAS_CT OFF)
+if(NOT MACADAM_CT STREQUAL "OFF")
+  enable_language(C)  # ITK's configuration asks HDF5's compiler of C
+  macadam_find_itk()
+  if(ITK_FOUND)
+    set(MACADAM_HAS_CT ON)
+  elseif(MACADAM_CT STREQUAL "ON")
+    message(FATAL_ERROR "MACADAM_CT=ON but ITK 5.2 or later was not found; install libinsighttoolkit5-dev or use MACADAM_CT=AUTO")
+  endif()
+endif()
+message(STATUS "CT images: ${MACADAM_HAS_CT}")
+
 # Machine code for the generations in use, as far as this nvcc knows them, and code of the newest for what comes after.
 function(macadam_release_architectures result)
   execute_process(COMMAND ${CMAKE_CUDA_COMPILER} --list-gpu-code OUTPUT_VARIABLE known COMMAND_ERROR_IS_FATAL ANY)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What draw-section and draw-specimen share: colours of mastic, size classes and single spheres."""
+"""What draw-section and draw-specimen share: colours of mastic, air, size classes and single spheres."""
 import colorsys
 import csv
 
@@ -7,6 +7,7 @@ import numpy as np
 from matplotlib.patches import Patch
 
 MASTIC = (0.40, 0.53, 0.76)
+AIR = (1.0, 1.0, 1.0)
 CLASSES = [(0.33, 0.62, 0.36), (0.62, 0.62, 0.62), (0.90, 0.72, 0.33), (0.80, 0.40, 0.32), (0.60, 0.45, 0.70),
            (0.35, 0.68, 0.68), (0.85, 0.55, 0.65), (0.55, 0.45, 0.35)]
 
@@ -50,6 +51,12 @@ def colour(classes, body, particle):
     return colorsys.hls_to_rgb(hue, lightness, saturation)
 
 
+def of_phase(phase, classes, body, particle):
+    if phase == "aggregate":
+        return colour(classes, body, particle)
+    return MASTIC if phase == "mastic" else AIR
+
+
 def colours(classes, phase, body, particle):
     """Of many spheres, as an array of three columns."""
-    return np.array([MASTIC if p == "mastic" else colour(classes, b, i) for p, b, i in zip(phase, body, particle)])
+    return np.array([of_phase(p, classes, b, i) for p, b, i in zip(phase, body, particle)])

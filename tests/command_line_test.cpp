@@ -56,10 +56,11 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
            {"run " + job + " --threads '2 '", "--threads: found \"2 \", expected a whole number from 1 to 1024"},
            {"run " + path("scene.toml") + " -o out", "found \"-o\", expected --out (the nearest of "},
            {"run " + path("scene.toml") + " --out ''", "--out: found \"\""},
-           {"runn " + job, "found \"runn\", expected run (the nearest of run, specimen, shapes, fit, calibrate, info)"},
+           {"runn " + job,
+            "found \"runn\", expected run (the nearest of run, specimen, shapes, fit, calibrate, ct, info)"},
            {"shapes fil", "found \"fil\", expected fill (the nearest of "},
            {"run " + job + " more", "found \"more\", expected nothing more"},
-           {"", "found no command, expected one of run, specimen, shapes, fit, calibrate, info"},
+           {"", "found no command, expected one of run, specimen, shapes, fit, calibrate, ct, info"},
            {"shapes fill x --out y --radius 1 --scale 0", "--scale: found \"0\", expected a number from 1e-12 to "}}) {
     const Outcome outcome = macadam(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;

@@ -136,7 +136,7 @@ TEST_F(FitCommand, FaultyDataAreNamedByLineAndColumn) {
   EXPECT_HAS(refused("frequency_hz;e_star_pa;phase_deg\n"), "separated by commas");
   EXPECT_HAS(refused("frequency_hz,e_star_pa,e_star_pa,phase_deg\n"), "twice");
   EXPECT_HAS(refused("e_star_pa,phase_deg\n"), "a column frequency_hz");
-  EXPECT_HAS(refused("frequency_hz,phase_deg\n"), "either e_star_pa or g_star_pa");
+  EXPECT_HAS(refused("frequency_hz,phase_deg\n"), "e_star_pa or g_star_pa with phase_deg, or e_prime_pa");
   EXPECT_HAS(refused("frequency_hz,e_star_pa,phase_deg,phase_std\n"), "of both modulus and phase");
   EXPECT_HAS(refused("frequency_hz,g_star_pa,phase_deg\n1,1,1\n"), "--poisson");
   EXPECT_HAS(refused(header + "1,1e9,10\n", "--poisson 0.3"), "|E*| is what is fitted");

@@ -280,7 +280,7 @@ TEST(Relax, WhatAWallThrowsIsThrown) {
     s.phase.push_back(Phase::mastic);
     s.body.push_back(-1);
   }
-  const Wall wall{[](const Vec3d& c, double) -> WallDepth {
+  const Enclosure wall{[](const Vec3d& c, double) -> WallDepth {
     if (c.z > 0.5) throw std::bad_alloc();
     return {1, {}};
   }};

@@ -125,7 +125,7 @@ TEST_F(SpecimenCsv, BadFilesAreNamedByLine) {
       {header + "0,0.01,0.02,0.03,,aggregate,0\n", ":2:", {"column radius", "\"\""}},
       {header + "0,0.01,0.02,0.03,0,aggregate,0\n", ":2:", {"particle 0", "radius", "found 0", "positive"}},
       {header + "0,0.01,0.02,0.03,-1,aggregate,0\n", ":2:", {"radius", "found -1"}},
-      {header + "0,0.01,0.02,0.03,0.004,stone,0\n", ":2:", {"column phase", "stone", "aggregate or mastic"}},
+      {header + "0,0.01,0.02,0.03,0.004,stone,0\n", ":2:", {"column phase", "stone", "aggregate, mastic or void"}},
       {header + "0,0.01,0.02,0.03,0.004,Mastic,-1\n", ":2:", {"column phase", "Mastic"}},
       {header + "0,0.01,0.02,0.03,0.004,aggregate,1.5\n", ":2:", {"column body", "1.5"}},
       {header + "0,0.01,0.02,0.03,0.004,aggregate,3000000000\n", ":2:", {"column body", "3000000000"}},

@@ -57,7 +57,9 @@ void say_preparation(const Preparation& p) {
           100 * row.fraction);
     }
   }
-  say("{} particles, {} contacts (", p.specimen.size(), p.network.contacts.size());
+  say("{} particles, ", p.specimen.size());
+  if (!p.specimen.voids.empty()) say("{} voids, ", p.specimen.voids.size());
+  say("{} contacts (", p.network.contacts.size());
   const char* separator = "";
   for (int pair = 0; pair < pair_types; ++pair) {
     if (const auto n = p.network.count[static_cast<std::size_t>(pair)]; n > 0) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// main.cpp  The command line: macadam run | specimen | shapes | fit | calibrate | info. Exit code 0 done, 1 the run
-// failed, 2 the input is wrong.
+// main.cpp  The command line: macadam run | specimen | shapes | fit | calibrate | ct | info. Exit code 0 done, 1 the
+// run failed, 2 the input is wrong.
 #include <CLI/CLI.hpp>
 #include <new>
 
 #include "host/cli/calibrate_command.hpp"
+#include "host/cli/ct_command.hpp"
 #include "host/cli/fit_command.hpp"
 #include "host/cli/info_command.hpp"
 #include "host/cli/limited_memory.hpp"
@@ -94,6 +95,7 @@ int main_function(int argc, char** argv) {
   add_shapes_command(app);
   add_fit_command(app);
   add_calibrate_command(app);
+  add_ct_command(app);
   add_info_command(app);
   const auto [code, ran] = run_program(app, argc, argv);
   // what a run or a specimen says is in its files as well

@@ -5,15 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <limits>
 #include <memory>
 
+#include "host/cli/lengths.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
-#include "host/scene/units.hpp"
 #include "macadam/macadam.hpp"
 #include "macadam/shape.hpp"
 
@@ -26,16 +25,6 @@ struct Arguments {
   double scale = 1;
   FillSpec spec;
 };
-
-/// "0.75 mm", or a bare number of metres.
-double length_of(const std::string& text, const std::string& option) {
-  double metres = 0;
-  const char* end = text.data() + text.size();
-  if (const auto [stop, error] = std::from_chars(text.data(), end, metres); error == std::errc{} && stop == end)
-    return metres;
-  if (const auto value = scene::parse(text, scene::length)) return *value;
-  throw InputError("command line", 0, option, "\"" + text + "\"", scene::accepted(scene::length));
-}
 
 std::string spheres_csv(const MultiSphere& cluster) {
   std::string text = "x,y,z,radius\n";

@@ -22,7 +22,7 @@ void say_section(const Preparation& prepared, const SectionPlane& plane) {
   double all = 0, aggregate = 0;
   for (const SectionCell& cell : section.cells) {
     all += cell.area;
-    if (prepared.specimen.phase[cell.particle] == Phase::aggregate) aggregate += cell.area;
+    if (prepared.specimen.phase_of(cell.particle) == Phase::aggregate) aggregate += cell.area;
   }
   say("section {}={} m: {} cells, {:.2f} % of the area is aggregate\n", plane.axis, plane.position,
       section.cells.size(), 100 * aggregate / all);

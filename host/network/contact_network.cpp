@@ -23,9 +23,9 @@ void check_limits(const FacetLimits& limits, const std::string& of) {
 }
 
 void check_input(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec) {
-  if (tessellation.cell_volume.size() != specimen.size())
+  if (tessellation.cell_volume.size() != specimen.cells())
     throw InputError("network", 0, "cells of the tessellation", std::to_string(tessellation.cell_volume.size()),
-                     std::to_string(specimen.size()) + ", the specimen's particles");
+                     std::to_string(specimen.cells()) + ", the specimen's particles and voids");
   check_limits(spec, "");
   for (int k = 0; k < particle_pair_types; ++k)
     check_limits(spec.of_pair[k], std::string(" of ") + to_string(static_cast<PairType>(k)));
@@ -36,16 +36,21 @@ void check_input(const Specimen& specimen, const Tessellation& tessellation, con
       found += (k ? ", " : " ") + std::to_string(hidden[k]);
     found += hidden.size() > named ? ", …)" : ")";
     throw InputError(specimen.source, specimen.line_of(hidden.front()), "particles with a Laguerre cell inside the box",
-                     found, "a cell for each of the " + std::to_string(specimen.size()));
+                     found, "a cell for each of the " + std::to_string(specimen.cells()));
   }
 }
 
+/// Whether a facet is free surface: that of a void.
+bool is_free(const Specimen& specimen, const Facet& f) {
+  return std::max(f.a, f.b) >= static_cast<std::int32_t>(specimen.size());
+}
+
 /// Mean area of the facets between particles; 0 where there is none.
-double mean_facet_area(const Tessellation& tessellation) {
+double mean_facet_area(const Specimen& specimen, const Tessellation& tessellation) {
   double sum = 0;
   std::int64_t count = 0;
   for (const Facet& f : tessellation.facets)
-    if (f.b >= 0) sum += f.area, ++count;
+    if (f.b >= 0 && !is_free(specimen, f)) sum += f.area, ++count;
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
@@ -188,9 +193,10 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
     if (!l.gap_max) l.gap_max = spec.gap_max;
     if (!l.area_min) l.area_min = spec.area_min;
   }
-  const double mean_area = mean_facet_area(tessellation);
+  const double mean_area = mean_facet_area(specimen, tessellation);
   double dropped = 0, kept = 0;
   const auto wanted = [&](const Facet& f) {
+    if (is_free(specimen, f)) return false;
     if (f.b < 0) return f.b <= wall_z_lo ? spec.bottom_top_walls : spec.lateral_walls;
     const double radii = specimen.radius[f.a] + specimen.radius[f.b];
     const double gap = norm(specimen.centre[f.b] - specimen.centre[f.a]) - radii;

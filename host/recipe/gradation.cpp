@@ -12,12 +12,12 @@ namespace macadam {
 
 std::vector<GradationRow> gradation_of(const MixDesign& design, const std::vector<CompositionRow>& composition) {
   const MixVolumes volumes = volumes_of(design);
-  if (composition.size() != volumes.classes.size() + 1)
+  if (composition.size() < volumes.classes.size() + 1)
     throw InputError(design.source, design.line, "composition", fmt::format("{} classes", composition.size()),
                      fmt::format("{} and the mastic, those of the recipe", volumes.classes.size()));
   // Dry aggregate in 1 m³ of the box [kg]: in the mastic as much as its volume holds, in its design's proportions.
   const double fines = (volumes.mastic_fine_mass + volumes.mastic_filler_mass) * volumes.bulk_density /
-                       volumes.mastic_volume * composition.back().fraction;
+                       volumes.mastic_volume * composition[volumes.classes.size()].fraction;
   double all = fines;
   for (std::size_t k = 0; k < volumes.classes.size(); ++k) all += composition[k].fraction * volumes.classes[k].density;
 

@@ -143,7 +143,14 @@ void follow(const MixDesign& design, SpecimenSpec& spec) {
   alone(!spec.aggregate.empty(), "classes of aggregate beside it", "none: they follow from the recipe");
   alone(spec.mastic->porosity || spec.mastic->count, "a porosity or count of the mastic beside it",
         "none: both follow from the recipe");
-  spec.mastic->porosity = volumes.air_voids;
+  alone(spec.voids && spec.voids->count, "a count of voids beside it", "a fraction of voids, or neither");
+  if (spec.voids && !spec.voids->fraction) spec.voids->fraction = volumes.air_voids;
+  const double of_voids = spec.voids ? *spec.voids->fraction : 0;  // share of the box
+  alone(of_voids > volumes.air_voids + 1e-9,
+        fmt::format("voids of {} of the box, and {} of air voids in the mix", in_percent(of_voids),
+                    in_percent(volumes.air_voids)),
+        "at most as much in [specimen.voids]");
+  spec.mastic->porosity = (volumes.air_voids - of_voids) / (1 - of_voids);  // air that is in no void of its own
   for (const MixClass& c : volumes.classes) {
     AggregateClass& out = spec.aggregate.emplace_back();
     out.sieve_min = c.sieve_min, out.sieve_max = c.sieve_max;

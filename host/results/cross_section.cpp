@@ -133,7 +133,8 @@ SectionPlane read_section_plane(const std::string& text, const Box& box) {
   return plane;
 }
 
-CrossSection cut(const Specimen& specimen, const Tessellation& tessellation, const SectionPlane& plane) {
+CrossSection cut(const Specimen& particles, const Tessellation& tessellation, const SectionPlane& plane) {
+  const Specimen specimen = with_voids_as_cells(particles);
   const WallPlane at = plane_in_box(plane, specimen.box);
   const auto facets = facets_at(at, specimen, tessellation);
   CrossSection out;
@@ -158,7 +159,9 @@ std::string section_file_name(const SectionPlane& plane) {
   return fmt::format("section_{}_{}.csv", plane.axis, plane.position);
 }
 
-void write_cross_section_csv(const std::filesystem::path& file, const Specimen& specimen, const CrossSection& section) {
+void write_cross_section_csv(const std::filesystem::path& file, const Specimen& particles,
+                             const CrossSection& section) {
+  const Specimen specimen = with_voids_as_cells(particles);
   fmt::memory_buffer text;
   auto to = std::back_inserter(text);
   fmt::format_to(to, "particle,phase,body,x,y,z\n");

@@ -69,6 +69,18 @@ MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
   return out;
 }
 
+VoidSpec read_voids(const Section& section, const Box& box, bool by_mass) {
+  constexpr Rule share{[](double v) { return v >= 0 && v < 1; }, "a fraction from 0 to below 1"};
+  VoidSpec out;
+  out.line = section.line();
+  section.read({{"radius", Need::required, range_into(out.radius_min, out.radius_max)},
+                {"fraction", Need::optional, into(out.fraction, ratio, share)},
+                {"count", Need::optional, into(out.count, 0, most_particles)}});
+  if (!by_mass || section.has("count")) need_one_of(section, "fraction", "count");
+  need_to_fit(section, "radius", 2 * out.radius_max, box);
+  return out;
+}
+
 /// Refuses recipes that cannot be met whichever sizes are drawn. The bounds take the smallest aggregates where volume
 /// counts and the largest particles where number counts.
 void need_possible(const Section& section, const SpecimenSpec& spec) {
@@ -80,7 +92,11 @@ void need_possible(const Section& section, const SpecimenSpec& spec) {
     counted += static_cast<double>(c.count.value_or(0)) * sphere_volume(c.sieve_min);
     counted_most += static_cast<double>(c.count.value_or(0)) * sphere_volume(c.sieve_max);
   }
-  const double box = spec.box.volume();
+  double box = spec.box.volume();  // without the voids
+  if (spec.voids)
+    box -= spec.voids->count ? static_cast<double>(*spec.voids->count) * sphere_volume(2 * spec.voids->radius_min)
+                             : *spec.voids->fraction * box;
+  if (!(box > 0)) section.refuse("voids", "voids as large as the box", "smaller or fewer ones");
   if (fractions > 0 && !spec.mastic) {
     section.refuse("aggregate", "volume_fraction without [specimen.mastic]",
                    "count, as the solid volume is not known without mastic");
@@ -180,10 +196,12 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
                 {"aggregate", Need::optional, read_classes},
                 {"shapes", Need::optional, [&](const Value& v) { spec.shapes = read_shapes(v.section(), folder); }},
                 {"recipe", Need::optional, [&](const Value& v) { recipe = read_recipe(v.section()); }},
-                {"mastic", Need::optional, read_the_mastic}});
+                {"mastic", Need::optional, read_the_mastic},
+                {"voids", Need::optional,
+                 [&](const Value& v) { spec.voids = read_voids(v.section(), spec.box, section.has("recipe")); }}});
   if (spec.file) {
-    for (const char* key :
-         {"recipe", "aggregate", "shapes", "mastic", "seed", "size_law", "spacing", "fix_aggregates", "attempts"}) {
+    for (const char* key : {"recipe", "aggregate", "shapes", "mastic", "voids", "seed", "size_law", "spacing",
+                            "fix_aggregates", "attempts"}) {
       if (section.has(key)) section.refuse(key, "this key of the generator beside file", "one of the two");
     }
   } else if (spec.aggregate.empty() && !spec.mastic && !recipe) {
@@ -198,6 +216,8 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
                      "gap in [specimen.shapes], or placement = \"insertion\" there");
     if (spec.shapes && !spec.fix_aggregates)
       section.refuse("fix_aggregates", "false with shapes", "true, as the spheres of a shape would part");
+    if (spec.voids && !spec.fix_aggregates)
+      section.refuse("fix_aggregates", "false with voids", "true, as voids would move too");
   }
   return spec;
 }

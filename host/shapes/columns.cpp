@@ -5,53 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 namespace macadam {
 namespace {
 
 constexpr double columns_along = 400;  // a cube and a sphere come out to about 1e-5 of their volumes
 
-/// A point of the column where the number of bodies that hold it changes by `step`.
-struct Crossing {
-  double z;
-  int step;
-};
-using Column = std::vector<Crossing>;
-
-/// Calls visit(low, high) for every part of a column that lies in at least one body.
-template <class Visit>
-void parts(Column& column, const Visit& visit) {
-  std::sort(column.begin(), column.end(),
-            [](const Crossing& a, const Crossing& b) { return a.z < b.z || (a.z == b.z && a.step > b.step); });
-  int depth = 0;
-  double low = 0;
-  for (const auto& [z, step] : column) {
-    if (depth == 0) low = z;
-    depth += step;
-    if (depth == 0) visit(low, z);
-  }
-}
-
 double length(Column& column) {
   double sum = 0;
-  parts(column, [&](double low, double high) { sum += high - low; });
+  for_each_part(column, [&](double low, double high) { sum += high - low; });
   return sum;
 }
-
-/// Columns of one row, y fixed; index i stands at x0 + i·edge.
-struct Row {
-  double y, x0, edge;
-  std::vector<Column> column;
-
-  double x(std::size_t i) const { return x0 + static_cast<double>(i) * edge; }
-  /// Numbers of the columns with low ≤ x ≤ high: [first, last).
-  std::pair<std::size_t, std::size_t> between(double low, double high) const {
-    const auto n = static_cast<double>(column.size());
-    return {static_cast<std::size_t>(std::clamp(std::ceil((low - x0) / edge), 0.0, n)),
-            static_cast<std::size_t>(std::clamp(std::floor((high - x0) / edge) + 1, 0.0, n))};
-  }
-};
 
 /// Whether (x, y) lies left of the edge a → b. Both facets of an edge ask for the same direction, so that a column
 /// passes through exactly one of them even where rounding decides.
@@ -62,7 +26,16 @@ bool left_of(const Surface& s, std::int32_t a, std::int32_t b, double x, double 
   return a < b ? left : !left;
 }
 
-void cross_facets(const Surface& s, Row& row) {
+/// Turned by the unit quaternion (1, 2, 4, 8)/√85: no facet of a box or the like then runs along a row of columns,
+/// which would see all of it or nothing.
+Vec3d turned(const Vec3d& p) {
+  static const double w = 1 / std::sqrt(85.0);
+  return Pose{{}, {w, 2 * w, 4 * w, 8 * w}}(p);
+}
+
+}  // namespace
+
+void cross_facets(const Surface& s, ColumnRow& row) {
   for (const auto& f : s.facets) {
     const Vec3d a = s.points[f[0]], b = s.points[f[1]], c = s.points[f[2]];
     if (row.y < std::min({a.y, b.y, c.y}) || row.y > std::max({a.y, b.y, c.y})) continue;
@@ -80,7 +53,7 @@ void cross_facets(const Surface& s, Row& row) {
   }
 }
 
-void cross_spheres(const MultiSphere& cluster, Row& row) {
+void cross_spheres(const MultiSphere& cluster, ColumnRow& row) {
   for (std::size_t k = 0; k < cluster.size(); ++k) {
     const Vec3d& c = cluster.centre[k];
     const double r2 = cluster.radius[k] * cluster.radius[k] - (row.y - c.y) * (row.y - c.y);
@@ -93,15 +66,6 @@ void cross_spheres(const MultiSphere& cluster, Row& row) {
     }
   }
 }
-
-/// Turned by the unit quaternion (1, 2, 4, 8)/√85: no facet of a box or the like then runs along a row of columns,
-/// which would see all of it or nothing.
-Vec3d turned(const Vec3d& p) {
-  static const double w = 1 / std::sqrt(85.0);
-  return Pose{{}, {w, 2 * w, 4 * w, 8 * w}}(p);
-}
-
-}  // namespace
 
 SharedVolume shared_volume(const Surface& given_surface, const MultiSphere& given_cluster) {
   Surface surface = given_surface;
@@ -123,7 +87,7 @@ SharedVolume shared_volume(const Surface& given_surface, const MultiSphere& give
   std::vector<Column> shape(number(x1 - x0)), spheres(shape.size());
   SharedVolume sum;
   for (std::size_t j = 0; j < number(y1 - y0); ++j) {
-    Row row{y0 + (static_cast<double>(j) + 0.5) * edge, x0 + 0.5 * edge, edge, std::move(shape)};
+    ColumnRow row{y0 + (static_cast<double>(j) + 0.5) * edge, x0 + 0.5 * edge, edge, std::move(shape)};
     cross_facets(surface, row);
     shape = std::move(row.column);
     row.column = std::move(spheres);

@@ -1,10 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file columns.hpp  Volumes of a shape, of a union of spheres, and of what they share.
+/// \file columns.hpp  Bodies seen along parallel columns: where they are entered and left, and what volumes follow.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "macadam/shape.hpp"
 
 namespace macadam {
+
+/// A point of a column, along z, where the number of bodies that hold it changes by `step`.
+struct Crossing {
+  double z;
+  int step;
+};
+using Column = std::vector<Crossing>;
+
+/// Calls visit(low, high) for every part of a column that lies in at least one body.
+template <class Visit>
+void for_each_part(Column& column, const Visit& visit) {
+  std::sort(column.begin(), column.end(),
+            [](const Crossing& a, const Crossing& b) { return a.z < b.z || (a.z == b.z && a.step > b.step); });
+  int depth = 0;
+  double low = 0;
+  for (const auto& [z, step] : column) {
+    if (depth == 0) low = z;
+    depth += step;
+    if (depth == 0) visit(low, z);
+  }
+}
+
+/// Columns of one row, y fixed; index i stands at x0 + i·edge.
+struct ColumnRow {
+  double y, x0, edge;
+  std::vector<Column> column;
+
+  double x(std::size_t i) const { return x0 + static_cast<double>(i) * edge; }
+  /// Numbers of the columns with low ≤ x ≤ high: [first, last).
+  std::pair<std::size_t, std::size_t> between(double low, double high) const {
+    const auto n = static_cast<double>(column.size());
+    return {static_cast<std::size_t>(std::clamp(std::ceil((low - x0) / edge), 0.0, n)),
+            static_cast<std::size_t>(std::clamp(std::floor((high - x0) / edge) + 1, 0.0, n))};
+  }
+};
+
+/// Adds where the columns of a row enter and leave a closed surface, or spheres.
+void cross_facets(const Surface& surface, ColumnRow& row);
+void cross_spheres(const MultiSphere& spheres, ColumnRow& row);
 
 /// All in m³.
 struct SharedVolume {

@@ -113,7 +113,7 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
   const double r = cluster.radius.front();  // the largest: no side of the box comes near a sphere
   const Vec3d low = distance_.low() - Vec3d{r, r, r}, high = distance_.high() + Vec3d{r, r, r};
   Specimen boxed = in_box(cluster, low, high);
-  const Wall wall{[&](const Vec3d& point, double reach) { return distance_.below(low + point, reach); }};
+  const Enclosure wall{[&](const Vec3d& point, double reach) { return distance_.below(low + point, reach); }};
   std::vector<std::int32_t> hidden;
   for (int round = 0; round == 0 || !hidden.empty(); ++round) {
     if (round == most_rounds)

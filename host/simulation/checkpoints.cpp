@@ -60,7 +60,7 @@ std::string fingerprint(const Preparation& prepared) {
     sum = crc32_z(sum, reinterpret_cast<const Bytef*>(list.data()), list.size() * sizeof(list[0]));
   };
   const Specimen& s = prepared.specimen;
-  add(s.centre), add(s.radius), add(s.phase), add(s.body);
+  add(s.centre), add(s.radius), add(s.phase), add(s.body);  // voids show in the contacts
   const ContactNetwork& n = prepared.network;
   add(n.point_s), add(n.point_t), add(n.point_area);
   return fmt::format("{} particles, {} contacts, {} contact points, CRC-32 {:08x}", s.size(), n.contacts.size(),

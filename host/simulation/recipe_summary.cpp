@@ -33,7 +33,7 @@ nlohmann::ordered_json recipe_json(const MixDesign& design, const std::vector<Co
                               {"density", c.density}});
   }
   // as classes and mastic came out, by the volumes of shapes, single spheres and mastic spheres
-  double volume = composition.back().fraction, mass = volume * v.mastic_density;
+  double volume = composition.at(v.classes.size()).fraction, mass = volume * v.mastic_density;
   for (std::size_t k = 0; k < v.classes.size(); ++k) {
     volume += composition[k].fraction;
     mass += composition[k].fraction * v.classes[k].density * (1 + v.absorbed_binder);

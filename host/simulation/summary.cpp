@@ -18,18 +18,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json volume_fractions(const Specimen& specimen, const Tessellation& tessellation) {
-  double spheres[2] = {0, 0}, cells[2] = {0, 0};
-  for (std::size_t i = 0; i < specimen.size(); ++i) {
-    const int phase = specimen.phase[i] == Phase::aggregate ? 0 : 1;
-    const double r = specimen.radius[i];
+  std::array<double, 3> spheres{}, cells{};  // by Phase
+  const Specimen all = with_voids_as_cells(specimen);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto phase = static_cast<std::size_t>(all.phase[i]);
+    const double r = all.radius[i];
     spheres[phase] += 4.0 / 3.0 * std::numbers::pi * r * r * r;
     cells[phase] += tessellation.cell_volume[i];
   }
   const double box = specimen.box.volume();
-  return {{"aggregate", spheres[0] / box},
-          {"mastic", spheres[1] / box},
-          {"aggregate_cells", cells[0] / box},
-          {"mastic_cells", cells[1] / box}};
+  return {{"aggregate", spheres[0] / box},     {"mastic", spheres[1] / box},     {"void", spheres[2] / box},
+          {"aggregate_cells", cells[0] / box}, {"mastic_cells", cells[1] / box}, {"void_cells", cells[2] / box}};
 }
 
 const char* to_string(SolverMethod method) { return method == SolverMethod::harmonic ? "harmonic" : "explicit"; }
@@ -129,6 +128,7 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
   out["macadam"] = version();
   out["scene"] = scene.file.string();
   out["particles"] = prepared.specimen.size();
+  out["voids"] = prepared.specimen.voids.size();
   const Vec3d& size = prepared.specimen.box.size;
   out["box_m"] = {size.x, size.y, size.z};
   for (const PairType pair : {PairType::aa, PairType::ma, PairType::mm, PairType::inner, PairType::aw, PairType::mw}) {

@@ -68,11 +68,29 @@ ClassRequest request_of(const MasticSpec& m, const SpecimenSpec& spec) {
   return {"mastic", {SizeLaw::uniform, 2 * m.radius_min, 2 * m.radius_max}, 1, m.count, origin};
 }
 
+ClassRequest request_of(const VoidSpec& v, const SpecimenSpec& spec) {
+  const Origin origin(spec, v.line);
+  check_range(origin, "voids", v.radius_min, v.radius_max);
+  if (v.fraction.has_value() == v.count.has_value())
+    refuse(origin, "voids", v.count ? "both fraction and count" : "neither fraction nor count", "one of them");
+  if (v.count) check_count(origin, "voids", *v.count);
+  if (v.fraction && !(*v.fraction >= 0 && *v.fraction < 1))
+    refuse(origin, "voids: fraction", shown(*v.fraction), "0 to below 1");
+  ClassRequest out{"voids", {SizeLaw::uniform, 2 * v.radius_min, 2 * v.radius_max}, 1, v.count, origin};
+  out.volume = v.count ? out.counted_volume() : *v.fraction * spec.box.volume();
+  return out;
+}
+
+/// What the voids leave of the box [m³].
+double volume_beside_voids(const SpecimenSpec& spec) {
+  return spec.box.volume() - (spec.voids ? request_of(*spec.voids, spec).volume : 0);
+}
+
 /// Volume of everything solid [m³], the reference of the volume fractions.
 double solid_volume(const SpecimenSpec& spec, const std::vector<ClassRequest>& aggregate,
                     const std::optional<ClassRequest>& mastic) {
-  if (!mastic) return spec.box.volume();
-  if (spec.mastic->porosity) return (1 - *spec.mastic->porosity) * spec.box.volume();
+  if (!mastic) return volume_beside_voids(spec);
+  if (spec.mastic->porosity) return (1 - *spec.mastic->porosity) * volume_beside_voids(spec);
   double counted = mastic->counted_volume(), fractions = 0;
   for (std::size_t k = 0; k < aggregate.size(); ++k) {
     if (aggregate[k].count)
@@ -137,9 +155,9 @@ Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const S
     r.volume = r.count ? r.counted_volume() : *spec.aggregate[k].volume_fraction * solid;
     of_aggregates += r.volume;
   }
-  if (of_aggregates > box)
+  if (of_aggregates > volume_beside_voids(spec))
     refuse(Origin(spec), "aggregate: volume", percent(of_aggregates / box) + " of the box",
-           "less than the box: they do not overlap");
+           "less than the box, beside the voids: they do not overlap");
   if (recipe.mastic) {
     recipe.mastic->volume = recipe.mastic->count ? recipe.mastic->counted_volume() : solid - of_aggregates;
     if (!(recipe.mastic->volume >= 0))
@@ -184,14 +202,22 @@ std::vector<Population> compose_mastic(const SpecimenSpec& spec, double aggregat
   rest.source = spec.source, rest.line = spec.line;
   rest.mastic = spec.mastic;
   if (rest.mastic->porosity) {
-    const double mastic = (1 - *spec.mastic->porosity) * spec.box.volume() - aggregate_volume;
+    const double solid = (1 - *spec.mastic->porosity) * volume_beside_voids(spec), mastic = solid - aggregate_volume;
     if (!(mastic > 0))
       refuse(
           Origin(spec), "aggregate: volume", percent(aggregate_volume / spec.box.volume()) + " of the box",
-          "at most the solid volume that the porosity leaves, " + percent(1 - *spec.mastic->porosity) + " of the box");
+          "at most the solid volume that the porosity leaves, " + percent(solid / spec.box.volume()) + " of the box");
     rest.mastic->porosity = 1 - mastic / spec.box.volume();
   }
   return compose(rest).mastic;
+}
+
+std::vector<Population> compose_voids(const SpecimenSpec& spec) {
+  if (!spec.voids) return {};
+  const ClassRequest request = request_of(*spec.voids, spec);
+  std::vector<Population> out{draw(request, spec.box.volume(), RandomStream(spec.seed, 3))};
+  if (!out.back().radius.empty()) require_fit(request.origin, "voids", 2 * out.back().radius.front(), spec.box);
+  return out;
 }
 
 }  // namespace macadam

@@ -31,7 +31,7 @@ struct Population {
   Origin origin;
 };
 
-/// Sizes of everything in the specimen; no positions yet.
+/// Sizes of everything solid in the specimen; no positions yet.
 struct Composition {
   std::vector<Population> aggregate;  ///< in the recipe's order
   std::vector<Population> mastic;     ///< one entry, or none
@@ -66,14 +66,18 @@ Recipe solve_recipe(const SpecimenSpec& spec, const std::function<double(const S
 /// Refuses an aggregate whose size [m] exceeds the shortest edge of the box.
 void require_fit(const Origin& origin, const std::string& size_class, double largest, const Box& box);
 
-/// Draws every sphere of a recipe. Volume fractions are of the solid volume: (1 − porosity)·box, or what follows from
-/// the count of mastic spheres; without mastic the solid volume is unknown and fractions are of the box.
-/// Each class reaches its volume to rounding where its sieves allow, else to 0.2 % of the box.
-/// \throws InputError for a recipe that nobody could follow.
+/// Draws every solid sphere of a recipe. Volume fractions are of the solid volume: (1 − porosity)·(box − voids), or
+/// what follows from the count of mastic spheres; without mastic the solid volume is unknown and fractions are of the
+/// box. Each class reaches its volume to rounding where its sieves allow, else to 0.2 % of the box. \throws InputError
+/// for a recipe that nobody could follow.
 Composition compose(const SpecimenSpec& spec);
 
 /// The mastic of a recipe beside aggregates of a known volume [m³]: one entry, or none.
 /// \throws InputError as compose().
 std::vector<Population> compose_mastic(const SpecimenSpec& spec, double aggregate_volume);
+
+/// The voids of a recipe: one entry, or none.
+/// \throws InputError as compose().
+std::vector<Population> compose_voids(const SpecimenSpec& spec);
 
 }  // namespace macadam

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/specimen/composition.hpp"
+#include "host/specimen/mastic.hpp"
 #include "host/specimen/placement.hpp"
 #include "host/specimen/shaped_aggregates.hpp"
 #include "host/spheres/relaxation.hpp"
@@ -15,8 +16,6 @@
 
 namespace macadam {
 namespace {
-
-constexpr int most_rounds = 10;  // of relaxation, to free the last hidden spheres
 
 /// Random streams of the placement; those of the sizes are numbered in composition.cpp.
 constexpr std::uint64_t placement_stream = 2;
@@ -41,55 +40,64 @@ void describe(Specimen& specimen, const std::vector<std::int32_t>& size_class, s
   }
 }
 
-/// Aggregates that are single spheres, and the mastic.
-Placement with_spheres(const SpecimenSpec& spec, GeneratedSpecimen& result,
-                       const std::function<void(double share)>& progress) {
-  const Composition composition = compose(spec);
-  for (const auto* populations : {&composition.aggregate, &composition.mastic})
-    for (const Population& p : *populations) result.composition.push_back(p.row);
-  Placement placement(result.specimen, smallest_aggregate(composition, spec.box), spec.attempts,
-                      RandomStream(spec.seed, placement_stream), Origin(spec));
-  describe(result.specimen, placement.place_aggregates(composition.aggregate, spec.spacing, progress),
-           result.aggregates);
-  for (const Population& p : composition.mastic) placement.place_mastic(p);
-  return placement;
+/// The largest of the voids [m]; 0 where there are none.
+double largest(const std::vector<Population>& voids) {
+  return voids.empty() || voids.front().radius.empty() ? 0 : voids.front().radius.front();
 }
 
-/// Aggregates of real shape, and the mastic; `wall` will hold it out of the shapes where that is asked for.
-Placement with_shapes(const SpecimenSpec& spec, GeneratedSpecimen& result, Wall& wall,
-                      const std::function<void(const char* stage, double share)>& progress) {
-  if (!spec.fix_aggregates)
-    throw InputError(spec.source, spec.line, "fix_aggregates", "false", "true, as the spheres of a shape would part");
+/// Voids wait among the spheres behind the aggregates, as aggregates that hold still while the mastic relaxes. Returns
+/// where they begin.
+std::size_t place_voids(const std::vector<Population>& voids, GeneratedSpecimen& result, Placement& placement) {
+  const std::size_t first = result.specimen.size();
+  for (const Population& p : voids) placement.place_voids(p, static_cast<std::int32_t>(result.aggregates.size()));
+  return first;
+}
+
+/// A specimen in the making.
+struct Placed {
+  Placement placement;
+  std::size_t first_void, end_of_voids;  ///< among its spheres
+};
+
+/// Aggregates that are single spheres, voids and the mastic.
+Placed with_spheres(const SpecimenSpec& spec, GeneratedSpecimen& result,
+                    const std::function<void(double share)>& progress) {
+  const Composition composition = compose(spec);
+  const std::vector<Population> voids = compose_voids(spec);
+  for (const auto* populations : {&composition.aggregate, &composition.mastic, &voids})
+    for (const Population& p : *populations) result.composition.push_back(p.row);
+  Placement placement(result.specimen, smallest_aggregate(composition, spec.box), spec.attempts,
+                      RandomStream(spec.seed, placement_stream), Origin(spec), {}, largest(voids));
+  describe(result.specimen, placement.place_aggregates(composition.aggregate, spec.spacing, progress),
+           result.aggregates);
+  const std::size_t first_void = place_voids(voids, result, placement), end_of_voids = result.specimen.size();
+  for (const Population& p : composition.mastic) placement.place_mastic(p);
+  return {std::move(placement), first_void, end_of_voids};
+}
+
+/// Aggregates of real shape, voids and the mastic; `wall` will hold it out of the shapes where that is asked for.
+Placed with_shapes(const SpecimenSpec& spec, GeneratedSpecimen& result, Enclosure& wall,
+                   const std::function<void(const char* stage, double share)>& progress) {
+  const std::vector<Population> voids = compose_voids(spec);
   ShapedAggregates shaped = make_shaped_aggregates(spec, progress);
   result.composition = shaped.row;
   Placement placement(result.specimen, shaped.smallest_radius(), spec.attempts,
-                      RandomStream(spec.seed, placement_stream), Origin(spec), shaped.inside);
+                      RandomStream(spec.seed, placement_stream), Origin(spec), shaped.inside, largest(voids));
   for (std::size_t k = 0; k < shaped.spheres.size(); ++k) {
     for (std::size_t i = 0; i < shaped.spheres[k].size(); ++i)
       placement.add_aggregate(shaped.spheres[k].centre[i], shaped.spheres[k].radius[i], shaped.aggregate[k].body);
   }
-  for (const Population& p : compose_mastic(spec, shaped.volume())) {
+  const double volume = shaped.volume();
+  result.aggregates = std::move(shaped.aggregate);
+  result.surfaces = std::move(shaped.surfaces);
+  const std::size_t first_void = place_voids(voids, result, placement), end_of_voids = result.specimen.size();
+  for (const Population& p : compose_mastic(spec, volume)) {
     result.composition.push_back(p.row);
     placement.place_mastic(p);
   }
-  result.aggregates = std::move(shaped.aggregate);
+  for (const Population& p : voids) result.composition.push_back(p.row);
   wall = std::move(shaped.outside);
-  return placement;
-}
-
-/// Gives hidden mastic a new random place.
-void reinsert(const std::vector<std::int32_t>& hidden, Specimen& specimen, Placement& placement) {
-  for (std::int32_t i : hidden)
-    if (specimen.phase[i] == Phase::mastic) specimen.centre[i] = placement.point_outside_aggregates();
-}
-
-[[noreturn]] void give_up(const Origin& origin, const std::vector<std::int32_t>& hidden) {
-  std::string message = std::to_string(hidden.size()) + " particles have no Laguerre cell after " +
-                        std::to_string(most_rounds) + " rounds of relaxation:";
-  constexpr std::size_t shown = 10;
-  for (std::size_t k = 0; k < std::min(hidden.size(), shown); ++k) message += " " + std::to_string(hidden[k]);
-  if (hidden.size() > shown) message += " …";
-  throw RunError(origin.text() + message + "; ask for fewer or more equal mastic spheres");
+  return {std::move(placement), first_void, end_of_voids};
 }
 
 }  // namespace
@@ -110,22 +118,20 @@ GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
   Specimen& specimen = result.specimen;
   specimen.box = spec.box;
   specimen.source = spec.line > 0 ? "specimen generated from " + spec.source : "generated specimen";
-  Wall wall;
-  Placement placement = spec.shapes ? with_shapes(spec, result, wall, progress)
-                                    : with_spheres(spec, result, report("placing aggregates"));
+  if ((spec.shapes || spec.voids) && !spec.fix_aggregates)
+    throw InputError(spec.source, spec.line, "fix_aggregates", "false",
+                     spec.shapes ? "true, as the spheres of a shape would part" : "true, as voids would move too");
+  Enclosure wall;
+  auto [placement, first_void, end_of_voids] = spec.shapes ? with_shapes(spec, result, wall, progress)
+                                                           : with_spheres(spec, result, report("placing aggregates"));
 
-  std::vector<std::int32_t> hidden;
-  for (int round = 0; round < most_rounds; ++round) {
-    reinsert(hidden, specimen, placement);
-    result.relaxation_iterations += relax(specimen, spec.fix_aggregates, report("relaxing mastic"), wall);
-    hidden = particles_without_cell(specimen);
-    if (hidden.empty()) break;
-  }
-  if (!hidden.empty()) give_up(Origin(spec), hidden);
+  result.relaxation_iterations =
+      settle_mastic(specimen, placement, spec.fix_aggregates, Origin(spec), wall, report("relaxing mastic"));
   if (!spec.fix_aggregates) {
     for (Aggregate& a : result.aggregates) a.centre = specimen.centre[static_cast<std::size_t>(a.body)];
     result.residual_overlap = largest_aggregate_overlap(specimen);
   }
+  part_voids(first_void, end_of_voids, specimen);
   validate(specimen, specimen.source);
   return result;
 }

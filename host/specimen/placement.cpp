@@ -2,6 +2,8 @@
 /// \file placement.cpp  Random sequential placement, with a list of open cells when room is scarce.
 #include "host/specimen/placement.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -60,13 +62,14 @@ std::string no_room(const Population& c, std::size_t placed, std::int64_t attemp
 }  // namespace
 
 Placement::Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random,
-                     const Origin& origin, std::function<bool(const Vec3d&)> taken)
+                     const Origin& origin, std::function<bool(const Vec3d&)> taken, double largest_void)
     : specimen_(specimen),
       grid_(specimen.box, smallest),
       attempts_(attempts),
       random_(random),
       origin_(origin),
-      taken_(std::move(taken)) {}
+      taken_(std::move(taken)),
+      largest_void_(largest_void) {}
 
 std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Population>& classes, double spacing,
                                                       const std::function<void(double share)>& progress) {
@@ -86,9 +89,21 @@ std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Populati
 }
 
 void Placement::add_aggregate(const Vec3d& centre, double radius, std::int32_t body, double spacing) {
-  // Later spheres are no larger: they look for this one from at most twice its radius and the spacing away.
-  grid_.insert(static_cast<std::int32_t>(specimen_.size()), centre, 2 * radius + spacing);
+  // Later spheres are no larger, but for voids: they look for this one from no further away, the spacing included.
+  grid_.insert(static_cast<std::int32_t>(specimen_.size()), centre, radius + std::max(radius, largest_void_) + spacing);
   add(centre, radius, Phase::aggregate, body);
+}
+
+void Placement::place_voids(const Population& voids, std::int32_t body) {
+  for (std::size_t k = 0; k < voids.radius.size(); ++k) {
+    const std::optional<Vec3d> centre = position_for(voids.radius[k], 0);
+    if (!centre)
+      throw RunError(
+          fmt::format("{}no room for void {} of {} (diameter {:.4g} mm) in {} attempts; ask for fewer or "
+                      "smaller voids, less aggregate or another seed",
+                      voids.origin.text(), k + 1, voids.radius.size(), 2e3 * voids.radius[k], attempts_));
+    add_aggregate(*centre, voids.radius[k], body++);
+  }
 }
 
 void Placement::place_mastic(const Population& mastic) {
@@ -98,18 +113,16 @@ void Placement::place_mastic(const Population& mastic) {
     add(random_point(draws, {0, 0, 0}, specimen_.box.size), mastic.radius[placed], Phase::mastic, -1);
     return ++placed < mastic.radius.size();
   };
-  const auto free = [&](Draws draws) { return outside(random_point(draws, {0, 0, 0}, specimen_.box.size)); };
+  const auto free = [&](Draws draws) { return clear_of_placed(random_point(draws, {0, 0, 0}, specimen_.box.size), 0); };
   if (!random_.each_good(attempts_, 3, tries_at_once, free, place)) no_room_for_mastic();
 }
 
 Vec3d Placement::point_outside_aggregates() {
-  const auto free = [&](Draws draws) { return outside(random_point(draws, {0, 0, 0}, specimen_.box.size)); };
+  const auto free = [&](Draws draws) { return clear_of_placed(random_point(draws, {0, 0, 0}, specimen_.box.size), 0); };
   auto found = random_.first_good(attempts_, 3, tries_at_once, free);
   if (!found) no_room_for_mastic();
   return random_point(*found, {0, 0, 0}, specimen_.box.size);
 }
-
-bool Placement::outside(const Vec3d& point) const { return clear_of_placed(point, 0) && !(taken_ && taken_(point)); }
 
 void Placement::no_room_for_mastic() const {
   throw RunError(origin_.text() + "no room for mastic outside the aggregates in " + std::to_string(attempts_) +
@@ -145,7 +158,7 @@ bool Placement::clear_of_placed(const Vec3d& point, double distance) const {
     const double least = specimen_.radius[j] + distance;
     if (squared_distance(point, specimen_.centre[j]) < least * least) return false;
   }
-  return true;
+  return !(taken_ && taken_(point));
 }
 
 std::vector<std::size_t> Placement::open_cells(double radius) const {

@@ -107,7 +107,11 @@ Aggregate described(const PlacedAggregate& placed, const Shape& shape, std::int3
   const double sphere = out.size * shape.placed.sphere_size;
   out.d_long = placed.sphere ? sphere : placed.pose.scale * shape.measure().d_long;
   out.d_short = placed.sphere ? sphere : placed.pose.scale * shape.measure().d_short;
-  if (!placed.sphere) out.axis_long = Pose{{}, placed.pose.turn, 1}(shape.measure().axis_long);
+  if (!placed.sphere) {
+    out.axis_long = Pose{{}, placed.pose.turn, 1}(shape.measure().axis_long);
+    out.surface = placed.shape;
+    out.pose = placed.pose;
+  }
   return out;
 }
 
@@ -176,6 +180,7 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
     for (Vec3d& c : out.spheres[k].centre) c = Pose{pose.centre, pose.turn, 1}(c);
     out.aggregate[k].spheres = static_cast<std::int64_t>(out.spheres[k].size());
   }
+  for (const auto& shape : shapes) out.surfaces.push_back(shape->placed.surface);
   const auto all = std::make_shared<const Placed>(spec.box, std::move(shapes), std::move(placed.aggregate),
                                                   spec.mastic ? spec.mastic->radius_max : 0);
   out.inside = [all](const Vec3d& point) { return all->hold(point); };

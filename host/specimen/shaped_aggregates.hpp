@@ -10,14 +10,15 @@
 
 namespace macadam {
 
-/// Aggregates in their places, largest first. All vectors but `row` have one entry an aggregate.
+/// Aggregates in their places, largest first. All vectors but `row` and `surfaces` have one entry an aggregate.
 struct ShapedAggregates {
   std::vector<Aggregate> aggregate;
   std::vector<MultiSphere> spheres;  ///< in the specimen's box
+  std::vector<Surface> surfaces;     ///< GeneratedSpecimen::surfaces
   std::vector<CompositionRow> row;   ///< one a class
   /// Whether a point of the box lies in a shape; single spheres do not count.
   std::function<bool(const Vec3d&)> inside;
-  Wall outside;  ///< holds spheres out of the shapes, if any
+  Enclosure outside;  ///< holds spheres out of the shapes, if any
 
   double volume() const;  ///< of all [m³]
   double smallest_radius() const;

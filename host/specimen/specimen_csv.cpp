@@ -139,7 +139,7 @@ class CsvReader {
   }
 
   void record(std::string_view line) {
-    if (std::ssize(specimen_.centre) == most_particles)
+    if (static_cast<std::int64_t>(specimen_.cells()) == most_particles)
       fail("particles", "one more", "at most " + std::to_string(most_particles));
     std::array<std::string_view, columns> field;
     const std::size_t found = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
@@ -157,16 +157,26 @@ class CsvReader {
     if (const auto [earlier, is_new] = line_of_id_.try_emplace(id, lines_.number()); !is_new)
       fail("column id", in_quotes(field[0]) + ", that of line " + std::to_string(earlier->second),
            "a number of its own");
-    specimen_.centre.push_back({number<double>(field[1], "x", finite), number<double>(field[2], "y", finite),
-                                number<double>(field[3], "z", finite)});
-    specimen_.radius.push_back(number<double>(field[4], "radius", "a finite positive number"));
+    const Vec3d centre{number<double>(field[1], "x", finite), number<double>(field[2], "y", finite),
+                       number<double>(field[3], "z", finite)};
+    const auto radius = number<double>(field[4], "radius", "a finite positive number");
+    const auto body = number<std::int32_t>(field[6], "body", "an integer of -1 or more");
+    if (field[5] == to_string(Phase::air_void)) {
+      if (body != -1) fail("column body of a void", in_quotes(field[6]), "-1");
+      specimen_.voids.push_back({centre, radius});
+      return;
+    }
+    if (!specimen_.voids.empty())
+      fail("column phase", in_quotes(field[5]) + " behind a void", "void: voids stand behind all particles");
+    specimen_.centre.push_back(centre);
+    specimen_.radius.push_back(radius);
+    specimen_.body.push_back(body);
     if (field[5] == to_string(Phase::aggregate))
       specimen_.phase.push_back(Phase::aggregate);
     else if (field[5] == to_string(Phase::mastic))
       specimen_.phase.push_back(Phase::mastic);
     else
-      fail("column phase", in_quotes(field[5]), "aggregate or mastic");
-    specimen_.body.push_back(number<std::int32_t>(field[6], "body", "an integer of -1 or more"));
+      fail("column phase", in_quotes(field[5]), "aggregate, mastic or void");
   }
 
   Lines lines_;
@@ -178,7 +188,8 @@ class CsvReader {
 
 Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box) { return CsvReader(file, box).read(); }
 
-void write_specimen_csv(const std::filesystem::path& file, const Specimen& specimen) {
+void write_specimen_csv(const std::filesystem::path& file, const Specimen& particles) {
+  const Specimen specimen = with_voids_as_cells(particles);
   fmt::memory_buffer text;  // a stream would lose lines where memory ends
   const auto to = std::back_inserter(text);
   fmt::format_to(to, "{}\n", header);

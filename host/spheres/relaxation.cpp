@@ -47,7 +47,7 @@ std::vector<std::int32_t> by_place(const Specimen& s, std::size_t first, std::si
 /// Works on a copy of the spheres in another order; all arrays but those that are summed have that order.
 class Relaxation {
  public:
-  Relaxation(Specimen& specimen, bool fix_aggregates, const Wall& wall)
+  Relaxation(Specimen& specimen, bool fix_aggregates, const Enclosure& wall)
       : s_(specimen),
         box_(specimen.box.size),
         wall_(wall),
@@ -218,7 +218,7 @@ class Relaxation {
 
   Specimen& s_;
   Vec3d box_;  ///< edges [m]
-  const Wall& wall_;
+  const Enclosure& wall_;
   std::size_t first_mastic_, first_;  ///< first mastic sphere, first sphere that moves
   double unit_;                       ///< mean radius of the mastic [m]
   std::vector<std::int32_t> number_;  ///< in the specimen
@@ -233,7 +233,7 @@ class Relaxation {
 }  // namespace
 
 int relax(Specimen& specimen, bool fix_aggregates, const std::function<void(double share)>& progress,
-          const Wall& wall) {
+          const Enclosure& wall) {
   const int iterations = Relaxation(specimen, fix_aggregates, wall).relax(progress);
   progress(1);
   return iterations;

@@ -15,7 +15,7 @@ struct WallDepth {
 };
 
 /// A wall of any shape.
-struct Wall {
+struct Enclosure {
   /// Tells how deep a point lies; where that is more than `reach` [m], any depth above `reach` will do.
   std::function<WallDepth(const Vec3d& point, double reach)> depth;
   double stiffness = 10;  ///< over that of a pair, at most 10; what the wall holds may press hard against it
@@ -25,7 +25,7 @@ struct Wall {
 /// the energy has stalled. The walls are the box and, if its depth is given, `wall`. Aggregates stand before the
 /// mastic in `specimen`. The same input gives the same bits for any number of threads. Returns the iterations taken.
 int relax(Specimen& specimen, bool fix_aggregates, const std::function<void(double share)>& progress,
-          const Wall& wall = {});
+          const Enclosure& wall = {});
 
 /// Largest overlap of two aggregates [m], 0 if there is none.
 double largest_aggregate_overlap(const Specimen& specimen);

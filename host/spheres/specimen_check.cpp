@@ -14,7 +14,21 @@
 
 namespace macadam {
 
-const char* to_string(Phase phase) { return phase == Phase::aggregate ? "aggregate" : "mastic"; }
+const char* to_string(Phase phase) {
+  return phase == Phase::aggregate ? "aggregate" : phase == Phase::mastic ? "mastic" : "void";
+}
+
+Specimen with_voids_as_cells(const Specimen& specimen) {
+  Specimen out = specimen;
+  out.voids.clear();
+  for (const VoidSphere& v : specimen.voids) {
+    out.centre.push_back(v.centre);
+    out.radius.push_back(v.radius);
+    out.phase.push_back(Phase::air_void);
+    out.body.push_back(-1);
+  }
+  return out;
+}
 
 std::string shown(double value) {
   char text[32];
@@ -30,8 +44,8 @@ std::optional<SpecimenFault> fault_of_arrays(const Specimen& s) {
     if (!(std::isfinite(edge) && edge > 0)) return SpecimenFault{-1, "box", point(s.box.size), "positive edges"};
   const std::size_t n = s.size();
   if (n == 0) return SpecimenFault{-1, "particles", "0", "at least 1"};
-  if (n > static_cast<std::size_t>(most_particles))
-    return SpecimenFault{-1, "particles", std::to_string(n), "at most " + std::to_string(most_particles)};
+  if (s.cells() > static_cast<std::size_t>(most_particles))
+    return SpecimenFault{-1, "particles", std::to_string(s.cells()), "at most " + std::to_string(most_particles)};
   const std::pair<const char*, std::size_t> lengths[] = {
       {"radius", s.radius.size()}, {"phase", s.phase.size()}, {"body", s.body.size()}};
   for (const auto& [name, length] : lengths)
@@ -40,7 +54,8 @@ std::optional<SpecimenFault> fault_of_arrays(const Specimen& s) {
   return std::nullopt;
 }
 
-std::optional<SpecimenFault> fault_of_particle(const Specimen& s, std::size_t i) {
+/// `is_void`: of a sphere behind the particles.
+std::optional<SpecimenFault> fault_of_sphere(const Specimen& s, std::size_t i, bool is_void) {
   const Vec3d c = s.centre[i], l = s.box.size;
   const auto fault = [&](const char* what, std::string found, std::string expected) {
     return SpecimenFault{static_cast<std::int64_t>(i), what, std::move(found), std::move(expected)};
@@ -50,6 +65,7 @@ std::optional<SpecimenFault> fault_of_particle(const Specimen& s, std::size_t i)
     return fault("centre", point(c), "a point of the box (0, 0, 0) to " + point(l));
   if (!(std::isfinite(s.radius[i]) && s.radius[i] > 0))
     return fault("radius", shown(s.radius[i]), "a finite positive number");
+  if (is_void) return std::nullopt;
   if (s.phase[i] != Phase::aggregate && s.phase[i] != Phase::mastic)
     return fault("phase", std::to_string(static_cast<int>(s.phase[i])), "aggregate or mastic");
   if (s.phase[i] == Phase::mastic && s.body[i] != -1)
@@ -79,14 +95,17 @@ std::optional<SpecimenFault> coincident_centres(const Specimen& s) {
 
 std::optional<SpecimenFault> find_fault(const Specimen& specimen) {
   if (auto fault = fault_of_arrays(specimen)) return fault;
-  for (std::size_t i = 0; i < specimen.size(); ++i)
-    if (auto fault = fault_of_particle(specimen, i)) return fault;
-  return coincident_centres(specimen);
+  const Specimen all = with_voids_as_cells(specimen);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (auto fault = fault_of_sphere(all, i, i >= specimen.size())) return fault;
+  return coincident_centres(all);
 }
 
 void validate(const Specimen& specimen, const std::string& source) {
   if (const auto fault = find_fault(specimen)) {
-    const std::string whose = fault->particle >= 0 ? "particle " + std::to_string(fault->particle) + ": " : "";
+    const bool is_void = fault->particle >= static_cast<std::int64_t>(specimen.size());
+    const std::string whose =
+        fault->particle >= 0 ? (is_void ? "void " : "particle ") + std::to_string(fault->particle) + ": " : "";
     throw InputError(source, fault->particle >= 0 ? specimen.line_of(fault->particle) : 0, whose + fault->what,
                      fault->found, fault->expected);
   }

@@ -10,7 +10,8 @@
 
 namespace macadam {
 
-TessellationInvariants measure_invariants(const Specimen& specimen, const Tessellation& tessellation) {
+TessellationInvariants measure_invariants(const Specimen& particles, const Tessellation& tessellation) {
+  const Specimen specimen = with_voids_as_cells(particles);
   TessellationInvariants out;
   const Vec3d& box = specimen.box.size;
   std::vector<Vec3d> closing(specimen.size());

@@ -58,8 +58,9 @@ bool retire_empty_cells(const Tessellation& tessellation, const std::vector<doub
 
 }  // namespace
 
-Tessellation tessellate(const Specimen& specimen) {
-  validate(specimen, specimen.source);
+Tessellation tessellate(const Specimen& particles) {
+  validate(particles, particles.source);
+  const Specimen specimen = with_voids_as_cells(particles);
   check_radii(specimen);
   Tessellation out;
   std::vector<std::uint8_t> active(specimen.size(), 1);

@@ -75,7 +75,8 @@ struct ContactNetwork {
 /// The frame of a unit normal, without branches (Duff et al. 2017); s × t = n.
 void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t);
 
-/// Builds the network of a tessellation (Eq. 5–7 at the start; physics: dv = ½(R_a − R_b)(d − R_a − R_b)/d).
+/// Builds the network of a tessellation (Eq. 5–7 at the start; physics: dv = ½(R_a − R_b)(d − R_a − R_b)/d). Facets of
+/// voids are free surface: no contacts.
 /// \throws InputError when a particle is hidden (its number is named) or when no contact is left.
 ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec = {});
 

@@ -23,7 +23,9 @@ namespace macadam {
 struct Materials {
   double aggregate = 0, mastic = 0;
   std::optional<double> temperature = {};  ///< of the whole specimen [°C]
-  double density(Phase phase) const { return phase == Phase::aggregate ? aggregate : mastic; }
+  double density(Phase phase) const {
+    return phase == Phase::aggregate ? aggregate : phase == Phase::mastic ? mastic : 0;
+  }
 };
 
 /// One law for each pair type; empty where the scene gives none.

@@ -16,9 +16,13 @@
 namespace macadam {
 
 /// What a particle is made of.
-enum class Phase : std::uint8_t { aggregate, mastic };
+enum class Phase : std::uint8_t {
+  aggregate,
+  mastic,
+  air_void  ///< of cells that are no particle: Specimen::voids
+};
 
-/// `"aggregate"` or `"mastic"`.
+/// `"aggregate"`, `"mastic"` or `"void"`.
 const char* to_string(Phase phase);
 
 /// Axis-aligned box with one corner at the origin; z is vertical.
@@ -27,28 +31,45 @@ struct Box {
   double volume() const { return size.x * size.y * size.z; }  ///< [m³]
 };
 
-/// Spheres in a box. All vectors have one entry a particle; the order is the user's and is kept in every output.
+/// A sphere of air. It has a cell in the tessellation as a particle has; the cell's facets are free surface.
+struct VoidSphere {
+  Vec3d centre{};     ///< [m]
+  double radius = 0;  ///< [m]
+};
+
+/// Spheres in a box. All vectors but `voids` have one entry a particle; the order is the user's and is kept in every
+/// output. Voids are no particles: they have no mass, no motion and no contacts. Where cells are numbered, in the
+/// tessellation and in files, theirs come behind those of the particles.
 struct Specimen {
   Box box;
   std::vector<Vec3d> centre;   ///< [m]
   std::vector<double> radius;  ///< [m]
   std::vector<Phase> phase;
   std::vector<std::int32_t> body;  ///< number of the aggregate that the sphere belongs to, −1 for mastic
+  std::vector<VoidSphere> voids = {};
 
   std::string source = "specimen";  ///< where it comes from, as messages say it: its file, or the scene's
   int first_line = 0;               ///< of particle 0 in that file, one line a particle; 0: they have none
 
   std::size_t size() const { return centre.size(); }
-  /// For messages: the line of a particle in `source`, or 0.
-  int line_of(std::int64_t particle) const { return first_line > 0 ? first_line + static_cast<int>(particle) : 0; }
+  std::size_t cells() const { return size() + voids.size(); }
+  Phase phase_of(std::int32_t cell) const {
+    return static_cast<std::size_t>(cell) < size() ? phase[static_cast<std::size_t>(cell)] : Phase::air_void;
+  }
+  /// For messages: the line of a particle or void, by its cell, in `source`, or 0.
+  int line_of(std::int64_t cell) const { return first_line > 0 ? first_line + static_cast<int>(cell) : 0; }
 };
 
-/// Checks every particle: finite centre inside the box, finite positive radius, `body` −1 exactly for mastic, no two
-/// coincident centres; and that the box is finite and positive. `source` begins each message (a file name, usually).
-/// \throws InputError naming the first offending particle.
+/// Every sphere that has a cell, voids behind the particles, as a specimen of its own without voids.
+Specimen with_voids_as_cells(const Specimen& specimen);
+
+/// Checks every particle and void: finite centre inside the box, finite positive radius, `body` −1 exactly for mastic,
+/// no two coincident centres; and that the box is finite and positive. `source` begins each message (a file name,
+/// usually). \throws InputError naming the first offending particle.
 void validate(const Specimen& specimen, const std::string& source);
 
 /// Reads `id,x,y,z,radius,phase,body` (metres; plain text or gzip, told by content), in file order, and validates it.
+/// Rows of phase `void` stand behind those of all particles.
 /// \throws InputError with file, line, what was found and what was expected.
 Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box);
 
@@ -70,8 +91,17 @@ struct AggregateClass {
 /// The mastic that fills the rest: radius uniform in a range.
 struct MasticSpec {
   double radius_min = 0, radius_max = 0;  ///< [m]
-  std::optional<double> porosity;         ///< 1 − Σ sphere volumes / box, or …
+  std::optional<double> porosity;         ///< 1 − Σ volumes of solid spheres / (box − voids), or …
   std::optional<std::int64_t> count;      ///< … the number of mastic spheres
+  int line = 0;                           ///< in SpecimenSpec::source, for messages; 0: none
+};
+
+/// Air voids that have a size of their own: spheres without overlap, clear of the aggregates, radius uniform in a
+/// range.
+struct VoidSpec {
+  double radius_min = 0, radius_max = 0;  ///< [m]
+  std::optional<double> fraction;         ///< Σ sphere volumes / box, or …
+  std::optional<std::int64_t> count;      ///< … the number of voids
   int line = 0;                           ///< in SpecimenSpec::source, for messages; 0: none
 };
 
@@ -116,6 +146,7 @@ struct SpecimenSpec {
   std::vector<AggregateClass> aggregate;  ///< any order; placed largest first
   std::optional<ShapeSpec> shapes;        ///< none: aggregates are single spheres
   std::optional<MasticSpec> mastic;
+  std::optional<VoidSpec> voids;
   SizeLaw size_law = SizeLaw::log_uniform;
   double spacing = 0;                 ///< least distance of two aggregates one of which is inserted after the other [m]
   bool fix_aggregates = true;         ///< hold the aggregates while the mastic relaxes (moves |E*| by 6–7 % if not)
@@ -124,7 +155,8 @@ struct SpecimenSpec {
   int line = 0;                       ///< of its section there; 0: none
 };
 
-/// What was asked of the generator and what it reached, one entry an aggregate class and then one for the mastic.
+/// What was asked of the generator and what it reached, one entry an aggregate class, then one for the mastic, then one
+/// for the voids, if there are any.
 struct CompositionRow {
   std::string name;  ///< e.g. `"12.5-19 mm"` or `"mastic"`
   std::int64_t count_asked = 0, count = 0;
@@ -141,7 +173,9 @@ struct Aggregate {
   Vec3d axis_long{};               ///< unit vector along D^L; 0 for a sphere
   double volume = 0;               ///< of the shape, or of the single sphere [m³]
   std::int64_t spheres = 1;
-  Vec3d centre{};  ///< of its volume [m]
+  Vec3d centre{};             ///< of its volume [m]
+  std::int32_t surface = -1;  ///< number in GeneratedSpecimen::surfaces; −1 of a single sphere
+  Pose pose;                  ///< that brings this surface to the aggregate's place
 };
 
 /// A generated specimen with the report of its making.
@@ -149,6 +183,7 @@ struct GeneratedSpecimen {
   Specimen specimen;
   std::vector<CompositionRow> composition;
   std::vector<Aggregate> aggregates;  ///< in the order of their spheres
+  std::vector<Surface> surfaces;      ///< templates of the shaped ones, about the centroids of their volumes
   int relaxation_iterations = 0;
   double residual_overlap = 0;  ///< largest aggregate–aggregate overlap after relaxation [m]; 0 where they are held
 };

@@ -30,12 +30,12 @@ struct Facet {
   std::uint32_t vertex_begin = 0, vertex_end = 0;  ///< range in Tessellation::vertices
 };
 
-/// Laguerre cells of all particles (weights R²) inside the box.
+/// Laguerre cells of all particles and voids (weights R²) inside the box. Voids are numbered behind the particles.
 struct Tessellation {
   std::vector<Facet> facets;         ///< sorted by (a, b): walls (negative b) first among those of one a
   std::vector<Vec3d> vertices;       ///< [m]; each facet's own run, ordered counter-clockwise about its normal
-  std::vector<double> cell_volume;   ///< [m³], one a particle; 0 where hidden
-  std::vector<std::int32_t> hidden;  ///< particles without a cell in the box, ascending
+  std::vector<double> cell_volume;   ///< [m³], one a particle, then one a void; 0 where hidden
+  std::vector<std::int32_t> hidden;  ///< particles and voids without a cell in the box, ascending
   std::int64_t null_facets = 0;      ///< neighbours meeting only in an edge or a point (zero area): not facets
 
   std::span<const Vec3d> polygon(const Facet& f) const {

@@ -8,7 +8,7 @@ function(run)
 endfunction()
 
 # The installed package may ask its users for none of these
-foreach(library CGAL Boost Eigen3 fmt nlohmann_json tomlplusplus CLI11 ZLIB HDF5 OpenMP CUDAToolkit)
+foreach(library CGAL Boost Eigen3 fmt nlohmann_json tomlplusplus CLI11 ZLIB HDF5 ITK OpenMP CUDAToolkit)
   list(APPEND absent -D CMAKE_DISABLE_FIND_PACKAGE_${library}=ON)
 endforeach()
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// ct_command.cpp  macadam ct segment | …: what the program can do with images of computed tomography, if it has ITK.
+#include "host/cli/ct_command.hpp"
+
+#include "macadam/error.hpp"
+#ifdef MACADAM_CT
+#include "host/cli/ct_phantom.hpp"
+#include "host/cli/ct_segment.hpp"
+#include "host/cli/ct_twin.hpp"
+#endif
+
+namespace macadam {
+
+void add_ct_command(CLI::App& app) {
+  CLI::App& ct = *app.add_subcommand("ct", "grains, phases and specimens from images of computed tomography");
+#ifdef MACADAM_CT
+  ct.require_subcommand(1);
+  // Commands with files of their own add themselves here, a line each.
+  add_ct_segment(ct);
+  add_ct_phantom(ct);
+  add_ct_twin(ct);
+#else
+  ct.allow_extras();
+  ct.callback([] {
+    throw InputError("macadam ct", 0, "images of computed tomography", "a program built without ITK",
+                     "one built with it: install libinsighttoolkit5-dev and build again, with -D MACADAM_CT=ON");
+  });
+#endif
+}
+
+}  // namespace macadam

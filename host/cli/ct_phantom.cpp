@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// ct_phantom.cpp  macadam ct phantom SCENE --voxel "100 um" --out DIR
+#include "host/cli/ct_phantom.hpp"
+
+#include <limits>
+#include <memory>
+
+#include "host/cli/job.hpp"
+#include "host/cli/lengths.hpp"
+#include "host/cli/options.hpp"
+#include "host/cli/stop_signals.hpp"
+#include "macadam/phantom.hpp"
+
+namespace macadam {
+namespace {
+
+struct Arguments {
+  std::string scene, out, voxel, sawn = "0", air = "1 mm";
+  std::optional<std::uint64_t> specimen_seed;
+  PhantomSpec spec;
+};
+
+void phantom_command(Arguments arguments) {
+  PhantomSpec& spec = arguments.spec;
+  spec.voxel = length_of(arguments.voxel, "--voxel");
+  spec.sawn = length_of(arguments.sawn, "--sawn");
+  spec.air = length_of(arguments.air, "--air");
+  const Scene scene = scene_of({arguments.scene, arguments.out, arguments.specimen_seed});
+  listen_to_stop_signals();
+  ProgressLine line;
+  const Phantom phantom =
+      make_phantom(scene, spec, [&](const std::string& stage, double share) { show_or_stop(line, stage, share); });
+  line.show("writing", 0);
+  write_phantom(arguments.out, phantom, scene, spec);
+  line.clear();
+  const auto& n = phantom.scan.size;
+  say("{} x {} x {} voxels of {:.4g} um: {} grains, aggregate {:.2f} %, mastic {:.2f} %, voids {:.2f} %\n", n[0], n[1],
+      n[2], 1e6 * spec.voxel, phantom.grains.size(), 100 * phantom.aggregate, 100 * phantom.mastic,
+      100 * phantom.voids);
+  say("scan.mha, phantom.json and truth in {}\n", arguments.out);
+}
+
+}  // namespace
+
+void add_ct_phantom(CLI::App& ct) {
+  const auto arguments = std::make_shared<Arguments>();
+  PhantomSpec& spec = arguments->spec;
+  CLI::App& command = *ct.add_subcommand("phantom", "a synthetic scan of a scene's specimen, with its truth");
+  add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();
+  add_text(command, "--voxel", arguments->voxel, "edge of a voxel, as \"100 um\"")->required();
+  add_text(command, "--out", arguments->out, "folder of the results; made if it is not there")->required();
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  add_number(command, "--specimen-seed", arguments->specimen_seed, "instead of the scene's", 0, most);
+  add_number(command, "--seed", spec.seed, "of the faults of the scan", 0, most);
+  add_choice(command, "--shape", spec.shape, "outline of what is scanned",
+             {{"prism", CoreShape::prism}, {"cylinder", CoreShape::cylinder}});
+  add_text(command, "--sawn", arguments->sawn, "taken off each side of the box before it is scanned");
+  add_text(command, "--air", arguments->air, "around the specimen");
+  add_number(command, "--samples", spec.samples, "columns along each edge of a voxel", 1, 16);
+  add_number(command, "--blur", spec.blur, "standard deviation in voxels", 0.0, 10.0);
+  add_number(command, "--noise", spec.noise, "standard deviation, share of aggregate - air", 0.0, 1.0);
+  add_number(command, "--cupping", spec.cupping, "loss of grey value on the axis, share", 0.0, 1.0);
+  add_number(command, "--rings", spec.rings, "offsets of the rings, share of aggregate - air", 0.0, 1.0);
+  add_number(command, "--drift", spec.drift, "brightness of the slices, share", 0.0, 1.0);
+  add_number(command, "--grey-air", spec.grey_air, "grey value", 0.0, 65535.0);
+  add_number(command, "--grey-mastic", spec.grey_mastic, "grey value", 0.0, 65535.0);
+  add_number(command, "--grey-aggregate", spec.grey_aggregate, "grey value", 0.0, 65535.0);
+  command.callback([arguments] { phantom_command(*arguments); });
+}
+
+}  // namespace macadam

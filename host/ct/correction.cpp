@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// correction.cpp  Slices, rings and beam hardening, by the levels of the phases.
+#include "host/ct/correction.hpp"
+
+#include <Eigen/Dense>
+
+#include "host/parallel.hpp"
+
+namespace macadam::ct {
+namespace {
+
+using Grid = std::array<std::int64_t, 3>;
+
+/// Middle of the region, as voxel numbers.
+std::array<double, 2> middle_of(const Image<std::uint8_t>& region) {
+  double x = 0, y = 0, n = 0;
+  for (std::int64_t j = 0; j < region.size[1]; ++j) {
+    for (std::int64_t i = 0; i < region.size[0]; ++i) {
+      if (!region.at(i, j, region.size[2] / 2)) continue;
+      x += static_cast<double>(i), y += static_cast<double>(j), ++n;
+    }
+  }
+  return n > 0
+             ? std::array{x / n, y / n}
+             : std::array{0.5 * static_cast<double>(region.size[0] - 1), 0.5 * static_cast<double>(region.size[1] - 1)};
+}
+
+/// Levels of the whole and of parts of a scan; `part(i, j, k)` numbers them.
+struct Parts {
+  GreyLevels whole;
+  std::vector<PartLevel> each;
+};
+
+template <class Part>
+Parts levels_of_parts(const Image<float>& scan, const Image<std::uint8_t>& region, std::size_t parts, Part&& part) {
+  Parts out;
+  out.whole = fit_levels(histogram_of(scan, region));
+  const Histogram empty = bins_of(scan, region, 256);
+  std::vector<Histogram> histograms(parts, empty);
+  for (std::int64_t k = 0; k < scan.size[2]; ++k) {
+    for (std::int64_t j = 0; j < scan.size[1]; ++j) {
+      for (std::int64_t i = 0; i < scan.size[0]; ++i) {
+        const std::size_t at = scan.index(i, j, k);
+        if (region.voxels[at]) histograms[part(i, j, k)].add(scan.voxels[at]);
+      }
+    }
+  }
+  out.each.resize(parts);
+  for_each_in_parallel(parts, [&](std::size_t p) { out.each[p] = level_of_part(histograms[p], out.whole); });
+  return out;
+}
+
+/// Takes what is brighter out of every voxel; `brighter(i, j, k)` says by how much.
+template <class Brighter>
+void take_out(Image<float>& scan, const GreyLevels& whole, Brighter&& brighter) {
+  for_each_in_parallel(static_cast<std::size_t>(scan.size[2]), [&](std::size_t slice) {
+    const auto k = static_cast<std::int64_t>(slice);
+    for (std::int64_t j = 0; j < scan.size[1]; ++j) {
+      for (std::int64_t i = 0; i < scan.size[0]; ++i) {
+        float& grey = scan.at(i, j, k);
+        const double b = brighter(i, j, k);
+        grey =
+            static_cast<float>(whole.has_air ? whole.air + (grey - whole.air) / (1 + b) : grey - b * whole.contrast());
+      }
+    }
+  });
+}
+
+/// What brightness does to the aggregate's level, in shares of the contrast.
+double in_contrasts(double brighter, const GreyLevels& whole) {
+  return whole.has_air ? brighter * (whole.aggregate - whole.air) / whole.contrast() : brighter;
+}
+
+}  // namespace
+
+std::pair<Image<float>, Image<std::uint8_t>> means_of_blocks(const Image<float>& scan,
+                                                             const Image<std::uint8_t>& region, Grid block) {
+  Grid size;
+  for (std::size_t a = 0; a < 3; ++a) {
+    block[a] = std::min(block[a], scan.size[a]);
+    size[a] = scan.size[a] / block[a];
+  }
+  const Vec3d spacing{scan.spacing.x * static_cast<double>(block[0]), scan.spacing.y * static_cast<double>(block[1]),
+                      scan.spacing.z * static_cast<double>(block[2])};
+  const Vec3d origin = scan.origin + 0.5 * (spacing - scan.spacing);
+  Image<float> means(size, spacing, origin);
+  Image<std::uint8_t> inside(size, spacing, origin);
+  const float share = 1.0f / static_cast<float>(block[0] * block[1] * block[2]);
+  for_each_in_parallel(static_cast<std::size_t>(size[2]), [&](std::size_t slice) {
+    const auto k = static_cast<std::int64_t>(slice);
+    for (std::int64_t j = 0; j < size[1]; ++j) {
+      for (std::int64_t i = 0; i < size[0]; ++i) {
+        float sum = 0;
+        bool all = true;
+        for (std::int64_t c = 0; c < block[2]; ++c) {
+          for (std::int64_t b = 0; b < block[1]; ++b) {
+            for (std::int64_t a = 0; a < block[0]; ++a) {
+              const std::size_t at = scan.index(i * block[0] + a, j * block[1] + b, k * block[2] + c);
+              sum += scan.voxels[at];
+              all = all && region.voxels[at];
+            }
+          }
+        }
+        means.at(i, j, k) = sum * share;
+        inside.at(i, j, k) = all;
+      }
+    }
+  });
+  return {std::move(means), std::move(inside)};
+}
+
+double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region) {
+  const auto [means, inside] = means_of_blocks(scan, region, {3, 3, 1});
+  const auto slices = static_cast<std::size_t>(scan.size[2]);
+  const auto slice = [](auto, auto, std::int64_t k) { return static_cast<std::size_t>(k); };
+  const Parts parts = levels_of_parts(means, inside, slices, slice);
+  double squares = 0;
+  for (const PartLevel& p : parts.each) squares += p.brighter * p.brighter;
+  take_out(scan, parts.whole,
+           [&](auto, auto, std::int64_t k) { return parts.each[static_cast<std::size_t>(k)].brighter; });
+  return in_contrasts(std::sqrt(squares / static_cast<double>(slices)), parts.whole);
+}
+
+double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region) {
+  const auto [cx, cy] = middle_of(region);
+  const auto [means, inside] = means_of_blocks(scan, region, {1, 1, 3});
+  const auto ring = [cx = cx, cy = cy](std::int64_t i, std::int64_t j, auto) {
+    return static_cast<std::size_t>(std::lround(std::hypot(static_cast<double>(i) - cx, static_cast<double>(j) - cy)));
+  };
+  const std::size_t rings = 1 + std::max({ring(0, 0, 0), ring(scan.size[0] - 1, 0, 0), ring(0, scan.size[1] - 1, 0),
+                                          ring(scan.size[0] - 1, scan.size[1] - 1, 0)});
+  const Parts parts = levels_of_parts(means, inside, rings, ring);
+  constexpr std::size_t reach = 8;  // voxels of radius: what is wider is hardening
+  std::vector<double> offset(rings);
+  double squares = 0;
+  for (std::size_t r = 0; r < rings; ++r) {
+    if (parts.each[r].weight <= 0) continue;
+    std::vector<double> near;
+    for (std::size_t n = r < reach ? 0 : r - reach; n < std::min(rings, r + reach + 1); ++n) {
+      if (parts.each[n].weight > 0) near.push_back(parts.each[n].brighter);
+    }
+    const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
+    std::nth_element(near.begin(), middle, near.end());
+    // rings add: a detector's pixel is off by the same whatever the scan shows
+    offset[r] = in_contrasts(parts.each[r].brighter - *middle, parts.whole) * parts.whole.contrast();
+    squares += offset[r] * offset[r];
+  }
+  for_each_in_parallel(static_cast<std::size_t>(scan.size[2]), [&](std::size_t slice) {
+    for (std::int64_t j = 0; j < scan.size[1]; ++j) {
+      for (std::int64_t i = 0; i < scan.size[0]; ++i)
+        scan.at(i, j, static_cast<std::int64_t>(slice)) -= static_cast<float>(offset[ring(i, j, 0)]);
+    }
+  });
+  return std::sqrt(squares / static_cast<double>(rings)) / parts.whole.contrast();
+}
+
+double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region) {
+  const auto [cx, cy] = middle_of(region);
+  const std::int64_t edge = std::clamp<std::int64_t>(scan.size[0] / 100, 1, 4);
+  const auto [means, inside] = means_of_blocks(scan, region, {edge, edge, edge});
+  const double half = 0.5 * std::hypot(static_cast<double>(scan.size[0]), static_cast<double>(scan.size[1]));
+  const auto height = static_cast<double>(scan.size[2]);
+  constexpr int radii = 12, heights = 6;
+  // ρ = (r/half)², ζ = height from −1 to 1
+  const auto radius2 = [&, cx = cx, cy = cy](double i, double j) {
+    return ((i - cx) * (i - cx) + (j - cy) * (j - cy)) / (half * half);
+  };
+  const auto block = static_cast<double>(edge);
+  const auto cell = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+    const double rho =
+        radius2(block * (static_cast<double>(i) + 0.5) - 0.5, block * (static_cast<double>(j) + 0.5) - 0.5);
+    const int r = std::min(radii - 1, static_cast<int>(rho * radii));
+    const int z = std::min<int>(heights - 1, static_cast<int>(heights * k / means.size[2]));
+    return static_cast<std::size_t>(r + radii * z);
+  };
+  const Parts parts = levels_of_parts(means, inside, radii * heights, cell);
+  using Terms = Eigen::Matrix<double, 6, 1>;
+  const auto terms = [](double rho, double zeta) { return Terms{1, rho, rho * rho, zeta, zeta * zeta, rho * zeta}; };
+  Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
+  Terms right = Terms::Zero();
+  double weights = 0;
+  for (int z = 0; z < heights; ++z) {
+    for (int r = 0; r < radii; ++r) {
+      const PartLevel& p = parts.each[static_cast<std::size_t>(r + radii * z)];
+      const Terms t = terms((r + 0.5) / radii, -1 + 2 * (z + 0.5) / heights);
+      matrix += p.weight * t * t.transpose();
+      right += p.weight * p.brighter * t;
+      weights += p.weight;
+    }
+  }
+  if (!(weights > 0)) return 0;
+  matrix.diagonal().array() += 1e-6 * weights;  // terms that the cells do not determine stay at nothing
+  const Terms fit = matrix.ldlt().solve(right);
+  double low = 0, high = 0;
+  for (int r = 0; r < radii; ++r) {
+    if (parts.each[static_cast<std::size_t>(r + radii * (heights / 2))].weight <= 0) continue;
+    const double there = fit.dot(terms((r + 0.5) / radii, 0));
+    low = std::min(low, there), high = std::max(high, there);
+  }
+  take_out(scan, parts.whole, [&](std::int64_t i, std::int64_t j, std::int64_t k) {
+    return fit.dot(terms(radius2(static_cast<double>(i), static_cast<double>(j)),
+                         -1 + 2 * (static_cast<double>(k) + 0.5) / height));
+  });
+  return in_contrasts(high - low, parts.whole);
+}
+
+ScanCorrections correct(Image<float>& scan, const Image<std::uint8_t>& region, const SegmentOptions& options) {
+  ScanCorrections first;
+  for (int round = 0; round < 4; ++round) {
+    ScanCorrections now;
+    if (options.hardening) now.hardening = correct_hardening(scan, region);
+    if (options.slices) now.slices = correct_slices(scan, region);
+    if (options.rings) now.rings = correct_rings(scan, region);
+    if (round == 0) first = now;
+    if (std::max({now.slices, now.rings, now.hardening}) < 0.02) break;
+  }
+  return first;
+}
+
+}  // namespace macadam::ct

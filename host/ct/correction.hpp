@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file correction.hpp  Faults of scanners that change grey values over the scan: slices that drift, rings, beam
+/// hardening. All three look at the levels of the phases, never at means: a layer of more aggregate is no fault.
+#pragma once
+
+#include "host/ct/grey_levels.hpp"
+
+namespace macadam::ct {
+
+/// Every slice gets the levels of the whole scan.
+double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region);
+
+/// Rings around the vertical axis through the middle of the region: what of the levels changes within a few voxels of
+/// radius is taken away.
+double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region);
+
+/// Levels that change smoothly over radius and height: a polynomial, fitted and taken away.
+double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region);
+
+/// Those that were asked for, in turn, until nothing changes any more.
+ScanCorrections correct(Image<float>& scan, const Image<std::uint8_t>& region, const SegmentOptions& options);
+
+/// Means of blocks of voxels; blocks that the region does not fill are 0 in the second image.
+std::pair<Image<float>, Image<std::uint8_t>> means_of_blocks(const Image<float>& scan,
+                                                             const Image<std::uint8_t>& region,
+                                                             std::array<std::int64_t, 3> block);
+
+}  // namespace macadam::ct

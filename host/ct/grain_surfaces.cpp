@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// grain_surfaces.cpp  A field that is positive within a grain: grey values where it ends at mastic, labels where it was
+// cut from a neighbour.
+#include "host/ct/grain_surfaces.hpp"
+
+#include <mutex>
+
+#include "host/ct/isosurface.hpp"
+#include "host/parallel.hpp"
+#include "host/shapes/convex_hull.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam::ct {
+namespace {
+
+constexpr auto aggregate = static_cast<std::uint8_t>(VoxelPhase::aggregate),
+               outside = static_cast<std::uint8_t>(VoxelPhase::outside);
+constexpr std::int64_t margin = 2;   ///< nodes around a grain
+constexpr std::int64_t across = 32;  ///< nodes through a grain's middle side, or one a voxel where it has fewer
+
+/// Averages of three neighbours along each axis, weights 1, 2, 1: a face between labels loses its steps.
+void even_out(Image<float>& field) {
+  const std::int64_t steps[3] = {1, field.size[0], field.size[0] * field.size[1]};
+  std::vector<float> from;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    from = field.voxels;
+    for (std::int64_t k = 0; k < field.size[2]; ++k) {
+      for (std::int64_t j = 0; j < field.size[1]; ++j) {
+        for (std::int64_t i = 0; i < field.size[0]; ++i) {
+          const std::int64_t at[3] = {i, j, k};
+          const auto here = static_cast<std::int64_t>(field.index(i, j, k));
+          const auto low = static_cast<std::size_t>(at[axis] > 0 ? here - steps[axis] : here);
+          const auto high = static_cast<std::size_t>(at[axis] + 1 < field.size[axis] ? here + steps[axis] : here);
+          field.voxels[static_cast<std::size_t>(here)] =
+              0.25f * (from[low] + 2 * from[static_cast<std::size_t>(here)] + from[high]);
+        }
+      }
+    }
+  }
+}
+
+/// Share of grey from mastic to aggregate, less the threshold's, averaged over blocks of `edge` voxels; and not more
+/// than what labels say of whose the place is. The paper's surfaces know labels alone.
+Image<float> field_of(const Segmentation& scan, const Thresholds& thresholds, std::uint32_t id, const GrainBox& box,
+                      std::int64_t edge, bool paper) {
+  std::array<std::int64_t, 3> size, first;
+  for (std::size_t a = 0; a < 3; ++a) {
+    first[a] = box.low[a] - margin * edge;
+    size[a] = (box.high[a] + margin * edge - first[a]) / edge + 1;
+  }
+  const auto step = static_cast<double>(edge);
+  const Vec3d spacing = step * scan.labels.spacing;
+  const Vec3d origin = scan.labels.centre(first[0], first[1], first[2]) + 0.5 * (spacing - scan.labels.spacing);
+  Image<float> grey(size, spacing, origin), own(size, spacing, origin);
+  const auto scale = static_cast<float>(1 / scan.levels.contrast()),
+             share = 1.0f / static_cast<float>(edge * edge * edge);
+  for (std::int64_t k = 0; k < size[2]; ++k) {
+    for (std::int64_t j = 0; j < size[1]; ++j) {
+      for (std::int64_t i = 0; i < size[0]; ++i) {
+        float sum = 0, mine = 0;
+        for (std::int64_t c = 0; c < edge; ++c) {
+          for (std::int64_t b = 0; b < edge; ++b) {
+            for (std::int64_t a = 0; a < edge; ++a) {
+              const std::int64_t x = first[0] + edge * i + a, y = first[1] + edge * j + b, z = first[2] + edge * k + c;
+              const bool there = x >= 0 && y >= 0 && z >= 0 && x < scan.labels.size[0] && y < scan.labels.size[1] &&
+                                 z < scan.labels.size[2];
+              // a grain that the scan or the specimen cuts ends there
+              if (!there || scan.phases.at(x, y, z) == outside) {
+                sum -= 0.5f, mine += 1;
+                continue;
+              }
+              const std::uint32_t label = scan.labels.at(x, y, z);
+              const bool foreign = label != id && scan.phases.at(x, y, z) == aggregate;
+              const float above = (scan.grey.at(x, y, z) - static_cast<float>(thresholds.aggregate)) * scale;
+              // a single voxel's label is a step, which `own` evens out; over a block of voxels there is none
+              if (paper || (foreign && edge > 1)) {
+                sum += label == id ? 0.5f : -0.5f;
+              } else {
+                sum += std::clamp(above, -0.5f, 0.5f);
+              }
+              mine += !foreign;
+            }
+          }
+        }
+        grey.at(i, j, k) = sum * share;
+        own.at(i, j, k) = mine * share - 0.5f;
+      }
+    }
+  }
+  if (edge == 1 && !paper) even_out(own);
+  for (std::size_t n = 0; n < grey.count(); ++n) grey.voxels[n] = std::min(grey.voxels[n], own.voxels[n]);
+  for (std::int64_t k = 0; k < size[2]; ++k) {  // closed whatever lies at the end of the box
+    for (std::int64_t j = 0; j < size[1]; ++j) {
+      for (std::int64_t i = 0; i < size[0]; ++i) {
+        if (i == 0 || j == 0 || k == 0 || i + 1 == size[0] || j + 1 == size[1] || k + 1 == size[2])
+          grey.at(i, j, k) = std::min(grey.at(i, j, k), -0.5f);
+      }
+    }
+  }
+  return grey;
+}
+
+/// The paper's: a surface of voxels, of which the Delaunay triangulation of its points is taken anew. The outside of
+/// that is the convex hull.
+Surface rebuilt(const Surface& surface) {
+  Surface hull{surface.name, {}, convex_hull(surface.points)};
+  std::vector<std::int32_t> number(surface.points.size(), -1);
+  for (auto& facet : hull.facets) {
+    for (std::int32_t& corner : facet) {
+      std::int32_t& n = number[static_cast<std::size_t>(corner)];
+      if (n < 0) {
+        n = static_cast<std::int32_t>(hull.points.size());
+        hull.points.push_back(surface.points[static_cast<std::size_t>(corner)]);
+      }
+      corner = n;
+    }
+  }
+  return hull;
+}
+
+/// Measures a surface, and mends it first where it has to be.
+ShapeMeasure measured(Surface& surface) {
+  try {
+    return measure_shape(surface);
+  } catch (const InputError&) {
+    surface = repair_surface(surface);
+    return measure_shape(surface);
+  }
+}
+
+}  // namespace
+
+std::vector<GrainBox> boxes_of(const Image<std::uint32_t>& labels, const Image<std::uint8_t>& phases,
+                               const Image<std::uint8_t>& confidence) {
+  const std::uint32_t most = *std::max_element(labels.voxels.begin(), labels.voxels.end());
+  std::vector<GrainBox> boxes(most + 1);
+  const auto [nx, ny, nz] = labels.size;
+  for (std::int64_t k = 0; k < nz; ++k) {
+    for (std::int64_t j = 0; j < ny; ++j) {
+      for (std::int64_t i = 0; i < nx; ++i) {
+        const std::size_t at = labels.index(i, j, k);
+        if (labels.voxels[at] == 0) continue;
+        GrainBox& box = boxes[labels.voxels[at]];
+        const std::array here{i, j, k};
+        for (std::size_t a = 0; a < 3; ++a) {
+          box.low[a] = box.voxels == 0 ? here[a] : std::min(box.low[a], here[a]);
+          box.high[a] = box.voxels == 0 ? here[a] : std::max(box.high[a], here[a]);
+          box.border = box.border || here[a] == 0 || here[a] + 1 == labels.size[a];
+        }
+        ++box.voxels;
+        box.confidence += confidence.voxels[at] / 255.0;
+        if (!box.border) {
+          box.border = phases.voxels[at - 1] == outside || phases.voxels[at + 1] == outside ||
+                       phases.at(i, j - 1, k) == outside || phases.at(i, j + 1, k) == outside ||
+                       phases.at(i, j, k - 1) == outside || phases.at(i, j, k + 1) == outside;
+        }
+      }
+    }
+  }
+  return boxes;
+}
+
+std::vector<ScannedGrain> surfaces_of(const Segmentation& scan, const Thresholds& thresholds,
+                                      const std::vector<GrainBox>& boxes, const SegmentOptions& options,
+                                      std::vector<std::string>& warnings) {
+  const double voxel = std::cbrt(scan.labels.voxel_volume());
+  std::vector<ScannedGrain> grains(boxes.size());
+  std::vector<std::string> faults(boxes.size());
+  std::size_t done = 0;
+  std::mutex mutex;
+  for_each_in_parallel(boxes.size(), [&](std::size_t id) {
+    const GrainBox& box = boxes[id];
+    if (box.voxels == 0) return;
+    std::array<std::int64_t, 3> sides;
+    for (std::size_t a = 0; a < 3; ++a) sides[a] = box.high[a] - box.low[a] + 1;
+    std::sort(sides.begin(), sides.end());
+    const std::int64_t edge = std::max<std::int64_t>(1, sides[1] / across);
+    const bool paper = options.recipe == SegmentRecipe::paper;
+    try {
+      const Surface fine = isosurface(field_of(scan, thresholds, static_cast<std::uint32_t>(id), box, edge, paper));
+      if (fine.facets.empty()) throw RunError("its grey values enclose nothing");
+      ScannedGrain grain;
+      // half a voxel of the nodes that the surface was drawn through
+      Simplified fewer =
+          simplified(fine, options.facets, std::max(800, options.facets), 0.5 * voxel * static_cast<double>(edge));
+      grain.surface = paper ? rebuilt(fewer.surface) : std::move(fewer.surface);
+      grain.surface.name = fmt::format("grain_{:04}", id);
+      grain.surface_error = fewer.error;
+      grain.measure = measured(grain.surface);
+      grain.sieve = square_sieve(grain.surface);
+      grain.id = static_cast<std::uint32_t>(id);
+      grain.border = box.border;
+      grain.confidence = box.confidence / static_cast<double>(box.voxels);
+      grains[id] = std::move(grain);
+    } catch (const Error& error) { faults[id] = fmt::format("grain {} has no surface: {}", id, error.what()); }
+    const std::lock_guard lock(mutex);
+    ++done;
+    if (options.progress) options.progress("surfaces", static_cast<double>(done) / static_cast<double>(boxes.size()));
+  });
+  for (const std::string& fault : faults) {
+    if (!fault.empty()) warnings.push_back(fault);
+  }
+  std::erase_if(grains, [](const ScannedGrain& g) { return g.id == 0; });
+  return grains;
+}
+
+}  // namespace macadam::ct

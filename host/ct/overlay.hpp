@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file overlay.hpp  Pictures in which a person sees at a glance whether a segmentation can be right.
+#pragma once
+
+#include <filesystem>
+
+#include "macadam/ct.hpp"
+
+namespace macadam::ct {
+
+/// The three middle planes of the scan side by side (xy, xz, yz), the corrected grey values with the grains' colours
+/// over them: a PNG. \throws RunError.
+void write_overlay(const std::filesystem::path& file, const Segmentation& segmentation);
+
+/// The grains seen obliquely from above, each in its colour of the planes, shaded by their surfaces: a PNG. \throws
+/// RunError.
+void write_view(const std::filesystem::path& file, const Segmentation& segmentation);
+
+}  // namespace macadam::ct

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// mastic.cpp  Rounds of relaxation, between which hidden spheres are placed anew.
+#include "host/specimen/mastic.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "host/spheres/relaxation.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr int most_rounds = 10;  // of relaxation, to free the last hidden spheres
+
+/// Gives hidden mastic a new random place.
+void reinsert(const std::vector<std::int32_t>& hidden, Specimen& specimen, Placement& placement) {
+  for (std::int32_t i : hidden)
+    if (specimen.phase[i] == Phase::mastic) specimen.centre[i] = placement.point_outside_aggregates();
+}
+
+[[noreturn]] void give_up(const Origin& origin, const std::vector<std::int32_t>& hidden) {
+  std::string message = std::to_string(hidden.size()) + " particles have no Laguerre cell after " +
+                        std::to_string(most_rounds) + " rounds of relaxation:";
+  constexpr std::size_t shown = 10;
+  for (std::size_t k = 0; k < std::min(hidden.size(), shown); ++k) message += " " + std::to_string(hidden[k]);
+  if (hidden.size() > shown) message += " …";
+  throw RunError(origin.text() + message + "; ask for fewer or more equal mastic spheres");
+}
+
+}  // namespace
+
+int settle_mastic(Specimen& specimen, Placement& placement, bool fix_aggregates, const Origin& origin,
+                  const Enclosure& wall, const std::function<void(double share)>& progress) {
+  int iterations = 0;
+  std::vector<std::int32_t> hidden;
+  for (int round = 0; round < most_rounds; ++round) {
+    reinsert(hidden, specimen, placement);
+    iterations += relax(specimen, fix_aggregates, progress, wall);
+    hidden = particles_without_cell(specimen);
+    if (hidden.empty()) return iterations;
+  }
+  give_up(origin, hidden);
+}
+
+void part_voids(std::size_t first, std::size_t end, Specimen& specimen) {
+  for (std::size_t i = first; i < end; ++i) specimen.voids.push_back({specimen.centre[i], specimen.radius[i]});
+  const auto erase = [&](auto& list) {
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(first), list.begin() + static_cast<std::ptrdiff_t>(end));
+  };
+  erase(specimen.centre), erase(specimen.radius), erase(specimen.phase), erase(specimen.body);
+}
+
+}  // namespace macadam

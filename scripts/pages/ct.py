@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/ct.md: from bench/ct/run's ct.csv, a row a seed and recipe."""
+from pages.data import minus, rows, table
+from pages.marks import mark
+
+DOCUMENT = "docs/ct.md"
+LINES = (  # name, column, factor, digits, sign
+    ("grains", "grains", 1, 0, False),
+    ("found (IoU > 0.5) (%)", "found", 100, 1, False),
+    ("wrong splits (%)", "wrong_splits", 100, 1, False),
+    ("wrong merges (%)", "wrong_merges", 100, 1, False),
+    ("median Dice", "dice_median", 1, 3, False),
+    ("whole grains", "whole_grains", 1, 0, False),
+    ("their voxels (%)", "voxel_volume_error", 100, 2, True),
+    ("mean volume of the surfaces (%)", "volume_m3_mean_error", 100, 2, True),
+    ("mean area (%)", "area_m2_mean_error", 100, 2, True),
+    ("mean D^L (%)", "d_long_m_mean_error", 100, 2, True),
+    ("mean D^I (%)", "d_intermediate_m_mean_error", 100, 2, True),
+    ("mean D^S (%)", "d_short_m_mean_error", 100, 2, True),
+    ("sieve class right, by D^I (%)", "class_right_d_intermediate", 100, 1, False),
+    ("air voids (points)", "air_voids_points_error", 1, 2, True),
+    ("aggregate (points)", "aggregate_points_error", 1, 2, True),
+)
+
+
+@mark
+def ct():
+    runs = rows("ct.csv")
+    heads = [f"seed {r['seed']:g}, {r['recipe']}" for r in runs]
+    lines = [[name, *(minus(f"{factor * r[column]:{'+' if sign else ''}.{digits}f}") for r in runs)]
+             for name, column, factor, digits, sign in LINES]
+    return table(["", *heads], lines, range(1, len(heads) + 1))

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Image files of computed tomography: what is written is read back, and what is wrong with a file is said.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "macadam/ct.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CtImage : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_ = fs::path(testing::TempDir()) /
+                     ("ct_image_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+
+  /// What reading a file says of it.
+  template <class T>
+  std::string fault(const fs::path& file) {
+    try {
+      read_image<T>(file);
+    } catch (const InputError& error) { return error.what(); }
+    return "read without error";
+  }
+  void write(const std::string& name, const std::string& bytes) { std::ofstream(folder_ / name) << bytes; }
+};
+
+template <class T>
+Image<T> ramp(std::array<std::int64_t, 3> size) {
+  Image<T> image(size, {1e-4, 2e-4, 3e-4}, {1e-3, 0, -2e-3});
+  for (std::size_t i = 0; i < image.count(); ++i) image.voxels[i] = static_cast<T>((7 * i) % 251);
+  return image;
+}
+
+template <class T>
+void expect_same(const Image<T>& read, const Image<T>& written, bool spacing) {
+  EXPECT_EQ(read.size, written.size);
+  EXPECT_EQ(read.voxels, written.voxels);
+  if (!spacing) return;
+  // lengths pass through decimal text of millimetres
+  EXPECT_NEAR(read.spacing.x, written.spacing.x, 1e-12);
+  EXPECT_NEAR(read.spacing.y, written.spacing.y, 1e-12);
+  EXPECT_NEAR(read.spacing.z, written.spacing.z, 1e-12);
+  EXPECT_NEAR(read.origin.x, written.origin.x, 1e-12);
+  EXPECT_NEAR(read.origin.z, written.origin.z, 1e-12);
+}
+
+template <class T>
+void round_trip(const fs::path& folder) {
+  const Image<T> image = ramp<T>({5, 4, 3});
+  for (const std::string name : {"image.mha", "image.mhd", "image.nrrd"}) {
+    write_image(folder / name, image);
+    expect_same(read_image<T>(folder / name), image, true);
+  }
+}
+
+TEST_F(CtImage, FilesOfEveryTypeAreReadAsTheyWereWritten) {
+  round_trip<std::uint8_t>(folder_);
+  round_trip<std::uint16_t>(folder_);
+  round_trip<std::uint32_t>(folder_);
+  round_trip<float>(folder_);
+}
+
+TEST_F(CtImage, PagesOfATiffAndFilesOfAFolderAreSlicesInTheOrderOfTheirNumbers) {
+  const auto image = ramp<std::uint16_t>({6, 5, 12});
+  write_image(folder_ / "pages.tif", image);
+  expect_same(read_image<std::uint16_t>(folder_ / "pages.tif"), image, false);
+  EXPECT_EQ(read_image_header(folder_ / "pages.tif").spacing.x, 0) << "a TIFF says nothing of voxels";
+  fs::create_directories(folder_ / "slices");
+  for (std::int64_t k = 0; k < 12; ++k) {
+    Image<std::uint16_t> slice({6, 5, 1}, image.spacing);
+    std::copy_n(image.voxels.begin() + 30 * k, 30, slice.voxels.begin());
+    write_image(folder_ / "slices" / ("s" + std::to_string(k) + ".tif"), slice);  // s10 after s9
+  }
+  expect_same(read_image<std::uint16_t>(folder_ / "slices"), image, false);
+  write_image(folder_ / "slices" / "s5.tif", Image<std::uint16_t>({6, 4, 1}, image.spacing));
+  EXPECT_NE(fault<std::uint16_t>(folder_ / "slices").find("s5.tif"), std::string::npos);
+}
+
+TEST_F(CtImage, WhatIsWrongWithAFileIsSaid) {
+  EXPECT_NE(fault<float>(folder_ / "none.mha").find("no such file"), std::string::npos);
+  EXPECT_NE(fault<float>(folder_ / "image.jpg").find(".nrrd"), std::string::npos);
+  EXPECT_NE(fault<float>(folder_).find("no .tif file"), std::string::npos);
+  write("text.mha", "not an image");
+  EXPECT_NE(fault<float>(folder_ / "text.mha").find("text.mha"), std::string::npos);
+  write("text.tif", "not an image");
+  EXPECT_NE(fault<float>(folder_ / "text.tif").find("text.tif"), std::string::npos);
+  write_image(folder_ / "whole.mha", ramp<std::uint16_t>({50, 40, 30}), false);
+  fs::resize_file(folder_ / "whole.mha", 60000);
+  EXPECT_NE(fault<float>(folder_ / "whole.mha").find("whole.mha"), std::string::npos) << "half of the file is missing";
+  auto image = ramp<float>({5, 4, 3});
+  image.voxels[17] = NAN;
+  write_image(folder_ / "nan.mha", image);
+  EXPECT_NE(fault<float>(folder_ / "nan.mha").find("voxel 17"), std::string::npos);
+  image.voxels[17] = 300;
+  write_image(folder_ / "large.mha", image);
+  EXPECT_NE(fault<std::uint8_t>(folder_ / "large.mha").find("from 0 to 255"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace macadam

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Grains, surfaces and phases of small scans of which everything is known, and what is said of scans that are none.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "host/ct/isosurface.hpp"
+#include "host/ct/segment_files.hpp"
+#include "macadam/error.hpp"
+#include "tests/ct_scans.hpp"
+
+namespace macadam {
+namespace {
+
+using namespace ct_scans;
+constexpr double pi = std::numbers::pi, voxel = 1e-4;
+
+SegmentOptions options_of(double smallest_voxels) {
+  SegmentOptions options;
+  options.region = ScanRegion::whole;
+  options.smallest = smallest_voxels * voxel;
+  return options;
+}
+
+bool by_volume(const ScannedGrain& a, const ScannedGrain& b) { return a.measure.volume < b.measure.volume; }
+
+std::string fault(const Image<float>& scan, const SegmentOptions& options) {
+  try {
+    segment_scan(scan, options);
+  } catch (const InputError& error) { return error.what(); }
+  return "segmented";
+}
+
+TEST(CtIsosurface, OfABallHasItsVolumeAndItsArea) {
+  Image<float> field({30, 30, 30}, {voxel, voxel, voxel});
+  const Body body = ball(14.3, 14.6, 14.1, 12);
+  for (std::int64_t k = 0; k < 30; ++k)
+    for (std::int64_t j = 0; j < 30; ++j)
+      for (std::int64_t i = 0; i < 30; ++i) {
+        field.at(i, j, k) = static_cast<float>(
+            std::clamp(0.5 * body(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)), -0.5, 0.5));
+      }
+  const Surface fine = ct::isosurface(field);
+  EXPECT_TRUE(check_surface(fine).good()) << check_surface(fine).text();
+  const ShapeMeasure m = measure_shape(fine);
+  const double r = 12 * voxel;
+  // Chords of a ball of 12 voxels cut off (1/12)²/10 or so; a surface of whole voxels would have 7 % too much.
+  EXPECT_NEAR(m.area / (4 * pi * r * r), 1, 0.01);
+  EXPECT_NEAR(m.volume / (4 * pi / 3 * r * r * r), 1, 0.01);
+  const ct::Simplified fewer = ct::simplified(fine, 400, 800, 0.5 * voxel);
+  EXPECT_LE(fewer.surface.facets.size(), 400u);
+  EXPECT_LE(fewer.error, 0.5 * voxel);
+  EXPECT_TRUE(check_surface(fewer.surface).good()) << check_surface(fewer.surface).text();
+  EXPECT_NEAR(measure_shape(fewer.surface).volume / m.volume, 1, 0.005);
+}
+
+TEST(CtSegment, ABallAndABlockAreMeasured) {
+  Image<float> scan = scan_of({90, 60, 60}, {ball(20, 25, 24, 12), block({45, 10, 12}, {75, 34, 40})},
+                              {ball(15, 50, 50, 6), ball(80, 50, 50, 6)});
+  add_noise(scan, 0.05);
+  Segmentation out = segment_scan(scan, options_of(20));
+  std::sort(out.grains.begin(), out.grains.end(), by_volume);
+  ASSERT_EQ(out.grains.size(), 2u);
+  const double r = 12 * voxel;
+  EXPECT_NEAR(out.grains[0].measure.area / (4 * pi * r * r), 1, 0.02);  // bar of a ball of 12 voxels
+  EXPECT_NEAR(out.grains[0].measure.volume / (4 * pi / 3 * r * r * r), 1, 0.02);
+  const ShapeMeasure& block = out.grains[1].measure;
+  // edges and corners of the blurred block are round: a voxel of the sides' 24 to 30 each
+  EXPECT_NEAR(block.volume / (30 * 24 * 28 * std::pow(voxel, 3)), 1, 0.03);
+  EXPECT_NEAR(block.area / (2 * (30 * 24 + 24 * 28 + 28 * 30) * voxel * voxel), 1, 0.05);
+  EXPECT_FALSE(out.grains[0].border);
+  EXPECT_GT(out.grains[0].confidence, 0.9);
+  EXPECT_LE(out.grains[1].surface.facets.size(), 800u);
+}
+
+TEST(CtSegment, TouchingBallsArePartedAndALongGrainIsNot) {
+  const Body stone = [](double x, double y, double z) {  // an ellipsoid of half axes 24, 10, 9
+    return 9 * (1 - std::sqrt((x - 40) * (x - 40) / 576 + (y - 55) * (y - 55) / 100 + (z - 25) * (z - 25) / 81));
+  };
+  Image<float> scan = scan_of({80, 75, 50}, {ball(20, 20, 25, 12), ball(43, 20, 25, 12), stone}, {ball(70, 10, 10, 5)});
+  add_noise(scan, 0.1);
+  Segmentation out = segment_scan(scan, options_of(18));
+  std::sort(out.grains.begin(), out.grains.end(), by_volume);
+  ASSERT_EQ(out.grains.size(), 3u);
+  const double ball_volume = 4 * pi / 3 * std::pow(12 * voxel, 3);
+  EXPECT_NEAR(out.grains[0].measure.volume / ball_volume, 1, 0.03);
+  EXPECT_NEAR(out.grains[1].measure.volume / ball_volume, 1, 0.03);
+  EXPECT_NEAR(out.grains[2].measure.volume / (4 * pi / 3 * 24 * 10 * 9 * std::pow(voxel, 3)), 1, 0.05);
+  const auto cuts = std::count_if(out.cuts.begin(), out.cuts.end(), [](const GrainCut& c) { return c.cut; });
+  EXPECT_EQ(cuts, 1);
+
+  // A person joins the two, and only them.
+  SegmentOptions by_hand = options_of(18);
+  by_hand.cuts = out.cuts;
+  for (GrainCut& cut : *by_hand.cuts) cut.cut = false;
+  const Segmentation joined = segment_scan(scan, by_hand);
+  EXPECT_EQ(joined.grains.size(), 2u);
+  by_hand.cuts->push_back({});
+  EXPECT_NE(fault(scan, by_hand).find("rows"), std::string::npos);
+  by_hand.cuts = out.cuts;
+  by_hand.cuts->front().place.x += 10 * voxel;
+  EXPECT_NE(fault(scan, by_hand).find("another scan"), std::string::npos);
+}
+
+TEST(CtSegment, ThreadsDoNotChangeTheAnswer) {
+  Image<float> scan = many_balls(60);
+  add_noise(scan, 0.15);
+  const SegmentOptions options = options_of(14);
+  const int threads = omp_get_max_threads();
+  omp_set_num_threads(1);
+  const Segmentation one = segment_scan(scan, options);
+  omp_set_num_threads(3);
+  const Segmentation three = segment_scan(scan, options);
+  omp_set_num_threads(threads);
+  EXPECT_EQ(one.labels.voxels, three.labels.voxels);
+  EXPECT_EQ(one.phases.voxels, three.phases.voxels);
+  EXPECT_EQ(ct::grains_csv(one.grains), ct::grains_csv(three.grains));
+}
+
+TEST(CtSegment, SharesOfThePhasesAreRightAndThoseOfTheLaboratoryAreKept) {
+  const Image<float> clean = many_balls(66);
+  double true_air = 0;
+  for (const float grey : clean.voxels) true_air += std::clamp((mastic - grey) / (mastic - air), 0.0f, 1.0f);
+  true_air /= static_cast<double>(clean.count());
+  Image<float> scan = clean;
+  add_noise(scan, 0.2);
+  SegmentOptions options = options_of(14);
+  options.surfaces = false;
+  const Segmentation free = segment_scan(scan, options);
+  EXPECT_NEAR(free.air_voids, true_air, 0.003);  // a bar of 0.3 points
+  options.aggregate = free.aggregate + 0.01;
+  EXPECT_NEAR(segment_scan(scan, options).aggregate, free.aggregate + 0.01, 0.003);
+  options.aggregate = 0.9;  // not what the scan shows
+  EXPECT_FALSE(segment_scan(scan, options).warnings.empty());
+}
+
+TEST(CtSegment, ASpecimenInAirIsFound) {
+  Image<float> scan = many_balls(66);
+  for (std::int64_t k = 0; k < 66; ++k)
+    for (std::int64_t j = 0; j < 66; ++j)
+      for (std::int64_t i = 0; i < 66; ++i) {
+        const bool around =
+            std::hypot(static_cast<double>(i) - 33, static_cast<double>(j) - 33) > 30 || k < 4 || k > 60;
+        if (around) scan.at(i, j, k) = air;
+      }
+  add_noise(scan, 0.05);
+  SegmentOptions options = options_of(14);
+  options.region = ScanRegion::found;
+  options.surfaces = false;
+  const Segmentation out = segment_scan(scan, options);
+  const auto inside = static_cast<double>(
+      std::count_if(out.phases.voxels.begin(), out.phases.voxels.end(), [](std::uint8_t p) { return p != 255; }));
+  EXPECT_NEAR(inside / (pi * 30 * 30 * 57), 1, 0.02);  // half a voxel of the radius is 3 %, found by area
+}
+
+TEST(CtSegment, WhatIsNoScanIsRefused) {
+  const SegmentOptions options = options_of(14);
+  EXPECT_NE(fault(Image<float>({40, 40, 40}, {voxel, voxel, voxel}, {}, 7), options).find("everywhere"),
+            std::string::npos);
+  Image<float> noise({48, 48, 48}, {voxel, voxel, voxel}, {}, 20000);
+  add_noise(noise, 0.3);
+  EXPECT_NE(fault(noise, options).find("contrast"), std::string::npos);
+  Image<float> faint = many_balls(60);  // limestone in mastic full of its filler
+  for (float& grey : faint.voxels) grey = std::min(grey, mastic + 0.02f * (grey - mastic));
+  add_noise(faint, 0.1);
+  EXPECT_NE(fault(faint, options).find("a phase is missing"), std::string::npos);
+  Image<float> coarse = many_balls(60);
+  coarse.spacing = {1e-3, 1e-3, 1e-3};  // micrometres taken for tens of them
+  EXPECT_NE(fault(coarse, options).find("edge of a voxel"), std::string::npos);
+  EXPECT_NE(fault(Image<float>({0, 0, 0}, {voxel, voxel, voxel}), options).find("voxels"), std::string::npos);
+}
+
+TEST(CtSegment, ADoubtfulScanIsSegmentedWithAWarning) {
+  Image<float> clipped = many_balls(60);
+  for (float& grey : clipped.voxels) grey = std::min(grey, 30000.0f);
+  SegmentOptions options = options_of(14);
+  options.surfaces = false;
+  const Segmentation out = segment_scan(clipped, options);
+  ASSERT_FALSE(out.warnings.empty());
+  EXPECT_NE(out.warnings.front().find("clipped"), std::string::npos);
+  const Image<float> dense = scan_of({60, 60, 60}, {ball(30, 30, 30, 14)});  // no voids at all
+  const Segmentation no_air = segment_scan(dense, options);
+  EXPECT_FALSE(no_air.levels.has_air);
+  EXPECT_EQ(no_air.air_voids, 0);
+}
+
+TEST(CtSegment, ThePapersStepsPartBallsToo) {
+  Image<float> scan = many_balls(66);
+  add_noise(scan, 0.05);
+  SegmentOptions options = options_of(14);
+  options.recipe = SegmentRecipe::paper;
+  const Segmentation out = segment_scan(scan, options);
+  EXPECT_GE(out.grains.size(), 27u);
+  for (const ScannedGrain& grain : out.grains) EXPECT_TRUE(check_surface(grain.surface).good());
+  options.cuts = std::vector<GrainCut>{};
+  EXPECT_NE(fault(scan, options).find("recipe"), std::string::npos);
+}
+
+TEST(CtSieve, OfABlockAndABall) {
+  const Surface ball = subdivided_icosahedron(0.005);
+  EXPECT_LT(square_sieve(ball), 0.01);
+  EXPECT_GT(square_sieve(ball), 0.0094);  // the sphere that touches its 80 facets from within
+  Surface block{"block", {}, {}};
+  for (int c = 0; c < 8; ++c) block.points.push_back({0.010 * (c & 1), 0.006 * (c >> 1 & 1), 0.004 * (c >> 2 & 1)});
+  block.facets = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                  {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  EXPECT_NEAR(square_sieve(block), 0.006, 6e-5);  // it passes end on
+}
+
+TEST(CtCuts, AreReadAsTheyWereWritten) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "ct_cuts.csv";
+  const auto fault_of = [&](const std::string& text) -> std::string {
+    std::ofstream(file) << text;
+    try {
+      ct::read_cuts(file);
+    } catch (const InputError& error) { return error.what(); }
+    return "read";
+  };
+  const std::vector<GrainCut> cuts{{1, 2, {0.001, 0.002, 0.003}, 0.5, 0.9, 0.8, 0.25, true},
+                                   {2, 7, {}, 0.9, 1, 1, -0.5, false}};
+  std::ofstream(file) << ct::cuts_csv(cuts);
+  const std::vector<GrainCut> read = ct::read_cuts(file);
+  EXPECT_EQ(ct::cuts_csv(read), ct::cuts_csv(cuts));
+  const std::string header = "a,b,x,y,z,neck,solidity,valley,margin,cut\n";
+  EXPECT_NE(fault_of("a,b\n").find(":1"), std::string::npos);
+  EXPECT_NE(fault_of(header + "1,2,0,0,0,1,1,1,0.5,2\n").find("0 or 1"), std::string::npos);
+  EXPECT_NE(fault_of(header + "1,2,0,0,0,1,1,1,0.5\n").find(":2"), std::string::npos);
+  EXPECT_NE(fault_of(header + "1,2,0,x,0,1,1,1,0.5,1\n").find("\"x\""), std::string::npos);
+  EXPECT_NE(fault_of(header + "-1,2,0,0,0,1,1,1,0.5,1\n").find("fragment"), std::string::npos);
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace macadam
