@@ -118,14 +118,16 @@ Surface rebuilt(const Surface& surface) {
   return hull;
 }
 
-/// Measures a surface, and mends it first where it has to be.
-ShapeMeasure measured(Surface& surface) {
-  try {
-    return measure_shape(surface);
-  } catch (const InputError&) {
-    surface = repair_surface(surface);
-    return measure_shape(surface);
+/// The grain's surface of few facets, of more where the few cut each other, mended where those do as well.
+Simplified fit_surface(const Surface& fine, const SegmentOptions& options, double error) {
+  const int most = std::max(800, options.facets);
+  Simplified out;
+  for (const int facets : {options.facets, most, 2 * most}) {
+    out = simplified(fine, facets, std::max(facets, most), error);
+    if (check_surface(out.surface).good()) return out;
   }
+  out.surface = repair_surface(out.surface);
+  return out;
 }
 
 }  // namespace
@@ -181,12 +183,11 @@ std::vector<ScannedGrain> surfaces_of(const Segmentation& scan, const Thresholds
       if (fine.facets.empty()) throw RunError("its grey values enclose nothing");
       ScannedGrain grain;
       // half a voxel of the nodes that the surface was drawn through
-      Simplified fewer =
-          simplified(fine, options.facets, std::max(800, options.facets), 0.5 * voxel * static_cast<double>(edge));
+      Simplified fewer = fit_surface(fine, options, 0.5 * voxel * static_cast<double>(edge));
       grain.surface = paper ? rebuilt(fewer.surface) : std::move(fewer.surface);
       grain.surface.name = fmt::format("grain_{:04}", id);
       grain.surface_error = fewer.error;
-      grain.measure = measured(grain.surface);
+      grain.measure = measure_shape(grain.surface);
       grain.sieve = square_sieve(grain.surface);
       grain.id = static_cast<std::uint32_t>(id);
       grain.border = box.border;

@@ -5,6 +5,7 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
@@ -48,9 +49,9 @@ Surface surface_of(const Mesh& mesh) {
 
 void reduce(Mesh& mesh, int facets) {
   const sms::Count_stop_predicate<Mesh> stop(static_cast<std::size_t>(facets) * 3 / 2);
-  sms::edge_collapse(
-      mesh, stop,
-      CGAL::parameters::get_cost(sms::LindstromTurk_cost<Mesh>()).get_placement(sms::LindstromTurk_placement<Mesh>()));
+  // a facet that turns over would cut its neighbours
+  const sms::Bounded_normal_change_placement<sms::LindstromTurk_placement<Mesh>> placement;
+  sms::edge_collapse(mesh, stop, CGAL::parameters::get_cost(sms::LindstromTurk_cost<Mesh>()).get_placement(placement));
 }
 
 /// Largest distance of the points from a surface, of some two thousand of them.
