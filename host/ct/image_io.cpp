@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // image_io.cpp  Image files, by ITK's readers and writers of MetaImage, NRRD and TIFF.
+#include <fmt/format.h>
+
 #include <itkMetaImageIO.h>
 #include <itkNrrdImageIO.h>
 #include <itkTIFFImageIO.h>
