@@ -66,6 +66,16 @@ __device__ inline double conjugate_product(const double* straight, int f) {
   return straight[2 * f] + straight[2 * f + 1];
 }
 
+/// The largest of a warp's numbers, on all of its threads.
+__device__ inline unsigned largest_in_warp(unsigned value) {
+#if __CUDA_ARCH__ >= 800
+  return __reduce_max_sync(0xffffffffu, value);
+#else
+  for (int lanes = 16; lanes > 0; lanes /= 2) value = max(value, __shfl_xor_sync(0xffffffffu, value, lanes));
+  return value;
+#endif
+}
+
 /// Eight threads a body: one a lane, and where there are fewer lanes several share its contacts.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads) cocg_apply(CocgView<F> d, const double* from, bool first) {
@@ -91,7 +101,7 @@ __global__ void __launch_bounds__(cocg_threads) cocg_apply(CocgView<F> d, const 
     const std::size_t body = static_cast<std::size_t>(active ? asked : segment.first);
     const std::size_t begin = d.row_begin[body];
     const auto count = static_cast<unsigned>(d.row_begin[body + 1] - begin);
-    const unsigned trips = __reduce_max_sync(0xffffffffu, (count + slices - 1) / slices);
+    const unsigned trips = largest_in_warp((count + slices - 1) / slices);
     const auto twist = [&](std::size_t i) {
       double v[6];
       for (int c = 0; c < 6; ++c) v[c] = from[(6 * i + c) * W + lane];
