@@ -61,8 +61,8 @@ struct Element {
   }
 };
 
-Stiffness stepped(const test::TestScene& scene, const StartState& start, const loadings::Cyclic& loading,
-                  double scaling, int block, int cycles) {
+Stiffness stepped(const test::TestScene& scene, const StartState& start, const drives::Cyclic& loading, double scaling,
+                  int block, int cycles) {
   const double dt = loading.dt();
   const std::size_t n = scene.specimen.size(), top = n + 5;
   std::vector<Twist<double>> v(n + kernels::walls), u(v.size()), load(v.size());
@@ -70,7 +70,7 @@ Stiffness stepped(const test::TestScene& scene, const StartState& start, const l
     v[i] = {start.velocity[i], start.spin[i]};
     u[i] = {start.displacement[i], start.rotation[i]};
   }
-  u[top].linear.z = loading.displacement(-1);
+  u[top].linear.z = loading.value(-1);
   std::array<laws::GeneralisedKelvin::Block, pair_types> blocks;
   std::vector<Element> elements;
   for (std::size_t i = 0; i < scene.network.contacts.size(); ++i) {
@@ -107,7 +107,7 @@ Stiffness stepped(const test::TestScene& scene, const StartState& start, const l
       v[i].linear += dt / (scene.inertia.mass[i] * scaling) * load[i].linear;
       v[i].angular += dt / (scene.inertia.inertia[i] * scaling) * load[i].angular;
     }
-    v[top].linear.z = loading.velocity(k);
+    v[top].linear.z = loading.rate(k);
     if ((k + 1) % block == 0) {
       for (Element& e : elements) e.settle(k < 0 ? 0 : block, u);
     }
@@ -126,7 +126,7 @@ Stiffness stepped(const test::TestScene& scene, const StartState& start, const l
     if ((k + 1) % stride == 0) {
       const double time = static_cast<double>(k + 1) * dt;
       response.push_back(
-          {loading.frequency, time, loading.displacement(k + 1) / size.z, -load[top].linear.z / (size.x * size.y)});
+          {loading.frequency, time, loading.value(k + 1) / size.z, -load[top].linear.z / (size.x * size.y)});
     }
   }
   return evaluate_cyclic(response, loading.frequency, 1).fit;
@@ -136,7 +136,7 @@ void run(const Case& c) {
   auto scene = test::make_scene(test::random_specimen(3, c.cells, c.cells, c.cells * 3 / 2), {},
                                 std::string(c.binder) == "AM2" ? test::am2_laws() : test::am1_laws());
   const double critical = critical_step(scene.network, scene.laws, scene.inertia, {}).dt;
-  const loadings::Cyclic loading{1e-4 * scene.specimen.box.size.z, c.frequency, c.steps, 0};
+  const drives::Cyclic loading{1e-4 * scene.specimen.box.size.z, c.frequency, c.steps, 0};
   const double scaling = std::pow(loading.dt() / (0.95 * critical), 2);
   Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, HarmonicOptions{}, c.frequency);
   const auto solved = harmonic.solve(c.frequency, scaling, 0);

@@ -98,9 +98,9 @@ class Table {
     options.precision = row.precision;
     options.geometry = row.geometry;
     const double dt = 0.8 * critical_step(scene.network, scene.laws, scene.inertia, options).dt;
-    loadings::Cyclic loading{1e-4 * scene.specimen.box.size.z, frequency, 1, 0};
+    drives::Cyclic loading{1e-4 * scene.specimen.box.size.z, frequency, 1, 0};
     loading.steps_per_period = std::llround(std::ceil(1 / (frequency * dt)));
-    options.loading = loading;
+    options.boundary = moving_top(loading);
     options.dt = loading.dt();
     const auto stepper = make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options);
     std::mt19937 random(2);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <variant>
@@ -17,15 +18,20 @@ namespace macadam::kernels {
 /// Steps of a block: at most `options.blocks`-th of the shortest time in the load or the laws, and so few that at the
 /// specimen's strain a carried normal turns by less than 1e-6 in a 4,000th of that time. Where this allows it, blocks
 /// end at the observations, which otherwise cut them. 0: blocks would be too short to pay, or nothing says how fast the
-/// load changes. `height`: of the specimen [m].
+/// load changes, or a wall follows a force, which needs the sum on it at every step. `height`: of the specimen [m].
 inline int block_steps(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
                        double height) {
-  if (!options.loading) return 0;
+  if (!options.boundary.any(DrivenBy::displacement) || options.boundary.any(DrivenBy::force)) return 0;
   constexpr double pi = std::numbers::pi;
-  double shortest = 1 / options.loading->frequency;
-  if (options.geometry == Geometry::updated) {
-    const double strain_rate = std::abs(options.loading->amplitude) / height * 2 * pi * options.loading->frequency;
-    if (strain_rate > 0) shortest = std::min(shortest, 4000 * 1e-6 / strain_rate);
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const WallMotionSpec& wall : options.boundary.wall) {
+    for (const WallAxis& axis : wall.axis) {
+      if (axis.by != DrivenBy::displacement) continue;
+      shortest = std::min(shortest, axis.drive->shortest_time());
+      const double strain_rate = axis.drive->fastest() / height;
+      if (options.geometry == Geometry::updated && strain_rate > 0)
+        shortest = std::min(shortest, 4000 * 1e-6 / strain_rate);
+    }
   }
   for (const auto& law : laws) {
     if (law) shortest = std::min(shortest, 2 * pi * std::visit([](const auto& l) { return l.shortest_time(); }, *law));

@@ -196,14 +196,25 @@ __global__ void __launch_bounds__(contact_threads)
     settle(*reinterpret_cast<const typename Groups::KelvinAny*>(group.functor));
 }
 
-/// Sums the base loads of all bodies, walls included, and keeps where the block begins. Long rows as in step_bodies().
+/// The body forces alone, before the first step.
+template <class R>
+__global__ void begin_with_weight(const R* weight, std::uint32_t particles, R* force) {
+  const std::uint32_t body = blockIdx.x * blockDim.x + threadIdx.x;
+  if (body >= particles) return;
+  for (unsigned w = 0; w < 3; ++w) force[body * std::size_t{velocity_words} + w] = weight[body * std::size_t{4} + w];
+}
+
+/// Sums the base loads of all bodies, walls included, body forces with them, and keeps where the block begins. Long
+/// rows as in step_bodies().
 template <class P>
 __global__ void __launch_bounds__(body_threads)
     sum_base(const LoadRecords<typename P::Particle> records, const std::uint32_t* long_body, std::uint32_t long_rows,
-             std::uint32_t bodies, typename P::Particle* base, const double* now, double* before) {
+             std::uint32_t bodies, const typename P::Particle* weight, std::uint32_t particles,
+             typename P::Particle* base, const double* now, double* before) {
   using R = typename P::Particle;
   const unsigned w = threadIdx.x % velocity_words;
   const auto keep = [&](std::uint32_t body, R sum) {
+    if (weight && body < particles && w < 3) sum += weight[body * std::size_t{4} + w];
     base[body * std::size_t{velocity_words} + w] = sum;
     before[body * std::size_t{displacement_words} + w] = now[body * std::size_t{displacement_words} + w];
   };

@@ -62,7 +62,7 @@ __global__ void __launch_bounds__(body_threads)
   const std::uint32_t body = (blockIdx.x - long_rows) * bodies_a_block + threadIdx.x / velocity_words;
   if (body >= particles + walls) return;
   typename P::Particle force = 0;
-  if (body < particles) {
+  if (body < particles || motion.wall.by_force) {
     const std::uint32_t begin = records.row_begin[body], end = records.row_begin[body + 1];
     if (end - begin > long_row) return;
     force = sum_words<typename P::Particle>(records, begin, end, 1, static_cast<unsigned>(w));

@@ -89,10 +89,4 @@ __global__ void __launch_bounds__(body_threads)
   force[blockIdx.x * velocity_words + w] = sum;
 }
 
-/// Velocities of the top wall at the steps first, first + 1, ….
-__global__ inline void tabulate_wall(loadings::Cyclic loading, std::int64_t first, std::uint32_t steps, double* out) {
-  const std::uint32_t k = blockIdx.x * blockDim.x + threadIdx.x;
-  if (k < steps) out[k] = loading.velocity(first + k);
-}
-
 }  // namespace macadam::kernels

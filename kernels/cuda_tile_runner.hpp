@@ -88,6 +88,7 @@ class TileRunner {
   void prepare(const ParticleMotion<P>& motion, const RecordRows& rows) {
     if (!std::exchange(prepared_, true)) keep_arrays(rows);
     scene_.motion = motion;
+    wall_table_ = motion.wall.table;
     const auto clear = [&](auto* data, std::size_t n) {
       check_cuda(cudaMemsetAsync(data, 0, n * sizeof *data, stream_), "start");
     };
@@ -95,6 +96,10 @@ class TileRunner {
     clear(scene_.state, state_count_);
     clear(base_, loads);
     clear(scene_.force, loads);
+    if (motion.body.weight) {
+      launch("weights", begin_with_weight<R>, (bodies_ + 127) / 128, 128, 0, stream_, motion.body.weight,
+             static_cast<std::uint32_t>(bodies_), scene_.force);
+    }
     clear(scene_.wall_load, wall_load_count_);
     clear(before_, (bodies_ + walls) * displacement_words);
     if (settle_contacts_) settle_contacts_(settling_starts, block_);
@@ -133,26 +138,17 @@ class TileRunner {
         });
   }
 
-  /// Queues steps first … first + steps − 1.
+  /// Queues steps first … first + steps − 1, the first of which has the first row of the walls' table.
   void run(std::int64_t first, std::int64_t steps) {
-    for (std::int64_t done = 0, table = 0; done < steps;) {
-      if (done == table) {
-        const auto n = static_cast<std::uint32_t>(std::min<std::int64_t>(steps - done, table_steps));
-        if (scene_.motion.loaded) {
-          launch("wall", tabulate_wall, (n + 127) / 128, 128, 0, stream_, scene_.motion.loading, first + done, n,
-                 wall_velocity_);
-        }
-        scene_.wall_velocity = wall_velocity_;
-        table += n;
-      }
+    scene_.motion.wall.table = wall_table_;
+    for (std::int64_t done = 0; done < steps;) {
       if (in_block_ == length_ || !begun_) {
         // a steady start begins at step −1: a block of one step, and those that follow end at the observations
         settle(!begun_ && to_observations_ && first + done < 0 ? static_cast<int>(-first - done) : block_);
       }
-      const auto n =
-          static_cast<std::uint32_t>(std::min<std::int64_t>({length_ - in_block_, steps - done, table - done}));
+      const auto n = static_cast<std::uint32_t>(std::min<std::int64_t>(length_ - in_block_, steps - done));
       run_(n);
-      scene_.wall_velocity += n;
+      scene_.motion.wall.table += n * static_cast<std::size_t>(scene_.motion.wall.columns);
       tag_ += n;
       in_block_ += static_cast<int>(n);
       done += n;
@@ -175,8 +171,6 @@ class TileRunner {
   std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
 
  private:
-  static constexpr std::int64_t table_steps = 4096;
-
   static float bits(std::uint32_t x) {
     float out = 0;
     std::memcpy(&out, &x, sizeof out);
@@ -269,7 +263,6 @@ class TileRunner {
     wall_load_count_ = 2 * (plan_.wall_begin.back() + 1);
     scene_.wall_load = store_.template zeros<float4>(wall_load_count_);
     scene_.exchange = store_.template zeros<ulonglong2>(4 * bodies_);
-    scene_.wall_velocity = wall_velocity_ = store_.template zeros<double>(table_steps);
     before_ = store_.template zeros<double>((bodies_ + walls) * displacement_words);
     wall_begin_ = store_.keep(plan_.wall_begin);
     long_body_ = store_.keep(rows.long_body);
@@ -332,7 +325,8 @@ class TileRunner {
     settle_contacts_(begun_ ? in_block_ : 0, steps);
     launch("base loads", sum_base<P>, long_rows_ + (bodies_ + walls + bodies_a_block - 1) / bodies_a_block,
            body_threads, 0, stream_, records_, long_body_, long_rows_, static_cast<std::uint32_t>(bodies_ + walls),
-           base_, scene_.motion.body.displacement, before_);
+           scene_.motion.body.weight, static_cast<std::uint32_t>(bodies_), base_, scene_.motion.body.displacement,
+           before_);
     begun_ = true;
     length_ = steps;
     in_block_ = 0;
@@ -352,7 +346,7 @@ class TileRunner {
   DeviceArray<float4> constant_;
   R* base_ = nullptr;
   double* before_ = nullptr;
-  double* wall_velocity_ = nullptr;
+  const double* wall_table_ = nullptr;
   const std::uint32_t *wall_begin_ = nullptr, *long_body_ = nullptr;
   const uint2* settle_place_ = nullptr;
   std::uint32_t long_rows_ = 0, settle_blocks_ = 0;

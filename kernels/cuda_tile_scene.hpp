@@ -42,14 +42,13 @@ struct TileScene {
   const std::int32_t* halo;
   const float4* constant;
   float4* state;
-  const R* base;                ///< [body][8] loads at the block's beginning [N, N·m]
-  R* force;                     ///< [body][8] loads now
-  float4* wall_load;            ///< [wall row][2] change of the loads on the walls since the block's beginning
-  ulonglong2* exchange;         ///< [2][body] velocities of even and odd steps, 32 bytes a body in single precision
-  const double* wall_velocity;  ///< [step of the launch] of the top wall [m/s]
-  ParticleMotion<P> motion;
-  float4 law[pair_types];  ///< rate·Δt, relax, α, follow
-  unsigned char* rest;     ///< [tile] what has no room in shared memory; null where all has
+  const R* base;             ///< [body][8] loads at the block's beginning [N, N·m]
+  R* force;                  ///< [body][8] loads now
+  float4* wall_load;         ///< [wall row][2] change of the loads on the walls since the block's beginning
+  ulonglong2* exchange;      ///< [2][body] velocities of even and odd steps, 32 bytes a body in single precision
+  ParticleMotion<P> motion;  ///< its table of the walls begins with the launch's first step
+  float4 law[pair_types];    ///< rate·Δt, relax, α, follow
+  unsigned char* rest;       ///< [tile] what has no room in shared memory; null where all has
   std::uint32_t most_bodies, most_halo, most_locals, most_slots, cached_packets;
   std::uint32_t bodies;
 };
@@ -131,6 +130,34 @@ __device__ __forceinline__ void sum_rows(const Tile& tile, const uint2* row, con
     for (std::uint32_t e = 0; e < n; ++e) slots.add(diagonal[e] + r, sum);
     f(r, sum);
   }
+}
+
+/// Velocity of a wall at step k of the launch, as particles' are.
+template <class P>
+__device__ __forceinline__ float4 wall_velocity(const TileScene<P>& s, int wall, std::uint32_t k) {
+  if (!s.motion.wall.moves(wall)) return {0, 0, 0, 0};
+  const auto along = [&](int axis) {
+    return static_cast<float>(static_cast<typename P::Particle>(s.motion.wall.at(wall, axis, k)));
+  };
+  return {along(0), along(1), along(2), 0};
+}
+
+/// Moves a wall along an axis by the steps first … end − 1 of the launch.
+template <class P>
+__device__ __forceinline__ void move_wall(const TileScene<P>& s, int wall, int axis, std::uint32_t first,
+                                          std::uint32_t end) {
+  using R = typename P::Particle;
+  const std::size_t body = static_cast<std::size_t>(s.motion.body.particles) + static_cast<std::size_t>(wall);
+  double& u = s.motion.body.displacement[body * displacement_words + static_cast<std::size_t>(axis)];
+  double at = u;
+  R v = 0;
+#pragma unroll 8
+  for (std::uint32_t k = first; k < end; ++k) {
+    v = static_cast<R>(s.motion.wall.at(wall, axis, k));
+    at += s.motion.dt * v;
+  }
+  u = at;
+  s.motion.body.master[body * velocity_words + static_cast<std::size_t>(axis)] = v;
 }
 
 /// Words of a velocity array that move: v and ω without their pads.

@@ -94,8 +94,6 @@ __global__ void __launch_bounds__(Threads, 1)
     if (packet < tile.packets) load_state(states + packet * tile_states * 32 + lane, change[j], sum[j]);
   }
 
-  const auto top_wall = static_cast<std::size_t>(s.motion.body.particles) + 5;
-  double wall_at = s.motion.body.displacement[top_wall * displacement_words + 2];
   // A thread's last body is displaced while the thread waits for the neighbours: by then its velocity is on its way.
   constexpr std::uint32_t nobody = UINT32_MAX;
   std::uint32_t moved = nobody;
@@ -143,10 +141,9 @@ __global__ void __launch_bounds__(Threads, 1)
         move(r, force, tag);
       });
     }
-    if (tid == Threads - 1 && s.motion.loaded) {
-      const R top = static_cast<R>(s.wall_velocity[k]);
-      v[locals - 1] = {0, 0, static_cast<float>(top), 0};
-      wall_at += s.motion.dt * top;
+    if (tid >= Threads - walls && s.motion.wall.moving) {  // threads that have few bodies to sum up
+      const auto wall = static_cast<int>(tid - (Threads - walls));
+      v[locals - walls + wall] = wall_velocity(s, wall, k);
     }
     receive(tag);
     __syncthreads();
@@ -188,10 +185,8 @@ __global__ void __launch_bounds__(Threads, 1)
       s.motion.body.displacement[i * displacement_words + moving_word(c)] = displacement[c * stride + r];
     }
   });
-  if (blockIdx.x == 0 && tid == Threads - 1 && s.motion.loaded) {
-    s.motion.body.master[top_wall * velocity_words + 2] = static_cast<R>(s.wall_velocity[steps - 1]);
-    s.motion.body.displacement[top_wall * displacement_words + 2] = wall_at;
-  }
+  if (blockIdx.x == 0 && tid < WallMotion::axes && s.motion.wall.moves(tid / 3))
+    move_wall(s, tid / 3, tid % 3, 0, steps);
 }
 
 }  // namespace macadam::kernels

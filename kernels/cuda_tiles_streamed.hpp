@@ -32,22 +32,12 @@ __device__ __forceinline__ void move_body(const TileScene<P>& s, std::size_t i, 
   to[1] = {float(x[3]), float(x[4]), float(x[5]), 0};
 }
 
-/// Moves the top wall.
-template <class P>
-__device__ __forceinline__ void move_wall(const TileScene<P>& s, std::uint32_t k) {
-  using R = typename P::Particle;
-  const auto top = static_cast<std::size_t>(s.motion.body.particles) + 5;
-  const R v = static_cast<R>(s.wall_velocity[k]);
-  s.motion.body.master[top * velocity_words + 2] = v;
-  s.motion.body.displacement[top * displacement_words + 2] += s.motion.dt * v;
-}
-
 /// Begins step k with the forces of now: the first of a launch sequence.
 template <class P>
 __global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k) {
   using R = typename P::Particle;
   const std::uint32_t place = blockIdx.x * blockDim.x + threadIdx.x;
-  if (place == 0 && s.motion.loaded) move_wall(s, k);
+  if (place < WallMotion::axes && s.motion.wall.moves(place / 3)) move_wall(s, place / 3, place % 3, k, k + 1);
   if (place >= s.bodies) return;
   const auto i = static_cast<std::size_t>(s.body[place]);
   R force[6];
@@ -84,7 +74,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
   if (tid < walls) {
     const std::uint32_t at = tile.bodies + tile.halo + tid;
     w[at] = {0, 0, 0, 0};
-    v[at] = {0, 0, tid == 5 && s.motion.loaded ? static_cast<float>(static_cast<R>(s.wall_velocity[k])) : 0.0f, 0};
+    v[at] = wall_velocity(s, static_cast<int>(tid), k);
   }
   __syncthreads();
   for (std::uint32_t packet = warp; packet < tile.packets; packet += warps) {
@@ -111,7 +101,8 @@ __global__ void __launch_bounds__(Threads, Blocks)
              }
              if (!last) move_body(s, i, place, force, k + 1);
            });
-  if (!last && blockIdx.x == 0 && tid == 0 && s.motion.loaded) move_wall(s, k + 1);
+  if (!last && blockIdx.x == 0 && tid < WallMotion::axes && s.motion.wall.moves(tid / 3))
+    move_wall(s, tid / 3, tid % 3, k + 1, k + 2);
 }
 
 }  // namespace macadam::kernels

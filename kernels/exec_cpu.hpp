@@ -51,12 +51,24 @@ class ExecCpu {
     add_state("gathered_velocity", "m/s, rad/s", velocity_);
   }
 
-  /// Takes Δt/m and Δt/I of every body and returns the view of all body arrays.
-  BodyView<P> set_bodies(std::vector<R> inverse) {
+  /// Takes Δt/m and Δt/I of every body, and the body forces where there are any; returns the view of all body arrays.
+  BodyView<P> set_bodies(std::vector<R> inverse, std::vector<R> weight) {
     inverse_ = std::move(inverse);
-    return {gathered(), master_.data(), displacement_.data(), inverse_.data(),
+    weight_ = std::move(weight);
+    return {gathered(),
+            master_.data(),
+            displacement_.data(),
+            inverse_.data(),
+            weight_.empty() ? nullptr : weight_.data(),
             static_cast<std::int32_t>(layout_.particles())};
   }
+
+  /// Where the table of the walls will be; then its rows.
+  const double* wall_table(std::size_t most_values) {
+    wall_table_.resize(most_values);
+    return wall_table_.data();
+  }
+  void set_wall_rows(const std::vector<double>& rows) { std::copy(rows.begin(), rows.end(), wall_table_.begin()); }
 
   /// Takes group `number` for good, the first time, or its states alone; and the functor that steps its contacts.
   template <class Forces>
@@ -89,7 +101,7 @@ class ExecCpu {
     std::size_t thread, threads;
     Barrier& barrier;
 
-    /// Moves all bodies with the forces of the last contacts().
+    /// Moves all bodies with the forces of the last contacts(); k: the row of the walls' table.
     void bodies(const ParticleMotion<P>& motion, std::int64_t k) const {
       for_own_tiles([&](std::size_t tile) {
         std::uint32_t own = exec.accumulators_.tile_begin[tile];
@@ -98,7 +110,8 @@ class ExecCpu {
         }
       });
       if (thread == 0) {
-        for (auto i = motion.body.particles; i < motion.body.particles + walls; ++i) motion(i, {}, k);
+        for (auto i = motion.body.particles; i < motion.body.particles + walls; ++i)
+          motion(i, motion.wall.by_force ? exec.sum(i, none) : Twist<R>{}, k);
       }
       barrier.wait();
     }
@@ -122,14 +135,15 @@ class ExecCpu {
     }
   };
 
-  /// Calls f(team, k) for k = first … first + steps − 1 on every thread.
+  /// Calls f(team, k) for k = 0 … steps − 1, the rows of the walls' table, on every thread.
   template <class F>
-  void repeat(std::int64_t first, std::int64_t steps, F&& f) {
+  void repeat(std::int64_t, std::int64_t steps, F&& f) {
+    std::int64_t first = 0;
     while (steps > 0) {
       const ThreadChoice::Next next = choice_.next();
       const std::int64_t n = std::min(steps, next.steps);
       const double start = omp_get_wtime();
-      repeat(next.threads, first, n, f);
+      run_rows(next.threads, first, n, f);
       choice_.took(n, omp_get_wtime() - start);
       first += n;
       steps -= n;
@@ -153,6 +167,9 @@ class ExecCpu {
   /// Host copies of the bodies' arrays and back.
   std::vector<R> velocities() const { return {master_.begin(), master_.end()}; }
   std::vector<double> displacements() const { return {displacement_.begin(), displacement_.end()}; }
+  std::vector<double> wall_displacements() const {
+    return {displacement_.end() - walls * displacement_words, displacement_.end()};
+  }
   void set_displacements(const std::vector<double>& u) { std::copy(u.begin(), u.end(), displacement_.begin()); }
   void set_velocities(const std::vector<R>& v) {
     std::copy(v.begin(), v.end(), master_.begin());
@@ -160,6 +177,11 @@ class ExecCpu {
       std::transform(v.begin(), v.end(), velocity_.begin(), [](R x) { return static_cast<typename P::Geometry>(x); });
     }
   }
+
+  /// Waits until all steps are taken.
+  void wait() const {}
+  /// Whether forces() has the body forces in it.
+  bool forces_with_weight() const { return false; }
 
   /// Everything that a step changes.
   const StateList& states() const { return states_; }
@@ -176,7 +198,7 @@ class ExecCpu {
 
  private:
   template <class F>
-  void repeat(int threads, std::int64_t first, std::int64_t steps, F&& f) {
+  void run_rows(int threads, std::int64_t first, std::int64_t steps, F&& f) {
     Barrier barrier;
 #pragma omp parallel num_threads(threads)
     {
@@ -255,7 +277,8 @@ class ExecCpu {
   AlignedVector<R> sums_, master_;                // [accumulator][8], [body][8]
   AlignedVector<double> displacement_;            // [body][8]
   AlignedVector<typename P::Geometry> velocity_;  // [body][8], where Geometry is not Particle
-  std::vector<R> inverse_;
+  std::vector<R> inverse_, weight_;
+  std::vector<double> wall_table_;
   StateList states_;
   std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
   int threads_;

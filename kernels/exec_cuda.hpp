@@ -14,6 +14,7 @@
 #include "kernels/cuda_divergence.hpp"
 #include "kernels/cuda_record_rows.hpp"
 #include "kernels/cuda_tile_runner.hpp"
+#include "kernels/cuda_wall_table.hpp"
 #include "kernels/layout.hpp"
 #include "kernels/state_list.hpp"
 
@@ -101,12 +102,21 @@ class ExecCuda {
     if (!tiles_) records_ = DeviceArray<G>(rows_.records * record_words);
   }
 
-  BodyView<P> set_bodies(const std::vector<R>& inverse) {
+  BodyView<P> set_bodies(const std::vector<R>& inverse, const std::vector<R>& weight) {
     if (inverse_.size() == 0) inverse_ = DeviceArray<R>(inverse.size());
     inverse_.upload(inverse.data());
-    return {gathered(), master_.data(), displacement_.data(), inverse_.data(),
+    weight_ = DeviceArray<R>::of(weight);
+    return {gathered(),
+            master_.data(),
+            displacement_.data(),
+            inverse_.data(),
+            weight.empty() ? nullptr : weight_.data(),
             static_cast<std::int32_t>(layout_.particles())};
   }
+
+  /// Where the table of the walls will be; then its rows.
+  const double* wall_table(std::size_t most_values) { return wall_rows_.prepare(most_values); }
+  void set_wall_rows(const std::vector<double>& rows) { wall_rows_.put(rows, stream_); }
 
   /// Takes group `number` for good, the first time, or its states alone; and the functor that steps its contacts.
   template <class Forces>
@@ -158,16 +168,14 @@ class ExecCuda {
   }
   void contacts() { contacts_.run(stream_, {gathered(), displacement_.data()}, records(), step_.data()); }
 
-  /// Queues all steps, as graphs of many, and waits for them, so that a failing kernel is reported here. The number of
-  /// the step is counted on the device.
+  /// Queues all steps, as graphs of many. The row of the walls' table is counted on the device.
   template <class F>
   void repeat(std::int64_t first, std::int64_t steps, F&& f) {
     if (tiles_) {
       tiles_->run(first, steps);
-      check_cuda(cudaStreamSynchronize(stream_), "time steps");
       return;
     }
-    step_.upload(&first);
+    check_cuda(cudaMemsetAsync(step_.data(), 0, sizeof(std::int64_t), stream_), "time steps");
     const auto queue = [&](cudaGraphExec_t& graph, std::int64_t n) {
       if (!graph)
         graph = record([&] {
@@ -178,8 +186,11 @@ class ExecCuda {
     };
     while (steps >= steps_a_graph) queue(many_, steps_a_graph);
     while (steps > 0) queue(one_, 1);
-    check_cuda(cudaStreamSynchronize(stream_), "time steps");
   }
+  /// Waits until all steps are taken: a failing kernel is reported here.
+  void wait() const { check_cuda(cudaStreamSynchronize(stream_), "time steps"); }
+  /// Whether forces() has the body forces in it.
+  bool forces_with_weight() const { return static_cast<bool>(tiles_); }
 
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
     const std::vector<R> words = tiles_ ? tile_forces(first, count) : sums(first, count);
@@ -192,6 +203,13 @@ class ExecCuda {
   }
   std::vector<R> velocities() const { return master_.download(); }
   std::vector<double> displacements() const { return displacement_.download(); }
+  std::vector<double> wall_displacements() const {
+    std::vector<double> out(walls * displacement_words);
+    check_cuda(cudaMemcpy(out.data(), displacement_.data() + layout_.particles() * displacement_words,
+                          out.size() * sizeof(double), cudaMemcpyDeviceToHost),
+               "walls");
+    return out;
+  }
   void set_displacements(const std::vector<double>& u) { displacement_.upload(u.data()); }
   void set_velocities(const std::vector<R>& v) {
     master_.upload(v.data());
@@ -336,7 +354,8 @@ class ExecCuda {
   std::unique_ptr<std::conditional_t<blocks, TileRunner<P>, NoTiles>> tiles_;
   cudaStream_t stream_ = nullptr;
   cudaGraphExec_t many_ = nullptr, one_ = nullptr;
-  DeviceArray<R> master_, inverse_;
+  DeviceArray<R> master_, inverse_, weight_;
+  WallRowsOnDevice wall_rows_;
   DeviceArray<double> displacement_;
   DeviceArray<G> velocity_, records_;
   DeviceArray<std::int64_t> step_;

@@ -18,7 +18,7 @@
 
 namespace macadam::kernels {
 
-inline constexpr int walls = 6;
+inline constexpr int walls = wall_count;
 inline constexpr std::uint32_t inert = UINT32_MAX;
 
 /// Contacts of one pair type in device order.

@@ -13,6 +13,7 @@
 #include "kernels/layout.hpp"
 #include "kernels/particle_motion.hpp"
 #include "kernels/precision.hpp"
+#include "kernels/wall_motion.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::kernels {
@@ -79,11 +80,16 @@ class StepperImpl final : public Stepper {
   /// The step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void advance(std::int64_t steps) override {
     use_device();
-    exec_.repeat(step_, steps, [this](auto& team, std::int64_t k) {
-      team.bodies(motion_, k);
-      team.contacts();
-    });
-    step_ += steps;
+    for (const std::int64_t end = step_ + steps; step_ < end;) {
+      const std::int64_t n = wall_table_.rows(end - step_);
+      exec_.set_wall_rows(wall_table_.fill(step_, n));
+      exec_.repeat(step_, n, [this](auto& team, std::int64_t row) {
+        team.bodies(motion_, row);
+        team.contacts();
+      });
+      step_ += n;
+    }
+    exec_.wait();
   }
 
   Observation observe() const override {
@@ -91,11 +97,18 @@ class StepperImpl final : public Stepper {
     Observation out;
     out.step = step_;
     out.time = static_cast<double>(step_) * options_.dt;
-    if (options_.loading) out.wall_displacement = options_.loading->displacement(step_);
+    std::vector<double> moved;  // under forces: what they came to
+    if (motion_.wall.by_force) moved = exec_.wall_displacements();
     const auto forces = exec_.forces(static_cast<std::int32_t>(layout_.particles()), walls);
     for (std::size_t w = 0; w < walls; ++w) {
       const auto& f = forces[w].linear;
       out.wall_force[w] = {f.x, f.y, f.z};
+      double* u[3] = {&out.wall_displacement[w].x, &out.wall_displacement[w].y, &out.wall_displacement[w].z};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const WallAxis& a = options_.boundary.wall[w].axis[axis];
+        if (a.by == DrivenBy::displacement) *u[axis] = a.drive->value(step_);
+        if (a.by == DrivenBy::force) *u[axis] = moved[w * displacement_words + axis];
+      }
     }
     return out;
   }
@@ -103,8 +116,9 @@ class StepperImpl final : public Stepper {
   ParticleState particles() const override {
     use_device();
     const std::size_t n = layout_.particles();
-    ParticleState out{std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<Vec3d>(n),
-                      std::vector<Vec3d>(n)};
+    const std::vector<Vec3d> zero(n);
+    ParticleState out{zero, zero, zero, zero, zero, zero};
+    const bool weigh = !exec_.forces_with_weight() && !options_.boundary.body_force.empty();
     const auto v = exec_.velocities();
     const auto u = exec_.displacements();
     const auto forces = exec_.forces(0, n);
@@ -114,9 +128,11 @@ class StepperImpl final : public Stepper {
       const double* ub = &u[b * displacement_words];
       const auto& f = forces[b];
       out.displacement[i] = {ub[0], ub[1], ub[2]};
+      out.rotation[i] = {ub[4], ub[5], ub[6]};
       out.velocity[i] = {vb[0], vb[1], vb[2]};
       out.spin[i] = {vb[4], vb[5], vb[6]};
       out.force[i] = {f.linear.x, f.linear.y, f.linear.z};
+      if (weigh) out.force[i] += options_.boundary.body_force[i];
       out.moment[i] = {f.angular.x, f.angular.y, f.angular.z};
     }
     return out;
@@ -248,15 +264,32 @@ class StepperImpl final : public Stepper {
         inverse[2 * b + 1] = static_cast<R>(options.dt / (inertia.inertia[i] * options.density_scaling));
       }
     }
+    const Boundary& boundary = options.boundary;
+    for (const std::int32_t i : boundary.fixed) {
+      const auto b = static_cast<std::size_t>(layout_.body_of(i));
+      inverse[2 * b] = inverse[2 * b + 1] = R(0);
+    }
+    for (std::size_t w = 0; w < wall_count; ++w) {  // density scaling as the particles
+      const double mass = boundary.wall[w].mass * options.density_scaling;
+      if (mass > 0) inverse[2 * (layout_.particles() + w)] = static_cast<R>(options.dt / mass);
+    }
+    std::vector<R> weight(boundary.body_force.empty() ? 0 : 4 * layout_.particles(), R(0));
+    for (std::size_t b = 0; 4 * b < weight.size(); ++b) {
+      const Vec3d& force = boundary.body_force[static_cast<std::size_t>(layout_.particle[b])];
+      const double words[3] = {force.x, force.y, force.z};
+      for (std::size_t w = 0; w < 3; ++w) weight[4 * b + w] = static_cast<R>(words[w]);
+    }
+    wall_table_ = WallTable(boundary);
+    WallMotion wall = wall_table_.motion();
+    wall.table = exec_.wall_table(wall_table_.most_values());
     const double beta = options.damping_kind == Damping::viscous ? options.damping : 0;
-    motion_ = {exec_.set_bodies(std::move(inverse)),
+    motion_ = {exec_.set_bodies(std::move(inverse), std::move(weight)),
                options.damping_kind,
                static_cast<R>(options.damping),
                static_cast<R>((1 - beta * options.dt / 2) / (1 + beta * options.dt / 2)),
                static_cast<R>(1 / (1 + beta * options.dt / 2)),
                options.dt,
-               options.loading.has_value(),
-               options.loading.value_or(loadings::Cyclic{})};
+               wall};
     if constexpr (requires { exec_.set_options(options, laws, height_, first, std::size_t{}); }) {
       std::size_t bytes = 0;
       for (const auto& group : layout_.groups) {
@@ -286,8 +319,12 @@ class StepperImpl final : public Stepper {
       const double words[displacement_words] = {at.x, at.y, at.z, 0, turn.x, turn.y, turn.z, 0};
       std::copy(words, words + displacement_words, &u[b * displacement_words]);
     }
-    if (options_.loading) {
-      u[(layout_.particles() + 5) * displacement_words + 2] = options_.loading->displacement(-1);
+    for (std::size_t w = 0; w < wall_count; ++w) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const WallAxis& a = options_.boundary.wall[w].axis[axis];
+        if (a.by == DrivenBy::displacement)
+          u[(layout_.particles() + w) * displacement_words + axis] = a.drive->value(-1);
+      }
     }
     exec_.set_displacements(u);
     step_ = -1;
@@ -326,6 +363,7 @@ class StepperImpl final : public Stepper {
   Layout layout_;
   Exec exec_;
   ParticleMotion<P> motion_{};
+  WallTable wall_table_;
   std::int64_t step_ = 0;
 };
 

@@ -15,8 +15,9 @@ constexpr double height = 0.1;
 /// 10 Hz: the period is the shortest time, 0.1 s; 1e6 steps of it.
 StepperOptions options_of_10_hz() {
   StepperOptions out;
-  out.loading = loadings::Cyclic{1e-5, 10, 1000000, 0};
-  out.dt = out.loading->dt();
+  const drives::Cyclic loading(1e-5, 10, 1000000);
+  out.boundary = moving_top(loading);
+  out.dt = loading.dt();
   out.geometry = Geometry::fixed;
   return out;
 }
@@ -34,9 +35,9 @@ TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   EXPECT_EQ(block_steps(options, slow, height), 157);
   options.geometry = Geometry::updated;  // 4e-3 / (1e-4·20π/s) = 0.64 s
   EXPECT_EQ(block_steps(options, elastic(), height), 250);
-  options.loading->amplitude = 1e-3;  // 4e-3 / (1e-2·20π/s) = 6.4e-3 s
+  options.boundary = moving_top(drives::Cyclic(1e-3, 10, 1000000));  // 4e-3 / (1e-2·20π/s) = 6.4e-3 s
   EXPECT_EQ(block_steps(options, elastic(), height), 15);
-  options.loading.reset();
+  options.boundary = {};
   EXPECT_EQ(block_steps(options, elastic(), height), 0);
 }
 

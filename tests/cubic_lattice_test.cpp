@@ -65,21 +65,20 @@ class LoadedLattice : public BackendTest<Case> {
     const double limit = critical_step(scene.network, scene.laws, scene.inertia, options).dt;
     constexpr int samples = 100;
     const Vec3d size = scene.specimen.box.size;
-    loadings::Cyclic loading;
+    drives::Cyclic loading;
     loading.amplitude = 1e-6 * size.z;
     loading.frequency = frequency;
     const auto stride = static_cast<std::int64_t>(std::ceil(1 / (frequency * 0.5 * limit * samples)));
     loading.steps_per_period = samples * stride;
     loading.ramp_steps = 3 * loading.steps_per_period;
-    options.loading = loading;
+    options.boundary = moving_top(loading);
     options.dt = loading.dt();
     const auto stepper = make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, options);
     std::vector<ResponseSample> response;
     for (int k = 0; k <= 4 * samples; ++k) {
       if (k > 0) stepper->advance(stride);
       const Observation now = stepper->observe();
-      response.push_back(
-          {frequency, now.time, now.wall_displacement / size.z, -now.wall_force[5].z / (size.x * size.y)});
+      response.push_back({frequency, now.time, now.top_displacement() / size.z, -now.top_force() / (size.x * size.y)});
     }
     return evaluate_cyclic(response, frequency, 1).fit;
   }

@@ -198,8 +198,8 @@ TEST(EvaluateCyclic, TooLittleIsAnError) {
 
 // ---- the loading
 
-loadings::Cyclic loading_of(std::int64_t steps_per_period, std::int64_t ramp_steps) {
-  loadings::Cyclic out;
+drives::Cyclic loading_of(std::int64_t steps_per_period, std::int64_t ramp_steps) {
+  drives::Cyclic out;
   out.amplitude = 1.1e-6;
   out.frequency = 20;
   out.steps_per_period = steps_per_period;
@@ -210,11 +210,11 @@ loadings::Cyclic loading_of(std::int64_t steps_per_period, std::int64_t ramp_ste
 // Rounding of a sum of n steps of up to A·2π/n each: a walk far below 1e-12·A.
 TEST(CyclicLoading, VelocityIsTheMeanRateOfDisplacement) {
   for (const std::int64_t n : {8, 500, 43'500}) {
-    const loadings::Cyclic loading = loading_of(n, 0);
+    const drives::Cyclic loading = loading_of(n, 0);
     double sum = 0;
     for (std::int64_t k = 0; k < 3 * n; ++k) {
-      sum += loading.dt() * loading.velocity(k);
-      ASSERT_NEAR(sum, loading.displacement(k + 1), 1e-12 * loading.amplitude) << k << " of " << n;
+      sum += loading.dt() * loading.rate(k);
+      ASSERT_NEAR(sum, loading.value(k + 1), 1e-12 * loading.amplitude) << k << " of " << n;
     }
   }
 }
@@ -224,11 +224,11 @@ TEST(CyclicLoading, VelocityIsTheMeanRateOfDisplacement) {
 TEST(CyclicLoading, VelocityDuringTheSmoothStartIsOfSecondOrder) {
   std::vector<double> errors;
   for (const std::int64_t n : {100, 200, 400}) {
-    const loadings::Cyclic loading = loading_of(n, 3 * n / 4);
+    const drives::Cyclic loading = loading_of(n, 3 * n / 4);
     double sum = 0, worst = 0;
     for (std::int64_t k = 0; k < 2 * n; ++k) {
-      sum += loading.dt() * loading.velocity(k);
-      worst = std::max(worst, std::abs(sum - loading.displacement(k + 1)) / loading.amplitude);
+      sum += loading.dt() * loading.rate(k);
+      worst = std::max(worst, std::abs(sum - loading.value(k + 1)) / loading.amplitude);
     }
     EXPECT_LT(worst, std::pow(2 * pi / static_cast<double>(n), 2));
     errors.push_back(worst);
@@ -238,34 +238,34 @@ TEST(CyclicLoading, VelocityDuringTheSmoothStartIsOfSecondOrder) {
 }
 
 TEST(CyclicLoading, PhaseIsExactHoweverLongTheRun) {
-  const loadings::Cyclic loading = loading_of(43'500, 0);
+  const drives::Cyclic loading = loading_of(43'500, 0);
   for (const std::int64_t k : {std::int64_t{1}, std::int64_t{12'345}, std::int64_t{43'499}}) {
     const double angle = 2 * pi * static_cast<double>(k) / 43'500;
     // angles below 2π round by up to 9e-16 here and there
-    EXPECT_NEAR(loading.displacement(k), -1.1e-6 * std::sin(angle), 2e-15 * 1.1e-6);
-    EXPECT_NEAR(loading.displacement(k, 1), -1.1e-6 * std::sin(angle + pi / 43'500), 2e-15 * 1.1e-6);
+    EXPECT_NEAR(loading.value(k), -1.1e-6 * std::sin(angle), 2e-15 * 1.1e-6);
+    EXPECT_NEAR(loading.value(k, 1), -1.1e-6 * std::sin(angle + pi / 43'500), 2e-15 * 1.1e-6);
     for (const std::int64_t periods : {std::int64_t{23'000}, std::int64_t{1'000'000'000}}) {  // from 1e9 steps on
-      EXPECT_EQ(loading.displacement(k + periods * 43'500), loading.displacement(k));
-      EXPECT_EQ(loading.velocity(k + periods * 43'500), loading.velocity(k));
+      EXPECT_EQ(loading.value(k + periods * 43'500), loading.value(k));
+      EXPECT_EQ(loading.rate(k + periods * 43'500), loading.rate(k));
     }
   }
 }
 
 TEST(CyclicLoading, StartsSmoothlyFromNothingToAll) {
-  const loadings::Cyclic plain = loading_of(1000, 0), smooth = loading_of(1000, 2500);
-  EXPECT_EQ(smooth.displacement(0), 0);
+  const drives::Cyclic plain = loading_of(1000, 0), smooth = loading_of(1000, 2500);
+  EXPECT_EQ(smooth.value(0), 0);
   double before = 0;
   for (std::int64_t k = 1; k < 2500; ++k) {
     if (k % 500 == 0) continue;  // the sine is zero
-    const double ramp = smooth.displacement(k) / plain.displacement(k);
+    const double ramp = smooth.value(k) / plain.value(k);
     ASSERT_GT(ramp, before) << k;
     ASSERT_LT(ramp, 1) << k;
     before = ramp;
   }
-  EXPECT_NEAR(smooth.displacement(1250) / plain.displacement(1250), 0.5, 1e-14);
-  for (const std::int64_t k : {2500, 2501, 3250, 99'999}) EXPECT_EQ(smooth.displacement(k), plain.displacement(k));
+  EXPECT_NEAR(smooth.value(1250) / plain.value(1250), 0.5, 1e-14);
+  for (const std::int64_t k : {2500, 2501, 3250, 99'999}) EXPECT_EQ(smooth.value(k), plain.value(k));
   // No jump of velocity: it begins as the cube of time, r·sin ≈ (π/2·k/2500)²·2πk/1000.
-  EXPECT_LT(std::abs(smooth.velocity(0)), 1e-5 * std::abs(plain.velocity(0)));
+  EXPECT_LT(std::abs(smooth.rate(0)), 1e-5 * std::abs(plain.rate(0)));
 }
 
 }  // namespace

@@ -151,19 +151,19 @@ TEST(Reference, LocalDampingOpposesEveryComponent) {
 TEST(Reference, TheTopWallFollowsItsLoading) {
   const double side = 2e-3;
   const HandMade made = test::cubic_lattice_network(1, 1, 1, side, 1e30);
-  const loadings::Cyclic loading{1e-7, 2.0, 1000, 250};
+  const drives::Cyclic loading{1e-7, 2.0, 1000, 250};
   for (Geometry geometry : {Geometry::fixed, Geometry::updated}) {
     StepperOptions options = options_of(loading.dt(), geometry);
-    options.loading = loading;
+    options.boundary = moving_top(loading);
     auto stepper = make(made, spring, options);
     stepper->advance(700);
     const Observation seen = stepper->observe();
     EXPECT_EQ(seen.step, 700);
     EXPECT_DOUBLE_EQ(seen.time, 0.35);
     // The smooth start's velocity is exact to (2π/1000)²: 4e-5, of which its mean over the ramp remains.
-    EXPECT_NEAR(seen.wall_displacement, loading.displacement(700), 1e-5 * loading.amplitude);
+    EXPECT_NEAR(seen.top_displacement(), loading.value(700), 1e-5 * loading.amplitude);
     const double stiffness = E * side * side / (side / 2);
-    expect_near(seen.wall_force[5], {0, 0, -stiffness * seen.wall_displacement}, 1e-12 * stiffness * 1e-7, "top");
+    expect_near(seen.wall_force[5], {0, 0, -stiffness * seen.top_displacement()}, 1e-12 * stiffness * 1e-7, "top");
     expect_near(seen.wall_force[4], {0, 0, 0}, 1e-12 * stiffness * 1e-7, "bottom");
   }
 }
@@ -232,7 +232,6 @@ TEST(Reference, RefusesWhatItCannotStep) {
   expect("accepted", [](HandMade&, test::Laws&, StepperOptions&) {});
   expect("mixed", [](HandMade&, test::Laws&, StepperOptions& o) { o.precision = Precision::mixed; });
   expect("time step", [](HandMade&, test::Laws&, StepperOptions& o) { o.dt = 0; });
-  expect("period", [](HandMade&, test::Laws&, StepperOptions& o) { o.loading = loadings::Cyclic{1e-7, 2, 100, 0}; });
   expect("damping", [](HandMade&, test::Laws&, StepperOptions& o) { o.damping = -1; });
   expect("density scaling", [](HandMade&, test::Laws&, StepperOptions& o) { o.density_scaling = NAN; });
   expect("M-M", [](HandMade&, test::Laws& l, StepperOptions&) { l[0].reset(); });

@@ -24,13 +24,13 @@ Stiffness error_of_one_cycle(const TestScene& scene, double frequency, Backend b
   const double viscous = options.damping_kind == Damping::viscous ? options.damping : 0;
   Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, frequency);
   const HarmonicResult known = harmonic.solve(frequency, options.density_scaling, viscous);
-  loadings::Cyclic loading;
+  drives::Cyclic loading;
   loading.amplitude = 1e-4 * scene.specimen.box.size.z;
   loading.frequency = frequency;
   const double limit = critical_step(scene.network, scene.laws, scene.inertia, options).dt;
   const auto stride = static_cast<std::int64_t>(std::ceil(1 / (0.9 * limit * frequency * samples)));
   loading.steps_per_period = samples * stride;
-  options.loading = loading;
+  options.boundary = moving_top(loading);
   options.dt = loading.dt();
   const StartState start = steady_start(scene.network, scene.laws, known.motion, loading);
   options.start = &start;
@@ -41,7 +41,7 @@ Stiffness error_of_one_cycle(const TestScene& scene, double frequency, Backend b
     if (k > 0) stepper->advance(stride);
     const Observation now = stepper->observe();
     EXPECT_EQ(now.step, k * stride);
-    response.push_back({frequency, now.time, now.wall_displacement / box.z, -now.wall_force[5].z / (box.x * box.y)});
+    response.push_back({frequency, now.time, now.top_displacement() / box.z, -now.top_force() / (box.x * box.y)});
   }
   const Stiffness found = evaluate_cyclic(response, frequency, 1).fit;
   return {found.e_star_pa / known.top.e_star_pa - 1, found.phase_deg - known.top.phase_deg};
@@ -99,9 +99,11 @@ TEST(SteadyStartDamped, ViscousDampingIsInTheSolution) {
 TEST(SteadyStartReference, AgreesOverTheFirstSteps) {
   const TestScene scene = t8();
   StepperOptions options = shaking_options(scene);
-  options.loading->ramp_steps = 0;
+  drives::Cyclic loading = top_drive(options);
+  loading.ramp_steps = 0;
+  options.boundary = moving_top(loading);
   Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, 2000);
-  const StartState start = steady_start(scene.network, scene.laws, harmonic.solve(2000, 1).motion, *options.loading);
+  const StartState start = steady_start(scene.network, scene.laws, harmonic.solve(2000, 1).motion, loading);
   options.start = &start;
   for (const Geometry geometry : {Geometry::updated, Geometry::fixed}) {
     options.geometry = geometry;
@@ -112,7 +114,7 @@ TEST(SteadyStartReference, AgreesOverTheFirstSteps) {
       options.form = form;
       const auto stepper = make_stepper(backend, scene.specimen, scene.network, scene.laws, scene.inertia, options);
       EXPECT_EQ(stepper->observe().step, 0);
-      EXPECT_NEAR(stepper->observe().wall_displacement, 0, 1e-18);
+      EXPECT_NEAR(stepper->observe().top_displacement(), 0, 1e-18);
       stepper->advance(200);
       states.push_back(stepper->particles());
     }
@@ -126,18 +128,21 @@ TEST(SteadyStartReference, AgreesOverTheFirstSteps) {
 TEST(SteadyStartInput, ARampOrAnotherNetworksStateIsRefused) {
   const TestScene scene = t8(), other = make_scene(random_specimen(3));
   StepperOptions options = shaking_options(scene);  // has a ramp
+  const drives::Cyclic with_ramp = top_drive(options);
+  drives::Cyclic without = with_ramp;
+  without.ramp_steps = 0;
   Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, 20);
-  const StartState start = steady_start(scene.network, scene.laws, harmonic.solve(20, 1).motion, *options.loading);
+  const StartState start = steady_start(scene.network, scene.laws, harmonic.solve(20, 1).motion, with_ramp);
   options.start = &start;
   const auto make = [&](const TestScene& of, Backend backend) {
     make_stepper(backend, of.specimen, of.network, of.laws, of.inertia, options);
   };
   for (const Backend backend : {Backend::cpu, Backend::reference}) {
     EXPECT_THROW(make(scene, backend), InputError);
-    options.loading->ramp_steps = 0;
+    options.boundary = moving_top(without);
     EXPECT_NO_THROW(make(scene, backend));
     EXPECT_THROW(make(other, backend), InputError);
-    options.loading->ramp_steps = 10;
+    options.boundary = moving_top(with_ramp);
   }
 }
 

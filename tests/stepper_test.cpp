@@ -159,13 +159,13 @@ TEST_P(StepperAgainstReference, SameBitsHoweverTheRunIsCut) {
   const auto& [backend, precision, form, geometry] = GetParam();
   const TestScene scene = make_scene(random_specimen(17, 8, 8, 9));
   StepperOptions options = shaking_options(scene);
-  loadings::Cyclic& loading = *options.loading;
+  drives::Cyclic loading = top_drive(options);
   for (const double frequency : {2000.0, 50.0}) {
     loading.frequency = frequency;
     loading.steps_per_period = static_cast<std::int64_t>(1 / (frequency * options.dt)) + 1;
     StepperOptions chosen = options;
     chosen.dt = loading.dt();
-    chosen.loading = loading;
+    chosen.boundary = moving_top(loading);
     chosen.form = form;
     chosen.precision = precision;
     chosen.geometry = geometry;

@@ -84,22 +84,28 @@ inline TestScene make_scene(Specimen specimen, const NetworkSpec& spec = {}, con
 inline StepperOptions shaking_options(const TestScene& scene) {
   StepperOptions out;
   const double dt = 0.5 * critical_step(scene.network, scene.laws, scene.inertia, out).dt;
-  loadings::Cyclic loading;
+  drives::Cyclic loading;
   loading.amplitude = 1e-4 * scene.specimen.box.size.z;
   loading.frequency = 2000;
   loading.steps_per_period = static_cast<std::int64_t>(1 / (loading.frequency * dt)) + 1;
   loading.ramp_steps = 100;
-  out.loading = loading;
+  out.boundary = moving_top(loading);
   out.dt = loading.dt();
   return out;
+}
+
+/// The cyclic drive of the top wall.
+inline drives::Cyclic top_drive(const StepperOptions& options) {
+  return dynamic_cast<const drives::Cyclic&>(*options.boundary.wall[wall_index(wall_z_hi)].axis[2].drive);
 }
 
 /// The same with a load of 100 Hz: a backend may take many steps before it settles what changes slowly.
 inline StepperOptions slow_options(const TestScene& scene) {
   StepperOptions out = shaking_options(scene);
-  loadings::Cyclic& loading = *out.loading;
+  drives::Cyclic loading = top_drive(out);
   loading.frequency = 100;
   loading.steps_per_period = static_cast<std::int64_t>(1 / (loading.frequency * out.dt)) + 1;
+  out.boundary = moving_top(loading);
   out.dt = loading.dt();
   return out;
 }

@@ -19,8 +19,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 constexpr int samples_per_cycle = 500;
 
 /// A whole number of samples a period, a whole number of steps a sample.
-loadings::Cyclic make_loading(const Case& c, double height, double step) {
-  loadings::Cyclic loading;
+drives::Cyclic make_loading(const Case& c, double height, double step) {
+  drives::Cyclic loading;
   loading.amplitude = c.strain * height;
   loading.frequency = c.frequency;
   loading.steps_per_period = std::llround(std::ceil(1 / (c.frequency * step * samples_per_cycle))) * samples_per_cycle;
@@ -151,8 +151,8 @@ std::vector<Outcome> Runner::run(Case& c) {
     c.density_scaling =
         (1 + 1e-9) * std::pow(1 / (c.frequency * static_cast<double>(c.cycle_steps) * c.step_share * critical), 2);
   }
-  const loadings::Cyclic loading = make_loading(c, box.size.z, c.step_share * critical * std::sqrt(c.density_scaling));
-  options.loading = loading;
+  const drives::Cyclic loading = make_loading(c, box.size.z, c.step_share * critical * std::sqrt(c.density_scaling));
+  options.boundary = moving_top(loading);
   options.dt = loading.dt();
   options.density_scaling = c.density_scaling;
   options.form = c.form;
@@ -188,8 +188,8 @@ std::vector<Outcome> Runner::run(Case& c) {
     for (int k = cycle == 0 ? 0 : 1; k <= samples_per_cycle; ++k) {
       if (k > 0) stepper->advance(loading.steps_per_period / samples_per_cycle);
       const Observation seen = stepper->observe();
-      samples.push_back({c.frequency, seen.time, seen.wall_displacement / box.size.z,
-                         -seen.wall_force[5].z / (box.size.x * box.size.y)});
+      samples.push_back({c.frequency, seen.time, seen.top_displacement() / box.size.z,
+                         -seen.top_force() / (box.size.x * box.size.y)});
     }
     now.seconds = seconds_since(start);
     now.cycles = cycle + 1;

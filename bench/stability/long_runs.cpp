@@ -65,12 +65,12 @@ void free_run(Rows& rows, const std::string& name, const test::TestScene& scene,
 
 /// E* of cycles early and at the end of a driven run, and an expectation of it.
 void driven_run(Rows& rows, const std::string& name, const test::TestScene& scene, const Setting& setting,
-                const loadings::Cyclic& loading, std::int64_t steps, const Stiffness& expected, double tolerance,
+                const drives::Cyclic& loading, std::int64_t steps, const Stiffness& expected, double tolerance,
                 const char* reason) {
   StepperOptions options;
   options.geometry = Geometry::fixed;
   options.dt = loading.dt();
-  options.loading = loading;
+  options.boundary = moving_top(loading);
   const auto stepper = make(setting, scene, options);
   const std::int64_t cycles = steps / loading.steps_per_period;
   const std::int64_t first = std::max(20000 / loading.steps_per_period, cycles / 20);  // ramp, then 50 of 300 steps
@@ -94,7 +94,7 @@ void driven_run(Rows& rows, const std::string& name, const test::TestScene& scen
 /// by i·(2/Δt)·tan(ωΔt/2) in the law and ω² by ((2/Δt)·sin(ωΔt/2))² in the inertia, both exactly; symmetric and
 /// antisymmetric motion then give the top reaction in closed form.
 Stiffness column_stiffness(const test::TestScene& scene, const laws::GeneralisedKelvin& law,
-                           const loadings::Cyclic& loading) {
+                           const drives::Cyclic& loading) {
   using Complex = std::complex<double>;
   const double dt = loading.dt(), half = std::numbers::pi / static_cast<double>(loading.steps_per_period);
   const Complex rate(0, 2 / dt * std::tan(half));
@@ -158,7 +158,7 @@ Rows long_driven(Effort effort) {
   test::TestScene column{stack.specimen, stack.network, test::same_law(quick_law(1)), stack.inertia};
   auto hundred = test::make_scene(test::random_specimen(40, 5, 5, 4), {}, test::same_law(quick_law(1)));
   for (test::TestScene* scene : {&column, &hundred}) {
-    loadings::Cyclic loading;
+    drives::Cyclic loading;
     loading.steps_per_period = scene == &column ? 1000 : 4000;
     loading.ramp_steps = loading.steps_per_period;
     loading.amplitude = 1e-6 * scene->specimen.box.size.z;

@@ -49,14 +49,14 @@ constexpr double smooth_start =
 void ringing(Rows& rows, double dt) {
   for (const double tau : {1e-6, 1e-4, 1e-2}) {
     const auto scene = one_contact({modulus, modulus * tau * dt, {}, {}, 0});
-    loadings::Cyclic loading;
+    drives::Cyclic loading;
     loading.amplitude = 1e-6;
     loading.steps_per_period = per_cycle;
     loading.frequency = 1 / (dt * static_cast<double>(per_cycle));
     StepperOptions options;
     options.dt = loading.dt();
     options.geometry = Geometry::fixed;
-    options.loading = loading;
+    options.boundary = moving_top(loading);
     constexpr int steps = 1000;
     const Contact& contact = scene.network.contacts[0];
     const double flow = modulus * tau * dt * contact.area / contact.distance * 2 * std::numbers::pi *
@@ -67,7 +67,7 @@ void ringing(Rows& rows, double dt) {
       stepper->advance(steps - 1);
       double f[3];
       for (double& value : f) {
-        value = stepper->observe().wall_force[5].z;
+        value = stepper->observe().top_force();
         stepper->advance(1);
       }
       rows.push_back({fmt::format("Maxwell unit, {:.0e} steps, sudden start", tau), setting.name(), alternating,
@@ -103,7 +103,7 @@ Rows relaxation_times(Effort effort) {
       slowest = std::max(slowest, steps), fastest = std::min(fastest, steps);
     }
     const auto scene = one_contact(law);
-    loadings::Cyclic loading;
+    drives::Cyclic loading;
     loading.amplitude = 1e-6;
     loading.steps_per_period = per_cycle;
     loading.frequency = 1 / (dt * static_cast<double>(per_cycle));
@@ -111,7 +111,7 @@ Rows relaxation_times(Effort effort) {
     StepperOptions options;
     options.dt = loading.dt();
     options.geometry = Geometry::fixed;
-    options.loading = loading;
+    options.boundary = moving_top(loading);
     // The start dies out with the slowest relaxation time, and as (1 − 4τ/Δt)^k where τ is below the step. The smooth
     // start hardly excites the latter; of the former the fit takes offset and trend, and its curvature is left.
     const double memory = std::max({slowest, 1 / fastest, 10.0});

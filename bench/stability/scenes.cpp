@@ -124,7 +124,7 @@ double energy_over_bound(const Setting& setting, const test::TestScene& scene, c
   return largest;
 }
 
-std::vector<ResponseSample> last_cycle(Stepper& stepper, const Specimen& specimen, const loadings::Cyclic& loading,
+std::vector<ResponseSample> last_cycle(Stepper& stepper, const Specimen& specimen, const drives::Cyclic& loading,
                                        std::int64_t cycles) {
   constexpr std::int64_t samples_per_cycle = 100;
   if (loading.steps_per_period % samples_per_cycle != 0) throw RunError("a cycle must be a multiple of 100 steps");
@@ -136,7 +136,7 @@ std::vector<ResponseSample> last_cycle(Stepper& stepper, const Specimen& specime
     if (k > 0) stepper.advance(stride);
     const Observation now = stepper.observe();
     samples.push_back(
-        {loading.frequency, now.time, now.wall_displacement / specimen.box.size.z, -now.wall_force[5].z / area});
+        {loading.frequency, now.time, now.top_displacement() / specimen.box.size.z, -now.top_force() / area});
   }
   if (const std::int64_t particle = stepper.first_divergent(); particle >= 0) {
     throw RunError(fmt::format("the cyclic run diverged at particle {}", particle));

@@ -110,7 +110,7 @@ double energy_over_bound(const Setting& setting, const test::TestScene& scene, c
 
 /// Steps `cycles` cycles of a loaded stepper and returns 100 samples of the last, and the first of the next.
 /// \throws RunError where it diverges.
-std::vector<ResponseSample> last_cycle(Stepper& stepper, const Specimen& specimen, const loadings::Cyclic& loading,
+std::vector<ResponseSample> last_cycle(Stepper& stepper, const Specimen& specimen, const drives::Cyclic& loading,
                                        std::int64_t cycles);
 
 /// E* of the fundamental of one cycle, by its Fourier sum: harmonics do not leak into it, a drift does.

@@ -31,7 +31,7 @@ Rows strain_amplitudes(Effort effort) {
   Rows rows;
   auto scene =
       test::make_scene(generated_specimen(3, by_effort(effort, 30, 40, 120)), {}, test::same_law(quick_law(1)));
-  loadings::Cyclic loading;
+  drives::Cyclic loading;
   loading.steps_per_period = by_effort<std::int64_t>(effort, 2000, 2000, 10000);
   loading.ramp_steps = loading.steps_per_period;
   const double dt = 0.5 * critical_step(scene.network, scene.laws, scene.inertia, {}).dt;
@@ -50,7 +50,7 @@ Rows strain_amplitudes(Effort effort) {
       StepperOptions options;
       loading.amplitude = strain * scene.specimen.box.size.z;
       options.dt = loading.dt();
-      options.loading = loading;
+      options.boundary = moving_top(loading);
       std::vector<ResponseSample> samples[2];
       for (const Geometry geometry : {Geometry::fixed, Geometry::updated}) {
         options.geometry = geometry;

@@ -9,7 +9,7 @@ namespace macadam {
 using namespace harmonic;
 
 StartState steady_start(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
-                        const std::vector<std::complex<double>>& motion, const loadings::Cyclic& loading) {
+                        const std::vector<std::complex<double>>& motion, const drives::Cyclic& loading) {
   const double omega = 2 * std::numbers::pi * loading.frequency, dt = loading.dt();
   // the wall moves by −A·sin ωt = Im(−A·e^{iωt}), and so does all else with its own factor
   const Complex before = -loading.amplitude * std::polar(1.0, -omega * dt);

@@ -82,12 +82,6 @@ void require_options(const StepperOptions& options) {
   require(positive(options.dt), "time step", options.dt, "a positive time");
   require(positive(options.density_scaling), "density scaling", options.density_scaling, "a positive factor");
   require(std::isfinite(options.damping) && options.damping >= 0, "damping", options.damping, "at least 0");
-  if (options.loading) {
-    // The two are computed along different ways, a few roundings apart.
-    const double expected = options.loading->dt();
-    require(std::abs(options.dt - expected) <= 1e-12 * expected, "time step", options.dt,
-            fmt::format("{}, the loading's period over its steps", expected).c_str());
-  }
 }
 
 }  // namespace macadam::reference

@@ -16,23 +16,24 @@ namespace {
 struct Body {
   Vector3d start = Vector3d::Zero();         ///< centre at the start [m]
   Vector3d displacement = Vector3d::Zero();  ///< at the whole step [m]
+  Vector3d rotation = Vector3d::Zero();      ///< sum of its turns [rad]
   Vector3d velocity = Vector3d::Zero();      ///< at the last half step [m/s]
   Vector3d spin = Vector3d::Zero();          ///< likewise [rad/s]
   Vector3d force = Vector3d::Zero();         ///< of the contacts at the whole step [N]
   Vector3d moment = Vector3d::Zero();        ///< about the centre [N·m]
+  Vector3d weight = Vector3d::Zero();        ///< body force [N]
   double radius = 0, mass = 0, inertia = 0;  ///< [m] [kg] [kg·m²], density scaling included
+  bool fixed = false;
 
   Vector3d centre() const { return start + displacement; }
 };
 
-/// A wall: it translates along z or rests.
+/// A wall: it translates, or rests.
 struct WallPlane {
   Vector3d displacement = Vector3d::Zero();  ///< [m]
   Vector3d velocity = Vector3d::Zero();      ///< [m/s]
   Vector3d force = Vector3d::Zero();         ///< on the wall by the particles [N]
 };
-
-int wall_index(std::int32_t wall) { return -1 - wall; }
 
 Vec3d to_vec3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -48,8 +49,10 @@ class ReferenceStepper : public Stepper {
       body.radius = specimen.radius[i];
       body.mass = inertia.mass[i] * options.density_scaling;
       body.inertia = inertia.inertia[i] * options.density_scaling;
+      if (!options.boundary.body_force.empty()) body.weight = to_eigen(options.boundary.body_force[i]);
       bodies_.push_back(body);
     }
+    for (const std::int32_t i : options.boundary.fixed) bodies_[static_cast<std::size_t>(i)].fixed = true;
     for (const Contact& contact : network.contacts) {
       contacts_.push_back(make_reference_contact(network, contact, law(contact.pair).units.size()));
     }
@@ -72,8 +75,10 @@ class ReferenceStepper : public Stepper {
     Observation out;
     out.step = step_;
     out.time = static_cast<double>(step_) * options_.dt;
-    out.wall_displacement = walls_[wall_index(wall_z_hi)].displacement.z();
-    for (std::size_t w = 0; w < walls_.size(); ++w) out.wall_force[w] = to_vec3(walls_[w].force);
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+      out.wall_displacement[w] = to_vec3(walls_[w].displacement);
+      out.wall_force[w] = to_vec3(walls_[w].force);
+    }
     return out;
   }
 
@@ -81,9 +86,10 @@ class ReferenceStepper : public Stepper {
     ParticleState out;
     for (const Body& body : bodies_) {
       out.displacement.push_back(to_vec3(body.displacement));
+      out.rotation.push_back(to_vec3(body.rotation));
       out.velocity.push_back(to_vec3(body.velocity));
       out.spin.push_back(to_vec3(body.spin));
-      out.force.push_back(to_vec3(body.force));
+      out.force.push_back(to_vec3(body.force + body.weight));
       out.moment.push_back(to_vec3(body.moment));
     }
     return out;
@@ -133,13 +139,19 @@ class ReferenceStepper : public Stepper {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       Body& body = bodies_[i];
       body.displacement = to_eigen(start.displacement[i]);
+      body.rotation = to_eigen(start.rotation[i]);
       const double kept = options_.damping_kind == Damping::viscous
                               ? (1 - options_.damping * options_.dt / 2) / (1 + options_.damping * options_.dt / 2)
                               : 1;
       body.velocity = to_eigen(start.velocity[i]) / kept;
       body.spin = to_eigen(start.spin[i]) / kept;
     }
-    if (options_.loading) walls_[wall_index(wall_z_hi)].displacement.z() = options_.loading->displacement(-1);
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const WallAxis& driven = options_.boundary.wall[w].axis[static_cast<std::size_t>(axis)];
+        if (driven.by == DrivenBy::displacement) walls_[w].displacement[axis] = driven.drive->value(-1);
+      }
+    }
     for (std::size_t c = 0; c < contacts_.size(); ++c) {
       if (options_.geometry == Geometry::updated) carry_to_start(contacts_[c], start.rotation);
       const ReferenceLaw& law = this->law(contacts_[c].pair);
@@ -200,19 +212,33 @@ class ReferenceStepper : public Stepper {
   /// v(k+1/2) from the forces at k, then the displacement at k+1.
   void move_bodies() {
     for (Body& body : bodies_) {
-      body.velocity = accelerate(body.velocity, body.force, body.mass);
-      body.spin = accelerate(body.spin, body.moment, body.inertia);
+      if (!body.fixed) {
+        body.velocity = accelerate(body.velocity, body.force + body.weight, body.mass);
+        body.spin = accelerate(body.spin, body.moment, body.inertia);
+      }
       body.displacement += options_.dt * body.velocity;
+      body.rotation += options_.dt * body.spin;
       body.force.setZero();
       body.moment.setZero();
     }
   }
 
   void move_walls() {
-    if (options_.loading) {
-      walls_[wall_index(wall_z_hi)].velocity = Vector3d(0, 0, options_.loading->velocity(step_));
-    }
-    for (WallPlane& wall : walls_) {
+    for (std::size_t w = 0; w < walls_.size(); ++w) {
+      WallPlane& wall = walls_[w];
+      const WallMotionSpec& told = options_.boundary.wall[w];
+      Vector3d loaded = wall.force;  // of the particles, and of the drives: a platen follows both
+      for (int axis = 0; axis < 3; ++axis) {
+        const WallAxis& driven = told.axis[static_cast<std::size_t>(axis)];
+        if (driven.by == DrivenBy::force) loaded[axis] += driven.drive->value(step_);
+      }
+      const Vector3d free = told.mass > 0 ? accelerate(wall.velocity, loaded, told.mass * options_.density_scaling)
+                                          : Vector3d(Vector3d::Zero());
+      for (int axis = 0; axis < 3; ++axis) {
+        const WallAxis& driven = told.axis[static_cast<std::size_t>(axis)];
+        if (driven.by == DrivenBy::displacement) wall.velocity[axis] = driven.drive->rate(step_);
+        if (driven.by == DrivenBy::force) wall.velocity[axis] = free[axis];
+      }
       wall.displacement += options_.dt * wall.velocity;
       wall.force.setZero();
     }

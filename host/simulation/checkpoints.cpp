@@ -25,7 +25,7 @@ struct nlohmann::adl_serializer<std::optional<T>> {
 namespace macadam {
 
 // JSON's numbers are the shortest that give the same double again; all of these are finite.
-namespace loadings {
+namespace drives {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cyclic, amplitude, frequency, steps_per_period, ramp_steps)
 }
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Stiffness, e_star_pa, phase_deg)

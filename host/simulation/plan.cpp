@@ -252,7 +252,7 @@ class Planner {
   double safety() const { return scene_.solver.safety.value_or(automatic() ? 0.95 : 0.8); }
 
   /// A whole number of samples a period, a whole number of steps a sample.
-  loadings::Cyclic make_loading(const FrequencyPlan& f, double frequency, double ramp) const {
+  drives::Cyclic make_loading(const FrequencyPlan& f, double frequency, double ramp) const {
     const LoadingSpec& spec = scene_.loading;
     double step = scene_.solver.time_step.value_or(safety() * plan_.critical.dt * std::sqrt(f.density_scaling));
     if (viscous() > 0 && !scene_.solver.time_step) step = std::min(step, 1 / viscous());  // follow the decay
@@ -261,7 +261,7 @@ class Planner {
       throw RunError(fmt::format("the time step of {} s would take {} steps a cycle at {} Hz; raise density_scaling",
                                  step, wanted * spec.samples_per_cycle, frequency));
     }
-    loadings::Cyclic loading;
+    drives::Cyclic loading;
     loading.amplitude = spec.strain_amplitude * prepared_.specimen.box.size.z;
     loading.frequency = frequency;
     loading.steps_per_period = std::max<std::int64_t>(1, std::llround(std::ceil(wanted))) * spec.samples_per_cycle;

@@ -13,7 +13,7 @@ namespace macadam {
 
 /// How one frequency is stepped.
 struct FrequencyPlan {
-  loadings::Cyclic loading;
+  drives::Cyclic loading;
   double density_scaling = 1;
   Start start = Start::rest;
   int cycles = 0, fit_cycles = 0;

@@ -57,7 +57,7 @@ class Pieces {
 void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, const FrequencyPlan& plan,
                 std::vector<ResponseSample>& samples, ResponseWriter* writer, const std::function<void()>& look,
                 const std::function<void(std::int64_t)>& stepped) {
-  const loadings::Cyclic& loading = plan.loading;
+  const drives::Cyclic& loading = plan.loading;
   const int per_cycle = scene.loading.samples_per_cycle;
   const std::int64_t samples_wanted = static_cast<std::int64_t>(plan.cycles) * per_cycle;
   const std::int64_t stride = loading.steps_per_period / per_cycle;
@@ -70,7 +70,7 @@ void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, 
     step = k * stride;
     if (k < first && k % per_cycle != 0) continue;
     const Observation now = stepper.observe();
-    const double stress = -now.wall_force[5].z / area;  // particles pull a wall that moves away from them
+    const double stress = -now.top_force() / area;  // particles pull a wall that moves away from them
     if (const std::int64_t particle = stepper.first_divergent(); particle >= 0 || !std::isfinite(stress)) {
       const std::string what =
           particle >= 0 ? fmt::format("particle {} moves more than its radius in a step, or not finitely", particle)
@@ -81,7 +81,7 @@ void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, 
                       what, now.time, loading.frequency, now.step, loading.dt()),
           particle, now.time);
     }
-    if (k >= first) samples.push_back({loading.frequency, now.time, now.wall_displacement / height, stress});
+    if (k >= first) samples.push_back({loading.frequency, now.time, now.top_displacement() / height, stress});
     if (writer) writer->add(samples.back());
     stepped(step);
   }
@@ -147,7 +147,7 @@ std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepa
                                     const std::vector<StateArray>& from, std::unique_ptr<Stepper> used) {
   StepperOptions options = common_options(plan, scene.solver);
   options.density_scaling = p.density_scaling;
-  options.loading = p.loading;
+  options.boundary = moving_top(p.loading);
   options.dt = p.loading.dt();
   if (scene.solver.tolerance) options.observed_every = p.loading.steps_per_period / scene.loading.samples_per_cycle;
   StartState start;

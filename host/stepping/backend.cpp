@@ -4,6 +4,7 @@
 
 #include <omp.h>
 
+#include <cmath>
 #include <utility>
 
 #include "host/reference/reference_stepper.hpp"
@@ -36,7 +37,46 @@ void require_start(const Specimen& specimen, const ContactNetwork& network,
     numbers += 6 * static_cast<std::size_t>(1 + std::visit([](const auto& l) { return l.units(); }, law));
   }
   require("numbers of the chains", start.chain.size(), numbers);
-  if (options.loading) require("ramp steps", static_cast<std::size_t>(options.loading->ramp_steps), 0);
+  for (const WallMotionSpec& wall : options.boundary.wall) {
+    for (const WallAxis& axis : wall.axis) {
+      if (axis.by == DrivenBy::force)
+        throw InputError("start state: found a wall under a force, expected displacements");
+      const auto* cyclic = dynamic_cast<const drives::Cyclic*>(axis.drive.get());
+      if (cyclic) require("ramp steps", static_cast<std::size_t>(cyclic->ramp_steps), 0);
+    }
+  }
+}
+
+/// Drives must be there, of the stepper's step, and platens must have a mass.
+void require_boundary(const Specimen& specimen, const StepperOptions& options) {
+  const Boundary& boundary = options.boundary;
+  const auto refuse = [](const std::string& what, const std::string& found, const std::string& expected) {
+    throw InputError("boundary: " + what + ": found " + found + ", expected " + expected);
+  };
+  for (std::size_t w = 0; w < wall_count; ++w) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const WallAxis& a = boundary.wall[w].axis[axis];
+      const std::string which = std::string("wall ") + wall_names[w] + ", axis " + "xyz"[axis];
+      if (a.by == DrivenBy::rest) continue;
+      if (!a.drive) refuse(which, "no drive", "one, as the axis is driven");
+      if (!(std::abs(a.drive->dt() - options.dt) <= 1e-12 * options.dt)) {
+        refuse(which + ": time step of its drive", std::to_string(a.drive->dt()) + " s",
+               std::to_string(options.dt) + " s, the stepper's");
+      }
+      if (a.by == DrivenBy::force && !(boundary.wall[w].mass > 0)) {
+        refuse(which + ": mass of a wall under a force", std::to_string(boundary.wall[w].mass) + " kg", "above 0");
+      }
+    }
+  }
+  for (const std::int32_t i : boundary.fixed) {
+    if (i < 0 || static_cast<std::size_t>(i) >= specimen.size()) {
+      refuse("fixed particle", std::to_string(i), "0 to " + std::to_string(specimen.size() - 1));
+    }
+  }
+  if (!boundary.body_force.empty() && boundary.body_force.size() != specimen.size()) {
+    refuse("body forces", std::to_string(boundary.body_force.size()),
+           "none, or one a particle: " + std::to_string(specimen.size()));
+  }
 }
 
 /// The device of a number, or the first of the report, which has one at least. \throws InputError listing them.
@@ -146,6 +186,7 @@ std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen,
     throw InputError("viscous damping: found beta * dt = " + std::to_string(options.damping * options.dt) +
                      ", expected below 2 (a smaller time_step, or less damping)");
   }
+  require_boundary(specimen, options);
   if (options.start) require_start(specimen, network, laws, options);
   StepperOptions given = options;
   switch (select_backend(backend, nullptr, options.device)) {

@@ -13,8 +13,6 @@
 
 namespace macadam {
 
-inline constexpr int wall_count = 6;
-
 /// The plane of the wall with number −1 − k, k = 0…5.
 struct WallPlane {
   double Vec3d::*coordinate;  ///< the one that is constant on the wall

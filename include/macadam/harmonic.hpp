@@ -96,6 +96,6 @@ class Harmonic {
 /// inertia and damping of the run) under the loading, whose ramp is not there. A chain is f = k*(ω)·x, x_l = f/(k_l +
 /// iω·η_l).
 StartState steady_start(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
-                        const std::vector<std::complex<double>>& motion, const loadings::Cyclic& loading);
+                        const std::vector<std::complex<double>>& motion, const drives::Cyclic& loading);
 
 }  // namespace macadam

@@ -25,7 +25,7 @@
 #include "macadam/scene.hpp"
 #include "macadam/phantom.hpp"
 #include "macadam/twin.hpp"
-#include "macadam/loadings/cyclic.hpp"
+#include "macadam/drives/all.hpp"
 #include "macadam/stepper.hpp"
 #include "macadam/results.hpp"
 #include "macadam/sensitivity.hpp"

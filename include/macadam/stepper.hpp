@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "macadam/backend.hpp"
+#include "macadam/boundary.hpp"
 #include "macadam/contact_network.hpp"
 #include "macadam/laws/all.hpp"
-#include "macadam/loadings/cyclic.hpp"
+#include "macadam/drives/all.hpp"
 #include "macadam/specimen.hpp"
 
 namespace macadam {
@@ -38,14 +39,14 @@ struct StepperOptions {
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
   Damping damping_kind = Damping::none;
-  double damping = 0;                       ///< χ, or β [1/s]
-  double density_scaling = 1;               ///< multiplies mass and inertia
-  bool skip_shear = true;                   ///< no shear chains where α = 0
-  bool skip_rotations = true;               ///< no rotations where nothing_turns()
-  int threads = 0;                          ///< cpu: 0 is OpenMP's choice; results do not depend on it
-  std::optional<int> device;                ///< cuda: made the calling thread's; none: the first that can run
-  std::optional<loadings::Cyclic> loading;  ///< drives the top wall along z; its dt() must equal dt. None: walls rest
-  const StartState* start = nullptr;        ///< read by make_stepper() only; a loading must then be without a ramp
+  double damping = 0;                 ///< χ, or β [1/s]
+  double density_scaling = 1;         ///< multiplies mass and inertia
+  bool skip_shear = true;             ///< no shear chains where α = 0
+  bool skip_rotations = true;         ///< no rotations where nothing_turns()
+  int threads = 0;                    ///< cpu: 0 is OpenMP's choice; results do not depend on it
+  std::optional<int> device;          ///< cuda: made the calling thread's; none: the first that can run
+  Boundary boundary;                  ///< what drives the walls, fixes and loads particles; drives' dt() is dt
+  const StartState* start = nullptr;  ///< read by make_stepper() only; a cyclic drive must then be without a ramp
   /// Where a device takes steps in blocks, within which laws change little: how many of them the shortest time of load
   /// and laws holds at the least. What a block neglects is of second order in its length.
   double blocks = 4000;
@@ -65,18 +66,23 @@ Inertia make_inertia(const Specimen& specimen, double density_aggregate, double 
 /// Motion of all particles, specimen order.
 struct ParticleState {
   std::vector<Vec3d> displacement;  ///< since the undeformed specimen, at the whole step [m]
+  std::vector<Vec3d> rotation;      ///< likewise: the sum of the turns of all steps [rad]
   std::vector<Vec3d> velocity;      ///< at the last half step [m/s]
   std::vector<Vec3d> spin;          ///< angular velocity at the last half step [rad/s]
-  std::vector<Vec3d> force;         ///< sum over contacts at the whole step, damping not included [N]
+  std::vector<Vec3d> force;         ///< of contacts and body forces at the whole step, damping not included [N]
   std::vector<Vec3d> moment;        ///< about the centre, likewise [N·m]
 };
 
 /// What is measured of a run at a whole step.
 struct Observation {
   std::int64_t step = 0;
-  double time = 0;                    ///< [s]
-  double wall_displacement = 0;       ///< of the top wall along z [m]
-  std::array<Vec3d, 6> wall_force{};  ///< on the walls −x +x −y +y −z +z by the particles [N]
+  double time = 0;                                    ///< [s]
+  std::array<Vec3d, wall_count> wall_displacement{};  ///< of the walls, by wall_index() [m]
+  std::array<Vec3d, wall_count> wall_force{};         ///< on the walls by the particles [N]
+
+  /// Of the top wall along z: what the uniaxial test measures.
+  double top_displacement() const { return wall_displacement[wall_index(wall_z_hi)].z; }
+  double top_force() const { return wall_force[wall_index(wall_z_hi)].z; }
 };
 
 /// One array of a stepper's state, in the private order of its backend.

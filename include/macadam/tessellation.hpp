@@ -19,6 +19,12 @@ enum Wall : std::int32_t {
   wall_z_lo = -5,
   wall_z_hi = -6
 };
+inline constexpr int wall_count = 6;
+
+inline constexpr const char* wall_names[wall_count] = {"-x", "+x", "-y", "+y", "-z", "+z"};
+
+/// 0…5, in the order above: where a wall stands in arrays.
+constexpr std::size_t wall_index(std::int32_t wall) { return static_cast<std::size_t>(-1 - wall); }
 
 /// One planar convex polygon shared by the cells of `a` and `b`, or by the cell of `a` and a wall.
 struct Facet {

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file boundary.hpp  What walls and particles are made to do: driven, free under a force, or held.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "macadam/drives/drive.hpp"
+#include "macadam/numeric.hpp"
+#include "macadam/tessellation.hpp"
+
+namespace macadam {
+
+/// What a wall's drive gives along an axis. A wall under a force moves as a platen with a mass.
+enum class DrivenBy : std::uint8_t { rest, displacement, force };
+
+/// One axis of a wall.
+struct WallAxis {
+  DrivenBy by = DrivenBy::rest;
+  std::shared_ptr<const Drive> drive;  ///< its dt() is that of the stepper; none where the axis rests
+};
+
+/// One wall: x, y, z, and the mass with which it follows forces [kg], density scaling not included.
+struct WallMotionSpec {
+  std::array<WallAxis, 3> axis;
+  double mass = 0;  ///< above 0 where an axis is driven by a force
+};
+
+/// All that acts on a specimen from outside. Walls do not turn.
+struct Boundary {
+  std::array<WallMotionSpec, wall_count> wall;  ///< by wall_index()
+  std::vector<std::int32_t> fixed;              ///< particles that do not move at all
+  std::vector<Vec3d> body_force;                ///< on each particle, specimen order [N]; empty: none
+
+  /// Drives one axis (0, 1, 2) of a wall by a displacement.
+  Boundary& move(Wall which, int axis, std::shared_ptr<const Drive> drive) {
+    wall[wall_index(which)].axis[static_cast<std::size_t>(axis)] = {DrivenBy::displacement, std::move(drive)};
+    return *this;
+  }
+  /// Loads one axis of a wall of this mass [kg] by a force.
+  Boundary& load(Wall which, int axis, std::shared_ptr<const Drive> drive, double mass) {
+    wall[wall_index(which)].axis[static_cast<std::size_t>(axis)] = {DrivenBy::force, std::move(drive)};
+    wall[wall_index(which)].mass = mass;
+    return *this;
+  }
+  /// Whether any axis of any wall is driven so.
+  bool any(DrivenBy by) const {
+    for (const WallMotionSpec& w : wall) {
+      for (const WallAxis& a : w.axis) {
+        if (a.by == by) return true;
+      }
+    }
+    return false;
+  }
+};
+
+/// The top wall moved along z, all else at rest: the uniaxial test.
+template <class D>
+Boundary moving_top(D drive) {
+  return Boundary().move(wall_z_hi, 2, std::make_shared<const D>(std::move(drive)));
+}
+
+}  // namespace macadam

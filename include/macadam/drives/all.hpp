@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file all.hpp  The drives that come with Macadam.
+#pragma once
+
+#include "macadam/drives/constant_rate.hpp"
+#include "macadam/drives/cyclic.hpp"
+#include "macadam/drives/ramp.hpp"
+#include "macadam/drives/table.hpp"

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cyclic.hpp  −A·r(t)·sin(2πft): compression first, as walls are named (section 4.4).
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "macadam/drives/drive.hpp"
+
+namespace macadam::drives {
+
+/// A whole number of steps makes a period, so the phase of step k is exact however long the run. The smooth start
+/// r(t) rises from 0 to 1 over `ramp_steps` as a half cosine; 0 starts at once.
+struct Cyclic final : Drive {
+  double amplitude = 0;  ///< A [m] or [N]
+  double frequency = 0;  ///< f [Hz]
+  std::int64_t steps_per_period = 1;
+  std::int64_t ramp_steps = 0;
+
+  Cyclic() = default;
+  Cyclic(double amplitude, double frequency, std::int64_t steps_per_period, std::int64_t ramp_steps = 0)
+      : amplitude(amplitude), frequency(frequency), steps_per_period(steps_per_period), ramp_steps(ramp_steps) {}
+
+  double dt() const override { return 1.0 / (frequency * static_cast<double>(steps_per_period)); }
+  double shortest_time() const override { return 1 / frequency; }
+  double fastest() const override { return std::abs(amplitude) * 2 * std::numbers::pi * frequency; }
+  double value(std::int64_t k) const override { return value(k, 0); }
+
+  /// At step k + half/2, half 0 or 1.
+  double value(std::int64_t k, int half) const { return -amplitude * ramp(k, half) * std::sin(phase(k, half)); }
+
+  /// The difference of two values over Δt, rearranged so that nothing cancels.
+  double rate(std::int64_t k) const override {
+    const double half_step = std::numbers::pi / static_cast<double>(steps_per_period);
+    double v = 2 * ramp(k, 1) * std::sin(half_step) * std::cos(phase(k, 1));
+    if (ramping(k)) {  // sin at the middle times the rise of r over the step; exact to second order in Δt
+      v += (ramp(k + 1, 0) - ramp(k, 0)) * std::sin(phase(k, 1));
+    }
+    return -amplitude * v / dt();
+  }
+
+ private:
+  /// A start in motion looks one step back, to k = −1: there is no ramp before the start.
+  bool ramping(std::int64_t k) const { return k >= 0 && k < ramp_steps; }
+  double phase(std::int64_t k, int half) const {
+    const double in_period = static_cast<double>(k % steps_per_period) + 0.5 * half;
+    return 2 * std::numbers::pi * (in_period / static_cast<double>(steps_per_period));
+  }
+  double ramp(std::int64_t k, int half) const {
+    if (!ramping(k)) return 1.0;
+    const double s =
+        std::sin(std::numbers::pi / 2 * ((static_cast<double>(k) + 0.5 * half) / static_cast<double>(ramp_steps)));
+    return s * s;
+  }
+};
+
+}  // namespace macadam::drives

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file ramp.hpp  From 0 to a value, a hold, and, where asked, back to 0: relaxation, creep and recovery.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "macadam/drives/drive.hpp"
+
+namespace macadam::drives {
+
+/// Rises over `ramp_steps` (one step at the least: a jump), holds for `hold_steps`, and falls again over `ramp_steps`.
+struct Ramp final : Drive {
+  static constexpr std::int64_t forever = std::numeric_limits<std::int64_t>::max();
+  double height = 0;            ///< [m] or [N]
+  double step = 0;              ///< Δt [s]
+  std::int64_t ramp_steps = 1;  ///< at least 1
+  std::int64_t hold_steps = forever;
+  bool smooth = false;  ///< a half cosine in place of a line: waves are smaller
+
+  Ramp() = default;
+  Ramp(double height, double step, std::int64_t ramp_steps = 1, std::int64_t hold_steps = forever, bool smooth = false)
+      : height(height), step(step), ramp_steps(ramp_steps), hold_steps(hold_steps), smooth(smooth) {}
+
+  double dt() const override { return step; }
+  double shortest_time() const override { return static_cast<double>(ramp_steps) * step; }
+  double fastest() const override { return std::abs(height) / shortest_time() * (smooth ? std::numbers::pi / 2 : 1.0); }
+  double value(std::int64_t k) const override {
+    if (k <= 0) return 0;
+    if (k < ramp_steps) return height * share(k);
+    const std::int64_t held = k - ramp_steps;
+    if (held <= hold_steps) return height;
+    return height * (1 - share(std::min(held - hold_steps, ramp_steps)));
+  }
+
+ private:
+  double share(std::int64_t k) const {
+    const double x = static_cast<double>(k) / static_cast<double>(ramp_steps);
+    return smooth ? std::pow(std::sin(std::numbers::pi / 2 * x), 2) : x;
+  }
+};
+
+}  // namespace macadam::drives

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_wall_table.hpp  The rows of the walls' table on their way to the device, while it takes steps.
+#pragma once
+
+#include <cstring>
+#include <vector>
+
+#include "kernels/cuda_launch.hpp"
+
+namespace macadam::kernels {
+
+/// One table on the device, whose address stays, and two buffers from which it is filled in turn: the host writes one
+/// while the copy from the other waits in the stream behind the steps that still read the table.
+class WallRowsOnDevice {
+ public:
+  WallRowsOnDevice() = default;
+  WallRowsOnDevice(const WallRowsOnDevice&) = delete;
+  ~WallRowsOnDevice() { forget(); }
+
+  /// Makes room; the address of the table, null for none.
+  const double* prepare(std::size_t most_values) {
+    if (most_values == table_.size()) return table_.data();
+    forget();
+    table_ = DeviceArray<double>(most_values);
+    for (Buffer& b : buffers_) {
+      if (most_values == 0) continue;
+      check_cuda(cudaMallocHost(reinterpret_cast<void**>(&b.values), most_values * sizeof(double)), "walls' table");
+      check_cuda(cudaEventCreateWithFlags(&b.copied, cudaEventDisableTiming), "walls' table");
+    }
+    return table_.data();
+  }
+
+  /// Queues the rows behind all that the stream has.
+  void put(const std::vector<double>& rows, cudaStream_t stream) {
+    if (rows.empty()) return;
+    Buffer& b = buffers_[next_ ^= 1];
+    check_cuda(cudaEventSynchronize(b.copied), "walls' table");
+    const std::size_t bytes = rows.size() * sizeof(double);
+    std::memcpy(b.values, rows.data(), bytes);
+    check_cuda(cudaMemcpyAsync(table_.data(), b.values, bytes, cudaMemcpyHostToDevice, stream), "walls' table");
+    check_cuda(cudaEventRecord(b.copied, stream), "walls' table");
+  }
+
+ private:
+  struct Buffer {
+    double* values = nullptr;
+    cudaEvent_t copied = nullptr;
+  };
+  void forget() {
+    for (Buffer& b : buffers_) {
+      if (b.values) cudaFreeHost(b.values);
+      if (b.copied) cudaEventDestroy(b.copied);
+      b = {};
+    }
+  }
+
+  DeviceArray<double> table_;
+  Buffer buffers_[2];
+  int next_ = 0;
+};
+
+}  // namespace macadam::kernels

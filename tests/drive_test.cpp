@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// drive_test.cpp  Drives against their formulas; driven walls, platens, fixed particles and body forces on every
+// backend against the reference, and against momentum and static solutions.
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <tuple>
+
+#include "stepper_cases.hpp"
+#include "test_networks.hpp"
+
+namespace macadam::test {
+namespace {
+
+/// Rates over all steps must add up to the change of the value.
+void expect_rates_of(const Drive& drive, std::int64_t steps, double scale) {
+  double sum = drive.value(0), fastest = 0;
+  for (std::int64_t k = 0; k < steps; ++k) {
+    sum += drive.dt() * drive.rate(k);
+    fastest = std::max(fastest, std::abs(drive.rate(k)));
+    ASSERT_NEAR(sum, drive.value(k + 1), 1e-12 * scale) << k;
+  }
+  EXPECT_LE(fastest, drive.fastest() * (1 + 1e-9));
+  EXPECT_GE(fastest, 0.9 * drive.fastest());
+}
+
+TEST(Drives, RampRisesHoldsAndFalls) {
+  const double dt = 1e-3;
+  for (const bool smooth : {false, true}) {
+    const drives::Ramp ramp(2e-6, dt, 40, 100, smooth);
+    expect_rates_of(ramp, 200, 2e-6);
+    EXPECT_EQ(ramp.value(-1), 0);
+    EXPECT_EQ(ramp.value(0), 0);
+    EXPECT_NEAR(ramp.value(20), 1e-6, 1e-18);
+    EXPECT_EQ(ramp.value(40), 2e-6);
+    EXPECT_EQ(ramp.value(140), 2e-6);
+    EXPECT_NEAR(ramp.value(160), 1e-6, 1e-18);
+    EXPECT_NEAR(ramp.value(180), 0, 1e-18);
+    EXPECT_NEAR(ramp.value(10'000), 0, 1e-18);
+  }
+  EXPECT_EQ(drives::Ramp(3, dt).value(1), 3) << "a jump within one step";
+  EXPECT_EQ(drives::Ramp(3, dt).value(std::int64_t{1} << 60), 3) << "held for ever";
+}
+
+TEST(Drives, ConstantRateAndTable) {
+  const drives::ConstantRate even(-1e-3, 1e-4, 1);
+  expect_rates_of(even, 1000, 1e-4);
+  EXPECT_DOUBLE_EQ(even.value(500), -5e-5);
+  const drives::Table table(0.25, {1, 2, 4}, {5, 7, 3});
+  expect_rates_of(table, 30, 7);
+  EXPECT_EQ(table.value(0), 5);
+  EXPECT_EQ(table.value(6), 6);   // 1.5 s
+  EXPECT_EQ(table.value(12), 5);  // 3 s
+  EXPECT_EQ(table.value(100), 3);
+  EXPECT_EQ(table.shortest_time(), 1);
+  EXPECT_EQ(table.fastest(), 2);
+  EXPECT_THROW(drives::Table(0.25, {1, 1}, {5, 7}), InputError);
+  EXPECT_THROW(drives::Table(0.25, {1, 2}, {5, NAN}), InputError);
+  EXPECT_THROW(drives::Table(0.25, {1}, {5}), InputError);
+  EXPECT_THROW(drives::Table(0.25, {1, 2, 3}, {5, 6}), InputError);
+}
+
+class DrivenWalls : public BackendTest<StepperCase> {
+ protected:
+  /// Motion of particles and walls, and forces on walls, against the reference.
+  void compare(const TestScene& scene, StepperOptions options, std::int64_t steps) {
+    const auto& [backend, precision, form, geometry] = GetParam();
+    options.form = form;
+    options.geometry = geometry;
+    const auto reference =
+        make_stepper(Backend::reference, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+    options.precision = precision;
+    const auto stepper = make_stepper(backend, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+    reference->advance(steps);
+    stepper->advance(steps / 3);
+    stepper->advance(steps - steps / 3);
+    // as StepperAgainstReference::tolerance()
+    const double rounding = precision == Precision::double_ ? 100 * 0x1p-53 : 10 * 0x1p-24;
+    const double tolerance = rounding * static_cast<double>(std::max<std::int64_t>(steps, 100));
+    const ParticleState expected = reference->particles(), found = stepper->particles();
+    EXPECT_LT(relative_difference(found.displacement, expected.displacement), tolerance);
+    // turns are differences of slips, of which drives along the facets leave little
+    EXPECT_LT(relative_difference(found.rotation, expected.rotation), 10 * tolerance);
+    EXPECT_LT(relative_difference(found.velocity, expected.velocity), tolerance);
+    EXPECT_LT(relative_difference(found.force, expected.force), tolerance);
+    const Observation want = reference->observe(), have = stepper->observe();
+    const auto list = [](const auto& array) { return std::vector<Vec3d>(array.begin(), array.end()); };
+    EXPECT_LT(relative_difference(list(have.wall_force), list(want.wall_force)), tolerance);
+    // a cyclic drive's rates add up to its value to second order in the step
+    EXPECT_LT(relative_difference(list(have.wall_displacement), list(want.wall_displacement)), 1e-4);
+  }
+  static TestScene scene(unsigned seed) {
+    NetworkSpec spec;
+    spec.lateral_walls = true;
+    return make_scene(random_specimen(seed), spec);
+  }
+};
+
+TEST_P(DrivenWalls, OnSeveralAxesAtOnce) {
+  const TestScene of = scene(test_seed());
+  StepperOptions options = slow_options(of);
+  const double size = of.specimen.box.size.z;
+  drives::Cyclic shear = top_drive(options);
+  shear.amplitude *= 0.3;
+  options.boundary.move(wall_z_hi, 0, std::make_shared<drives::Cyclic>(shear));
+  options.boundary.move(wall_x_lo, 0, std::make_shared<drives::Ramp>(2e-5 * size, options.dt, 60, 30, true));
+  options.boundary.move(wall_y_hi, 1, std::make_shared<drives::ConstantRate>(-1e-2 * size, options.dt, 1.0));
+  compare(of, options, 150);
+}
+
+TEST_P(DrivenWalls, UnderForcesWithFixedParticlesAndWeight) {
+  const TestScene of = scene(test_seed() + 1);
+  StepperOptions options = shaking_options(of);
+  double mass = 0;
+  for (const double m : of.inertia.mass) mass += m;
+  options.density_scaling = 2;
+  const double area = of.specimen.box.size.x * of.specimen.box.size.y;
+  options.boundary.load(wall_z_hi, 2, std::make_shared<drives::Ramp>(-1e5 * area, options.dt, 50), mass);
+  options.boundary.load(
+      wall_z_hi, 0, std::make_shared<drives::Table>(options.dt, std::vector{0.0, 1e-3}, std::vector{0.0, 3e4 * area}),
+      mass);
+  options.boundary.fixed = {3, 17};
+  for (const double m : of.inertia.mass) options.boundary.body_force.push_back({0, 100 * m, -981 * m});
+  compare(of, options, 150);
+}
+
+// In blocks of steps as well, where a device takes them
+TEST_P(DrivenWalls, FixedParticlesAndWeightUnderASlowDrive) {
+  const TestScene of = scene(test_seed() + 2);
+  StepperOptions options = slow_options(of);
+  options.boundary.fixed = {5};
+  for (const double m : of.inertia.mass) options.boundary.body_force.push_back({0, 0, -9810 * m});
+  compare(of, options, 300);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DrivenWalls, all_stepper_cases(), [](const auto& info) { return name_of_case(info); });
+
+class Platen : public BackendTest<std::tuple<Backend, Precision>> {
+ protected:
+  std::unique_ptr<Stepper> make(const TestScene& scene, StepperOptions options) const {
+    options.precision = std::get<Precision>(GetParam());
+    return make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, options);
+  }
+};
+
+// What the drive and the bottom wall give in a step is what the particles and the platen gain: exactly, but for
+// rounding.
+TEST_P(Platen, KeepsMomentum) {
+  const TestScene scene = make_scene(random_specimen(test_seed()));
+  StepperOptions options = shaking_options(scene);
+  const double mass = 0.02, force = -3.0;
+  options.boundary = Boundary().load(wall_z_hi, 2, std::make_shared<drives::Ramp>(force, options.dt, 20), mass);
+  const auto stepper = make(scene, options);
+  double given = 0, largest = 0, before = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Observation now = stepper->observe();
+    before = now.wall_displacement[wall_index(wall_z_hi)].z;
+    const double on_bottom = now.wall_force[wall_index(wall_z_lo)].z;
+    given += options.dt * (options.boundary.wall[wall_index(wall_z_hi)].axis[2].drive->value(k) - on_bottom);
+    largest = std::max(largest, std::abs(given));
+    stepper->advance(1);
+  }
+  const double velocity = (stepper->observe().wall_displacement[wall_index(wall_z_hi)].z - before) / options.dt;
+  double momentum = mass * velocity;
+  const ParticleState state = stepper->particles();
+  for (std::size_t i = 0; i < scene.specimen.size(); ++i) momentum += scene.inertia.mass[i] * state.velocity[i].z;
+  // forces of some thousand contacts, each rounded, over a hundred steps that average them
+  const double rounding = std::get<Precision>(GetParam()) == Precision::double_ ? 0x1p-53 : 0x1p-24;
+  EXPECT_NEAR(momentum, given, 300 * rounding * largest);
+  EXPECT_GT(largest, 0.1 * std::abs(force) * 100 * options.dt);
+}
+
+// Damped, an elastic column under a platen comes to rest at F/K.
+TEST_P(Platen, ComesToRestAtTheStaticDisplacement) {
+  const double side = 2e-3, modulus = 3e9;
+  const int layers = 3;
+  const HandMade made = cubic_lattice_network(1, 1, layers, side, 2e-5);
+  Laws laws;
+  laws[static_cast<std::size_t>(PairType::mm)] = laws::Elastic{modulus, 0.2};
+  laws[static_cast<std::size_t>(PairType::mw)] = laws::Elastic{modulus, 0};
+  const TestScene scene{made.specimen, made.network, laws, made.inertia};
+  StepperOptions options;
+  options.geometry = Geometry::fixed;
+  const double mass = 2e-5;
+  options.dt = 0.3 * critical_step(scene.network, scene.laws, scene.inertia, options).dt;
+  options.damping_kind = Damping::local;
+  options.damping = 0.7;
+  const double force = -2.0;
+  options.boundary = Boundary().load(wall_z_hi, 2, std::make_shared<drives::Ramp>(force, options.dt, 100), mass);
+  const auto stepper = make(scene, options);
+  stepper->advance(4000);
+  // contacts in a row: E·A/d each, two of half the length at the walls
+  const double expected = force / (modulus * side * side / (layers * side));
+  const Observation now = stepper->observe();
+  EXPECT_NEAR(now.wall_displacement[wall_index(wall_z_hi)].z, expected, 1e-4 * std::abs(expected));
+  EXPECT_NEAR(now.wall_force[wall_index(wall_z_hi)].z, -force, 1e-3 * std::abs(force));
+  EXPECT_NEAR(now.wall_force[wall_index(wall_z_lo)].z, force, 1e-3 * std::abs(force));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Platen,
+                         testing::Combine(all_backends(),
+                                          testing::Values(Precision::double_, Precision::mixed, Precision::single)),
+                         [](const auto& info) { return name_of_case(info); });
+
+TEST(BoundaryInput, IsRefusedByName) {
+  const TestScene scene = make_scene(random_specimen(5));
+  const auto message = [&](const Boundary& boundary) -> std::string {
+    StepperOptions options;
+    options.dt = 1e-7;
+    options.boundary = boundary;
+    try {
+      make_stepper(Backend::cpu, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+    } catch (const InputError& error) { return error.what(); }
+    return "accepted";
+  };
+  const auto ramp = std::make_shared<drives::Ramp>(1e-6, 1e-7, 5);
+  EXPECT_EQ(message(Boundary().move(wall_x_hi, 1, ramp)), "accepted");
+  EXPECT_NE(
+      message(Boundary().move(wall_x_hi, 1, std::make_shared<drives::Ramp>(1e-6, 2e-7, 5))).find("wall +x, axis y"),
+      std::string::npos);
+  EXPECT_NE(message(Boundary().move(wall_y_lo, 0, nullptr)).find("no drive"), std::string::npos);
+  EXPECT_NE(message(Boundary().load(wall_z_hi, 2, ramp, 0)).find("mass"), std::string::npos);
+  Boundary fixed;
+  fixed.fixed = {-1};
+  EXPECT_NE(message(fixed).find("fixed particle"), std::string::npos);
+  Boundary weight;
+  weight.body_force.resize(3);
+  EXPECT_NE(message(weight).find("body forces"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace macadam::test
