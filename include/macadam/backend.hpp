@@ -12,7 +12,8 @@ namespace macadam {
 enum class Backend : std::uint8_t { automatic, cpu, cuda, reference };
 /// Which quantities are double: all, the states and particles (`mixed`), or none.
 enum class Precision : std::uint8_t { double_, mixed, single };
-/// `condensed`: six generalised displacements a contact; `points`: three displacements a contact point (the paper's).
+/// `condensed`: six generalised displacements a contact; `points`: three displacements a contact point, as [1] has it.
+/// Both give the same forces: docs/model.md, section 7.
 enum class ContactForm : std::uint8_t { condensed, points };
 /// `updated`: Eq. 5–7 every step; `fixed`: normals and lever arms of the start (small strain).
 enum class Geometry : std::uint8_t { updated, fixed };

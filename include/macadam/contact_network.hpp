@@ -18,7 +18,7 @@ inline constexpr int pair_types = 6, particle_pair_types = 4;  ///< the latter f
 /// `"M-M" "M-A" "A-A" "inner" "A-W" "M-W"`.
 const char* to_string(PairType pair);
 
-/// `lumped`: area moments of the contact points (the paper's); `exact`: of the polygon (condensed form only);
+/// `lumped`: area moments of the contact points, as in [1]; `exact`: of the polygon (condensed form only);
 /// `one_point`: the whole area at the centroid, which does not resist bending and twist.
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
@@ -75,7 +75,7 @@ struct ContactNetwork {
 /// The frame of a unit normal, without branches (Duff et al. 2017); s × t = n.
 void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t);
 
-/// Builds the network of a tessellation (Eq. 5–7 at the start; physics: dv = ½(R_a − R_b)(d − R_a − R_b)/d). Facets of
+/// Builds the network of a tessellation (Eq. 5–7 at the start: docs/model.md, section 3). Facets of
 /// voids are free surface: no contacts.
 /// \throws InputError when a particle is hidden (its number is named) or when no contact is left.
 ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec = {});

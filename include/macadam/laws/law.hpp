@@ -14,7 +14,7 @@
 ///   - `std::complex<double> stiffness(std::complex<double> s) const` — exact stiffness [Pa] for motions as e^(s·t);
 ///     s = iω for the steady state at ω [1/s];
 ///   - `template <class F> void each_parameter(std::complex<double> s, F&& f) const` — calls f(name, ∂ln k*/∂ln θ) for
-///     each parameter θ of the stiffness, by the paper's symbol;
+///     each parameter θ of the stiffness, by its symbol in docs/model.md ("E_m", "C_1");
 ///   - `std::complex<double> unit_compliance(int l, std::complex<double> s) const` — x_l per unit of f [1/Pa], for l
 ///     below units();
 ///   - `template <class R> struct Step` — coefficients of one time step in precision R, made by
