@@ -31,19 +31,19 @@ struct FacetLimits {
 
 /// Which facets become contacts.
 struct NetworkSpec : FacetLimits {
-  std::array<FacetLimits, particle_pair_types>
-      of_pair;  ///< of one PairType that is not a wall's: each that is given is in place of all's
+  /// Limits of single pair types between particles; one that is given takes the place of the limit for all pairs.
+  std::array<FacetLimits, particle_pair_types> of_pair;
   Quadrature quadrature = Quadrature::lumped;
   bool bottom_top_walls = true;  ///< facets on −z and +z are contacts
   bool lateral_walls = false;    ///< facets on ±x and ±y are contacts
 };
 
-/// Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t² over a facet, local coordinates about x0.
+/// Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t² over a facet, local coordinates about x0: model (3.4).
 struct AreaMoments {
   double a = 0, s = 0, t = 0, ss = 0, st = 0, tt = 0;  ///< [m²] [m³] [m³] [m⁴] [m⁴] [m⁴]
 };
 
-/// One contact. Lever arms are signed: x0 = x_a + arm_a·n = x_b − arm_b·n.
+/// One contact (docs/model.md, section 3). Lever arms are signed: x0 = x_a + arm_a·n = x_b − arm_b·n.
 struct Contact {
   std::int32_t a = 0, b = 0;  ///< particle numbers in specimen order; b may be a Wall
   PairType pair = PairType::mm;

@@ -135,7 +135,7 @@ struct ShapeSpec {
   PlacementTest test = PlacementTest::surfaces;  ///< insertion
   double gap = 0.01;  ///< packing: least distance of two surfaces, over the smaller one's D^I
   /// Stiffness of the shapes' surfaces against the mastic while it relaxes, over that of a pair of mastic spheres, 0 to
-  /// 10. At 0 only the spheres of the shapes hold the mastic out.
+  /// 10. At 0 only the spheres that fill the shapes hold the mastic out.
   double hold_out = 0;
 };
 
