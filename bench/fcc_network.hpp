@@ -10,7 +10,7 @@
 
 namespace macadam::bench {
 
-/// About `particles` spheres, 1 mm apart; pair types in the proportions of the paper's specimen. Condensed form only:
+/// About `particles` spheres, 1 mm apart; pair types in the proportions of the specimen SS of [1]. Condensed form only:
 /// the facets have no points. Walls: the lowest and the highest layer touch a wall.
 inline test::TestScene fcc_scene(std::size_t particles, bool walls = false) {
   test::TestScene out;

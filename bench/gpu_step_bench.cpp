@@ -140,7 +140,7 @@ class Table {
   std::ofstream csv_;
 };
 
-/// The paper's laws with so many Kelvin units, of the same sum of compliances.
+/// The laws of [1] with so many Kelvin units, of the same sum of compliances.
 test::Laws laws_of_units(int units) {
   test::Laws laws = test::am1_laws();
   for (auto& law : laws) {

@@ -186,8 +186,8 @@ def pictures():
 
 def head(runs):
     return ["# The paper, and ours beside it", "",
-            *wrapped(f"""Every table and figure of the paper that has specimens in it. Made by `scripts/documents` of what
-                `scripts/paper` leaves in [bench/results](../bench/results); do not edit. Ours, and the paper's in
+            *wrapped(f"""Every table and figure of [the paper](model.md#source) that has specimens in it. Made by
+                `scripts/documents` of what `scripts/paper` leaves in [bench/results](../bench/results); do not edit. Ours, and the paper's in
                 brackets; where the two differ by more than 10 % the cell is bold, and its letter stands for the reason
                 [below](#what-differs-and-why). Means of {len(runs['SS'])} seeds; ± is half the range over the seeds,
                 everywhere. Scenes: `examples/ac14_ss_am1` and `examples/ac14_ms_*`. Figures without numbers in the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file aggregate_cube.hpp  A cube of one aggregate between two walls, from which the paper has its inner contact
+/// \file aggregate_cube.hpp  A cube of one aggregate between two walls, from which [1] has its inner contact
 /// moduli.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace macadam::test {
 
-/// Spheres that fill aggregates, with the paper's modulus of the contacts among them.
+/// Spheres that fill aggregates, with the modulus of [1] for the contacts among them.
 struct InnerSpheres {
   const char* name;
   double radius_min, radius_max;  ///< [m]

@@ -38,7 +38,7 @@ struct Case {
   double gauge, walls;     ///< our own means of twenty seeds [Pa]
   double deviation;        ///< standard one among the seeds, the larger of both [Pa]
   unsigned seeds;          ///< taken here: cubes of coarse spheres cost a tenth and differ three times as much
-  double contact_modulus;  ///< with which the aggregate has its 60 GPa: the paper's where that does
+  double contact_modulus;  ///< with which the aggregate has its 60 GPa: that of [1] where it does
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.spheres->name << ", " << to_string(c.filling); }
@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(All, CubeOfSpheres, testing::ValuesIn(cases()), [](cons
   return std::string(info.param.spheres->name) + "_" + to_string(info.param.filling);
 });
 
-// What the paper found its contact moduli with: the rock's 60 GPa. Of uniform strain, with facets in all directions
+// What [1] found its contact moduli with: the rock's 60 GPa. Of uniform strain, with facets in all directions
 // alike, a large body of theirs has 59.7 (fine) and 59.2 GPa (coarse), from which relaxation takes a few per cent: 3 %,
 // and four standard deviations of a mean of so many seeds.
 TEST_P(CubeOfSpheres, HasTheRocksModulusAndUniformStrainsPoissonRatio) {
@@ -125,7 +125,7 @@ TEST_P(CubeOfSpheres, HasTheReferencesModulusBelowThatOfUniformStrain) {
   EXPECT_GT(found, 0.85 * affine);  // regression: ours relax by 4 to 10 %, most where flat layers lie along the walls
 }
 
-// Regression: of fixed seeds, with the paper's moduli and for coarse cubes filled as shapes with that found by
+// Regression: of fixed seeds, with the moduli of [1] and for coarse cubes filled as shapes with that found by
 // ourselves.
 TEST_P(CubeOfSpheres, HasTheModulusOfTheAggregate) {
   if (!long_tests) GTEST_SKIP() << "the same code as above, for other numbers";

@@ -79,6 +79,12 @@ FAULTS = [
     ("docs/accuracy.md", unmarked_twin, "is typed by hand"),
     ("docs/skips.md", lambda t: t.replace(". The table is that of", ".\n<!--= twice -->0 %<!--/-->", 1),
      "begins the line"),
+    ("docs/model.md", lambda t: t.replace("(model/motion.md)", "(model/movement.md)", 1), "which is not there"),
+    ("docs/model/motion.md", lambda t: t + "\nSee [the code](../../host/nowhere.cpp).\n", "which is not there"),
+    ("docs/shapes.md", lambda t: t.replace("#your-own-shapes", "#none") + "\n[here](#not-a-heading)\n",
+     "without this heading"),
+    ("docs/scene.md", lambda t: t.replace("(shapes.md#your-own-shapes)", "(shapes.md#my-shapes)", 1),
+     "without this heading"),
 ]
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// example_scenes_test.cpp  The scenes in examples/ hold what the paper's tables give, and a law for every contact.
+// example_scenes_test.cpp  The scenes in examples/ hold what the tables of [1] give, and a law for every contact.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -49,7 +49,7 @@ TEST_P(ExampleScene, HasEveryLaw) {
   EXPECT_EQ(scene.laws[int(PairType::aa)].has_value(), !scene.specimen.aggregate.empty());
 }
 
-/// Elastic contacts: the paper's modulus of an aggregate's contacts (Table 4), within aggregates that which its cubes
+/// Elastic contacts: the modulus in [1] of an aggregate's contacts (Table 4), within aggregates that which its cubes
 /// of fine and of coarse spheres need for the rock's 60 GPa, at a wall the stiffest spring of what touches it.
 TEST_P(ExampleScene, HasThePapersElasticLaws) {
   const Scene scene = this->scene();
@@ -125,9 +125,9 @@ TEST(ExampleScenes, AC14HasTheCountsOfTable3AndTheModuliOfTable4) {
   EXPECT_EQ(std::get<laws::Elastic>(*scene.laws[int(PairType::aa)]).alpha, 0.05);
 }
 
-/// The paper's AC 14 by mass: 16.3, 12.5, 23.4 and 15.3 % of the aggregate are above 2 mm, which with its density and
+/// The AC 14 of [1] by mass: 16.3, 12.5, 23.4 and 15.3 % of the aggregate are above 2 mm, which with its density and
 /// 5.2 % of binder are nearly its design formulation by volume, 14.0, 11.0, 20.7 and 13.6 % of the solids. They differ
-/// by what the paper rounds and does not say (the binder's density): half a percentage point.
+/// by what [1] rounds and does not say (the binder's density): half a percentage point.
 TEST(ExampleScenes, AC14ByMassIsTheDesignFormulation) {
   const Scene scene = read_scene(fs::path(MACADAM_EXAMPLES) / "ac14_recipe" / "scene.toml");
   const Scene design = read_scene(fs::path(MACADAM_EXAMPLES) / "ac14_ms_design" / "scene.toml");

@@ -125,7 +125,7 @@ Eigen::MatrixXd free_motions(const Specimen& s) {
   return out;
 }
 
-// Inner contacts s times as stiff as the paper's: the clusters become rigid bodies as s grows. With u = T·q the
+// Inner contacts s times as stiff as those of [1]: the clusters become rigid bodies as s grows. With u = T·q the
 // condensed network is Tᵀ·K·T·q = Tᵀ·p without any inner contact; what it leaves, g = p − K·T·q, is what clusters must
 // bear, and yields gᵀ·K_inner⁻¹·g / s. The modulus is convex in 1/s, so it is never below the condensed one less that,
 // and never above the condensed one.

@@ -13,7 +13,7 @@
 namespace macadam::test {
 namespace {
 
-/// The paper's AC 14: shares of mass between its sieves, summed; one density of rock, the binder's assumed.
+/// The AC 14 of [1]: shares of mass between its sieves, summed; one density of rock, the binder's assumed.
 MixDesign ac14() {
   MixDesign d;
   d.gradation = {{0.019, 1},     {0.0125, 0.837},   {0.0095, 0.712},   {0.00475, 0.478},

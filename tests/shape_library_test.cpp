@@ -102,8 +102,8 @@ const Property elongation = [](const ShapeMeasure& m) { return m.elongation(); }
 const Property sphericity_true = [](const ShapeMeasure& m) { return m.sphericity_true; };
 const Property sphericity_working = [](const ShapeMeasure& m) { return m.sphericity_working(); };
 
-/// A row of Table 1: the average within `share` of the paper's; the range covers the paper's to the two decimals that
-/// the paper prints, and goes no more than 5 % beyond: no outliers.
+/// A row of Table 1: the average within `share` of that in [1]; the range covers that of [1] to the two decimals that
+/// [1] prints, and goes no more than 5 % beyond: no outliers.
 void expect_ratio(const char* name, const std::vector<double>& v, double low, double mean, double high) {
   EXPECT_NEAR(average(v), mean, 0.05 * mean) << name;
   const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
@@ -228,7 +228,7 @@ const std::vector<Correlations> table_2{
 };
 
 /// Fisher's z = artanh r differs between two samples of n shapes of one population by √(2/(n − 3)), its standard error:
-/// by how many of them ours and the paper's do.
+/// by how many of them ours and those of [1] do.
 double fisher_errors(double ours, double paper, std::size_t shapes) {
   return (std::atanh(ours) - std::atanh(paper)) / std::sqrt(2.0 / (static_cast<double>(shapes) - 3));
 }
@@ -245,7 +245,7 @@ TEST(ShapeLibrary, CorrelationsAreThoseOfTable2) {
       const double errors = fisher_errors(ours, paper, values(a.property, counts).size());
       SCOPED_TRACE(fmt::format("{} and {}: {:.2f}, paper {:.2f}", a.name, b.name, ours, paper));
       const std::string pair = std::string(b.name) + ' ' + a.name;
-      // One in twenty samples is farther off. Fl divides by a sieve, and those of the paper's classes of shapes are
+      // One in twenty samples is farther off. Fl divides by a sieve, and those of the classes of [1] are
       // wider than those that its Fl must have been taken with: see the next test.
       EXPECT_LT(std::abs(errors), pair == "F Fl" ? 2.5 : 2);
       // The generator pairs its values until what it is asked for is met to 0.1, and makes stones to a per cent of

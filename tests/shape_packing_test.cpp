@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_packing_test.cpp  The design formulation of the paper's Table 3 in full: 56.3 % of the box is aggregate.
+/// \file shape_packing_test.cpp  The design formulation of Table 3 of [1] in full: 56.3 % of the box is aggregate.
 #include <gtest/gtest.h>
 
 #include <chrono>

@@ -113,7 +113,7 @@ inline double evenness_of_directions(const std::vector<PlacedAggregate>& placed,
   return std::min({evenness(x), evenness(y), evenness(z)});
 }
 
-/// The mix of the paper's Table 3, "Design formulation", in its box.
+/// The mix of Table 3 of [1], "Design formulation", in its box.
 inline SpecimenSpec design_formulation() {
   SpecimenSpec spec;
   spec.box = {{0.05, 0.05, 0.08}};

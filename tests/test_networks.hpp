@@ -28,7 +28,7 @@ inline Laws same_law(const Law& law) {
   return out;
 }
 
-/// The paper's mastic–mastic constants (Table 4), in Pa and Pa·s.
+/// The mastic–mastic constants of [1] (Table 4), in Pa and Pa·s.
 inline laws::GeneralisedKelvin mastic_am1() {
   return {1.115e10, 2.515e9, {3.799e8, 1.600e9, 4.308e10}, {8.950e9, 5.695e9, 1.114e9}, 0.10};
 }

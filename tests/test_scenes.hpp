@@ -25,7 +25,7 @@ struct TestScene {
   Inertia inertia;
 };
 
-/// The paper's AM1 laws, one for each pair type.
+/// The AM1 laws of [1] (Table 4), one for each pair type.
 inline Laws am1_laws() {
   const auto mm = mastic_am1();
   laws::GeneralisedKelvin ma{3.511e10, 7.921e9, {1.197e9, 5.039e9, 1.357e11}, {2.819e10, 1.794e10, 3.510e9}, 0.10};

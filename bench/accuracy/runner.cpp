@@ -79,7 +79,7 @@ struct Runner::Network {
 Runner::Runner(std::filesystem::path root, std::filesystem::path out) : root_(std::move(root)), out_(std::move(out)) {}
 Runner::~Runner() = default;
 
-/// Laws and materials of the paper's specimens: those of `mix`, and of a cluster's inner contacts.
+/// Laws and materials of the specimens of [1]: those of `mix`, and of a cluster's inner contacts.
 const Scene& Runner::scene(const std::string& name, const std::string& mix) {
   auto [at, fresh] = scenes_.try_emplace({name, mix});
   if (!fresh) return at->second;

@@ -40,7 +40,7 @@ void even_out(Image<float>& field) {
 }
 
 /// Share of grey from mastic to aggregate, less the threshold's, averaged over blocks of `edge` voxels; and not more
-/// than what labels say of whose the place is. The paper's surfaces know labels alone.
+/// than what labels say of whose the place is. Surfaces of [1] know labels alone.
 Image<float> field_of(const Segmentation& scan, const Thresholds& thresholds, std::uint32_t id, const GrainBox& box,
                       std::int64_t edge, bool paper) {
   std::array<std::int64_t, 3> size, first;
@@ -100,8 +100,8 @@ Image<float> field_of(const Segmentation& scan, const Thresholds& thresholds, st
   return grey;
 }
 
-/// The paper's: a surface of voxels, of which the Delaunay triangulation of its points is taken anew. The outside of
-/// that is the convex hull.
+/// As in [1], section 3.2.1: a surface of voxels, of which the Delaunay triangulation of its points is taken anew. The
+/// outside of that is the convex hull.
 Surface rebuilt(const Surface& surface) {
   Surface hull{surface.name, {}, convex_hull(surface.points)};
   std::vector<std::int32_t> number(surface.points.size(), -1);

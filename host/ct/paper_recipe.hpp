@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file paper_recipe.hpp  The steps of section 3.2.1 in their order, for comparison. What the paper leaves open is
+/// \file paper_recipe.hpp  The steps of [1], section 3.2.1, in their order, for comparison. What [1] leaves open is
 /// taken as its programs have it: twenty ring zones, a median of 3 × 3 × 3 voxels, one round of erosion and dilation by
 /// a voxel, a watershed that joins basins less than half a voxel deep.
 #pragma once

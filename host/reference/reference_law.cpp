@@ -60,7 +60,8 @@ ReferenceLaw make_reference_law(const Law& law, const std::string& pair) {
 //
 //   Δf·[ 1/k_m + Δt/(2η_m) + Σ μ_l/2 ] = dx − (Δt/η_m)·f0 − Σ μ_l·(f0 − k·x_l)
 //
-// With a = 1 + kΔt/(2η), b = 1 − kΔt/(2η) the bracket is the paper's c, and μ_l·k·x_l = (1 − b/a)·x_l. Adding f0 gives
+// With a = 1 + kΔt/(2η), b = 1 − kΔt/(2η) the bracket is c of [1], Eq. 15, and μ_l·k·x_l = (1 − b/a)·x_l. Adding f0
+// gives
 //   c·f1 = dx + Σ (1 − b/a)·x_l − g·f0,   g = Σ μ_l/2 − 1/k_m + Δt/(2η_m),
 // so that Eq. 13 holds without its factor (1 + g/c) inside the bracket, and x_l + Δx_l = [b·x_l + Δt/(2η)·(f1 + f0)]/a
 // is Eq. 14 with the sum of the two forces, not their difference.

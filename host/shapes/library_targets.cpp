@@ -15,7 +15,7 @@
 namespace macadam {
 namespace {
 
-/// A distribution as its quantile function: straight between (shapes of the paper's 82 below it, value).
+/// A distribution as its quantile function: straight between (shapes of the 82 of [1] below it, value).
 struct Knot {
   double shapes, value;
 };
@@ -76,7 +76,7 @@ constexpr Correlation correlations[] = {{"SI", "D^L", -0.24},    {"SI", "D^I", -
                                         {"psi^A", "D^L", -0.07}, {"psi^A", "D^I", -0.03}, {"psi^A", "D^S", 0.24},
                                         {"psi^A", "F", 0.76},    {"psi^A", "E", 0.33},    {"points", "D^I", 0.6}};
 
-/// The paper's tables, where pairing decides. Extremes are wished a little outside the paper's, so that its ranges are
+/// Tables 1 and 2 of [1], where pairing decides. Extremes are wished a little outside its own, so that its ranges are
 /// covered.
 std::vector<Wish> paper_wishes() {
   using enum Statistic;
@@ -101,8 +101,8 @@ double found(const Wish& wish, const std::vector<ShapeMeasure>& shapes,
   return wish.statistic == Statistic::least ? spread.min : spread.max;
 }
 
-/// V over D^L·D^I·D^S of the paper's smallest and largest stone are 0.45 and 0.41, if their extremes are of one stone
-/// each; of an ellipsoid it is 0.52. To foresee V only: stones are not fitted to it.
+/// V over D^L·D^I·D^S of the smallest and the largest stone of [1] are 0.45 and 0.41, if their extremes are of one
+/// stone each; of an ellipsoid it is 0.52. To foresee V only: stones are not fitted to it.
 constexpr double fullness = 0.43;
 
 /// Columns of strata, and which values of them share a shape.

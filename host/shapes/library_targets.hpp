@@ -10,9 +10,9 @@
 namespace macadam {
 
 /// One measure a shape, from the smallest to the largest D^I. Set are points, facets, D^L, D^I, D^S, ψ^w
-/// and, roughly, V; what else a measure derives from these (SI, F, Fl, E, ψ^A) then has the paper's statistics.
+/// and, roughly, V; what else a measure derives from these (SI, F, Fl, E, ψ^A) then has the statistics of [1].
 ///
-/// D^I, E, F, ψ^w and the number of points are strata of distributions that have the paper's ranges, averages, sieve
+/// D^I, E, F, ψ^w and the number of points are strata of distributions that have the ranges of [1], its averages, sieve
 /// classes and classes of elongation and flatness. Which of E, F and points meet which D^I is decided by exchanging
 /// values between two shapes as long as that brings what follows nearer to the rest of Table 1 and to Table 2; ψ^w then
 /// goes with ψ^A. `shapes` is one or more.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file statistics.hpp  What a library of shapes is like as a whole: the paper's Tables 1 and 2.
+/// \file statistics.hpp  What a library of shapes is like as a whole: Tables 1 and 2 of [1].
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace macadam {
 
 /// One geometrical property: a column of every table.
 struct ShapeProperty {
-  const char* name;    ///< the paper's symbol
+  const char* name;    ///< the symbol of [1]
   const char* column;  ///< heading in CSV files, with the SI unit
   const char* unit;    ///< in the printed table, e.g. `"mm"`
   double per_unit;     ///< SI value × this = number in that unit
@@ -20,10 +20,10 @@ struct ShapeProperty {
   bool standardised;   ///< SI and Fl: defined by their standards for D^I ≥ 4 mm only; tables leave smaller shapes out
   bool correlated;     ///< has a row in the correlation matrix
   double (*value)(const ShapeMeasure&);  ///< [SI]
-  std::array<double, 3> paper;           ///< min, average, max of the paper's 82 aggregates, in `unit`
+  std::array<double, 3> paper;           ///< min, average, max of the 82 aggregates of [1], in `unit`
 };
 
-/// In the paper's order: points, facets, D^L, D^I, D^S, V, A, SI, F, Fl, E, ψ^w, ψ^A.
+/// In the order of [1], Table 1: points, facets, D^L, D^I, D^S, V, A, SI, F, Fl, E, ψ^w, ψ^A.
 const std::vector<ShapeProperty>& shape_properties();
 
 /// The property where the tables count it, NaN elsewhere.
@@ -44,7 +44,7 @@ std::vector<std::vector<double>> correlation_matrix(const std::vector<ShapeMeasu
 /// `name,` and one column a property, then the two sieves of the class [m] (empty where there is none above); SI units.
 std::string shapes_csv(const std::vector<std::string>& names, const std::vector<ShapeMeasure>& shapes);
 
-/// The table of minimum, average and maximum, the paper's beside ours; SI units.
+/// The table of minimum, average and maximum, those of [1] beside ours; SI units.
 std::string statistics_csv(const std::vector<ShapeMeasure>& shapes);
 
 /// The correlation matrix with headings.

@@ -10,13 +10,15 @@
 namespace macadam {
 
 enum class Backend : std::uint8_t { automatic, cpu, cuda, reference };
-/// Which quantities are double: all, the states and particles (`mixed`), or none.
+/// Which quantities are double: all; the states of contacts and particles (`mixed`); none but displacements (`single`).
 enum class Precision : std::uint8_t { double_, mixed, single };
-/// `condensed`: six generalised displacements a contact; `points`: three displacements a contact point (the paper's).
+/// `condensed`: six generalised displacements a contact; `points`: three displacements a contact point, as [1] has it.
+/// Both give the same forces: docs/model.md, section 7.
 enum class ContactForm : std::uint8_t { condensed, points };
-/// `updated`: Eq. 5–7 every step; `fixed`: normals and lever arms of the start (small strain).
+/// `updated`: normals and lever arms follow the particles every step (docs/model.md, section 9); `fixed`: they stay
+/// those of the start, for small strain.
 enum class Geometry : std::uint8_t { updated, fixed };
-/// `local`: F_d = −χ|F|sign(v); `viscous`: F_d = −β·m·v.
+/// `local`: F_d = −χ|F|sign(v), component by component; `viscous`: F_d = −β·m·v. docs/model.md, section 10.
 enum class Damping : std::uint8_t { none, local, viscous };
 
 const char* to_string(Backend);

@@ -18,7 +18,7 @@ inline constexpr int pair_types = 6, particle_pair_types = 4;  ///< the latter f
 /// `"M-M" "M-A" "A-A" "inner" "A-W" "M-W"`.
 const char* to_string(PairType pair);
 
-/// `lumped`: area moments of the contact points (the paper's); `exact`: of the polygon (condensed form only);
+/// `lumped`: area moments of the contact points, as in [1]; `exact`: of the polygon (condensed form only);
 /// `one_point`: the whole area at the centroid, which does not resist bending and twist.
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
@@ -31,19 +31,19 @@ struct FacetLimits {
 
 /// Which facets become contacts.
 struct NetworkSpec : FacetLimits {
-  std::array<FacetLimits, particle_pair_types>
-      of_pair;  ///< of one PairType that is not a wall's: each that is given is in place of all's
+  /// Limits of single pair types between particles; one that is given takes the place of the limit for all pairs.
+  std::array<FacetLimits, particle_pair_types> of_pair;
   Quadrature quadrature = Quadrature::lumped;
   bool bottom_top_walls = true;  ///< facets on −z and +z are contacts
   bool lateral_walls = false;    ///< facets on ±x and ±y are contacts
 };
 
-/// Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t² over a facet, local coordinates about x0.
+/// Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t² over a facet, local coordinates about x0: model (3.4).
 struct AreaMoments {
   double a = 0, s = 0, t = 0, ss = 0, st = 0, tt = 0;  ///< [m²] [m³] [m³] [m⁴] [m⁴] [m⁴]
 };
 
-/// One contact. Lever arms are signed: x0 = x_a + arm_a·n = x_b − arm_b·n.
+/// One contact (docs/model.md, section 3). Lever arms are signed: x0 = x_a + arm_a·n = x_b − arm_b·n.
 struct Contact {
   std::int32_t a = 0, b = 0;  ///< particle numbers in specimen order; b may be a Wall
   PairType pair = PairType::mm;
@@ -75,7 +75,7 @@ struct ContactNetwork {
 /// The frame of a unit normal, without branches (Duff et al. 2017); s × t = n.
 void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t);
 
-/// Builds the network of a tessellation (Eq. 5–7 at the start; physics: dv = ½(R_a − R_b)(d − R_a − R_b)/d). Facets of
+/// Builds the network of a tessellation (Eq. 5–7 at the start: docs/model.md, section 3). Facets of
 /// voids are free surface: no contacts.
 /// \throws InputError when a particle is hidden (its number is named) or when no contact is left.
 ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec = {});

@@ -86,7 +86,7 @@ struct GreyLevels {
 
 enum class ScanRegion : std::uint8_t { found, whole, cylinder, prism };  ///< what of a scan is the specimen
 enum class Denoising : std::uint8_t { diffusion, median, none };         ///< diffusion keeps edges
-enum class SegmentRecipe : std::uint8_t { own, paper };                  ///< the steps of section 3.2.1
+enum class SegmentRecipe : std::uint8_t { own, paper };                  ///< paper: as [1], section 3.2.1
 
 /// Two fragments of the watershed that touch. The inscribed radius is that of the largest sphere inside.
 struct GrainCut {

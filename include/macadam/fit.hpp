@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fit.hpp  Contact laws from measured complex moduli.
+/// \file fit.hpp  Contact laws from measured complex moduli: docs/model.md, section 24.
 ///
 /// A generalised Kelvin chain, 2S2P1D or Huet–Sayegh is fitted to |E*| and φ over frequency, at one temperature or,
 /// with a shift law found together with it, at several. The misfit is Σ (ln |E*| − ln |E*|_measured)²/σ_E² + Σ (φ −

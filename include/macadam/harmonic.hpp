@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file harmonic.hpp  The steady state of a linear scene, (K*(s) + s²·M)·u = f for motions as e^(s·t).
+/// \file harmonic.hpp  The steady state of a linear scene, (K*(s) + s²·M)·u = f for motions as e^(s·t): docs/model.md,
+/// section 15.
 ///
 /// Same contact network, same area moments, same wall contacts as the time stepping (geometry of the start), so that it
 /// is both the accuracy reference of every explicit run and the fast way to |E*| and φ.
@@ -71,6 +72,7 @@ struct HarmonicResult {
 /// it.
 class Harmonic {
  public:
+  /// `typical_frequency`: one in the middle of those to be solved [Hz]; the preconditioner is made for it.
   /// \throws InputError naming the particles of a cluster that does not touch both walls, or a pair without a law;
   /// RunError when the stiffness is singular (a mechanism), a device is not there or has too little memory.
   Harmonic(const Specimen& specimen, const ContactNetwork& network,
@@ -78,8 +80,8 @@ class Harmonic {
            const HarmonicOptions& options, double typical_frequency);
   ~Harmonic();
 
-  /// Without inertia where `density_scaling` is 0; else with s²·M times it, as an explicit run of that scaling has, and
-  /// with viscous damping β, (s² + s·β)·M, likewise scaled.
+  /// The steady state at one frequency. With a `density_scaling` of 0 it has no inertia. Otherwise it has the term
+  /// density_scaling·(s² + s·β)·M, β the viscous damping [1/s], as a stepped run of that scaling and damping has.
   /// \throws RunError when the residual does not come down to the tolerance; InterruptedError.
   HarmonicResult solve(double frequency_hz, double density_scaling = 0, double viscous_damping = 0);
 

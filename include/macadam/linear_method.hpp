@@ -6,8 +6,9 @@
 
 namespace macadam {
 
-/// By iteration without factors; by iteration with Cholesky factors of the real stiffness; or by the first and, where
-/// it does not get there, by the second (up to Harmonic's largest_direct particles).
+/// `iterative`: by iteration without factors. `direct`: by iteration with Cholesky factors of the real part of the
+/// stiffness as preconditioner. `automatic`: the first and, where that does not reach the tolerance, the second, up to
+/// `largest_direct` particles (harmonic.hpp).
 enum class LinearMethod : std::uint8_t { automatic, iterative, direct };
 
 /// "auto", "iterative", "direct".

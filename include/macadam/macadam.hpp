@@ -5,7 +5,8 @@
 ///                                                          └─► Harmonic (frequency domain) ─► Results
 ///
 /// A newcomer reads the headers in this order; each noun is made in the folder of host/ or kernels/ with the same stem
-/// and tested in tests/ under the same stem.
+/// and tested in tests/ under the same stem. docs/model.md has the whole model; where a comment says "Eq. 13" or [1],
+/// it means the source that is named there.
 #pragma once
 
 #include "macadam/version.hpp"

@@ -3,7 +3,8 @@
 ///
 /// Aggregate above the cut size becomes particles, a size class between every two sieves; finer aggregate, filler and
 /// binder together are the mastic. Formulas: maximum density EN 12697-5 (mathematical procedure), air voids, voids in
-/// the mineral aggregate and voids filled with binder EN 12697-8; docs/mix-design.md works an example.
+/// the mineral aggregate and voids filled with binder EN 12697-8. They stand in docs/model.md, section 22;
+/// docs/mix-design.md works an example.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sensitivity.hpp  What a solution of the frequency domain says of its parameters, for nothing.
+/// \file sensitivity.hpp  Derivatives of E* by its parameters, from one solution of the frequency domain:
+/// docs/model.md, section 16.
 ///
 /// E* = H/A · uᵀ·(K*(s) − inertia·M)·u at unit displacement of the top wall is stationary in u, so that
 /// dE*/dθ = H/A · uᵀ·(∂K*/∂θ)·u: one sum over the contacts of the solution at hand.

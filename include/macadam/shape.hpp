@@ -63,7 +63,7 @@ SurfaceVerdict check_surface(const Surface& surface);
 /// \throws RunError when nothing helped, with the verdict.
 Surface repair_surface(const Surface& surface, std::string* what = nullptr, const std::filesystem::path& as = {});
 
-/// The properties of section 4.1 (Eq. 18–23). Lengths in m, directions are unit vectors.
+/// The properties of [1], section 4.1 (Eq. 18–23). Lengths in m, directions are unit vectors.
 struct ShapeMeasure {
   std::int64_t points = 0, facets = 0;
   double d_long = 0;          ///< D^L: between the two most distant points of the surface
@@ -85,7 +85,7 @@ struct ShapeMeasure {
   double flakiness() const;
 };
 
-/// Sieves of the paper's classes [m]: 0, 0.5, 1, 2, 4, 6.3, 10, 12.5, 16, 20 (×1e-3).
+/// Sieves of the classes of [1], section 4.1 [m]: 0, 0.5, 1, 2, 4, 6.3, 10, 12.5, 16, 20 (×1e-3).
 const std::vector<double>& standard_sieves();
 /// The two sieves [m] between which D^I lies; the last class is open above (infinite).
 std::array<double, 2> sieve_class(double d_intermediate);
@@ -105,7 +105,7 @@ struct MultiSphere {
 
 /// What a single sphere stands for where a shape takes fewer than FillSpec::least spheres.
 enum class SingleSphere : std::uint8_t {
-  intermediate,   ///< R = D^I/2: half the size by which sieves part, what the paper's Table 3 has
+  intermediate,   ///< R = D^I/2: half the size by which sieves part, as in Table 3 of [1]
   circumscribed,  ///< R of the smallest enclosing sphere
   volume          ///< R of the sphere of equal volume
 };
@@ -113,8 +113,8 @@ enum class SingleSphere : std::uint8_t {
 /// How a shape is filled with spheres.
 struct FillSpec {
   double radius_min = 0, radius_max = 0;  ///< drawn uniformly between them [m]
-  /// 1 − Σ sphere volumes / volume of the shape, −0.5 … 1; overlaps count twice. The paper's counts of equal spheres
-  /// fit 0.12.
+  /// 1 − Σ sphere volumes / volume of the shape, −0.5 … 1; overlaps count twice. Counts of equal spheres in [1],
+  /// Fig. 5, fit 0.12.
   double porosity = 0.12;
   std::int64_t least = 8;  ///< fewer spheres: one sphere in place of the cluster
   SingleSphere single = SingleSphere::intermediate;

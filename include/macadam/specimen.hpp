@@ -77,7 +77,8 @@ Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box);
 /// \throws RunError when the file cannot be written.
 void write_specimen_csv(const std::filesystem::path& file, const Specimen& specimen);
 
-/// How diameters are drawn between the two sieves of a class (physics: log-uniform fits the paper's Table 3).
+/// How diameters are drawn between the two sieves of a class (docs/model.md, section 19: log-uniform
+/// fits Table 3 of [1]).
 enum class SizeLaw : std::uint8_t { log_uniform, uniform, volume_uniform };
 
 /// One aggregate class: spheres whose diameters lie between two sieves.
@@ -107,7 +108,7 @@ struct VoidSpec {
 
 /// How places of shaped aggregates are found.
 enum class PlacementMethod : std::uint8_t {
-  insertion,  ///< one by one at random, largest first, each where it touches none before it (the paper's)
+  insertion,  ///< one by one at random, largest first, each where it touches none before it, as in [1]
   packing     ///< all at once: grown from a smaller scale while overlaps push them apart; reaches higher fractions
 };
 
@@ -123,7 +124,7 @@ struct ShapeSpec {
   enum class Library : std::uint8_t {
     aggregates,                  ///< shape_library()
     icosahedron,                 ///< subdivided_icosahedron()
-    aggregates_and_icosahedron,  ///< the icosahedron as one more of the library (the paper's section 3.3)
+    aggregates_and_icosahedron,  ///< the icosahedron as one more of the library ([1], section 3.3)
     folder                       ///< every surface of a folder
   };
   Library library = Library::aggregates;
@@ -134,7 +135,7 @@ struct ShapeSpec {
   PlacementTest test = PlacementTest::surfaces;  ///< insertion
   double gap = 0.01;  ///< packing: least distance of two surfaces, over the smaller one's D^I
   /// Stiffness of the shapes' surfaces against the mastic while it relaxes, over that of a pair of mastic spheres, 0 to
-  /// 10. At 0 only the spheres of the shapes hold the mastic out.
+  /// 10. At 0 only the spheres that fill the shapes hold the mastic out.
   double hold_out = 0;
 };
 

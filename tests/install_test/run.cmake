@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs a build, then builds and runs an outside project and the installed program:
+# Installs a build, then builds and runs an outside project, the tutorial and the installed program:
 #   cmake -D BUILD=<build folder> -D WORK=<scratch folder> -D COMPILER=<C++ compiler> -P run.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -18,8 +18,21 @@ run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G Ninja ${ab
     -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_PREFIX_PATH=${WORK}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/macadam_user)
+set(examples ${WORK}/prefix/share/macadam/examples)
+run(${CMAKE_COMMAND} -S ${examples}/tutorial -B ${WORK}/tutorial -G Ninja ${absent}
+    -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_PREFIX_PATH=${WORK}/prefix)
+run(${CMAKE_COMMAND} --build ${WORK}/tutorial)
+execute_process(COMMAND ${WORK}/tutorial/tutorial ${examples}/demo/scene.toml ${WORK}/tutorial/results
+                OUTPUT_VARIABLE said COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)  # it fails where the two |E*| differ
+string(REPLACE "\n" "\n    " said "    ${said}")
+string(STRIP "${said}" said)
+file(READ ${examples}/tutorial/README.md page)
+string(FIND "${page}" "${said}" at)
+if(at EQUAL -1)
+  message(FATAL_ERROR "examples/tutorial/README.md: expected the tutorial's output, found another:\n    ${said}")
+endif()
 run(${WORK}/prefix/bin/macadam info)
-run(${WORK}/prefix/bin/macadam fit ${WORK}/prefix/share/macadam/examples/laws/mastic.csv --shift wlf --units 3 --out ${WORK}/law)
+run(${WORK}/prefix/bin/macadam fit ${examples}/laws/mastic.csv --shift wlf --units 3 --out ${WORK}/law)
 foreach(file prefix/share/macadam/draw-fit prefix/share/macadam/draw-calibration law/law.toml)
   if(NOT EXISTS ${WORK}/${file})
     message(FATAL_ERROR "${file} is not there")

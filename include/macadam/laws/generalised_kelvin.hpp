@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generalised_kelvin.hpp  A Maxwell unit in series with any number of Kelvin units, Eq. 13–17 (corrected).
+/// \file generalised_kelvin.hpp  A Maxwell unit in series with any number of Kelvin units: Eq. 13–17, put
+/// right as docs/model.md, section 6, says.
 ///
 /// Displacement x = f/k_m + ∫f/η_m dt + Σ x_l with η_l·dx_l/dt + k_l·x_l = f. The trapezoidal rule over one step gives
 ///   c·f(t+Δt) = Δx + Σ (1 − b_l/a_l)·x_l(t) − g·f(t),   x_l(t+Δt) = [b_l·x_l(t) + Δt/(2η_l)·(f(t+Δt) + f(t))]/a_l.
-/// (The published Eq. 13 and 14 each carry a misprint.) Written in increments, because 1 − b_l/a_l is 1e-9…1e-6.
+/// Written in increments, because 1 − b_l/a_l is 1e-9…1e-6.
 #pragma once
 
 #include <algorithm>
@@ -80,9 +81,9 @@ struct GeneralisedKelvin {
       const int m = L >= 0 ? L : n;
       S drive = dx;
       for (int l = 0; l < m; ++l) drive += S(recover[l]) * x(l);
-      const S f_new = f + (S(inv_c) * drive - S(relax) * f);  // Eq. 13, corrected
+      const S f_new = f + (S(inv_c) * drive - S(relax) * f);  // model (6.6)
       const S sum = f_new + f;
-      for (int l = 0; l < m; ++l) x(l) += S(compliance[l]) * sum - S(recover[l]) * x(l);  // Eq. 14, corrected
+      for (int l = 0; l < m; ++l) x(l) += S(compliance[l]) * sum - S(recover[l]) * x(l);  // model (6.6)
       return f_new;
     }
   };
@@ -108,10 +109,10 @@ struct GeneralisedKelvin {
   /// M steps as one block, in which f changes little. x_l at step k of the block is x_l at its beginning, its own loss,
   /// and what f gave; the first two and the part of f at the beginning are taken at the mean step (M − 1)/2, the part
   /// of the change δf of f since then exactly, by the sum s of δf' + δf over the steps so far:
-  ///   δf(t+Δt) = δf(t) + rate·Δx + drive + follow·s − relax·δf(t)   (Eq. 13),
+  ///   δf(t+Δt) = δf(t) + rate·Δx + drive + follow·s − relax·δf(t)   (model (6.8)),
   ///   drive = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
-  /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with one weight for all steps in Eq. 14. What is neglected
-  /// has no mean over a block and is of second order in M·Δt over the times of the load and of the units.
+  /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with one weight for all steps (model (6.9)). What is
+  /// neglected has no mean over a block and is of second order in M·Δt over the times of the load and of the units.
   struct Block {
     double rate, relax, follow;  ///< 1/c [Pa], (c + g)/c [1], [1]
     double recover[max_units];   ///< r_l [1]

@@ -2,9 +2,9 @@
 /// \file law.hpp  The contract of a contact law.
 ///
 /// A law relates one displacement component x of a contact (opening, slip, relative rotation) to a force-like value f
-/// along it, tension positive. Moduli are per unit of area over distance: the force of a contact point is
-/// f·A_J/d (Eq. 11, 16, 17), so one set of coefficients serves every contact of a material pair. Shear components use
-/// the same f times α (Eq. 12).
+/// along it, tension positive (docs/model.md, section 6). Moduli are per unit of area over distance: the force of a
+/// contact point is f·A_J/d (Eq. 11, 16, 17), so one set of coefficients serves every contact of a material pair. Shear
+/// components use the same f times α (Eq. 12).
 ///
 /// A law is a plain struct with
 ///   - `static constexpr const char* name` — the word in a scene file;
@@ -14,7 +14,7 @@
 ///   - `std::complex<double> stiffness(std::complex<double> s) const` — exact stiffness [Pa] for motions as e^(s·t);
 ///     s = iω for the steady state at ω [1/s];
 ///   - `template <class F> void each_parameter(std::complex<double> s, F&& f) const` — calls f(name, ∂ln k*/∂ln θ) for
-///     each parameter θ of the stiffness, by the paper's symbol;
+///     each parameter θ of the stiffness, by its symbol in docs/model.md ("E_m", "C_1");
 ///   - `std::complex<double> unit_compliance(int l, std::complex<double> s) const` — x_l per unit of f [1/Pa], for l
 ///     below units();
 ///   - `template <class R> struct Step` — coefficients of one time step in precision R, made by
@@ -29,8 +29,8 @@
 ///     `template <int L, class Units> double drive(double f, Units&& x) const` and
 ///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
 ///     follows δf' = δf + rate·dx + drive + follow·s − relax·δf, with the drive of f and x(l) at its beginning and s
-///     the sum of δf' + δf over its steps so far; at its end settle() takes Σ (f' + f) and updates x(l). What is
-///     neglected is of second order in the block's length and has no mean over it.
+///     the sum of δf' + δf over its steps so far; at its end settle() takes Σ (f' + f) and updates x(l): model (6.8)
+///     and (6.9). What is neglected is of second order in the block's length and has no mean over it.
 /// Laws own no memory, know no arrays and no threads. Add one: a header here, a line in all.hpp, its second writing in
 /// host/reference, a test.
 #pragma once

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shift.hpp  Time-temperature superposition: how temperature stretches the times of a law.
+/// \file shift.hpp  Time-temperature superposition, how temperature stretches the times of a law: docs/model.md,
+/// section 23.
 ///
 /// A thermorheologically simple law at temperature T and frequency f is the law at its reference temperature and f·a_T:
 /// every viscosity of the law is multiplied by a_T, its springs stay.
