@@ -3,10 +3,12 @@
 install(TARGETS macadam EXPORT macadamTargets)
 install(TARGETS macadam_cli)
 install(DIRECTORY include/macadam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# The kernels as templates, for laws of a user's own
+install(DIRECTORY kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macadam-kernels FILES_MATCHING PATTERN "*.hpp")
 install(PROGRAMS scripts/draw-fit scripts/draw-calibration DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam)
 install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam/examples)
 install(EXPORT macadamTargets NAMESPACE macadam:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam)
-file(WRITE ${PROJECT_BINARY_DIR}/macadamConfig.cmake "include(\${CMAKE_CURRENT_LIST_DIR}/macadamTargets.cmake)\n")
+configure_file(cmake/macadamConfig.cmake.in ${PROJECT_BINARY_DIR}/macadamConfig.cmake @ONLY)
 write_basic_package_version_file(macadamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/macadamConfig.cmake ${PROJECT_BINARY_DIR}/macadamConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam)

@@ -18,9 +18,9 @@ namespace macadam::kernels {
 /// Steps of a block: at most `options.blocks`-th of the shortest time in the load or the laws, and so few that at the
 /// specimen's strain a carried normal turns by less than 1e-6 in a 4,000th of that time. Where this allows it, blocks
 /// end at the observations, which otherwise cut them. 0: blocks would be too short to pay, or nothing says how fast the
-/// load changes, or a wall follows a force, which needs the sum on it at every step. `height`: of the specimen [m].
-inline int block_steps(const StepperOptions& options, const std::array<std::optional<Law>, pair_types>& laws,
-                       double height) {
+/// load changes, a law has no blocks, or a wall follows a force,
+/// which needs the sum on it at every step. `height`: of the specimen [m].
+inline int block_steps(const StepperOptions& options, const FactsTable& laws, double height) {
   if (!options.boundary.any(DrivenBy::displacement) || options.boundary.any(DrivenBy::force)) return 0;
   constexpr double pi = std::numbers::pi;
   double shortest = std::numeric_limits<double>::infinity();
@@ -34,7 +34,9 @@ inline int block_steps(const StepperOptions& options, const std::array<std::opti
     }
   }
   for (const auto& law : laws) {
-    if (law) shortest = std::min(shortest, 2 * pi * std::visit([](const auto& l) { return l.shortest_time(); }, *law));
+    if (!law) continue;
+    if (!law->blocks) return 0;
+    shortest = std::min(shortest, 2 * pi * law->shortest_time);
   }
   const auto most = static_cast<std::int64_t>(std::min(256.0, std::floor(shortest / (options.blocks * options.dt))));
   if (most < 4) return 0;
@@ -46,15 +48,10 @@ inline int block_steps(const StepperOptions& options, const std::array<std::opti
 }
 
 /// The coefficients with which a block of `steps` is begun where the one before it had `ended` steps.
-inline laws::Elastic::Block block_after(const laws::Elastic& law, double dt, int, int steps) {
-  return law.block(dt, steps);
-}
-inline laws::GeneralisedKelvin::Block block_after(const laws::GeneralisedKelvin& law, double dt, int ended, int steps) {
-  laws::GeneralisedKelvin::Block out = law.block(dt, steps);
-  if (ended == steps) return out;
-  const laws::GeneralisedKelvin::Block before = law.block(dt, ended);
-  std::copy(std::begin(before.lost), std::end(before.lost), out.lost);
-  std::copy(std::begin(before.gain), std::end(before.gain), out.gain);
+template <class L>
+typename L::Block block_after(const L& law, double dt, int ended, int steps) {
+  typename L::Block out = law.block(dt, steps);
+  if (ended != steps) out.settled_as(law.block(dt, ended));
   return out;
 }
 

@@ -27,11 +27,10 @@ void for_each_slot(const ContactNetwork& network, const Layout& layout, const Gr
 
 template <class P>
 ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
-                               const Law& law, const StepperOptions& options) {
+                               const LawFacts& law, const StepperOptions& options) {
   using Geo = typename P::Geometry;
   const GroupShape<P> sizes(layout, group, law, options);
   ContactArrays<P> out;
-  out.law = law;
   const auto& shape = out.shape = sizes.view;
   const bool turns = !options.skip_rotations, by_points = sizes.by_points;
   const std::size_t lanes = sizes.lanes;
@@ -69,7 +68,7 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
 }
 
 template <class P>
-void fill_states(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const Law& law,
+void fill_states(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const LawFacts& law,
                  const StepperOptions& options, ContactArrays<P>& out) {
   using State = typename P::State;
   const GroupShape<P> sizes(layout, group, law, options);
@@ -104,10 +103,10 @@ void fill_states(const ContactNetwork& network, const Layout& layout, const Grou
   });
 }
 
-#define MACADAM_FILL_IN(P)                                                                                         \
-  template ContactArrays<P> fill_contacts<P>(const ContactNetwork&, const Layout&, const GroupLayout&, const Law&, \
-                                             const StepperOptions&);                                               \
-  template void fill_states<P>(const ContactNetwork&, const Layout&, const GroupLayout&, const Law&,               \
+#define MACADAM_FILL_IN(P)                                                                                \
+  template ContactArrays<P> fill_contacts<P>(const ContactNetwork&, const Layout&, const GroupLayout&,    \
+                                             const LawFacts&, const StepperOptions&);                     \
+  template void fill_states<P>(const ContactNetwork&, const Layout&, const GroupLayout&, const LawFacts&, \
                                const StepperOptions&, ContactArrays<P>&);
 MACADAM_FILL_IN(DoublePrecision)
 MACADAM_FILL_IN(MixedPrecision)

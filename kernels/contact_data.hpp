@@ -52,7 +52,6 @@ struct ContactArrays {
   AlignedVector<std::uint32_t> packet_row;
   AlignedVector<typename P::State> chain, frame;
   ContactView<P> shape{};  ///< the numbers of the view; pointers null
-  Law law;
 
   /// f(name, unit, array, pointer of the view that it feeds)
   template <class F>
@@ -82,21 +81,19 @@ struct GroupShape {
   std::size_t slots, lanes, rows;  ///< rows: of chains, one a packet or one a point
 
   /// `options.skip_rotations` is taken as decided.
-  GroupShape(const Layout& layout, const GroupLayout& group, const Law& law, const StepperOptions& options)
+  GroupShape(const Layout& layout, const GroupLayout& group, const LawFacts& law, const StepperOptions& options)
       : by_points(options.form == ContactForm::points),
-        stateless(options.geometry == Geometry::fixed &&
-                  std::visit([](const auto& l) { return decltype(l.template step<double>(1.0))::memoryless; }, law)),
+        stateless(options.geometry == Geometry::fixed && law.memoryless),
         slots(group.contact.size()),
         lanes(static_cast<std::size_t>(layout.lanes)),
         rows(by_points ? group.packet_row.back() : group.packets()) {
-    const double alpha = std::visit([](const auto& l) { return l.alpha; }, law);
-    const bool shear = alpha != 0 || !options.skip_shear, turns = !options.skip_rotations;
-    view.alpha = static_cast<typename P::Geometry>(alpha);
+    const bool shear = law.alpha != 0 || !options.skip_shear, turns = !options.skip_rotations;
+    view.alpha = static_cast<typename P::Geometry>(law.alpha);
     view.packets = static_cast<std::uint32_t>(group.packets());
     view.geometry_words = options.geometry == Geometry::updated ? distance + 1 : distance;
     view.frame_words = frame_words_of<P>(options.geometry);
     view.components = by_points ? (shear ? 3 : 1) : shear ? 6 : turns ? 3 : 1;
-    view.units = std::visit([](const auto& l) { return l.units(); }, law);
+    view.units = law.units;
     view.wall = group.pair == PairType::aw || group.pair == PairType::mw;
   }
   std::size_t geometry() const { return slots * static_cast<std::size_t>(view.geometry_words); }
@@ -113,15 +110,15 @@ struct GroupShape {
   }
 };
 
-/// The arrays of a group that no step changes, its numbers and its law. Inert slots touch `body_a` of a real contact
+/// The arrays of a group that no step changes, and its numbers. Inert slots touch `body_a` of a real contact
 /// with zero arms and moments: they add zero. `options.skip_rotations` is taken as decided.
 template <class P>
 ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
-                               const Law& law, const StepperOptions& options);
+                               const LawFacts& law, const StepperOptions& options);
 
 /// The arrays that a step changes, as they are at the start that the options give, or at rest.
 template <class P>
-void fill_states(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const Law& law,
+void fill_states(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const LawFacts& law,
                  const StepperOptions& options, ContactArrays<P>& out);
 
 }  // namespace macadam::kernels

@@ -22,15 +22,18 @@ struct MotionView {
 inline constexpr int velocity_words = 8;
 inline constexpr int displacement_words = 8;
 
-/// The functor of one group: what may branch (form, geometry, law, units) is decided by its type. `Units`: 0 or 3
-/// Kelvin units exactly; 5: at most five, with room in registers for all; −1: any number.
+/// The functor of one group: what may branch (form, geometry, law, units) is decided by its type. `Units`: so many
+/// Kelvin units exactly, but 5: at most five, with room in registers for all; −1: any number.
 template <class P, class LawStep, int Units, ContactForm form, Geometry geometry>
 struct ContactForces {
   using Policy = P;
+  static constexpr ContactForm form_of = form;
+  static constexpr Geometry geometry_of = geometry;
   /// Whether f follows from the displacements of now: no state is read or written.
   static constexpr bool stateless = LawStep::memoryless && geometry == Geometry::fixed;
-  /// What a contact computes in. Rounding a force that follows from the place alone makes the same error on every visit
-  /// to it: nothing is forgotten, and energy drifts. So that force is as precise as a state.
+  /// What a contact computes in. A force that follows from the displacement alone is rounded in the same way whenever
+  /// the particles come back to the same place. Such errors do not average out, and energy drifts. So this force is
+  /// computed as precisely as a state.
   using Work = std::conditional_t<stateless, typename P::State, typename P::Geometry>;
   ContactView<P> view;
   LawStep law;
@@ -87,7 +90,7 @@ struct ContactForces {
   }
 
  private:
-  MACADAM_HD int units() const { return Units == 0 || Units == 3 ? Units : view.units; }
+  MACADAM_HD int units() const { return Units >= 0 && Units != 5 ? Units : view.units; }
   MACADAM_HD std::size_t chain_words() const { return static_cast<std::size_t>(view.components * (1 + units())); }
   template <class Item>
   MACADAM_HD std::size_t chain_stride(const Item& item) const {
@@ -146,7 +149,7 @@ struct ContactForces {
     }
   }
 
-  /// Sums the loads of the contact points (Eq. 3, 4): each has its own chains.
+  /// Sums the loads of the contact points (Eq. 3, 4; model (8.1)): each has its own chains.
   template <class Item, class T>
   MACADAM_HD FacetLoad<T> points_load(const Item& item, std::uint32_t packet, const T (&u)[6]) const {
     FacetLoad<T> load{T(0), T(0), T(0), T(0), T(0), T(0)};
@@ -170,9 +173,10 @@ struct ContactForces {
     return load;
   }
 
-  /// Eq. 5–6 every step: the normal from the displaced centres, x0 with half the change of distance, and the frame
-  /// turned with the normal and spun about it with the mean spin of the pair. `middle` is the frame half a step
-  /// earlier: seen in the frame of either end, a rigid turn by θ would open the contact by (1 − cos θ)·d every step.
+  /// Eq. 5–6 every step, docs/model.md, section 9: the normal from the displaced centres, x0 with half the change of
+  /// distance, and the frame turned with the normal and spun about it with the mean spin of the pair. `middle` is the
+  /// frame half a step earlier: seen in the frame of either end, a rigid turn by θ would open the contact by (1 − cos
+  /// θ)·d every step.
   template <class Item, class T>
   MACADAM_HD void carry(const Item& item, std::uint32_t packet, const MotionView<P>& motion, const std::int32_t* ia,
                         const std::int32_t* ib, const Twist<T>& a, const Twist<T>& b, const Vec3<T>& n0, const T& d0,

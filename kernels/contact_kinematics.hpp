@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file contact_kinematics.hpp  From the motion of two bodies to the six relative rates of a facet, and back to
-/// forces.
+/// forces: docs/model.md, sections 5, 7 and 8.
 ///
 /// T is a scalar (one contact) or a SIMD pack (one contact a lane). A point of the facet lies at x0 + s·ŝ + t·t̂, at
-/// arm_a·n + s·ŝ + t·t̂ from centre A and at −arm_b·n + s·ŝ + t·t̂ from centre B. Eq. 8 then reads
+/// arm_a·n + s·ŝ + t·t̂ from centre A and at −arm_b·n + s·ŝ + t·t̂ from centre B. Model (5.3):
 ///   opening  u[0] + s·u[1] + t·u[2],   slip along ŝ  u[3] − t·u[5],   slip along t̂  u[4] + s·u[5].
 #pragma once
 
@@ -53,7 +53,8 @@ struct FacetLoad {
   T moment_n{}, moment_s{}, moment_t{};
 };
 
-/// Load of a facet from the six force densities f[c] (per unit of area over distance) and the area moments over d.
+/// Model (7.1), (7.2): load of a facet from the six force densities f[c] (per unit of area over distance) and the area
+/// moments over d.
 template <class T>
 MACADAM_HD FacetLoad<T> condensed_load(const T (&f)[6], const T& alpha, const T (&m)[6]) {
   const T slip_s = alpha * f[3], slip_t = alpha * f[4], twist = alpha * f[5];
@@ -67,7 +68,7 @@ MACADAM_HD FacetLoad<T> condensed_load(const T (&f)[6], const T& alpha, const T 
   return load;
 }
 
-/// Force on A (B gets the opposite) and the moments about the two centres.
+/// Model (8.2): force on A (B gets the opposite) and the moments about the two centres.
 template <class T>
 struct ContactLoad {
   Vec3<T> force_a, moment_a, moment_b;

@@ -3,9 +3,6 @@
 /// prepared.
 #pragma once
 
-#include <algorithm>
-#include <cstring>
-
 #include "kernels/cuda_bodies.hpp"
 #include "kernels/cuda_tile_scene.hpp"
 
@@ -57,7 +54,7 @@ struct SettleContact {
     }
     for (int c = 0; view.chain && c < view.components; ++c) {
       State* chain = view.chain + (static_cast<std::size_t>(packet) * view.components + c) * (1 + units) * 32 + lane;
-      double x[Units >= 0 ? Units + 1 : laws::GeneralisedKelvin::max_units];
+      double x[Units >= 0 ? Units + 1 : Block::most_units];
       for (int l = 0; l < units; ++l) x[l] = chain[(1 + l) * 32];
       const auto unit = [&](int l) -> double& { return x[l]; };
       const double start = chain[0];
@@ -158,42 +155,46 @@ struct SettleContact {
   }
 };
 
+/// The settling functors of a law: one for each number of units that has code of its own; none of a law without blocks.
+template <class P, class L, Geometry geometry>
+auto settle_functors() {
+  if constexpr (!has_blocks<L>)
+    return std::tuple<>{};
+  else if constexpr (units_of<L>() >= 0)
+    return std::tuple<SettleContact<P, typename L::Block, units_of<L>(), geometry>>{};
+  else
+    return std::tuple<SettleContact<P, typename L::Block, 3, geometry>,
+                      SettleContact<P, typename L::Block, -1, geometry>>{};
+}
+
 /// The settling functors of all groups.
-template <class P, Geometry geometry>
-struct SettleGroups {
-  using Elastic = SettleContact<P, laws::Elastic::Block, 0, geometry>;
-  using KelvinThree = SettleContact<P, laws::GeneralisedKelvin::Block, 3, geometry>;
-  using KelvinAny = SettleContact<P, laws::GeneralisedKelvin::Block, -1, geometry>;
+template <class P, class AnyLaw, Geometry geometry>
+struct SettleGroups;
+template <class P, class... L, Geometry geometry>
+struct SettleGroups<P, std::variant<L...>, geometry> {
+  using Functors = decltype(std::tuple_cat(settle_functors<P, L, geometry>()...));
   struct Group {
     std::uint32_t first_block = UINT32_MAX, first_slot = 0, slots = 0;
-    int kind = 0;
-    alignas(8) unsigned char functor[std::max({sizeof(Elastic), sizeof(KelvinThree), sizeof(KelvinAny)})] = {};
+    typename AnyFunctorOf<Functors>::type functor;
   };
   Group group[pair_types];
   const uint2* place;  ///< [slot of all groups] among the tiles' contacts
 };
 
-template <class P, Geometry geometry>
+template <class P, class AnyLaw, Geometry geometry>
 __global__ void __launch_bounds__(contact_threads)
-    settle_contacts(const __grid_constant__ SettleGroups<P, geometry> groups, float4* constant, float4* state,
+    settle_contacts(const __grid_constant__ SettleGroups<P, AnyLaw, geometry> groups, float4* constant, float4* state,
                     const double* now, const double* before, int steps,
                     const LoadRecords<typename P::Particle> records) {
-  using Groups = SettleGroups<P, geometry>;
   int number = 0;
   while (number + 1 < pair_types && groups.group[number + 1].first_block <= blockIdx.x) ++number;
   const auto& group = groups.group[number];
   const std::uint32_t slot = (blockIdx.x - group.first_block) * contact_threads + threadIdx.x;
   if (slot >= group.slots) return;
-  const auto settle = [&](const auto& functor) {
-    const std::uint32_t record = group.first_slot + slot;
+  const std::uint32_t record = group.first_slot + slot;
+  group.functor.visit([&](const auto& functor) {
     functor(slot, groups.place[record], constant, state, now, before, steps, records, record);
-  };
-  if (group.kind == 0)
-    settle(*reinterpret_cast<const typename Groups::Elastic*>(group.functor));
-  else if (group.kind == 1)
-    settle(*reinterpret_cast<const typename Groups::KelvinThree*>(group.functor));
-  else
-    settle(*reinterpret_cast<const typename Groups::KelvinAny*>(group.functor));
+  });
 }
 
 /// The body forces alone, before the first step.

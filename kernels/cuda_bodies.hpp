@@ -46,10 +46,10 @@ __device__ R sum_by_block(const LoadRecords<T>& records, std::uint32_t body) {
   return sum;
 }
 
-/// Moves all bodies. The first `long_rows` blocks have one body each, walls included.
+/// Moves all bodies. The first `long_rows` blocks have one body each.
 template <class P>
 __global__ void __launch_bounds__(body_threads)
-    step_bodies(const ParticleMotion<P> motion, const LoadRecords<typename P::Geometry> records,
+    step_bodies(const __grid_constant__ ParticleMotion<P> motion, const LoadRecords<typename P::Geometry> records,
                 const std::uint32_t* long_body, std::uint32_t long_rows, const std::int64_t* step) {
   const int w = static_cast<int>(threadIdx.x % velocity_words);
   const auto particles = static_cast<std::uint32_t>(motion.body.particles);

@@ -3,8 +3,6 @@
 /// warp does two things.
 #pragma once
 
-#include <algorithm>
-#include <cstring>
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,7 +10,7 @@
 
 #include "kernels/cuda_lane_item.hpp"
 #include "kernels/cuda_launch.hpp"
-#include "macadam/laws/all.hpp"
+#include "kernels/law_list.hpp"
 
 namespace macadam::kernels {
 
@@ -74,17 +72,15 @@ struct LoadRecords {
 };
 
 /// The functors of the groups of a launch, by value: they reach the kernel as its parameters. `Units` as ContactForces
-/// has it; elastic groups may go with any.
-template <class P, ContactForm form, Geometry geometry, int Units>
-struct ContactGroups {
-  using State = typename P::State;
-  using Elastic = ContactForces<P, laws::Elastic::Step<State>, 0, form, geometry>;
-  using Kelvin = ContactForces<P, laws::GeneralisedKelvin::Step<State>, Units, form, geometry>;
+/// has it; laws without memory may go with any.
+template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
+struct ContactGroups;
+template <class P, class... L, ContactForm form, Geometry geometry, int Units>
+struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
   struct Group {
     std::uint32_t first_block = UINT32_MAX;  ///< of this group
     std::uint32_t first_slot = 0, slots = 0;
-    bool elastic = false;
-    alignas(8) unsigned char functor[std::max(sizeof(Elastic), sizeof(Kelvin))] = {};
+    AnyFunctor<typename StepFunctor<P, L, form, geometry, Units>::type...> functor;
   };
   Group group[pair_types];
   int groups = 0;
@@ -93,40 +89,31 @@ struct ContactGroups {
   /// Adds a group behind the ones before.
   template <class Forces>
   void add(std::uint32_t first_slot, std::uint32_t slots, const Forces& forces) {
-    static_assert(std::is_same_v<Forces, Elastic> || std::is_same_v<Forces, Kelvin>, "a law without a kernel");
     Group& g = group[groups++];
-    g.first_block = blocks, g.first_slot = first_slot, g.slots = slots, g.elastic = std::is_same_v<Forces, Elastic>;
-    std::memcpy(g.functor, &forces, sizeof forces);
+    g.first_block = blocks, g.first_slot = first_slot, g.slots = slots;
+    g.functor.put(forces);
     blocks += (slots + contact_threads - 1) / contact_threads;
-  }
-  /// Calls f(functor) of a group.
-  template <class F>
-  __device__ __forceinline__ static void visit(const Group& g, F&& f) {
-    if (g.elastic)
-      f(*reinterpret_cast<const Elastic*>(g.functor));
-    else
-      f(*reinterpret_cast<const Kelvin*>(g.functor));
   }
 };
 
 /// Steps every contact of a launch and writes its loads; counts the step where `step` is given.
-template <class P, ContactForm form, Geometry geometry, int Units>
+template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
 __global__ void __launch_bounds__(contact_threads, contact_blocks)
-    step_contacts(const __grid_constant__ ContactGroups<P, form, geometry, Units> groups, const MotionView<P> motion,
-                  const LoadRecords<typename P::Geometry> records, std::int64_t* step) {
+    step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units> groups,
+                  const MotionView<P> motion, const LoadRecords<typename P::Geometry> records, std::int64_t* step) {
   if (step && blockIdx.x == 0 && threadIdx.x == 0) ++*step;
   int number = 0;
   while (number + 1 < groups.groups && groups.group[number + 1].first_block <= blockIdx.x) ++number;
   const auto& group = groups.group[number];
   const std::uint32_t slot = (blockIdx.x - group.first_block) * contact_threads + threadIdx.x;
   if (slot >= group.slots) return;  // a whole warp
-  ContactGroups<P, form, geometry, Units>::visit(group, [&](const auto& forces) {
+  group.functor.visit([&](const auto& forces) {
     records.store_by_warp(group.first_slot + slot, forces(LaneItem{slot % 32}, slot / 32, motion));
   });
 }
 
 /// The launches of a step over all contacts: one for each number of Kelvin units that has code of its own.
-template <class P>
+template <class P, class AnyLaw>
 class ContactLaunches {
  public:
   using Records = LoadRecords<typename P::Geometry>;
@@ -136,16 +123,17 @@ class ContactLaunches {
   void add(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t first_slot,
            std::uint32_t slots) {
     constexpr int units = LawStep::memoryless ? 3 : Units;  // most scenes then have one launch
-    using Groups = ContactGroups<P, form, geometry, units>;
+    using Groups = ContactGroups<P, AnyLaw, form, geometry, units>;
+    const auto kernel = step_contacts<P, AnyLaw, form, geometry, units>;
     Launch& to = launches_[units];
     if (!to.groups) to.groups = std::make_shared<Groups>();
     auto groups = std::static_pointer_cast<Groups>(to.groups);
     groups->add(first_slot, slots, forces);
-    to.run = [groups](cudaStream_t stream, const MotionView<P>& motion, const Records& records, std::int64_t* step) {
-      launch("contacts", step_contacts<P, form, geometry, units>, groups->blocks, contact_threads, 0, stream, *groups,
-             motion, records, step);
+    to.run = [groups, kernel](cudaStream_t stream, const MotionView<P>& motion, const Records& records,
+                              std::int64_t* step) {
+      launch("contacts", kernel, groups->blocks, contact_threads, 0, stream, *groups, motion, records, step);
     };
-    to.use = kernel_use("contacts", step_contacts<P, form, geometry, units>, contact_threads, 0);
+    to.use = kernel_use("contacts", kernel, contact_threads, 0);
   }
   /// Steps all contacts and counts the step.
   void run(cudaStream_t stream, const MotionView<P>& motion, const Records& records, std::int64_t* step) const {

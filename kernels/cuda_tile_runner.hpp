@@ -17,7 +17,7 @@
 namespace macadam::kernels {
 
 /// Runs a scene in blocks of steps; made once, before the first step.
-template <class P>
+template <class P, class AnyLaw>
 class TileRunner {
  public:
   using R = typename P::Particle;
@@ -72,15 +72,11 @@ class TileRunner {
   }
 
   /// Takes the law of group `number` for steps of `dt`.
-  template <Geometry geometry>
-  void set_group(int number, const Law& law, const ContactView<P>& view, double dt) {
-    std::visit(
-        [&](const auto& l) {
-          const auto block = l.block(dt, block_);
-          scene_.law[number] = {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
-                                static_cast<float>(view.alpha), static_cast<float>(block.follow)};
-        },
-        law);
+  template <Geometry geometry, class L>
+  void set_group(int number, const L& law, const ContactView<P>& view, double dt) {
+    const auto block = law.block(dt, block_);
+    scene_.law[number] = {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
+                          static_cast<float>(view.alpha), static_cast<float>(block.follow)};
     set_settling<geometry>(number, law, view, dt);
   }
 
@@ -161,6 +157,25 @@ class TileRunner {
            reinterpret_cast<const float*>(scene_.wall_load), wall_begin_, base_ + bodies_ * velocity_words,
            scene_.force + bodies_ * velocity_words);
     return scene_.force;
+  }
+  /// [slot][6] of group `number`: what f has changed since the block began.
+  std::vector<float> changes(std::size_t number, std::size_t slots) const {
+    std::vector<float4> state(state_count_);
+    std::vector<uint2> places(slots);
+    check_cuda(cudaMemcpy(state.data(), scene_.state, state_count_ * sizeof(float4), cudaMemcpyDeviceToHost), "states");
+    check_cuda(
+        cudaMemcpy(places.data(), settle_place_ + group_slot_[number], slots * sizeof(uint2), cudaMemcpyDeviceToHost),
+        "places");
+    std::vector<float> out(6 * slots, 0.0f);
+    for (std::size_t slot = 0; slot < slots; ++slot) {
+      const std::uint32_t place = places[slot].x;
+      if (place == UINT32_MAX) continue;
+      const float4* words = &state[place / 32 * std::size_t{tile_states} * 32 + place % 32];
+      const float4 a = words[tile_change * 32], b = words[tile_both * 32];
+      const float change[6] = {a.x, a.y, a.z, a.w, b.x, b.y};
+      std::copy(change, change + 6, &out[6 * slot]);
+    }
+    return out;
   }
   /// Bytes of contacts that a step moves at the least: states read and written, constants and base loads read.
   std::int64_t traffic() const {
@@ -265,7 +280,7 @@ class TileRunner {
     scene_.exchange = store_.template zeros<ulonglong2>(4 * bodies_);
     before_ = store_.template zeros<double>((bodies_ + walls) * displacement_words);
     wall_begin_ = store_.keep(plan_.wall_begin);
-    long_body_ = store_.keep(rows.long_body);
+    long_body_ = rows.long_body.data();
     long_rows_ = static_cast<std::uint32_t>(rows.long_body.size());
     records_ = {store_.template zeros<R>(rows.records * record_words), rows.begin.data(), rows.place.data()};
     settle_place_ = store_.keep(places_);
@@ -274,9 +289,9 @@ class TileRunner {
     plan_.contact = {};
   }
 
-  template <Geometry geometry>
-  void set_settling(int number, const Law& law, const ContactView<P>& view, double dt) {
-    using Groups = SettleGroups<P, geometry>;
+  template <Geometry geometry, class L>
+  void set_settling(int number, const L& law, const ContactView<P>& view, double dt) {
+    using Groups = SettleGroups<P, AnyLaw, geometry>;
     if (!settle_groups_) settle_groups_ = std::make_shared<Groups>();
     auto groups = std::static_pointer_cast<Groups>(settle_groups_);
     auto& g = groups->group[number];
@@ -288,16 +303,10 @@ class TileRunner {
     }
     fill_settling_[number] = [groups, number, law, view, dt](int ended, int steps) {
       auto& g = groups->group[number];
-      const auto put = [&](int kind, const auto& functor) {
-        g.kind = kind;
-        std::memcpy(g.functor, &functor, sizeof functor);
-      };
-      if (const auto* elastic = std::get_if<laws::Elastic>(&law))
-        put(0, typename Groups::Elastic{view, block_after(*elastic, dt, ended, steps)});
-      else if (const auto& kelvin = std::get<laws::GeneralisedKelvin>(law); kelvin.units() == 3)
-        put(1, typename Groups::KelvinThree{view, block_after(kelvin, dt, ended, steps)});
-      else
-        put(2, typename Groups::KelvinAny{view, block_after(kelvin, dt, ended, steps)});
+      const auto block = block_after(law, dt, ended, steps);
+      dispatch_units<false>(law, [&](auto units) {
+        g.functor.put(SettleContact<P, typename L::Block, units(), geometry>{view, block});
+      });
     };
     filled_ended_ = filled_steps_ = 0;  // for other laws and time steps
     settle_contacts_ = [this, groups](int ended, int steps) {
@@ -309,7 +318,7 @@ class TileRunner {
         }
       }
       groups->place = settle_place_;
-      launch("settling", settle_contacts<P, geometry>, settle_blocks_, contact_threads, 0, stream_, *groups,
+      launch("settling", settle_contacts<P, AnyLaw, geometry>, settle_blocks_, contact_threads, 0, stream_, *groups,
              constant_.data(), scene_.state, scene_.motion.body.displacement, before_, ended, records_);
     };
   }

@@ -123,10 +123,14 @@ __global__ void __launch_bounds__(Threads, 1)
         [&](std::uint32_t h, const float4& numbers) { (h % 2 ? w : v)[tile.bodies + h / 2] = numbers; });
   };
 
+  const int wall = static_cast<int>(tid) - (Threads - walls);
+  const bool drives_wall = wall >= 0 && s.motion.wall.moves(wall);
   __syncthreads();
   for (std::uint32_t k = 0; k < steps; ++k) {
     const std::uint32_t tag = first_tag + k;
     const bool last = k + 1 == steps;
+    float4 of_wall;
+    if (drives_wall) of_wall = wall_velocity(s, wall, k);  // asked for early: it comes while loads are summed
     if (k == 0) {
       for (std::uint32_t r = tid; r < tile.bodies; r += Threads) {
         R force[6];
@@ -141,10 +145,7 @@ __global__ void __launch_bounds__(Threads, 1)
         move(r, force, tag);
       });
     }
-    if (tid >= Threads - walls && s.motion.wall.moving) {  // threads that have few bodies to sum up
-      const auto wall = static_cast<int>(tid - (Threads - walls));
-      v[locals - walls + wall] = wall_velocity(s, wall, k);
-    }
+    if (drives_wall) v[locals - walls + wall] = of_wall;
     receive(tag);
     __syncthreads();
     const auto step = [&](std::uint32_t packet, float(&df)[6], float(&both)[6]) {

@@ -8,23 +8,28 @@
 #include <memory>
 
 #include "kernels/barrier.hpp"
+#include "kernels/contact_reading.hpp"
+#include "kernels/executor.hpp"
 #include "kernels/pack_item.hpp"
-#include "kernels/particle_motion.hpp"
-#include "kernels/state_list.hpp"
+#include "kernels/subnormals.hpp"
 #include "kernels/thread_choice.hpp"
 #include "kernels/tile_accumulators.hpp"
 
 namespace macadam::kernels {
 
 /// Owns the arrays of a scene in precision P and runs bodies and contacts over them.
-template <class P>
+template <class P, class Laws>
 class ExecCpu {
  public:
   using Policy = P;
+  using AnyLaw = Laws;
   using R = typename P::Particle;
   using Item = PackItem<packet_width<P>>;
   static constexpr int lanes = static_cast<int>(Item::lanes());
-  static constexpr std::size_t tile_contacts = 1024;  ///< a tile's states (200 kB) fit a core's second-level cache
+  static constexpr bool room_for_five = false;
+
+  /// A tile's states (200 kB) fit a core's second-level cache.
+  static std::size_t tile_contacts(const ContactNetwork&, const StepperOptions&) { return 1024; }
 
   ExecCpu(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
       : layout_(layout),
@@ -34,11 +39,9 @@ class ExecCpu {
             std::min(options.threads > 0 ? options.threads : omp_get_max_threads(), static_cast<int>(layout.tiles()))),
         choice_(threads_, options.threads > 0) {}
 
-  /// Whether groups once taken may be stepped with these options.
-  bool suits(const StepperOptions&, const std::array<std::optional<Law>, pair_types>&, double) const { return true; }
+  bool suits(const ExecStart&) const { return true; }
 
-  /// Puts all bodies at rest.
-  void begin() {
+  void begin(const ExecStart&) {
     const std::size_t bodies = layout_.particles() + walls;
     states_.clear();
     sums_.assign(accumulators_.size() * velocity_words, R(0));
@@ -51,7 +54,6 @@ class ExecCpu {
     add_state("gathered_velocity", "m/s, rad/s", velocity_);
   }
 
-  /// Takes Δt/m and Δt/I of every body, and the body forces where there are any; returns the view of all body arrays.
   BodyView<P> set_bodies(std::vector<R> inverse, std::vector<R> weight) {
     inverse_ = std::move(inverse);
     weight_ = std::move(weight);
@@ -63,16 +65,14 @@ class ExecCpu {
             static_cast<std::int32_t>(layout_.particles())};
   }
 
-  /// Where the table of the walls will be; then its rows.
   const double* wall_table(std::size_t most_values) {
     wall_table_.resize(most_values);
     return wall_table_.data();
   }
   void set_wall_rows(const std::vector<double>& rows) { std::copy(rows.begin(), rows.end(), wall_table_.begin()); }
 
-  /// Takes group `number` for good, the first time, or its states alone; and the functor that steps its contacts.
-  template <class Forces>
-  void set_group(std::size_t number, bool first, ContactArrays<P> arrays, const Forces& forces) {
+  template <class L, class Forces>
+  void set_group(std::size_t number, bool first, const L&, ContactArrays<P> arrays, const Forces& forces) {
     auto& group = groups_[number];
     if (first) {
       group = std::make_unique<GroupOf<Forces>>();
@@ -95,7 +95,24 @@ class ExecCpu {
     });
   }
 
-  /// What one thread may call inside repeat().
+  void prepare(const ParticleMotion<P>& motion) { motion_ = motion; }
+
+  /// Takes all steps, in pieces in which the number of threads is chosen.
+  void run(std::int64_t, std::int64_t steps) {
+    for (std::int64_t row = 0; row < steps;) {
+      const ThreadChoice::Next next = choice_.next();
+      const std::int64_t n = std::min(steps - row, next.steps);
+      const double start = omp_get_wtime();
+      run_rows(next.threads, row, row + n);
+      choice_.took(n, omp_get_wtime() - start);
+      row += n;
+    }
+  }
+  void wait() const {}
+  void use_device() const {}
+
+ private:
+  /// What one thread does of a step.
   struct Team {
     ExecCpu& exec;
     std::size_t thread, threads;
@@ -135,21 +152,7 @@ class ExecCpu {
     }
   };
 
-  /// Calls f(team, k) for k = 0 … steps − 1, the rows of the walls' table, on every thread.
-  template <class F>
-  void repeat(std::int64_t, std::int64_t steps, F&& f) {
-    std::int64_t first = 0;
-    while (steps > 0) {
-      const ThreadChoice::Next next = choice_.next();
-      const std::int64_t n = std::min(steps, next.steps);
-      const double start = omp_get_wtime();
-      run_rows(next.threads, first, n, f);
-      choice_.took(n, omp_get_wtime() - start);
-      first += n;
-      steps -= n;
-    }
-  }
-
+ public:
   /// Force and moment on the bodies first … first + count − 1 now.
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
     std::vector<Twist<R>> out;
@@ -178,18 +181,35 @@ class ExecCpu {
     }
   }
 
-  /// Waits until all steps are taken.
-  void wait() const {}
-  /// Whether forces() has the body forces in it.
   bool forces_with_weight() const { return false; }
 
-  /// Everything that a step changes.
+  std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
+    std::int64_t first = -1;
+    for (std::size_t b = 0; b < layout_.particles(); ++b) {
+      const auto i = static_cast<std::int64_t>(layout_.particle[b]);
+      const R* w = &master_[b * velocity_words];
+      const double travel = dt * std::sqrt(double(w[0]) * w[0] + double(w[1]) * w[1] + double(w[2]) * w[2]);
+      const double turn = dt * std::sqrt(double(w[4]) * w[4] + double(w[5]) * w[5] + double(w[6]) * w[6]);
+      // written so that NaN counts as divergent
+      const bool sensible = travel <= radius[static_cast<std::size_t>(i)] && turn <= 1.0;
+      if (!sensible && (first < 0 || i < first)) first = i;
+    }
+    return first;
+  }
+
+  GroupState<P> group_state(std::size_t number, std::size_t, std::size_t) const {
+    const ContactArrays<P>& arrays = groups_[number]->arrays;
+    return {{arrays.chain.begin(), arrays.chain.end()}, {arrays.frame.begin(), arrays.frame.end()}, {}};
+  }
+  DeviceMotion device_motion() const { return {}; }
+
   const StateList& states() const { return states_; }
 
   std::string description() const {
     return "cpu, " + std::to_string(threads_) + (threads_ == 1 ? " thread" : " threads");
   }
-  std::int64_t state_bytes() const { return state_bytes_; }
+  std::vector<KernelUse> kernels() const { return {}; }
+  std::int64_t traffic() const { return bytes() + state_bytes_; }
   std::int64_t bytes() const {
     return bytes_ + static_cast<std::int64_t>((sums_.size() + master_.size()) * sizeof(R) +
                                               displacement_.size() * sizeof(double) +
@@ -197,16 +217,20 @@ class ExecCpu {
   }
 
  private:
-  template <class F>
-  void run_rows(int threads, std::int64_t first, std::int64_t steps, F&& f) {
+  /// The step, for rows first … end − 1 of the walls' table: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
+  void run_rows(int threads, std::int64_t first, std::int64_t end) {
     Barrier barrier;
 #pragma omp parallel num_threads(threads)
     {
 #pragma omp single  // OpenMP may give fewer threads than asked
       barrier.set_threads(static_cast<unsigned>(omp_get_num_threads()));
+      const SubnormalsAreZero<sizeof(typename P::Geometry) == sizeof(float)> while_stepping;
       const Team team{*this, static_cast<std::size_t>(omp_get_thread_num()),
                       static_cast<std::size_t>(omp_get_num_threads()), barrier};
-      for (std::int64_t k = first; k < first + steps; ++k) f(team, k);
+      for (std::int64_t row = first; row < end; ++row) {
+        team.bodies(motion_, row);
+        team.contacts();
+      }
     }
   }
 
@@ -277,6 +301,7 @@ class ExecCpu {
   AlignedVector<R> sums_, master_;                // [accumulator][8], [body][8]
   AlignedVector<double> displacement_;            // [body][8]
   AlignedVector<typename P::Geometry> velocity_;  // [body][8], where Geometry is not Particle
+  ParticleMotion<P> motion_{};
   std::vector<R> inverse_, weight_;
   std::vector<double> wall_table_;
   StateList states_;

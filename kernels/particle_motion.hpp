@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file particle_motion.hpp  Eq. 1–2 of one body: damping, leapfrog, displacement.
+/// \file particle_motion.hpp  Eq. 1–2 of one body (docs/model.md, section 10): damping, leapfrog, displacement.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct ParticleMotion {
   BodyView<P> body;
   Damping damping;
   R chi;          ///< local damping
-  R keep, drive;  ///< viscous: (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2); 1 and 1 without
+  R keep, drive;  ///< of viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2); 1 and 1 without
   double dt;      ///< [s]
   WallMotion wall;
 

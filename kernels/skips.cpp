@@ -6,10 +6,10 @@
 
 namespace macadam {
 
-bool nothing_turns(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws) {
+bool nothing_turns(const ContactNetwork& network, const FactsTable& laws) {
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (network.count[pair] == 0 || !laws[pair]) continue;
-    if (std::visit([](const auto& law) { return law.alpha != 0; }, *laws[pair])) return false;
+    if (laws[pair]->alpha != 0) return false;
   }
   for (const Contact& c : network.contacts) {
     const AreaMoments& m = c.moments;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file start_frame.hpp  Frame and chains of a contact that starts in motion.
+/// \file start_frame.hpp  Frame and chains of a contact that starts in motion: docs/model.md, section 18.
 #pragma once
 
 #include "macadam/stepper.hpp"

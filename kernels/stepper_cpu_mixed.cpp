@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // stepper_cpu_mixed.cpp  The step compiled for the CPU in one precision: a file each, so that they compile side by
 // side.
-#include "kernels/exec_cpu.hpp"
-#include "kernels/stepper_impl.hpp"
+#include "kernels/make_cpu.hpp"
 
 namespace macadam::kernels {
 
-template std::unique_ptr<Stepper> make_stepper_on<ExecCpu<MixedPrecision>>(
-    const Specimen&, const ContactNetwork&, const std::array<std::optional<Law>, pair_types>&, const Inertia&,
-    const StepperOptions&, std::unique_ptr<Stepper>);
+template std::unique_ptr<Stepper> make_cpu_in<MixedPrecision, Law>(const Specimen&, const ContactNetwork&,
+                                                                   const LawTable&, const Inertia&,
+                                                                   const StepperOptions&, std::unique_ptr<Stepper>);
 
 }  // namespace macadam::kernels

@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <tuple>
 #include <utility>
 
-#include "kernels/contact_forces.hpp"
+#include "kernels/contact_reading.hpp"
+#include "kernels/executor.hpp"
+#include "kernels/law_list.hpp"
 #include "kernels/layout.hpp"
 #include "kernels/particle_motion.hpp"
 #include "kernels/precision.hpp"
+#include "kernels/stepper_input.hpp"
 #include "kernels/wall_motion.hpp"
 #include "macadam/error.hpp"
 
@@ -27,73 +31,55 @@ void dispatch(decltype(First) value, F&& f) {
     f(std::integral_constant<decltype(First), Second>{});
 }
 
-/// Calls f(step coefficients, Units of ContactForces as a constant) for a law.
-template <class R, bool room_for_five, class F>
-void dispatch_units(const laws::Elastic& law, double dt, F&& f) {
-  f(law.step<R>(dt), std::integral_constant<int, 0>{});
-}
-template <class R, bool room_for_five, class F>
-void dispatch_units(const laws::GeneralisedKelvin& law, double dt, F&& f) {
-  const auto step = law.step<R>(dt);
-  if (law.units() == 3)
-    f(step, std::integral_constant<int, 3>{});
-  else if (room_for_five && law.units() <= 5)
-    f(step, std::integral_constant < int, room_for_five ? 5 : -1 > {});
-  else
-    f(step, std::integral_constant<int, -1>{});
-}
-
-template <class Exec>
+template <Executor Exec>
 class StepperImpl final : public Stepper {
  public:
   using P = typename Exec::Policy;
   using R = typename P::Particle;
+  using Laws = std::array<std::optional<typename Exec::AnyLaw>, pair_types>;
 
-  StepperImpl(const Specimen& specimen, const ContactNetwork& network,
-              const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+  StepperImpl(const Specimen& specimen, const ContactNetwork& network, const Laws& laws, const Inertia& inertia,
               const StepperOptions& options)
-      : options_(decided(options, network, laws)),
+      : options_(decided(options, network, facts_of(laws))),
         radius_(specimen.radius),
         height_(specimen.box.size.z),
-        layout_(make_layout(specimen, network, Exec::lanes, tile_contacts(network, options))),
+        layout_(make_layout(specimen, network, Exec::lanes, Exec::tile_contacts(network, options))),
         exec_(network, layout_, options_) {
     begin(network, laws, inertia, true);
   }
   StepperImpl(const StepperImpl&) = delete;
-  ~StepperImpl() override { use_device(); }
+  ~StepperImpl() override { exec_.use_device(); }
 
   /// Begins anew with other options, of the network and the laws that it was made of. False, with nothing changed,
   /// where what is kept does not suit them.
-  bool begin_again(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
-                   const Inertia& inertia, const StepperOptions& options) {
-    const StepperOptions next = decided(options, network, laws);
+  bool begin_again(const ContactNetwork& network, const Laws& laws, const Inertia& inertia,
+                   const StepperOptions& options) {
+    const FactsTable facts = facts_of(laws);
+    const StepperOptions next = decided(options, network, facts);
     const auto kept = [](const StepperOptions& o) {
       return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.device);
     };
-    if (kept(next) != kept(options_) || network.contacts.size() != contacts_ || !exec_.suits(next, laws, height_))
+    if (kept(next) != kept(options_) || network.contacts.size() != contacts_ ||
+        !exec_.suits({next, facts, height_, false, 0}))
       return false;
     options_ = next;
     begin(network, laws, inertia, false);
     return true;
   }
 
-  /// The step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void advance(std::int64_t steps) override {
-    use_device();
+    exec_.use_device();
     for (const std::int64_t end = step_ + steps; step_ < end;) {
       const std::int64_t n = wall_table_.rows(end - step_);
       exec_.set_wall_rows(wall_table_.fill(step_, n));
-      exec_.repeat(step_, n, [this](auto& team, std::int64_t row) {
-        team.bodies(motion_, row);
-        team.contacts();
-      });
+      exec_.run(step_, n);
       step_ += n;
     }
     exec_.wait();
   }
 
   Observation observe() const override {
-    use_device();
+    exec_.use_device();
     Observation out;
     out.step = step_;
     out.time = static_cast<double>(step_) * options_.dt;
@@ -114,7 +100,7 @@ class StepperImpl final : public Stepper {
   }
 
   ParticleState particles() const override {
-    use_device();
+    exec_.use_device();
     const std::size_t n = layout_.particles();
     const std::vector<Vec3d> zero(n);
     ParticleState out{zero, zero, zero, zero, zero, zero};
@@ -138,8 +124,39 @@ class StepperImpl final : public Stepper {
     return out;
   }
 
+  ContactState contacts(const ContactNetwork& network) const override {
+    exec_.use_device();
+    const std::vector<double> u = exec_.displacements();
+    const std::size_t n = network.contacts.size();
+    ContactState out{std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<std::array<double, 6>>(n), {}, {0}};
+    const auto each_group = [&](auto&& f) {
+      for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
+        const GroupLayout& group = layout_.groups[g];
+        std::visit([&](const auto& law) { f(g, group, law); }, laws_[static_cast<std::size_t>(group.pair)].value());
+      }
+    };
+    out.chain_begin.resize(n + 1, 0);
+    each_group([&](std::size_t, const GroupLayout& group, const auto& law) {
+      const GroupReading<P, std::decay_t<decltype(law)>> read(network, layout_, group, law, options_, u, {});
+      for (const std::uint32_t c : group.contact) {
+        if (c != inert) out.chain_begin[c + 1] = read.numbers(network.contacts[c]);
+      }
+    });
+    std::partial_sum(out.chain_begin.begin(), out.chain_begin.end(), out.chain_begin.begin());
+    out.chain.resize(out.chain_begin.back(), 0.0);
+    each_group([&](std::size_t g, const GroupLayout& group, const auto& law) {
+      const GroupShape<P> shape(layout_, group, facts_of(law), options_);
+      GroupReading<P, std::decay_t<decltype(law)>>(network, layout_, group, law, options_, u,
+                                                   exec_.group_state(g, shape.chain(), shape.frame()))
+          .read(out);
+    });
+    return out;
+  }
+
+  DeviceMotion device_motion() const override { return exec_.device_motion(); }
+
   void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) override {
-    use_device();
+    exec_.use_device();
     if (options_.skip_rotations && largest(spin) > 0) {
       throw InputError("a spin was given to particles that nothing can turn: set skip_rotations to false");
     }
@@ -155,14 +172,14 @@ class StepperImpl final : public Stepper {
   }
 
   std::vector<StateArray> state() const override {
-    use_device();
+    exec_.use_device();
     std::vector<StateArray> out{{"step", "1", std::vector{step_}}, {"layout", "1", order()}};
     for (StateArray& array : exec_.states().copy()) out.push_back(std::move(array));
     return out;
   }
 
   void set_state(const std::vector<StateArray>& arrays) override {
-    use_device();
+    exec_.use_device();
     const auto integers = [&](const char* name) {
       for (const StateArray& array : arrays) {
         const auto* values = std::get_if<std::vector<std::int64_t>>(&array.values);
@@ -182,22 +199,8 @@ class StepperImpl final : public Stepper {
   }
 
   std::int64_t first_divergent() const override {
-    use_device();
-    if constexpr (requires { exec_.first_divergent(radius_, options_.dt); }) {
-      return exec_.first_divergent(radius_, options_.dt);
-    }
-    const auto v = exec_.velocities();
-    std::int64_t first = -1;
-    for (std::size_t b = 0; b < layout_.particles(); ++b) {
-      const auto i = static_cast<std::int64_t>(layout_.particle[b]);
-      const R* w = &v[b * velocity_words];
-      const double travel = options_.dt * std::sqrt(double(w[0]) * w[0] + double(w[1]) * w[1] + double(w[2]) * w[2]);
-      const double turn = options_.dt * std::sqrt(double(w[4]) * w[4] + double(w[5]) * w[5] + double(w[6]) * w[6]);
-      // written so that NaN counts as divergent
-      const bool sensible = travel <= radius_[static_cast<std::size_t>(i)] && turn <= 1.0;
-      if (!sensible && (first < 0 || i < first)) first = i;
-    }
-    return first;
+    exec_.use_device();
+    return exec_.first_divergent(radius_, options_.dt);
   }
 
   std::string description() const override {
@@ -205,35 +208,15 @@ class StepperImpl final : public Stepper {
            to_string(options_.geometry);
   }
   std::vector<KernelUse> kernels() const override {
-    use_device();
-    if constexpr (requires { exec_.kernels(); })
-      return exec_.kernels();
-    else
-      return {};
+    exec_.use_device();
+    return exec_.kernels();
   }
   std::int64_t bytes() const override { return exec_.bytes(); }
-  std::int64_t traffic() const override {
-    if constexpr (requires { exec_.traffic(); })
-      return exec_.traffic();
-    else
-      return exec_.bytes() + exec_.state_bytes();
-  }
+  std::int64_t traffic() const override { return exec_.traffic(); }
 
  private:
-  /// A thread has a current device of its own, and may serve several steppers.
-  void use_device() const {
-    if constexpr (requires { exec_.use_device(); }) exec_.use_device();
-  }
-  static std::size_t tile_contacts(const ContactNetwork& network, const StepperOptions& options) {
-    if constexpr (requires { Exec::tile_contacts_of(network, options); })
-      return Exec::tile_contacts_of(network, options);
-    else
-      return Exec::tile_contacts;
-  }
-
   /// Rotations are skipped only where nothing turns, at the start or later.
-  static StepperOptions decided(StepperOptions options, const ContactNetwork& network,
-                                const std::array<std::optional<Law>, pair_types>& laws) {
+  static StepperOptions decided(StepperOptions options, const ContactNetwork& network, const FactsTable& laws) {
     options.skip_rotations = options.skip_rotations && nothing_turns(network, laws);
     return options;
   }
@@ -249,13 +232,18 @@ class StepperImpl final : public Stepper {
   }
 
   /// All that the options decide. The first time, the groups are made and kept; later only their states are.
-  void begin(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
-             const Inertia& inertia, bool first) {
-    use_device();
+  void begin(const ContactNetwork& network, const Laws& laws, const Inertia& inertia, bool first) {
+    exec_.use_device();
     const StepperOptions& options = options_;
     step_ = 0;
+    laws_ = laws;
     contacts_ = network.contacts.size();
-    exec_.begin();
+    const FactsTable facts = facts_of(laws);
+    std::size_t bytes = 0;
+    for (const auto& group : layout_.groups) {
+      if (first) bytes += GroupShape<P>(layout_, group, fact_of(facts, group.pair), options).bytes();
+    }
+    exec_.begin({options, facts, height_, first, bytes});
     std::vector<R> inverse(2 * (layout_.particles() + walls), R(0));
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
       const auto i = static_cast<std::size_t>(layout_.particle[b]);
@@ -290,16 +278,8 @@ class StepperImpl final : public Stepper {
                static_cast<R>(1 / (1 + beta * options.dt / 2)),
                options.dt,
                wall};
-    if constexpr (requires { exec_.set_options(options, laws, height_, first, std::size_t{}); }) {
-      std::size_t bytes = 0;
-      for (const auto& group : layout_.groups) {
-        if (first)
-          bytes += GroupShape<P>(layout_, group, laws[static_cast<std::size_t>(group.pair)].value(), options).bytes();
-      }
-      exec_.set_options(options, laws, height_, first, bytes);
-    }
-    for (std::size_t g = 0; g < layout_.groups.size(); ++g) set_group(network, g, laws, first);
-    if constexpr (requires { exec_.prepare(motion_); }) exec_.prepare(motion_);
+    for (std::size_t g = 0; g < layout_.groups.size(); ++g) set_group(network, g, laws, facts, first);
+    exec_.prepare(motion_);
     if (options.start) start_from(*options.start);
     options_.start = nullptr;
   }
@@ -331,35 +311,57 @@ class StepperImpl final : public Stepper {
     advance(1);
   }
 
-  void set_group(const ContactNetwork& network, std::size_t number,
-                 const std::array<std::optional<Law>, pair_types>& laws, bool first) {
-    using State = typename P::State;
+  /// \throws InputError where a law is not linear and the form rests on that.
+  const LawFacts& fact_of(const FactsTable& facts, PairType pair) const {
+    const LawFacts& law = facts[static_cast<std::size_t>(pair)].value();
+    if (law.linear || options_.form == ContactForm::points) return law;
+    throw InputError(std::string("contact form of pair ") + to_string(pair) + ": found condensed beside law " +
+                     law.name + ", which is not linear; expected points");
+  }
+
+  void set_group(const ContactNetwork& network, std::size_t number, const Laws& laws, const FactsTable& facts,
+                 bool first) {
     const GroupLayout& group = layout_.groups[number];
-    const Law& law = laws[static_cast<std::size_t>(group.pair)].value();
+    const LawFacts& fact = fact_of(facts, group.pair);
     ContactArrays<P> arrays;
-    if (first) arrays = fill_contacts<P>(network, layout_, group, law, options_);
-    fill_states<P>(network, layout_, group, law, options_, arrays);
-    arrays.law = law;
+    if (first) arrays = fill_contacts<P>(network, layout_, group, fact, options_);
+    fill_states<P>(network, layout_, group, fact, options_, arrays);
+    with_functor(laws[static_cast<std::size_t>(group.pair)].value(), [&](const auto& law, const auto& functor) {
+      exec_.set_group(number, first, law, std::move(arrays), functor);
+    });
+  }
+
+  /// Calls f(law, functor) with the functor that steps its contacts, without a view.
+  template <class F>
+  void with_functor(const typename Exec::AnyLaw& any, F&& f) const {
+    using State = typename P::State;
     std::visit(
-        [&](const auto& l) {
-          constexpr bool five = requires { Exec::room_for_five; };
-          dispatch_units<State, five>(l, options_.dt, [&](const auto& step, auto units) {
-            dispatch<ContactForm::condensed, ContactForm::points>(options_.form, [&](auto form) {
-              dispatch<Geometry::updated, Geometry::fixed>(options_.geometry, [&](auto geometry) {
-                exec_.set_group(number, first, std::move(arrays),
-                                ContactForces<P, std::decay_t<decltype(step)>, units(), form(), geometry()>{
-                                    {}, step, static_cast<State>(options_.dt)});
-              });
+        [&](const auto& law) {
+          using L = std::decay_t<decltype(law)>;
+          const auto with = [&](auto units, auto form) {
+            dispatch<Geometry::updated, Geometry::fixed>(options_.geometry, [&](auto geometry) {
+              const auto step = law.template step<State>(options_.dt);
+              f(law, ContactForces<P, std::decay_t<decltype(step)>, units(), form(), geometry()>{
+                         {}, step, static_cast<State>(options_.dt)});
             });
+          };
+          dispatch_units<Exec::room_for_five>(law, [&](auto units) {
+            if constexpr (linear_law<L>) {
+              dispatch<ContactForm::condensed, ContactForm::points>(options_.form,
+                                                                    [&](auto form) { with(units, form); });
+            } else {
+              with(units, std::integral_constant<ContactForm, ContactForm::points>{});
+            }
           });
         },
-        law);
+        any);
   }
 
   StepperOptions options_;
   std::vector<double> radius_;
   double height_;  // of the specimen [m]
   std::size_t contacts_ = 0;
+  Laws laws_;
   Layout layout_;
   Exec exec_;
   ParticleMotion<P> motion_{};
@@ -367,11 +369,13 @@ class StepperImpl final : public Stepper {
   std::int64_t step_ = 0;
 };
 
-/// Instantiated once an executor and precision, in a file of its own.
-template <class Exec>
+/// A used stepper begun anew where it suits, or a new one.
+template <Executor Exec>
 std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
-                                         const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                                         const StepperOptions& options, std::unique_ptr<Stepper> used) {
+                                         const std::array<std::optional<typename Exec::AnyLaw>, pair_types>& laws,
+                                         const Inertia& inertia, const StepperOptions& options,
+                                         std::unique_ptr<Stepper> used) {
+  require_input(specimen.size(), network, facts_of(laws), options);
   auto* again = dynamic_cast<StepperImpl<Exec>*>(used.get());
   if (again && again->begin_again(network, laws, inertia, options)) return used;
   used.reset();  // before another takes memory

@@ -15,7 +15,7 @@ template <class P>
 void expect_foretold(const TestScene& scene, const StepperOptions& options) {
   const kernels::Layout layout = kernels::make_layout(scene.specimen, scene.network, 8, 100);
   for (const auto& group : layout.groups) {
-    const Law law = scene.laws[static_cast<std::size_t>(group.pair)].value();
+    const LawFacts law = facts_of(scene.laws)[static_cast<std::size_t>(group.pair)].value();
     auto arrays = kernels::fill_contacts<P>(scene.network, layout, group, law, options);
     kernels::fill_states<P>(scene.network, layout, group, law, options, arrays);
     kernels::ContactView<P> view = arrays.shape;

@@ -12,8 +12,7 @@
 namespace macadam::test {
 
 /// Every law as a generalised Kelvin law of at least `units` units; those added have E = 0, C = ∞ and never move.
-inline std::array<std::optional<Law>, pair_types> general_laws(std::array<std::optional<Law>, pair_types> laws,
-                                                               std::size_t units) {
+inline LawTable general_laws(LawTable laws, std::size_t units) {
   for (auto& law : laws) {
     if (!law) continue;
     laws::GeneralisedKelvin general;

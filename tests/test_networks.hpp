@@ -12,7 +12,7 @@
 
 namespace macadam::test {
 
-using Laws = std::array<std::optional<Law>, pair_types>;
+using Laws = LawTable;
 
 /// A specimen with its contacts and masses: what a stepper needs besides laws and options.
 struct HandMade {

@@ -4,12 +4,12 @@
 
 #include <cmath>
 
-#include "host/scene/law_values.hpp"
+#include "macadam/laws/values.hpp"
 
 namespace macadam::calibration {
 
-using scene::each_value;
-using scene::ValueKind;
+using laws::each_value;
+using laws::ValueKind;
 
 std::vector<Parameter> parameters_of(const Scene& scene) {
   std::vector<Parameter> out;
@@ -30,7 +30,7 @@ std::vector<Parameter> parameters_of(const Scene& scene) {
     std::visit(
         [&](auto& l) {
           add("alpha", "", l.alpha);
-          each_value(l, [&](const std::string& key, double& value, ValueKind kind) {
+          each_value(l, [&](const std::string& key, double& value, ValueKind kind, laws::ValueNeed) {
             const bool viscous = kind == ValueKind::viscosity;
             add(key, viscous ? "Pa s" : "Pa", value / delta / (viscous ? shift : 1));
           });
@@ -44,7 +44,7 @@ void multiply(LawTable& laws, const Parameter& parameter, double factor) {
   std::visit(
       [&](auto& law) {
         if (parameter.key == "alpha") law.alpha *= factor;
-        each_value(law, [&](const std::string& key, double& value, ValueKind) {
+        each_value(law, [&](const std::string& key, double& value, ValueKind, laws::ValueNeed) {
           if (parameter.key == "delta" || parameter.key == key) value *= factor;
         });
       },

@@ -20,12 +20,6 @@ using Complex = std::complex<double>;
 
 bool shifts(const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); }
 
-bool usable(const Law& law) {
-  const auto* chain = std::get_if<laws::GeneralisedKelvin>(&law);
-  return !chain || (chain->C_m > 0 &&
-                    std::all_of(chain->C.begin(), chain->C.end(), [](double c) { return c > 0 && std::isfinite(c); }));
-}
-
 /// Standard deviation of a sample.
 double scatter(const std::vector<double>& values) {
   double mean = 0, sum = 0;
@@ -70,7 +64,7 @@ std::vector<std::optional<double>> temperatures_of(const Scene& scene, const Mod
     }
     const LawTable laws = laws_at(scene, *t);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
-      if (laws[pair] && !usable(*laws[pair])) {
+      if (laws[pair] && !laws::usable(*laws[pair])) {
         refuse(
             "column temperature_c",
             fmt::format("{} degrees C, where the shift of {} has no value", *t, to_string(static_cast<PairType>(pair))),

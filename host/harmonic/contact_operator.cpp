@@ -13,7 +13,7 @@ namespace macadam::harmonic {
 using kernels::Placement;
 using kernels::Twist;
 
-PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& laws, Complex s) {
+PairStiffness pair_stiffness(const LawTable& laws, Complex s) {
   PairStiffness out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (!laws[pair]) continue;

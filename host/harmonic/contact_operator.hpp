@@ -28,8 +28,8 @@ struct PairStiffness {
 };
 
 /// The laws for motions as e^(s·t).
-PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& laws, Complex s);
-PairStiffness pair_stiffness(const std::array<std::optional<Law>, pair_types>& laws, double) = delete;  // iω, not ω
+PairStiffness pair_stiffness(const LawTable& laws, Complex s);
+PairStiffness pair_stiffness(const LawTable& laws, double) = delete;  // iω, not ω
 
 /// The six relative displacements (Eq. 8 about x0) of a contact while the particles move by `motion` and the top wall
 /// by `wall` along z.

@@ -27,7 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-void require_laws_of(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws) {
+void require_laws_of(const ContactNetwork& network, const LawTable& laws) {
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (network.count[pair] > 0 && !laws[pair]) {
       throw InputError(std::string("pair ") + to_string(static_cast<PairType>(pair)) + " has " +
@@ -56,8 +56,7 @@ void harmonic::require_not_stopped(const std::function<bool()>& stop) {
 
 class Harmonic::Implementation {
  public:
-  Implementation(const Specimen& specimen, const ContactNetwork& network,
-                 const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+  Implementation(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, const Inertia& inertia,
                  const HarmonicOptions& options, double typical_frequency)
       : specimen_(specimen),
         network_(network),
@@ -253,7 +252,7 @@ class Harmonic::Implementation {
 
   const Specimen& specimen_;
   const ContactNetwork& network_;
-  std::array<std::optional<Law>, pair_types> laws_;
+  LawTable laws_;
   Inertia inertia_;
   HarmonicOptions options_;
   ContactOperator contacts_;
@@ -263,9 +262,8 @@ class Harmonic::Implementation {
   std::string why_factors_;  ///< where no iteration can be set up
 };
 
-Harmonic::Harmonic(const Specimen& specimen, const ContactNetwork& network,
-                   const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                   const HarmonicOptions& options, double typical_frequency)
+Harmonic::Harmonic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
+                   const Inertia& inertia, const HarmonicOptions& options, double typical_frequency)
     : implementation_(std::make_unique<Implementation>(specimen, network, laws, inertia, options, typical_frequency)) {}
 Harmonic::~Harmonic() = default;
 

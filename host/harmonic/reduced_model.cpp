@@ -193,8 +193,7 @@ void ReducedModel::project(Index from) {
   widen(mass_, products(basis_, momentum));
 }
 
-ReducedModel::Solution ReducedModel::solve(const std::array<std::optional<Law>, pair_types>& laws,
-                                           const HarmonicLoad& load) const {
+ReducedModel::Solution ReducedModel::solve(const LawTable& laws, const HarmonicLoad& load) const {
   const Complex s = load.s(), inertia = load.density_scaling * (s * s + s * load.viscous_damping);
   const PairStiffness stiffness = pair_stiffness(laws, s);
   Eigen::MatrixXcd whole = inertia * mass_;

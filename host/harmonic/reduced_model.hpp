@@ -29,7 +29,7 @@ class ReducedModel {
   };
   /// Of `load`, whose `near` is not used. At least one motion must be there. \throws RunError where nothing finite
   /// solves it.
-  Solution solve(const std::array<std::optional<Law>, pair_types>& laws, const HarmonicLoad& load) const;
+  Solution solve(const LawTable& laws, const HarmonicLoad& load) const;
 
   /// The particles' motion, to begin an iteration at (HarmonicLoad::near).
   Vector motion(const Solution& solution) const;

@@ -14,8 +14,7 @@ Complex ModulusParts::modulus() const {
   return sum;
 }
 
-std::vector<Sensitivity> sensitivities(const ModulusParts& parts,
-                                       const std::array<std::optional<Law>, pair_types>& laws, Complex s) {
+std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable& laws, Complex s) {
   const Complex modulus = parts.modulus();
   std::vector<Sensitivity> out;
   const auto add = [&](std::string parameter, Complex change) {  // d|E| = |E|·Re(dE/E), dφ = Im(dE/E)

@@ -8,7 +8,7 @@ namespace macadam {
 
 using namespace harmonic;
 
-StartState steady_start(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
+StartState steady_start(const ContactNetwork& network, const LawTable& laws,
                         const std::vector<std::complex<double>>& motion, const drives::Cyclic& loading) {
   const double omega = 2 * std::numbers::pi * loading.frequency, dt = loading.dt();
   // the wall moves by −A·sin ωt = Im(−A·e^{iωt}), and so does all else with its own factor

@@ -18,7 +18,7 @@ bool positive(double value) { return std::isfinite(value) && value > 0; }
 
 }  // namespace
 
-ReferenceLaws read_laws(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws) {
+ReferenceLaws read_laws(const ContactNetwork& network, const LawTable& laws) {
   ReferenceLaws out;
   for (const Contact& contact : network.contacts) {
     const auto index = static_cast<std::size_t>(contact.pair);

@@ -16,7 +16,7 @@ using ReferenceLaws = std::array<std::optional<ReferenceLaw>, pair_types>;
 
 /// Reads the laws of the pair types that the network has.
 /// \throws InputError naming a pair type without a law, or a law that is not one.
-ReferenceLaws read_laws(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws);
+ReferenceLaws read_laws(const ContactNetwork& network, const LawTable& laws);
 
 /// \throws InputError when `found` is not `expected`; `what` is plural ("velocities").
 void require_count(const char* what, std::size_t found, std::size_t expected);

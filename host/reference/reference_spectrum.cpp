@@ -13,8 +13,7 @@
 
 namespace macadam {
 
-double reference_largest_frequency(const ContactNetwork& network,
-                                   const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia) {
+double reference_largest_frequency(const ContactNetwork& network, const LawTable& laws, const Inertia& inertia) {
   const std::size_t particles = inertia.mass.size();
   reference::require_inertia(inertia, particles);
   const Eigen::MatrixXd K = reference::assemble_stiffness(network, laws, particles).K;
@@ -31,8 +30,7 @@ double reference_largest_frequency(const ContactNetwork& network,
 // K is singular where motions have no stiffness, but the load of a wall does no work on them. So K·u = f is solved by
 // repeating u += (K + H)⁻¹·(f − K·u) with weak holding springs H: a stiff motion converges by a factor H/K each time,
 // and a free one gets no force and stays. At the end f − K·u ≈ 0: nothing is held by H.
-double reference_static_modulus(const Specimen& specimen, const ContactNetwork& network,
-                                const std::array<std::optional<Law>, pair_types>& laws) {
+double reference_static_modulus(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws) {
   constexpr double holding = 1e-8;     // of the particle's own stiffness: far below the softest elastic motion, and far
                                        // above the rounding of the factors
   constexpr double tolerance = 1e-12;  // of the load; the reaction is that accurate

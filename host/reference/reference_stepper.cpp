@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_stepper.cpp  Leapfrog over contact points, sections 1 and 3 of the model in the order of the text.
+/// \file reference_stepper.cpp  Leapfrog over contact points: docs/model.md, sections 1, 5, 6 and 8 to 10, in the
+/// order of a step.
 #include "host/reference/reference_stepper.hpp"
 
 #include <Eigen/Geometry>
@@ -39,9 +40,8 @@ Vec3d to_vec3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 class ReferenceStepper : public Stepper {
  public:
-  ReferenceStepper(const Specimen& specimen, const ContactNetwork& network,
-                   const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                   const StepperOptions& options)
+  ReferenceStepper(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
+                   const Inertia& inertia, const StepperOptions& options)
       : options_(options), laws_(read_laws(network, laws)) {
     for (std::size_t i = 0; i < specimen.size(); ++i) {
       Body body;
@@ -102,6 +102,10 @@ class ReferenceStepper : public Stepper {
       bodies_[i].velocity = to_eigen(velocity[i]);
       bodies_[i].spin = to_eigen(spin[i]);
     }
+  }
+
+  ContactState contacts(const ContactNetwork&) const override {
+    throw RunError("backend reference does not tell of its contacts");
   }
 
   std::vector<StateArray> state() const override { refuse_checkpoints(); }
@@ -193,7 +197,7 @@ class ReferenceStepper : public Stepper {
 
   const ReferenceLaw& law(PairType pair) const { return *laws_[static_cast<std::size_t>(pair)]; }
 
-  /// m·dv/dt = F + F_d over one step, for forces and likewise for moments (Eq. 1, 2).
+  /// m·dv/dt = F + F_d over one step, for forces and likewise for moments (Eq. 1, 2; model (10.1)).
   Vector3d accelerate(const Vector3d& v, const Vector3d& load, double mass) const {
     const double dt = options_.dt, damping = options_.damping;
     switch (options_.damping_kind) {
@@ -284,7 +288,7 @@ class ReferenceStepper : public Stepper {
     }
   }
 
-  /// Eq. 8: of B with respect to A where both meet.
+  /// Model (5.1): of B with respect to A where both meet.
   Vector3d relative_velocity(const ReferenceContact& contact, const ContactPoint& point) const {
     const Body& a = bodies_[contact.a];
     const Vector3d side_a = a.velocity + a.spin.cross(contact.middle.lever_a(point));
@@ -305,8 +309,8 @@ class ReferenceStepper : public Stepper {
 }  // namespace reference
 
 std::unique_ptr<Stepper> make_reference_stepper(const Specimen& specimen, const ContactNetwork& network,
-                                                const std::array<std::optional<Law>, pair_types>& laws,
-                                                const Inertia& inertia, const StepperOptions& options) {
+                                                const LawTable& laws, const Inertia& inertia,
+                                                const StepperOptions& options) {
   reference::require_options(options);
   reference::require_network(network, specimen.size());
   reference::require_inertia(inertia, specimen.size());

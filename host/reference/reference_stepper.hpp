@@ -16,7 +16,7 @@ namespace macadam {
 /// \throws InputError for a precision other than double, and for whatever in the network, laws, masses or options
 /// cannot be stepped; the contact or particle is named.
 std::unique_ptr<Stepper> make_reference_stepper(const Specimen& specimen, const ContactNetwork& network,
-                                                const std::array<std::optional<Law>, pair_types>& laws,
-                                                const Inertia& inertia, const StepperOptions& options);
+                                                const LawTable& laws, const Inertia& inertia,
+                                                const StepperOptions& options);
 
 }  // namespace macadam

@@ -26,8 +26,7 @@ void add_block(std::vector<Eigen::Triplet<double>>& entries, std::int32_t row, s
 
 }  // namespace
 
-Stiffness assemble_stiffness(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
-                             std::size_t particles) {
+Stiffness assemble_stiffness(const ContactNetwork& network, const LawTable& laws, std::size_t particles) {
   require_network(network, particles);
   const ReferenceLaws chains = read_laws(network, laws);
   const auto size = static_cast<Eigen::Index>(6 * particles);

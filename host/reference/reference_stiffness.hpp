@@ -19,7 +19,6 @@ struct Stiffness {
 
 /// Assembles the stiffness of a network of `particles` particles.
 /// \throws InputError as read_laws and require_network do.
-Stiffness assemble_stiffness(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
-                             std::size_t particles);
+Stiffness assemble_stiffness(const ContactNetwork& network, const LawTable& laws, std::size_t particles);
 
 }  // namespace macadam::reference

@@ -1,52 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_contacts.cpp  `[[contacts]]`: one law for each pair type. A new law adds its keys here.
+/// \file read_contacts.cpp  `[[contacts]]`: one law for each pair type.
 #include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 
-#include "host/scene/law_values.hpp"
 #include "host/scene/sections.hpp"
 #include "host/scene/shift_keys.hpp"
+#include "macadam/laws/values.hpp"
 
 namespace macadam::scene {
 namespace {
 
+using laws::ValueKind;
+using laws::ValueNeed;
+
 /// The keys of one law, besides `pair`, `law`, `alpha` and `delta`, which all have.
-std::vector<Key> keys_of(laws::Elastic& law) { return {{"E", Need::required, into(law.E, modulus, positive)}}; }
-
-std::vector<Key> keys_of(laws::GeneralisedKelvin& law) {
-  const auto dashpot = [&law](const Value& value) {  // written `inf`, the law has no dashpot in series
-    law.C_m = value.is_infinite() ? std::numeric_limits<double>::infinity() : value.number(viscosity, positive);
-  };
-  return {{"E_m", Need::required, into(law.E_m, modulus, positive)},
-          {"C_m", Need::optional, dashpot},
-          {"E", Need::optional, into(law.E, modulus, positive)},
-          {"C", Need::optional, into(law.C, viscosity, positive)}};
+template <class L>
+std::vector<Key> keys_of(L& law) {
+  std::vector<Key> out;
+  law.each_key([&](const char* key, auto& member, ValueKind kind, ValueNeed need) {
+    const Quantity& unit = kind == ValueKind::modulus ? modulus : viscosity;
+    Reader read = into(member, unit, positive);
+    if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>) {
+      if (need == ValueNeed::may_be_infinite) {  // written `inf`
+        read = [&member, &unit](const Value& value) {
+          member = value.is_infinite() ? std::numeric_limits<double>::infinity() : value.number(unit, positive);
+        };
+      }
+    }
+    out.push_back({key, need == ValueNeed::required ? Need::required : Need::optional, std::move(read)});
+  });
+  return out;
 }
 
-/// What the values of a law, each good by itself, must satisfy together.
-void check(const laws::Elastic&, const Section&) {}
-
-void check(const laws::GeneralisedKelvin& law, const Section& section) {
-  constexpr std::size_t limit = laws::GeneralisedKelvin::max_units;
-  if (law.E.size() != law.C.size()) {
-    section.refuse("C", fmt::format("{} viscosities for the {} moduli in E", law.C.size(), law.E.size()),
-                   "as many, one of each for a Kelvin unit");
+/// \throws InputError where the values of a law, each good by itself, do not fit together.
+template <class L>
+void check(const L& law, const Section& section) {
+  if constexpr (requires { law.fault(); }) {
+    if (const auto fault = law.fault()) section.refuse(fault->key, fault->found, fault->expected);
   }
-  if (law.E.size() > limit) {
-    section.refuse("E", fmt::format("{} Kelvin units", law.E.size()), fmt::format("at most {}", limit));
-  }
-}
-
-/// Whether δ has left every coefficient a positive number; only C_m may be infinite.
-bool usable(const laws::Elastic& law) { return law.E > 0 && std::isfinite(law.E); }
-
-bool usable(const laws::GeneralisedKelvin& law) {
-  const auto good = [](double v) { return v > 0 && std::isfinite(v); };
-  bool all = good(law.E_m) && law.C_m > 0;
-  for (std::size_t l = 0; l < law.E.size(); ++l) all = all && good(law.E[l]) && good(law.C[l]);
-  return all;
 }
 
 template <std::size_t I = 0>
@@ -97,14 +90,14 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
                                 {"delta", Need::optional, into(delta, ratio, positive)}};
           for (Key& key : keys_of(law)) keys.push_back(std::move(key));
           for (Key& key : keys_of(limits)) keys.push_back(std::move(key));
-          constexpr bool flows = !std::is_same_v<std::decay_t<decltype(law)>, laws::Elastic>;
-          if constexpr (flows)
+          const bool flows = laws::flows(law);
+          if (flows)
             for (Key& key : shift.keys()) keys.push_back(std::move(key));
           section.read(keys);
-          if constexpr (flows) shifts[pair] = shift.shift(section);
+          if (flows) shifts[pair] = shift.shift(section);
           check(law, section);
-          each_value(law, [delta](const std::string&, double& value, ValueKind) { value *= delta; });
-          if (!usable(law)) {
+          laws::each_value(law, [delta](const std::string&, double& value, ValueKind, ValueNeed) { value *= delta; });
+          if (!laws::usable(law)) {
             section.refuse("delta", fmt::format("a product of {} and a coefficient that is 0 or infinite", delta),
                            "products within the range of a double");
           }

@@ -12,13 +12,6 @@ namespace {
 
 bool shifts(const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); }
 
-/// Whether viscosities are what a run can work with: numbers within the range of a double.
-bool usable(const std::optional<Law>& law) {
-  const auto* chain = law ? std::get_if<laws::GeneralisedKelvin>(&*law) : nullptr;
-  return !chain || (chain->C_m > 0 &&
-                    std::all_of(chain->C.begin(), chain->C.end(), [](double c) { return c > 0 && std::isfinite(c); }));
-}
-
 /// 0 where the scene's laws are at their own reference temperatures.
 double present(const Scene& scene, const laws::Shift& shift) {
   return scene.materials.temperature ? laws::log10_shift(shift, *scene.materials.temperature) : 0;
@@ -41,7 +34,7 @@ LawTable laws_at(const Scene& scene, double temperature, LawTable laws) {
 std::optional<double> common_log10_shift(const Scene& scene, double temperature) {
   std::optional<double> out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
-    if (!scene.laws[pair] || !std::holds_alternative<laws::GeneralisedKelvin>(*scene.laws[pair])) continue;
+    if (!scene.laws[pair] || !laws::flows(*scene.laws[pair])) continue;
     const double own = laws::log10_shift(scene.shifts[pair], temperature);
     if (out && *out != own) return {};
     out = own;
@@ -58,15 +51,15 @@ void apply_temperature(Scene& scene, const Section& root) {
       section.refuse(key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
                      "shift = \"wlf\", \"arrhenius\" or \"table\" in a [[contacts]]");
     }
-    const LawTable laws = laws_at(scene, temperature);
+    const LawTable at = laws_at(scene, temperature);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
-      if (usable(laws[pair])) continue;
+      if (!at[pair] || laws::usable(*at[pair])) continue;
       section.refuse(key,
                      fmt::format("{} degrees C, where the shift of {} has no value", temperature,
                                  to_string(static_cast<PairType>(pair))),
                      "a temperature of its range");
     }
-    return laws;
+    return at;
   };
   const auto& several = scene.loading.temperatures;
   if (!several.empty()) {
@@ -78,8 +71,7 @@ void apply_temperature(Scene& scene, const Section& root) {
   }
   if (const std::optional<double> temperature = scene.materials.temperature) {
     scene.materials.temperature.reset();  // the laws are at their reference temperatures until here
-    LawTable laws = check("materials", "temperature", *temperature);
-    scene.laws = std::move(laws);
+    scene.laws = check("materials", "temperature", *temperature);
     scene.materials.temperature = temperature;
   }
 }

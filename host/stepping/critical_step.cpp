@@ -23,21 +23,33 @@ Inertia make_inertia(const Specimen& specimen, double density_aggregate, double 
   return out;
 }
 
-CriticalStep critical_step(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
-                           const Inertia& inertia, const StepperOptions& options) {
+namespace {
+
+/// Stiffness of all contacts on a wall along an axis [N/m].
+double stiffness_on(const ContactNetwork& network, const FactsTable& laws, std::int32_t wall, int axis) {
+  double sum = 0;
+  for (const Contact& c : network.contacts) {
+    if (c.b != wall) continue;
+    const LawFacts& law = laws[static_cast<std::size_t>(c.pair)].value();
+    const double n[3] = {c.n.x, c.n.y, c.n.z}, normal = n[axis] * n[axis];
+    sum += law.instantaneous * c.moments.a / c.distance * (normal + law.alpha * (1 - normal));
+  }
+  return sum;
+}
+
+}  // namespace
+
+CriticalStep critical_step(const ContactNetwork& network, const FactsTable& laws, const Inertia& inertia,
+                           const StepperOptions& options) {
   double worst = 0;
   CriticalStep out;
   for (std::size_t i = 0; i < inertia.mass.size(); ++i) {
     Matrix6 block = Matrix6::Zero();
     for (const std::uint32_t number : network.row(i)) {
       const Contact& c = network.contacts[number];
-      const auto [k, alpha] = std::visit(
-          [](const auto& law) {
-            return std::pair{law.instantaneous(), law.alpha};
-          },
-          laws[static_cast<std::size_t>(c.pair)].value());
+      const LawFacts& law = laws[static_cast<std::size_t>(c.pair)].value();
       const int end = c.a == static_cast<std::int32_t>(i) ? 0 : 1;
-      block += contact_block(c, k, alpha, end, end);
+      block += contact_block(c, law.instantaneous, law.alpha, end, end);
     }
     Eigen::Matrix<double, 6, 1> scale;  // M_i^(-1/2), so that the eigenproblem stays symmetric
     scale.head<3>().setConstant(1 / std::sqrt(inertia.mass[i] * options.density_scaling));
@@ -47,6 +59,17 @@ CriticalStep critical_step(const ContactNetwork& network, const std::array<std::
     if (lambda > worst) {
       worst = lambda;
       out.particle = static_cast<std::int32_t>(i);
+    }
+  }
+  for (int w = 0; w < wall_count; ++w) {
+    const WallMotionSpec& wall = options.boundary.wall[static_cast<std::size_t>(w)];
+    for (int axis = 0; axis < 3; ++axis) {
+      if (wall.axis[static_cast<std::size_t>(axis)].by != DrivenBy::force) continue;
+      const double lambda = stiffness_on(network, laws, -1 - w, axis) / (wall.mass * options.density_scaling);
+      if (lambda > worst) {
+        worst = lambda;
+        out.particle = -1;
+      }
     }
   }
   out.dt = std::sqrt(2 / worst);

@@ -8,13 +8,14 @@
 #include <span>
 #include <vector>
 
+#include "macadam/laws/facts.hpp"
 #include "macadam/tessellation.hpp"
 
 namespace macadam {
 
 /// Which materials meet. `inner`: two spheres of the same aggregate; W is a wall.
 enum class PairType : std::uint8_t { mm, ma, aa, inner, aw, mw };
-inline constexpr int pair_types = 6, particle_pair_types = 4;  ///< the latter first
+inline constexpr int particle_pair_types = 4;  ///< the first of pair_types
 /// `"M-M" "M-A" "A-A" "inner" "A-W" "M-W"`.
 const char* to_string(PairType pair);
 

@@ -75,8 +75,7 @@ class Harmonic {
   /// `typical_frequency`: one in the middle of those to be solved [Hz]; the preconditioner is made for it.
   /// \throws InputError naming the particles of a cluster that does not touch both walls, or a pair without a law;
   /// RunError when the stiffness is singular (a mechanism), a device is not there or has too little memory.
-  Harmonic(const Specimen& specimen, const ContactNetwork& network,
-           const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
+  Harmonic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, const Inertia& inertia,
            const HarmonicOptions& options, double typical_frequency);
   ~Harmonic();
 
@@ -97,7 +96,7 @@ class Harmonic {
 /// The state from which an explicit run is periodic at once: that of `motion` (HarmonicResult::motion, solved with the
 /// inertia and damping of the run) under the loading, whose ramp is not there. A chain is f = k*(ω)·x, x_l = f/(k_l +
 /// iω·η_l).
-StartState steady_start(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
+StartState steady_start(const ContactNetwork& network, const LawTable& laws,
                         const std::vector<std::complex<double>>& motion, const drives::Cyclic& loading);
 
 }  // namespace macadam

@@ -28,9 +28,6 @@ struct Materials {
   }
 };
 
-/// One law for each pair type; empty where the scene gives none.
-using LawTable = std::array<std::optional<Law>, pair_types>;
-
 /// The factor on all moduli and viscosities of each pair.
 using Deltas = std::array<double, pair_types>;
 inline constexpr Deltas all_one{1, 1, 1, 1, 1, 1};

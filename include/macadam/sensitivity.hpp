@@ -34,9 +34,8 @@ struct Sensitivity {
 
 /// By every parameter of every pair that is there, δ and α (where it is not 0), and the density scaling where there is
 /// inertia, for motions as e^(s·t). δ multiplies all moduli and viscosities of a pair.
-std::vector<Sensitivity> sensitivities(const ModulusParts& parts,
-                                       const std::array<std::optional<Law>, pair_types>& laws, std::complex<double> s);
-std::vector<Sensitivity> sensitivities(const ModulusParts&, const std::array<std::optional<Law>, pair_types>&,
+std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable& laws, std::complex<double> s);
+std::vector<Sensitivity> sensitivities(const ModulusParts&, const LawTable&,
                                        double) = delete;  // s = iω, not ω
 
 /// The share of E* that each pair carries, by PairType: its part along E*, over |E*|. Without inertia they add up to 1.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,13 +20,13 @@
 
 namespace macadam {
 
-/// A state of motion to start from, given one step before the start: the stepper takes that step when it is made, which
-/// gives it the forces of step 0. Frames of updated geometry are those of the undeformed contacts, carried there at
-/// once.
+/// A state of motion to start from. Displacements and chains are those of step −1. The stepper takes the step to 0 when
+/// it is made, and so has the forces of step 0. With updated geometry, contact frames are carried from the undeformed
+/// specimen to step −1 in one step. docs/model.md, section 18.
 struct StartState {
   std::vector<Vec3d> displacement, rotation;  ///< at step −1, specimen order [m] [rad]
   std::vector<Vec3d> velocity, spin;          ///< half a step before step 0 [m/s] [rad/s]
-  /// Chains of the six relative displacements of each contact (Eq. 8 about x0: opening, its slopes along s and t, slips
+  /// Chains of the six relative displacements of each contact (model (5.2): opening, its slopes along s and t, slips
   /// along s and t, twist) at step −1, network order: contact c has six chains of 1 + units numbers from chain_begin[c]
   /// on: f per unit of area over distance, then x_l. [Pa·m or Pa, m or 1]
   std::vector<double> chain;
@@ -46,9 +47,9 @@ struct StepperOptions {
   int threads = 0;                    ///< cpu: 0 is OpenMP's choice; results do not depend on it
   std::optional<int> device;          ///< cuda: made the calling thread's; none: the first that can run
   Boundary boundary;                  ///< what drives the walls, fixes and loads particles; drives' dt() is dt
-  const StartState* start = nullptr;  ///< read by make_stepper() only; a cyclic drive must then be without a ramp
-  /// Where a device takes steps in blocks, within which laws change little: how many of them the shortest time of load
-  /// and laws holds at the least. What a block neglects is of second order in its length.
+  const StartState* start = nullptr;  ///< read by make_stepper() only; a cyclic drive must have no ramp then
+  /// A device may take steps in blocks, within which laws are not settled (model (6.8)). At least so many blocks go
+  /// into the shortest of the drives' and the laws' times. What a block neglects is of second order in its length.
   double blocks = 4000;
   /// Steps from one observe() to the next, 0: not known. Blocks end there where they can.
   std::int64_t observed_every = 0;
@@ -60,7 +61,7 @@ struct Inertia {
   std::vector<double> inertia;  ///< 2/5·m·R² [kg·m²]
 };
 
-/// Solid spheres: m = ρ·4/3·π·R³ (section 1 of the model).
+/// Solid spheres, model (1.1).
 Inertia make_inertia(const Specimen& specimen, double density_aggregate, double density_mastic);
 
 /// Motion of all particles, specimen order.
@@ -100,6 +101,30 @@ struct KernelUse {
   double occupancy = 0;           ///< threads that fit over the most that a multiprocessor can have
 };
 
+/// Where the motion of the bodies lies on a device, for those who go on with it there. Valid until the stepper's next
+/// call or end. Body b is particle[b] of the specimen; the walls are behind them, by wall_index().
+struct DeviceMotion {
+  int device = 0;
+  bool doubles = false;                  ///< whether `velocity` is double, not float
+  const void* velocity = nullptr;        ///< [body][8] v, –, ω, – at the last half step [m/s, rad/s]
+  const double* displacement = nullptr;  ///< [body][8] u, –, θ, – at the whole step [m, rad]
+  std::vector<std::int32_t> particle;    ///< [body]
+};
+
+/// Forces and deformation of all contacts, network order.
+struct ContactState {
+  std::vector<Vec3d> force;                     ///< on the contact's first body, at the facet's centroid x0 [N]
+  std::vector<Vec3d> moment;                    ///< likewise, about x0 [N·m]
+  std::vector<std::array<double, 6>> relative;  ///< Eq. 8 about x0, in the contact's frame (n, s, t) of now, from the
+                                                ///< displacements and rotations of now: opening [m], its slopes along s
+                                                ///< and t, slips along s and t [m], twist
+  /// As StartState::chain: f and the units' states of the six relative displacements, or, in points form, of the three
+  /// of each point, one point after another. Where steps are taken in blocks, the units' are those of the block's
+  /// begin.
+  std::vector<double> chain;
+  std::vector<std::size_t> chain_begin;  ///< contact c has the numbers from chain_begin[c] to chain_begin[c + 1]
+};
+
 /// Steps a network in time (leapfrog: velocities at half steps, displacements and forces at whole steps).
 class Stepper {
  public:
@@ -113,6 +138,13 @@ class Stepper {
 
   /// Motion of all particles now, specimen order.
   virtual ParticleState particles() const = 0;
+
+  /// Forces and deformation of all contacts now; `network`: that it was made of. \throws RunError for backend
+  /// reference.
+  virtual ContactState contacts(const ContactNetwork& network) const = 0;
+
+  /// The motion on the device; nothing of the processor's steppers.
+  virtual DeviceMotion device_motion() const { return {}; }
 
   /// Sets the half-step velocities and spins (specimen order), e.g. for free assemblies in tests.
   virtual void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) = 0;
@@ -140,25 +172,37 @@ class Stepper {
   virtual std::int64_t traffic() const { return 0; }
 };
 
+/// Observes a stepper now and after every `every` steps, `n` times more: f(observation), which may read the stepper.
+/// \throws DivergenceError naming the first particle whose motion is out of range.
+void sample(Stepper& stepper, std::int64_t every, std::int64_t n, const std::function<void(const Observation&)>& f);
+
 /// Whether no motion of the particles can turn any of them: no shear stiffness anywhere, and every facet's centroid on
 /// the line of its centres (first moments below 1e-12 of area × size, which is rounding).
-bool nothing_turns(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws);
+bool nothing_turns(const ContactNetwork& network, const FactsTable& laws);
+inline bool nothing_turns(const ContactNetwork& network, const LawTable& laws) {
+  return nothing_turns(network, facts_of(laws));
+}
 
 /// Makes the stepper of a backend (`automatic` is resolved first). `used`: one made of the same specimen, network and
 /// laws that is no longer needed. What it holds that does not depend on time step, masses, loading and start is then
 /// kept; the new one takes the same steps, to the bit, as if it had been made without it.
 /// \throws RunError when the backend is not there; InputError when an option does not fit the backend.
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
-                                      const std::array<std::optional<Law>, pair_types>& laws, const Inertia& inertia,
-                                      const StepperOptions& options, std::unique_ptr<Stepper> used = nullptr);
+                                      const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
+                                      std::unique_ptr<Stepper> used = nullptr);
 
-/// A step that no scene of this network can make unstable: √(2/max λ_max(M_i⁻¹·K_ii)) over the particles' own 6 × 6
-/// blocks with instantaneous stiffnesses, rotations included; local damping χ shortens it by √(1 + χ).
+/// A step that is surely stable, model (11.1): √(2/max λ_max(M_i⁻¹·K_ii)) over the particles' own 6 × 6
+/// blocks with instantaneous stiffnesses, rotations included, and over the walls that options.boundary loads; local
+/// damping χ shortens it by √(1 + χ).
 struct CriticalStep {
   double dt = 0;               ///< [s]
-  std::int32_t particle = -1;  ///< the particle that sets it
+  std::int32_t particle = -1;  ///< the particle that sets it; −1: a wall under a force
 };
-CriticalStep critical_step(const ContactNetwork& network, const std::array<std::optional<Law>, pair_types>& laws,
-                           const Inertia& inertia, const StepperOptions& options);
+CriticalStep critical_step(const ContactNetwork& network, const FactsTable& laws, const Inertia& inertia,
+                           const StepperOptions& options);
+inline CriticalStep critical_step(const ContactNetwork& network, const LawTable& laws, const Inertia& inertia,
+                                  const StepperOptions& options) {
+  return critical_step(network, facts_of(laws), inertia, options);
+}
 
 }  // namespace macadam

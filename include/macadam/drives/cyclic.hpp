@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cyclic.hpp  −A·r(t)·sin(2πft): compression first, as walls are named (section 4.4).
+/// \file cyclic.hpp  −A·r(t)·sin(2πft): compression first, as walls are named ([1], section 4.4; model (13.1)).
 #pragma once
 
 #include <cmath>

@@ -2,14 +2,20 @@
 /// \file all.hpp  The list of contact laws. Scene reader, steppers, tests and benchmarks walk it.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <variant>
 
 #include "macadam/laws/elastic.hpp"
+#include "macadam/laws/facts.hpp"
 #include "macadam/laws/generalised_kelvin.hpp"
 
 namespace macadam {
 
 /// Any one law. To add a law, add its type here.
 using Law = std::variant<laws::Elastic, laws::GeneralisedKelvin>;
+
+/// One law for each pair type, by PairType; empty where there is none.
+using LawTable = std::array<std::optional<Law>, pair_types>;
 
 }  // namespace macadam

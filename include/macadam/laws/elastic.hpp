@@ -17,6 +17,10 @@ struct Elastic {
   double E = 0;      ///< modulus [Pa], δ included
   double alpha = 0;  ///< shear over normal stiffness
 
+  template <class F>
+  void each_key(F&& f) {
+    f("E", E, ValueKind::modulus, ValueNeed::required);
+  }
   int units() const { return 0; }
   double instantaneous() const { return E; }
   double shortest_time() const { return std::numeric_limits<double>::infinity(); }
@@ -49,7 +53,9 @@ struct Elastic {
 
   /// Nothing flows: a block of steps is as exact as the steps.
   struct Block {
+    static constexpr int most_units = 0;
     double rate, relax, follow;
+    void settled_as(const Block&) {}
     template <int L, class Units>
     MACADAM_HD double drive(double, Units&&) const {
       return 0;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,24 @@ struct GeneralisedKelvin {
   std::vector<double> C;                                 ///< Kelvin dashpots [Pa·s], as many
   double alpha = 0;                                      ///< shear over normal stiffness
 
+  template <class F>
+  void each_key(F&& f) {
+    f("E_m", E_m, ValueKind::modulus, ValueNeed::required);
+    f("C_m", C_m, ValueKind::viscosity, ValueNeed::may_be_infinite);
+    f("E", E, ValueKind::modulus, ValueNeed::optional);
+    f("C", C, ValueKind::viscosity, ValueNeed::optional);
+  }
+  std::optional<LawFault> fault() const {
+    if (E.size() != C.size()) {
+      return LawFault{"C",
+                      std::to_string(C.size()) + " viscosities for the " + std::to_string(E.size()) + " moduli in E",
+                      "as many, one of each for a Kelvin unit"};
+    }
+    if (E.size() > static_cast<std::size_t>(max_units)) {
+      return LawFault{"E", std::to_string(E.size()) + " Kelvin units", "at most " + std::to_string(max_units)};
+    }
+    return {};
+  }
   int units() const { return static_cast<int>(E.size()); }
   double instantaneous() const { return E_m; }
   /// min C/E over all units, Maxwell's included [s]
@@ -114,6 +133,7 @@ struct GeneralisedKelvin {
   /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with one weight for all steps (model (6.9)). What is
   /// neglected has no mean over a block and is of second order in M·Δt over the times of the load and of the units.
   struct Block {
+    static constexpr int most_units = max_units;
     double rate, relax, follow;  ///< 1/c [Pa], (c + g)/c [1], [1]
     double recover[max_units];   ///< r_l [1]
     double ahead[max_units];     ///< (M − 1)·Δt/(2·a_l·η_l): what f adds to x_l up to the middle [1/Pa]
@@ -121,6 +141,11 @@ struct GeneralisedKelvin {
     double lost[max_units];      ///< 1 − (1 − r_l)^M [1]
     double gain[max_units];      ///< Δt/(2·a_l·η_l) times the mean of (1 − r_l)^k over k < M [1/Pa]
     int n;
+
+    void settled_as(const Block& before) {
+      std::copy(before.lost, before.lost + n, lost);
+      std::copy(before.gain, before.gain + n, gain);
+    }
 
     /// Change of f in a step at rest, from f and x_l at the beginning of the block.
     template <int L, class Units>

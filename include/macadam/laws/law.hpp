@@ -10,6 +10,8 @@
 ///   - `static constexpr const char* name` — the word in a scene file;
 ///   - `double alpha` — shear stiffness over normal stiffness; all moduli already include δ;
 ///   - `int units() const` — extra state numbers a component besides f (Kelvin units);
+///   - `template <class F> void each_key(F&& f)` — calls f(key, member, ValueKind, ValueNeed) for each modulus and
+///     viscosity, a double or a std::vector<double>: what a scene may say of it, in the order of the names below;
 ///   - `double instantaneous() const` — stiffness of an infinitely fast displacement [Pa], for the critical step;
 ///   - `std::complex<double> stiffness(std::complex<double> s) const` — exact stiffness [Pa] for motions as e^(s·t);
 ///     s = iω for the steady state at ω [1/s];
@@ -24,13 +26,38 @@
 ///     only known at run time. `static constexpr bool memoryless` says whether f is a function of x alone; then
 ///     `template <class S> S value(S x) const` is that function, and a contact of fixed geometry needs no state.
 ///   - `double shortest_time() const` — the shortest of its relaxation or retardation times [s], ∞ for none;
-///   - `struct Block` — M steps taken as one block in which f changes little, made by
-///     `Block block(double dt, int M) const` (all double): members `rate`, `relax`, `follow` and functions
+/// All of the following may be absent:
+///   - `std::optional<LawFault> fault() const` — what its values, each good by itself, fail to satisfy together;
+///   - `static constexpr bool linear = false` — f is no linear function of the history of x. Such a law is stepped by
+///     contact points only, and has no place in the frequency domain: no stiffness(), each_parameter(),
+///     unit_compliance().
+///   - `static constexpr int only_units` — units(), where it is always the same number;
+///   - `struct Block` — (without it a device takes two kernels a step) M steps taken as one block in which f changes
+///   little, made by
+///     `Block block(double dt, int M) const` (all double): members `rate`, `relax`, `follow`, `static constexpr int
+///     most_units`, `void settled_as(const Block& before)`, which takes what settle() needs from the block that ends,
+///     and functions
 ///     `template <int L, class Units> double drive(double f, Units&& x) const` and
 ///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
 ///     follows δf' = δf + rate·dx + drive + follow·s − relax·δf, with the drive of f and x(l) at its beginning and s
 ///     the sum of δf' + δf over its steps so far; at its end settle() takes Σ (f' + f) and updates x(l): model (6.8)
 ///     and (6.9). What is neglected is of second order in the block's length and has no mean over it.
-/// Laws own no memory, know no arrays and no threads. Add one: a header here, a line in all.hpp, its second writing in
-/// host/reference, a test.
+/// Laws own no memory, know no arrays and no threads. A law may use its units for a state of any kind: damage, slip,
+/// plasticity. Add one: a header here, a line in all.hpp, its second writing in host/reference, a test; or in a program
+/// of your own (examples/own_law).
 #pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace macadam::laws {
+
+enum class ValueKind : std::uint8_t { modulus, viscosity };                   ///< [Pa], [Pa·s]
+enum class ValueNeed : std::uint8_t { required, optional, may_be_infinite };  ///< the last may be left out too
+
+/// What of a law's values, each good by itself, does not fit the others.
+struct LawFault {
+  std::string key, found, expected;
+};
+
+}  // namespace macadam::laws

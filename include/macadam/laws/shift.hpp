@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "macadam/laws/all.hpp"
+#include "macadam/laws/values.hpp"
 
 namespace macadam::laws {
 
@@ -69,10 +69,13 @@ inline double log10_shift(const Shift& shift, double temperature) {
 
 /// The law with every viscosity multiplied by a_T.
 inline Law shifted(Law law, double a_T) {
-  if (auto* chain = std::get_if<GeneralisedKelvin>(&law)) {
-    chain->C_m *= a_T;
-    for (double& dashpot : chain->C) dashpot *= a_T;
-  }
+  std::visit(
+      [a_T](auto& l) {
+        each_value(l, [a_T](const std::string&, double& value, ValueKind kind, ValueNeed) {
+          if (kind == ValueKind::viscosity) value *= a_T;
+        });
+      },
+      law);
   return law;
 }
 

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file bilinear.hpp  A law of one's own that is not linear: an elastic contact that is softer beyond a displacement.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "macadam/laws/law.hpp"
+#include "macadam/numeric.hpp"
+
+/// f = E·x up to |x| = x_0, with the slope E_2 beyond. The unit state is x itself.
+struct Bilinear {
+  static constexpr const char* name = "bilinear";
+  static constexpr bool linear = false;  // stepped by contact points
+  static constexpr int only_units = 1;
+  double E = 0, E_2 = 0;  ///< [Pa], E_2 ≤ E
+  double x_0 = 0;         ///< [m]
+  double alpha = 0;       ///< shear over normal stiffness
+
+  int units() const { return 1; }
+  double instantaneous() const { return E; }
+  double shortest_time() const { return std::numeric_limits<double>::infinity(); }
+
+  template <class R>
+  struct Step {
+    static constexpr bool memoryless = false;
+    R E, E_2, x_0;
+    MACADAM_HD int units() const { return 1; }
+    /// Written with sums and products only, so that it compiles for packets of contacts as well.
+    template <int L, class S, class Units>
+    MACADAM_HD S advance(S, S dx, Units&& x) const {
+      x(0) += dx;
+      return value(S(x(0)));
+    }
+    template <class S>
+    MACADAM_HD S value(const S& x) const {
+      using std::abs;                                                    // a packet's own is found by its type
+      const S beyond = S(R(0.5)) * (abs(x - S(x_0)) - abs(x + S(x_0)));  // x cut at ±x_0, with a minus
+      return S(E_2) * x - S(E - E_2) * beyond;
+    }
+  };
+  template <class R>
+  Step<R> step(double) const {
+    return {static_cast<R>(E), static_cast<R>(E_2), static_cast<R>(x_0)};
+  }
+};

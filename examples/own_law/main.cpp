@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// main.cpp  A column of spheres whose contacts have laws of this program's own, against closed forms.
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "laws.hpp"
+#ifndef OWN_LAW_ON_DEVICE
+#include <kernels/make_cpu.hpp>
+
+std::unique_ptr<macadam::Stepper> make_own_stepper(const macadam::Specimen& specimen,
+                                                   const macadam::ContactNetwork& network, const OwnLaws& laws,
+                                                   const macadam::Inertia& inertia,
+                                                   const macadam::StepperOptions& options) {
+  return macadam::kernels::make_cpu_in<macadam::kernels::DoublePrecision, OwnLaw>(specimen, network, laws, inertia,
+                                                                                  options, nullptr);
+}
+#endif
+
+namespace {
+
+using namespace macadam;
+constexpr int spheres = 4;
+constexpr double side = 1e-3, area = side * side, height = spheres * side;  // of a cubic cell [m]
+
+Specimen make_column() {
+  Specimen out;
+  out.box.size = {side, side, height};
+  for (int i = 0; i < spheres; ++i) {
+    out.centre.push_back({side / 2, side / 2, (i + 0.5) * side});
+    out.radius.push_back(side / 2);
+    out.phase.push_back(Phase::mastic);
+    out.body.push_back(-1);
+  }
+  return out;
+}
+
+/// A run of the column, its top pulled by `drive`; the stress at its end [Pa], tension positive.
+template <class D>
+double stress_after(const OwnLaw& law, StepperOptions options, D drive, double seconds) {
+  const Specimen column = make_column();
+  const ContactNetwork network = build_network(column, tessellate(column));
+  OwnLaws laws;
+  laws.fill(law);
+  const Inertia inertia = make_inertia(column, 2630, 2110);
+  options.dt = 0.4 * critical_step(network, facts_of(laws), inertia, options).dt;
+  drive.step = options.dt;
+  drive.ramp_steps = std::llround(2e-4 / options.dt);
+  options.boundary = moving_top(drive);
+  const auto stepper = make_own_stepper(column, network, laws, inertia, options);
+  stepper->advance(std::llround(seconds / options.dt));
+  std::printf("%s\n", stepper->description().c_str());
+  return -stepper->observe().top_force() / area;
+}
+
+bool agree(const char* what, double found, double expected, double tolerance) {
+  const double error = std::abs(found / expected - 1);
+  std::printf("%-42s %.6g Pa, closed form %.6g Pa: %.1e of %.0e\n", what, found, expected, error, tolerance);
+  return error <= tolerance;
+}
+
+/// Relaxation after a strain that rises as a half cosine for 0.2 ms and is held.
+bool relaxes() {
+  const StandardLinearSolid law{1e9, 3e9, 3e6, 0.2};
+  const double strain = 1e-5, at = 2e-3, rise = 2e-4, time = law.C_1 / law.E_1;
+  drives::Ramp drive(strain * height, 1);
+  drive.smooth = true;
+  StepperOptions options;
+  options.form = ContactForm::condensed;  // the law is linear
+  options.geometry = Geometry::fixed;
+  options.damping_kind = Damping::viscous;  // of the waves that the rise leaves
+  options.damping = 2e4;
+  const double found = stress_after(OwnLaw(law), options, drive, at);
+  double memory = 0;  // of the rate of strain, by the midpoint rule
+  const int pieces = 2000;
+  for (int i = 0; i < pieces; ++i) {
+    const double t = (i + 0.5) * rise / pieces;
+    const double rate = strain * std::numbers::pi / (2 * rise) * std::sin(std::numbers::pi * t / rise);
+    memory += rate * std::exp(-(at - t) / time) * rise / pieces;
+  }
+  return agree("standard linear solid, after 2 ms of hold", found, law.E_inf * strain + law.E_1 * memory, 2e-4);
+}
+
+/// A bilinear column pulled beyond the yield displacement of its longer contacts, and left to come to rest.
+bool yields() {
+  const Bilinear law{2e9, 4e8, 2e-9, 0};
+  const double pulled = 1.6e-8;
+  drives::Ramp drive(pulled, 1);
+  drive.smooth = true;
+  StepperOptions options;
+  options.form = ContactForm::points;
+  options.geometry = Geometry::updated;
+  options.damping_kind = Damping::local;
+  options.damping = 0.5;
+  const double found = stress_after(OwnLaw(law), options, drive, 3e-3);
+  // one force through all contacts, f(x)·A/d: the stress at which their displacements add up to that of the wall
+  const auto stretch = [&](double stress, double d) {
+    const double f = stress * d, yield = law.E * law.x_0;
+    return f <= yield ? f / law.E : law.x_0 + (f - yield) / law.E_2;
+  };
+  double low = 0, high = law.E * pulled / height;
+  for (int i = 0; i < 100; ++i) {
+    const double stress = (low + high) / 2;
+    const double sum = 2 * stretch(stress, side / 2) + (spheres - 1) * stretch(stress, side);
+    (sum < pulled ? low : high) = stress;
+  }
+  return agree("bilinear, at rest beyond its yield", found, low, 1e-4);
+}
+
+}  // namespace
+
+int main() {
+  const bool first = relaxes(), second = yields();
+  return first && second ? 0 : 1;
+}

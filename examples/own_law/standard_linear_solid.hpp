@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file standard_linear_solid.hpp  A law of one's own: a spring beside a spring and a dashpot in a row.
+#pragma once
+
+#include <complex>
+#include <string>
+
+#include "macadam/laws/law.hpp"
+#include "macadam/numeric.hpp"
+
+/// f = E_inf·x + g, where g = E_1·(x − y) stretches the dashpot: C_1·dy/dt = g. The unit state is g itself.
+struct StandardLinearSolid {
+  static constexpr const char* name = "standard_linear_solid";
+  static constexpr int only_units = 1;
+  double E_inf = 0, E_1 = 0;  ///< [Pa]
+  double C_1 = 0;             ///< [Pa·s]
+  double alpha = 0;           ///< shear over normal stiffness
+
+  int units() const { return 1; }
+  double instantaneous() const { return E_inf + E_1; }
+  double shortest_time() const { return C_1 / E_1; }
+  std::complex<double> stiffness(std::complex<double> s) const { return E_inf + E_1 * s * C_1 / (E_1 + s * C_1); }
+
+  template <class R>
+  struct Step {
+    static constexpr bool memoryless = false;
+    R E_inf, gain, loss;
+    MACADAM_HD int units() const { return 1; }
+    template <int L, class S, class Units>
+    MACADAM_HD S advance(S f, S dx, Units&& x) const {
+      const S dg = S(gain) * dx - S(loss) * x(0);
+      x(0) += dg;
+      return f + (S(E_inf) * dx + dg);
+    }
+  };
+  /// dg = E_1·(dx − Δt·(g + dg/2)/C_1): the trapezoidal rule.
+  template <class R>
+  Step<R> step(double dt) const {
+    const double a = 1 + E_1 * dt / (2 * C_1);
+    return {static_cast<R>(E_inf), static_cast<R>(E_1 / a), static_cast<R>(E_1 * dt / C_1 / a)};
+  }
+};

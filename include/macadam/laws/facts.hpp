@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file facts.hpp  What those who never look into a law must know of it, and which of the optional parts it has.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <type_traits>
+#include <variant>
+
+namespace macadam {
+
+inline constexpr int pair_types = 6;  ///< of PairType (contact_network.hpp)
+
+/// A law, whatever its type.
+struct LawFacts {
+  const char* name = "";
+  double alpha = 0;                                                ///< shear over normal stiffness
+  double instantaneous = 0;                                        ///< [Pa]
+  double shortest_time = std::numeric_limits<double>::infinity();  ///< [s]
+  int units = 0;                                                   ///< state numbers a component besides f
+  bool memoryless = false, linear = true, blocks = false;          ///< see law.hpp
+};
+
+/// The optional parts of a law's contract (law.hpp).
+/// @{
+template <class L>
+inline constexpr bool memoryless_law = L::template Step<double>::memoryless;
+template <class L>
+constexpr bool is_linear() {
+  if constexpr (requires { L::linear; })
+    return L::linear;
+  else
+    return true;
+}
+template <class L>
+inline constexpr bool linear_law = is_linear<L>();
+template <class L>
+inline constexpr bool has_blocks = requires(const L& law) {
+  law.block(1.0, 1).rate;
+};
+/// The number of units where it is known to the compiler; −1: by value.
+template <class L>
+constexpr int units_of() {
+  if constexpr (memoryless_law<L>)
+    return 0;
+  else if constexpr (requires { L::only_units; })
+    return L::only_units;
+  else
+    return -1;
+}
+/// @}
+
+template <class L>
+LawFacts facts_of(const L& law) {
+  return {L::name,     law.alpha,         law.instantaneous(), law.shortest_time(),
+          law.units(), memoryless_law<L>, linear_law<L>,       has_blocks<L>};
+}
+
+/// Of each pair that has a law.
+using FactsTable = std::array<std::optional<LawFacts>, pair_types>;
+
+template <class... L>
+FactsTable facts_of(const std::array<std::optional<std::variant<L...>>, pair_types>& laws) {
+  FactsTable out;
+  for (std::size_t pair = 0; pair < laws.size(); ++pair) {
+    if (laws[pair]) out[pair] = std::visit([](const auto& law) { return facts_of(law); }, *laws[pair]);
+  }
+  return out;
+}
+
+}  // namespace macadam

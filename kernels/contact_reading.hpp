@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_reading.hpp  What the contacts of a group carry now, from the states that an executor keeps: on the
+/// host, in double precision, for those who ask.
+#pragma once
+
+#include <cmath>
+
+#include "kernels/contact_data.hpp"
+#include "kernels/contact_forces.hpp"
+
+namespace macadam::kernels {
+
+/// Copies of what a step changes of a group.
+template <class P>
+struct GroupState {
+  std::vector<typename P::State> chain, frame;  ///< as ContactView
+  std::vector<float> change;                    ///< [slot][6] of f since the chains were settled; empty: nothing
+};
+
+/// One group of contacts, seen with the displacements of now.
+template <class P, class L>
+class GroupReading {
+ public:
+  GroupReading(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const L& law,
+               const StepperOptions& options, const std::vector<double>& displacement, GroupState<P> state)
+      : network_(network),
+        layout_(layout),
+        group_(group),
+        law_(law.template step<double>(options.dt)),
+        shape_(layout, group, facts_of(law), options),
+        updated_(options.geometry == Geometry::updated),
+        alpha_(law.alpha),
+        displacement_(displacement),
+        state_(std::move(state)) {}
+
+  /// Numbers of the chains that contact c has in ContactState.
+  std::size_t numbers(const Contact& c) const {
+    return words() * (shape_.by_points ? 3 * (c.point_end - c.point_begin) : 6);
+  }
+
+  /// Fills what belongs to the group's contacts; `out.chain_begin` is there.
+  void read(ContactState& out) const {
+#pragma omp parallel for schedule(static)
+    for (std::size_t slot = 0; slot < group_.contact.size(); ++slot) {
+      if (group_.contact[slot] != inert) read(slot, out);
+    }
+  }
+
+ private:
+  using Vector = Vec3<double>;
+  std::size_t words() const { return static_cast<std::size_t>(1 + shape_.view.units); }
+  Vector moved(std::int32_t body, std::size_t first) const {
+    const double* u = &displacement_[static_cast<std::size_t>(body) * displacement_words + first];
+    return {u[0], u[1], u[2]};
+  }
+
+  void read(std::size_t slot, ContactState& out) const {
+    const std::uint32_t number = group_.contact[slot];
+    const Contact& c = network_.contacts[number];
+    const std::int32_t a = layout_.body_of(c.a), b = layout_.body_of(c.b);
+    const Twist<double> of_a{moved(a, 0), moved(a, 4)}, of_b{moved(b, 0), moved(b, 4)};
+    const Placement<double> frame = placement(slot, c, of_b.linear - of_a.linear);
+    double u[6];
+    relative_rates(frame, of_a, of_b, u);
+    std::copy(u, u + 6, out.relative[number].begin());
+    double* chain = &out.chain[out.chain_begin[number]];
+    const FacetLoad<double> load = shape_.by_points ? points(slot, c, u, chain) : condensed(slot, c, u, chain);
+    out.force[number] = load.n * frame.n + load.s * frame.s + load.t * frame.t;
+    out.moment[number] = load.moment_n * frame.n + load.moment_s * frame.s + load.moment_t * frame.t;
+  }
+
+  /// Eq. 5–7 now. `apart`: how much further B is from A than at the start.
+  Placement<double> placement(std::size_t slot, const Contact& c, const Vector& apart) const {
+    Placement<double> out{c.n, c.s, c.t, c.arm_a, c.arm_b};
+    if (!updated_) return out;
+    const Vector branch = c.distance * c.n + apart;
+    if (shape_.view.wall) {
+      out.arm_a = dot(branch, c.n);
+    } else {
+      const double d = norm(branch);
+      out.n = (1 / d) * branch;
+      out.arm_a += 0.5 * (d - c.distance);
+      out.arm_b += 0.5 * (d - c.distance);
+    }
+    const std::size_t lanes = shape_.lanes, count = static_cast<std::size_t>(shape_.view.frame_words);
+    const auto* stored = &state_.frame[slot / lanes * count * lanes + slot % lanes];
+    Vector s{double(stored[0]), double(stored[lanes]), double(stored[2 * lanes])};
+    s -= dot(s, out.n) * out.n;
+    s = (1 / norm(s)) * s;
+    if (count == 4) {  // the spin that is not in ŝ yet
+      const double turn = stored[3 * lanes];
+      s = std::cos(turn) * s + std::sin(turn) * cross(out.n, s);
+    }
+    out.s = s;
+    out.t = cross(out.n, s);
+    return out;
+  }
+
+  /// f of a chain, whose numbers go to `out` as well; of a contact without a state, that of displacement x.
+  double chain(std::size_t row, int component, std::size_t lane, double x, double* out) const {
+    if constexpr (memoryless_law<L>) {
+      if (shape_.stateless) return *out = law_.value(x);
+    }
+    const auto at = (row * static_cast<std::size_t>(shape_.view.components) + static_cast<std::size_t>(component)) *
+                    words() * shape_.lanes;
+    for (std::size_t w = 0; w < words(); ++w) out[w] = state_.chain[at + w * shape_.lanes + lane];
+    return out[0];
+  }
+
+  FacetLoad<double> condensed(std::size_t slot, const Contact& c, const double (&u)[6], double* out) const {
+    double f[6] = {0, 0, 0, 0, 0, 0};
+    for (int k = 0; k < shape_.view.components; ++k) {
+      double* own = out + static_cast<std::size_t>(k) * words();
+      f[k] = chain(slot / shape_.lanes, k, slot % shape_.lanes, u[k], own);
+      if (!state_.change.empty() && !shape_.stateless)
+        *own = f[k] += state_.change[6 * slot + static_cast<std::size_t>(k)];
+    }
+    const AreaMoments& m = c.moments;
+    const double d = c.distance, moments[6] = {m.a / d, m.s / d, m.t / d, m.ss / d, m.st / d, m.tt / d};
+    return condensed_load(f, alpha_, moments);
+  }
+
+  FacetLoad<double> points(std::size_t slot, const Contact& c, const double (&u)[6], double* out) const {
+    FacetLoad<double> load;
+    for (std::uint32_t j = 0; j < c.point_end - c.point_begin; ++j) {
+      const std::uint32_t point = c.point_begin + j;
+      const double s = network_.point_s[point], t = network_.point_t[point],
+                   weight = network_.point_area[point] / c.distance;
+      const double x[3] = {u[0] + s * u[1] + t * u[2], u[3] - t * u[5], u[4] + s * u[5]};
+      double f[3] = {0, 0, 0};
+      for (int k = 0; k < shape_.view.components; ++k) {
+        const std::size_t row = group_.packet_row[slot / shape_.lanes] + j;
+        f[k] = weight * chain(row, k, slot % shape_.lanes, x[k], out + (3 * j + static_cast<std::size_t>(k)) * words());
+      }
+      const double along_s = alpha_ * f[1], along_t = alpha_ * f[2];
+      load.n += f[0], load.s += along_s, load.t += along_t;
+      load.moment_s += t * f[0], load.moment_t -= s * f[0], load.moment_n += s * along_t - t * along_s;
+    }
+    return load;
+  }
+
+  const ContactNetwork& network_;
+  const Layout& layout_;
+  const GroupLayout& group_;
+  typename L::template Step<double> law_;
+  GroupShape<P> shape_;
+  bool updated_;
+  double alpha_;
+  const std::vector<double>& displacement_;
+  GroupState<P> state_;
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_body_arrays.hpp  What both executors of a device have: its stream, the bodies, the walls' table, and the
+/// arrays of the groups.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "kernels/contact_reading.hpp"
+#include "kernels/cuda_divergence.hpp"
+#include "kernels/cuda_record_rows.hpp"
+#include "kernels/cuda_tile_limits.hpp"
+#include "kernels/cuda_wall_table.hpp"
+#include "kernels/executor.hpp"
+
+namespace macadam::kernels {
+
+template <class P>
+class CudaBodyArrays {
+ public:
+  using Policy = P;
+  using R = typename P::Particle;
+  using G = typename P::Geometry;
+  static constexpr int lanes = 32;
+
+  /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that several tiles share
+  /// one. A contact takes some 75 bytes of shared memory there: two slots of loads and its share of the bodies.
+  static std::size_t tile_contacts(const ContactNetwork& network, const StepperOptions& options) {
+    check_cuda(cudaSetDevice(options.device.value()), "device");
+    const DeviceLimits limits = DeviceLimits::query();
+    const auto chips = static_cast<std::size_t>(limits.multiprocessors),
+               shared = static_cast<std::size_t>(limits.shared);
+    const std::size_t contacts = network.contacts.size();
+    if (contacts > shared / 75 * chips) return std::min<std::size_t>(1000, shared / 100);
+    return std::max<std::size_t>(128, contacts / (chips + 1) + 1);
+  }
+
+  CudaBodyArrays(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
+      : device_(options.device.value()),
+        layout_(layout),
+        rows_(network, layout),
+        views_(layout.groups.size()),
+        master_(bodies() * velocity_words),
+        displacement_(bodies() * displacement_words),
+        velocity_(std::is_same_v<G, R> ? 0 : bodies() * velocity_words) {
+    check_cuda(cudaStreamCreate(&stream_), "stream");
+  }
+  CudaBodyArrays(const CudaBodyArrays&) = delete;
+  ~CudaBodyArrays() { cudaStreamDestroy(stream_); }
+
+  /// That it answers is known by then.
+  void use_device() const { cudaSetDevice(device_); }
+
+  const double* wall_table(std::size_t most_values) { return wall_rows_.prepare(most_values); }
+  void set_wall_rows(const std::vector<double>& rows) { wall_rows_.put(rows, stream_); }
+
+  BodyView<P> set_bodies(const std::vector<R>& inverse, const std::vector<R>& weight) {
+    if (inverse_.size() == 0) inverse_ = DeviceArray<R>(inverse.size());
+    inverse_.upload(inverse.data());
+    weight_ = DeviceArray<R>::of(weight);
+    return {gathered(),
+            master_.data(),
+            displacement_.data(),
+            inverse_.data(),
+            weight.empty() ? nullptr : weight_.data(),
+            static_cast<std::int32_t>(layout_.particles())};
+  }
+
+  /// A failing kernel is reported here.
+  void wait() const { check_cuda(cudaStreamSynchronize(stream_), "time steps"); }
+
+  std::vector<R> velocities() const { return master_.download(); }
+  std::vector<double> displacements() const { return displacement_.download(); }
+  std::vector<double> wall_displacements() const {
+    std::vector<double> out(walls * displacement_words);
+    check_cuda(cudaMemcpy(out.data(), displacement_.data() + layout_.particles() * displacement_words,
+                          out.size() * sizeof(double), cudaMemcpyDeviceToHost),
+               "walls");
+    return out;
+  }
+  void set_displacements(const std::vector<double>& u) { displacement_.upload(u.data()); }
+  void set_velocities(const std::vector<R>& v) {
+    master_.upload(v.data());
+    if constexpr (!std::is_same_v<G, R>) {
+      const std::vector<G> rounded(v.begin(), v.end());
+      velocity_.upload(rounded.data());
+    }
+  }
+
+  std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
+    if (!divergence_) divergence_ = std::make_unique<DivergenceSearch<P>>(layout_, radius);
+    return divergence_->first(master_.data(), dt, stream_);
+  }
+
+  GroupState<P> group_state(std::size_t number, std::size_t chain, std::size_t frame) const {
+    const auto copy = [](const auto* from, std::size_t n) {
+      std::vector<typename P::State> out(n);
+      if (n > 0) check_cuda(cudaMemcpy(out.data(), from, n * sizeof out[0], cudaMemcpyDeviceToHost), "contact states");
+      return out;
+    };
+    return {copy(views_[number].chain, chain), copy(views_[number].frame, frame), {}};
+  }
+
+  const StateList& states() const { return states_; }
+
+  /// What stays on the device where a stepper does.
+  DeviceMotion device_motion() const {
+    return {device_, sizeof(R) == 8, master_.data(), displacement_.data(), layout_.particle};
+  }
+
+ protected:
+  std::size_t bodies() const { return layout_.particles() + walls; }
+
+  void rest() {
+    states_.clear();
+    master_.clear();
+    displacement_.clear();
+    velocity_.clear();
+  }
+
+  /// Takes group `number` for good, the first time, or its states alone.
+  ContactView<P> take_group(std::size_t number, bool first, ContactArrays<P>& arrays) {
+    ContactView<P> view = first ? arrays.shape : views_[number];
+    arrays.for_each_array(view, [&](auto name, auto unit, auto& array, auto& pointer) {
+      constexpr bool state = !std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>;
+      const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
+      if (first) {
+        pointer = store_.keep(array);
+        group_bytes_ += size;
+        if (state) state_bytes_ += size;
+      }
+      if constexpr (state) {
+        if (!first && size > 0) {
+          check_cuda(cudaMemcpy(pointer, array.data(), static_cast<std::size_t>(size), cudaMemcpyHostToDevice),
+                     "states of the start");
+        }
+        add_device_state(states_, std::string(name) + "_" + to_string(layout_.groups[number].pair), unit, pointer,
+                         array.size());
+      }
+    });
+    return views_[number] = view;
+  }
+
+  void add_body_states() {
+    const auto add = [&](const char* name, const char* unit, const auto& array) {
+      add_device_state(states_, name, unit, array.data(), array.size());
+    };
+    add("velocity", "m/s, rad/s", master_);
+    add("displacement", "m, rad", displacement_);
+    add("gathered_velocity", "m/s, rad/s", velocity_);
+  }
+
+  void require_memory(std::size_t needed) const {
+    std::size_t free = 0, total = 0;
+    check_cuda(cudaMemGetInfo(&free, &total), "memory");
+    if (needed <= free) return;
+    const auto mib = [](std::size_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; };
+    throw RunError("CUDA: the scene of " + std::to_string(layout_.particles()) + " particles and " +
+                   std::to_string(rows_.records / 2) + " contacts needs another " + mib(needed) +
+                   " on the device: found " + mib(free) + " free of " + mib(total));
+  }
+
+  std::string described(const std::string& way) const {
+    cudaDeviceProp properties{};
+    check_cuda(cudaGetDeviceProperties(&properties, device_), "device properties");
+    return "cuda" + (device_ > 0 ? " device " + std::to_string(device_) : "") + ", " + properties.name + ", " + way;
+  }
+
+  /// Of the bodies, what a step reads and writes; and all bytes held but those of the loads.
+  std::int64_t body_traffic() const {
+    return static_cast<std::int64_t>(2 * (master_.bytes() + displacement_.bytes() + velocity_.bytes()) +
+                                     inverse_.bytes());
+  }
+  std::int64_t held_bytes() const {
+    return group_bytes_ + static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() +
+                                                    velocity_.bytes() + rows_.place.bytes());
+  }
+
+  static std::vector<Twist<R>> twists(const std::vector<R>& words) {
+    std::vector<Twist<R>> out(words.size() / velocity_words);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const R* w = &words[i * velocity_words];
+      out[i] = {{w[0], w[1], w[2]}, {w[4], w[5], w[6]}};
+    }
+    return out;
+  }
+  G* gathered() const {
+    if constexpr (std::is_same_v<G, R>)
+      return master_.data();
+    else
+      return velocity_.data();
+  }
+
+  int device_;
+  const Layout& layout_;
+  RecordRows rows_;
+  std::vector<ContactView<P>> views_;  // of the groups
+  cudaStream_t stream_ = nullptr;
+  DeviceArray<R> master_, inverse_, weight_;
+  DeviceArray<double> displacement_;
+  DeviceArray<G> velocity_;
+  WallRowsOnDevice wall_rows_;
+  mutable std::unique_ptr<DivergenceSearch<P>> divergence_;  // made when first asked
+  DeviceStore store_;
+  StateList states_;
+  std::int64_t group_bytes_ = 0, state_bytes_ = 0;
+};
+
+}  // namespace macadam::kernels

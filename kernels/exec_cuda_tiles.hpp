@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file exec_cuda_tiles.hpp  Blocks of steps over tiles on a CUDA device: condensed contacts, mixed and single
+/// precision, laws that have blocks, walls driven by displacements.
+#pragma once
+
+#include <optional>
+
+#include "kernels/block_length.hpp"
+#include "kernels/cuda_body_arrays.hpp"
+#include "kernels/cuda_tile_runner.hpp"
+
+namespace macadam::kernels {
+
+template <class P, class Laws>
+class ExecCudaTiles : public CudaBodyArrays<P> {
+  using Base = CudaBodyArrays<P>;
+
+ public:
+  using AnyLaw = Laws;
+  using R = typename P::Particle;
+  static constexpr bool room_for_five = true;
+
+  /// Thrown where the device cannot run a scene so; ExecCuda can.
+  struct Impossible {};
+
+  /// Steps of a block; 0: not to be stepped so.
+  static int block_of(const StepperOptions& options, const FactsTable& laws, double height) {
+    return options.form == ContactForm::condensed ? block_steps(options, laws, height) : 0;
+  }
+
+  /// \throws Impossible
+  ExecCudaTiles(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
+      : Base(network, layout, options), tiles_(network, layout, options, this->stream_) {
+    if (!tiles_.possible()) throw Impossible{};
+  }
+
+  bool suits(const ExecStart& start) const { return block_of(start.options, start.laws, start.height) > 0; }
+
+  void begin(const ExecStart& start) {
+    this->rest();
+    dt_ = start.options.dt;
+    tiles_.begin(block_of(start.options, start.laws, start.height), start.options.observed_every > 0);
+    if (start.first) this->require_memory(start.group_bytes + tiles_.bytes_to_come(this->rows_.records));
+  }
+
+  template <class L, class Forces>
+  void set_group(std::size_t number, bool first, const L& law, ContactArrays<P> arrays, const Forces&) {
+    const ContactView<P> view = this->take_group(number, first, arrays);
+    if constexpr (has_blocks<L> && Forces::form_of == ContactForm::condensed) {
+      if (first) tiles_.add_contacts(static_cast<int>(number), arrays, view);
+      tiles_.template set_group<Forces::geometry_of>(static_cast<int>(number), law, view, dt_);
+    }
+  }
+
+  void prepare(const ParticleMotion<P>& motion) {
+    tiles_.prepare(motion, this->rows_);
+    this->add_body_states();
+    tiles_.add_states(this->states_);
+  }
+
+  void run(std::int64_t first, std::int64_t steps) { tiles_.run(first, steps); }
+
+  std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
+    std::vector<R> out(count * velocity_words);
+    check_cuda(cudaMemcpyAsync(out.data(), tiles_.forces() + static_cast<std::size_t>(first) * velocity_words,
+                               out.size() * sizeof(R), cudaMemcpyDeviceToHost, this->stream_),
+               "sums");
+    check_cuda(cudaStreamSynchronize(this->stream_), "sums");
+    return Base::twists(out);
+  }
+  bool forces_with_weight() const { return true; }
+
+  GroupState<P> group_state(std::size_t number, std::size_t chain, std::size_t frame) const {
+    GroupState<P> out = Base::group_state(number, chain, frame);
+    out.change = tiles_.changes(number, this->layout_.groups[number].contact.size());
+    return out;
+  }
+
+  std::string description() const { return this->described(tiles_.description()); }
+  std::vector<KernelUse> kernels() const { return tiles_.kernels(); }
+  std::int64_t traffic() const { return tiles_.traffic() + this->body_traffic(); }
+  std::int64_t bytes() const { return this->held_bytes() + tiles_.bytes(); }
+
+ private:
+  double dt_ = 0;
+  TileRunner<P, AnyLaw> tiles_;
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file law_list.hpp  From a list of laws, std::variant<…>, to the functors that step them.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+
+#include "kernels/contact_forces.hpp"
+#include "macadam/laws/facts.hpp"
+
+namespace macadam::kernels {
+
+/// Calls f(std::integral_constant) with the `Units` of ContactForces that a law is stepped with.
+template <bool room_for_five, class L, class F>
+void dispatch_units(const L& law, F&& f) {
+  if constexpr (units_of<L>() >= 0) {
+    f(std::integral_constant<int, units_of<L>()>{});
+  } else {
+    if (law.units() == 3)
+      f(std::integral_constant<int, 3>{});
+    else if (room_for_five && law.units() <= 5)
+      f(std::integral_constant < int, room_for_five ? 5 : -1 > {});
+    else
+      f(std::integral_constant<int, -1>{});
+  }
+}
+
+/// Stands where a law has no functor of its own in a list.
+struct NoFunctor {};
+
+/// The functor of a law in a launch of so many units, or none. Laws without memory go with any number.
+template <class P, class L, ContactForm form, Geometry geometry, int Units>
+struct StepFunctor {
+  static constexpr bool memoryless = memoryless_law<L>;
+  static constexpr bool fits =
+      (linear_law<L> || form == ContactForm::points) &&
+      (memoryless || units_of<L>() == Units || (units_of<L>() < 0 && (Units == 3 || Units == 5 || Units < 0)));
+  template <bool any>
+  static auto make() {
+    if constexpr (any)
+      return std::type_identity<
+          ContactForces<P, typename L::template Step<typename P::State>, memoryless ? 0 : Units, form, geometry>>{};
+    else
+      return std::type_identity<NoFunctor>{};
+  }
+  using type = typename decltype(make<fits>())::type;
+};
+
+/// One of several functors by value, as kernels get it: its number in the list, and its bytes.
+template <class... Functors>
+struct AnyFunctor {
+  int kind = 0;
+  alignas(8) unsigned char bytes[std::max({sizeof(NoFunctor), sizeof(Functors)...})] = {};
+
+  template <class F>
+  void put(const F& functor) {
+    static_assert((std::is_same_v<F, Functors> || ...), "a law without a kernel");
+    int number = 0;
+    ((std::is_same_v<F, Functors> ? (kind = number, true) : (++number, false)) || ...);
+    std::memcpy(bytes, &functor, sizeof functor);
+  }
+  /// Calls f(functor).
+  template <int number = 0, class F>
+  MACADAM_HD void visit(F&& f) const {
+    if constexpr (number < static_cast<int>(sizeof...(Functors))) {
+      using Functor = std::tuple_element_t<static_cast<std::size_t>(number), std::tuple<Functors...>>;
+      constexpr bool last = number + 1 == static_cast<int>(sizeof...(Functors));
+      if (last || kind == number) {
+        if constexpr (!std::is_same_v<Functor, NoFunctor>) f(*reinterpret_cast<const Functor*>(bytes));
+      } else {
+        visit<number + 1>(f);
+      }
+    }
+  }
+};
+
+template <class List>
+struct AnyFunctorOf;
+template <class... Functors>
+struct AnyFunctorOf<std::tuple<Functors...>> {
+  using type = AnyFunctor<Functors...>;
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file make_cpu.hpp  A stepper on the CPU for a list of laws.
+#pragma once
+
+#include "kernels/exec_cpu.hpp"
+#include "kernels/stepper_impl.hpp"
+#include "kernels/steppers.hpp"
+
+namespace macadam::kernels {
+
+template <class P, class Any>
+std::unique_ptr<Stepper> make_cpu_in(const Specimen& specimen, const ContactNetwork& network,
+                                     const std::array<std::optional<Any>, pair_types>& laws, const Inertia& inertia,
+                                     const StepperOptions& options, std::unique_ptr<Stepper> used) {
+  return make_stepper_on<ExecCpu<P, Any>>(specimen, network, laws, inertia, options, std::move(used));
+}
+
+}  // namespace macadam::kernels

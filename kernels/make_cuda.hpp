@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file make_cuda.hpp  A stepper on a CUDA device for a list of laws: in blocks of steps where that is possible.
+#pragma once
+
+#include "kernels/exec_cuda.hpp"
+#include "kernels/exec_cuda_tiles.hpp"
+#include "kernels/stepper_impl.hpp"
+#include "kernels/steppers.hpp"
+
+namespace macadam::kernels {
+
+template <class... L>
+constexpr bool any_has_blocks(std::type_identity<std::variant<L...>>) {
+  return (has_blocks<L> || ...);
+}
+
+template <class P, class Any>
+std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNetwork& network,
+                                      const std::array<std::optional<Any>, pair_types>& laws, const Inertia& inertia,
+                                      const StepperOptions& options, std::unique_ptr<Stepper> used) {
+  if constexpr (!std::is_same_v<P, DoublePrecision> && any_has_blocks(std::type_identity<Any>{})) {
+    using Tiles = ExecCudaTiles<P, Any>;
+    if (Tiles::block_of(options, facts_of(laws), specimen.box.size.z) > 0) {
+      try {
+        return make_stepper_on<Tiles>(specimen, network, laws, inertia, options, std::move(used));
+      } catch (const typename Tiles::Impossible&) {}  // two kernels a step then
+    }
+  }
+  return make_stepper_on<ExecCuda<P, Any>>(specimen, network, laws, inertia, options, std::move(used));
+}
+
+}  // namespace macadam::kernels
