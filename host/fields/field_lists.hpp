@@ -35,6 +35,6 @@ inline FieldArray vectors(std::string name, std::string unit, const std::vector<
 }
 
 /// Units of the relative displacements of a contact: opening, slopes along s and t, slips along s and t, twist.
-inline constexpr const char* relative_unit = "m, 1, 1, m, m, 1";
+inline constexpr const char* relative_unit = "m, rad, rad, m, m, rad";
 
 }  // namespace macadam

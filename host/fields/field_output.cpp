@@ -83,18 +83,28 @@ FieldOutput::FieldOutput(const Scene& scene, const Preparation& prepared, const 
 
 fs::path FieldOutput::stem(const char* kind, const std::string& of) const { return folder_ / (kind + ("_" + of)); }
 
-void FieldOutput::begin(double frequency_hz, double time) {
+std::unique_ptr<FieldSeries> FieldOutput::series(const char* kind, const std::string& of, FieldMesh mesh, double time,
+                                                 std::vector<std::string>& missing) const {
+  const bool goes_on = time > 0;
+  auto out = begin_fields(stem(kind, of), scene_.output.fields.format, std::move(mesh),
+                          goes_on ? std::optional(time) : std::nullopt);
+  if (goes_on && out->size() == 0) {
+    missing.push_back(
+        fmt::format("fields: {} had no frame to go on with; it begins at t = {:.6g} s", stem(kind, of).string(), time));
+  }
+  return out;
+}
+
+std::vector<std::string> FieldOutput::begin(double frequency_hz, double time) {
   const FieldSpec& spec = scene_.output.fields;
-  const std::string name = fmt::format("{}Hz", frequency_hz);
-  const std::optional<double> until = time > 0 ? std::optional(time) : std::nullopt;
+  const std::string of = fmt::format("{}Hz", frequency_hz);
+  std::vector<std::string> missing;
   if (spec.particles) {
-    particles_ = begin_fields(stem(particles, name), spec.format,
-                              particle_mesh(prepared_.specimen, prepared_.aggregates), until);
+    particles_ = series(particles, of, particle_mesh(prepared_.specimen, prepared_.aggregates), time, missing);
   }
-  if (spec.contacts) {
-    contacts_ =
-        begin_fields(stem(contacts, name), spec.format, contact_mesh(prepared_.specimen, prepared_.network), until);
-  }
+  if (spec.contacts)
+    contacts_ = series(contacts, of, contact_mesh(prepared_.specimen, prepared_.network), time, missing);
+  return missing;
 }
 
 bool FieldOutput::wants(std::int64_t sample) const {

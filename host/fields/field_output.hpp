@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "macadam/fields.hpp"
 #include "macadam/harmonic.hpp"
@@ -25,8 +27,9 @@ class FieldOutput {
   FieldOutput(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 
   /// Begins the series of one frequency that is stepped, or goes on with those that are there where the stepper starts
-  /// at a time other than 0. \throws InputError for a file that is no series of this run.
-  void begin(double frequency_hz, double time);
+  /// at a time other than 0. Returns a sentence about each that should have been there and was not.
+  /// \throws InputError for a file that is no series of this run.
+  std::vector<std::string> begin(double frequency_hz, double time);
   /// Whether a frame is due at this sample.
   bool wants(std::int64_t sample) const;
   /// Adds a frame. \throws RunError.
@@ -37,6 +40,8 @@ class FieldOutput {
   void write(const HarmonicResult& solved, const LawTable& laws, std::optional<double> temperature);
 
  private:
+  std::unique_ptr<FieldSeries> series(const char* kind, const std::string& of, FieldMesh mesh, double time,
+                                      std::vector<std::string>& missing) const;
   std::filesystem::path stem(const char* kind, const std::string& of) const;
 
   const Scene& scene_;

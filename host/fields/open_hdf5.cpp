@@ -9,26 +9,11 @@
 #include <new>
 #include <system_error>
 
+#include "host/results/quiet_hdf5.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
 namespace {
-
-/// HDF5 prints its errors unless told not to.
-class Quiet {
- public:
-  Quiet() {
-    H5::Exception::getAutoPrint(print_, &data_);
-    H5::Exception::dontPrint();
-  }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-  ~Quiet() { H5::Exception::setAutoPrint(print_, data_); }
-
- private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
 
 [[noreturn]] void refuse(const std::filesystem::path& file, int error) {
   throw RunError(file.string() + ": cannot be written: " + std::generic_category().message(error));
@@ -61,7 +46,7 @@ H5::FileCreatPropList creation() {
 
 void with_hdf5(const std::filesystem::path& file, const std::function<void()>& f) {
   try {
-    const Quiet quiet;
+    const QuietHdf5 quiet;
     f();
   } catch (const H5::Exception& error) {
     throw RunError(file.string() + ": HDF5 cannot go on with it: " + error.getDetailMsg());

@@ -207,12 +207,7 @@ class Steps : public Solution {
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
     Checkpoints checkpoints(
         out / checkpoint_name, scene_, prepared_, result.backend, watcher_.stop,
-        [&](const std::string& warning) {
-          at_.warnings.push_back(warning);
-          result.warnings.push_back(warning);
-          if (watcher_.warn) watcher_.warn(warning);
-        },
-        owns_checkpoint_);
+        [&](const std::string& warning) { warn(warning, result); }, owns_checkpoint_);
     fields_.emplace(scene_, prepared_, out);
     std::optional<ResponseWriter> writer;
     if (scene_.output.response) {
@@ -230,6 +225,12 @@ class Steps : public Solution {
   bool owns_checkpoint() const override { return owns_checkpoint_; }
 
  private:
+  void warn(const std::string& warning, RunResult& result) {
+    at_.warnings.push_back(warning);
+    result.warnings.push_back(warning);
+    if (watcher_.warn) watcher_.warn(warning);
+  }
+
   /// From the stepper of another frequency, where there is one.
   std::unique_ptr<Stepper> make(const FrequencyPlan& p, const std::vector<StateArray>& from, RunResult& result) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
@@ -252,7 +253,7 @@ class Steps : public Solution {
       const InPhase writing(result.phases, &PhaseSeconds::writing);  // nearly nothing where no checkpoint is due
       checkpoints.look(at_, before + seconds_since(start), *stepper_, fmt::format("{} Hz", p.loading.frequency));
     };
-    fields_->begin(p.loading.frequency, stepper_->observe().time);
+    for (const std::string& gap : fields_->begin(p.loading.frequency, stepper_->observe().time)) warn(gap, result);
     const auto frame = [&](double time) {
       const InPhase writing(result.phases, &PhaseSeconds::writing);
       fields_->add(*stepper_, at_.plan.geometry, time);

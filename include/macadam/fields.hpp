@@ -29,7 +29,7 @@ enum class FieldFormat : std::uint8_t { vtkhdf, vtp };
 /// What of `[output]` asks for fields.
 struct FieldSpec {
   bool particles = false, contacts = false, cells = false;
-  std::optional<int> every;  ///< samples of a stepped run from one frame to the next; none: twenty frames a cycle
+  std::optional<int> every;  ///< samples of a stepped run from one frame to the next; none: a twentieth of a cycle
   FieldFormat format = FieldFormat::vtkhdf;
 
   bool any() const { return particles || contacts || cells; }
