@@ -99,7 +99,6 @@ TEST_F(RunFields, AResumedRunLeavesTheFileOfOneThatWasNotInterrupted) {
     const Scene asked = scene("fields = [\"particles\"]\nevery = 3\nformat = \"" + format + "\"\n", two);
     run_until(asked, "whole", 0);
     run_until(asked, "pieces", 25);
-    EXPECT_LT(files("pieces").size(), files("whole").size() + 1);
     run_until(asked, "pieces", 40, true);
     run_until(asked, "pieces", 0, true);
     ASSERT_EQ(files("pieces"), files("whole"));

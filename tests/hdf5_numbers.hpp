@@ -25,6 +25,21 @@ inline std::vector<double> numbers(const H5::H5File& file, const std::string& na
   return out;
 }
 
+/// The numbers of some rows alone, as viewers read a frame.
+inline std::vector<double> rows(const H5::H5File& file, const std::string& name, hsize_t first, hsize_t number) {
+  const H5::DataSet set = file.openDataSet(name);
+  H5::DataSpace space = set.getSpace();
+  std::vector<hsize_t> size(static_cast<std::size_t>(space.getSimpleExtentNdims())), start(size.size(), 0);
+  space.getSimpleExtentDims(size.data());
+  start[0] = first, size[0] = number;
+  space.selectHyperslab(H5S_SELECT_SET, size.data(), start.data());
+  hsize_t all = 1;
+  for (const hsize_t n : size) all *= n;
+  std::vector<double> out(all);
+  set.read(out.data(), H5::PredType::NATIVE_DOUBLE, H5::DataSpace(static_cast<int>(size.size()), size.data()), space);
+  return out;
+}
+
 /// Rows and numbers a row.
 inline std::vector<hsize_t> shape(const H5::H5File& file, const std::string& name) {
   const H5::DataSpace space = file.openDataSet(name).getSpace();

@@ -60,7 +60,11 @@ OpenHdf5::OpenHdf5(const std::filesystem::path& file, Begin begin) : file_(file)
   descriptor_ = ::open(name.c_str(), O_RDWR | O_CLOEXEC | (anew ? O_CREAT | O_TRUNC : 0), 0666);
   if (descriptor_ < 0) refuse(file, errno);
   try {
-    with_hdf5(file, [&] { hdf5_.emplace(name.string(), anew ? H5F_ACC_TRUNC : H5F_ACC_RDWR, creation(), access()); });
+    with_hdf5(file, [&] {
+      hdf5_.emplace(name.string(), anew ? H5F_ACC_TRUNC : H5F_ACC_RDWR, creation(), access());
+      // Where the file ends is what a flush writes last: after a kill within it, arrays may lie beyond that.
+      if (!anew && H5Fincrement_filesize(hdf5_->getId(), 0) < 0) throw H5::FileIException("H5Fincrement_filesize");
+    });
   } catch (...) {
     close();
     throw;

@@ -46,12 +46,12 @@ void put_rows(H5::DataSet& set, hsize_t from, hsize_t rows, const T* values) {
   set.write(values, type_of(T()), H5::DataSpace(rank, size.data()), place);
 }
 
-/// An array that does not change.
+/// An array that does not change. Whole numbers are compressed to a fraction, others hardly.
 template <class T>
 void put(const H5::Group& group, const std::string& name, const std::vector<T>& values, const Row& row = {}) {
   const hsize_t rows = values.size() / (row.empty() ? 1 : row.front());
   constexpr hsize_t few = 64, piece = 1 << 18;
-  if (rows > few) {
+  if (std::is_integral_v<T> && rows > few) {
     H5::DataSet set = make_growing(group, name, type_of(T()), row, std::min(rows, piece), true);
     put_rows(set, 0, rows, values.data());
   } else {
