@@ -160,6 +160,7 @@ TEST_F(FieldFiles, AKillAtAnyMomentLeavesTheFramesBefore) {
     std::size_t frames = 0;
     ASSERT_NO_THROW(frames = static_cast<std::size_t>(steps(open_hdf5(vtkhdf()))));
     ASSERT_GE(frames, static_cast<std::size_t>(*written));
+    ASSERT_EQ(numbers(open_hdf5(vtkhdf()), "VTKHDF/Steps/Values").size(), frames);  // VTK overruns its memory otherwise
     ASSERT_NO_THROW(expect_frames(frames, points));
     // and it can be gone on with
     const auto series = begin(points, FieldFormat::vtkhdf, 1e9);

@@ -178,8 +178,8 @@ class VtkHdfSeries : public FieldSeries {
           make_steps(file, mesh_, arrays);
         });
       }
-      open_->write(bytes_of(arrays), [&](H5::H5File& file) { put_frame(file, time, arrays); });
-      set_steps(steps_ + 1);  // last, and by itself: a reader, or a kill, finds a step with all that it has
+      open_->write(bytes_of(arrays), [&](H5::H5File& file) { put_frame(file, arrays); });
+      set_steps(steps_ + 1, &time);  // last: a reader, or a kill, finds a step with all that it has
       if (first) open_->keep();
     } catch (const RunError&) {
       open_.reset();  // what is not yet a file with a frame is removed
@@ -188,22 +188,25 @@ class VtkHdfSeries : public FieldSeries {
   }
 
  private:
-  void set_steps(std::size_t number) {
+  /// Both at once: VTK takes as many times as there are, into as much memory as the number of steps needs.
+  void set_steps(std::size_t number, const double* last_time) {
     open_->write(0, [&](H5::H5File& file) {
       H5::Group steps = file.openGroup(path_of_steps);
       set_number_of_steps(steps, number);
+      H5::DataSet times = steps.openDataSet("Values");
+      const hsize_t one = last_time ? 1 : 0;
+      put_rows(times, number - one, one, last_time);
     });
     steps_ = number;
   }
 
-  void put_frame(H5::H5File& file, double time, const std::vector<FieldArray>& arrays) {
+  void put_frame(H5::H5File& file, const std::vector<FieldArray>& arrays) {
     const H5::Group steps = file.openGroup(path_of_steps);
     const auto add_row = [&](const H5::Group& group, const std::string& name, const auto& row) {
       H5::DataSet set = group.openDataSet(name);
       put_rows(set, steps_, 1, row);
     };
     const std::int64_t one = 1, none[4] = {};
-    add_row(steps, "Values", &time);
     add_row(steps, "NumberOfParts", &one);
     for (const auto& [name, row] : mesh_offsets) add_row(steps, name, none);
     const H5::Group offsets = steps.openGroup(std::string(data_of(mesh_)) + "Offsets");
@@ -248,7 +251,7 @@ class VtkHdfSeries : public FieldSeries {
     if (kept == 0) {
       open_.reset();  // nothing of it is left: a new one replaces it
     } else {
-      set_steps(static_cast<std::size_t>(kept));
+      set_steps(static_cast<std::size_t>(kept), nullptr);
       open_->write(0, [&](H5::H5File& file) { cut(file); });
     }
   }
@@ -260,7 +263,6 @@ class VtkHdfSeries : public FieldSeries {
       H5::DataSet set = group.openDataSet(name);
       put_rows<double>(set, rows, 0, nullptr);
     };
-    shorten(steps, "Values", steps_);
     shorten(steps, "NumberOfParts", steps_);
     for (const auto& [name, row] : mesh_offsets) shorten(steps, name, steps_);
     const H5::Group offsets = steps.openGroup(std::string(data_of(mesh_)) + "Offsets");
