@@ -92,9 +92,9 @@ void run_command(const Arguments& arguments) {
   const RunResult result = run(scene, arguments.job.out, watcher, arguments.resume);
   line.clear();
   say_results(result);
-  say("\n{} | files in {}: summary.json specimen.csv{}{}\n", result.solver, arguments.job.out,
+  say("\n{} | files in {}: summary.json specimen.csv{}{}{}\n", result.solver, arguments.job.out,
       scene.solver.method == SolverMethod::explicit_ && scene.output.response ? " response.csv" : "",
-      scene.output.contacts ? " contacts.csv" : "");
+      scene.output.contacts ? " contacts.csv" : "", scene.output.fields.any() ? " fields/" : "");
 }
 
 }  // namespace

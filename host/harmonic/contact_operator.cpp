@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "host/parallel.hpp"
-#include "kernels/contact_kinematics.hpp"
 
 namespace macadam::harmonic {
 
@@ -79,6 +78,16 @@ double length(const Vector& x) {
 std::array<Complex, 6> relative_motion(const Contact& c, const Vector& motion, Complex wall) {
   const auto of = [&](std::int32_t end) { return end >= 0 ? &motion[6 * static_cast<std::size_t>(end)] : nullptr; };
   return relative_motion(c, of(c.a), of(c.b), wall);
+}
+
+kernels::FacetLoad<Complex> facet_load(const Contact& c, const PairStiffness& stiffness,
+                                       const std::array<Complex, 6>& u) {
+  const auto pair = static_cast<std::size_t>(c.pair);
+  Complex density[6];
+  for (std::size_t k = 0; k < 6; ++k) density[k] = stiffness.k[pair] * u[k];
+  const std::array<double, 6> real = moments_over_distance(c);
+  const Complex alpha = stiffness.alpha[pair], m[6] = {real[0], real[1], real[2], real[3], real[4], real[5]};
+  return kernels::condensed_load(density, alpha, m);
 }
 
 ContactOperator::Load ContactOperator::contact_load(const Contact& c, const PairStiffness& stiffness,
@@ -167,11 +176,7 @@ ModulusParts ContactOperator::energy_parts(const PairStiffness& stiffness, const
       const Contact& c = contacts[i];
       const auto pair = static_cast<std::size_t>(c.pair);
       const std::array<Complex, 6> u = relative_motion(c, motion, wall);
-      Complex density[6];
-      for (std::size_t k = 0; k < 6; ++k) density[k] = stiffness.k[pair] * u[k];
-      const std::array<double, 6> real = moments_over_distance(c);
-      const Complex alpha = stiffness.alpha[pair], m[6] = {real[0], real[1], real[2], real[3], real[4], real[5]};
-      const kernels::FacetLoad<Complex> load = kernels::condensed_load(density, alpha, m);
+      const kernels::FacetLoad<Complex> load = facet_load(c, stiffness, u);
       own.normal[pair] += load.n * u[0] - load.moment_t * u[1] + load.moment_s * u[2];
       own.shear[pair] += load.s * u[3] + load.t * u[4] + load.moment_n * u[5];
     }

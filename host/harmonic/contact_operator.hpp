@@ -5,6 +5,7 @@
 #include <complex>
 #include <vector>
 
+#include "kernels/contact_kinematics.hpp"
 #include "macadam/harmonic.hpp"
 #include "macadam/sensitivity.hpp"
 
@@ -34,6 +35,11 @@ PairStiffness pair_stiffness(const LawTable& laws, double) = delete;  // iω, no
 /// The six relative displacements (Eq. 8 about x0) of a contact while the particles move by `motion` and the top wall
 /// by `wall` along z.
 std::array<Complex, 6> relative_motion(const Contact& contact, const Vector& motion, Complex wall);
+
+/// What a contact carries at these relative displacements: force on its first body and moment about x0, both along
+/// (n, s, t).
+kernels::FacetLoad<Complex> facet_load(const Contact& contact, const PairStiffness& stiffness,
+                                       const std::array<Complex, 6>& u);
 
 class ContactOperator {
  public:

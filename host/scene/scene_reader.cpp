@@ -75,6 +75,16 @@ void read_network(const Section& section, NetworkSpec& spec) {
   section.read(keys);
 }
 
+void read_output(const Section& section, OutputSpec& spec) {
+  std::vector<Key> keys = keys_of(spec.fields);
+  keys.push_back({"contacts", Need::optional, into(spec.contacts)});
+  keys.push_back({"response", Need::optional, into(spec.response)});
+  keys.push_back({"sensitivities", Need::optional, into(spec.sensitivities)});
+  keys.push_back({"checkpoint", Need::optional, into(spec.checkpoint, duration, non_negative)});
+  section.read(keys);
+  check_fields(section, spec.fields);
+}
+
 /// What can only be said of two sections together.
 void check_together(const Scene& scene, const Section& root) {
   if (scene.network.quadrature == Quadrature::exact && scene.solver.backend == Backend::reference &&
@@ -182,12 +192,7 @@ Scene read_scene(const std::filesystem::path& file) {
              {"network", Need::optional, [&](const Value& v) { read_network(v.section(), out.network); }},
              {"loading", Need::required, [&](const Value& v) { out.loading = read_loading(v.section()); }},
              {"solver", Need::optional, [&](const Value& v) { out.solver = read_solver(v.section(), out.loading); }},
-             {"output", Need::optional, [&](const Value& v) {
-                v.section().read({{"contacts", Need::optional, into(out.output.contacts)},
-                                  {"response", Need::optional, into(out.output.response)},
-                                  {"sensitivities", Need::optional, into(out.output.sensitivities)},
-                                  {"checkpoint", Need::optional, into(out.output.checkpoint, duration, non_negative)}});
-              }}});
+             {"output", Need::optional, [&](const Value& v) { read_output(v.section(), out.output); }}});
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   check_together(out, root);
   apply_temperature(out, root);

@@ -39,6 +39,12 @@ std::vector<Key> keys_of(FacetLimits& limits);
 /// \throws InputError
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network);
 
+/// The keys of fields, in `[output]`, and what holds between them. \throws InputError
+/// @{
+std::vector<Key> keys_of(FieldSpec& spec);
+void check_fields(const Section& section, const FieldSpec& spec);
+/// @}
+
 /// Brings the laws to the scene's temperature, and checks that each temperature that it names means something.
 /// \throws InputError
 void apply_temperature(Scene& scene, const Section& root);

@@ -2,6 +2,7 @@
 // prepare.cpp  Scene → specimen → tessellation → contact network.
 #include <chrono>
 
+#include "host/fields/field_output.hpp"
 #include "host/network/clusters.hpp"
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
@@ -102,7 +103,9 @@ Preparation prepare_into(const std::filesystem::path& out, const Scene& scene,
   const ResultFolder folder(out);
   require_no_run(out);
   Preparation prepared = prepare(scene, progress);
+  remove_fields(out);
   write_preparation(scene, prepared, out);
+  write_specimen_fields(scene, prepared, out);
   for (const SectionPlane& plane : sections) {
     write_cross_section_csv(out / section_file_name(plane), prepared.specimen,
                             cut(prepared.specimen, prepared.tessellation, plane));

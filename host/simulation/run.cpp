@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 
+#include "host/fields/field_output.hpp"
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
 #include "host/simulation/phases.hpp"
@@ -114,6 +115,7 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   {
     const InPhase writing(result.phases, &PhaseSeconds::writing);
     remove_results(out);
+    if (!resume) remove_fields(out);
     write_preparation(scene, prepared, out);
   }
   try {

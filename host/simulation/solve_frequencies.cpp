@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "host/fields/field_output.hpp"
 #include "host/simulation/judgement.hpp"
 #include "host/simulation/phases.hpp"
 #include "host/simulation/plan.hpp"
@@ -30,7 +31,8 @@ std::string unused_settings(const Scene& scene) {
                                     {s.precision.has_value(), "precision"},
                                     {l.start.has_value(), "start"},
                                     {l.cycles.has_value(), "cycles"},
-                                    {l.ramp_cycles.has_value(), "ramp_cycles"}}) {
+                                    {l.ramp_cycles.has_value(), "ramp_cycles"},
+                                    {scene.output.fields.every.has_value(), "every"}}) {
     if (given) out += (out.empty() ? "" : ", ") + std::string(name);
   }
   return out;
@@ -63,8 +65,9 @@ class HarmonicSolution : public Solution {
     prepare_solver(result);
   }
 
-  void solve(const std::filesystem::path&, const Saving& save, RunResult& result) override {
+  void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
     save("running");
+    fields_.emplace(scene_, prepared_, out);
     const auto& temperatures = scene_.loading.temperatures;
     solve_isotherm(save, result);
     for (std::size_t i = 1; i < temperatures.size(); ++i) {
@@ -132,7 +135,7 @@ class HarmonicSolution : public Solution {
     return harmonic_->solve(loads);
   }
 
-  void take(const std::vector<HarmonicResult>& solved, RunResult& result, const Saving& save) const {
+  void take(const std::vector<HarmonicResult>& solved, RunResult& result, const Saving& save) {
     for (const HarmonicResult& s : solved) {
       const std::size_t i = result.frequencies.size() % scene_.loading.frequencies.size();
       FrequencyResult f;
@@ -153,6 +156,9 @@ class HarmonicSolution : public Solution {
       f.seconds = s.seconds;
       judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), {}, result.warnings);
       result.frequencies.push_back(f);
+      const InPhase writing(result.phases, &PhaseSeconds::writing);
+      const bool several = !scene_.loading.temperatures.empty();
+      fields_->write(s, isothermal_.laws, several ? f.temperature_c : std::nullopt);
     }
     save("running");
   }
@@ -164,6 +170,7 @@ class HarmonicSolution : public Solution {
   Scene isothermal_ = scene_;  ///< the scene with the laws of the temperature at hand
   double viscous_ = 0;
   std::optional<Harmonic> harmonic_;
+  std::optional<FieldOutput> fields_;
 };
 
 }  // namespace

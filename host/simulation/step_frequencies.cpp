@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "host/fields/field_output.hpp"
 #include "host/results/files.hpp"
 #include "host/simulation/checkpoints.hpp"
 #include "host/simulation/error_model.hpp"
@@ -52,10 +53,12 @@ class Pieces {
 
 /// Runs one frequency from where the stepper stands; every sample goes to `samples` and `writer` at once. Without a
 /// writer, only the cycles that are fitted and the one before, which shows the change from cycle to cycle, are
-/// observed. `look` is called between steps, before the sample of the step that was reached is taken. \throws
-/// DivergenceError naming the particle that left the range of sense first.
+/// observed. `look` is called between steps, before the sample of the step that was reached is taken. `frame` adds a
+/// frame to the fields, where they want one. \throws DivergenceError naming the particle that left the range of sense
+/// first.
 void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, const FrequencyPlan& plan,
-                std::vector<ResponseSample>& samples, ResponseWriter* writer, const std::function<void()>& look,
+                std::vector<ResponseSample>& samples, ResponseWriter* writer, const FieldOutput& fields,
+                const std::function<void()>& look, const std::function<void(double)>& frame,
                 const std::function<void(std::int64_t)>& stepped) {
   const drives::Cyclic& loading = plan.loading;
   const int per_cycle = scene.loading.samples_per_cycle;
@@ -68,7 +71,7 @@ void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, 
   for (std::int64_t k = (step + stride - 1) / stride; k <= samples_wanted; ++k) {
     pieces.advance(stepper, step, k * stride, look);
     step = k * stride;
-    if (k < first && k % per_cycle != 0) continue;
+    if (k < first && k % per_cycle != 0 && !fields.wants(k)) continue;
     const Observation now = stepper.observe();
     const double stress = -now.top_force() / area;  // particles pull a wall that moves away from them
     if (const std::int64_t particle = stepper.first_divergent(); particle >= 0 || !std::isfinite(stress)) {
@@ -83,6 +86,7 @@ void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, 
     }
     if (k >= first) samples.push_back({loading.frequency, now.time, now.top_displacement() / height, stress});
     if (writer) writer->add(samples.back());
+    if (fields.wants(k)) frame(now.time);
     stepped(step);
   }
 }
@@ -203,12 +207,8 @@ class Steps : public Solution {
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
     Checkpoints checkpoints(
         out / checkpoint_name, scene_, prepared_, result.backend, watcher_.stop,
-        [&](const std::string& warning) {
-          at_.warnings.push_back(warning);
-          result.warnings.push_back(warning);
-          if (watcher_.warn) watcher_.warn(warning);
-        },
-        owns_checkpoint_);
+        [&](const std::string& warning) { warn(warning, result); }, owns_checkpoint_);
+    fields_.emplace(scene_, prepared_, out);
     std::optional<ResponseWriter> writer;
     if (scene_.output.response) {
       writer.emplace(out / "response.csv");
@@ -225,6 +225,12 @@ class Steps : public Solution {
   bool owns_checkpoint() const override { return owns_checkpoint_; }
 
  private:
+  void warn(const std::string& warning, RunResult& result) {
+    at_.warnings.push_back(warning);
+    result.warnings.push_back(warning);
+    if (watcher_.warn) watcher_.warn(warning);
+  }
+
   /// From the stepper of another frequency, where there is one.
   std::unique_ptr<Stepper> make(const FrequencyPlan& p, const std::vector<StateArray>& from, RunResult& result) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
@@ -247,6 +253,11 @@ class Steps : public Solution {
       const InPhase writing(result.phases, &PhaseSeconds::writing);  // nearly nothing where no checkpoint is due
       checkpoints.look(at_, before + seconds_since(start), *stepper_, fmt::format("{} Hz", p.loading.frequency));
     };
+    for (const std::string& gap : fields_->begin(p.loading.frequency, stepper_->observe().time)) warn(gap, result);
+    const auto frame = [&](double time) {
+      const InPhase writing(result.phases, &PhaseSeconds::writing);
+      fields_->add(*stepper_, at_.plan.form, at_.plan.geometry, time);
+    };
     const auto stepped = [&](std::int64_t done) {
       if (!watcher_.progress || done == 0) return;
       const auto steps = static_cast<double>(done);
@@ -255,7 +266,7 @@ class Steps : public Solution {
                                     static_cast<double>(done - begun) / seconds_since(start)),
                         steps / (per_cycle * p.cycles));
     };
-    run_cyclic(scene_, prepared_.specimen, *stepper_, p, at_.samples, writer, look, stepped);
+    run_cyclic(scene_, prepared_.specimen, *stepper_, p, at_.samples, writer, *fields_, look, frame, stepped);
     at_.seconds.push_back(before + seconds_since(start));
   }
 
@@ -273,6 +284,7 @@ class Steps : public Solution {
   const Watcher& watcher_;
   Inertia inertia_;
   RunState at_;
+  std::optional<FieldOutput> fields_;
   std::unique_ptr<Stepper> stepper_;  ///< of the frequency that runs, or is to run first
   bool used_ = false;                 ///< it has run one
   std::size_t samples_read_ = 0;      ///< of finished frequencies

@@ -23,6 +23,7 @@
 #include "macadam/laws/all.hpp"
 #include "macadam/laws/shift.hpp"
 #include "macadam/fit.hpp"
+#include "macadam/fields.hpp"
 #include "macadam/scene.hpp"
 #include "macadam/phantom.hpp"
 #include "macadam/twin.hpp"

@@ -11,6 +11,7 @@
 
 #include "macadam/backend.hpp"
 #include "macadam/contact_network.hpp"
+#include "macadam/fields.hpp"
 #include "macadam/laws/all.hpp"
 #include "macadam/laws/shift.hpp"
 #include "macadam/linear_method.hpp"
@@ -81,6 +82,7 @@ struct OutputSpec {
   bool contacts = false;       ///< write contacts.csv
   bool response = true;        ///< write response.csv; without it only what the result needs is observed
   bool sensitivities = false;  ///< harmonic only: derivatives of |E*| and φ in summary.json
+  FieldSpec fields;            ///< files for viewers
   /// Wall time between two checkpoints [s], 0: when interrupted only; 600 s where the scene gives none.
   std::optional<double> checkpoint;
 };

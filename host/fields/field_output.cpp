@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// field_output.cpp  Names of field files, and when they are written.
+#include "host/fields/field_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <system_error>
+
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *particles = "particles", *contacts = "contacts", *cells = "cells";
+
+fs::path folder_in(const fs::path& out) { return out / "fields"; }
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw RunError(folder.string() + ": cannot make the folder of the fields: " + error.message());
+}
+
+bool is_field_file(const fs::path& file) {
+  constexpr std::array<std::string_view, 4> endings{".vtkhdf", ".vtp", ".pvd", ".part"};
+  const std::string name = file.filename().string(), ending = file.extension().string();
+  return std::find(endings.begin(), endings.end(), ending) != endings.end() &&
+         (name.starts_with(particles) || name.starts_with(contacts) || name.starts_with(cells));
+}
+
+FieldMesh cells_of(const Preparation& prepared) {
+  return cell_mesh(prepared.specimen, prepared.tessellation, prepared.aggregates);
+}
+
+}  // namespace
+
+void remove_fields(const fs::path& out) {
+  std::error_code error;
+  const fs::path folder = folder_in(out);
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (!entry.is_regular_file(error) || !is_field_file(entry.path())) continue;
+    if (!fs::remove(entry.path(), error)) {
+      throw RunError(entry.path().string() + ": cannot be replaced: " + error.message());
+    }
+  }
+  if (fs::is_directory(folder, error)) fs::remove(folder, error);  // where nothing of the user's is in it
+}
+
+void write_specimen_fields(const Scene& scene, const Preparation& prepared, const fs::path& out) {
+  const FieldSpec& spec = scene.output.fields;
+  const fs::path folder = folder_in(out);
+  if (spec.any()) make_folder(folder);
+  if (spec.particles) {
+    write_fields(folder / particles, spec.format, particle_mesh(prepared.specimen, prepared.aggregates));
+  }
+  if (spec.contacts) write_fields(folder / contacts, spec.format, contact_mesh(prepared.specimen, prepared.network));
+  if (spec.cells) write_fields(folder / cells, spec.format, cells_of(prepared));
+}
+
+FieldOutput::FieldOutput(const Scene& scene, const Preparation& prepared, const fs::path& out)
+    : scene_(scene), prepared_(prepared), folder_(folder_in(out)) {
+  const FieldSpec& spec = scene.output.fields;
+  if (spec.any()) make_folder(folder_);
+  if (spec.cells) write_fields(folder_ / cells, spec.format, cells_of(prepared));
+}
+
+fs::path FieldOutput::stem(const char* kind, const std::string& of) const { return folder_ / (kind + ("_" + of)); }
+
+std::unique_ptr<FieldSeries> FieldOutput::series(const char* kind, const std::string& of, FieldMesh mesh, double time,
+                                                 std::vector<std::string>& missing) const {
+  const bool goes_on = time > 0;
+  auto out = begin_fields(stem(kind, of), scene_.output.fields.format, std::move(mesh),
+                          goes_on ? std::optional(time) : std::nullopt);
+  if (goes_on && out->size() == 0) {
+    missing.push_back(
+        fmt::format("fields: {} had no frame to go on with; it begins at t = {:.6g} s", stem(kind, of).string(), time));
+  }
+  return out;
+}
+
+std::vector<std::string> FieldOutput::begin(double frequency_hz, double time) {
+  const FieldSpec& spec = scene_.output.fields;
+  const std::string of = fmt::format("{}Hz", frequency_hz);
+  std::vector<std::string> missing;
+  if (spec.particles) {
+    particles_ = series(particles, of, particle_mesh(prepared_.specimen, prepared_.aggregates), time, missing);
+  }
+  if (spec.contacts)
+    contacts_ = series(contacts, of, contact_mesh(prepared_.specimen, prepared_.network), time, missing);
+  return missing;
+}
+
+bool FieldOutput::wants(std::int64_t sample) const {
+  return (particles_ || contacts_) && sample % scene_.output.fields.stride(scene_.loading.samples_per_cycle) == 0;
+}
+
+void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometry, double time) {
+  ParticleState state;
+  if (particles_ || geometry == Geometry::updated) state = stepper.particles();
+  if (particles_) particles_->add(time, particle_arrays(state));
+  if (!contacts_) return;
+  if (geometry == Geometry::fixed) state.displacement.clear();
+  ContactState carried = stepper.contacts(prepared_.network);
+  if (form == ContactForm::points) carried.chain_begin.clear();  // chains of points, not of the facet
+  contacts_->add(time, contact_arrays(prepared_.specimen, prepared_.network, carried, state.displacement));
+}
+
+void FieldOutput::write(const HarmonicResult& solved, const LawTable& laws, std::optional<double> temperature) {
+  const FieldSpec& spec = scene_.output.fields;
+  std::string name = fmt::format("{}Hz", solved.frequency_hz);
+  if (temperature) name += fmt::format("_{}C", *temperature);
+  const double amplitude = scene_.loading.strain_amplitude * prepared_.specimen.box.size.z;
+  if (spec.particles) {
+    write_fields(stem(particles, name), spec.format, particle_mesh(prepared_.specimen, prepared_.aggregates),
+                 particle_arrays(solved.motion, amplitude));
+  }
+  if (spec.contacts) {
+    write_fields(stem(contacts, name), spec.format, contact_mesh(prepared_.specimen, prepared_.network),
+                 contact_arrays(prepared_.network, laws, solved.frequency_hz, solved.motion, amplitude));
+  }
+}
+
+}  // namespace macadam

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// harmonic_arrays.cpp  A steady state as arrays: real and imaginary parts, amplitudes, phases.
+#include <algorithm>
+#include <numbers>
+
+#include "host/fields/field_lists.hpp"
+#include "host/harmonic/contact_operator.hpp"
+#include "macadam/fields.hpp"
+
+namespace macadam {
+namespace {
+
+using harmonic::Complex;
+
+double degrees(const Complex& z) { return std::arg(z) * 180 / std::numbers::pi; }
+
+/// Real and imaginary parts of what of(entry, component) gives.
+template <class F>
+void add_parts(const std::string& name, const char* unit, std::size_t entries, int components, F&& of,
+               std::vector<FieldArray>& out) {
+  out.push_back(
+      tuples(name + "_real", unit, entries, components, [&](std::size_t i, int k) { return of(i, k).real(); }));
+  out.push_back(
+      tuples(name + "_imag", unit, entries, components, [&](std::size_t i, int k) { return of(i, k).imag(); }));
+}
+
+/// Component of a vector whose parts along (n, s, t) are these.
+Complex component(const Contact& c, const Complex& n, const Complex& s, const Complex& t, int k) {
+  double Vec3d::*const axis = k == 0 ? &Vec3d::x : k == 1 ? &Vec3d::y : &Vec3d::z;
+  return n * (c.n.*axis) + s * (c.s.*axis) + t * (c.t.*axis);
+}
+
+/// For each pair, x_l per unit of relative displacement: f = k*·x, x_l = f/(k_l + iω·η_l).
+std::array<std::vector<Complex>, pair_types> stretches(const std::array<std::optional<Law>, pair_types>& laws,
+                                                       Complex s) {
+  std::array<std::vector<Complex>, pair_types> out;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (!laws[pair]) continue;
+    std::visit(
+        [&](const auto& law) {
+          for (int l = 0; l < law.units(); ++l) out[pair].push_back(law.stiffness(s) * law.unit_compliance(l, s));
+        },
+        *laws[pair]);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<FieldArray> particle_arrays(const std::vector<Complex>& motion, double amplitude) {
+  const std::size_t particles = motion.size() / 6;
+  const auto at = [&](std::size_t i, int k) { return amplitude * motion[6 * i + static_cast<std::size_t>(k)]; };
+  std::vector<FieldArray> out;
+  add_parts("displacement", "m", particles, 3, at, out);
+  out.push_back(
+      tuples("displacement_amplitude", "m", particles, 3, [&](std::size_t i, int k) { return std::abs(at(i, k)); }));
+  out.push_back(
+      tuples("displacement_phase", "deg", particles, 3, [&](std::size_t i, int k) { return degrees(at(i, k)); }));
+  add_parts(
+      "rotation", "rad", particles, 3, [&](std::size_t i, int k) { return at(i, 3 + k); }, out);
+  return out;
+}
+
+std::vector<FieldArray> contact_arrays(const ContactNetwork& network,
+                                       const std::array<std::optional<Law>, pair_types>& laws, double frequency_hz,
+                                       const std::vector<Complex>& motion, double amplitude) {
+  const Complex s(0, 2 * std::numbers::pi * frequency_hz);
+  const harmonic::PairStiffness stiffness = harmonic::pair_stiffness(laws, s);
+  const std::size_t contacts = network.contacts.size();
+  std::vector<std::array<Complex, 6>> relative(contacts);
+  std::vector<kernels::FacetLoad<Complex>> load(contacts);
+#pragma omp parallel for schedule(static)
+  for (std::size_t c = 0; c < contacts; ++c) {
+    relative[c] = harmonic::relative_motion(network.contacts[c], motion, 1.0);
+    for (Complex& x : relative[c]) x *= amplitude;
+    load[c] = harmonic::facet_load(network.contacts[c], stiffness, relative[c]);
+  }
+  std::vector<FieldArray> out;
+  const auto scalar = [&](const char* name, const char* unit, auto&& of) {
+    out.push_back(tuples(name, unit, contacts, 1, [&](std::size_t c, int) { return of(load[c]); }));
+  };
+  scalar("normal_force_amplitude", "N", [](const auto& f) { return std::abs(f.n); });
+  scalar("normal_force_phase", "deg", [](const auto& f) { return degrees(f.n); });
+  scalar("shear_force_amplitude", "N", [](const auto& f) { return std::hypot(std::abs(f.s), std::abs(f.t)); });
+  const auto vector = [&](const char* name, const char* unit, auto&& of) {
+    add_parts(
+        name, unit, contacts, 3, [&](std::size_t c, int k) { return of(network.contacts[c], load[c], k); }, out);
+  };
+  vector("force", "N", [](const Contact& c, const auto& f, int k) { return component(c, f.n, f.s, f.t, k); });
+  vector("moment", "N m",
+         [](const Contact& c, const auto& f, int k) { return component(c, f.moment_n, f.moment_s, f.moment_t, k); });
+  const auto six = [&](std::size_t c, int k) { return relative[c][static_cast<std::size_t>(k)]; };
+  add_parts("relative_displacement", relative_unit, contacts, 6, six, out);
+  const auto units = stretches(laws, s);
+  const auto of_pair = [&](std::size_t c) -> const auto& {
+    return units[static_cast<std::size_t>(network.contacts[c].pair)];
+  };
+  std::size_t most = 0;
+  for (std::size_t c = 0; c < contacts; ++c) most = std::max(most, of_pair(c).size());
+  for (std::size_t l = 0; l < most; ++l) {
+    const auto stretch = [&](std::size_t c, int k) { return l < of_pair(c).size() ? of_pair(c)[l] * six(c, k) : 0.0; };
+    add_parts("stretch_" + std::to_string(l + 1), relative_unit, contacts, 6, stretch, out);
+  }
+  return out;
+}
+
+}  // namespace macadam

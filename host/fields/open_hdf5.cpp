@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// open_hdf5.cpp  Room on the disk first, then HDF5.
+#include "host/fields/open_hdf5.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <new>
+#include <system_error>
+
+#include "host/results/quiet_hdf5.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file, int error) {
+  throw RunError(file.string() + ": cannot be written: " + std::generic_category().message(error));
+}
+
+H5::FileAccPropList access() {
+  H5::FileAccPropList out;
+  H5Pset_file_locking(out.getId(), false, true);
+  H5AC_cache_config_t cache{};
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  H5Pget_mdc_config(out.getId(), &cache);
+  cache.evictions_enabled = false;  // nothing leaves the memory but in a flush
+  cache.incr_mode = H5C_incr__off;
+  cache.flash_incr_mode = H5C_flash_incr__off;
+  cache.decr_mode = H5C_decr__off;
+  H5Pset_mdc_config(out.getId(), &cache);
+  return out;
+}
+
+/// The tree that finds the pieces of an array moves its nodes where one is full, and a kill within the flush that does
+/// so would lose frames. With so many pieces a node, that is one flush in some hundred.
+H5::FileCreatPropList creation() {
+  constexpr unsigned half_of_pieces = 128;
+  H5::FileCreatPropList out;
+  out.setIstorek(half_of_pieces);
+  return out;
+}
+
+}  // namespace
+
+void with_hdf5(const std::filesystem::path& file, const std::function<void()>& f) {
+  try {
+    const QuietHdf5 quiet;
+    f();
+  } catch (const H5::Exception& error) {
+    throw RunError(file.string() + ": HDF5 cannot go on with it: " + error.getDetailMsg());
+  } catch (const std::bad_alloc&) { throw RunError(file.string() + ": not enough memory to write it"); }
+}
+
+OpenHdf5::OpenHdf5(const std::filesystem::path& file, Begin begin) : file_(file) {
+  const bool anew = begin == Begin::anew;
+  if (anew) part_ = file.string() + ".part";
+  const std::filesystem::path& name = anew ? part_ : file_;
+  descriptor_ = ::open(name.c_str(), O_RDWR | O_CLOEXEC | (anew ? O_CREAT | O_TRUNC : 0), 0666);
+  if (descriptor_ < 0) refuse(file, errno);
+  try {
+    with_hdf5(file, [&] {
+      hdf5_.emplace(name.string(), anew ? H5F_ACC_TRUNC : H5F_ACC_RDWR, creation(), access());
+      // Where the file ends is what a flush writes last: after a kill within it, arrays may lie beyond that.
+      if (!anew && H5Fincrement_filesize(hdf5_->getId(), 0) < 0) throw H5::FileIException("H5Fincrement_filesize");
+    });
+  } catch (...) {
+    close();
+    throw;
+  }
+}
+
+OpenHdf5::~OpenHdf5() { close(); }
+
+void OpenHdf5::close() {
+  try {
+    with_hdf5(file_, [&] {
+      if (hdf5_) hdf5_->close();
+    });
+  } catch (const RunError&) {  // after a flush there is nothing left that could fail
+  }
+  ::close(descriptor_);
+  std::error_code ignored;
+  if (!part_.empty()) std::filesystem::remove(part_, ignored);
+}
+
+void OpenHdf5::write(std::size_t bytes, const std::function<void(H5::H5File&)>& change) {
+  constexpr std::size_t bookkeeping = 1 << 21;  // nodes of trees and headers of so many arrays, generously
+  const off_t end = ::lseek(descriptor_, 0, SEEK_END);
+  if (end < 0) refuse(file_, errno);
+  if (const int error = ::posix_fallocate(descriptor_, end, static_cast<off_t>(bytes + bookkeeping)); error != 0) {
+    if (::ftruncate(descriptor_, end) != 0) refuse(file_, errno);
+    refuse(file_, error);
+  }
+  with_hdf5(file_, [&] {
+    change(*hdf5_);
+    hdf5_->flush(H5F_SCOPE_GLOBAL);
+  });
+  const auto size = static_cast<off_t>(hdf5_->getFileSize());  // what was taken too much is given back
+  if (::ftruncate(descriptor_, size) != 0) refuse(file_, errno);
+}
+
+void OpenHdf5::keep() {
+  std::error_code error;
+  std::filesystem::rename(part_, file_, error);
+  if (error) refuse(file_, error.value());
+  part_.clear();
+}
+
+}  // namespace macadam

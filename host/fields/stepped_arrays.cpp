@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// stepped_arrays.cpp  What a stepper gives back, as arrays of a frame.
+#include <algorithm>
+
+#include "host/fields/field_lists.hpp"
+#include "macadam/fields.hpp"
+
+namespace macadam {
+namespace {
+
+/// Numbers of Kelvin units of each contact: a chain holds f and one number a unit, and there are six; 0 without chains.
+std::vector<int> units_of(const ContactState& state) {
+  std::vector<int> out(state.force.size(), 0);
+  for (std::size_t c = 0; c + 1 < state.chain_begin.size(); ++c) {
+    const std::size_t numbers = state.chain_begin[c + 1] - state.chain_begin[c];
+    if (numbers > 0) out[c] = static_cast<int>(numbers / 6) - 1;
+  }
+  return out;
+}
+
+/// Unit normal of a contact whose particles have moved. That of a wall does not turn.
+Vec3d turned_normal(const Specimen& specimen, const Contact& c, const std::vector<Vec3d>& displacement) {
+  if (c.b < 0 || displacement.empty()) return c.n;
+  const auto at = [&](std::int32_t i) {
+    const auto particle = static_cast<std::size_t>(i);
+    return specimen.centre[particle] + displacement[particle];
+  };
+  const Vec3d line = at(c.b) - at(c.a);
+  return (1 / norm(line)) * line;
+}
+
+}  // namespace
+
+std::vector<FieldArray> particle_arrays(const ParticleState& state) {
+  std::vector<FieldArray> out;
+  out.push_back(vectors("displacement", "m", state.displacement));
+  out.push_back(vectors("rotation", "rad", state.rotation));
+  out.push_back(vectors("velocity", "m/s", state.velocity));
+  out.push_back(vectors("spin", "rad/s", state.spin));
+  out.push_back(vectors("force", "N", state.force));
+  out.push_back(vectors("moment", "N m", state.moment));
+  return out;
+}
+
+std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNetwork& network,
+                                       const ContactState& state, const std::vector<Vec3d>& displacement) {
+  const std::size_t contacts = network.contacts.size();
+  std::vector<double> normal(contacts), shear(contacts);
+  for (std::size_t c = 0; c < contacts; ++c) {
+    const Vec3d n = turned_normal(specimen, network.contacts[c], displacement), &force = state.force[c];
+    normal[c] = dot(force, n);
+    shear[c] = norm(force - normal[c] * n);
+  }
+  std::vector<FieldArray> out;
+  out.push_back(scalars("normal_force", "N", normal));
+  out.push_back(scalars("shear_force", "N", shear));
+  out.push_back(vectors("force", "N", state.force));
+  out.push_back(vectors("moment", "N m", state.moment));
+  out.push_back(tuples("relative_displacement", relative_unit, contacts, 6,
+                       [&](std::size_t c, int k) { return state.relative[c][static_cast<std::size_t>(k)]; }));
+  const std::vector<int> units = units_of(state);
+  const int most = units.empty() ? 0 : *std::max_element(units.begin(), units.end());
+  for (int l = 0; l < most; ++l) {
+    out.push_back(tuples("stretch_" + std::to_string(l + 1), relative_unit, contacts, 6, [&](std::size_t c, int k) {
+      if (l >= units[c]) return 0.0;
+      return state.chain[state.chain_begin[c] + static_cast<std::size_t>(k * (1 + units[c]) + 1 + l)];
+    }));
+  }
+  return out;
+}
+
+}  // namespace macadam
