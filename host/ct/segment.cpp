@@ -62,7 +62,8 @@ Segmentation segment_scan(Image<float> scan, const SegmentOptions& options) {
   Segmentation out;
   check_scan(scan, out.warnings);
   say(options, "region");
-  const Image<std::uint8_t> region = find_region(scan, options.region);
+  const Image<std::uint8_t> region =
+      options.given ? take_region(scan, *options.given) : find_region(scan, options.region);
   if (options.recipe == SegmentRecipe::paper) {
     Segmentation paper = segment_as_paper(std::move(scan), region, options);
     paper.warnings.insert(paper.warnings.begin(), out.warnings.begin(), out.warnings.end());

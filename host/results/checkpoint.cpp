@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoint.cpp  The only file that knows HDF5, through its own C++ interface.
+// checkpoint.cpp  Checkpoints through HDF5's own C++ interface.
 #include "host/results/checkpoint.hpp"
 
 #include <H5Cpp.h>
@@ -10,6 +10,7 @@
 #include <fstream>
 #include <new>
 
+#include "host/quiet_hdf5.hpp"
 #include "host/results/files.hpp"
 #include "macadam/error.hpp"
 
@@ -17,21 +18,6 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t user_block = 512;  ///< HDF5's smallest
-
-/// HDF5 prints its errors unless told not to.
-class Quiet {
- public:
-  Quiet() {
-    H5::Exception::getAutoPrint(print_, &data_);
-    H5::Exception::dontPrint();
-  }
-  Quiet(const Quiet&) = delete;
-  ~Quiet() { H5::Exception::setAutoPrint(print_, data_); }
-
- private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
 
 const H5::PredType& type_of(float) { return H5::PredType::NATIVE_FLOAT; }
 const H5::PredType& type_of(double) { return H5::PredType::NATIVE_DOUBLE; }
@@ -128,7 +114,7 @@ std::string user_block_of(std::string_view image) {
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   std::string bytes;
   try {
-    const Quiet quiet;
+    const QuietHdf5 quiet;
     bytes = file_of(checkpoint);
   } catch (const H5::Exception& error) {
     throw RunError(file.string() + ": HDF5 cannot make it (out of memory?): " + error.getDetailMsg());
@@ -156,7 +142,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   in.read(image.data(), static_cast<std::streamsize>(image.size()));
   if (!in || header != user_block_of(image)) refuse("another checksum than it names", "the same: it is damaged");
   try {
-    const Quiet quiet;
+    const QuietHdf5 quiet;
     return read_image(std::move(image));
   } catch (const H5::Exception& error) {
     throw InputError(file.string(), 0, "checkpoint", "what HDF5 cannot read (" + error.getDetailMsg() + ")",

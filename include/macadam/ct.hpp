@@ -58,15 +58,16 @@ struct ImageHeader {
   bool floating = false;
 };
 
-/// Reads the header of a MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr) or TIFF file (.tif, .tiff; pages are slices), or
-/// of a folder of TIFF files, which are slices in the order of their names, numbers in them by value. Lengths in files
-/// are millimetres. \throws InputError naming the file.
-ImageHeader read_image_header(const std::filesystem::path& path);
+/// Reads the header of a MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr), TIFF (.tif, .tiff; pages are slices) or HDF5 file
+/// (.h5, .hdf5), or of a folder of TIFF files, which are slices in the order of their names, numbers in them by value.
+/// Lengths in files are millimetres. Of an HDF5 file `dataset` names the dataset of three dimensions, z, y and x, which
+/// need not be named where there is one only. \throws InputError naming the file.
+ImageHeader read_image_header(const std::filesystem::path& path, const std::string& dataset = {});
 
 /// Reads such an image; T is uint8, uint16, uint32 or float. A voxel that T cannot hold, and one that is not finite, is
 /// an error: \throws InputError naming the file and the first such voxel.
 template <class T>
-Image<T> read_image(const std::filesystem::path& path);
+Image<T> read_image(const std::filesystem::path& path, const std::string& dataset = {});
 
 /// Writes .mha (compressed where `compressed`), .nrrd or .tif. \throws RunError where that fails, InputError for
 /// another ending.
@@ -85,8 +86,15 @@ struct GreyLevels {
 };
 
 enum class ScanRegion : std::uint8_t { found, whole, cylinder, prism };  ///< what of a scan is the specimen
-enum class Denoising : std::uint8_t { diffusion, median, none };         ///< diffusion keeps edges
-enum class SegmentRecipe : std::uint8_t { own, paper };                  ///< the steps of section 3.2.1
+/// The specimen by coordinates of the scan: an upright box, or the upright cylinder around the middle of its sides
+/// whose diameter is its width along x.
+struct GivenRegion {
+  Vec3d low, high;  ///< corners of the box [m]
+  bool cylinder = false;
+};
+
+enum class Denoising : std::uint8_t { diffusion, median, none };  ///< diffusion keeps edges
+enum class SegmentRecipe : std::uint8_t { own, paper };           ///< the steps of section 3.2.1
 
 /// Two fragments of the watershed that touch. The inscribed radius is that of the largest sphere inside.
 struct GrainCut {
@@ -102,6 +110,7 @@ struct GrainCut {
 /// How a scan is segmented.
 struct SegmentOptions {
   ScanRegion region = ScanRegion::found;
+  std::optional<GivenRegion> given;                    ///< goes before `region`
   bool slices = true, rings = true, hardening = true;  ///< which corrections
   Denoising denoising = Denoising::diffusion;
   SegmentRecipe recipe = SegmentRecipe::own;
