@@ -13,8 +13,10 @@
 #include "host/cli/streams.hpp"
 #include "host/ct/overlay.hpp"
 #include "host/ct/segment_files.hpp"
+#include "host/in_quotes.hpp"
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
+#include "host/scene/units.hpp"
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"
 
@@ -24,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string images, dataset, out, region, cuts, smallest;
+  std::string images, dataset, out, region, memory, cuts, smallest;
   std::vector<std::string> voxel;
   bool no_slices = false, no_rings = false, no_hardening = false;
   std::optional<int> threads;
@@ -50,6 +52,17 @@ Vec3d spacing_of(const ImageHeader& header, const Arguments& arguments) {
   return given;
 }
 
+/// Bytes that may be taken: four fifths of what is free, for the system and others take some too.
+double memory_of(const Arguments& arguments) {
+  if (arguments.memory.empty()) return 0.8 * memory_available();
+  constexpr scene::Unit units[] = {{"GB", 9}, {"MB", 6}};
+  const scene::Quantity memory{"memory", units};
+  const std::optional<double> bytes = scene::parse(arguments.memory, memory);
+  if (!bytes || !(*bytes > 0))
+    throw InputError("command line", 0, "--memory", in_quotes(arguments.memory), "an amount: \"3 GB\", \"800 MB\"");
+  return *bytes;
+}
+
 void segment(Arguments arguments) {
   SegmentOptions& options = arguments.segment;
   options.slices = !arguments.no_slices, options.rings = !arguments.no_rings,
@@ -62,9 +75,7 @@ void segment(Arguments arguments) {
   ProgressLine line;
   options.progress = [&](const std::string& stage, double share) { show_or_stop(line, stage, share); };
   options.progress("reading", 0);
-  Image<float> scan = read_image<float>(arguments.images, arguments.dataset);
-  scan.spacing = voxel;
-  const Segmentation out = segment_scan(std::move(scan), options);
+  const Segmentation out = segment_file({arguments.images, arguments.dataset, voxel}, options, memory_of(arguments));
   options.progress("writing", 0);
   const fs::path folder = arguments.out;
   const ResultFolder held(folder);
@@ -91,6 +102,10 @@ void segment(Arguments arguments) {
       100 * c.rings, 100 * c.hardening);
   say("air voids {:.2f} %, mastic {:.2f} %, aggregate {:.2f} % of the specimen; confidence {:.3f}\n",
       100 * out.air_voids, 100 * out.mastic, 100 * out.aggregate, out.confidence_mean);
+  if (out.block > 1) {
+    say("larger than memory: images are of blocks of {0} x {0} x {0} voxels, {1} surfaces are finer\n", out.block,
+        out.refined);
+  }
   say("{} grains, {} of them cut by the end of the specimen\n", out.grains.size(), border);
   for (const std::string& warning : out.warnings) say("warning: {}\n", warning);
   say("files in {}: library border grains.csv gradation.csv cuts.csv labels.mha phases.mha confidence.mha planes.png "
@@ -126,6 +141,8 @@ void add_ct_segment(CLI::App& ct) {
              0.5);
   add_number(command, "--aggregate", options.aggregate, "share of the specimen's volume, from the laboratory", 0.05,
              0.95);
+  add_text(command, "--memory", arguments->memory,
+           "that may be taken (\"3 GB\"; four fifths of what is free): a larger scan is decided on block means");
   add_text(command, "--smallest", arguments->smallest, "diameter of the smallest grain that matters (\"4 mm\")");
   add_text(command, "--cuts", arguments->cuts, "a cuts.csv of the same scan, in which `cut` was changed by hand");
   add_choice(command, "--recipe", options.recipe, "steps of the segmentation (own)",

@@ -4,7 +4,6 @@
 
 #include "host/ct/image_slices.hpp"
 #include "host/ct/itk_io.hpp"
-#include "host/ct/memory.hpp"
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // memory.cpp  What Linux says of memory: of the machine, of this process and of its group.
-#include "host/ct/memory.hpp"
-
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -10,7 +8,9 @@
 #include <limits>
 #include <string>
 
-namespace macadam::ct {
+#include "macadam/ct.hpp"
+
+namespace macadam {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
@@ -46,4 +46,4 @@ double memory_available() {
   return std::min({free_of_machine(), left_of_address_space(), std::max(0.0, group)});
 }
 
-}  // namespace macadam::ct
+}  // namespace macadam

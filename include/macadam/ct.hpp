@@ -152,12 +152,30 @@ struct Segmentation {
   std::vector<GrainCut> cuts;
   double air_voids = 0, mastic = 0, aggregate = 0;  ///< volume shares of the specimen, partly filled voxels in part
   double confidence_mean = 0;                       ///< of the voxels of the specimen, 0 to 1
-  std::vector<std::string> warnings;                ///< what a person should look at
+  std::int64_t block = 1;   ///< edge of a voxel of these images in voxels of the scan; above 1: see segment_file()
+  std::size_t refined = 0;  ///< grains whose surfaces are finer than these images
+  std::vector<std::string> warnings;  ///< what a person should look at
 };
 
 /// Phases and grains of a scan whose spacing is known. \throws InputError where the scan cannot be segmented: empty,
 /// without contrast, with a phase missing.
 Segmentation segment_scan(Image<float> scan, const SegmentOptions& options);
+
+/// A scan in a file, of any format of read_image().
+struct ScanFile {
+  std::filesystem::path path;
+  std::string dataset;  ///< of HDF5
+  Vec3d spacing{};      ///< edges of a voxel [m]; 0: what the file says
+};
+
+/// The same of a file, with `memory` bytes to take. A scan that fits is segment_scan()'s. Of a larger one, phases and
+/// grains are decided on means of blocks of voxels, a twentieth of the smallest grain wide, and the surfaces of grains
+/// for which these are coarse are drawn from the file, which is read twice, some slices at a time; the images are
+/// those of the blocks. \throws InputError also where that does not fit either.
+Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, double memory);
+
+/// Memory that there is to take: what the machine has free, or this process may have [bytes].
+double memory_available();
 
 /// Side of the smallest square opening that lets a surface pass, turned as it may be [m].
 double square_sieve(const Surface& surface);
