@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "host/ct/correction.hpp"
+#include "host/ct/grain_surfaces.hpp"
 #include "macadam/error.hpp"
 #include "tests/ct_scans.hpp"
 
@@ -29,8 +30,8 @@ class CtLargeScan : public testing::Test {
     options.smallest = smallest_voxels * voxel;
     return options;
   }
-  /// Less than what the scan takes whole, 16 bytes a voxel and 100 MB.
-  static double little(const Image<float>& scan) { return 1e8 + 14.0 * static_cast<double>(scan.count()); }
+  /// Less than what the scan takes whole, somewhat more than 12 bytes a voxel and 100 MB.
+  static double little(const Image<float>& scan) { return 1e8 + 12.1 * static_cast<double>(scan.count()); }
   std::string fault(const fs::path& file, const SegmentOptions& options, double memory) {
     try {
       segment_file({file, {}, {}}, options, memory);
@@ -143,7 +144,9 @@ TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
   const Segmentation parts = segment_file({folder_ / "slices", {}, {voxel, voxel, voxel}}, options, little(scan));
   EXPECT_EQ(parts.block, 2);
   EXPECT_EQ(parts.grains.size(), 8u);
-  write_image(folder_ / "packed.mha", scan, true);
+  Image<std::uint16_t> whole(scan.size, scan.spacing);
+  std::copy(scan.voxels.begin(), scan.voxels.end(), whole.voxels.begin());
+  write_image(folder_ / "packed.mha", whole, true);
   EXPECT_EQ(segment_file({folder_ / "packed.mha", {}, {}}, options, little(scan)).grains.size(), 8u);
   EXPECT_NE(fault(folder_ / "packed.mha", options, 1.01e8).find("no part can be read alone"), std::string::npos);
   EXPECT_NE(fault(folder_ / "packed.mha", options, 1e6).find("GB for the means of blocks"), std::string::npos);
@@ -152,6 +155,23 @@ TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
   EXPECT_NE(fault(folder_ / "packed.mha", paper, little(scan)).find("the paper's recipe"), std::string::npos);
   write_image(folder_ / "pages.tif", scan);
   EXPECT_NE(fault(folder_ / "pages.tif", options, 1e12).find("edge of a voxel"), std::string::npos);
+}
+
+TEST_F(CtLargeScan, AGrainBehindARimOfMixedVoxelsIsCutByTheSpecimensEnd) {
+  Image<std::uint8_t> phases({9, 9, 9}, {1, 1, 1}, {}, 255);
+  Image<std::uint32_t> labels = Image<std::uint32_t>::like(phases);
+  const auto fill = [](auto& image, std::int64_t low, std::int64_t high, auto value) {
+    for (std::int64_t k = low; k <= high; ++k)
+      for (std::int64_t j = low; j <= high; ++j)
+        for (std::int64_t i = low; i <= high; ++i) image.at(i, j, k) = value;
+  };
+  const Image<std::uint8_t> confidence = Image<std::uint8_t>::like(phases, 255);
+  fill(phases, 1, 7, static_cast<std::uint8_t>(VoxelPhase::mastic));
+  fill(labels, 2, 6, 1u);
+  EXPECT_TRUE(ct::boxes_of(labels, phases, confidence).at(1).border);
+  fill(labels, 2, 6, 0u);
+  fill(labels, 3, 5, 1u);
+  EXPECT_FALSE(ct::boxes_of(labels, phases, confidence).at(1).border);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace macadam::ct {
 std::int64_t FineScan::slab() const {
   const auto [nx, ny, nz] = file.header().size;
   constexpr std::int64_t voxels = 1 << 20;
-  return std::min(std::max<std::int64_t>(1, voxels / (nx * ny * block)), nz / block + 1) * block;
+  return std::min(std::max<std::int64_t>(1, voxels / (nx * ny * block)), (nz + block - 1) / block) * block;
 }
 
 CoarseScan read_coarse(const FineScan& scan, const SegmentOptions& options) {

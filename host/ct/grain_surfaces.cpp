@@ -151,10 +151,14 @@ std::vector<GrainBox> boxes_of(const Image<std::uint32_t>& labels, const Image<s
         }
         ++box.voxels;
         box.confidence += confidence.voxels[at] / 255.0;
-        if (!box.border) {
-          box.border = phases.voxels[at - 1] == outside || phases.voxels[at + 1] == outside ||
-                       phases.at(i, j - 1, k) == outside || phases.at(i, j + 1, k) == outside ||
-                       phases.at(i, j, k - 1) == outside || phases.at(i, j, k + 1) == outside;
+        // at the specimen's end a voxel that is partly air may look like mastic
+        for (std::size_t a = 0; a < 3 && !box.border; ++a) {
+          for (const std::int64_t step : {-2, -1, 1, 2}) {
+            std::array<std::int64_t, 3> there = here;
+            there[a] += step;
+            if (there[a] < 0 || there[a] >= labels.size[a]) continue;
+            box.border = box.border || phases.at(there[0], there[1], there[2]) == outside;
+          }
         }
       }
     }

@@ -10,8 +10,9 @@ namespace {
 
 using namespace ct;
 
-constexpr double whole_bytes = 16;   ///< of a voxel, at most at a time
-constexpr double coarse_bytes = 20;  ///< of a block
+constexpr double scan_bytes = 12;    ///< of a voxel, at most at a time
+constexpr double parted_bytes = 14;  ///< of a voxel of the grid on which grains are parted
+constexpr double block_bytes = 32;   ///< of a block: both, and the voxel in its middle
 constexpr double fixed_bytes = 1e8;  ///< of the program and its libraries
 
 double gigabytes(double bytes) { return 1e-9 * bytes; }
@@ -21,6 +22,13 @@ double voxels_of(const ImageHeader& header) {
          static_cast<double>(header.size[2]);
 }
 
+/// What a scan takes that is held whole [bytes].
+double bytes_whole(const FineScan& scan, const SegmentOptions& options) {
+  const double voxel = std::cbrt(scan.spacing.x * scan.spacing.y * scan.spacing.z);
+  const double parted = std::max(1.0, std::floor(options.smallest / 20 / voxel));
+  return fixed_bytes + voxels_of(scan.file.header()) * (scan_bytes + parted_bytes / std::pow(parted, 3));
+}
+
 /// What a scan in blocks takes [bytes].
 double bytes_in_blocks(FineScan scan, std::int64_t block) {
   scan.block = block;
@@ -28,7 +36,7 @@ double bytes_in_blocks(FineScan scan, std::int64_t block) {
   const auto edge = static_cast<double>(block);
   const double slab = static_cast<double>(header.size[0] * header.size[1] * scan.slab());
   const double held = scan.file.apart() ? 0 : voxels_of(header) * header.bits / 8;
-  return fixed_bytes + voxels_of(header) / (edge * edge * edge) * coarse_bytes + slab * (4 + header.bits / 8.0) + held;
+  return fixed_bytes + voxels_of(header) / (edge * edge * edge) * block_bytes + slab * (4 + header.bits / 8.0) + held;
 }
 
 /// Edge of the blocks: a twentieth of the smallest grain, up to a tenth where that alone fits. \throws InputError.
@@ -80,7 +88,7 @@ Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, d
   FineScan fine{*image, file.spacing.x > 0 ? file.spacing : image->header().spacing};
   const std::string name = file.path.string();
   if (!(fine.spacing.x > 0)) throw InputError(name, 0, "edge of a voxel", "none in the file", "one that is given");
-  const double whole = fixed_bytes + whole_bytes * voxels_of(image->header());
+  const double whole = bytes_whole(fine, options);
   if (whole <= memory) {
     Image<float> scan = read_image<float>(file.path, file.dataset);
     scan.spacing = fine.spacing;
