@@ -50,20 +50,36 @@ Parts levels_of_parts(const Image<float>& scan, const Image<std::uint8_t>& regio
   return out;
 }
 
-/// Takes what is brighter out of every voxel; `brighter(i, j, k)` says by how much.
+/// Takes what is brighter out of every voxel; `brighter(i, j, k)` says by how much. \returns the same for any place.
 template <class Brighter>
-void take_out(Image<float>& scan, const GreyLevels& whole, Brighter&& brighter) {
+CorrectionStep take_out(Image<float>& scan, const GreyLevels& whole, const Brighter& brighter) {
   for_each_in_parallel(static_cast<std::size_t>(scan.size[2]), [&](std::size_t slice) {
     const auto k = static_cast<std::int64_t>(slice);
     for (std::int64_t j = 0; j < scan.size[1]; ++j) {
       for (std::int64_t i = 0; i < scan.size[0]; ++i) {
         float& grey = scan.at(i, j, k);
-        const double b = brighter(i, j, k);
+        const double b = brighter(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
         grey =
             static_cast<float>(whole.has_air ? whole.air + (grey - whole.air) / (1 + b) : grey - b * whole.contrast());
       }
     }
   });
+  CorrectionStep step{whole.air, {}, {}};
+  if (whole.has_air) step.factor = [brighter](double i, double j, double k) { return 1 + brighter(i, j, k); };
+  if (!whole.has_air) {
+    step.offset = [brighter, contrast = whole.contrast()](double i, double j, double k) {
+      return contrast * brighter(i, j, k);
+    };
+  }
+  return step;
+}
+
+/// A value between those of whole numbers, that of the nearest beyond them.
+double between(const std::vector<double>& values, double at) {
+  const double in = std::clamp(at, 0.0, static_cast<double>(values.size() - 1));
+  const auto low = static_cast<std::size_t>(in);
+  const double share = in - static_cast<double>(low);
+  return share > 0 ? (1 - share) * values[low] + share * values[low + 1] : values[low];
 }
 
 /// What brightness does to the aggregate's level, in shares of the contrast.
@@ -109,19 +125,21 @@ std::pair<Image<float>, Image<std::uint8_t>> means_of_blocks(const Image<float>&
   return {std::move(means), std::move(inside)};
 }
 
-double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region) {
+double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [means, inside] = means_of_blocks(scan, region, {3, 3, 1});
   const auto slices = static_cast<std::size_t>(scan.size[2]);
   const auto slice = [](auto, auto, std::int64_t k) { return static_cast<std::size_t>(k); };
   const Parts parts = levels_of_parts(means, inside, slices, slice);
   double squares = 0;
-  for (const PartLevel& p : parts.each) squares += p.brighter * p.brighter;
-  take_out(scan, parts.whole,
-           [&](auto, auto, std::int64_t k) { return parts.each[static_cast<std::size_t>(k)].brighter; });
+  std::vector<double> brighter;
+  for (const PartLevel& p : parts.each) squares += p.brighter * p.brighter, brighter.push_back(p.brighter);
+  const CorrectionStep step =
+      take_out(scan, parts.whole, [brighter](auto, auto, double k) { return between(brighter, k); });
+  if (steps) steps->push_back(step);
   return in_contrasts(std::sqrt(squares / static_cast<double>(slices)), parts.whole);
 }
 
-double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region) {
+double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [cx, cy] = middle_of(region);
   const auto [means, inside] = means_of_blocks(scan, region, {1, 1, 3});
   const auto ring = [cx = cx, cy = cy](std::int64_t i, std::int64_t j, auto) {
@@ -151,10 +169,15 @@ double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region) {
         scan.at(i, j, static_cast<std::int64_t>(slice)) -= static_cast<float>(offset[ring(i, j, 0)]);
     }
   });
-  return std::sqrt(squares / static_cast<double>(rings)) / parts.whole.contrast();
+  const double whole = parts.whole.contrast();
+  if (steps)
+    steps->push_back({0, {}, [offset = std::move(offset), cx = cx, cy = cy](double i, double j, double) {
+                        return between(offset, std::hypot(i - cx, j - cy));
+                      }});
+  return std::sqrt(squares / static_cast<double>(rings)) / whole;
 }
 
-double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region) {
+double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [cx, cy] = middle_of(region);
   const std::int64_t edge = std::clamp<std::int64_t>(scan.size[0] / 100, 1, 4);
   const auto [means, inside] = means_of_blocks(scan, region, {edge, edge, edge});
@@ -162,7 +185,7 @@ double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region) 
   const auto height = static_cast<double>(scan.size[2]);
   constexpr int radii = 12, heights = 6;
   // ρ = (r/half)², ζ = height from −1 to 1
-  const auto radius2 = [&, cx = cx, cy = cy](double i, double j) {
+  const auto radius2 = [half, cx = cx, cy = cy](double i, double j) {
     return ((i - cx) * (i - cx) + (j - cy) * (j - cy)) / (half * half);
   };
   const auto block = static_cast<double>(edge);
@@ -197,20 +220,21 @@ double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region) 
     const double there = fit.dot(terms((r + 0.5) / radii, 0));
     low = std::min(low, there), high = std::max(high, there);
   }
-  take_out(scan, parts.whole, [&](std::int64_t i, std::int64_t j, std::int64_t k) {
-    return fit.dot(terms(radius2(static_cast<double>(i), static_cast<double>(j)),
-                         -1 + 2 * (static_cast<double>(k) + 0.5) / height));
+  const CorrectionStep step = take_out(scan, parts.whole, [fit, terms, radius2, height](double i, double j, double k) {
+    return fit.dot(terms(radius2(i, j), -1 + 2 * (k + 0.5) / height));
   });
+  if (steps) steps->push_back(step);
   return in_contrasts(high - low, parts.whole);
 }
 
-ScanCorrections correct(Image<float>& scan, const Image<std::uint8_t>& region, const SegmentOptions& options) {
+ScanCorrections correct(Image<float>& scan, const Image<std::uint8_t>& region, const SegmentOptions& options,
+                        CorrectionSteps* steps) {
   ScanCorrections first;
   for (int round = 0; round < 4; ++round) {
     ScanCorrections now;
-    if (options.hardening) now.hardening = correct_hardening(scan, region);
-    if (options.slices) now.slices = correct_slices(scan, region);
-    if (options.rings) now.rings = correct_rings(scan, region);
+    if (options.hardening) now.hardening = correct_hardening(scan, region, steps);
+    if (options.slices) now.slices = correct_slices(scan, region, steps);
+    if (options.rings) now.rings = correct_rings(scan, region, steps);
     if (round == 0) first = now;
     if (std::max({now.slices, now.rings, now.hardening}) < 0.02) break;
   }

@@ -5,7 +5,6 @@
 
 #include <mutex>
 
-#include "host/ct/isosurface.hpp"
 #include "host/parallel.hpp"
 #include "host/shapes/convex_hull.hpp"
 #include "macadam/error.hpp"
@@ -15,29 +14,6 @@ namespace {
 
 constexpr auto aggregate = static_cast<std::uint8_t>(VoxelPhase::aggregate),
                outside = static_cast<std::uint8_t>(VoxelPhase::outside);
-constexpr std::int64_t margin = 2;   ///< nodes around a grain
-constexpr std::int64_t across = 32;  ///< nodes through a grain's middle side, or one a voxel where it has fewer
-
-/// Averages of three neighbours along each axis, weights 1, 2, 1: a face between labels loses its steps.
-void even_out(Image<float>& field) {
-  const std::int64_t steps[3] = {1, field.size[0], field.size[0] * field.size[1]};
-  std::vector<float> from;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    from = field.voxels;
-    for (std::int64_t k = 0; k < field.size[2]; ++k) {
-      for (std::int64_t j = 0; j < field.size[1]; ++j) {
-        for (std::int64_t i = 0; i < field.size[0]; ++i) {
-          const std::int64_t at[3] = {i, j, k};
-          const auto here = static_cast<std::int64_t>(field.index(i, j, k));
-          const auto low = static_cast<std::size_t>(at[axis] > 0 ? here - steps[axis] : here);
-          const auto high = static_cast<std::size_t>(at[axis] + 1 < field.size[axis] ? here + steps[axis] : here);
-          field.voxels[static_cast<std::size_t>(here)] =
-              0.25f * (from[low] + 2 * from[static_cast<std::size_t>(here)] + from[high]);
-        }
-      }
-    }
-  }
-}
 
 /// Share of grey from mastic to aggregate, less the threshold's, averaged over blocks of `edge` voxels; and not more
 /// than what labels say of whose the place is. Surfaces of [1] know labels alone.
@@ -89,14 +65,7 @@ Image<float> field_of(const Segmentation& scan, const Thresholds& thresholds, st
   }
   if (edge == 1 && !paper) even_out(own);
   for (std::size_t n = 0; n < grey.count(); ++n) grey.voxels[n] = std::min(grey.voxels[n], own.voxels[n]);
-  for (std::int64_t k = 0; k < size[2]; ++k) {  // closed whatever lies at the end of the box
-    for (std::int64_t j = 0; j < size[1]; ++j) {
-      for (std::int64_t i = 0; i < size[0]; ++i) {
-        if (i == 0 || j == 0 || k == 0 || i + 1 == size[0] || j + 1 == size[1] || k + 1 == size[2])
-          grey.at(i, j, k) = std::min(grey.at(i, j, k), -0.5f);
-      }
-    }
-  }
+  close_ends(grey);
   return grey;
 }
 
@@ -118,7 +87,40 @@ Surface rebuilt(const Surface& surface) {
   return hull;
 }
 
-/// The grain's surface of few facets, of more where the few cut each other, mended where those do as well.
+}  // namespace
+
+void even_out(Image<float>& field) {
+  const std::int64_t steps[3] = {1, field.size[0], field.size[0] * field.size[1]};
+  std::vector<float> from;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    from = field.voxels;
+    for (std::int64_t k = 0; k < field.size[2]; ++k) {
+      for (std::int64_t j = 0; j < field.size[1]; ++j) {
+        for (std::int64_t i = 0; i < field.size[0]; ++i) {
+          const std::int64_t at[3] = {i, j, k};
+          const auto here = static_cast<std::int64_t>(field.index(i, j, k));
+          const auto low = static_cast<std::size_t>(at[axis] > 0 ? here - steps[axis] : here);
+          const auto high = static_cast<std::size_t>(at[axis] + 1 < field.size[axis] ? here + steps[axis] : here);
+          field.voxels[static_cast<std::size_t>(here)] =
+              0.25f * (from[low] + 2 * from[static_cast<std::size_t>(here)] + from[high]);
+        }
+      }
+    }
+  }
+}
+
+void close_ends(Image<float>& field) {
+  const auto& size = field.size;
+  for (std::int64_t k = 0; k < size[2]; ++k) {
+    for (std::int64_t j = 0; j < size[1]; ++j) {
+      for (std::int64_t i = 0; i < size[0]; ++i) {
+        if (i == 0 || j == 0 || k == 0 || i + 1 == size[0] || j + 1 == size[1] || k + 1 == size[2])
+          field.at(i, j, k) = std::min(field.at(i, j, k), -0.5f);
+      }
+    }
+  }
+}
+
 Simplified fit_surface(const Surface& fine, const SegmentOptions& options, double error) {
   const int most = std::max(800, options.facets);
   Simplified out;
@@ -129,8 +131,6 @@ Simplified fit_surface(const Surface& fine, const SegmentOptions& options, doubl
   out.surface = repair_surface(out.surface);
   return out;
 }
-
-}  // namespace
 
 std::vector<GrainBox> boxes_of(const Image<std::uint32_t>& labels, const Image<std::uint8_t>& phases,
                                const Image<std::uint8_t>& confidence) {
@@ -151,10 +151,14 @@ std::vector<GrainBox> boxes_of(const Image<std::uint32_t>& labels, const Image<s
         }
         ++box.voxels;
         box.confidence += confidence.voxels[at] / 255.0;
-        if (!box.border) {
-          box.border = phases.voxels[at - 1] == outside || phases.voxels[at + 1] == outside ||
-                       phases.at(i, j - 1, k) == outside || phases.at(i, j + 1, k) == outside ||
-                       phases.at(i, j, k - 1) == outside || phases.at(i, j, k + 1) == outside;
+        // at the specimen's end a voxel that is partly air may look like mastic
+        for (std::size_t a = 0; a < 3 && !box.border; ++a) {
+          for (const std::int64_t step : {-2, -1, 1, 2}) {
+            std::array<std::int64_t, 3> there = here;
+            there[a] += step;
+            if (there[a] < 0 || there[a] >= labels.size[a]) continue;
+            box.border = box.border || phases.at(there[0], there[1], there[2]) == outside;
+          }
         }
       }
     }
@@ -173,10 +177,7 @@ std::vector<ScannedGrain> surfaces_of(const Segmentation& scan, const Thresholds
   for_each_in_parallel(boxes.size(), [&](std::size_t id) {
     const GrainBox& box = boxes[id];
     if (box.voxels == 0) return;
-    std::array<std::int64_t, 3> sides;
-    for (std::size_t a = 0; a < 3; ++a) sides[a] = box.high[a] - box.low[a] + 1;
-    std::sort(sides.begin(), sides.end());
-    const std::int64_t edge = std::max<std::int64_t>(1, sides[1] / across);
+    const std::int64_t edge = std::max<std::int64_t>(1, box.middle_side() / across);
     const bool paper = options.recipe == SegmentRecipe::paper;
     try {
       const Surface fine = isosurface(field_of(scan, thresholds, static_cast<std::uint32_t>(id), box, edge, paper));

@@ -104,4 +104,30 @@ Image<std::uint8_t> find_region(const Image<float>& scan, ScanRegion kind) {
   return region;
 }
 
+Image<std::uint8_t> take_region(const Image<float>& scan, const GivenRegion& given) {
+  Image<std::uint8_t> region = Image<std::uint8_t>::like(scan);
+  const Vec3d axis = 0.5 * (given.low + given.high);
+  const double radius = 0.5 * (given.high.x - given.low.x);
+  for_each_in_parallel(static_cast<std::size_t>(scan.size[2]), [&](std::size_t slice) {
+    const auto k = static_cast<std::int64_t>(slice);
+    for (std::int64_t j = 0; j < scan.size[1]; ++j) {
+      for (std::int64_t i = 0; i < scan.size[0]; ++i) {
+        const Vec3d p = scan.centre(i, j, k);
+        const bool between = p.z >= given.low.z && p.z <= given.high.z;
+        region.at(i, j, k) = between && (given.cylinder ? std::hypot(p.x - axis.x, p.y - axis.y) <= radius
+                                                        : p.x >= given.low.x && p.x <= given.high.x &&
+                                                              p.y >= given.low.y && p.y <= given.high.y);
+      }
+    }
+  });
+  if (std::find(region.voxels.begin(), region.voxels.end(), 1) == region.voxels.end()) {
+    const Vec3d end = scan.centre(scan.size[0] - 1, scan.size[1] - 1, scan.size[2] - 1);
+    throw InputError("the scan", 0, "voxels within the region", "none",
+                     fmt::format("some: the scan reaches from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}) mm",
+                                 1e3 * scan.origin.x, 1e3 * scan.origin.y, 1e3 * scan.origin.z, 1e3 * end.x,
+                                 1e3 * end.y, 1e3 * end.z));
+  }
+  return region;
+}
+
 }  // namespace macadam::ct

@@ -10,4 +10,7 @@ namespace macadam::ct {
 /// material of every column of voxels, its ends in that of every slice. \throws InputError where there is none.
 Image<std::uint8_t> find_region(const Image<float>& scan, ScanRegion kind);
 
+/// The voxels whose centres lie within the region that was given. \throws InputError where there is none.
+Image<std::uint8_t> take_region(const Image<float>& scan, const GivenRegion& given);
+
 }  // namespace macadam::ct

@@ -8,6 +8,7 @@
 #include "host/ct/paper_recipe.hpp"
 #include "host/ct/phases.hpp"
 #include "host/ct/region.hpp"
+#include "host/ct/segment_steps.hpp"
 #include "host/ct/smoothing.hpp"
 #include "host/parallel.hpp"
 #include "macadam/error.hpp"
@@ -50,7 +51,7 @@ void check_levels(const Histogram& histogram, const GreyLevels& levels, std::vec
 
 }  // namespace
 
-Segmentation segment_scan(Image<float> scan, const SegmentOptions& options) {
+Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options, const Refine& refine) {
   if (scan.count() == 0) throw InputError("the scan", 0, "voxels", "none", "an image");
   const double voxel = std::cbrt(scan.voxel_volume());
   if (options.smallest < 4 * voxel) {
@@ -62,14 +63,16 @@ Segmentation segment_scan(Image<float> scan, const SegmentOptions& options) {
   Segmentation out;
   check_scan(scan, out.warnings);
   say(options, "region");
-  const Image<std::uint8_t> region = find_region(scan, options.region);
+  const Image<std::uint8_t> region =
+      options.given ? take_region(scan, *options.given) : find_region(scan, options.region);
   if (options.recipe == SegmentRecipe::paper) {
     Segmentation paper = segment_as_paper(std::move(scan), region, options);
     paper.warnings.insert(paper.warnings.begin(), out.warnings.begin(), out.warnings.end());
     return paper;
   }
   say(options, "corrections");
-  out.corrections = correct(scan, region, options);
+  CorrectionSteps steps;
+  out.corrections = correct(scan, region, options, &steps);
   say(options, "denoising");
   const GreyLevels noisy = fit_levels(histogram_of(scan, region));
   if (!(noisy.contrast() > 0)) check_levels(histogram_of(scan, region), noisy, out.warnings);
@@ -110,9 +113,15 @@ Segmentation segment_scan(Image<float> scan, const SegmentOptions& options) {
   drop_small(out.labels, least_volume(options));
   if (options.surfaces) {
     say(options, "surfaces");
-    out.grains = surfaces_of(out, thresholds, boxes_of(out.labels, out.phases, out.confidence), options, out.warnings);
+    const std::vector<GrainBox> boxes = boxes_of(out.labels, out.phases, out.confidence);
+    out.grains = surfaces_of(out, thresholds, boxes, options, out.warnings);
+    if (refine) refine(out, thresholds, boxes, steps);
   }
   return out;
+}
+
+Segmentation segment_scan(Image<float> scan, const SegmentOptions& options) {
+  return segment_steps(std::move(scan), options, {});
 }
 
 }  // namespace macadam

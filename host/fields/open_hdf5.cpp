@@ -9,7 +9,7 @@
 #include <new>
 #include <system_error>
 
-#include "host/results/quiet_hdf5.hpp"
+#include "host/quiet_hdf5.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <new>
 
+#include "host/quiet_hdf5.hpp"
 #include "host/results/files.hpp"
-#include "host/results/quiet_hdf5.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -58,15 +58,16 @@ struct ImageHeader {
   bool floating = false;
 };
 
-/// Reads the header of a MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr) or TIFF file (.tif, .tiff; pages are slices), or
-/// of a folder of TIFF files, which are slices in the order of their names, numbers in them by value. Lengths in files
-/// are millimetres. \throws InputError naming the file.
-ImageHeader read_image_header(const std::filesystem::path& path);
+/// Reads the header of a MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr), TIFF (.tif, .tiff; pages are slices) or HDF5 file
+/// (.h5, .hdf5), or of a folder of TIFF files, which are slices in the order of their names, numbers in them by value.
+/// Lengths in files are millimetres. Of an HDF5 file `dataset` names the dataset of three dimensions, z, y and x, which
+/// need not be named where there is one only. \throws InputError naming the file.
+ImageHeader read_image_header(const std::filesystem::path& path, const std::string& dataset = {});
 
 /// Reads such an image; T is uint8, uint16, uint32 or float. A voxel that T cannot hold, and one that is not finite, is
 /// an error: \throws InputError naming the file and the first such voxel.
 template <class T>
-Image<T> read_image(const std::filesystem::path& path);
+Image<T> read_image(const std::filesystem::path& path, const std::string& dataset = {});
 
 /// Writes .mha (compressed where `compressed`), .nrrd or .tif. \throws RunError where that fails, InputError for
 /// another ending.
@@ -85,8 +86,15 @@ struct GreyLevels {
 };
 
 enum class ScanRegion : std::uint8_t { found, whole, cylinder, prism };  ///< what of a scan is the specimen
-enum class Denoising : std::uint8_t { diffusion, median, none };         ///< diffusion keeps edges
-enum class SegmentRecipe : std::uint8_t { own, paper };                  ///< paper: as [1], section 3.2.1
+/// The specimen by coordinates of the scan: an upright box, or the upright cylinder around the middle of its sides
+/// whose diameter is its width along x.
+struct GivenRegion {
+  Vec3d low, high;  ///< corners of the box [m]
+  bool cylinder = false;
+};
+
+enum class Denoising : std::uint8_t { diffusion, median, none };  ///< diffusion keeps edges
+enum class SegmentRecipe : std::uint8_t { own, paper };           ///< paper: as [1], section 3.2.1
 
 /// Two fragments of the watershed that touch. The inscribed radius is that of the largest sphere inside.
 struct GrainCut {
@@ -102,6 +110,7 @@ struct GrainCut {
 /// How a scan is segmented.
 struct SegmentOptions {
   ScanRegion region = ScanRegion::found;
+  std::optional<GivenRegion> given;                    ///< goes before `region`
   bool slices = true, rings = true, hardening = true;  ///< which corrections
   Denoising denoising = Denoising::diffusion;
   SegmentRecipe recipe = SegmentRecipe::own;
@@ -143,12 +152,30 @@ struct Segmentation {
   std::vector<GrainCut> cuts;
   double air_voids = 0, mastic = 0, aggregate = 0;  ///< volume shares of the specimen, partly filled voxels in part
   double confidence_mean = 0;                       ///< of the voxels of the specimen, 0 to 1
-  std::vector<std::string> warnings;                ///< what a person should look at
+  std::int64_t block = 1;   ///< edge of a voxel of these images in voxels of the scan; above 1: see segment_file()
+  std::size_t refined = 0;  ///< grains whose surfaces are finer than these images
+  std::vector<std::string> warnings;  ///< what a person should look at
 };
 
 /// Phases and grains of a scan whose spacing is known. \throws InputError where the scan cannot be segmented: empty,
 /// without contrast, with a phase missing.
 Segmentation segment_scan(Image<float> scan, const SegmentOptions& options);
+
+/// A scan in a file, of any format of read_image().
+struct ScanFile {
+  std::filesystem::path path;
+  std::string dataset;  ///< of HDF5
+  Vec3d spacing{};      ///< edges of a voxel [m]; 0: what the file says
+};
+
+/// The same of a file, with `memory` bytes to take. A scan that fits is segment_scan()'s. Of a larger one, phases and
+/// grains are decided on means of blocks of voxels, a twentieth of the smallest grain wide, and the surfaces of grains
+/// for which these are coarse are drawn from the file, which is read twice, some slices at a time; the images are
+/// those of the blocks. \throws InputError also where that does not fit either.
+Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, double memory);
+
+/// Memory that there is to take: what the machine has free, or this process may have [bytes].
+double memory_available();
 
 /// Side of the smallest square opening that lets a surface pass, turned as it may be [m].
 double square_sieve(const Surface& surface);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/ct.md: from bench/ct/run's ct.csv, a row a seed and recipe."""
-from pages.data import minus, rows, table
+"""docs/ct.md: from bench/ct/run's ct.csv, a row a seed and recipe, and bench/ct/large's ct-large.csv, one row."""
+from pages.data import minus, one, rows, table
 from pages.marks import mark
 
 DOCUMENT = "docs/ct.md"
@@ -30,3 +30,30 @@ def ct():
     lines = [[name, *(minus(f"{factor * r[column]:{'+' if sign else ''}.{digits}f}") for r in runs)]
              for name, column, factor, digits, sign in LINES]
     return table(["", *heads], lines, range(1, len(heads) + 1))
+
+
+LARGE = (  # name, column, factor, digits, sign
+    ("voxels along each axis", "voxels_along", 1, 0, False),
+    ("the file (GB)", "bytes", 1e-9, 1, False),
+    ("memory that may be taken (GB)", "memory_gb", 1, 0, False),
+    ("memory taken at most (GB)", "peak_bytes", 1e-9, 2, False),
+    ("voxels along a block", "block", 1, 0, False),
+    ("surfaces from the file", "refined", 1, 0, False),
+    ("time beside other work (s)", "seconds", 1, 0, False),
+    ("processor time (s)", "cpu_seconds", 1, 0, False),
+) + tuple(line for line in LINES if line[1] in (
+    "grains", "found", "wrong_splits", "wrong_merges", "dice_median", "volume_m3_mean_error", "area_m2_mean_error",
+    "d_intermediate_m_mean_error", "air_voids_points_error", "aggregate_points_error"))
+
+
+@mark
+def large_scan():
+    run = one(rows("ct-large.csv"))
+    lines = [[name, minus(f"{factor * run[column]:{'+' if sign else ''}.{digits}f}")]
+             for name, column, factor, digits, sign in LARGE]
+    return table(["", "two levels"], lines, [1])
+
+
+@mark
+def large(what):
+    return f"{one(rows('ct-large.csv'))[what]:g}"

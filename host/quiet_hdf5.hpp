@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file quiet_hdf5.hpp  HDF5 prints its errors unless told not to.
+/// \file quiet_hdf5.hpp  HDF5 without its own messages.
 #pragma once
 
 #include <H5Cpp.h>
 
 namespace macadam {
 
-/// While it lives, errors of HDF5 are exceptions alone.
+/// HDF5 prints its errors unless told not to: it is silent while one of these lives.
 class QuietHdf5 {
  public:
   QuietHdf5() {

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// image_slices.cpp  Which reader a file gets, what its header may not say, and voxels of any type as those asked for.
+#include "host/ct/image_slices.hpp"
+
+#include <fmt/format.h>
+
+#include "macadam/error.hpp"
+
+namespace macadam::ct {
+namespace {
+
+namespace fs = std::filesystem;
+
+template <class From, class T>
+void convert(const std::string& file, const From* from, std::size_t count, std::size_t before, T* to) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const From value = from[i];
+    bool fits = true;
+    if constexpr (std::is_floating_point_v<From>) fits = std::isfinite(value);
+    if constexpr (std::is_integral_v<T>) {
+      fits = fits && static_cast<long double>(value) >= 0 &&
+             static_cast<long double>(value) <= static_cast<long double>(std::numeric_limits<T>::max()) &&
+             static_cast<From>(static_cast<T>(value)) == value;
+    } else if constexpr (std::is_same_v<From, double>) {
+      fits = fits && std::isfinite(static_cast<T>(value));
+    }
+    if (!fits) {
+      throw InputError(file, 0, fmt::format("voxel {} (the first is 0, x runs fastest)", before + i),
+                       fmt::format("{}", value),
+                       std::is_integral_v<T> ? fmt::format("a whole number from 0 to {}", std::numeric_limits<T>::max())
+                                             : "a finite number");
+    }
+    to[i] = static_cast<T>(value);
+  }
+}
+
+/// Bytes that hold the voxels of a file, where that is known: those of a header beside them are not looked for.
+double bytes_behind(const fs::path& path) {
+  if (fs::is_directory(path) || lower_ending(path) == ".mhd" || lower_ending(path) == ".nhdr")
+    return std::numeric_limits<double>::infinity();
+  return static_cast<double>(fs::file_size(path));
+}
+
+/// \throws InputError where a header counts what its file cannot hold.
+void check_counts(const ImageHeader& header, const fs::path& path) {
+  double bytes = header.bits / 8.0;
+  for (const std::int64_t n : header.size) bytes *= n > 0 ? static_cast<double>(n) : 0;
+  const std::string found =
+      fmt::format("{} x {} x {} of {} bits", header.size[0], header.size[1], header.size[2], header.bits);
+  if (!(bytes > 0 && bytes < 0x1p46)) throw InputError(path.string(), 0, "voxels", found, "at least one, and a scan");
+  // a byte of deflate stands for 1032 at most, one of LZW for 2730
+  if (const double there = bytes_behind(path); bytes > 4000 * there)
+    throw InputError(path.string(), 0, "voxels", found, fmt::format("no more than {:.0f} bytes can hold", there));
+}
+
+}  // namespace
+
+std::string lower_ending(const fs::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
+
+int bytes_of(VoxelType type) {
+  constexpr int bytes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
+  return bytes[static_cast<std::size_t>(type)];
+}
+
+template <class T>
+void ImageSlices::read(std::int64_t first, std::int64_t count, T* to) {
+  const auto slice = static_cast<std::size_t>(header_.size[0] * header_.size[1]);
+  const std::size_t voxels = slice * static_cast<std::size_t>(count);
+  bytes_.resize(voxels * static_cast<std::size_t>(bytes_of(type_)));
+  read_bytes(first, count, bytes_.data());
+  const auto as = [&](auto kind) {
+    convert(file_, reinterpret_cast<const decltype(kind)*>(bytes_.data()), voxels,
+            slice * static_cast<std::size_t>(first), to);
+  };
+  switch (type_) {
+    case VoxelType::u8:
+      return as(std::uint8_t{});
+    case VoxelType::i8:
+      return as(std::int8_t{});
+    case VoxelType::u16:
+      return as(std::uint16_t{});
+    case VoxelType::i16:
+      return as(std::int16_t{});
+    case VoxelType::u32:
+      return as(std::uint32_t{});
+    case VoxelType::i32:
+      return as(std::int32_t{});
+    case VoxelType::u64:
+      return as(std::uint64_t{});
+    case VoxelType::i64:
+      return as(std::int64_t{});
+    case VoxelType::f32:
+      return as(0.0f);
+    case VoxelType::f64:
+      return as(0.0);
+  }
+}
+
+template void ImageSlices::read(std::int64_t, std::int64_t, std::uint8_t*);
+template void ImageSlices::read(std::int64_t, std::int64_t, std::uint16_t*);
+template void ImageSlices::read(std::int64_t, std::int64_t, std::uint32_t*);
+template void ImageSlices::read(std::int64_t, std::int64_t, float*);
+
+std::unique_ptr<ImageSlices> open_image(const fs::path& path, const std::string& dataset) {
+  const std::string ending = lower_ending(path);
+  const bool hdf5 = ending == ".h5" || ending == ".hdf5" || ending == ".hdf" || ending == ".nxs";
+  if (!dataset.empty() && !hdf5)
+    throw InputError(path.string(), 0, "dataset", "\"" + dataset + "\"", "none: the file is not HDF5");
+  std::unique_ptr<ImageSlices> image = hdf5 ? open_hdf5(path, dataset) : open_itk(path);
+  check_counts(image->header(), path);
+  return image;
+}
+
+}  // namespace macadam::ct

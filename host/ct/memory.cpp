@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// memory.cpp  What Linux says of memory: of the machine, of this process and of its group.
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "macadam/ct.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// The number in the first line of a small file; `without` where there is none.
+double number_in(const char* file, double without) {
+  std::ifstream in(file);
+  double value = 0;
+  return in >> value ? value : without;
+}
+
+double free_of_machine() {
+  std::ifstream in("/proc/meminfo");
+  std::string name;
+  for (double kibibytes = 0; in >> name >> kibibytes; in.ignore(std::numeric_limits<std::streamsize>::max(), '\n')) {
+    if (name == "MemAvailable:") return 1024 * kibibytes;
+  }
+  return unlimited;
+}
+
+double left_of_address_space() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
+  const double taken = number_in("/proc/self/statm", 0) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  return std::max(0.0, static_cast<double>(limit.rlim_cur) - taken);
+}
+
+}  // namespace
+
+double memory_available() {
+  const double group = number_in("/sys/fs/cgroup/memory.max", unlimited) -
+                       number_in("/sys/fs/cgroup/memory.current", 0);  // of a container
+  return std::min({free_of_machine(), left_of_address_space(), std::max(0.0, group)});
+}
+
+}  // namespace macadam

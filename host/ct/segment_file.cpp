@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// segment_file.cpp  A scan whole in memory, or on two levels.
+#include "host/ct/coarse_scan.hpp"
+#include "host/ct/refine.hpp"
+#include "host/ct/segment_steps.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+using namespace ct;
+
+constexpr double scan_bytes = 12;    ///< of a voxel, at most at a time
+constexpr double parted_bytes = 14;  ///< of a voxel of the grid on which grains are parted
+constexpr double block_bytes = 32;   ///< of a block: both, and the voxel in its middle
+constexpr double fixed_bytes = 1e8;  ///< of the program and its libraries
+
+double gigabytes(double bytes) { return 1e-9 * bytes; }
+
+double voxels_of(const ImageHeader& header) {
+  return static_cast<double>(header.size[0]) * static_cast<double>(header.size[1]) *
+         static_cast<double>(header.size[2]);
+}
+
+/// What a scan takes that is held whole [bytes].
+double bytes_whole(const FineScan& scan, const SegmentOptions& options) {
+  const double voxel = std::cbrt(scan.spacing.x * scan.spacing.y * scan.spacing.z);
+  const double parted = std::max(1.0, std::floor(options.smallest / 20 / voxel));
+  return fixed_bytes + voxels_of(scan.file.header()) * (scan_bytes + parted_bytes / std::pow(parted, 3));
+}
+
+/// What a scan in blocks takes [bytes].
+double bytes_in_blocks(FineScan scan, std::int64_t block) {
+  scan.block = block;
+  const ImageHeader& header = scan.file.header();
+  const auto edge = static_cast<double>(block);
+  const double slab = static_cast<double>(header.size[0] * header.size[1] * scan.slab());
+  const double held = scan.file.apart() ? 0 : voxels_of(header) * header.bits / 8;
+  return fixed_bytes + voxels_of(header) / (edge * edge * edge) * block_bytes + slab * (4 + header.bits / 8.0) + held;
+}
+
+/// Edge of the blocks: a twentieth of the smallest grain, up to a tenth where that alone fits. \throws InputError.
+std::int64_t block_of(const FineScan& scan, const std::string& file, const SegmentOptions& options, double memory) {
+  const double voxel = std::cbrt(scan.spacing.x * scan.spacing.y * scan.spacing.z);
+  const auto least = std::max<std::int64_t>(2, static_cast<std::int64_t>(options.smallest / 20 / voxel));
+  const auto most = std::max<std::int64_t>(2, static_cast<std::int64_t>(options.smallest / 10 / voxel));
+  for (std::int64_t block = least; block <= most; ++block)
+    if (bytes_in_blocks(scan, block) <= memory) return block;
+  std::string found = fmt::format("{:.3g} GB", gigabytes(memory));
+  if (!scan.file.apart())
+    found += ", and a file of which no part can be read alone (raw MetaImage, HDF5 and folders of TIFFs can)";
+  throw InputError(file, 0, "memory", found,
+                   fmt::format("{:.3g} GB for the means of blocks of {} voxels, a tenth of the smallest grain",
+                               gigabytes(bytes_in_blocks(scan, most)), most));
+}
+
+/// Noise of the voxels in contrasts, and what their grey values say of the scan.
+double noise_of(const Image<float>& middles, Segmentation& out, const CorrectionSteps& steps) {
+  const float high = *std::max_element(middles.voxels.begin(), middles.voxels.end());
+  const double clipped = static_cast<double>(std::count(middles.voxels.begin(), middles.voxels.end(), high)) /
+                         static_cast<double>(middles.count());
+  if (clipped > 0.01) {
+    out.warnings.push_back(fmt::format(
+        "{:.1f} % of the voxels have the largest grey value {}: the scan is clipped there", 100 * clipped, high));
+  }
+  Image<float> corrected = middles;
+  Image<std::uint8_t> region = Image<std::uint8_t>::like(middles);
+  for (std::int64_t k = 0; k < middles.size[2]; ++k) {
+    for (std::int64_t j = 0; j < middles.size[1]; ++j) {
+      for (std::int64_t i = 0; i < middles.size[0]; ++i) {
+        const std::size_t at = middles.index(i, j, k);
+        region.voxels[at] = out.phases.voxels[at] != static_cast<std::uint8_t>(VoxelPhase::outside);
+        if (!region.voxels[at]) continue;
+        double grey = middles.voxels[at];
+        for (const CorrectionStep& step : steps)
+          grey = step.of(grey, static_cast<double>(i), static_cast<double>(j), static_cast<double>(k));
+        corrected.voxels[at] = static_cast<float>(grey);
+      }
+    }
+  }
+  return fit_levels(histogram_of(corrected, region)).deviation / out.levels.contrast();
+}
+
+}  // namespace
+
+Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, double memory) {
+  const std::unique_ptr<ImageSlices> image = open_image(file.path, file.dataset);
+  FineScan fine{*image, file.spacing.x > 0 ? file.spacing : image->header().spacing};
+  const std::string name = file.path.string();
+  if (!(fine.spacing.x > 0)) throw InputError(name, 0, "edge of a voxel", "none in the file", "one that is given");
+  const double whole = bytes_whole(fine, options);
+  if (whole <= memory) {
+    Image<float> scan = read_image<float>(file.path, file.dataset);
+    scan.spacing = fine.spacing;
+    return segment_scan(std::move(scan), options);
+  }
+  if (options.recipe == SegmentRecipe::paper) {
+    throw InputError(name, 0, "memory", fmt::format("{:.3g} GB", gigabytes(memory)),
+                     fmt::format("{:.3g} GB: the paper's recipe has no blocks", gigabytes(whole)));
+  }
+  fine.block = block_of(fine, name, options, memory);
+  CoarseScan coarse = read_coarse(fine, options);
+  std::size_t refined = 0;
+  const auto refine = [&](Segmentation& out, const Thresholds& thresholds, const std::vector<GrainBox>& boxes,
+                          const CorrectionSteps& steps) {
+    const double noise = noise_of(coarse.middles, out, steps);
+    coarse.middles = {};
+    refined = refine_surfaces(fine, out, thresholds, boxes, steps, noise, options);
+  };
+  Segmentation out = segment_steps(std::move(coarse.means), options, refine);
+  out.block = fine.block, out.refined = refined;
+  return out;
+}
+
+}  // namespace macadam

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scans larger than the memory that is given: the same grains as in memory, on two levels.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <numbers>
+
+#include "host/ct/correction.hpp"
+#include "host/ct/grain_surfaces.hpp"
+#include "macadam/error.hpp"
+#include "tests/ct_scans.hpp"
+
+namespace macadam {
+namespace {
+
+using namespace ct_scans;
+namespace fs = std::filesystem;
+constexpr double pi = std::numbers::pi, voxel = 1e-4;
+
+class CtLargeScan : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_ = fs::path(testing::TempDir()) /
+                     ("ct_large_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+
+  static SegmentOptions options_of(double smallest_voxels) {
+    SegmentOptions options;
+    options.region = ScanRegion::whole;
+    options.smallest = smallest_voxels * voxel;
+    return options;
+  }
+  /// Less than what the scan takes whole, somewhat more than 12 bytes a voxel and 100 MB.
+  static double little(const Image<float>& scan) { return 1e8 + 12.1 * static_cast<double>(scan.count()); }
+  std::string fault(const fs::path& file, const SegmentOptions& options, double memory) {
+    try {
+      segment_file({file, {}, {}}, options, memory);
+    } catch (const InputError& error) { return error.what(); }
+    return "segmented";
+  }
+};
+
+/// Two balls that touch, an ellipsoid, a block that the scan cuts, and voids, 220 × 120 × 122 voxels.
+Image<float> stones() {
+  const Body ellipsoid = [](double x, double y, double z) {  // half axes 30, 50, 26
+    return 26 * (1 - std::sqrt((x - 178) * (x - 178) / 900 + (y - 60) * (y - 60) / 2500 + (z - 80) * (z - 80) / 676));
+  };
+  return scan_of({220, 120, 122},
+                 {ball(46, 60, 62, 40), ball(110, 60, 62, 24), ellipsoid, block({150, 30, -9}, {205, 90, 40})},
+                 {ball(95, 18, 20, 14), ball(95, 102, 102, 14), ball(130, 102, 20, 13)});
+}
+
+void by_place(Segmentation& scan) {
+  std::sort(scan.grains.begin(), scan.grains.end(),
+            [](const ScannedGrain& a, const ScannedGrain& b) { return a.measure.volume < b.measure.volume; });
+}
+
+TEST_F(CtLargeScan, TwoLevelsFindTheSameGrainsAsMemoryDoes) {
+  Image<float> scan = stones();
+  add_noise(scan, 0.1);
+  write_image(folder_ / "scan.mha", scan, false);
+  const ScanFile file{folder_ / "scan.mha", {}, {}};
+  const SegmentOptions options = options_of(80);  // blocks of 4
+  Segmentation whole = segment_file(file, options, 1e12), parts = segment_file(file, options, little(scan));
+  EXPECT_EQ(whole.block, 1);
+  EXPECT_EQ(whole.refined, 0u);
+  ASSERT_EQ(parts.block, 4);
+  EXPECT_EQ(parts.labels.size, (std::array<std::int64_t, 3>{55, 30, 30}));
+  EXPECT_EQ(parts.grains.size(), 4u);
+  EXPECT_EQ(parts.refined, parts.grains.size()) << "20 blocks and less are fewer than a surface's 32 nodes";
+  ASSERT_EQ(whole.grains.size(), parts.grains.size());
+  by_place(whole), by_place(parts);
+  for (std::size_t g = 0; g < whole.grains.size(); ++g) {
+    const ScannedGrain &a = whole.grains[g], &b = parts.grains[g];
+    // Nodes of both are 1 to 2 voxels, grains 48 to 100: a tenth of a voxel all over the surface is a percent or so.
+    EXPECT_NEAR(b.measure.volume / a.measure.volume, 1, 0.01) << g;
+    EXPECT_NEAR(b.measure.area / a.measure.area, 1, 0.02) << g;
+    EXPECT_NEAR(b.measure.d_intermediate / a.measure.d_intermediate, 1, 0.015) << g;
+    EXPECT_LT(norm(b.measure.centroid - a.measure.centroid), 0.3 * voxel) << g;
+    EXPECT_EQ(a.border, b.border) << g;
+    EXPECT_TRUE(check_surface(b.surface).good()) << g;
+  }
+  EXPECT_NEAR(parts.grains[0].measure.volume / (4 * pi / 3 * std::pow(24 * voxel, 3)), 1, 0.02);
+  EXPECT_NEAR(parts.grains[3].measure.volume / (4 * pi / 3 * std::pow(40 * voxel, 3)), 1, 0.01);
+  // a block on a surface is one phase or the other: as many one way as the other
+  EXPECT_NEAR(parts.aggregate, whole.aggregate, 0.005);
+  EXPECT_NEAR(parts.air_voids, whole.air_voids, 0.002);
+}
+
+TEST_F(CtLargeScan, WhatWasTakenOutOfTheBlocksIsTakenOutOfTheirVoxels) {
+  Image<float> scan = many_balls(132, 20);
+  for (std::int64_t k = 0; k < 132; ++k) {
+    for (std::int64_t j = 0; j < 132; ++j) {
+      for (std::int64_t i = 0; i < 132; ++i) {
+        const double r = std::hypot(static_cast<double>(i) - 65.5, static_cast<double>(j) - 65.5) / 93;
+        const double brightness = (1 - 0.2 * (1 - r * r)) * (1 + 0.06 * std::sin(0.1 * static_cast<double>(k)));
+        scan.at(i, j, k) *= static_cast<float>(brightness);
+      }
+    }
+  }
+  add_noise(scan, 0.1);
+  write_image(folder_ / "scan.mha", scan, false);
+  const Segmentation parts = segment_file({folder_ / "scan.mha", {}, {}}, options_of(40), little(scan));
+  ASSERT_EQ(parts.block, 2);
+  ASSERT_EQ(parts.grains.size(), 27u);
+  EXPECT_EQ(parts.refined, 27u);
+  const double truth = 4 * pi / 3 * std::pow(20 * voxel, 3);
+  for (const ScannedGrain& grain : parts.grains)  // without corrections they differ by a quarter
+    EXPECT_NEAR(grain.measure.volume / truth, 1, 0.05) << grain.id;
+}
+
+TEST_F(CtLargeScan, StepsOfACorrectionAreFunctionsOfThePlace) {
+  Image<float> scan = many_balls(60), before;
+  for (std::int64_t k = 0; k < 60; ++k)
+    for (std::int64_t n = 0; n < 3600; ++n)
+      scan.at(n % 60, n / 60, k) *= static_cast<float>(1 + 0.002 * static_cast<double>(k));
+  before = scan;
+  const Image<std::uint8_t> region = Image<std::uint8_t>::like(scan, 1);
+  ct::CorrectionSteps steps;
+  ct::correct(scan, region, {}, &steps);
+  ASSERT_FALSE(steps.empty());
+  double largest = 0;
+  for (std::int64_t k = 0; k < 60; k += 7) {
+    for (std::int64_t i = 0; i < 60; i += 5) {
+      double grey = before.at(i, 30, k);
+      for (const ct::CorrectionStep& step : steps)
+        grey = step.of(grey, static_cast<double>(i), 30, static_cast<double>(k));
+      largest = std::max(largest, std::abs(grey - scan.at(i, 30, k)));
+    }
+  }
+  // a ring's place between two radii counts here: what neighbouring rings differ by
+  EXPECT_LT(largest, 0.01 * contrast);
+}
+
+TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
+  Image<float> scan = many_balls(96, 20);
+  fs::create_directories(folder_ / "slices");
+  for (std::int64_t k = 0; k < 96; ++k) {
+    Image<float> slice({96, 96, 1}, scan.spacing);
+    std::copy_n(&scan.at(0, 0, k), 96 * 96, slice.voxels.begin());
+    write_image(folder_ / "slices" / ("s" + std::to_string(k) + ".tif"), slice);
+  }
+  const SegmentOptions options = options_of(40);
+  const Segmentation parts = segment_file({folder_ / "slices", {}, {voxel, voxel, voxel}}, options, little(scan));
+  EXPECT_EQ(parts.block, 2);
+  EXPECT_EQ(parts.grains.size(), 8u);
+  Image<std::uint16_t> whole(scan.size, scan.spacing);
+  std::copy(scan.voxels.begin(), scan.voxels.end(), whole.voxels.begin());
+  write_image(folder_ / "packed.mha", whole, true);
+  EXPECT_EQ(segment_file({folder_ / "packed.mha", {}, {}}, options, little(scan)).grains.size(), 8u);
+  EXPECT_NE(fault(folder_ / "packed.mha", options, 1.01e8).find("no part can be read alone"), std::string::npos);
+  EXPECT_NE(fault(folder_ / "packed.mha", options, 1e6).find("GB for the means of blocks"), std::string::npos);
+  SegmentOptions paper = options;
+  paper.recipe = SegmentRecipe::paper;
+  EXPECT_NE(fault(folder_ / "packed.mha", paper, little(scan)).find("the paper's recipe"), std::string::npos);
+  write_image(folder_ / "pages.tif", scan);
+  EXPECT_NE(fault(folder_ / "pages.tif", options, 1e12).find("edge of a voxel"), std::string::npos);
+}
+
+TEST_F(CtLargeScan, AGrainBehindARimOfMixedVoxelsIsCutByTheSpecimensEnd) {
+  Image<std::uint8_t> phases({9, 9, 9}, {1, 1, 1}, {}, 255);
+  Image<std::uint32_t> labels = Image<std::uint32_t>::like(phases);
+  const auto fill = [](auto& image, std::int64_t low, std::int64_t high, auto value) {
+    for (std::int64_t k = low; k <= high; ++k)
+      for (std::int64_t j = low; j <= high; ++j)
+        for (std::int64_t i = low; i <= high; ++i) image.at(i, j, k) = value;
+  };
+  const Image<std::uint8_t> confidence = Image<std::uint8_t>::like(phases, 255);
+  fill(phases, 1, 7, static_cast<std::uint8_t>(VoxelPhase::mastic));
+  fill(labels, 2, 6, 1u);
+  EXPECT_TRUE(ct::boxes_of(labels, phases, confidence).at(1).border);
+  fill(labels, 2, 6, 0u);
+  fill(labels, 3, 5, 1u);
+  EXPECT_FALSE(ct::boxes_of(labels, phases, confidence).at(1).border);
+}
+
+}  // namespace
+}  // namespace macadam
