@@ -8,6 +8,7 @@
 
 #include <iostream>
 
+#include "host/ct/slice_names.hpp"
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"
 
@@ -73,6 +74,7 @@ std::vector<fs::path> slices_in(const fs::path& folder) {
   std::sort(slices.begin(), slices.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });
+  ct::check_slice_numbers(slices);
   return slices;
 }
 
