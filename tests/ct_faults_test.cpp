@@ -193,6 +193,15 @@ TEST(CtFaults, APhaseThatIsMissingIsSaid) {
   EXPECT_TRUE(outcome(balls(no_voids), ScanRegion::whole, 0.04).error.find("air voids are 4 %") != std::string::npos);
 }
 
+TEST(CtFaults, OneGrainThatIsMostOfTheSpecimenIsDoubted) {
+  // a paste as bright as its aggregate
+  Image<float> scan = scan_of({46, 46, 46}, {block({-9, -9, 8}, {60, 60, 60})}, {ball(20, 20, 24, 6)});
+  add_noise(scan, 0.1);
+  const Outcome o = outcome(scan);
+  EXPECT_TRUE(o.says("of the specimen: what was taken for aggregate")) << o.error << o.warnings;
+  EXPECT_LE(o.confidence, 0.5);
+}
+
 TEST(CtFaults, AScanOfAirAloneHasNoContrast) {
   Image<float> nothing({40, 40, 40}, {1e-4, 1e-4, 1e-4}, {}, air);
   add_noise(nothing, 0.1);

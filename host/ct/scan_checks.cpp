@@ -150,4 +150,22 @@ double trust_in_axes(const Image<std::uint8_t>& phases, std::vector<std::string>
   return doubtful;
 }
 
+double trust_in_grains(const Image<std::uint32_t>& labels, const Image<std::uint8_t>& phases,
+                       std::vector<std::string>& warnings) {
+  std::vector<double> voxels(1);
+  double specimen = 0;
+  for (std::size_t i = 0; i < labels.count(); ++i) {
+    specimen += phases.voxels[i] != static_cast<std::uint8_t>(VoxelPhase::outside);
+    if (labels.voxels[i] >= voxels.size()) voxels.resize(labels.voxels[i] + 1);
+    ++voxels[labels.voxels[i]];
+  }
+  voxels[0] = 0;  // no grain
+  const double share = *std::max_element(voxels.begin(), voxels.end()) / specimen;
+  if (share < 0.5) return 1;
+  warnings.push_back(fmt::format(
+      "one grain is {:.0f} % of the specimen: what was taken for aggregate is another phase, or several at once",
+      100 * share));
+  return doubtful;
+}
+
 }  // namespace macadam::ct

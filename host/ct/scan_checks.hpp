@@ -33,4 +33,9 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
 /// directions, more or less: a voxel that is not as high as it was said to be makes all of them flat or tall.
 double trust_in_axes(const Image<std::uint8_t>& phases, std::vector<std::string>& warnings);
 
+/// Whether aggregate came apart into grains: 1, or `doubtful`, with a warning, where one of them is most of the
+/// specimen.
+double trust_in_grains(const Image<std::uint32_t>& labels, const Image<std::uint8_t>& phases,
+                       std::vector<std::string>& warnings);
+
 }  // namespace macadam::ct

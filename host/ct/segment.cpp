@@ -102,6 +102,7 @@ Segmentation segment_scan(Image<float> scan, const SegmentOptions& options) {
   const Image<std::uint32_t> parted = cut_along_valleys(fragments, decision.grain, solid, options.smallest / 4);
   out.labels = spread(out.phases, parted, edge);
   const std::vector<std::uint32_t> number = drop_small(out.labels, least_volume(options));
+  trust *= trust_in_grains(out.labels, out.phases, out.warnings);
   const std::vector<double> certain = certainty(decision, number);
   out.cuts = std::move(decision.cuts);
   if (options.surfaces) {
