@@ -83,6 +83,14 @@ TEST_F(CtImage, PagesOfATiffAndFilesOfAFolderAreSlicesInTheOrderOfTheirNumbers) 
   EXPECT_NE(fault<std::uint16_t>(folder_ / "slices").find("s5.tif"), std::string::npos);
 }
 
+TEST_F(CtImage, AStackWithoutOneOfItsSlicesIsRefused) {
+  const Image<std::uint16_t> slice({6, 5, 1}, {1e-4, 1e-4, 1e-4});
+  for (const int k : {8, 10, 12, 14}) write_image(folder_ / ("core2_" + std::to_string(k) + ".tif"), slice);
+  EXPECT_EQ(read_image<std::uint16_t>(folder_).size[2], 4) << "every second one, all of them";
+  fs::remove(folder_ / "core2_12.tif");
+  EXPECT_NE(fault<std::uint16_t>(folder_).find("core2_14.tif after core2_10.tif"), std::string::npos);
+}
+
 TEST_F(CtImage, WhatIsWrongWithAFileIsSaid) {
   EXPECT_NE(fault<float>(folder_ / "none.mha").find("no such file"), std::string::npos);
   EXPECT_NE(fault<float>(folder_ / "image.jpg").find(".nrrd"), std::string::npos);

@@ -41,6 +41,7 @@ TEST_F(CtPhantom, ASphereHasItsVolumeInGreyValuesAndLabels) {
   EXPECT_FALSE(g.border);
   EXPECT_NEAR(g.volume / volume, 1, 1e-12);
   EXPECT_NEAR(g.area / (4 * pi * 9e-6), 1, 1e-12);
+  EXPECT_NEAR(g.sieve / 6e-3, 1, 1e-12);
   EXPECT_NEAR(measure_shape(g.surface).volume / volume, 1, 1e-9);
   // columns of a ninth of a voxel's area: about 2,000 across the sphere, their errors fall as that to the power 3/4
   EXPECT_NEAR(p.aggregate, volume / box, 3e-3 * volume / box);
@@ -101,6 +102,8 @@ TEST_F(CtPhantom, ShapesFillTheirVoxels) {
     EXPECT_NEAR(m.volume / g.volume, 1, 1e-9);
     EXPECT_NEAR(m.area / g.area, 1, 1e-9);
     EXPECT_NEAR(m.d_long / g.d_long, 1, 1e-9);
+    // directions of the search do not turn with the grain: steps of a quarter of a degree at its end
+    EXPECT_NEAR(square_sieve(g.surface) / g.sieve, 1, 5e-3);
     EXPECT_LT(norm(m.centroid - g.centre), 1e-9);
     EXPECT_NEAR(volumes[g.id] / g.volume, 1, 2e-2) << g.id;  // some 4,000 voxels, of which 1,200 are cut
   }

@@ -105,6 +105,27 @@ TEST(CtSegment, TouchingBallsArePartedAndALongGrainIsNot) {
   EXPECT_NE(fault(scan, by_hand).find("another scan"), std::string::npos);
 }
 
+TEST(CtSegment, AnEdgeAlongTheSideOfAnotherGrainStaysWithItsOwn) {
+  // A stone with a thin plate lies on a block: the plate is nearer to the block's middle than to that of its stone.
+  const Body stone = ball(20, 32, 46, 15), plate = block({20, 22, 40.6}, {66, 42, 47}),
+             below = block({26, 8, 10}, {74, 56, 40});
+  const auto together = [&](double x, double y, double z) { return std::max(stone(x, y, z), plate(x, y, z)); };
+  Image<float> scan = scan_of({84, 64, 70}, {together, below}, {ball(74, 10, 60, 6)});
+  add_noise(scan, 0.05);
+  SegmentOptions options = options_of(24);
+  options.surfaces = false;
+  const Segmentation out = segment_scan(scan, options);
+  const std::uint32_t upper = out.labels.at(20, 32, 50), lower = out.labels.at(50, 32, 25);
+  EXPECT_NE(upper, 0u);
+  EXPECT_NE(lower, 0u);
+  EXPECT_NE(upper, lower);
+  std::int64_t voxels = 0, right = 0;
+  for (std::int64_t k = 42; k < 46; ++k)
+    for (std::int64_t j = 24; j < 40; ++j)
+      for (std::int64_t i = 36; i < 64; ++i) ++voxels, right += out.labels.at(i, j, k) == upper;
+  EXPECT_GT(static_cast<double>(right) / static_cast<double>(voxels), 0.9);
+}
+
 TEST(CtSegment, ThreadsDoNotChangeTheAnswer) {
   Image<float> scan = many_balls(60);
   add_noise(scan, 0.15);

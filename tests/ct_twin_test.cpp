@@ -8,6 +8,7 @@
 
 #include "ct_scenes.hpp"
 #include "host/ct/void_spheres.hpp"
+#include "host/network/clusters.hpp"
 #include "macadam/phantom.hpp"
 
 namespace macadam::test {
@@ -100,6 +101,27 @@ TEST_F(CtTwin, GrainsAreSingleSpheresWhereTheSceneHasNoShapes) {
   double volume = 0;
   for (const auto& [id, sums] : bodies_of(twin.specimen)) volume += sums.first;
   EXPECT_NEAR(volume / twin.specimen.box.volume(), twin.aggregate, 1e-9);
+}
+
+TEST_F(CtTwin, WhatVoidsEncloseIsTakenOut) {
+  const Scene scene = shapes_scene();
+  // a ball of mastic in a shell of air
+  Image<std::uint8_t> phases({60, 60, 70}, {0.2e-3, 0.2e-3, 0.2e-3}, {0.1e-3, 0.1e-3, 0.1e-3},
+                             static_cast<std::uint8_t>(VoxelPhase::mastic));
+  for (std::int64_t k = 0; k < 70; ++k)
+    for (std::int64_t j = 0; j < 60; ++j)
+      for (std::int64_t i = 0; i < 60; ++i) {
+        const double r = norm(phases.centre(i, j, k) - Vec3d{6e-3, 6e-3, 7e-3});
+        if (r > 2.4e-3 && r < 4.4e-3) phases.at(i, j, k) = static_cast<std::uint8_t>(VoxelPhase::air_void);
+      }
+  write_image(folder_ / "phases.mha", phases);
+  write_image(folder_ / "labels.mha", Image<std::uint32_t>::like(phases));
+  const Twin twin = make_twin(folder_, scene, {});
+  EXPECT_GT(twin.enclosed_mastic, 5);  // some 14 spheres of 0.7 mm have its volume
+  EXPECT_EQ(twin.enclosed_aggregate, 0);
+  for (const Vec3d& p : twin.specimen.centre) EXPECT_GT(norm(p - Vec3d{6e-3, 6e-3, 7e-3}), 3e-3);
+  for (const Cluster& c : find_clusters(build_network(twin.specimen, tessellate(twin.specimen)), twin.specimen.size()))
+    EXPECT_TRUE(c.spans());
 }
 
 TEST_F(CtTwin, RefusesWhatIsNoScan) {

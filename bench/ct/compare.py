@@ -111,7 +111,7 @@ def compare(folder, truth_folder, above):
     out["voxel_volume_error_median"] = float(np.median(np.abs(errors))) if whole else np.nan
     both = [(true_grains[t], grains[found[t]]) for t in whole if t in true_grains and found[t] in grains]
     if both:
-        for name in MEASURES[:-1]:
+        for name in MEASURES:
             pair = np.array([(a[name], b[name]) for a, b in both if np.isfinite(a.get(name, np.nan))])
             if len(pair):
                 out[f"{name}_mean_error"] = pair[:, 1].mean() / pair[:, 0].mean() - 1

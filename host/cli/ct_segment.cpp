@@ -11,6 +11,7 @@
 #include "host/cli/lengths.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
+#include "host/ct/gradation.hpp"
 #include "host/ct/overlay.hpp"
 #include "host/ct/segment_files.hpp"
 #include "host/in_quotes.hpp"
@@ -26,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string images, dataset, out, region, memory, cuts, smallest;
+  std::string images, dataset, out, region, memory, cuts, smallest, gradation;
   std::vector<std::string> voxel;
   bool no_slices = false, no_rings = false, no_hardening = false;
   std::optional<int> threads;
@@ -69,6 +70,7 @@ void segment(Arguments arguments) {
   options.hardening = !arguments.no_hardening;
   if (!arguments.smallest.empty()) options.smallest = length_of(arguments.smallest, "--smallest");
   if (!arguments.cuts.empty()) options.cuts = ct::read_cuts(arguments.cuts);
+  if (!arguments.gradation.empty()) options.gradation = ct::read_gradation(arguments.gradation);
   if (arguments.threads) omp_set_num_threads(*arguments.threads);
   if (!arguments.region.empty()) read_region(arguments.region, options);
   const Vec3d voxel = spacing_of(read_image_header(arguments.images, arguments.dataset), arguments);
@@ -89,7 +91,7 @@ void segment(Arguments arguments) {
     write_surface(folder / (grain.border ? "border" : "library") / (grain.surface.name + ".off"), grain.surface);
   }
   write_whole(folder / "grains.csv", ct::grains_csv(out.grains));
-  write_whole(folder / "gradation.csv", ct::gradation_csv(out.grains));
+  write_whole(folder / "gradation.csv", ct::gradation_csv(out.grains, options.gradation, options.smallest));
   write_whole(folder / "cuts.csv", ct::cuts_csv(out.cuts));
   write_image(folder / "labels.mha", out.labels);
   write_image(folder / "phases.mha", out.phases);
@@ -144,6 +146,8 @@ void add_ct_segment(CLI::App& ct) {
   add_text(command, "--memory", arguments->memory,
            "that may be taken (\"3 GB\"; four fifths of what is free): a larger scan is decided on block means");
   add_text(command, "--smallest", arguments->smallest, "diameter of the smallest grain that matters (\"4 mm\")");
+  add_text(command, "--gradation", arguments->gradation,
+           "the laboratory's: a CSV file, sieve_mm,passing_percent or sieve_m,passing");
   add_text(command, "--cuts", arguments->cuts, "a cuts.csv of the same scan, in which `cut` was changed by hand");
   add_choice(command, "--recipe", options.recipe, "steps of the segmentation (own)",
              {{"own", SegmentRecipe::own}, {"paper", SegmentRecipe::paper}});

@@ -177,6 +177,38 @@ double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, Corr
   return std::sqrt(squares / static_cast<double>(rings)) / whole;
 }
 
+double ring_share(const Image<float>& scan, const Image<std::uint8_t>& region) {
+  const auto [cx, cy] = middle_of(region);
+  struct Ring {
+    double voxels = 0, sum = 0, squares = 0;
+    double mean() const { return sum / voxels; }
+  };
+  std::vector<Ring> rings;
+  for (std::int64_t k = 0; k < scan.size[2]; ++k) {
+    for (std::int64_t j = 0; j < scan.size[1]; ++j) {
+      for (std::int64_t i = 0; i < scan.size[0]; ++i) {
+        const std::size_t at = scan.index(i, j, k);
+        if (!region.voxels[at]) continue;
+        const auto r =
+            static_cast<std::size_t>(std::lround(std::hypot(static_cast<double>(i) - cx, static_cast<double>(j) - cy)));
+        if (r >= rings.size()) rings.resize(r + 1);
+        const double grey = scan.voxels[at];
+        ++rings[r].voxels, rings[r].sum += grey, rings[r].squares += grey * grey;
+      }
+    }
+  }
+  std::erase_if(rings, [](const Ring& r) { return r.voxels == 0; });
+  double voxels = 0, sum = 0, squares = 0, explained = 0;
+  for (std::size_t r = 0; r < rings.size(); ++r) {
+    voxels += rings[r].voxels, sum += rings[r].sum, squares += rings[r].squares;
+    // half of the square of the step to the next ring: what is smooth over radius makes none
+    const double step = rings[r].mean() - rings[r > 0 ? r - 1 : std::min(r + 1, rings.size() - 1)].mean();
+    explained += rings[r].voxels * 0.5 * step * step;
+  }
+  const double variance = squares - sum * sum / voxels;
+  return variance > 0 ? explained / variance : 0;
+}
+
 double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [cx, cy] = middle_of(region);
   const std::int64_t edge = std::clamp<std::int64_t>(scan.size[0] / 100, 1, 4);

@@ -34,6 +34,10 @@ double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region, 
 ScanCorrections correct(Image<float>& scan, const Image<std::uint8_t>& region, const SegmentOptions& options,
                         CorrectionSteps* steps = nullptr);
 
+/// Share of the variance of grey values that their means over rings around the axis explain, less what changes smoothly
+/// over radius.
+double ring_share(const Image<float>& scan, const Image<std::uint8_t>& region);
+
 /// Means of blocks of voxels; blocks that the region does not fill are 0 in the second image.
 std::pair<Image<float>, Image<std::uint8_t>> means_of_blocks(const Image<float>& scan,
                                                              const Image<std::uint8_t>& region,

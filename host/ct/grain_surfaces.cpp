@@ -168,7 +168,7 @@ std::vector<GrainBox> boxes_of(const Image<std::uint32_t>& labels, const Image<s
 
 std::vector<ScannedGrain> surfaces_of(const Segmentation& scan, const Thresholds& thresholds,
                                       const std::vector<GrainBox>& boxes, const SegmentOptions& options,
-                                      std::vector<std::string>& warnings) {
+                                      std::vector<std::string>& warnings, const std::vector<double>& sure) {
   const double voxel = std::cbrt(scan.labels.voxel_volume());
   std::vector<ScannedGrain> grains(boxes.size());
   std::vector<std::string> faults(boxes.size());
@@ -192,7 +192,7 @@ std::vector<ScannedGrain> surfaces_of(const Segmentation& scan, const Thresholds
       grain.sieve = square_sieve(grain.surface);
       grain.id = static_cast<std::uint32_t>(id);
       grain.border = box.border;
-      grain.confidence = box.confidence / static_cast<double>(box.voxels);
+      grain.confidence = box.confidence / static_cast<double>(box.voxels) * (sure.empty() ? 1 : sure.at(id));
       grains[id] = std::move(grain);
     } catch (const Error& error) { faults[id] = fmt::format("grain {} has no surface: {}", id, error.what()); }
     const std::lock_guard lock(mutex);

@@ -26,10 +26,11 @@ struct GrainBox {
 std::vector<GrainBox> boxes_of(const Image<std::uint32_t>& labels, const Image<std::uint8_t>& phases,
                                const Image<std::uint8_t>& confidence);
 
-/// Closed surfaces of all grains, measured. A grain whose surface cannot be made is left out, with a warning.
+/// Closed surfaces of all grains, measured. A grain whose surface cannot be made is left out, with a warning. `sure`:
+/// by grain, what its confidence is multiplied by; empty: nothing.
 std::vector<ScannedGrain> surfaces_of(const Segmentation& scan, const Thresholds& thresholds,
                                       const std::vector<GrainBox>& boxes, const SegmentOptions& options,
-                                      std::vector<std::string>& warnings);
+                                      std::vector<std::string>& warnings, const std::vector<double>& sure = {});
 
 /// Averages of three neighbours along each axis, weights 1, 2, 1: a face between labels loses its steps.
 void even_out(Image<float>& field);

@@ -235,4 +235,14 @@ Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts) {
   return {groups.numbers(), cuts};
 }
 
+std::vector<double> certainty(const Decision& decision, const std::vector<std::uint32_t>& number) {
+  std::vector<double> sure(number.size(), 1);
+  for (const GrainCut& cut : decision.cuts) {
+    const std::uint32_t a = decision.grain[cut.a], b = decision.grain[cut.b];
+    if (number[a] == 0 || number[b] == 0 || cut.cut != (cut.margin > 0)) continue;
+    for (const std::uint32_t grain : {a, b}) sure[grain] = std::min(sure[grain], 0.5 * (1 + std::abs(cut.margin)));
+  }
+  return sure;
+}
+
 }  // namespace macadam::ct

@@ -29,4 +29,9 @@ Decision decide(const Fragments& fragments);
 /// where they are those of another scan, or contradict each other.
 Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts);
 
+/// How sure the cuts of each grain are, by the numbers of `decision`, of the grains that `number` keeps (0: dropped):
+/// the least of (1 + |margin|)/2 of its faces, which is what the margin's logistic curve says of being right. A cut
+/// that contradicts its margin is a person's, and sure.
+std::vector<double> certainty(const Decision& decision, const std::vector<std::uint32_t>& number);
+
 }  // namespace macadam::ct

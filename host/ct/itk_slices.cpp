@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "host/ct/image_slices.hpp"
+#include "host/ct/slice_names.hpp"
 #include "host/ct/itk_io.hpp"
 #include "macadam/error.hpp"
 
@@ -68,6 +69,7 @@ std::vector<fs::path> slices_in(const fs::path& folder) {
   std::sort(slices.begin(), slices.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });
+  ct::check_slice_numbers(slices);
   return slices;
 }
 

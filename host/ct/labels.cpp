@@ -13,8 +13,7 @@ constexpr auto air = static_cast<std::uint8_t>(VoxelPhase::air_void),
 
 }  // namespace
 
-Image<std::uint32_t> spread(const Image<std::uint8_t>& phases, const Image<std::uint32_t>& coarse,
-                            const std::vector<std::uint32_t>& grain, std::int64_t edge) {
+Image<std::uint32_t> spread(const Image<std::uint8_t>& phases, const Image<std::uint32_t>& coarse, std::int64_t edge) {
   Image<std::uint32_t> labels = Image<std::uint32_t>::like(phases);
   const auto [nx, ny, nz] = labels.size;
   for_each_in_parallel(static_cast<std::size_t>(nz), [&, nx = nx, ny = ny](std::size_t slice) {
@@ -23,7 +22,7 @@ Image<std::uint32_t> spread(const Image<std::uint8_t>& phases, const Image<std::
     for (std::int64_t j = 0; j < ny && j / edge < coarse.size[1]; ++j) {
       for (std::int64_t i = 0; i < nx && i / edge < coarse.size[0]; ++i) {
         const std::size_t at = labels.index(i, j, k);
-        if (phases.voxels[at] == aggregate) labels.voxels[at] = grain[coarse.at(i / edge, j / edge, k / edge)];
+        if (phases.voxels[at] == aggregate) labels.voxels[at] = coarse.at(i / edge, j / edge, k / edge);
       }
     }
   });
@@ -59,7 +58,7 @@ Image<std::uint32_t> spread(const Image<std::uint8_t>& phases, const Image<std::
   return labels;
 }
 
-void drop_small(Image<std::uint32_t>& labels, double least) {
+std::vector<std::uint32_t> drop_small(Image<std::uint32_t>& labels, double least) {
   std::vector<std::int64_t> voxels;
   for (const std::uint32_t label : labels.voxels) {
     if (label >= voxels.size()) voxels.resize(label + 1);
@@ -71,6 +70,7 @@ void drop_small(Image<std::uint32_t>& labels, double least) {
     if (static_cast<double>(voxels[n]) * labels.voxel_volume() >= least) number[n] = next++;
   }
   for (std::uint32_t& label : labels.voxels) label = number[label];
+  return number;
 }
 
 void count_shares(Segmentation& out) {

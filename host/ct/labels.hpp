@@ -7,12 +7,12 @@
 namespace macadam::ct {
 
 /// Labels of a coarser grid, whose voxels are `edge` fine ones wide, on the voxels of the aggregate, and from there on
-/// to those that the coarser grid missed. `grain` names the grain of a label.
-Image<std::uint32_t> spread(const Image<std::uint8_t>& phases, const Image<std::uint32_t>& coarse,
-                            const std::vector<std::uint32_t>& grain, std::int64_t edge);
+/// to those that the coarser grid missed.
+Image<std::uint32_t> spread(const Image<std::uint8_t>& phases, const Image<std::uint32_t>& coarse, std::int64_t edge);
 
-/// Grains of less than `least` [m³] become no grain; the others get numbers without gaps.
-void drop_small(Image<std::uint32_t>& labels, double least);
+/// Grains of less than `least` [m³] become no grain; the others get numbers without gaps. \returns those by the numbers
+/// before.
+std::vector<std::uint32_t> drop_small(Image<std::uint32_t>& labels, double least);
 
 /// Volume of the smallest grain that is kept: a sphere of half the diameter of the smallest that matters [m³].
 double least_volume(const SegmentOptions& options);

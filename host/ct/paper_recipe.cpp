@@ -6,6 +6,7 @@
 #include "host/ct/fragments.hpp"
 #include "host/ct/grain_surfaces.hpp"
 #include "host/ct/labels.hpp"
+#include "host/ct/scan_checks.hpp"
 #include "host/ct/smoothing.hpp"
 #include "macadam/error.hpp"
 
@@ -91,6 +92,7 @@ Segmentation segment_as_paper(Image<float> scan, const Image<std::uint8_t>& regi
   Segmentation out;
   say("corrections");
   equalise(scan, region);
+  check_rings(scan, region);
   say("phases");
   const Histogram raw = histogram_of(scan, region);
   const GreyLevels levels = fit_levels(raw);
@@ -121,9 +123,7 @@ Segmentation segment_as_paper(Image<float> scan, const Image<std::uint8_t>& regi
   for (std::size_t at = 0; at < scan.count(); ++at) mask.voxels[at] = distance.voxels[at] > voxel;  // eroded
   distance = distance_inside(mask);
   const Fragments fragments = flood(distance, scan, 1);
-  std::vector<std::uint32_t> same(fragments.radius.size());
-  std::iota(same.begin(), same.end(), 0u);
-  out.labels = spread(out.phases, fragments.labels, same, 1);  // dilated
+  out.labels = spread(out.phases, fragments.labels, 1);  // dilated
   drop_small(out.labels, least_volume(options));
   out.confidence = Image<std::uint8_t>::like(scan, 255);
   out.levels = levels;

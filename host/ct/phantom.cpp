@@ -97,7 +97,11 @@ Specimen sawn(const Specimen& whole, double off) {
 /// The aggregates in the frame of the sawn specimen, with all that is known of them before they are voxels.
 std::vector<PhantomGrain> grains_of(const GeneratedSpecimen& made, const PhantomSpec& spec) {
   std::vector<ShapeMeasure> measure(made.surfaces.size());
-  for_each_in_parallel(measure.size(), [&](std::size_t k) { measure[k] = measure_shape(made.surfaces[k]); });
+  std::vector<double> sieve(made.surfaces.size());
+  for_each_in_parallel(measure.size(), [&](std::size_t k) {
+    measure[k] = measure_shape(made.surfaces[k]);
+    sieve[k] = square_sieve(made.surfaces[k]);
+  });
   Surface unit = geodesic_sphere(3);
   const double grown = std::cbrt(4 * std::numbers::pi / 3 / measure_shape(unit).volume);
   const Vec3d corner{spec.sawn, spec.sawn, spec.sawn};
@@ -111,7 +115,7 @@ std::vector<PhantomGrain> grains_of(const GeneratedSpecimen& made, const Phantom
     g.d_long = a.d_long, g.d_short = a.d_short;
     if (a.surface < 0) {
       g.sphere_radius = a.d_long / 2;
-      g.d_intermediate = a.d_long;
+      g.d_intermediate = g.sieve = a.d_long;
       g.area = std::numbers::pi * a.d_long * a.d_long;
       g.surface = unit;
       for (Vec3d& p : g.surface.points) p = g.centre + (g.sphere_radius * grown) * p;
@@ -119,6 +123,7 @@ std::vector<PhantomGrain> grains_of(const GeneratedSpecimen& made, const Phantom
       const auto number = static_cast<std::size_t>(a.surface);
       g.d_intermediate = a.size;
       g.area = a.pose.scale * a.pose.scale * measure[number].area;
+      g.sieve = a.pose.scale * sieve[number];
       g.axis_long = a.axis_long;
       g.surface = made.surfaces[number];
       for (Vec3d& p : g.surface.points) p = a.pose(p) - corner;

@@ -55,12 +55,12 @@ std::string grains_csv(const Phantom& p) {
   fmt::memory_buffer text;
   auto to = std::back_inserter(text);
   fmt::format_to(to,
-                 "id,x,y,z,volume_m3,area_m2,d_long_m,d_intermediate_m,d_short_m,axis_x,axis_y,axis_z,border,"
-                 "body,shape\n");
+                 "id,x,y,z,volume_m3,area_m2,d_long_m,d_intermediate_m,d_short_m,axis_x,axis_y,axis_z,"
+                 "sieve_m,border,body,shape\n");
   for (const PhantomGrain& g : p.grains)
-    fmt::format_to(to, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", g.id, g.centre.x, g.centre.y, g.centre.z,
+    fmt::format_to(to, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", g.id, g.centre.x, g.centre.y, g.centre.z,
                    g.volume, g.area, g.d_long, g.d_intermediate, g.d_short, g.axis_long.x, g.axis_long.y, g.axis_long.z,
-                   g.border ? 1 : 0, g.body, csv_field(g.shape));
+                   g.sieve, g.border ? 1 : 0, g.body, csv_field(g.shape));
   return fmt::to_string(text);
 }
 

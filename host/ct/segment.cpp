@@ -2,14 +2,17 @@
 // segment.cpp  From a scan to phases and grains, step by step.
 #include "host/ct/correction.hpp"
 #include "host/ct/distance.hpp"
+#include "host/ct/gradation.hpp"
 #include "host/ct/grain_surfaces.hpp"
 #include "host/ct/grains.hpp"
 #include "host/ct/labels.hpp"
 #include "host/ct/paper_recipe.hpp"
 #include "host/ct/phases.hpp"
 #include "host/ct/region.hpp"
+#include "host/ct/scan_checks.hpp"
 #include "host/ct/segment_steps.hpp"
 #include "host/ct/smoothing.hpp"
+#include "host/ct/valleys.hpp"
 #include "host/parallel.hpp"
 #include "macadam/error.hpp"
 
@@ -22,37 +25,20 @@ void say(const SegmentOptions& options, const char* stage, double share = 0) {
   if (options.progress) options.progress(stage, share);
 }
 
-/// What grey values tell of a scan before anything is done to it.
-void check_scan(const Image<float>& scan, std::vector<std::string>& warnings) {
-  const auto [low, high] = std::minmax_element(scan.voxels.begin(), scan.voxels.end());
-  if (!(*high > *low))
-    throw InputError("the scan", 0, "grey values", fmt::format("{} everywhere", *low), "phases of different grey");
-  for (const float end : {*low, *high}) {
-    const double share = static_cast<double>(std::count(scan.voxels.begin(), scan.voxels.end(), end)) /
-                         static_cast<double>(scan.count());
-    if (end == *high && share > 0.01) {
-      warnings.push_back(fmt::format("{:.1f} % of the voxels have the largest grey value {}: the scan is clipped there",
-                                     100 * share, end));
-    }
-  }
-}
-
 /// \throws InputError where the levels cannot be those of mastic and aggregate.
-void check_levels(const Histogram& histogram, const GreyLevels& levels, std::vector<std::string>& warnings) {
+void check_levels(const Histogram& histogram, const GreyLevels& levels) {
   if (levels.contrast() < 2 * levels.deviation || !has_valley(histogram, levels)) {
     throw InputError("the scan", 0, "contrast between mastic and aggregate",
                      fmt::format("grey {:.5g} and {:.5g} with a standard deviation of {:.3g} each", levels.mastic,
                                  levels.aggregate, levels.deviation),
                      "a valley between them in the histogram: nothing can tell such phases from each other");
   }
-  if (!levels.has_air)
-    warnings.push_back("the scan has two grey levels: they were taken for mastic and aggregate, without air voids");
 }
 
 }  // namespace
 
 Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options, const Refine& refine) {
-  if (scan.count() == 0) throw InputError("the scan", 0, "voxels", "none", "an image");
+  check_voxels(scan);
   const double voxel = std::cbrt(scan.voxel_volume());
   if (options.smallest < 4 * voxel) {
     throw InputError("the scan", 0, "edge of a voxel", fmt::format("{:.4g} mm", 1e3 * voxel),
@@ -61,10 +47,11 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   if (options.cuts && options.recipe == SegmentRecipe::paper)
     throw InputError("cuts", 0, "recipe", "the paper's, which has no cuts to change", "our own");
   Segmentation out;
-  check_scan(scan, out.warnings);
   say(options, "region");
   const Image<std::uint8_t> region =
       options.given ? take_region(scan, *options.given) : find_region(scan, options.region);
+  const std::vector<bool> clipped = clipped_voxels(scan, region, out.warnings);
+  if (!options.given && options.region != ScanRegion::whole) check_ends(region, out.warnings);
   if (options.recipe == SegmentRecipe::paper) {
     Segmentation paper = segment_as_paper(std::move(scan), region, options);
     paper.warnings.insert(paper.warnings.begin(), out.warnings.begin(), out.warnings.end());
@@ -73,9 +60,10 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   say(options, "corrections");
   CorrectionSteps steps;
   out.corrections = correct(scan, region, options, &steps);
+  check_rings(scan, region);
   say(options, "denoising");
   const GreyLevels noisy = fit_levels(histogram_of(scan, region));
-  if (!(noisy.contrast() > 0)) check_levels(histogram_of(scan, region), noisy, out.warnings);
+  if (!(noisy.contrast() > 0)) check_levels(histogram_of(scan, region), noisy);
   if (options.denoising == Denoising::median) median(scan);
   // more noise, more rounds; each takes something off what is small and round as well
   const int rounds = std::clamp(static_cast<int>(std::lround(40 * noisy.deviation / noisy.contrast())), 1, 8);
@@ -83,11 +71,15 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   say(options, "phases");
   const Histogram histogram = histogram_of(scan, region);
   out.levels = fit_levels(histogram);
-  check_levels(histogram, out.levels, out.warnings);
+  check_levels(histogram, out.levels);
+  double trust = trust_in_levels(scan, region, out.levels, options, out.warnings);
   const Thresholds thresholds = thresholds_of(histogram, out.levels, options, out.warnings);
   Phases phases = classify(scan, region, out.levels, thresholds);
   out.phases = std::move(phases.phase);
   out.confidence = std::move(phases.confidence);
+  for (std::size_t i = 0; i < clipped.size(); ++i) {
+    if (clipped[i]) out.confidence.voxels[i] = 0;
+  }
   out.grey = std::move(scan);
   count_shares(out);
   if (out.mastic < 0.05 || out.aggregate < 0.005) {
@@ -95,6 +87,8 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
                      fmt::format("mastic {:.2f} %, aggregate {:.2f} %", 100 * out.mastic, 100 * out.aggregate),
                      "some of each: a phase is missing, or has the grey value of another");
   }
+
+  trust *= trust_in_axes(out.phases, out.warnings);
 
   say(options, "grains");
   const auto edge = std::max<std::int64_t>(1, static_cast<std::int64_t>(options.smallest / 20 / voxel));
@@ -108,14 +102,21 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   const Image<float> distance = distance_inside(inside);
   const Fragments fragments = flood(distance, solid, 0.95);
   Decision decision = options.cuts ? decide(fragments, *options.cuts) : decide(fragments);
+  const Image<std::uint32_t> parted = cut_along_valleys(fragments, decision.grain, solid, options.smallest / 4);
+  out.labels = spread(out.phases, parted, edge);
+  const std::vector<std::uint32_t> number = drop_small(out.labels, least_volume(options));
+  trust *= trust_in_grains(out.labels, out.phases, out.warnings);
+  const std::vector<double> certain = certainty(decision, number);
   out.cuts = std::move(decision.cuts);
-  out.labels = spread(out.phases, fragments.labels, decision.grain, edge);
-  drop_small(out.labels, least_volume(options));
   if (options.surfaces) {
     say(options, "surfaces");
+    std::vector<double> sure(number.size(), trust);
+    for (std::size_t n = 1; n < number.size(); ++n) sure[number[n]] = trust * certain[n];
     const std::vector<GrainBox> boxes = boxes_of(out.labels, out.phases, out.confidence);
-    out.grains = surfaces_of(out, thresholds, boxes, options, out.warnings);
+    out.grains = surfaces_of(out, thresholds, boxes, options, out.warnings, sure);
     if (refine) refine(out, thresholds, boxes, steps);
+    const double sizes = trust_in_sizes(out.grains, options.gradation, options.smallest, out.warnings);
+    for (ScannedGrain& grain : out.grains) grain.confidence *= sizes;
   }
   return out;
 }

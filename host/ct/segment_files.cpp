@@ -60,21 +60,6 @@ std::string grains_csv(const std::vector<ScannedGrain>& grains) {
   return text;
 }
 
-std::string gradation_csv(const std::vector<ScannedGrain>& grains) {
-  double whole = 0;
-  for (const ScannedGrain& g : grains) whole += g.measure.volume;
-  std::string text = "sieve_m,passing_d_intermediate,passing_square_mesh\n";
-  for (const double size : standard_sieves()) {
-    double by_side = 0, by_mesh = 0;
-    for (const ScannedGrain& g : grains) {
-      if (g.measure.d_intermediate < size) by_side += g.measure.volume;
-      if (g.sieve < size) by_mesh += g.measure.volume;
-    }
-    text += fmt::format("{},{:.6f},{:.6f}\n", size, whole > 0 ? by_side / whole : 0, whole > 0 ? by_mesh / whole : 0);
-  }
-  return text;
-}
-
 std::string cuts_csv(const std::vector<GrainCut>& cuts) {
   std::string text = fmt::format("{}\n", cuts_header);
   for (const GrainCut& c : cuts) {

@@ -12,9 +12,6 @@ namespace macadam::ct {
 /// `id,x,y,z,volume_m3,…`, SI units; the axes of D^L, D^I and D^S as a turn of x, y and z.
 std::string grains_csv(const std::vector<ScannedGrain>& grains);
 
-/// Share passing of all grains' volume, by D^I and by the square sieve.
-std::string gradation_csv(const std::vector<ScannedGrain>& grains);
-
 std::string cuts_csv(const std::vector<GrainCut>& cuts);
 /// \throws InputError naming file and line.
 std::vector<GrainCut> read_cuts(const std::filesystem::path& file);

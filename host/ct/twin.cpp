@@ -6,13 +6,16 @@
 
 #include <map>
 #include <numbers>
+#include <tuple>
 
 #include "host/ct/grain_files.hpp"
 #include "host/ct/void_spheres.hpp"
+#include "host/network/clusters.hpp"
 #include "host/parallel.hpp"
 #include "host/shapes/fill.hpp"
 #include "host/specimen/composition.hpp"
 #include "host/specimen/mastic.hpp"
+#include "macadam/contact_network.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -162,6 +165,35 @@ std::function<bool(const Vec3d&)> taken_in(const Cut& cut) {
   };
 }
 
+/// Takes out what contacts do not join to both walls, such as mastic that voids enclose: it carries nothing, and would
+/// hang on nothing. Its place falls to the voids around it. Numbers of particles that were mastic, and of others.
+std::array<std::int64_t, 2> remove_hanging(Specimen& s, const NetworkSpec& spec) {
+  std::array<std::int64_t, 2> out{};
+  for (int round = 0; round < 5; ++round) {  // a cell that grows into what was taken out may lose another contact
+    std::vector<bool> gone(s.size());
+    bool any = false;
+    const std::vector<Cluster> clusters = find_clusters(build_network(s, tessellate(s), spec), s.size());
+    if (std::none_of(clusters.begin(), clusters.end(), [](const Cluster& c) { return c.spans(); })) break;
+    for (const Cluster& cluster : clusters) {
+      if (cluster.spans()) continue;
+      for (const std::int32_t p : cluster.particles) {
+        gone[static_cast<std::size_t>(p)] = any = true;
+        ++out[s.phase[static_cast<std::size_t>(p)] != Phase::mastic];
+      }
+    }
+    if (!any) break;
+    const auto keep = [&gone](auto& list) {
+      std::size_t to = 0;
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        if (!gone[i]) list[to++] = list[i];
+      }
+      list.resize(to);
+    };
+    keep(s.centre), keep(s.radius), keep(s.phase), keep(s.body);
+  }
+  return out;
+}
+
 }  // namespace
 
 Twin make_twin(const fs::path& folder, const Scene& scene, const TwinSpec& spec,
@@ -224,6 +256,8 @@ Twin make_twin(const fs::path& folder, const Scene& scene, const TwinSpec& spec,
   settle_mastic(out.specimen, placement, true, Origin(how), {},
                 [&](double share) { report("relaxing mastic", share); });
   part_voids(first_void, end_of_voids, out.specimen);
+  report("what hangs on nothing", 0);
+  std::tie(out.enclosed_mastic, out.enclosed_aggregate) = std::tuple_cat(remove_hanging(out.specimen, scene.network));
   validate(out.specimen, out.specimen.source);
   return out;
 }

@@ -40,6 +40,8 @@ std::string numbers(const Twin& twin) {
                                       {"grains", twin.grains},
                                       {"clusters", twin.clusters},
                                       {"lost_grains", twin.lost},
+                                      {"enclosed_mastic", twin.enclosed_mastic},
+                                      {"enclosed_aggregate", twin.enclosed_aggregate},
                                       {"void_spheres", twin.specimen.voids.size()},
                                       {"aggregate", twin.aggregate},
                                       {"mastic", twin.mastic},

@@ -52,6 +52,16 @@ double reach_of(const Image<std::uint8_t>& phases, const std::vector<Voxel>& vox
   return out;
 }
 
+/// Whether the voxel around a point is one of the mask.
+bool holds(const Image<std::uint8_t>& mask, const Vec3d& point) {
+  const Vec3d from = point - mask.origin;
+  const auto voxel = [](double at, double edge, std::int64_t n) {
+    return std::clamp(static_cast<std::int64_t>(std::lround(at / edge)), std::int64_t{0}, n - 1);
+  };
+  return mask.at(voxel(from.x, mask.spacing.x, mask.size[0]), voxel(from.y, mask.spacing.y, mask.size[1]),
+                 voxel(from.z, mask.spacing.z, mask.size[2])) != 0;
+}
+
 /// Inscribed spheres of a void, the largest first, down to half of it; none has its centre in another.
 std::vector<VoidSphere> inscribed(const Image<float>& depth, const std::vector<Voxel>& voxels) {
   std::vector<VoidSphere> all, out;
@@ -90,7 +100,9 @@ VoidSpheres void_spheres(const Image<std::uint8_t>& phases, double least) {
         }
         out.volume += volume;
         std::vector<VoidSphere> spheres{sphere_of(phases, voxels, volume)};
-        if (reach_of(phases, voxels, spheres.front().centre) > nearly_round * spheres.front().radius)
+        // of a shell the middle is not in the void
+        if (!holds(mask, spheres.front().centre) ||
+            reach_of(phases, voxels, spheres.front().centre) > nearly_round * spheres.front().radius)
           spheres = inscribed(depth, voxels);
         double filled = 0;
         for (const VoidSphere& s : spheres) filled += volume_of(s.radius);

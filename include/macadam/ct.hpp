@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "macadam/numeric.hpp"
+#include "macadam/recipe.hpp"
 #include "macadam/shape.hpp"
 
 namespace macadam {
@@ -116,7 +117,8 @@ struct SegmentOptions {
   SegmentRecipe recipe = SegmentRecipe::own;
   std::optional<double> air_voids, aggregate;  ///< volume shares of the specimen, where the laboratory knows them
   double smallest = 4e-3;                      ///< diameter of the smallest grain that matters [m]
-  std::optional<std::vector<GrainCut>> cuts;   ///< decisions on the same scan, maybe changed by a person
+  std::vector<SievePassing> gradation;  ///< the laboratory's, where it is known: rising sieves, the last passes all
+  std::optional<std::vector<GrainCut>> cuts;  ///< decisions on the same scan, maybe changed by a person
   bool surfaces = true;
   int facets = 500;  ///< of a surface; up to 800 where the error asks for it
   std::function<void(const std::string& stage, double share)> progress;

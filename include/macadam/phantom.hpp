@@ -45,6 +45,7 @@ struct PhantomGrain {
   bool border = false;       ///< cut by the saw: what follows is of the whole grain
   double area = 0;           ///< [m²]
   double d_long = 0, d_intermediate = 0, d_short = 0;  ///< [m]
+  double sieve = 0;                                    ///< side of the smallest square mesh that lets it pass [m]
   Vec3d axis_long{};                                   ///< unit vector; 0 of a sphere
 };
 

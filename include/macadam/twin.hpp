@@ -27,10 +27,11 @@ struct TwinSpec {
 /// A specimen made of a scan.
 struct Twin {
   Specimen specimen;
-  Vec3d corner{};                   ///< of the box, in the scan's coordinates [m]
-  std::int64_t grains = 0;          ///< in the box, at least in part
-  std::int64_t clusters = 0;        ///< of several spheres
-  std::int64_t lost = 0;            ///< grains of which too little is in the box for a sphere
+  Vec3d corner{};                                            ///< of the box, in the scan's coordinates [m]
+  std::int64_t grains = 0;                                   ///< in the box, at least in part
+  std::int64_t clusters = 0;                                 ///< of several spheres
+  std::int64_t lost = 0;                                     ///< grains of which too little is in the box for a sphere
+  std::int64_t enclosed_mastic = 0, enclosed_aggregate = 0;  ///< particles not joined to both walls, and taken out
   double aggregate = 0, voids = 0;  ///< volumes of the labels and of the void voxels, over the box
   double voids_left_out = 0;        ///< volume of what was too small, over the box
   double mastic = 0;                ///< Σ volumes of the mastic's spheres over the box

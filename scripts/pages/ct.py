@@ -17,7 +17,9 @@ LINES = (  # name, column, factor, digits, sign
     ("mean D^L (%)", "d_long_m_mean_error", 100, 2, True),
     ("mean D^I (%)", "d_intermediate_m_mean_error", 100, 2, True),
     ("mean D^S (%)", "d_short_m_mean_error", 100, 2, True),
+    ("mean square mesh (%)", "sieve_m_mean_error", 100, 2, True),
     ("sieve class right, by D^I (%)", "class_right_d_intermediate", 100, 1, False),
+    ("sieve class right, by the square mesh (%)", "class_right_sieve", 100, 1, False),
     ("air voids (points)", "air_voids_points_error", 1, 2, True),
     ("aggregate (points)", "aggregate_points_error", 1, 2, True),
 )
@@ -28,7 +30,7 @@ def ct():
     runs = rows("ct.csv")
     heads = [f"seed {r['seed']:g}, {r['recipe']}" for r in runs]
     lines = [[name, *(minus(f"{factor * r[column]:{'+' if sign else ''}.{digits}f}") for r in runs)]
-             for name, column, factor, digits, sign in LINES]
+             for name, column, factor, digits, sign in LINES if all(column in r for r in runs)]
     return table(["", *heads], lines, range(1, len(heads) + 1))
 
 

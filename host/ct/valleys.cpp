@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// valleys.cpp  Shortest ways from the middles of grains, mastic being long.
+#include "host/ct/valleys.hpp"
+
+#include <queue>
+#include <tuple>
+
+#include "host/ct/distance.hpp"
+
+namespace macadam::ct {
+namespace {
+
+/// A voxel on the way from a grain.
+struct Reached {
+  float way = 0;
+  std::uint32_t voxel = 0, grain = 0;
+  /// The nearest first, of equally near ones the first by number: the answer does not depend on the order of arrival.
+  bool operator<(const Reached& o) const { return std::tie(way, voxel, grain) > std::tie(o.way, o.voxel, o.grain); }
+};
+
+/// Calls `see` with the six neighbours of a voxel.
+template <class T, class See>
+void around(const Image<T>& image, std::size_t at, See&& see) {
+  const auto n = static_cast<std::int64_t>(at);
+  const auto [nx, ny, nz] = image.size;
+  const std::int64_t i = n % nx, j = n / nx % ny, k = n / (nx * ny);
+  const auto row = static_cast<std::size_t>(nx), slice = static_cast<std::size_t>(nx * ny);
+  if (i > 0) see(at - 1);
+  if (i + 1 < nx) see(at + 1);
+  if (j > 0) see(at - row);
+  if (j + 1 < ny) see(at + row);
+  if (k > 0) see(at - slice);
+  if (k + 1 < nz) see(at + slice);
+}
+
+}  // namespace
+
+Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::vector<std::uint32_t>& grain,
+                                       const Image<float>& grey, double depth) {
+  Image<std::uint32_t> labels = fragments.labels;
+  for (std::uint32_t& label : labels.voxels) label = grain[label];
+  Image<std::uint8_t> within = Image<std::uint8_t>::like(labels);  // not beside a cut
+  for (std::size_t at = 0; at < labels.count(); ++at) {
+    const std::uint32_t own = labels.voxels[at];
+    if (own == 0) continue;
+    bool alone = true;
+    around(labels, at,
+           [&](std::size_t near) { alone = alone && (labels.voxels[near] == 0 || labels.voxels[near] == own); });
+    within.voxels[at] = alone;
+  }
+  if (std::find(within.voxels.begin(), within.voxels.end(), 1) == within.voxels.end()) return labels;
+  const Image<float> below = distance_inside(within);
+  std::vector<float> deepest(fragments.radius.size());
+  for (std::size_t at = 0; at < labels.count(); ++at) {
+    float& d = deepest[labels.voxels[at]];
+    d = std::max(d, below.voxels[at]);
+  }
+  const auto core = [&](std::size_t at) {
+    const float most = deepest[labels.voxels[at]];  // 0 of a grain that is a voxel or two thin: it stays as it is
+    return labels.voxels[at] != 0 &&
+           (most <= 0 || below.voxels[at] >= std::min(static_cast<float>(depth), 0.5f * most));
+  };
+  // Noise leaves some hundredths of the contrast within a grain; mastic thinner than a voxel takes a tenth and more
+  const auto step = [&](std::size_t at) {
+    const float valley = std::max(0.0f, 0.94f - grey.voxels[at]) / 0.04f;
+    return 0.05f + valley * valley;
+  };
+  std::vector<float> way(labels.count(), std::numeric_limits<float>::infinity());
+  std::priority_queue<Reached> front;
+  const auto leave = [&](std::size_t from, std::uint32_t own) {
+    around(labels, from, [&](std::size_t near) {
+      if (labels.voxels[near] == 0 || way[near] == 0) return;
+      const float there = way[from] + step(near);
+      if (there > way[near]) return;
+      way[near] = there;
+      front.push({there, static_cast<std::uint32_t>(near), own});
+    });
+  };
+  for (std::size_t at = 0; at < labels.count(); ++at) {
+    if (core(at)) way[at] = 0;
+  }
+  for (std::size_t at = 0; at < labels.count(); ++at) {
+    if (way[at] == 0) leave(at, labels.voxels[at]);
+  }
+  std::vector<bool> settled(labels.count());
+  while (!front.empty()) {
+    const Reached next = front.top();
+    front.pop();
+    if (settled[next.voxel] || next.way > way[next.voxel]) continue;
+    settled[next.voxel] = true;
+    labels.voxels[next.voxel] = next.grain;
+    leave(next.voxel, next.grain);
+  }
+  return labels;
+}
+
+}  // namespace macadam::ct
