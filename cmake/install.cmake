@@ -8,7 +8,8 @@ install(DIRECTORY kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macadam-kernel
 install(PROGRAMS scripts/draw-fit scripts/draw-calibration DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam)
 install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam/examples)
 install(EXPORT macadamTargets NAMESPACE macadam:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam)
-configure_file(cmake/macadamConfig.cmake.in ${PROJECT_BINARY_DIR}/macadamConfig.cmake @ONLY)
+configure_package_config_file(cmake/macadamConfig.cmake.in ${PROJECT_BINARY_DIR}/macadamConfig.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file(macadamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/macadamConfig.cmake ${PROJECT_BINARY_DIR}/macadamConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam)

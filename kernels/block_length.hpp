@@ -19,16 +19,17 @@ namespace macadam::kernels {
 /// specimen's strain a carried normal turns by less than 1e-6 in a 4,000th of that time. Where this allows it, blocks
 /// end at the observations, which otherwise cut them. 0: blocks would be too short to pay, or nothing says how fast the
 /// load changes, a law has no blocks, or a wall follows a force,
-/// which needs the sum on it at every step. `height`: of the specimen [m].
-inline int block_steps(const StepperOptions& options, const FactsTable& laws, double height) {
+/// which needs the sum on it at every step. `size`: of the specimen [m].
+inline int block_steps(const StepperOptions& options, const FactsTable& laws, const Vec3d& size) {
   if (!options.boundary.any(DrivenBy::displacement) || options.boundary.any(DrivenBy::force)) return 0;
   constexpr double pi = std::numbers::pi;
   double shortest = std::numeric_limits<double>::infinity();
-  for (const WallMotionSpec& wall : options.boundary.wall) {
-    for (const WallAxis& axis : wall.axis) {
+  const double extent[3] = {size.x, size.y, size.z};
+  for (std::size_t w = 0; w < wall_count; ++w) {
+    for (const WallAxis& axis : options.boundary.wall[w].axis) {
       if (axis.by != DrivenBy::displacement) continue;
       shortest = std::min(shortest, axis.drive->shortest_time());
-      const double strain_rate = axis.drive->fastest() / height;
+      const double strain_rate = axis.drive->fastest() / extent[w / 2];  // along the wall's normal
       if (options.geometry == Geometry::updated && strain_rate > 0)
         shortest = std::min(shortest, 4000 * 1e-6 / strain_rate);
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file contact_forces.hpp  One step of one contact: kinematics, law, load. Written once for SIMD packs and threads.
 ///
-/// An Item says how to load and store one word of a contact: `PackItem` (exec_cpu.hpp) handles a packet of contacts at
-/// once, `LaneItem` (exec_cuda.hpp) one contact of a packet. Per condensed contact with L Kelvin units a step reads and
-/// writes 6·(1 + L) states and reads 11 or 12 words of geometry and two bodies.
+/// An Item says how to load and store one word of a contact: `PackItem` (pack_item.hpp) handles a packet of contacts at
+/// once, `LaneItem` (cuda_lane_item.hpp) one contact of a packet. Per condensed contact with L Kelvin units a step
+/// reads and writes 6·(1 + L) states and reads 11 or 12 words of geometry and two bodies.
 #pragma once
 
 #include <type_traits>

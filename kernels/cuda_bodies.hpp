@@ -46,28 +46,29 @@ __device__ R sum_by_block(const LoadRecords<T>& records, std::uint32_t body) {
   return sum;
 }
 
-/// Moves all bodies. The first `long_rows` blocks have one body each.
-template <class P>
+/// Moves all bodies; `pushed` as ParticleMotion::word(). The first `long_rows` blocks have one body each.
+template <class P, bool pushed>
 __global__ void __launch_bounds__(body_threads)
     step_bodies(const __grid_constant__ ParticleMotion<P> motion, const LoadRecords<typename P::Geometry> records,
                 const std::uint32_t* long_body, std::uint32_t long_rows, const std::int64_t* step) {
+  const std::int64_t row = *step;  // asked for early
   const int w = static_cast<int>(threadIdx.x % velocity_words);
   const auto particles = static_cast<std::uint32_t>(motion.body.particles);
   if (blockIdx.x < long_rows) {
     const std::uint32_t body = long_body[blockIdx.x];
     const auto force = sum_by_block<typename P::Particle>(records, body);
-    if (threadIdx.x < velocity_words) motion.word(static_cast<std::int32_t>(body), w, force, *step);
+    if (threadIdx.x < velocity_words) motion.template word<pushed>(static_cast<std::int32_t>(body), w, force, row);
     return;
   }
   const std::uint32_t body = (blockIdx.x - long_rows) * bodies_a_block + threadIdx.x / velocity_words;
   if (body >= particles + walls) return;
   typename P::Particle force = 0;
-  if (body < particles || motion.wall.by_force) {
+  if (pushed || body < particles) {
     const std::uint32_t begin = records.row_begin[body], end = records.row_begin[body + 1];
     if (end - begin > long_row) return;
     force = sum_words<typename P::Particle>(records, begin, end, 1, static_cast<unsigned>(w));
   }
-  motion.word(static_cast<std::int32_t>(body), w, force, *step);
+  motion.template word<pushed>(static_cast<std::int32_t>(body), w, force, row);
 }
 
 /// Writes the summed loads of the bodies first + blockIdx.x, eight words each.

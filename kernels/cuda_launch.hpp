@@ -21,7 +21,7 @@ inline void check_cuda(cudaError_t status, const char* what) {
   if (status != cudaSuccess) throw RunError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
 }
 
-/// Launches a kernel in the default stream and checks the launch; an empty grid is no launch.
+/// Launches a kernel in a stream and checks the launch; an empty grid is no launch.
 template <class... Parameters, class... Arguments>
 void launch(const char* name, void (*kernel)(Parameters...), std::size_t blocks, unsigned threads, std::size_t shared,
             cudaStream_t stream, Arguments&&... arguments) {

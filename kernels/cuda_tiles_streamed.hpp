@@ -65,6 +65,8 @@ __global__ void __launch_bounds__(Threads, Blocks)
   constexpr unsigned warps = Threads / 32;
   constexpr std::uint32_t words = tile_constants(carried);
   const Tile tile = s.tile[blockIdx.x];
+  float4 of_wall{0, 0, 0, 0};
+  if (tid < walls) of_wall = wall_velocity(s, static_cast<int>(tid), k);  // asked for early
   const float4* from = velocities_of(s, k);
   for (std::uint32_t r = tid; r < 2 * tile.bodies; r += Threads)
     (r % 2 ? w : v)[r / 2] = from[2 * static_cast<std::size_t>(tile.first_body) + r];
@@ -74,7 +76,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
   if (tid < walls) {
     const std::uint32_t at = tile.bodies + tile.halo + tid;
     w[at] = {0, 0, 0, 0};
-    v[at] = wall_velocity(s, static_cast<int>(tid), k);
+    v[at] = of_wall;
   }
   __syncthreads();
   for (std::uint32_t packet = warp; packet < tile.packets; packet += warps) {

@@ -76,7 +76,7 @@ class ExecCuda : public CudaBodyArrays<P> {
   std::string description() const { return this->described("two kernels a step"); }
   std::vector<KernelUse> kernels() const {
     std::vector<KernelUse> out = contacts_.kernels();
-    out.push_back(kernel_use("bodies", step_bodies<P>, body_threads, 0));
+    out.push_back(kernel_use("bodies", step_bodies<P, false>, body_threads, 0));
     return out;
   }
   std::int64_t traffic() const {
@@ -90,11 +90,12 @@ class ExecCuda : public CudaBodyArrays<P> {
 
   /// The step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void step() {
+    const bool pushed = motion_.wall.by_force || motion_.body.weight;
     const std::uint32_t long_rows =
-        motion_.wall.by_force ? static_cast<std::uint32_t>(this->rows_.long_body.size()) : this->rows_.long_particles;
+        pushed ? static_cast<std::uint32_t>(this->rows_.long_body.size()) : this->rows_.long_particles;
     const std::size_t blocks = long_rows + (this->bodies() + bodies_a_block - 1) / bodies_a_block;
-    launch("bodies", step_bodies<P>, blocks, body_threads, 0, this->stream_, motion_, records(),
-           this->rows_.long_body.data(), long_rows, step_.data());
+    launch("bodies", pushed ? step_bodies<P, true> : step_bodies<P, false>, blocks, body_threads, 0, this->stream_,
+           motion_, records(), this->rows_.long_body.data(), long_rows, step_.data());
     contacts_.run(this->stream_, {this->gathered(), this->displacement_.data()}, records(), step_.data());
   }
 

@@ -24,8 +24,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   struct Impossible {};
 
   /// Steps of a block; 0: not to be stepped so.
-  static int block_of(const StepperOptions& options, const FactsTable& laws, double height) {
-    return options.form == ContactForm::condensed ? block_steps(options, laws, height) : 0;
+  static int block_of(const StepperOptions& options, const FactsTable& laws, const Vec3d& size) {
+    return options.form == ContactForm::condensed ? block_steps(options, laws, size) : 0;
   }
 
   /// \throws Impossible
@@ -34,12 +34,12 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     if (!tiles_.possible()) throw Impossible{};
   }
 
-  bool suits(const ExecStart& start) const { return block_of(start.options, start.laws, start.height) > 0; }
+  bool suits(const ExecStart& start) const { return block_of(start.options, start.laws, start.size) > 0; }
 
   void begin(const ExecStart& start) {
     this->rest();
     dt_ = start.options.dt;
-    tiles_.begin(block_of(start.options, start.laws, start.height), start.options.observed_every > 0);
+    tiles_.begin(block_of(start.options, start.laws, start.size), start.options.observed_every > 0);
     if (start.first) this->require_memory(start.group_bytes + tiles_.bytes_to_come(this->rows_.records));
   }
 

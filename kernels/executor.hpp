@@ -27,7 +27,7 @@ namespace macadam::kernels {
 struct ExecStart {
   const StepperOptions& options;
   const FactsTable& laws;
-  double height;            ///< of the specimen [m]
+  Vec3d size;               ///< of the specimen [m]
   bool first;               ///< groups come whole; later only their states do
   std::size_t group_bytes;  ///< of the groups to come, the first time
 };

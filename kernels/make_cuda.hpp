@@ -18,15 +18,17 @@ template <class P, class Any>
 std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNetwork& network,
                                       const std::array<std::optional<Any>, pair_types>& laws, const Inertia& inertia,
                                       const StepperOptions& options, std::unique_ptr<Stepper> used) {
+  StepperOptions given = options;
+  given.device = options.device.value_or(0);
   if constexpr (!std::is_same_v<P, DoublePrecision> && any_has_blocks(std::type_identity<Any>{})) {
     using Tiles = ExecCudaTiles<P, Any>;
-    if (Tiles::block_of(options, facts_of(laws), specimen.box.size.z) > 0) {
+    if (Tiles::block_of(given, facts_of(laws), specimen.box.size) > 0) {
       try {
-        return make_stepper_on<Tiles>(specimen, network, laws, inertia, options, std::move(used));
+        return make_stepper_on<Tiles>(specimen, network, laws, inertia, given, std::move(used));
       } catch (const typename Tiles::Impossible&) {}  // two kernels a step then
     }
   }
-  return make_stepper_on<ExecCuda<P, Any>>(specimen, network, laws, inertia, options, std::move(used));
+  return make_stepper_on<ExecCuda<P, Any>>(specimen, network, laws, inertia, given, std::move(used));
 }
 
 }  // namespace macadam::kernels

@@ -63,15 +63,18 @@ struct ParticleMotion {
     }
   }
 
-  /// The same for word w of [v, –, ω, –] alone, with word w of force and moment: a thread a word.
+  /// The same for word w of [v, –, ω, –] alone, with word w of force and moment: a thread a word. `pushed`: there are
+  /// body forces, or walls under forces.
+  template <bool pushed>
   MACADAM_HD void word(std::int32_t i, int w, R force, std::int64_t k) const {
     const auto at = static_cast<std::size_t>(i) * velocity_words + static_cast<std::size_t>(w);
     R v = body.master[at];
     if (i < body.particles) {
-      if (body.weight && w < 3) force += body.weight[static_cast<std::size_t>(i) * 4 + static_cast<std::size_t>(w)];
+      if (pushed && body.weight && w < 3)
+        force += body.weight[static_cast<std::size_t>(i) * 4 + static_cast<std::size_t>(w)];
       v = moved(v, force, body.inverse[2 * i + w / 4]);
     } else if (w < 3) {
-      v = of_wall(i, w, v, force, k);
+      v = of_wall<pushed>(i, w, v, force, k);
     }
     body.master[at] = v;
     if constexpr (!std::is_same_v<typename P::Geometry, R>) body.velocity[at] = static_cast<typename P::Geometry>(v);
@@ -81,11 +84,12 @@ struct ParticleMotion {
   }
 
   /// Velocity of a wall along an axis; `force`: of the particles on it.
+  template <bool pushed = true>
   MACADAM_HD R of_wall(std::int32_t i, int axis, R v, R force, std::int64_t k) const {
     const int number = i - body.particles;
     if (!wall.moves(number)) return v;
     const R given = static_cast<R>(wall.at(number, axis, k));
-    return wall.loaded(number, axis) ? moved(v, force + given, body.inverse[2 * i]) : given;
+    return pushed && wall.loaded(number, axis) ? moved(v, force + given, body.inverse[2 * i]) : given;
   }
 
   /// v half a step later.

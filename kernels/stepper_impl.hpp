@@ -42,7 +42,7 @@ class StepperImpl final : public Stepper {
               const StepperOptions& options)
       : options_(decided(options, network, facts_of(laws))),
         radius_(specimen.radius),
-        height_(specimen.box.size.z),
+        size_(specimen.box.size),
         layout_(make_layout(specimen, network, Exec::lanes, Exec::tile_contacts(network, options))),
         exec_(network, layout_, options_) {
     begin(network, laws, inertia, true);
@@ -60,7 +60,7 @@ class StepperImpl final : public Stepper {
       return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.device);
     };
     if (kept(next) != kept(options_) || network.contacts.size() != contacts_ ||
-        !exec_.suits({next, facts, height_, false, 0}))
+        !exec_.suits({next, facts, size_, false, 0}))
       return false;
     options_ = next;
     begin(network, laws, inertia, false);
@@ -128,6 +128,10 @@ class StepperImpl final : public Stepper {
     exec_.use_device();
     const std::vector<double> u = exec_.displacements();
     const std::size_t n = network.contacts.size();
+    if (n != contacts_) {
+      throw InputError("contacts of a stepper: found a network of " + std::to_string(n) +
+                       " contacts, expected that of " + std::to_string(contacts_) + " that the stepper was made of");
+    }
     ContactState out{std::vector<Vec3d>(n), std::vector<Vec3d>(n), std::vector<std::array<double, 6>>(n), {}, {0}};
     const auto each_group = [&](auto&& f) {
       for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
@@ -167,6 +171,10 @@ class StepperImpl final : public Stepper {
                                             spin[i].x,     spin[i].y,     spin[i].z,     0};
       for (int w = 0; w < velocity_words; ++w)
         v[b * velocity_words + static_cast<std::size_t>(w)] = static_cast<R>(words[w]);
+    }
+    for (const std::int32_t i : options_.boundary.fixed) {
+      const auto first = v.begin() + static_cast<std::ptrdiff_t>(layout_.body_of(i)) * velocity_words;
+      std::fill(first, first + velocity_words, R(0));
     }
     exec_.set_velocities(v);
   }
@@ -243,7 +251,7 @@ class StepperImpl final : public Stepper {
     for (const auto& group : layout_.groups) {
       if (first) bytes += GroupShape<P>(layout_, group, fact_of(facts, group.pair), options).bytes();
     }
-    exec_.begin({options, facts, height_, first, bytes});
+    exec_.begin({options, facts, size_, first, bytes});
     std::vector<R> inverse(2 * (layout_.particles() + walls), R(0));
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
       const auto i = static_cast<std::size_t>(layout_.particle[b]);
@@ -359,7 +367,7 @@ class StepperImpl final : public Stepper {
 
   StepperOptions options_;
   std::vector<double> radius_;
-  double height_;  // of the specimen [m]
+  Vec3d size_;  // of the specimen [m]
   std::size_t contacts_ = 0;
   Laws laws_;
   Layout layout_;

@@ -3,6 +3,7 @@
 #include "kernels/stepper_input.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "macadam/error.hpp"
@@ -10,10 +11,23 @@
 namespace macadam::kernels {
 namespace {
 
+std::string shown(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", x);
+  return text;
+}
+
 /// A start state must be one of this network.
 void require_start(std::size_t particles, const ContactNetwork& network, const FactsTable& laws,
                    const StepperOptions& options) {
   const StartState& start = *options.start;
+  if (!options.boundary.body_force.empty())
+    throw InputError("start state: found body forces, expected none: steady states have none in them");
+  for (const auto& law : laws) {
+    if (law && !law->linear)
+      throw InputError(std::string("start state: found law ") + law->name +
+                       ", which is not linear, expected linear laws");
+  }
   const auto require = [](const char* what, std::size_t found, std::size_t expected) {
     if (found != expected) {
       throw InputError(std::string("start state: ") + what + ": found " + std::to_string(found) + ", expected " +
@@ -35,8 +49,9 @@ void require_start(std::size_t particles, const ContactNetwork& network, const F
     for (const WallAxis& axis : wall.axis) {
       if (axis.by == DrivenBy::force)
         throw InputError("start state: found a wall under a force, expected displacements");
-      const auto* cyclic = dynamic_cast<const drives::Cyclic*>(axis.drive.get());
-      if (cyclic) require("ramp steps", static_cast<std::size_t>(cyclic->ramp_steps), 0);
+      if (axis.drive && axis.drive->begins())
+        throw InputError(
+            "start state: found a drive that begins at step 0, such as one with a ramp, expected one in motion");
     }
   }
 }
@@ -54,11 +69,14 @@ void require_boundary(std::size_t particles, const StepperOptions& options) {
       if (a.by == DrivenBy::rest) continue;
       if (!a.drive) refuse(which, "no drive", "one, as the axis is driven");
       if (!(std::abs(a.drive->dt() - options.dt) <= 1e-12 * options.dt)) {
-        refuse(which + ": time step of its drive", std::to_string(a.drive->dt()) + " s",
-               std::to_string(options.dt) + " s, the stepper's");
+        refuse(which + ": time step of its drive", shown(a.drive->dt()) + " s",
+               shown(options.dt) + " s, the stepper's");
+      }
+      if (a.by == DrivenBy::displacement && !options.start && a.drive->value(0) != 0) {
+        refuse(which + ": displacement at the start", shown(a.drive->value(0)) + " m", "0: nothing is deformed then");
       }
       if (a.by == DrivenBy::force && !(boundary.wall[w].mass > 0)) {
-        refuse(which + ": mass of a wall under a force", std::to_string(boundary.wall[w].mass) + " kg", "above 0");
+        refuse(which + ": mass of a wall under a force", shown(boundary.wall[w].mass) + " kg", "above 0");
       }
     }
   }
@@ -82,6 +100,10 @@ void require_input(std::size_t particles, const ContactNetwork& network, const F
     if (network.count[p] > 0 && !laws[p]) {
       throw InputError(std::string("pair ") + to_string(static_cast<PairType>(pair)) + " has " +
                        std::to_string(network.count[p]) + " contacts but no law");
+    }
+    if (laws[p] && laws[p]->only_units >= 0 && laws[p]->units != laws[p]->only_units) {
+      throw InputError(std::string("law ") + laws[p]->name + ": found units() = " + std::to_string(laws[p]->units) +
+                       ", expected its only_units = " + std::to_string(laws[p]->only_units));
     }
   }
   if (options.damping_kind == Damping::viscous && !(options.damping * options.dt < 2)) {

@@ -8,7 +8,8 @@
 
 namespace macadam::kernels {
 
-/// Arguments as make_stepper(); `Any` is the list of laws, std::variant<…>. Defined in make_cpu.hpp and make_cuda.hpp,
+/// Other arguments as make_stepper(); `P` is the precision (precision.hpp), whatever the options say, `Any` the list of
+/// laws, std::variant<…>. Without a device in the options, the first one. Defined in make_cpu.hpp and make_cuda.hpp,
 /// compiled for Macadam's own laws in stepper_*.
 /// @{
 template <class P, class Any>

@@ -10,7 +10,7 @@ namespace macadam::test {
 namespace {
 
 using kernels::block_steps;
-constexpr double height = 0.1;
+constexpr Vec3d size{0.05, 0.05, 0.1};
 
 /// 10 Hz: the period is the shortest time, 0.1 s; 1e6 steps of it.
 StepperOptions options_of_10_hz() {
@@ -29,33 +29,33 @@ Laws elastic() {
 
 TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   StepperOptions options = options_of_10_hz();
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), height), 250);
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 250);
   Laws slow = elastic();
   slow[1] = laws::GeneralisedKelvin{1e10, 1e8, {}, {}, 0};  // 2π·0.01 s
-  EXPECT_EQ(block_steps(options, facts_of(slow), height), 157);
+  EXPECT_EQ(block_steps(options, facts_of(slow), size), 157);
   options.geometry = Geometry::updated;  // 4e-3 / (1e-4·20π/s) = 0.64 s
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), height), 250);
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 250);
   options.boundary = moving_top(drives::Cyclic(1e-3, 10, 1000000));  // 4e-3 / (1e-2·20π/s) = 6.4e-3 s
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), height), 15);
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 15);
   options.boundary = {};
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), height), 0);
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 0);
 }
 
 TEST(BlockLength, FollowsTheNumberOfBlocks) {
   StepperOptions options = options_of_10_hz();
   options.blocks = 8000;
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), height), 125);
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 125);
   options.blocks = 1e6 / 3.9;  // three steps do not pay
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), height), 0);
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 0);
   options.blocks = 10;  // sums of so many steps are still good in single precision
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), height), 256);
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 256);
 }
 
 TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
   StepperOptions options = options_of_10_hz();
   const auto steps = [&](std::int64_t observed_every) {
     options.observed_every = observed_every;
-    return block_steps(options, facts_of(elastic()), height);
+    return block_steps(options, facts_of(elastic()), size);
   };
   EXPECT_EQ(steps(0), 250);
   EXPECT_EQ(steps(500), 250);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "kernels/block_length.hpp"
 #include "stepper_cases.hpp"
 #include "test_networks.hpp"
 
@@ -71,6 +72,9 @@ class DrivenWalls : public BackendTest<StepperCase> {
         make_stepper(Backend::reference, scene.specimen, scene.network, scene.laws, scene.inertia, options);
     options.precision = precision;
     const auto stepper = make_stepper(backend, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+    const bool blocks = backend == Backend::cuda && precision != Precision::double_ && form == ContactForm::condensed &&
+                        kernels::block_steps(options, facts_of(scene.laws), scene.specimen.box.size) > 0;
+    EXPECT_EQ(stepper->description().find("tiles") != std::string::npos, blocks) << stepper->description();
     reference->advance(steps);
     stepper->advance(steps / 3);
     stepper->advance(steps - steps / 3);
@@ -106,6 +110,19 @@ TEST_P(DrivenWalls, OnSeveralAxesAtOnce) {
   options.boundary.move(wall_x_lo, 0, std::make_shared<drives::Ramp>(2e-5 * size, options.dt, 60, 30, true));
   options.boundary.move(wall_y_hi, 1, std::make_shared<drives::ConstantRate>(-1e-2 * size, options.dt, 1.0));
   compare(of, options, 150);
+}
+
+// On walls that change slowly a device takes steps in blocks.
+TEST_P(DrivenWalls, SlowlyOnSeveralWalls) {
+  const TestScene of = scene(test_seed() + 3);
+  StepperOptions options = slow_options(of);
+  drives::Cyclic side = top_drive(options);
+  side.amplitude *= -0.4;
+  options.boundary.move(wall_x_lo, 0, std::make_shared<drives::Cyclic>(side));
+  options.boundary.move(wall_x_hi, 1, std::make_shared<drives::Cyclic>(side));
+  options.boundary.move(wall_y_lo, 1,
+                        std::make_shared<drives::ConstantRate>(1e-3 * of.specimen.box.size.y, options.dt, 1.0));
+  compare(of, options, 300);
 }
 
 TEST_P(DrivenWalls, UnderForcesWithFixedParticlesAndWeight) {
@@ -202,6 +219,38 @@ INSTANTIATE_TEST_SUITE_P(All, Platen,
                                           testing::Values(Precision::double_, Precision::mixed, Precision::single)),
                          [](const auto& info) { return name_of_case(info); });
 
+TEST(FixedParticles, StayWhereTheyAreWhateverTheirVelocityWasSetTo) {
+  const TestScene scene = make_scene(random_specimen(6));
+  for (const Backend backend : {Backend::cpu, Backend::reference}) {
+    StepperOptions options = shaking_options(scene);
+    options.boundary.fixed = {2};
+    const auto stepper = make_stepper(backend, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+    stepper->set_velocities(std::vector<Vec3d>(scene.specimen.size(), {0.01, 0, 0}),
+                            std::vector<Vec3d>(scene.specimen.size(), {0, 1, 0}));
+    stepper->advance(20);
+    const ParticleState state = stepper->particles();
+    EXPECT_EQ(norm(state.displacement[2]), 0);
+    EXPECT_EQ(norm(state.rotation[2]), 0);
+    EXPECT_GT(norm(state.displacement[3]), 0);
+  }
+}
+
+// A platen on an elastic contact: λ = E·A/(d·m), and the step is √(2/λ).
+TEST(PlatenStep, IsCriticalWhereThePlatenIsLight) {
+  const HandMade made = cubic_lattice_network(1, 1, 2, 2e-3, 2e-5);
+  const Laws laws = same_law(laws::Elastic{3e9, 0.2});
+  StepperOptions options;
+  options.density_scaling = 4;
+  const CriticalStep without = critical_step(made.network, laws, made.inertia, options);
+  const double mass = 1e-8;
+  options.boundary.load(wall_z_hi, 2, std::make_shared<drives::Ramp>(), mass);
+  const CriticalStep with = critical_step(made.network, laws, made.inertia, options);
+  const double stiffness = 3e9 * 4e-6 / 1e-3;
+  EXPECT_GE(without.particle, 0);
+  EXPECT_EQ(with.particle, -1);
+  EXPECT_NEAR(with.dt, std::sqrt(2 * 4 * mass / stiffness), 1e-12 * without.dt);
+}
+
 TEST(BoundaryInput, IsRefusedByName) {
   const TestScene scene = make_scene(random_specimen(5));
   const auto message = [&](const Boundary& boundary) -> std::string {
@@ -220,6 +269,11 @@ TEST(BoundaryInput, IsRefusedByName) {
       std::string::npos);
   EXPECT_NE(message(Boundary().move(wall_y_lo, 0, nullptr)).find("no drive"), std::string::npos);
   EXPECT_NE(message(Boundary().load(wall_z_hi, 2, ramp, 0)).find("mass"), std::string::npos);
+  EXPECT_NE(
+      message(Boundary().move(wall_x_hi, 0,
+                              std::make_shared<drives::Table>(1e-7, std::vector{0.0, 1.0}, std::vector{1e-6, 2e-6})))
+          .find("found 1e-06 m, expected 0"),
+      std::string::npos);
   Boundary fixed;
   fixed.fixed = {-1};
   EXPECT_NE(message(fixed).find("fixed particle"), std::string::npos);

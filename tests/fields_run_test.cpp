@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fields_run_test.cpp  Fields of specimens, stepped runs and steady states: which files, which frames, also when
 // resumed.
+#include <sstream>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -85,6 +86,37 @@ TEST_F(RunFields, ASteppedRunHasAFrameEverySoManySamples) {
     if (k % 5 == 0) continue;  // the wall is where it was
     EXPECT_GT(upper, 1.5 * lower) << times[k];
     EXPECT_GT(lower, 0);
+  }
+}
+
+// The contacts of the top wall carry the stress of response.csv at every frame, in both forms and on carried frames.
+TEST_F(RunFields, ContactsOfASteppedRunCarryItsStress) {
+  for (const std::string form : {"condensed", "points"}) {
+    const Scene asked = scene("fields = [\"contacts\"]\nevery = 8\n", "frequencies = [20.0]\ncycles = 1\n",
+                              "density_scaling = 1e5\nform = \"" + form + "\"\n");
+    run(asked, out("out"));
+    const ContactNetwork network = prepare(asked).network;
+    const H5::H5File file = open_hdf5(out("out") / "fields/contacts_20Hz.vtkhdf");
+    const auto force = numbers(file, "VTKHDF/CellData/force");
+    const std::size_t contacts = network.contacts.size();
+    ASSERT_EQ(force.size(), 3 * contacts * 6);
+    std::istringstream response(read(out("out") / "response.csv"));
+    std::string line;
+    std::getline(response, line);
+    double largest = 0;
+    for (int sample = 0; std::getline(response, line); ++sample) {
+      const double stress = std::stod(line.substr(line.rfind(',') + 1));
+      largest = std::max(largest, std::abs(stress));
+      if (sample % 8 != 0) continue;
+      double sum = 0;
+      for (std::size_t c = 0; c < contacts; ++c) {
+        if (network.contacts[c].b == wall_z_hi)
+          sum += force[3 * (static_cast<std::size_t>(sample / 8) * contacts + c) + 2];
+      }
+      EXPECT_NEAR(sum / (0.008 * 0.008), stress, 1e-5 * largest) << form << ", sample " << sample;
+    }
+    EXPECT_GT(largest, 1e5);
+    EXPECT_EQ(file.openGroup("VTKHDF/CellData").exists("stretch_1"), form == "condensed");
   }
 }
 

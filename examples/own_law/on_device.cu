@@ -8,8 +8,6 @@ std::unique_ptr<macadam::Stepper> make_own_stepper(const macadam::Specimen& spec
                                                    const macadam::ContactNetwork& network, const OwnLaws& laws,
                                                    const macadam::Inertia& inertia,
                                                    const macadam::StepperOptions& options) {
-  macadam::StepperOptions given = options;
-  given.device = options.device.value_or(0);
   return macadam::kernels::make_cuda_in<macadam::kernels::DoublePrecision, OwnLaw>(specimen, network, laws, inertia,
-                                                                                   given, nullptr);
+                                                                                   options, nullptr);
 }

@@ -99,8 +99,8 @@ class ReferenceStepper : public Stepper {
     require_count("velocities", velocity.size(), bodies_.size());
     require_count("spins", spin.size(), bodies_.size());
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      bodies_[i].velocity = to_eigen(velocity[i]);
-      bodies_[i].spin = to_eigen(spin[i]);
+      bodies_[i].velocity = bodies_[i].fixed ? Vector3d(Vector3d::Zero()) : to_eigen(velocity[i]);
+      bodies_[i].spin = bodies_[i].fixed ? Vector3d(Vector3d::Zero()) : to_eigen(spin[i]);
     }
   }
 
@@ -149,6 +149,7 @@ class ReferenceStepper : public Stepper {
                               : 1;
       body.velocity = to_eigen(start.velocity[i]) / kept;
       body.spin = to_eigen(start.spin[i]) / kept;
+      if (body.fixed) body.velocity = body.spin = Vector3d::Zero();
     }
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       for (int axis = 0; axis < 3; ++axis) {

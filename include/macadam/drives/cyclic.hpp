@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cyclic.hpp  −A·r(t)·sin(2πft): compression first, as walls are named ([1], section 4.4; model (13.1)).
+/// \file cyclic.hpp  −A·r(t)·sin(2πft): of the top wall, compression first ([1], section 4.4; model (13.1)).
 #pragma once
 
 #include <cmath>
@@ -24,6 +24,7 @@ struct Cyclic final : Drive {
   double dt() const override { return 1.0 / (frequency * static_cast<double>(steps_per_period)); }
   double shortest_time() const override { return 1 / frequency; }
   double fastest() const override { return std::abs(amplitude) * 2 * std::numbers::pi * frequency; }
+  bool begins() const override { return ramp_steps > 0; }
   double value(std::int64_t k) const override { return value(k, 0); }
 
   /// At step k + half/2, half 0 or 1.

@@ -13,7 +13,8 @@ class Drive {
  public:
   virtual ~Drive() = default;
 
-  /// At step k [m] or [N]; k = −1 is asked for where a run starts from a state of motion.
+  /// At step k [m] or [N]. A displacement is 0 at step 0, unless a run starts from a state of motion, which asks for
+  /// step −1 as well.
   virtual double value(std::int64_t k) const = 0;
 
   /// Mean rate between the steps k and k + 1 [m/s], of a displacement. To be overridden where the difference of two
@@ -26,6 +27,9 @@ class Drive {
   /// The shortest time in which it changes much [s]: a period, the length of a ramp; ∞ where it never does. Devices
   /// settle viscous laws many times within it.
   virtual double shortest_time() const = 0;
+
+  /// Whether anything begins at step 0. A run from a state of motion needs drives that have always gone on so.
+  virtual bool begins() const { return true; }
 
   /// Largest absolute rate [m/s] or [N/s].
   virtual double fastest() const = 0;

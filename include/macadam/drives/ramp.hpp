@@ -25,19 +25,20 @@ struct Ramp final : Drive {
       : height(height), step(step), ramp_steps(ramp_steps), hold_steps(hold_steps), smooth(smooth) {}
 
   double dt() const override { return step; }
-  double shortest_time() const override { return static_cast<double>(ramp_steps) * step; }
+  double shortest_time() const override { return static_cast<double>(rise()) * step; }
   double fastest() const override { return std::abs(height) / shortest_time() * (smooth ? std::numbers::pi / 2 : 1.0); }
   double value(std::int64_t k) const override {
     if (k <= 0) return 0;
-    if (k < ramp_steps) return height * share(k);
-    const std::int64_t held = k - ramp_steps;
+    if (k < rise()) return height * share(k);
+    const std::int64_t held = k - rise();
     if (held <= hold_steps) return height;
-    return height * (1 - share(std::min(held - hold_steps, ramp_steps)));
+    return height * (1 - share(std::min(held - hold_steps, rise())));
   }
 
  private:
+  std::int64_t rise() const { return std::max<std::int64_t>(ramp_steps, 1); }
   double share(std::int64_t k) const {
-    const double x = static_cast<double>(k) / static_cast<double>(ramp_steps);
+    const double x = static_cast<double>(k) / static_cast<double>(rise());
     return smooth ? std::pow(std::sin(std::numbers::pi / 2 * x), 2) : x;
   }
 };

@@ -20,6 +20,7 @@ struct LawFacts {
   double instantaneous = 0;                                        ///< [Pa]
   double shortest_time = std::numeric_limits<double>::infinity();  ///< [s]
   int units = 0;                                                   ///< state numbers a component besides f
+  int only_units = -1;                                             ///< that the compiler knows of; −1: any
   bool memoryless = false, linear = true, blocks = false;          ///< see law.hpp
 };
 
@@ -54,8 +55,8 @@ constexpr int units_of() {
 
 template <class L>
 LawFacts facts_of(const L& law) {
-  return {L::name,     law.alpha,         law.instantaneous(), law.shortest_time(),
-          law.units(), memoryless_law<L>, linear_law<L>,       has_blocks<L>};
+  return {L::name,       law.alpha,         law.instantaneous(), law.shortest_time(), law.units(),
+          units_of<L>(), memoryless_law<L>, linear_law<L>,       has_blocks<L>};
 }
 
 /// Of each pair that has a law.
