@@ -22,6 +22,8 @@
 #include "macadam/laws/all.hpp"
 #include "macadam/laws/shift.hpp"
 #include "macadam/fit.hpp"
+#include "macadam/spectrum.hpp"
+#include "macadam/experiments/all.hpp"
 #include "macadam/scene.hpp"
 #include "macadam/phantom.hpp"
 #include "macadam/twin.hpp"
