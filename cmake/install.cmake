@@ -3,7 +3,7 @@
 install(TARGETS macadam EXPORT macadamTargets)
 install(TARGETS macadam_cli)
 install(DIRECTORY include/macadam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(PROGRAMS scripts/draw-fit scripts/draw-calibration DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam)
+install(PROGRAMS scripts/draw-fit scripts/draw-calibration scripts/draw-relaxation DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam)
 install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam/examples)
 install(EXPORT macadamTargets NAMESPACE macadam:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam)
 file(WRITE ${PROJECT_BINARY_DIR}/macadamConfig.cmake "include(\${CMAKE_CURRENT_LIST_DIR}/macadamTargets.cmake)\n")
