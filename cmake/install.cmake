@@ -5,7 +5,7 @@ install(TARGETS macadam_cli)
 install(DIRECTORY include/macadam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 # The kernels as templates, for laws of a user's own
 install(DIRECTORY kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macadam-kernels FILES_MATCHING PATTERN "*.hpp")
-install(PROGRAMS scripts/draw-fit scripts/draw-calibration DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam)
+install(PROGRAMS scripts/draw-fit scripts/draw-calibration scripts/draw-relaxation DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam)
 install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam/examples)
 install(EXPORT macadamTargets NAMESPACE macadam:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam)
 configure_package_config_file(cmake/macadamConfig.cmake.in ${PROJECT_BINARY_DIR}/macadamConfig.cmake

@@ -24,7 +24,7 @@ Scene t8_scene(bool inertia = false) {
   scene.specimen.box.size = {0.008, 0.008, 0.011};
   scene.materials.aggregate = 2630, scene.materials.mastic = 2110;
   scene.laws = am1_laws();
-  scene.loading.frequencies = {2, 20};
+  scene.cyclic().frequencies = {2, 20};
   scene.solver.method = SolverMethod::harmonic;
   scene.solver.backend = Backend::cpu;
   scene.solver.inertia = inertia;
@@ -280,7 +280,7 @@ TEST(Calibration, TheCubeOfAggregateIsAsStiffAsItsRock) {
   scene.materials.aggregate = 2630;
   scene.laws[static_cast<std::size_t>(PairType::inner)] = laws::Elastic{aggregate_modulus, inner_alpha};
   scene.laws[static_cast<std::size_t>(PairType::aw)] = laws::Elastic{paper_wall_modulus, 0};
-  scene.loading.frequencies = {1};
+  scene.cyclic().frequencies = {1};
   scene.solver.method = SolverMethod::harmonic;
   scene.solver.backend = Backend::cpu;
   ModulusData rock;

@@ -22,8 +22,8 @@ class ExampleScene : public ::testing::TestWithParam<const char*> {
 
 TEST_P(ExampleScene, HasTheSolverAndLoadingOfThePaper) {
   const Scene scene = this->scene();
-  EXPECT_EQ(scene.loading.frequencies, (std::vector<double>{2, 5, 10, 20}));
-  EXPECT_EQ(scene.loading.strain_amplitude, 1e-4);
+  EXPECT_EQ(scene.cyclic().frequencies, (std::vector<double>{2, 5, 10, 20}));
+  EXPECT_EQ(scene.cyclic().strain_amplitude, 1e-4);
   EXPECT_EQ(scene.solver.tolerance, 1e-3);
   EXPECT_FALSE(scene.solver.density_scaling);
   if (!scene.recipe) { EXPECT_EQ(scene.materials.mastic, 2110); }

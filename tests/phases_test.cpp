@@ -59,7 +59,7 @@ void expect_whole(SolverMethod method, const std::vector<std::string>& expected)
   scene.specimen.box.size = {0.008, 0.008, 0.011};
   scene.materials = {2630, 2110};
   scene.laws = am1_laws();
-  scene.loading.frequencies = {20};
+  scene.cyclic().frequencies = {20};
   scene.solver.method = method;
   scene.solver.backend = Backend::cpu;
   if (method == SolverMethod::explicit_) scene.solver.tolerance = 1e-3;

@@ -174,7 +174,7 @@ class PlannedPrecision : public testing::Test {
     scene.specimen.box.size = {0.008, 0.008, 0.011};
     scene.materials = {2630, 2110};
     scene.laws = am1_laws();
-    scene.loading.frequencies = {20};
+    scene.cyclic().frequencies = {20};
     scene.solver.tolerance = tolerance;
     scene.solver.backend = Backend::cpu;
     return scene;
@@ -218,7 +218,7 @@ TEST_F(PlannedPrecision, IsDoubleBeyondTheMeasuredStiffnesses) {
 // More steps than single precision was measured with, fewer than mixed was.
 TEST_F(PlannedPrecision, IsMixedBeyondTheStepsOfSingle) {
   Scene scene = asked(0.1);
-  scene.loading.frequencies = {1};
+  scene.cyclic().frequencies = {1};
   scene.solver.density_scaling = std::vector<double>{1};
   const Plan made = plan(scene);
   const auto steps = made.frequencies.at(0).loading.steps_per_period;

@@ -56,11 +56,16 @@ class Program : public testing::Test {
 
   /// A scene of the 175 particles; the specimen's path is relative to it.
   fs::path write_scene(const std::string& solver = quick, const std::string& more = "") const {
+    return write_scene_of("kind = \"cyclic\"\nfrequencies = [20.0]\ncycles = 1\n", solver + more);
+  }
+
+  /// The same with another test.
+  fs::path write_scene_of(const std::string& loading, const std::string& solver = "") const {
     const fs::path file = folder_ / "scene.toml";
     std::ofstream(file) << "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n"
-                        << "[loading]\nkind = \"cyclic\"\nfrequencies = [20.0]\ncycles = 1\n"
-                        << "[solver]\n"
-                        << solver << more << am1_contacts;
+                        << "[loading]\n"
+                        << loading << "[solver]\n"
+                        << solver << am1_contacts;
     return file;
   }
 

@@ -141,8 +141,8 @@ TEST_F(SceneFile, ReadsEveryKindOfSectionInSIUnits) {
   EXPECT_EQ(elastic.E, 2 * 1.151e11);
   EXPECT_EQ(elastic.alpha, 0.0);
   EXPECT_FALSE(scene.laws[int(PairType::aa)]);
-  EXPECT_EQ(scene.loading.frequencies, (std::vector<double>{2, 5}));
-  EXPECT_EQ(scene.loading.ramp_cycles, 0.5);
+  EXPECT_EQ(scene.cyclic().frequencies, (std::vector<double>{2, 5}));
+  EXPECT_EQ(scene.cyclic().ramp_cycles, 0.5);
   EXPECT_EQ(scene.solver.density_scaling, (std::vector<double>{100, 16}));
   EXPECT_EQ(scene.solver.time_step, 1e-7);
   EXPECT_EQ(scene.solver.damping_kind, Damping::none);
@@ -153,11 +153,11 @@ TEST_F(SceneFile, DefaultsAreThoseOfTheHeader) {
   Edits edits;
   for (int line : {27, 28, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42}) edits[line] = "";
   const Scene scene = read(text_of(edits));
-  const LoadingSpec loading;
+  const experiments::Cyclic loading;
   const SolverSpec solver;
-  EXPECT_EQ(scene.loading.strain_amplitude, loading.strain_amplitude);
-  EXPECT_EQ(scene.loading.cycles, loading.cycles);
-  EXPECT_EQ(scene.loading.samples_per_cycle, loading.samples_per_cycle);
+  EXPECT_EQ(scene.cyclic().strain_amplitude, loading.strain_amplitude);
+  EXPECT_EQ(scene.cyclic().cycles, loading.cycles);
+  EXPECT_EQ(scene.cyclic().samples_per_cycle, loading.samples_per_cycle);
   EXPECT_EQ(scene.solver.density_scaling, solver.density_scaling);
   EXPECT_EQ(scene.solver.safety, solver.safety);
   EXPECT_EQ(scene.solver.backend, Backend::automatic);
@@ -194,7 +194,7 @@ TEST_F(SceneFile, ReadsTheOtherChoices) {
   EXPECT_EQ(scene.network.of_pair[int(PairType::mm)].area_min, 0.0);
   EXPECT_FALSE(scene.network.of_pair[int(PairType::ma)].gap_max);
   EXPECT_TRUE(scene.network.lateral_walls);
-  EXPECT_EQ(scene.loading.fit_cycles, 3);
+  EXPECT_EQ(scene.cyclic().fit_cycles, 3);
   EXPECT_EQ(scene.solver.method, SolverMethod::harmonic);
   EXPECT_EQ(scene.solver.density_scaling, std::vector<double>{2.5});
   EXPECT_EQ(scene.solver.geometry, Geometry::fixed);
@@ -358,7 +358,7 @@ const std::vector<Wrong> wrong_scenes = {
     // Choices
     {"UnknownPair", {{15, "pair = \"M-B\""}}, 15, "\"M-B\"", "\"M-M\", \"M-A\", \"A-A\", \"inner\""},
     {"UnknownLaw", {{24, "law = \"burgers\""}}, 24, "\"burgers\"", "\"elastic\", \"generalised_kelvin\""},
-    {"UnknownKind", {{30, "kind = \"creep\""}}, 30, "\"creep\"", "\"cyclic\""},
+    {"UnknownKind", {{30, "kind = \"torsion\""}}, 30, "\"torsion\"", "\"cyclic\""},
     {"UnknownMethod", {{36, "method = \"implicit\""}}, 36, "\"implicit\"", "\"harmonic\""},
     {"UnknownPrecision", {{36, "precision = \"float\""}}, 36, "\"float\"", "\"mixed\""},
     {"UnknownBackend", {{36, "backend = \"gpu\""}}, 36, "\"gpu\"", "\"cuda\""},

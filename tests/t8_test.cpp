@@ -40,10 +40,10 @@ class T8 : public testing::Test {
     scene.specimen.box.size = {0.008, 0.008, 0.011};
     scene.materials = {2630, 2110};
     scene.laws = am1_laws();
-    scene.loading.frequencies = {frequency};
-    scene.loading.cycles = cycles;
-    scene.loading.fit_cycles = 2;
-    scene.loading.samples_per_cycle = samples_per_cycle;
+    scene.cyclic().frequencies = {frequency};
+    scene.cyclic().cycles = cycles;
+    scene.cyclic().fit_cycles = 2;
+    scene.cyclic().samples_per_cycle = samples_per_cycle;
     scene.solver.density_scaling = std::vector<double>{density_scaling};
     scene.solver.form = form;
     scene.solver.backend = Backend::cpu;

@@ -29,7 +29,7 @@ class Tolerance : public testing::Test {
     scene.specimen = std::move(specimen);
     scene.materials = {2630, 2110};
     scene.laws = am1_laws();
-    scene.loading.frequencies = {2, 5, 10, 20};
+    scene.cyclic().frequencies = {2, 5, 10, 20};
     scene.solver.tolerance = tolerance;
     scene.solver.backend = Backend::cpu;
     scene.solver.threads = 1;
@@ -95,7 +95,7 @@ TEST_F(Tolerance, IsKeptOnClustersWithBothMixes) {
                                std::get<laws::GeneralisedKelvin>(*laws[int(PairType::mm)]).E_m));
       Scene scene = scene_of(cluster_recipe(test_seed(), {0.012, 0.012, 0.016}), tolerance);
       scene.laws = laws;
-      scene.loading.frequencies = long_tests ? std::vector{2.0, 20.0} : std::vector{20.0};
+      scene.cyclic().frequencies = long_tests ? std::vector{2.0, 20.0} : std::vector{20.0};
       expect_kept(scene);
     }
   }
@@ -119,12 +119,12 @@ TEST_F(Tolerance, IsKeptInBlocksOfStepsOnCuda) {
 
 TEST_F(Tolerance, GivenSettingsWin) {
   Scene scene = scene_of(t8(), 1e-2);
-  scene.loading.frequencies = {20};
+  scene.cyclic().frequencies = {20};
   scene.solver.density_scaling = std::vector<double>{2e4};
   scene.solver.precision = Precision::double_;
   scene.solver.geometry = Geometry::updated;
   scene.solver.form = ContactForm::points;
-  scene.loading.cycles = 2;
+  scene.cyclic().cycles = 2;
   const RunResult result = run_it(scene);
   EXPECT_EQ(result.frequencies[0].density_scaling, 2e4);
   EXPECT_EQ(result.frequencies[0].cycles, 2);
@@ -147,8 +147,8 @@ bool says(const RunResult& result, const std::string& what) {
 // Local damping is not linear: a ramp from rest, although a steady start was asked; and it is said.
 TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   Scene scene = scene_of(t8(), 1e-2);
-  scene.loading.frequencies = {20};
-  scene.loading.start = Start::steady;
+  scene.cyclic().frequencies = {20};
+  scene.cyclic().start = Start::steady;
   scene.solver.damping_kind = Damping::local;
   scene.solver.damping = 0.02;
   const RunResult result = run_it(scene);
@@ -164,7 +164,7 @@ TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
 // Two particles that can turn freely: no harmonic solution, but a steady state that the stepping finds.
 TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
   Scene scene = scene_of(t8(), 1e-2);
-  scene.loading.frequencies = {20};
+  scene.cyclic().frequencies = {20};
   scene.network.quadrature = Quadrature::one_point;
   scene.network.gap_max = -0.14;
   const RunResult result = run_it(scene);
@@ -181,7 +181,7 @@ TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
 // A mechanism has no static modulus: what the stepping finds is inertia, at a phase of some 150 degrees.
 TEST_F(Tolerance, AMechanismIsAFailedRun) {
   Scene scene = scene_of(t8(), 1e-2);
-  scene.loading.frequencies = {20};
+  scene.cyclic().frequencies = {20};
   scene.network.quadrature = Quadrature::one_point;
   for (auto& law : scene.laws) std::visit([](auto& l) { l.alpha = 0; }, *law);
   try {
@@ -195,7 +195,7 @@ TEST_F(Tolerance, AMechanismIsAFailedRun) {
 // What the scene gives may not keep the tolerance: it is said.
 TEST_F(Tolerance, AMissIsSaid) {
   Scene scene = scene_of(t8(), 1e-3);
-  scene.loading.frequencies = {20};
+  scene.cyclic().frequencies = {20};
   scene.solver.density_scaling = std::vector<double>{5e4};
   EXPECT_FALSE(run_it(scene).frequencies[0].kept.value());
   EXPECT_EQ(summary().at("results").at(0).at("tolerance_kept"), false);
@@ -203,7 +203,7 @@ TEST_F(Tolerance, AMissIsSaid) {
 
 TEST_F(Tolerance, AGivenStepHasTheScalingThatItNeeds) {
   Scene scene = scene_of(t8(), 1e-2);
-  scene.loading.frequencies = {20};
+  scene.cyclic().frequencies = {20};
   scene.solver.time_step = 5e-6;
   const FrequencyResult f = run_it(scene).frequencies[0];
   EXPECT_TRUE(f.kept.value());
@@ -214,8 +214,8 @@ TEST_F(Tolerance, AGivenStepHasTheScalingThatItNeeds) {
 // Large strains: the run keeps its geometry up to date and says that the harmonic solution does not.
 TEST_F(Tolerance, LargeStrainsAreNotLinear) {
   Scene scene = scene_of(t8(), 1e-3);
-  scene.loading.frequencies = {20};
-  scene.loading.strain_amplitude = 0.01;
+  scene.cyclic().frequencies = {20};
+  scene.cyclic().strain_amplitude = 0.01;
   const RunResult result = run_it(scene);
   EXPECT_EQ(result.geometry, Geometry::updated);
   EXPECT_TRUE(says(result, "not linear at this strain"));
@@ -226,8 +226,8 @@ TEST_F(Tolerance, LargeStrainsAreNotLinear) {
 // The geometry of the start, as the scene wants it, misses the tolerance although the harmonic solution is met.
 TEST_F(Tolerance, AFixedGeometryAtLargeStrainIsAMiss) {
   Scene scene = scene_of(t8(), 1e-2);
-  scene.loading.frequencies = {20};
-  scene.loading.strain_amplitude = 0.1;
+  scene.cyclic().frequencies = {20};
+  scene.cyclic().strain_amplitude = 0.1;
   scene.solver.geometry = Geometry::fixed;
   const FrequencyResult f = run_it(scene).frequencies[0];
   EXPECT_LE(largest(*f.achieved), 1e-2);
@@ -239,10 +239,10 @@ TEST_F(Tolerance, FixedGeometryCostsWhatIsStated) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.solver.tolerance = std::nullopt;
   scene.solver.density_scaling = std::vector<double>{1e4};
-  scene.loading.frequencies = {20};
-  scene.loading.start = Start::steady;
-  scene.loading.cycles = 4;
-  scene.loading.strain_amplitude = 3e-3;
+  scene.cyclic().frequencies = {20};
+  scene.cyclic().start = Start::steady;
+  scene.cyclic().cycles = 4;
+  scene.cyclic().strain_amplitude = 3e-3;
   const auto modulus = [&](Geometry geometry) {
     scene.solver.geometry = geometry;
     return run_it(scene).frequencies[0].stiffness.e_star_pa;
@@ -255,28 +255,28 @@ TEST_F(Tolerance, FixedGeometryCostsWhatIsStated) {
 // Without a ramp the run says what that costs.
 TEST_F(Tolerance, AStartWithoutARampIsSaid) {
   Scene scene = scene_of(t8(), 1e-2);
-  scene.loading.frequencies = {20};
-  scene.loading.start = Start::rest;
-  scene.loading.cycles = 1;
+  scene.cyclic().frequencies = {20};
+  scene.cyclic().start = Start::rest;
+  scene.cyclic().cycles = 1;
   EXPECT_TRUE(says(run_it(scene), "no ramp"));
 }
 
 // A ramp that leaves no cycle to fit makes the run longer.
 TEST_F(Tolerance, TheFittedCyclesLieAfterTheRamp) {
   Scene scene = scene_of(t8(), 1e-2);
-  scene.loading.frequencies = {20};
+  scene.cyclic().frequencies = {20};
   scene.solver.tolerance = std::nullopt;
   scene.solver.density_scaling = std::vector<double>{5e4};
-  scene.loading.ramp_cycles = 4;
+  scene.cyclic().ramp_cycles = 4;
   EXPECT_EQ(run_it(scene).frequencies[0].cycles, 6);
 }
 
 // Only the fitted cycles are observed where nobody wants the response; the answer is the same.
 TEST_F(Tolerance, AResponseNobodyAskedForIsNotObserved) {
   Scene scene = scene_of(t8(), 1e-2);
-  scene.loading.frequencies = {20};
-  scene.loading.start = Start::rest;
-  scene.loading.cycles = 5;
+  scene.cyclic().frequencies = {20};
+  scene.cyclic().start = Start::rest;
+  scene.cyclic().cycles = 5;
   const RunResult with = run_it(scene);
   EXPECT_TRUE(std::filesystem::exists(folder() / "response.csv"));
   scene.output.response = false;

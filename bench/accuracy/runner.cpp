@@ -87,7 +87,7 @@ const Scene& Runner::scene(const std::string& name, const std::string& mix) {
   Scene& made = at->second = read_scene(root_ / "examples/demo/scene.toml");
   if (mix == "AM2") made.laws = read_scene(root_ / "examples/ac14_ss_am2/scene.toml").laws;
   made.laws[static_cast<std::size_t>(PairType::inner)] = clusters.laws[static_cast<std::size_t>(PairType::inner)];
-  made.loading = {};
+  made.experiment = {};
   made.solver = {};
   if (name == "clusters") {  // the demo's box and classes, with real shapes, finely filled
     made.specimen.shapes = clusters.specimen.shapes;
@@ -200,7 +200,7 @@ std::vector<Outcome> Runner::run(Case& c) {
       return out;
     }
     if (std::ranges::find(c.cycles, now.cycles) == c.cycles.end()) continue;
-    now.fit_cycles = LoadingSpec{}.fitted(now.cycles);
+    now.fit_cycles = experiments::Cyclic{}.fitted(now.cycles);
     now.found = evaluate_cyclic(samples, c.frequency, now.fit_cycles).fit;
     out.push_back(now);
   }
@@ -210,8 +210,8 @@ std::vector<Outcome> Runner::run(Case& c) {
 /// The whole program with `[solver] tolerance`: it chooses, and the case's settings say afterwards what it chose.
 std::vector<Outcome> Runner::run_asked(Case& c) {
   Scene asked = scene(c.scene, c.mix);
-  asked.loading.frequencies = {c.frequency};
-  asked.loading.strain_amplitude = c.strain;
+  asked.cyclic().frequencies = {c.frequency};
+  asked.cyclic().strain_amplitude = c.strain;
   asked.solver.tolerance = c.tolerance;
   asked.solver.backend = c.backend;
   asked.solver.threads = 1;
@@ -228,7 +228,7 @@ std::vector<Outcome> Runner::run_asked(Case& c) {
   out.truth = out.model = n.solve(c.frequency, 1, 0).top;
   out.own = n.solve(c.frequency, f.density_scaling, 0).top;
   out.cycles = f.cycles;
-  out.fit_cycles = asked.loading.fitted(f.cycles);
+  out.fit_cycles = asked.cyclic().fitted(f.cycles);
   out.steps = f.steps;
   out.seconds = f.seconds;
   out.seconds_harmonic = result.seconds_planning;

@@ -109,8 +109,8 @@ void observation() {
   scene.specimen.box.size = {0.008, 0.008, 0.011};
   scene.materials = {2630, 2110};
   scene.laws = test::am1_laws();
-  scene.loading.frequencies = {20};
-  scene.loading.cycles = 10;
+  scene.cyclic().frequencies = {20};
+  scene.cyclic().cycles = 10;
   scene.solver.density_scaling = std::vector<double>{5e4};
   scene.solver.geometry = Geometry::fixed;
   scene.solver.backend = backend;

@@ -12,7 +12,7 @@ int main(int argc, char** argv) try {
   // 1. A scene, read from a file and checked, then changed
   macadam::Scene scene = macadam::read_scene(argc > 1 ? argv[1] : "examples/demo/scene.toml");
   scene.specimen.box.size = {14e-3, 14e-3, 16e-3};  // m
-  scene.loading.frequencies = {20};                 // Hz
+  scene.cyclic().frequencies = {20};                // Hz
 
   // 2. Its particles, their Laguerre cells and the contacts between them
   const macadam::Preparation prepared = macadam::prepare(scene);

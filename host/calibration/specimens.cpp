@@ -40,7 +40,7 @@ std::vector<std::optional<double>> temperatures_of(const Scene& scene, const Mod
     throw InputError(data.source, 0, what, found, expected);
   };
   std::vector<std::optional<double>> out;
-  const std::vector<double>& several = scene.loading.temperatures;
+  const std::vector<double>& several = scene.cyclic().temperatures;
   if (!data.temperatures && several.size() > 1) {
     refuse("column temperature_c", fmt::format("none beside the {} temperatures of the scene", several.size()),
            "it, or one temperature in the scene");
@@ -79,7 +79,7 @@ double Specimens::density_scaling_at(double frequency) const {
   const auto& scaling = scene_.solver.density_scaling;
   if (!inertia_) return 0;
   if (!scaling || scaling->size() == 1) return density_scaling_of(scene_.solver, 0);
-  const auto& known = scene_.loading.frequencies;
+  const auto& known = scene_.cyclic().frequencies;
   const auto at = std::find(known.begin(), known.end(), frequency);
   if (at == known.end()) {
     throw InputError(data_.source, 0, "column frequency_hz",

@@ -91,10 +91,18 @@ void run_command(const Arguments& arguments) {
   listen_to_stop_signals();
   const RunResult result = run(scene, arguments.job.out, watcher, arguments.resume);
   line.clear();
-  say_results(result);
-  say("\n{} | files in {}: summary.json specimen.csv{}{}{}\n", result.solver, arguments.job.out,
-      scene.solver.method == SolverMethod::explicit_ && scene.output.response ? " response.csv" : "",
-      scene.output.contacts ? " contacts.csv" : "", scene.output.fields.any() ? " fields/" : "");
+  if (result.frequencies.empty()) {
+    say("{}", results_table(result));
+    for (const std::string& warning : result.warnings) say("warning: {}\n", warning);
+  } else {
+    say_results(result);
+  }
+  std::string files = "summary.json specimen.csv";
+  for (const std::string& name : files_of(scene.experiment))
+    if (std::filesystem::exists(std::filesystem::path(arguments.job.out) / name)) files += " " + name;
+  if (scene.output.contacts) files += " contacts.csv";
+  if (scene.output.fields.any()) files += " fields/";
+  say("\n{} | files in {}: {}\n", result.solver, arguments.job.out, files);
 }
 
 }  // namespace

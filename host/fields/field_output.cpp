@@ -33,6 +33,12 @@ bool is_field_file(const fs::path& file) {
          (name.starts_with(particles) || name.starts_with(contacts) || name.starts_with(cells));
 }
 
+/// Of steady states: that of a cyclic test; a sweep has none.
+double strain_amplitude(const Scene& scene) {
+  const auto* cyclic = std::get_if<experiments::Cyclic>(&scene.experiment);
+  return cyclic ? cyclic->strain_amplitude : experiments::Cyclic{}.strain_amplitude;
+}
+
 FieldMesh cells_of(const Preparation& prepared) {
   return cell_mesh(prepared.specimen, prepared.tessellation, prepared.aggregates);
 }
@@ -96,7 +102,7 @@ std::vector<std::string> FieldOutput::begin(double frequency_hz, double time) {
 }
 
 bool FieldOutput::wants(std::int64_t sample) const {
-  return (particles_ || contacts_) && sample % scene_.output.fields.stride(scene_.loading.samples_per_cycle) == 0;
+  return (particles_ || contacts_) && sample % scene_.output.fields.stride(scene_.cyclic().samples_per_cycle) == 0;
 }
 
 void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometry, double time) {
@@ -114,7 +120,7 @@ void FieldOutput::write(const HarmonicResult& solved, const LawTable& laws, std:
   const FieldSpec& spec = scene_.output.fields;
   std::string name = fmt::format("{}Hz", solved.frequency_hz);
   if (temperature) name += fmt::format("_{}C", *temperature);
-  const double amplitude = scene_.loading.strain_amplitude * prepared_.specimen.box.size.z;
+  const double amplitude = strain_amplitude(scene_) * prepared_.specimen.box.size.z;
   if (spec.particles) {
     write_fields(stem(particles, name), spec.format, particle_mesh(prepared_.specimen, prepared_.aggregates),
                  particle_arrays(solved.motion, amplitude));

@@ -6,7 +6,7 @@
 
 namespace macadam::fitting {
 
-Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& b) {
+Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& b, double enough) {
   const Eigen::Index n = matrix.cols();
   Eigen::VectorXd length = matrix.colwise().norm().transpose();
   for (double& l : length)
@@ -16,7 +16,8 @@ Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& matrix, const 
   std::vector<bool> free(static_cast<std::size_t>(n), false);
   const double rounding = 1e-13 * b.norm();
   for (Eigen::Index round = 0; round < 10 * n; ++round) {  // three times n is usual; ties could go on for ever
-    const Eigen::VectorXd gradient = A.transpose() * (b - A * x);
+    const Eigen::VectorXd rest = b - A * x, gradient = A.transpose() * rest;
+    if (rest.cwiseAbs().maxCoeff() <= enough) break;
     Eigen::Index best = -1;
     for (Eigen::Index i = 0; i < n; ++i)
       if (!free[static_cast<std::size_t>(i)] && gradient[i] > rounding && (best < 0 || gradient[i] > gradient[best]))

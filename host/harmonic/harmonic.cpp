@@ -65,7 +65,7 @@ class Harmonic::Implementation {
         options_(options),
         contacts_(network, specimen.size()) {
     require_laws_of(network, laws);
-    typical_ = pair_stiffness(laws, Complex(0, 2 * std::numbers::pi * typical_frequency));
+    typical_ = pair_stiffness(laws, Complex(options.typical_growth, 2 * std::numbers::pi * typical_frequency));
     options_.backend = select_backend(options.backend, nullptr, options.device);
     free_ = find_free_motions(specimen, network, typical_, inertia);
     if (options.linear == LinearMethod::direct) {

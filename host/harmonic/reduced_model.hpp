@@ -34,6 +34,9 @@ class ReducedModel {
   /// The particles' motion, to begin an iteration at (HarmonicLoad::near).
   Vector motion(const Solution& solution) const;
 
+  /// uᵀ·K·u of a pair per k*, between the motions: N + α·S. Not over the specimen's size.
+  Eigen::MatrixXd form(std::size_t pair, double alpha) const { return normal_[pair] + alpha * shear_[pair]; }
+
   Eigen::Index motions() const { return basis_.cols(); }  ///< real ones, the first included
 
  private:

@@ -39,18 +39,25 @@ std::vector<double> read_density_scaling(const Value& value, std::size_t frequen
 
 }  // namespace
 
-SolverSpec read_solver(const Section& section, const LoadingSpec& loading) {
+SolverSpec usual_solver(const Experiment& experiment) {
+  SolverSpec out;
+  if (!steps(experiment)) out.method = SolverMethod::harmonic;
+  return out;
+}
+
+SolverSpec read_solver(const Section& section, const Experiment& experiment) {
+  const std::vector<double> frequencies = frequencies_of(experiment);
   constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a share of the critical step, above 0 and at most 1"};
   // below 1e-7 the harmonic solution that everything is measured against has too few digits itself
   constexpr Rule error{[](double v) { return v >= 1e-7 && v <= 0.1; }, "an error from 1e-7 to 0.1"};
   constexpr std::int64_t most_threads = 65'536, most_devices = 1023;
-  SolverSpec spec;
+  SolverSpec spec = usual_solver(experiment);
   section.read(
       {{"method", Need::optional,
         into<SolverMethod>(spec.method, {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}})},
        {"tolerance", Need::optional, into(spec.tolerance, ratio, error)},
        {"density_scaling", Need::optional,
-        [&](const Value& v) { spec.density_scaling = read_density_scaling(v, loading.frequencies.size()); }},
+        [&](const Value& v) { spec.density_scaling = read_density_scaling(v, frequencies.size()); }},
        {"safety", Need::optional, into(spec.safety, ratio, share)},
        {"time_step", Need::optional, into(spec.time_step, duration, positive)},
        {"damping_kind", Need::optional,
@@ -78,6 +85,10 @@ SolverSpec read_solver(const Section& section, const LoadingSpec& loading) {
        {"inertia", Need::optional, into(spec.inertia)}});
   read_damping(section, spec);
 
+  if (spec.method == SolverMethod::explicit_ && !steps(experiment)) {
+    section.refuse("method", fmt::format("\"explicit\" beside kind = \"{}\" in [loading]", kind_of(experiment)),
+                   "\"harmonic\": it is not stepped in time");
+  }
   if (spec.inertia && spec.method == SolverMethod::explicit_) {
     section.refuse("inertia", "true beside method \"explicit\", which always has inertia",
                    "false, or method = \"harmonic\"");
@@ -87,8 +98,8 @@ SolverSpec read_solver(const Section& section, const LoadingSpec& loading) {
   }
   // A fit of the fundamental with offset and trend is meaningless with fewer than eight samples a cycle, and a sample
   // takes a step.
-  const double fastest = *std::max_element(loading.frequencies.begin(), loading.frequencies.end());
   constexpr double fewest_steps = 8;
+  const double fastest = frequencies.empty() ? 0 : *std::max_element(frequencies.begin(), frequencies.end());
   if (spec.time_step && *spec.time_step * fastest * fewest_steps > 1) {
     section.refuse(
         "time_step", fmt::format("{} s", *spec.time_step),

@@ -96,6 +96,12 @@ void check_together(const Scene& scene, const Section& root) {
     root.find("network")->section().refuse("quadrature", "\"exact\" beside form = \"points\" in [solver]",
                                            "\"lumped\", or form = \"condensed\"");
   }
+  if (scene.output.fields.any() && !std::holds_alternative<experiments::Cyclic>(scene.experiment) &&
+      !std::holds_alternative<experiments::Sweep>(scene.experiment)) {
+    root.find("output")->section().refuse("fields",
+                                          "this key beside a kind of [loading] that has no motion of particles",
+                                          "kind = \"cyclic\" or \"sweep\"");
+  }
   const auto need_density = [&](bool generated, double density, const std::string& phase) {
     if (generated && density == 0) {
       root.refuse("materials", "no density of the " + phase + " that [specimen] generates",
@@ -130,51 +136,7 @@ toml::table read_toml(const std::filesystem::path& file, const std::string& what
   }
 }
 
-LoadingSpec read_loading(const Section& section) {
-  // below 1e-20 the increments of a step leave the range of single precision; rounding of the geometry is far larger
-  constexpr Rule strain{[](double v) { return v >= 1e-20 && v < 1; }, "a strain from 1e-20 to below 1"};
-  constexpr std::int64_t most = 1'000'000;
-  constexpr Rule ramp{[](double v) { return v >= 0 && v <= most; }, "0 to 1,000,000 cycles"};
-  LoadingSpec spec;
-  section.read({{"kind", Need::required, [](const Value& v) { v.choice({"cyclic"}); }},
-                {"frequencies", Need::required, into(spec.frequencies, frequency, positive)},
-                {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius)},
-                {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain)},
-                {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}})},
-                {"cycles", Need::optional, into(spec.cycles, 1, most)},
-                {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp)},
-                {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most)},
-                {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most)}});
-  const auto once = [&](const std::string& key, std::vector<double> sorted, const char* unit, const char* what) {
-    if (sorted.empty() && section.has(key)) section.refuse(key, "none", "at least one");
-    std::sort(sorted.begin(), sorted.end());
-    if (const auto twin = std::adjacent_find(sorted.begin(), sorted.end()); twin != sorted.end()) {
-      section.refuse(key, fmt::format("{} {} twice", *twin, unit), fmt::format("each {} once", what));
-    }
-  };
-  once("frequencies", spec.frequencies, "Hz", "frequency");
-  once("temperatures", spec.temperatures, "degrees C", "temperature");
-  if (spec.start == Start::steady && spec.ramp_cycles.value_or(0) > 0) {
-    section.refuse("ramp_cycles", fmt::format("{} beside start = \"steady\"", *spec.ramp_cycles),
-                   "0: a steady start is in motion at once");
-  }
-  if (spec.cycles && spec.fit_cycles.value_or(1) > *spec.cycles) {
-    section.refuse("fit_cycles", fmt::format("{}", *spec.fit_cycles), fmt::format("at most cycles, {}", *spec.cycles));
-  }
-  if (spec.cycles && spec.ramp_cycles) {
-    const int fitted = spec.fitted(*spec.cycles);
-    if (*spec.ramp_cycles > *spec.cycles - fitted) {
-      section.refuse(
-          "ramp_cycles", fmt::format("{}", *spec.ramp_cycles),
-          fmt::format("at most {}: the last {} of {} cycles are fitted", *spec.cycles - fitted, fitted, *spec.cycles));
-    }
-  }
-  return spec;
-}
-
 }  // namespace scene
-
-const char* to_string(Start start) { return start == Start::steady ? "steady" : "rest"; }
 
 Scene read_scene(const std::filesystem::path& file) {
   using namespace scene;
@@ -185,14 +147,16 @@ Scene read_scene(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.parent_path();
   const Need densities = table["specimen"]["recipe"] ? Need::optional : Need::required;
   const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
+  std::optional<SolverSpec> solver;
   root.read({{"specimen", Need::required, read_the_specimen},
              {"materials", densities, [&](const Value& v) { out.materials = read_materials(v.section(), densities); }},
              {"contacts", Need::required,
               [&](const Value& v) { out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network); }},
              {"network", Need::optional, [&](const Value& v) { read_network(v.section(), out.network); }},
-             {"loading", Need::required, [&](const Value& v) { out.loading = read_loading(v.section()); }},
-             {"solver", Need::optional, [&](const Value& v) { out.solver = read_solver(v.section(), out.loading); }},
+             {"loading", Need::required, [&](const Value& v) { out.experiment = read_experiment(v.section()); }},
+             {"solver", Need::optional, [&](const Value& v) { solver = read_solver(v.section(), out.experiment); }},
              {"output", Need::optional, [&](const Value& v) { read_output(v.section(), out.output); }}});
+  out.solver = solver.value_or(usual_solver(out.experiment));
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   check_together(out, root);
   apply_temperature(out, root);

@@ -49,12 +49,15 @@ void check_fields(const Section& section, const FieldSpec& spec);
 /// \throws InputError
 void apply_temperature(Scene& scene, const Section& root);
 
-/// Reads `[loading]`.
+/// Reads `[loading]` as its `kind` has it.
 /// \throws InputError
-LoadingSpec read_loading(const Section& section);
+Experiment read_experiment(const Section& section);
 
-/// Reads `[solver]`; density scaling and time step are checked against the loading's frequencies.
+/// How a test is run that says nothing of it.
+SolverSpec usual_solver(const Experiment& experiment);
+
+/// Reads `[solver]`; density scaling and time step are checked against the test's frequencies.
 /// \throws InputError
-SolverSpec read_solver(const Section& section, const LoadingSpec& loading);
+SolverSpec read_solver(const Section& section, const Experiment& experiment);
 
 }  // namespace macadam::scene

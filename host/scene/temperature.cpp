@@ -61,7 +61,7 @@ void apply_temperature(Scene& scene, const Section& root) {
     }
     return at;
   };
-  const auto& several = scene.loading.temperatures;
+  const std::vector<double> several = temperatures_of(scene.experiment);
   if (!several.empty()) {
     const Section loading = root.find("loading")->section();
     if (scene.materials.temperature) {

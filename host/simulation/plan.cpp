@@ -66,7 +66,7 @@ class Planner {
     const bool one_point = scene_.network.quadrature == Quadrature::one_point;
     plan_.form = scene_.solver.form.value_or(one_point ? ContactForm::points : ContactForm::condensed);
     plan_.geometry = scene_.solver.geometry.value_or(Geometry::updated);
-    const double strain = scene_.loading.strain_amplitude, error = fixed_geometry_error(strain);
+    const double strain = scene_.cyclic().strain_amplitude, error = fixed_geometry_error(strain);
     if (automatic() && !scene_.solver.geometry && error <= geometry_share * tolerance()) {
       plan_.geometry = Geometry::fixed;
     }
@@ -93,12 +93,12 @@ class Planner {
     try {
       harmonic_.emplace(prepared_.specimen, prepared_.network, scene_.laws, inertia_,
                         harmonic_options(scene_, backend_, stop_, planning_residual()),
-                        geometric_mean(scene_.loading.frequencies));
+                        geometric_mean(scene_.cyclic().frequencies));
     } catch (const RunError& error) { no_harmonic_ = error.what(); }
   }
 
   void choose_start() {
-    const LoadingSpec& loading = scene_.loading;
+    const experiments::Cyclic& loading = scene_.cyclic();
     const bool asked = loading.start == Start::steady;
     start_ = loading.start.value_or(automatic() && loading.ramp_cycles.value_or(0) == 0 ? Start::steady : Start::rest);
     if (!automatic() && start_ == Start::rest) return;
@@ -151,7 +151,7 @@ class Planner {
 
   /// All frequencies at once: what they are at true mass, then with the inertia that they will be stepped with.
   void plan_frequencies() {
-    const std::vector<double>& frequencies = scene_.loading.frequencies;
+    const std::vector<double>& frequencies = scene_.cyclic().frequencies;
     std::vector<HarmonicLoad> loads;
     for (const double f : frequencies) loads.push_back({f, 1, 0});  // undamped: damping is no property of the specimen
     const auto known = solutions(loads);
@@ -175,7 +175,7 @@ class Planner {
     if (scene_.solver.time_step) {  // as little as the given step needs
       return std::max(1.0, std::pow(*scene_.solver.time_step / (safety() * plan_.critical.dt), 2));
     }
-    const double frequency = scene_.loading.frequencies[i];
+    const double frequency = scene_.cyclic().frequencies[i];
     if (known) return largest_scaling(*known, viscous(), 0.97 * inertia_share * tolerance());
     return std::max(1.0, estimate_share * tolerance() / inertia_estimate(scene_, prepared_, frequency));
   }
@@ -239,7 +239,7 @@ class Planner {
 
   /// Also returns the cycles of the ramp.
   double choose_cycles(FrequencyPlan& f) const {
-    const LoadingSpec& loading = scene_.loading;
+    const experiments::Cyclic& loading = scene_.cyclic();
     const bool steady = f.start == Start::steady;
     const double ramp = steady ? 0 : loading.ramp_cycles.value_or(ramp_);
     f.cycles = loading.cycles.value_or(steady ? 1 : automatic() ? cycles_from_rest(tolerance()) : 5);
@@ -253,7 +253,7 @@ class Planner {
 
   /// A whole number of samples a period, a whole number of steps a sample.
   drives::Cyclic make_loading(const FrequencyPlan& f, double frequency, double ramp) const {
-    const LoadingSpec& spec = scene_.loading;
+    const experiments::Cyclic& spec = scene_.cyclic();
     double step = scene_.solver.time_step.value_or(safety() * plan_.critical.dt * std::sqrt(f.density_scaling));
     if (viscous() > 0 && !scene_.solver.time_step) step = std::min(step, 1 / viscous());  // follow the decay
     const double wanted = 1 / (frequency * step * spec.samples_per_cycle);
@@ -279,7 +279,7 @@ class Planner {
     std::string beyond_single, beyond_mixed;
     for (std::size_t i = 0; i < plan_.frequencies.size(); ++i) {
       const FrequencyPlan& f = plan_.frequencies[i];
-      const RoundingScale scale = rounding_scale(scene_, prepared_, scene_.loading.frequencies[i],
+      const RoundingScale scale = rounding_scale(scene_, prepared_, scene_.cyclic().frequencies[i],
                                                  f.cycles * f.loading.steps_per_period, f.density_scaling);
       single = std::max(single, single_precision_error(scale));
       mixed = std::max(mixed, mixed_precision_error(scale));

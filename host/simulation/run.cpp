@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 
+#include "host/experiments/experiment.hpp"
 #include "host/fields/field_output.hpp"
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
@@ -21,13 +22,18 @@ namespace {
 
 /// What the command line may have combined.
 void require_backend_fits(const Scene& scene) {
+  if (scene.solver.method == SolverMethod::explicit_ && !steps(scene.experiment)) {
+    throw InputError(scene.file.string(), 0, "method",
+                     std::string("\"explicit\" beside kind \"") + kind_of(scene.experiment) + "\"",
+                     "\"harmonic\": it is not stepped in time");
+  }
   if (scene.solver.method == SolverMethod::explicit_ && scene.solver.inertia) {
     throw InputError(scene.file.string(), 0, "inertia", "true beside method \"explicit\", which always has inertia",
                      "false, or method \"harmonic\"");
   }
-  if (scene.solver.method == SolverMethod::explicit_ && !scene.loading.temperatures.empty()) {
+  if (scene.solver.method == SolverMethod::explicit_ && !temperatures_of(scene.experiment).empty()) {
     throw InputError(scene.file.string(), 0, "temperatures in [loading]",
-                     fmt::format("{} of them beside method \"explicit\"", scene.loading.temperatures.size()),
+                     fmt::format("{} of them beside method \"explicit\"", temperatures_of(scene.experiment).size()),
                      "method \"harmonic\", or one as temperature in [materials]");
   }
   if (scene.solver.method != SolverMethod::explicit_ || scene.solver.backend != Backend::reference) return;
@@ -53,7 +59,7 @@ void require_checkpoints(const Scene& scene, Backend backend, bool resume) {
 
 /// None of an older run may stay beside ours. A checkpoint may: it is no result.
 void remove_results(const std::filesystem::path& out) {
-  for (const char* name : {"response.csv", "contacts.csv", "summary.json"}) {
+  for (const std::string& name : result_files()) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(out / name, error)) continue;
     if (!std::filesystem::remove(out / name, error)) {
@@ -104,7 +110,7 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   std::exception_ptr unsolvable;
   try {
     solution = stepped ? plan_steps(scene, prepared, watcher, std::move(resumed), out / checkpoint_name, result)
-                       : plan_harmonic(scene, prepared, watcher, result);
+                       : plan_without_steps(scene, prepared, watcher, result);
   } catch (const InterruptedError&) {
     throw InterruptedError("interrupted while planning: the folder is as it was");
   } catch (const RunError&) {

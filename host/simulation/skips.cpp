@@ -50,9 +50,10 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, co
                    "first moments below 1e-12 are taken as 0"});
   }
   if (fixed) {
-    out.push_back({"geometry update", "normals and lever arms are those of the start",
-                   fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
-                               fixed_geometry_error(scene.loading.strain_amplitude), scene.loading.strain_amplitude)});
+    out.push_back(
+        {"geometry update", "normals and lever arms are those of the start",
+         fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
+                     fixed_geometry_error(scene.cyclic().strain_amplitude), scene.cyclic().strain_amplitude)});
   }
   if (scene.network.quadrature == Quadrature::one_point && plan.form == ContactForm::points) {
     out.push_back({"second moments", "a facet has one point: three chains in place of six", "rounding"});

@@ -20,7 +20,8 @@ namespace {
 /// What the scene gives that only a stepped run takes.
 std::string unused_settings(const Scene& scene) {
   const SolverSpec& s = scene.solver;
-  const LoadingSpec& l = scene.loading;
+  const auto* cyclic = std::get_if<experiments::Cyclic>(&scene.experiment);
+  const experiments::Cyclic l = cyclic ? *cyclic : experiments::Cyclic{};
   std::string out;
   for (const auto& [given, name] : {std::pair{s.tolerance.has_value(), "tolerance"},
                                     {s.density_scaling && !s.inertia, "density_scaling"},
@@ -61,17 +62,16 @@ class HarmonicSolution : public Solution {
     result.solver = described(scene, viscous_) + ", " + to_string(result.backend);
     if (watcher.progress) watcher.progress("harmonic: preconditioner", 0);
     backend_ = result.backend;
-    if (!scene.loading.temperatures.empty()) set_temperature(scene.loading.temperatures.front());
+    if (!temperatures_.empty()) set_temperature(temperatures_.front());
     prepare_solver(result);
   }
 
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
     save("running");
     fields_.emplace(scene_, prepared_, out);
-    const auto& temperatures = scene_.loading.temperatures;
     solve_isotherm(save, result);
-    for (std::size_t i = 1; i < temperatures.size(); ++i) {
-      set_temperature(temperatures[i]);
+    for (std::size_t i = 1; i < temperatures_.size(); ++i) {
+      set_temperature(temperatures_[i]);
       prepare_solver(result);
       solve_isotherm(save, result);
     }
@@ -87,12 +87,12 @@ class HarmonicSolution : public Solution {
     const InPhase in(result.phases, &PhaseSeconds::preconditioner);
     const Inertia inertia = make_inertia(prepared_.specimen, scene_.materials.aggregate, scene_.materials.mastic);
     harmonic_.emplace(prepared_.specimen, prepared_.network, isothermal_.laws, inertia,
-                      harmonic_options(scene_, backend_, watcher_.stop), geometric_mean(scene_.loading.frequencies));
+                      harmonic_options(scene_, backend_, watcher_.stop), geometric_mean(frequencies_));
   }
 
   void solve_isotherm(const Saving& save, RunResult& result) {
     const InPhase in(result.phases, &PhaseSeconds::harmonic);
-    const auto& frequencies = scene_.loading.frequencies;
+    const auto& frequencies = frequencies_;
     const std::optional<double>& temperature = isothermal_.materials.temperature;
     const std::string at = temperature ? fmt::format(" at {} degrees C", *temperature) : "";
     constexpr std::size_t block = 4;  // solved side by side
@@ -130,14 +130,14 @@ class HarmonicSolution : public Solution {
     std::vector<HarmonicLoad> loads;
     for (std::size_t i = first; i < end; ++i) {
       const double scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
-      loads.push_back({scene_.loading.frequencies[i], scaling, viscous_});
+      loads.push_back({frequencies_[i], scaling, viscous_});
     }
     return harmonic_->solve(loads);
   }
 
   void take(const std::vector<HarmonicResult>& solved, RunResult& result, const Saving& save) {
     for (const HarmonicResult& s : solved) {
-      const std::size_t i = result.frequencies.size() % scene_.loading.frequencies.size();
+      const std::size_t i = result.frequencies.size() % frequencies_.size();
       FrequencyResult f;
       f.density_scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
       f.frequency_hz = s.frequency_hz;
@@ -157,7 +157,7 @@ class HarmonicSolution : public Solution {
       judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), {}, result.warnings);
       result.frequencies.push_back(f);
       const InPhase writing(result.phases, &PhaseSeconds::writing);
-      const bool several = !scene_.loading.temperatures.empty();
+      const bool several = !scene_.cyclic().temperatures.empty();
       fields_->write(s, isothermal_.laws, several ? f.temperature_c : std::nullopt);
     }
     save("running");
@@ -166,6 +166,8 @@ class HarmonicSolution : public Solution {
   const Scene& scene_;
   const Preparation& prepared_;
   const Watcher& watcher_;
+  std::vector<double> frequencies_ = frequencies_of(scene_.experiment),
+                      temperatures_ = temperatures_of(scene_.experiment);
   Backend backend_ = Backend::cpu;
   Scene isothermal_ = scene_;  ///< the scene with the laws of the temperature at hand
   double viscous_ = 0;

@@ -61,7 +61,7 @@ void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, 
                 const std::function<void()>& look, const std::function<void(double)>& frame,
                 const std::function<void(std::int64_t)>& stepped) {
   const drives::Cyclic& loading = plan.loading;
-  const int per_cycle = scene.loading.samples_per_cycle;
+  const int per_cycle = scene.cyclic().samples_per_cycle;
   const std::int64_t samples_wanted = static_cast<std::int64_t>(plan.cycles) * per_cycle;
   const std::int64_t stride = loading.steps_per_period / per_cycle;
   const double area = specimen.box.size.x * specimen.box.size.y, height = specimen.box.size.z;
@@ -153,7 +153,7 @@ std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepa
   options.density_scaling = p.density_scaling;
   options.boundary = moving_top(p.loading);
   options.dt = p.loading.dt();
-  if (scene.solver.tolerance) options.observed_every = p.loading.steps_per_period / scene.loading.samples_per_cycle;
+  if (scene.solver.tolerance) options.observed_every = p.loading.steps_per_period / scene.cyclic().samples_per_cycle;
   StartState start;
   if (p.start == Start::steady && from.empty()) {
     start = steady_start(prepared.network, scene.laws, p.motion, p.loading);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "host/experiments/experiment.hpp"
 #include "host/simulation/checkpoints.hpp"
 #include "host/simulation/recipe_summary.hpp"
 #include "macadam/error.hpp"
@@ -63,6 +64,12 @@ Json frequency_json(const FrequencyResult& f, const Scene& scene) {
       out["reduced_frequency_hz"] = f.frequency_hz * std::pow(10.0, *shift);
     }
   }
+  if (std::holds_alternative<experiments::Sweep>(scene.experiment)) {
+    const auto e_star = std::polar(f.stiffness.e_star_pa, f.stiffness.phase_deg * std::numbers::pi / 180);
+    out["storage_pa"] = e_star.real();
+    out["loss_pa"] = e_star.imag();
+    out["modulus"] = scene.network.lateral_walls ? "confined" : "uniaxial";
+  }
   if (f.cyclic) {
     out["e_star_peaks_pa"] = f.cyclic->peaks.e_star_pa;
     out["phase_peaks_deg"] = f.cyclic->peaks.phase_deg;
@@ -106,7 +113,7 @@ Json solver_json(const Scene& scene, const RunResult& result) {
     out["form"] = to_string(result.form);
     out["geometry"] = to_string(result.geometry);
     out["damping"] = {{"kind", to_string(scene.solver.damping_kind)}, {"value", scene.solver.damping}};
-    out["strain_amplitude"] = scene.loading.strain_amplitude;
+    out["strain_amplitude"] = scene.cyclic().strain_amplitude;
     out["tolerance"] = scene.solver.tolerance ? Json(*scene.solver.tolerance) : Json();
     out["decisions"] = result.decisions;
     out["critical_particle"] = result.critical_particle;
@@ -160,6 +167,13 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
     out["results"].push_back(frequency_json(f, scene));
     solve += f.seconds;
   }
+  const auto add = [&]<class Result>(const Result& found) {
+    if constexpr (!std::is_same_v<Result, std::monostate>) {
+      out["results"].push_back(ResultOf<Result>::summary(found, scene));
+      solve += found.material.seconds;
+    }
+  };
+  std::visit(add, result.found);
   out["solver"] = solver_json(scene, result);
   out["skips"] = Json::array();
   for (const Skip& skip : result.skips) {

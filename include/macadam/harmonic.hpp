@@ -38,6 +38,7 @@ struct HarmonicOptions {
   Backend backend = Backend::cpu;
   std::optional<int> device = {};   ///< cuda: made the calling thread's; none: the first that can run
   std::function<bool()> stop = {};  ///< asked between iterations: true ends a solution with InterruptedError
+  double typical_growth = 0;  ///< of the loads [1/s], beside the typical frequency: the preconditioner is made for both
 };
 
 /// Motions as e^(s·t), s = growth + 2πi·frequency, with the inertia and viscous damping of a run; see

@@ -24,6 +24,8 @@
 #include "macadam/laws/shift.hpp"
 #include "macadam/fit.hpp"
 #include "macadam/fields.hpp"
+#include "macadam/spectrum.hpp"
+#include "macadam/experiments/all.hpp"
 #include "macadam/scene.hpp"
 #include "macadam/phantom.hpp"
 #include "macadam/twin.hpp"

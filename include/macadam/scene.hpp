@@ -11,6 +11,7 @@
 
 #include "macadam/backend.hpp"
 #include "macadam/contact_network.hpp"
+#include "macadam/experiments/all.hpp"
 #include "macadam/fields.hpp"
 #include "macadam/laws/all.hpp"
 #include "macadam/laws/shift.hpp"
@@ -36,25 +37,6 @@ static_assert(all_one.back() == 1);
 
 /// How temperature shifts each pair's law.
 using ShiftLaws = std::array<laws::Shift, pair_types>;
-
-/// `rest`: from zero displacement. `steady`: from the harmonic solution, so that the first cycle is periodic already.
-enum class Start : std::uint8_t { rest, steady };
-const char* to_string(Start);
-
-/// `[loading]`, kind "cyclic". What is empty was not given: make_plan() decides it.
-struct LoadingSpec {
-  std::vector<double> frequencies;   ///< [Hz]
-  std::vector<double> temperatures;  ///< [°C], every frequency at each; harmonic only; empty: Materials::temperature
-  double strain_amplitude = 1e-4;    ///< of the height
-  std::optional<Start> start;
-  std::optional<int> cycles;
-  std::optional<double> ramp_cycles;  ///< smooth start over so many cycles, ≤ cycles − fit_cycles
-  std::optional<int> fit_cycles;      ///< last cycles that are fitted
-  int samples_per_cycle = 500;        ///< points of response.csv in a cycle
-
-  /// Last cycles that are fitted of so many: as given, else two of four or more, else one.
-  int fitted(int of_cycles) const { return fit_cycles.value_or(of_cycles >= 4 ? 2 : 1); }
-};
 
 enum class SolverMethod : std::uint8_t { explicit_, harmonic };
 
@@ -98,10 +80,24 @@ struct Scene {
   Deltas deltas = all_one;  ///< that the laws contain
   ShiftLaws shifts;         ///< of these laws
   NetworkSpec network;
-  LoadingSpec loading;
+  Experiment experiment;
   SolverSpec solver;
   OutputSpec output;
+
+  /// The cyclic test. \throws InputError where the scene has another one.
+  experiments::Cyclic& cyclic();
+  const experiments::Cyclic& cyclic() const;
 };
+
+/// `kind` in `[loading]`.
+const char* kind_of(const Experiment& experiment);
+/// Files of results that a run of it may leave, besides those of every run.
+std::vector<std::string> files_of(const Experiment& experiment);
+/// Whether it may be stepped in time (method "explicit").
+bool steps(const Experiment& experiment);
+/// Frequencies [Hz] and temperatures [°C] that it names; none of those that name none.
+std::vector<double> frequencies_of(const Experiment& experiment);
+std::vector<double> temperatures_of(const Experiment& experiment);
 
 /// Reads a TOML scene and checks all that can be known without building the specimen: unknown keys (the nearest known
 /// one is named), wrong types, impossible values, missing sections, units ("12.5 mm", "35 GPa").

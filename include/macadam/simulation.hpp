@@ -82,8 +82,9 @@ struct PhaseSeconds {
 
 /// Outcome of a run.
 struct RunResult {
-  std::vector<FrequencyResult> frequencies;
-  PhaseSeconds phases;          ///< a phase is in it once it is over
+  std::vector<FrequencyResult> frequencies;  ///< of cyclic tests and sweeps
+  ExperimentResult found;                    ///< of the others
+  PhaseSeconds phases;                       ///< a phase is in it once it is over
   double seconds_planning = 0;  ///< explicit: wall time before the first stepper, harmonic solutions included; resumed
                                 ///< runs: that of the run that was interrupted
   std::vector<std::string> decisions;         ///< explicit: what the scene left open, and what was chosen why
@@ -101,6 +102,9 @@ struct RunResult {
 
 /// Called as work goes on: what is being done, share of it done 0…1. What it throws ends the work.
 using Progress = std::function<void(const std::string& stage, double share)>;
+
+/// What a run found, in lines for people.
+std::string results_table(const RunResult& result);
 
 /// Specimen (read or generated), tessellation, network; checks that every pair present has a law.
 Preparation prepare(const Scene& scene, const Progress& progress = {});

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// read.cpp  `[loading]` of the cyclic test.
+#include <fmt/format.h>
+
+#include "host/experiments/experiment.hpp"
+#include "host/experiments/read_points.hpp"
+#include "host/scene/shift_keys.hpp"
+
+namespace macadam {
+
+using namespace scene;
+
+const char* to_string(Start start) { return start == Start::steady ? "steady" : "rest"; }
+
+template <>
+experiments::Cyclic ExperimentOf<experiments::Cyclic>::read(const Section& section) {
+  // below 1e-20 the increments of a step leave the range of single precision; rounding of the geometry is far larger
+  constexpr Rule strain{[](double v) { return v >= 1e-20 && v < 1; }, "a strain from 1e-20 to below 1"};
+  constexpr std::int64_t most = 1'000'000;
+  constexpr Rule ramp{[](double v) { return v >= 0 && v <= most; }, "0 to 1,000,000 cycles"};
+  experiments::Cyclic spec;
+  section.read({kind_key(),
+                {"frequencies", Need::required, into(spec.frequencies, frequency, positive)},
+                {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius)},
+                {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain)},
+                {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}})},
+                {"cycles", Need::optional, into(spec.cycles, 1, most)},
+                {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp)},
+                {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most)},
+                {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most)}});
+  require_once(section, "frequencies", spec.frequencies, "Hz", "frequency");
+  require_once(section, "temperatures", spec.temperatures, "degrees C", "temperature");
+  if (spec.start == Start::steady && spec.ramp_cycles.value_or(0) > 0) {
+    section.refuse("ramp_cycles", fmt::format("{} beside start = \"steady\"", *spec.ramp_cycles),
+                   "0: a steady start is in motion at once");
+  }
+  if (spec.cycles && spec.fit_cycles.value_or(1) > *spec.cycles) {
+    section.refuse("fit_cycles", fmt::format("{}", *spec.fit_cycles), fmt::format("at most cycles, {}", *spec.cycles));
+  }
+  if (spec.cycles && spec.ramp_cycles) {
+    const int fitted = spec.fitted(*spec.cycles);
+    if (*spec.ramp_cycles > *spec.cycles - fitted) {
+      section.refuse(
+          "ramp_cycles", fmt::format("{}", *spec.ramp_cycles),
+          fmt::format("at most {}: the last {} of {} cycles are fitted", *spec.cycles - fitted, fitted, *spec.cycles));
+    }
+  }
+  return spec;
+}
+
+}  // namespace macadam

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// material_files.cpp  The same few units four times, each with its units and assumptions beside it.
+#include "host/experiments/material_files.hpp"
+
+#include <fmt/format.h>
+
+#include "host/experiments/material_solution.hpp"
+#include "host/results/files.hpp"
+
+namespace macadam {
+namespace {
+
+using experiments::Material;
+
+/// Finite-element programs refuse shares that add up to 1, which those of a fluid do.
+constexpr double of_a_fluid = 1 - 1e-8;
+
+/// Every comment line after `mark`.
+std::string comments(const Material& m, const char* mark) {
+  return fmt::format(
+      "{0} Relaxation of a specimen, {1}; units Pa and s.\n"
+      "{0} Holds from {2:g} to {3:g} s; E(t) of this table differs from the specimen's by {4:.1e} at most there.\n",
+      mark, modulus_words(m.confined), m.shortest_s, m.longest_s, m.table_error + m.error());
+}
+
+std::string isotropy(double poisson_ratio, const char* mark) {
+  return fmt::format(
+      "{0} Poisson's ratio {1:g} is an assumption, as is that it does not change in time, so that shear and bulk "
+      "moduli\n{0} relax alike. The modulus is that at once; shares are of it.\n",
+      mark, poisson_ratio);
+}
+
+std::string prony_csv(const Material& m) {
+  const double at_once = m.relaxation.instantaneous();
+  std::string out = comments(m, "#") + "# E(t) = sum of modulus_pa * exp(-t / time_s); the last row stays.\n" +
+                    "time_s,modulus_pa,share\n";
+  for (const auto& u : m.relaxation.units) out += fmt::format("{},{},{}\n", u.time, u.modulus, u.modulus / at_once);
+  return out + fmt::format("inf,{},{}\n", m.relaxation.long_term, m.relaxation.long_term / at_once);
+}
+
+std::string kelvin_csv(const Material& m) {
+  std::string out =
+      comments(m, "#") +
+      "# J(t) = 1/E_m + t/C_m + sum of (1 - exp(-t / time_s)) / E over the Kelvin units, springs E and dashpots C.\n"
+      "unit,time_s,compliance_1_pa,E_pa,C_pa_s\n";
+  out += fmt::format("maxwell,,{},{},{}\n", m.creep.instantaneous, 1 / m.creep.instantaneous,
+                     m.creep.fluidity > 0 ? fmt::format("{}", 1 / m.creep.fluidity) : "inf");
+  for (std::size_t i = 0; i < m.creep.units.size(); ++i) {
+    const auto& u = m.creep.units[i];
+    out += fmt::format("kelvin_{},{},{},{},{}\n", i + 1, u.time, u.compliance, 1 / u.compliance, u.time / u.compliance);
+  }
+  return out;
+}
+
+double share(const Material& m, const PronySeries::Unit& unit) {
+  return unit.modulus / m.relaxation.instantaneous() * (m.relaxation.long_term > 0 ? 1 : of_a_fluid);
+}
+
+std::string abaqus(const Material& m, double poisson_ratio) {
+  std::string out = comments(m, "**") + isotropy(poisson_ratio, "**");
+  out += fmt::format("*MATERIAL, NAME=MIXTURE\n*ELASTIC, MODULI=INSTANTANEOUS\n{:.9e}, {:g}\n",
+                     m.relaxation.instantaneous(), poisson_ratio);
+  if (m.relaxation.units.empty()) return out;
+  out += "*VISCOELASTIC, TIME=PRONY\n** shear share, bulk share, time\n";
+  for (const auto& u : m.relaxation.units) out += fmt::format("{0:.9e}, {0:.9e}, {1:.9e}\n", share(m, u), u.time);
+  return out;
+}
+
+std::string ansys(const Material& m, double poisson_ratio) {
+  std::string out = comments(m, "!") + isotropy(poisson_ratio, "!");
+  out += fmt::format("MP,EX,1,{:.9e}\nMP,PRXY,1,{:g}\n", m.relaxation.instantaneous(), poisson_ratio);
+  if (m.relaxation.units.empty()) return out;
+  constexpr std::size_t pairs_a_line = 3;  // TBDATA takes six numbers
+  for (const char* of : {"SHEAR", "BULK"}) {
+    out += fmt::format("TB,PRONY,1,1,{},{}\n", m.relaxation.units.size(), of);
+    for (std::size_t i = 0; i < m.relaxation.units.size(); ++i) {
+      const auto& u = m.relaxation.units[i];
+      if (i % pairs_a_line == 0) out += fmt::format("{}TBDATA,{}", i == 0 ? "" : "\n", 2 * i + 1);
+      out += fmt::format(",{:.9e},{:.9e}", share(m, u), u.time);
+    }
+    out += "\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_material(const std::filesystem::path& out, const Material& material, double poisson_ratio) {
+  write_whole(out / "prony.csv", prony_csv(material));
+  write_whole(out / "kelvin.csv", kelvin_csv(material));
+  if (material.confined) return;
+  write_whole(out / "prony_abaqus.inp", abaqus(material, poisson_ratio));
+  write_whole(out / "prony_ansys.txt", ansys(material, poisson_ratio));
+}
+
+}  // namespace macadam

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// material_solution.cpp  Checks first, then the spectrum, then few units of it for the tables.
+#include "host/experiments/material_solution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "host/experiments/material_files.hpp"
+#include "host/simulation/phases.hpp"
+#include "host/simulation/plan.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+using experiments::Material;
+
+/// Of E(t), where [solver] has no tolerance.
+constexpr double usual_tolerance = 1e-5;
+
+class MaterialSolution : public Solution {
+ public:
+  MaterialSolution(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
+                   const History& history, double poisson_ratio, Responds responds)
+      : scene_(scene),
+        prepared_(prepared),
+        watcher_(watcher),
+        poisson_ratio_(poisson_ratio),
+        responds_(std::move(responds)) {
+    const SolverSpec& solver = scene.solver;
+    if (solver.inertia) {
+      throw InputError(scene.file.string(), 0, "inertia in [solver]",
+                       std::string("true beside kind \"") + kind_of(scene.experiment) + "\"",
+                       "false: relaxation times are those of a specimen without inertia");
+    }
+    // as in the frequency domain: the reference writes the time step again, not this; factors are the CPU's
+    if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
+    result.solver = std::string("relaxation spectrum, without inertia, ") + to_string(result.backend);
+    std::tie(options_.shortest, options_.longest) = history.range();
+    options_.tolerance = solver.tolerance.value_or(usual_tolerance);
+    options_.backend = result.backend == Backend::cuda ? Backend::cuda : Backend::cpu;
+    if (options_.backend == Backend::cuda) options_.device = solver.device;
+    options_.linear = solver.linear;
+    options_.stop = watcher.stop;
+    require_solvable(result);
+  }
+
+  void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
+    save("running");
+    options_.told = [&](int solutions, double error) {
+      if (watcher_.progress) {
+        watcher_.progress(
+            fmt::format("spectrum: {} solutions, error {:.1e} (asked {:.1e})", solutions, error, options_.tolerance),
+            std::min(1.0, std::log(error) / std::log(options_.tolerance)));
+      }
+    };
+    const auto start = std::chrono::steady_clock::now();
+    Material material;
+    try {
+      const InPhase in(result.phases, &PhaseSeconds::harmonic);
+      material.spectrum = spectrum_of(prepared_.specimen, prepared_.network, scene_.laws, options_);
+    } catch (const InterruptedError&) {
+      throw InterruptedError("interrupted between solutions of the spectrum, which keeps no checkpoints");
+    }
+    material.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    material.shortest_s = options_.shortest, material.longest_s = options_.longest;
+    material.confined = scene_.network.lateral_walls;
+    material.relaxation =
+        few_units(material.spectrum.relaxation, options_.shortest, options_.longest, options_.tolerance);
+    material.creep = creep_series(material.relaxation);
+    material.table_error =
+        difference(material.relaxation, material.spectrum.relaxation, options_.shortest, options_.longest);
+    const InPhase writing(result.phases, &PhaseSeconds::writing);
+    write_material(out, material, poisson_ratio_);
+    if (material.confined) {
+      result.warnings.emplace_back(
+          "the sides are held: moduli are those of a confined specimen, and tables for finite-element programs, which "
+          "take uniaxial ones, are not written");
+    }
+    responds_(out, std::move(material), result);
+  }
+
+ private:
+  /// Whatever the solver refuses of this network, it refuses now.
+  void require_solvable(RunResult& result) const {
+    if (watcher_.progress) watcher_.progress("spectrum: preconditioner", 0);
+    const InPhase in(result.phases, &PhaseSeconds::preconditioner);
+    for (const auto& law : scene_.laws)
+      if (law) prony_series(*law);
+    HarmonicOptions options = harmonic_options(scene_, result.backend, watcher_.stop);
+    options.typical_growth = 1 / options_.longest;
+    Harmonic(prepared_.specimen, prepared_.network, scene_.laws, make_inertia(prepared_.specimen, 1, 1), options, 0);
+  }
+
+  const Scene& scene_;
+  const Preparation& prepared_;
+  const Watcher& watcher_;
+  double poisson_ratio_;
+  Responds responds_;
+  SpectrumOptions options_;
+};
+
+nlohmann::ordered_json relaxation_json(const PronySeries& series) {
+  nlohmann::ordered_json out = {{"long_term_pa", series.long_term}, {"units", nlohmann::ordered_json::array()}};
+  for (const auto& u : series.units) out["units"].push_back({{"modulus_pa", u.modulus}, {"time_s", u.time}});
+  return out;
+}
+
+}  // namespace
+
+std::pair<double, double> History::range() const {
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+  for (const double t : times) {
+    for (const Ramp& r : ramps) {
+      const double since = t - r.begin;
+      if (!(since > 0)) continue;
+      longest = std::max(longest, since);
+      // what a ramp has done short times ago is a small part of it
+      const double grown = std::min(since, r.duration);
+      shortest = std::min(shortest, std::max(since - grown, 0.1 * grown));
+    }
+  }
+  return {shortest, std::max(longest, 2 * shortest)};
+}
+
+const char* modulus_words(bool confined) {
+  return confined ? "confined modulus (the sides are held)" : "uniaxial modulus (the sides are free)";
+}
+
+scene::Key poisson_key(double& target) {
+  using namespace scene;
+  constexpr Rule rule{[](double v) { return v > -1 && v < 0.5; }, "a ratio above -1 and below 0.5"};
+  target = 0.35;
+  return {"poisson_ratio", Need::optional, into(target, ratio, rule)};
+}
+
+std::unique_ptr<Solution> plan_material(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                        RunResult& result, const History& history, double poisson_ratio,
+                                        Responds responds) {
+  return std::make_unique<MaterialSolution>(scene, prepared, watcher, result, history, poisson_ratio,
+                                            std::move(responds));
+}
+
+nlohmann::ordered_json material_json(const char* kind, const Material& m) {
+  return {{"kind", kind},
+          {"sides", m.confined ? "held" : "free"},
+          {"modulus", m.confined ? "confined" : "uniaxial"},
+          {"shortest_s", m.shortest_s},
+          {"longest_s", m.longest_s},
+          {"error", m.spectrum.error},
+          {"difference_from_harmonic", m.spectrum.checked},
+          {"solutions", m.spectrum.solutions},
+          {"solve_s", m.seconds},
+          {"instantaneous_pa", m.spectrum.relaxation.instantaneous()},
+          {"prony", relaxation_json(m.relaxation)},
+          {"table_error", m.table_error}};
+}
+
+std::string material_lines(const Material& m) {
+  return fmt::format(
+      "{}; E(t) from {:g} to {:g} s is known to {:.1e}, by {} solutions in {:.1f} s\n"
+      "Prony series of {} units, Kelvin chain of {}: {:.1e} from it\n",
+      modulus_words(m.confined), m.shortest_s, m.longest_s, m.error(), m.spectrum.solutions, m.seconds,
+      m.relaxation.units.size(), m.creep.units.size(), m.table_error);
+}
+
+}  // namespace macadam

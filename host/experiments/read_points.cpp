@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// read_points.cpp  Lists, and ranges that are even in the logarithm.
+#include "host/experiments/read_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "macadam/spectrum.hpp"
+
+namespace macadam::scene {
+
+void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
+                  const char* what) {
+  if (entries.empty() && section.has(key)) section.refuse(key, "none", "at least one");
+  std::sort(entries.begin(), entries.end());
+  if (const auto twin = std::adjacent_find(entries.begin(), entries.end()); twin != entries.end()) {
+    section.refuse(key, fmt::format("{} {} twice", *twin, unit), fmt::format("each {} once", what));
+  }
+}
+
+std::vector<Key> Points::keys(const std::string& key, const Quantity& quantity) {
+  constexpr std::int64_t most = 1000;
+  return {{key, Need::required, into(given, quantity, positive)},
+          {"points_per_decade", Need::optional, into(per_decade, 1, most)}};
+}
+
+std::vector<double> Points::all(const Section& section, const std::string& key, const char* unit,
+                                const char* what) const {
+  require_once(section, key, given, unit, what);
+  std::vector<double> out = given;
+  std::sort(out.begin(), out.end());
+  if (!per_decade) return out;
+  if (out.size() != 2) {
+    section.refuse(key, fmt::format("{} of them beside points_per_decade", out.size()), "the two ends of a range");
+  }
+  return log_range(out.front(), out.back(), *per_decade);
+}
+
+}  // namespace macadam::scene

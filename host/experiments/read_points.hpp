@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file read_points.hpp  Lists of times, frequencies and temperatures in `[loading]`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/scene/table.hpp"
+
+namespace macadam::scene {
+
+/// Skips `kind`, which is known when a test reads its section.
+inline Key kind_key() {
+  return {"kind", Need::required, [](const Value&) {}};
+}
+
+/// \throws InputError where a key that is there has no entry, or the same one twice.
+void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
+                  const char* what);
+
+/// Times or frequencies: each one, or the two ends of a range beside `points_per_decade`.
+struct Points {
+  std::vector<double> given;
+  std::optional<int> per_decade;
+
+  /// The keys of both.
+  std::vector<Key> keys(const std::string& key, const Quantity& quantity);
+  /// Rising. \throws InputError
+  std::vector<double> all(const Section& section, const std::string& key, const char* unit, const char* what) const;
+};
+
+}  // namespace macadam::scene

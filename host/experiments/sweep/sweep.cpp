@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sweep.cpp  Kind "sweep": the cyclic test's steady states over a range, and sweep.csv.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "host/experiments/experiment.hpp"
+#include "host/experiments/material_solution.hpp"
+#include "host/experiments/read_points.hpp"
+#include "host/results/files.hpp"
+#include "host/scene/shift_keys.hpp"
+
+namespace macadam {
+
+using experiments::Sweep;
+
+template <>
+Sweep ExperimentOf<Sweep>::read(const scene::Section& section) {
+  using namespace scene;
+  Sweep out;
+  Points frequencies;
+  std::vector<Key> keys = frequencies.keys("frequencies", frequency);
+  keys.push_back(kind_key());
+  keys.push_back({"temperatures", Need::optional, into(out.temperatures, temperature, celsius)});
+  section.read(keys);
+  out.frequencies = frequencies.all(section, "frequencies", "Hz", "frequency");
+  require_once(section, "temperatures", out.temperatures, "degrees C", "temperature");
+  return out;
+}
+
+namespace {
+
+void write_sweep(const std::filesystem::path& file, const Scene& scene, const RunResult& result) {
+  std::string text = fmt::format("# {}; error: relative difference of the two walls' reactions\n",
+                                 modulus_words(scene.network.lateral_walls));
+  text +=
+      "temperature_c,frequency_hz,e_star_pa,phase_deg,storage_pa,loss_pa,log10_a_T,reduced_frequency_hz,residual,"
+      "error\n";
+  for (const FrequencyResult& f : result.frequencies) {
+    const double phase = f.stiffness.phase_deg * std::numbers::pi / 180, e_star = f.stiffness.e_star_pa;
+    std::string temperature, shift, reduced;
+    if (f.temperature_c) {
+      temperature = fmt::format("{}", *f.temperature_c);
+      if (const auto log10 = common_log10_shift(scene, *f.temperature_c)) {
+        shift = fmt::format("{}", *log10);
+        reduced = fmt::format("{}", f.frequency_hz * std::pow(10.0, *log10));
+      }
+    }
+    const auto modulus = [](const Stiffness& s) {
+      return std::polar(s.e_star_pa, s.phase_deg * std::numbers::pi / 180);
+    };
+    text += fmt::format("{},{},{},{},{},{},{},{},{:.2e},{:.2e}\n", temperature, f.frequency_hz, e_star,
+                        f.stiffness.phase_deg, e_star * std::cos(phase), e_star * std::sin(phase), shift, reduced,
+                        f.residual, std::abs(modulus(*f.bottom) / modulus(f.stiffness) - 1.0));
+  }
+  write_whole(file, text);
+}
+
+class SweepSolution : public Solution {
+ public:
+  SweepSolution(const Scene& scene, std::unique_ptr<Solution> states) : scene_(scene), states_(std::move(states)) {}
+
+  void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
+    states_->solve(
+        out,
+        [&](const std::string& status) {
+          write_sweep(out / "sweep.csv", scene_, result);
+          save(status);
+        },
+        result);
+  }
+
+ private:
+  const Scene& scene_;
+  std::unique_ptr<Solution> states_;
+};
+
+}  // namespace
+
+template <>
+std::unique_ptr<Solution> ExperimentOf<Sweep>::plan(const Sweep&, const Scene& scene, const Preparation& prepared,
+                                                    const Watcher& watcher, RunResult& result) {
+  return std::make_unique<SweepSolution>(scene, plan_harmonic(scene, prepared, watcher, result));
+}
+
+}  // namespace macadam

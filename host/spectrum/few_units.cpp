@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// few_units.cpp  A sum of exponentials by some of its own: least squares with weights that may not be negative, which
+// take one more at a time until the sum is right.
+#include <algorithm>
+#include <cmath>
+
+#include "host/fit/non_negative.hpp"
+#include "macadam/spectrum.hpp"
+
+namespace macadam {
+namespace {
+
+/// Of E(0): what is below it counts as nothing.
+constexpr double nothing = 1e-9;
+constexpr int per_decade = 20;
+
+/// Where series are compared: 0, the times asked for, and two decades before, where E(0) turns into E(t).
+std::vector<double> places(double shortest, double longest) {
+  std::vector<double> out = log_range(1e-2 * shortest, longest, per_decade);
+  out.insert(out.begin(), 0);
+  return out;
+}
+
+double scale(const PronySeries& exact, double t) { return std::max(exact.modulus(t), nothing * exact.instantaneous()); }
+
+}  // namespace
+
+double difference(const PronySeries& series, const PronySeries& exact, double shortest, double longest) {
+  double out = std::abs(series.instantaneous() / exact.instantaneous() - 1);
+  for (const double t : log_range(shortest, longest, per_decade))
+    out = std::max(out, std::abs(series.modulus(t) - exact.modulus(t)) / scale(exact, t));
+  return out;
+}
+
+PronySeries few_units(const PronySeries& series, double shortest, double longest, double tolerance) {
+  const std::vector<double> times = places(shortest, longest);
+  const auto rows = std::ssize(times), units = std::ssize(series.units);
+  Eigen::MatrixXd of_units(rows, units + 1);  // the last is what stays
+  Eigen::VectorXd sum(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double t = times[static_cast<std::size_t>(i)], over = 1 / scale(series, t);
+    for (Eigen::Index j = 0; j < units; ++j)
+      of_units(i, j) = over * std::exp(-t / series.units[static_cast<std::size_t>(j)].time);
+    of_units(i, units) = series.long_term > 0 ? over : 0;
+    sum[i] = over * series.modulus(t);
+  }
+  const Eigen::VectorXd moduli = fitting::non_negative_least_squares(of_units, sum, tolerance);
+  PronySeries out;
+  out.long_term = moduli[units];
+  for (Eigen::Index j = 0; j < units; ++j)
+    if (moduli[j] > 0) out.units.push_back({moduli[j], series.units[static_cast<std::size_t>(j)].time});
+  return out;
+}
+
+}  // namespace macadam

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// series.cpp  Sums of exponentials, and from relaxation to creep and back by roots that lie between poles.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "macadam/error.hpp"
+#include "macadam/spectrum.hpp"
+
+namespace macadam {
+
+using Complex = std::complex<double>;
+
+double PronySeries::instantaneous() const {
+  double out = long_term;
+  for (const Unit& u : units) out += u.modulus;
+  return out;
+}
+
+double PronySeries::modulus(double t) const {
+  if (t < 0) return 0;
+  double out = long_term;
+  for (const Unit& u : units) out += u.modulus * std::exp(-t / u.time);
+  return out;
+}
+
+double PronySeries::after_ramp(double t, double duration) const {
+  if (duration == 0 || t < 0) return modulus(t);
+  const double ramp = std::min(t, duration), held = t - ramp;
+  double out = long_term * ramp;
+  for (const Unit& u : units) out -= u.modulus * u.time * std::exp(-held / u.time) * std::expm1(-ramp / u.time);
+  return out / duration;
+}
+
+Complex PronySeries::stiffness(Complex s) const {
+  Complex out = long_term;
+  for (const Unit& u : units) out += u.modulus * s * u.time / (1.0 + s * u.time);
+  return out;
+}
+
+double CreepSeries::compliance(double t) const {
+  if (t < 0) return 0;
+  double out = instantaneous + fluidity * t;
+  for (const Unit& u : units) out -= u.compliance * std::expm1(-t / u.time);
+  return out;
+}
+
+double CreepSeries::after_ramp(double t, double duration) const {
+  if (duration == 0 || t < 0) return compliance(t);
+  const double ramp = std::min(t, duration), held = t - ramp;
+  double out = instantaneous * ramp + fluidity * ramp * (0.5 * ramp + held);
+  for (const Unit& u : units)
+    out += u.compliance * (ramp + u.time * std::exp(-held / u.time) * std::expm1(-ramp / u.time));
+  return out / duration;
+}
+
+namespace {
+
+/// The root of a function that grows from below zero at ln r = low to above it at ln r = high. Bisection in the
+/// logarithm: both ends may be poles.
+template <class F>
+double root(F&& f, double low, double high) {
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    (f(std::exp(middle)) < 0 ? low : high) = middle;
+  }
+  return std::exp(0.5 * (low + high));
+}
+
+/// So many decades beyond the outermost time a root must lie, or what it stands for is nothing.
+constexpr double beyond = 60;
+
+}  // namespace
+
+PronySeries prony_series(const Law& law) {
+  if (const auto* elastic = std::get_if<laws::Elastic>(&law)) return {elastic->E, {}};
+  const auto& chain = std::get<laws::GeneralisedKelvin>(law);
+  // On s = −r the compliance 1/E_m − 1/(r·C_m) + Σ 1/(E_l − r·C_l) grows from −∞ to ∞ between its poles and once more
+  // behind the last: k*(s) has its poles at these zeros.
+  struct Pole {
+    double rate, E, C;
+  };
+  std::vector<Pole> poles;
+  for (std::size_t l = 0; l < chain.E.size(); ++l) poles.push_back({chain.E[l] / chain.C[l], chain.E[l], chain.C[l]});
+  std::sort(poles.begin(), poles.end(), [](const Pole& a, const Pole& b) { return a.rate < b.rate; });
+  // units of one time are one unit: without it two poles would have no zero between them
+  std::vector<Pole> apart;
+  for (const Pole& p : poles) {
+    if (!apart.empty() && p.rate <= apart.back().rate * (1 + 1e-12)) {
+      Pole& same = apart.back();
+      const double compliance = 1 / same.E + 1 / p.E;
+      same.E = 1 / compliance, same.C = same.E / same.rate;
+    } else {
+      apart.push_back(p);
+    }
+  }
+  const bool flows = std::isfinite(chain.C_m);
+  const auto compliance = [&](double r) {
+    double out = 1 / chain.E_m - (flows ? 1 / (r * chain.C_m) : 0);
+    for (const Pole& p : apart) out += 1 / (p.E - r * p.C);
+    return out;
+  };
+  const auto slope = [&](double r) {  // by r
+    double out = flows ? 1 / (r * r * chain.C_m) : 0;
+    for (const Pole& p : apart) out += p.C / ((p.E - r * p.C) * (p.E - r * p.C));
+    return out;
+  };
+  PronySeries out;
+  double sum = 0;
+  for (std::size_t i = 0; i <= apart.size(); ++i) {
+    if (i == 0 && !flows) continue;  // no pole at 0: positive up to the first one
+    const bool last = i == apart.size();
+    const double fastest = apart.empty() ? chain.E_m / chain.C_m : apart.back().rate;
+    const double low =
+        i == 0 ? std::log(apart.empty() ? fastest : apart.front().rate) - beyond : std::log(apart[i - 1].rate);
+    const double high = last ? std::log(fastest) + beyond : std::log(apart[i].rate);
+    const double r = root(compliance, low, high);
+    const double modulus = 1 / (slope(r) * r);
+    out.units.push_back({modulus, 1 / r});
+    sum += modulus;
+  }
+  std::sort(out.units.begin(), out.units.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  double at_rest = 1 / chain.E_m;
+  for (const Pole& p : apart) at_rest += 1 / p.E;
+  out.long_term = flows ? 0 : 1 / at_rest;
+  if (!(std::abs((sum + out.long_term) / chain.E_m - 1) < 1e-9)) {
+    throw InputError("relaxation of a contact law", 0, "sum of its units", fmt::format("{:g} Pa", sum + out.long_term),
+                     fmt::format("E_m, {:g} Pa: constants that a double can hold", chain.E_m));
+  }
+  return out;
+}
+
+CreepSeries creep_series(const PronySeries& relaxation) {
+  if (!(relaxation.instantaneous() > 0) || !std::isfinite(relaxation.instantaneous())) {
+    throw InputError("creep of a series", 0, "its modulus", fmt::format("{:g} Pa", relaxation.instantaneous()),
+                     "a positive one");
+  }
+  // On s = −r, E*(s) = E_∞ − Σ g·r·τ/(1 − r·τ) falls from E_∞ at r = 0 and from ∞ to −∞ between its poles; behind the
+  // last it stays positive. J* = 1/E* has its poles at these zeros.
+  const auto minus_modulus = [&](double r) {
+    double out = -relaxation.long_term;
+    for (const auto& u : relaxation.units) out += u.modulus * r * u.time / (1 - r * u.time);
+    return out;
+  };
+  const auto slope = [&](double r) {
+    double out = 0;
+    for (const auto& u : relaxation.units) out += u.modulus * u.time / ((1 - r * u.time) * (1 - r * u.time));
+    return out;
+  };
+  CreepSeries out;
+  out.instantaneous = 1 / relaxation.instantaneous();
+  const auto& units = relaxation.units;
+  if (relaxation.long_term == 0) {
+    double viscosity = 0;
+    for (const auto& u : units) viscosity += u.modulus * u.time;
+    out.fluidity = 1 / viscosity;
+  }
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    // the zero on the slower side of this unit's pole
+    const bool slowest = i + 1 == units.size();
+    if (slowest && relaxation.long_term == 0) continue;  // it is at 0: the dashpot
+    const double high = -std::log(units[i].time), low = slowest ? high - beyond : -std::log(units[i + 1].time);
+    const double r = root(minus_modulus, low, high);
+    out.units.push_back({1 / (slope(r) * r), 1 / r});
+  }
+  return out;
+}
+
+std::vector<double> log_range(double first, double last, int per_decade) {
+  const double decades = std::log10(last / first);
+  const int count = std::max(1, static_cast<int>(std::ceil(per_decade * decades - 1e-9)));
+  std::vector<double> out;
+  for (int i = 0; i < count; ++i) out.push_back(first * std::pow(10.0, decades * i / count));
+  out.push_back(last);
+  return out;
+}
+
+}  // namespace macadam

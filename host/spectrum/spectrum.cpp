@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// spectrum.cpp  Solutions at real s, more of them between those that are there, until E(t) stays as it is.
+#include "macadam/spectrum.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "host/spectrum/reduced_spectrum.hpp"
+#include "macadam/error.hpp"
+#include "macadam/harmonic.hpp"
+
+namespace macadam {
+namespace {
+
+using harmonic::ReducedModel;
+using harmonic::Vector;
+using Complex = std::complex<double>;
+
+/// E(t) at t is that of s from about 0.1/t to 10/t.
+constexpr double slower = 10, faster = 10;
+/// s of the motion at once, where no dashpot moves, times the fastest time.
+constexpr double at_once = 1e8;
+/// Solutions that are asked for a residual of this times the root of the tolerance: E* has the square of their error.
+constexpr double residual_share = 1e-4;
+/// Of the tolerance, which no estimate is below: the residuals alone left 0.03 of it on 175 particles.
+constexpr double of_residuals = 0.1;
+constexpr int first_places = 9, most_rounds = 4;  // 66 solutions
+/// Frequencies of the check, beside s of the series.
+constexpr int checks = 3;
+
+class Finder {
+ public:
+  Finder(const Specimen& specimen, const ContactNetwork& network,
+         const std::array<std::optional<Law>, pair_types>& laws, const SpectrumOptions& options)
+      : specimen_(specimen),
+        network_(network),
+        laws_(laws),
+        options_(options),
+        model_(specimen, network, {}),
+        weights_(make_inertia(specimen, 1, 1)) {
+    const Vec3d& box = specimen.box.size;
+    to_modulus_ = box.z / (box.x * box.y);
+  }
+
+  Spectrum find() {
+    const double low = std::log(1 / (slower * options_.longest)), high = std::log(faster / options_.shortest);
+    join({std::log(at_once / std::min(options_.shortest, fastest_time()))});
+    std::vector<double> places;
+    for (int i = 0; i < first_places; ++i) {
+      places.push_back(high + (low - high) * i / (first_places - 1));
+      join({places.back()});  // each helps the next, slower one, which is worse conditioned
+    }
+    std::sort(places.begin(), places.end());
+    double before = 1;
+    for (int round = 0; round < most_rounds; ++round) {
+      if (round > 0) halve(places);
+      const PronySeries next = harmonic::reduced_spectrum(model_, laws_, to_modulus_);
+      const double now = round == 0 ? 1 : change(out_.relaxation, next);
+      out_.relaxation = next;
+      // twice the places square the error, about; that they lessen it as the round before did is on the safe side
+      out_.error = now * std::min(1.0, now / before) + of_residuals * options_.tolerance;
+      before = now;
+      if (options_.told) options_.told(out_.solutions, out_.error);
+      if (out_.error <= options_.tolerance && checked()) return finished();
+    }
+    throw RunError(fmt::format("spectrum: E(t) is known to {:.1e} only after {} solutions, expected {:.1e} at most",
+                               std::max(out_.error, out_.checked), out_.solutions, options_.tolerance));
+  }
+
+ private:
+  /// The fastest time of any law; infinite where nothing flows.
+  double fastest_time() const {
+    double out = std::numeric_limits<double>::infinity();
+    for (const auto& law : laws_) {
+      if (!law) continue;
+      for (const PronySeries::Unit& u : prony_series(*law).units) out = std::min(out, u.time);
+    }
+    return out;
+  }
+
+  /// A place more between each two.
+  void halve(std::vector<double>& places) {
+    std::vector<double> between;
+    for (std::size_t i = 1; i < places.size(); ++i) between.push_back(0.5 * (places[i - 1] + places[i]));
+    join(between);
+    places.insert(places.end(), between.begin(), between.end());
+    std::sort(places.begin(), places.end());
+  }
+
+  /// Solves at s and lets the motions join those that are known.
+  void join(const std::vector<double>& log_s) {
+    std::vector<Vector> motions;
+    for (const double place : log_s) motions.push_back(solve({.growth = std::exp(place)}).motion);
+    model_.add(motions);
+  }
+
+  HarmonicResult solve(HarmonicLoad load) {
+    Harmonic harmonic(specimen_, network_, laws_, weights_,
+                      {.tolerance = residual_share * std::sqrt(options_.tolerance),
+                       .linear = options_.linear,
+                       .backend = options_.backend,
+                       .device = options_.device,
+                       .stop = options_.stop,
+                       .typical_growth = std::abs(load.s())},
+                      0);
+    Vector near;
+    if (model_.motions() > 0) {
+      near = model_.motion(model_.solve(laws_, load));
+      load.near = &near;
+    }
+    ++out_.solutions;
+    return std::move(harmonic.solve(std::vector{load}).front());
+  }
+
+  double change(const PronySeries& before, const PronySeries& now) const {
+    return difference(before, now, options_.shortest, options_.longest);
+  }
+
+  /// Against solutions that have no part in the series.
+  bool checked() {
+    const double slow = 1 / (2 * std::numbers::pi * options_.longest),
+                 fast = 1 / (2 * std::numbers::pi * options_.shortest);
+    out_.checked = 0;
+    for (int i = 0; i < checks; ++i) {
+      const HarmonicLoad load{slow * std::pow(fast / slow, (i + 0.5) / checks)};
+      const Complex exact = solve(load).parts.modulus();
+      out_.checked = std::max(out_.checked, std::abs(out_.relaxation.stiffness(load.s()) / exact - 1.0));
+    }
+    return out_.checked <= options_.tolerance;
+  }
+
+  Spectrum finished() {
+    out_.creep = creep_series(out_.relaxation);
+    return std::move(out_);
+  }
+
+  const Specimen& specimen_;
+  const ContactNetwork& network_;
+  const std::array<std::optional<Law>, pair_types>& laws_;
+  const SpectrumOptions& options_;
+  ReducedModel model_;
+  Inertia weights_;  ///< tell motions that nothing resists from others; no load has inertia
+  double to_modulus_ = 0;
+  Spectrum out_;
+};
+
+}  // namespace
+
+Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
+                     const std::array<std::optional<Law>, pair_types>& laws, const SpectrumOptions& options) {
+  if (!(options.shortest > 0 && options.longest > options.shortest && std::isfinite(options.longest))) {
+    throw InputError("spectrum", 0, "times", fmt::format("{:g} to {:g} s", options.shortest, options.longest),
+                     "positive ones, the shorter one first");
+  }
+  if (!(options.tolerance >= 1e-10)) {
+    throw InputError("spectrum", 0, "tolerance", fmt::format("{:g}", options.tolerance),
+                     "at least 1e-10: solutions have no more digits");
+  }
+  for (const auto& law : laws)
+    if (law) prony_series(*law);  // all of them before any work
+  return Finder(specimen, network, laws, options).find();
+}
+
+}  // namespace macadam

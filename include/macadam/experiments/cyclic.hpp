@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cyclic.hpp  The cyclic test: the top wall moves as −A·sin(2πft), stress answers as a sine, |E*| and φ follow.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace macadam {
+
+/// `rest`: from zero displacement. `steady`: from the harmonic solution, so that the first cycle is periodic already.
+enum class Start : std::uint8_t { rest, steady };
+const char* to_string(Start);
+
+namespace experiments {
+
+/// `[loading]`, kind "cyclic". What is empty was not given: make_plan() decides it.
+struct Cyclic {
+  static constexpr const char* kind = "cyclic";
+  static constexpr bool steps = true;                    ///< whether it may be stepped in time
+  static constexpr std::array files = {"response.csv"};  ///< that a run may leave
+
+  std::vector<double> frequencies;   ///< [Hz]
+  std::vector<double> temperatures;  ///< [°C], every frequency at each; harmonic only; empty: Materials::temperature
+  double strain_amplitude = 1e-4;    ///< of the height
+  std::optional<Start> start;
+  std::optional<int> cycles;
+  std::optional<double> ramp_cycles;  ///< smooth start over so many cycles, ≤ cycles − fit_cycles
+  std::optional<int> fit_cycles;      ///< last cycles that are fitted
+  int samples_per_cycle = 500;        ///< points of response.csv in a cycle
+
+  /// Last cycles that are fitted of so many: as given, else two of four or more, else one.
+  int fitted(int of_cycles) const { return fit_cycles.value_or(of_cycles >= 4 ? 2 : 1); }
+};
+
+}  // namespace experiments
+}  // namespace macadam

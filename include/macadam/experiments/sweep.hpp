@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file sweep.hpp  The complex modulus over a range of frequencies, and of temperatures: the data of a master curve.
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace macadam::experiments {
+
+/// `[loading]`, kind "sweep": steady states, each frequency at each temperature.
+struct Sweep {
+  static constexpr const char* kind = "sweep";
+  static constexpr bool steps = false;                ///< whether it may be stepped in time
+  static constexpr std::array files = {"sweep.csv"};  ///< that a run may leave
+
+  std::vector<double> frequencies;   ///< [Hz], rising
+  std::vector<double> temperatures;  ///< [°C]; empty: Materials::temperature
+};
+
+}  // namespace macadam::experiments
