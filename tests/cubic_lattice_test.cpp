@@ -75,11 +75,9 @@ class LoadedLattice : public BackendTest<Case> {
     options.dt = loading.dt();
     const auto stepper = make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, options);
     std::vector<ResponseSample> response;
-    for (int k = 0; k <= 4 * samples; ++k) {
-      if (k > 0) stepper->advance(stride);
-      const Observation now = stepper->observe();
+    sample(*stepper, stride, 4 * samples, [&](const Observation& now) {
       response.push_back({frequency, now.time, now.top_displacement() / size.z, -now.top_force() / (size.x * size.y)});
-    }
+    });
     return evaluate_cyclic(response, frequency, 1).fit;
   }
 };

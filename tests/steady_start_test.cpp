@@ -37,12 +37,10 @@ Stiffness error_of_one_cycle(const TestScene& scene, double frequency, Backend b
   const auto stepper = make_stepper(backend, scene.specimen, scene.network, scene.laws, scene.inertia, options);
   const Vec3d& box = scene.specimen.box.size;
   std::vector<ResponseSample> response;
-  for (int k = 0; k <= samples; ++k) {
-    if (k > 0) stepper->advance(stride);
-    const Observation now = stepper->observe();
-    EXPECT_EQ(now.step, k * stride);
+  sample(*stepper, stride, samples, [&](const Observation& now) {
+    EXPECT_EQ(now.step, static_cast<std::int64_t>(response.size()) * stride);
     response.push_back({frequency, now.time, now.top_displacement() / box.z, -now.top_force() / (box.x * box.y)});
-  }
+  });
   const Stiffness found = evaluate_cyclic(response, frequency, 1).fit;
   return {found.e_star_pa / known.top.e_star_pa - 1, found.phase_deg - known.top.phase_deg};
 }

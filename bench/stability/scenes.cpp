@@ -132,15 +132,10 @@ std::vector<ResponseSample> last_cycle(Stepper& stepper, const Specimen& specime
   const double area = specimen.box.size.x * specimen.box.size.y;
   stepper.advance((cycles - 1) * loading.steps_per_period);
   std::vector<ResponseSample> samples;
-  for (std::int64_t k = 0; k <= samples_per_cycle; ++k) {
-    if (k > 0) stepper.advance(stride);
-    const Observation now = stepper.observe();
+  sample(stepper, stride, samples_per_cycle, [&](const Observation& now) {
     samples.push_back(
         {loading.frequency, now.time, now.top_displacement() / specimen.box.size.z, -now.top_force() / area});
-  }
-  if (const std::int64_t particle = stepper.first_divergent(); particle >= 0) {
-    throw RunError(fmt::format("the cyclic run diverged at particle {}", particle));
-  }
+  });
   return samples;
 }
 
