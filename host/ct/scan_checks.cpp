@@ -105,7 +105,8 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
         "the scan", 0, "grey levels", fmt::format("two, {:.5g} and {:.5g}", levels.mastic, levels.aggregate),
         fmt::format("three: air voids are {:.3g} % of the specimen, as was said", 100 * *options.air_voids));
   }
-  const std::optional<double> around = level_around(scan, region);
+  // what lies around a region by coordinates may be the same specimen
+  const std::optional<double> around = options.given ? std::nullopt : level_around(scan, region);
   if (around && std::abs(*around - levels.mastic) < 0.25 * levels.contrast()) {
     throw InputError(
         "the scan", 0, "grey levels",

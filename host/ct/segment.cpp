@@ -102,7 +102,9 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   const Image<float> distance = distance_inside(inside);
   const Fragments fragments = flood(distance, solid, 0.95);
   Decision decision = options.cuts ? decide(fragments, *options.cuts) : decide(fragments);
-  const Image<std::uint32_t> parted = cut_along_valleys(fragments, decision.grain, solid, options.smallest / 4);
+  // on block means alone, what is thinner than a block is no valley: cuts stay where the watershed put them
+  const double depth = refine ? 0 : options.smallest / 4;
+  const Image<std::uint32_t> parted = cut_along_valleys(fragments, decision.grain, solid, depth);
   out.labels = spread(out.phases, parted, edge);
   const std::vector<std::uint32_t> number = drop_small(out.labels, least_volume(options));
   trust *= trust_in_grains(out.labels, out.phases, out.warnings);

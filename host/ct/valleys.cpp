@@ -39,6 +39,7 @@ Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::ve
                                        const Image<float>& grey, double depth) {
   Image<std::uint32_t> labels = fragments.labels;
   for (std::uint32_t& label : labels.voxels) label = grain[label];
+  if (!(depth > 0)) return labels;
   Image<std::uint8_t> within = Image<std::uint8_t>::like(labels);  // not beside a cut
   for (std::size_t at = 0; at < labels.count(); ++at) {
     const std::uint32_t own = labels.voxels[at];
