@@ -33,6 +33,47 @@ void around(const Image<T>& image, std::size_t at, See&& see) {
   if (k + 1 < nz) see(at + slice);
 }
 
+/// Puts back what changed hands as a thin layer along a cut: that is its roughness. An edge of a grain on the wrong
+/// side reaches at least `thick` voxels into it.
+void keep_cuts_smooth(const Image<std::uint32_t>& before, Image<std::uint32_t>& labels, int thick) {
+  Image<std::uint8_t> seen = Image<std::uint8_t>::like(labels);
+  for (std::size_t start = 0; start < labels.count(); ++start) {
+    if (seen.voxels[start] || labels.voxels[start] == before.voxels[start]) continue;
+    const std::uint32_t from = before.voxels[start], to = labels.voxels[start];
+    const auto same = [&](std::size_t at) { return before.voxels[at] == from && labels.voxels[at] == to; };
+    std::vector<std::size_t> part{start}, layer;
+    seen.voxels[start] = 1;
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      around(labels, part[k], [&](std::size_t near) {
+        if (!same(near) || seen.voxels[near]) return;
+        seen.voxels[near] = 1;
+        part.push_back(near);
+      });
+    }
+    // layer by layer away from the grain that it went to
+    std::vector<std::size_t> left = part;
+    int layers = 0;
+    while (!left.empty() && layers < thick) {
+      std::vector<std::size_t> inner;
+      layer.clear();
+      for (const std::size_t at : left) {
+        bool outer = false;
+        around(labels, at, [&](std::size_t near) {
+          outer = outer || seen.voxels[near] == 2 || (before.voxels[near] == to && labels.voxels[near] == to);
+        });
+        (outer ? layer : inner).push_back(at);
+      }
+      if (layer.empty()) break;  // reached from nowhere
+      for (const std::size_t at : layer) seen.voxels[at] = 2;
+      left = std::move(inner);
+      ++layers;
+    }
+    for (const std::size_t at : part) seen.voxels[at] = 1;
+    if (!left.empty()) continue;
+    for (const std::size_t at : part) labels.voxels[at] = from;
+  }
+}
+
 }  // namespace
 
 Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::vector<std::uint32_t>& grain,
@@ -40,6 +81,7 @@ Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::ve
   Image<std::uint32_t> labels = fragments.labels;
   for (std::uint32_t& label : labels.voxels) label = grain[label];
   if (!(depth > 0)) return labels;
+  const Image<std::uint32_t> watershed = labels;
   Image<std::uint8_t> within = Image<std::uint8_t>::like(labels);  // not beside a cut
   for (std::size_t at = 0; at < labels.count(); ++at) {
     const std::uint32_t own = labels.voxels[at];
@@ -92,6 +134,7 @@ Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::ve
     labels.voxels[next.voxel] = next.grain;
     leave(next.voxel, next.grain);
   }
+  keep_cuts_smooth(watershed, labels, 2);
   return labels;
 }
 
