@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // skips.cpp  Says what is skipped; the skipping itself is where the arrays are made (kernels/contact_data.hpp).
-#include "host/simulation/skips.hpp"
+#include "host/experiments/cyclic/skips.hpp"
 
 #include <fmt/format.h>
 
-#include "host/simulation/error_model.hpp"
+#include "host/experiments/cyclic/error_model.hpp"
 
 namespace macadam {
 namespace {
@@ -50,9 +50,10 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, co
                    "first moments below 1e-12 are taken as 0"});
   }
   if (fixed) {
-    out.push_back({"geometry update", "normals and lever arms are those of the start",
-                   fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
-                               fixed_geometry_error(scene.cyclic().strain_amplitude), scene.cyclic().strain_amplitude)});
+    out.push_back(
+        {"geometry update", "normals and lever arms are those of the start",
+         fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
+                     fixed_geometry_error(scene.cyclic().strain_amplitude), scene.cyclic().strain_amplitude)});
   }
   if (scene.network.quadrature == Quadrature::one_point && plan.form == ContactForm::points) {
     out.push_back({"second moments", "a facet has one point: three chains in place of six", "rounding"});

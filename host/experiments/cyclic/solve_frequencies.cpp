@@ -6,14 +6,18 @@
 #include <cmath>
 #include <optional>
 
-#include "host/simulation/judgement.hpp"
+#include "host/experiments/cyclic/judgement.hpp"
+#include "host/simulation/harmonic_options.hpp"
 #include "host/simulation/phases.hpp"
-#include "host/simulation/plan.hpp"
-#include "host/simulation/solution.hpp"
+#include "host/experiments/cyclic/plan.hpp"
+#include "host/experiments/cyclic/methods.hpp"
 #include "macadam/error.hpp"
 #include "macadam/harmonic.hpp"
 
 namespace macadam {
+
+using experiments::HarmonicFrequency;
+
 namespace {
 
 /// What the scene gives that only a stepped run takes.
@@ -51,8 +55,9 @@ std::string described(const Scene& scene, double viscous) {
 
 class HarmonicSolution : public Solution {
  public:
-  HarmonicSolution(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result)
-      : scene_(scene), prepared_(prepared), watcher_(watcher) {
+  HarmonicSolution(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
+                   std::vector<HarmonicFrequency>& found)
+      : scene_(scene), prepared_(prepared), watcher_(watcher), found_(found) {
     const SolverSpec& solver = scene.solver;
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
     // the reference writes the time step again, not this; factors are the CPU's
@@ -132,14 +137,13 @@ class HarmonicSolution : public Solution {
     return harmonic_->solve(loads);
   }
 
-  void take(const std::vector<HarmonicResult>& solved, RunResult& result, const Saving& save) const {
+  void take(const std::vector<HarmonicResult>& solved, RunResult& result, const Saving& save) {
     for (const HarmonicResult& s : solved) {
-      const std::size_t i = result.frequencies.size() % frequencies_.size();
-      FrequencyResult f;
+      const std::size_t i = found_.size() % frequencies_.size();
+      HarmonicFrequency f;
       f.density_scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
       f.frequency_hz = s.frequency_hz;
       f.temperature_c = isothermal_.materials.temperature;
-      f.method = SolverMethod::harmonic;
       f.linear = s.linear;
       if (!s.why_factors.empty()) {
         result.warnings.push_back(fmt::format("{} Hz: solved with factors: {}", s.frequency_hz, s.why_factors));
@@ -151,8 +155,8 @@ class HarmonicSolution : public Solution {
       f.iterations = s.iterations;
       f.held_force = s.held_force;
       f.seconds = s.seconds;
-      judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), {}, result.warnings);
-      result.frequencies.push_back(f);
+      judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), result.warnings);
+      found_.push_back(std::move(f));
     }
     save("running");
   }
@@ -160,6 +164,7 @@ class HarmonicSolution : public Solution {
   const Scene& scene_;
   const Preparation& prepared_;
   const Watcher& watcher_;
+  std::vector<HarmonicFrequency>& found_;
   std::vector<double> frequencies_ = frequencies_of(scene_.experiment),
                       temperatures_ = temperatures_of(scene_.experiment);
   Backend backend_ = Backend::cpu;
@@ -171,8 +176,8 @@ class HarmonicSolution : public Solution {
 }  // namespace
 
 std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                        RunResult& result) {
-  return std::make_unique<HarmonicSolution>(scene, prepared, watcher, result);
+                                        RunResult& result, std::vector<HarmonicFrequency>& found) {
+  return std::make_unique<HarmonicSolution>(scene, prepared, watcher, result, found);
 }
 
 }  // namespace macadam
