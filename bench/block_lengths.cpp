@@ -6,7 +6,7 @@
 // the same time step and masses. It takes some minutes.
 #include <fmt/format.h>
 
-#include "host/simulation/error_model.hpp"
+#include "host/experiments/cyclic/error_model.hpp"
 #include "kernels/contact_kinematics.hpp"
 #include "kernels/layout.hpp"
 #include "test_scenes.hpp"

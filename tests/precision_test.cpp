@@ -9,8 +9,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "host/simulation/error_model.hpp"
-#include "host/simulation/plan.hpp"
+#include "host/experiments/cyclic/error_model.hpp"
+#include "host/experiments/cyclic/plan.hpp"
 #include "test_scenes.hpp"
 
 namespace macadam::test {

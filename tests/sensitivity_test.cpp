@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cluster_specimens.hpp"
-#include "host/simulation/error_model.hpp"
-#include "host/simulation/scaling.hpp"
+#include "host/experiments/cyclic/error_model.hpp"
+#include "host/experiments/cyclic/scaling.hpp"
 #include "macadam/harmonic.hpp"
 #include "program.hpp"
 #include "test_scenes.hpp"

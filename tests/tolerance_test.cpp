@@ -9,7 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "host/simulation/error_model.hpp"
+#include "host/experiments/cyclic/error_model.hpp"
 #include "cluster_specimens.hpp"
 
 namespace macadam::test {
@@ -55,7 +55,7 @@ class Tolerance : public testing::Test {
 
   void expect_kept(const Scene& scene) const {
     const RunResult result = run_it(scene);
-    for (const FrequencyResult& f : result.frequencies) {
+    for (const experiments::SteppedFrequency& f : result.stepped().frequencies) {
       ASSERT_TRUE(f.achieved && f.predicted);
       EXPECT_LE(largest(*f.achieved), *scene.solver.tolerance) << f.frequency_hz << " Hz";
       // most of the tolerance is used: time goes as the root of the inertia that is admitted
@@ -126,12 +126,13 @@ TEST_F(Tolerance, GivenSettingsWin) {
   scene.solver.form = ContactForm::points;
   scene.cyclic().cycles = 2;
   const RunResult result = run_it(scene);
-  EXPECT_EQ(result.frequencies[0].density_scaling, 2e4);
-  EXPECT_EQ(result.frequencies[0].cycles, 2);
-  EXPECT_EQ(result.precision, Precision::double_);
-  EXPECT_EQ(result.geometry, Geometry::updated);
-  EXPECT_EQ(result.form, ContactForm::points);
-  EXPECT_NEAR(result.frequencies[0].achieved->e_star, result.frequencies[0].predicted->e_star, 1e-5);
+  EXPECT_EQ(result.stepped().frequencies[0].density_scaling, 2e4);
+  EXPECT_EQ(result.stepped().frequencies[0].cycles, 2);
+  EXPECT_EQ(result.stepped().precision, Precision::double_);
+  EXPECT_EQ(result.stepped().geometry, Geometry::updated);
+  EXPECT_EQ(result.stepped().form, ContactForm::points);
+  EXPECT_NEAR(result.stepped().frequencies[0].achieved->e_star, result.stepped().frequencies[0].predicted->e_star,
+              1e-5);
   const auto json = summary();
   EXPECT_EQ(json.at("results").at(0).at("start"), "steady");
   EXPECT_EQ(json.at("solver").at("tolerance"), 1e-2);
@@ -152,7 +153,7 @@ TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   scene.solver.damping_kind = Damping::local;
   scene.solver.damping = 0.02;
   const RunResult result = run_it(scene);
-  const FrequencyResult& f = result.frequencies[0];
+  const experiments::SteppedFrequency& f = result.stepped().frequencies[0];
   EXPECT_EQ(f.start, Start::rest);
   EXPECT_GE(f.cycles, 4);
   EXPECT_TRUE(f.kept.value());
@@ -168,12 +169,12 @@ TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
   scene.network.quadrature = Quadrature::one_point;
   scene.network.gap_max = -0.14;
   const RunResult result = run_it(scene);
-  const FrequencyResult& f = result.frequencies[0];
+  const experiments::SteppedFrequency& f = result.stepped().frequencies[0];
   EXPECT_EQ(f.start, Start::rest);
   EXPECT_FALSE(f.achieved || f.predicted || f.kept);
   EXPECT_GT(f.density_scaling, 100);
   EXPECT_TRUE(says(result, "no harmonic solution"));
-  EXPECT_EQ(result.form, ContactForm::points);
+  EXPECT_EQ(result.stepped().form, ContactForm::points);
   ASSERT_EQ(result.warnings.size(), 1u) << testing::PrintToString(result.warnings);
   EXPECT_NE(result.warnings[0].find("could not be verified"), std::string::npos) << result.warnings[0];
 }
@@ -197,7 +198,7 @@ TEST_F(Tolerance, AMissIsSaid) {
   Scene scene = scene_of(t8(), 1e-3);
   scene.cyclic().frequencies = {20};
   scene.solver.density_scaling = std::vector<double>{5e4};
-  EXPECT_FALSE(run_it(scene).frequencies[0].kept.value());
+  EXPECT_FALSE(run_it(scene).stepped().frequencies[0].kept.value());
   EXPECT_EQ(summary().at("results").at(0).at("tolerance_kept"), false);
 }
 
@@ -205,7 +206,7 @@ TEST_F(Tolerance, AGivenStepHasTheScalingThatItNeeds) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
   scene.solver.time_step = 5e-6;
-  const FrequencyResult f = run_it(scene).frequencies[0];
+  const experiments::SteppedFrequency f = run_it(scene).stepped().frequencies[0];
   EXPECT_TRUE(f.kept.value());
   EXPECT_LT(f.density_scaling, 1e4);
   EXPECT_NEAR(f.dt_s, 5e-6, 5e-7);
@@ -217,9 +218,9 @@ TEST_F(Tolerance, LargeStrainsAreNotLinear) {
   scene.cyclic().frequencies = {20};
   scene.cyclic().strain_amplitude = 0.01;
   const RunResult result = run_it(scene);
-  EXPECT_EQ(result.geometry, Geometry::updated);
+  EXPECT_EQ(result.stepped().geometry, Geometry::updated);
   EXPECT_TRUE(says(result, "not linear at this strain"));
-  EXPECT_EQ(result.frequencies[0].start, Start::rest);
+  EXPECT_EQ(result.stepped().frequencies[0].start, Start::rest);
   EXPECT_TRUE(says(result, "a ramp of 1 cycle"));
 }
 
@@ -229,7 +230,7 @@ TEST_F(Tolerance, AFixedGeometryAtLargeStrainIsAMiss) {
   scene.cyclic().frequencies = {20};
   scene.cyclic().strain_amplitude = 0.1;
   scene.solver.geometry = Geometry::fixed;
-  const FrequencyResult f = run_it(scene).frequencies[0];
+  const experiments::SteppedFrequency f = run_it(scene).stepped().frequencies[0];
   EXPECT_LE(largest(*f.achieved), 1e-2);
   EXPECT_FALSE(f.kept.value());
 }
@@ -245,7 +246,7 @@ TEST_F(Tolerance, FixedGeometryCostsWhatIsStated) {
   scene.cyclic().strain_amplitude = 3e-3;
   const auto modulus = [&](Geometry geometry) {
     scene.solver.geometry = geometry;
-    return run_it(scene).frequencies[0].stiffness.e_star_pa;
+    return run_it(scene).stepped().frequencies[0].stiffness.e_star_pa;
   };
   const double change = std::abs(modulus(Geometry::fixed) / modulus(Geometry::updated) - 1);
   EXPECT_LT(change, fixed_geometry_error(3e-3));
@@ -268,7 +269,7 @@ TEST_F(Tolerance, TheFittedCyclesLieAfterTheRamp) {
   scene.solver.tolerance = std::nullopt;
   scene.solver.density_scaling = std::vector<double>{5e4};
   scene.cyclic().ramp_cycles = 4;
-  EXPECT_EQ(run_it(scene).frequencies[0].cycles, 6);
+  EXPECT_EQ(run_it(scene).stepped().frequencies[0].cycles, 6);
 }
 
 // Only the fitted cycles are observed where nobody wants the response; the answer is the same.
@@ -282,9 +283,9 @@ TEST_F(Tolerance, AResponseNobodyAskedForIsNotObserved) {
   scene.output.response = false;
   const RunResult without = run_it(scene);
   EXPECT_FALSE(std::filesystem::exists(folder() / "response.csv"));
-  EXPECT_EQ(without.frequencies[0].stiffness.e_star_pa, with.frequencies[0].stiffness.e_star_pa);
-  EXPECT_EQ(without.frequencies[0].stiffness.phase_deg, with.frequencies[0].stiffness.phase_deg);
-  EXPECT_EQ(without.frequencies[0].cyclic->change_e_star, with.frequencies[0].cyclic->change_e_star);
+  EXPECT_EQ(without.stepped().frequencies[0].stiffness.e_star_pa, with.stepped().frequencies[0].stiffness.e_star_pa);
+  EXPECT_EQ(without.stepped().frequencies[0].stiffness.phase_deg, with.stepped().frequencies[0].stiffness.phase_deg);
+  EXPECT_EQ(without.stepped().frequencies[0].cyclic.change_e_star, with.stepped().frequencies[0].cyclic.change_e_star);
 }
 
 }  // namespace

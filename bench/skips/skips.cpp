@@ -121,7 +121,7 @@ void observation() {
   for (int turn = 0; turn < 9; ++turn) {
     for (int which = 0; which < 2; ++which) {
       scene.output.response = which == 1;
-      const FrequencyResult f = run(scene, folder).frequencies[0];
+      const experiments::SteppedFrequency f = run(scene, folder).stepped().frequencies[0];
       times[which].push_back(1e6 * f.seconds / static_cast<double>(f.steps));
       found[which] = f.stiffness;
     }

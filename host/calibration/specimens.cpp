@@ -9,8 +9,7 @@
 #include <numbers>
 
 #include "host/parallel.hpp"
-#include "host/simulation/plan.hpp"
-#include "host/simulation/solution.hpp"
+#include "host/simulation/harmonic_options.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::calibration {

@@ -22,32 +22,6 @@ struct Arguments {
   bool resume = false;
 };
 
-void say_results(const RunResult& result) {
-  const bool warm = !result.frequencies.empty() && result.frequencies.front().temperature_c;
-  say("\n{}{:>8} {:>11} {:>9}", warm ? "   T (C) " : "", "f (Hz)", "|E*| (GPa)", "phi (deg)");
-  const bool stepped = !result.frequencies.empty() && result.frequencies.front().method == SolverMethod::explicit_;
-  const bool known = stepped && result.frequencies.front().achieved;
-  if (stepped) {
-    say(" {:>11} {:>9} {:>9} {:>10} {:>9}\n", known ? "err |E*|" : "d|E*| cycle", known ? "err (rad)" : "d phi",
-        "scaling", "steps", "time (s)");
-  } else {
-    say(" {:>9} {:>10} {:>11} {:>9}\n", "residual", "iterations", "held force", "time (s)");
-  }
-  for (const FrequencyResult& f : result.frequencies) {
-    if (warm) say("{:>8g} ", f.temperature_c.value_or(0));
-    say("{:>8g} {:>11.5f} {:>9.4f}", f.frequency_hz, f.stiffness.e_star_pa / 1e9, f.stiffness.phase_deg);
-    if (f.cyclic) {
-      const double e_star = f.achieved ? f.achieved->e_star : f.cyclic->change_e_star;
-      const double phase = f.achieved ? f.achieved->phase_rad : f.cyclic->change_phase_deg;
-      say(" {:>11.1e} {:>9.1e} {:>9.5g} {:>10} {:>9.1f}\n", e_star, phase, f.density_scaling, f.steps, f.seconds);
-    } else {
-      say(" {:>9.1e} {:>10} {:>11.1e} {:>9.1f}\n", f.residual, f.iterations, f.held_force, f.seconds);
-    }
-  }
-  if (known) say("err: against the harmonic solution at true mass, |E*| relative, phi in radians\n");
-  for (const std::string& warning : result.warnings) say("warning: {}\n", warning);
-}
-
 void run_command(const Arguments& arguments) {
   Scene scene = scene_of(arguments.job);
   if (arguments.method) scene.solver.method = *arguments.method;
@@ -91,12 +65,8 @@ void run_command(const Arguments& arguments) {
   listen_to_stop_signals();
   const RunResult result = run(scene, arguments.job.out, watcher, arguments.resume);
   line.clear();
-  if (result.frequencies.empty()) {
-    say("{}", results_table(result));
-    for (const std::string& warning : result.warnings) say("warning: {}\n", warning);
-  } else {
-    say_results(result);
-  }
+  say("{}", results_table(result));
+  for (const std::string& warning : result.warnings) say("warning: {}\n", warning);
   std::string files = "summary.json specimen.csv";
   for (const std::string& name : files_of(scene.experiment))
     if (std::filesystem::exists(std::filesystem::path(arguments.job.out) / name)) files += " " + name;

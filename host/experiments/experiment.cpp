@@ -57,10 +57,12 @@ std::vector<double> temperatures_of(const Experiment& experiment) {
       experiment);
 }
 
-std::unique_ptr<Solution> plan_without_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                             RunResult& result) {
+std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                          std::optional<Resumed> resumed, RunResult& result) {
   return std::visit(
-      [&]<class Spec>(const Spec& spec) { return ExperimentOf<Spec>::plan(spec, scene, prepared, watcher, result); },
+      [&]<class Spec>(const Spec& spec) {
+        return ExperimentOf<Spec>::plan(spec, scene, prepared, watcher, std::move(resumed), result);
+      },
       scene.experiment);
 }
 
@@ -77,15 +79,43 @@ std::vector<std::string> result_files() {
   return out;
 }
 
-std::string results_table(const RunResult& result) {
+namespace {
+
+/// f of what was found; `nothing` where nothing is.
+template <class T, class F>
+T of_found(const ExperimentResult& found, T nothing, F&& f) {
   return std::visit(
-      []<class Result>(const Result& found) -> std::string {
+      [&]<class Result>(const Result& result) -> T {
         if constexpr (std::is_same_v<Result, std::monostate>)
-          return {};
+          return nothing;
         else
-          return ResultOf<Result>::table(found);
+          return f(result);
       },
-      result.found);
+      found);
+}
+
+}  // namespace
+
+void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_json& out) {
+  const bool nothing = std::holds_alternative<std::monostate>(result.found);
+  const ExperimentResult none = experiments::SteppedCyclic{};
+  const bool shown = nothing && scene.solver.method == SolverMethod::explicit_ && steps(scene.experiment);
+  of_found(shown ? none : result.found, 0, [&]<class Result>(const Result& found) {
+    ResultOf<Result>::summarise(found, scene, result, out);
+    return 0;
+  });
+}
+
+double solve_seconds(const RunResult& result) {
+  const double found =
+      of_found(result.found, 0.0, []<class Result>(const Result& f) { return ResultOf<Result>::seconds(f); });
+  const bool stepped = std::holds_alternative<experiments::SteppedCyclic>(result.found);
+  return found + (stepped ? 0 : result.phases.preconditioner);  // a stepped one has it in its planning
+}
+
+std::string results_table(const RunResult& result) {
+  return of_found(result.found, std::string(),
+                  []<class Result>(const Result& found) { return ResultOf<Result>::table(found); });
 }
 
 experiments::Cyclic& Scene::cyclic() { return const_cast<experiments::Cyclic&>(std::as_const(*this).cyclic()); }

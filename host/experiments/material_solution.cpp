@@ -11,8 +11,8 @@
 #include <tuple>
 
 #include "host/experiments/material_files.hpp"
+#include "host/simulation/harmonic_options.hpp"
 #include "host/simulation/phases.hpp"
-#include "host/simulation/plan.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

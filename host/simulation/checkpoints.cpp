@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoints.cpp  A run's state as texts and arrays; a checkpoint of any other run is refused.
+// checkpoints.cpp  When a run is written down, and that a checkpoint of any other run is refused.
 #include "host/simulation/checkpoints.hpp"
 
 #include <fmt/format.h>
@@ -7,39 +7,15 @@
 
 #include <algorithm>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "macadam/error.hpp"
 #include "macadam/version.hpp"
 
-/// A value or null.
-template <class T>
-struct nlohmann::adl_serializer<std::optional<T>> {
-  static void to_json(json& out, const std::optional<T>& value) { out = value ? json(*value) : json(); }
-  static void from_json(const json& in, std::optional<T>& value) {
-    if (!in.is_null()) value = in.get<T>();
-  }
-};
-
 namespace macadam {
-
-// JSON's numbers are the shortest that give the same double again; all of these are finite.
-namespace drives {
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cyclic, amplitude, frequency, steps_per_period, ramp_steps)
-}
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Stiffness, e_star_pa, phase_deg)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ErrorEstimate, e_star, phase_rad)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FrequencyPlan, loading, density_scaling, start, cycles, fit_cycles, known, predicted)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Plan, form, geometry, precision, geometry_error, critical, frequencies, decisions)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunState, plan, seconds_planning, seconds, seconds_running, warnings)
-
 namespace {
 
-constexpr const char *plan_text = "plan", *specimen_text = "specimen", *samples_array = "samples";
-constexpr const char *motion_prefix = "motion of frequency ", *state_prefix = "state ";
-constexpr std::size_t sample_words = 4;
+constexpr const char *specimen_text = "specimen", *state_prefix = "state ";
 
 /// What a checkpoint must have in common with the run that goes on from it, besides the specimen. Precision, form and
 /// geometry as asked for: where nothing is, the plan holds what was chosen.
@@ -99,58 +75,38 @@ bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not
 
 bool is_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend) {
   try {
-    read_run_state(file, scene, backend);
+    read_checkpoint_of(file, scene, backend);
     return true;
   } catch (const InputError&) { return false; }
 }
 
-RunState read_run_state(const std::filesystem::path& file, const Scene& scene, Backend backend) {
-  Checkpoint checkpoint = read_checkpoint(file);
+Checkpoint read_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend) {
+  Checkpoint out = read_checkpoint(file);
   for (const auto& [what, expected] : identity(scene, backend)) {
-    const std::string& found = checkpoint.texts[what];
+    const std::string& found = out.texts[what];
     if (found == expected) continue;
     if (what != "scene") refuse(file, what, found, expected);
     const auto [there, here] = first_difference(found, expected);
     refuse(file, what, there, here);
   }
-  const auto damaged = [&](const std::string& what) {
-    throw InputError(file.string(), 0, "checkpoint", what, "what this version writes");
-  };
-  RunState out;
-  try {
-    out = nlohmann::json::parse(checkpoint.texts[plan_text]).get<RunState>();
-  } catch (const nlohmann::json::exception& error) { damaged(error.what()); }
-  out.specimen = checkpoint.texts[specimen_text];
-  for (StateArray& array : checkpoint.arrays) {
-    if (array.name.starts_with(state_prefix)) {
-      array.name.erase(0, std::string_view(state_prefix).size());
-      out.state.push_back(std::move(array));
-      continue;
-    }
-    const auto* values = std::get_if<std::vector<double>>(&array.values);
-    if (!values) damaged("array " + array.name + " in another precision");
-    if (array.name == samples_array) {
-      for (std::size_t i = 0; i + sample_words <= values->size(); i += sample_words) {
-        const double* word = &(*values)[i];
-        out.samples.push_back({word[0], word[1], word[2], word[3]});
-      }
-    }
-    for (std::size_t i = 0; i < out.plan.frequencies.size(); ++i) {
-      if (array.name != motion_prefix + std::to_string(i)) continue;
-      for (std::size_t k = 0; k + 1 < values->size(); k += 2) {
-        out.plan.frequencies[i].motion.emplace_back((*values)[k], (*values)[k + 1]);
-      }
-    }
-  }
-  if (out.seconds.size() >= out.plan.frequencies.size()) damaged("no frequency that is still to be run");
-  if (out.state.empty()) damaged("no state");
   return out;
 }
 
-void require_same_specimen(const std::filesystem::path& file, const RunState& state, const Preparation& prepared) {
-  if (const std::string here = fingerprint(prepared); state.specimen != here) {
-    refuse(file, "specimen", state.specimen, here);
+void require_same_specimen(const std::filesystem::path& file, const Checkpoint& found, const Preparation& prepared) {
+  const auto there = found.texts.find(specimen_text);
+  const std::string specimen = there == found.texts.end() ? "none" : there->second, here = fingerprint(prepared);
+  if (specimen != here) refuse(file, "specimen", specimen, here);
+}
+
+std::vector<StateArray> take_state(Checkpoint& from) {
+  std::vector<StateArray> out, others;
+  for (StateArray& array : from.arrays) {
+    const bool state = array.name.starts_with(state_prefix);
+    if (state) array.name.erase(0, std::string_view(state_prefix).size());
+    (state ? out : others).push_back(std::move(array));
   }
+  from.arrays = std::move(others);
+  return out;
 }
 
 Checkpoints::Checkpoints(const std::filesystem::path& file, const Scene& scene, const Preparation& prepared,
@@ -164,7 +120,7 @@ Checkpoints::Checkpoints(const std::filesystem::path& file, const Scene& scene, 
       warn_(std::move(warn)),
       own_(resumed) {}
 
-void Checkpoints::look(const RunState& at, double seconds_running, const Stepper& stepper, const std::string& where) {
+void Checkpoints::look(const Content& content, const Stepper& stepper, const std::string& where) {
   constexpr double usual = 600;  // [s]
   const double period = scene_.output.checkpoint.value_or(usual);
   std::string why_not;
@@ -174,7 +130,7 @@ void Checkpoints::look(const RunState& at, double seconds_running, const Stepper
   std::string failure;
   if (kept) {
     try {
-      write(at, seconds_running, stepper);
+      write(content, stepper);
       own_ = true;
     } catch (const RunError& error) { failure = error.what(); } catch (const std::bad_alloc&) {
       failure = "not enough memory for it";
@@ -193,23 +149,11 @@ void Checkpoints::look(const RunState& at, double seconds_running, const Stepper
   throw InterruptedError(fmt::format("interrupted at {}, t = {:.6g} s; {}", where, stepper.observe().time, resumable));
 }
 
-void Checkpoints::write(const RunState& at, double seconds_running, const Stepper& stepper) const {
+void Checkpoints::write(const Content& content, const Stepper& stepper) const {
   Checkpoint out;
   out.texts = identity(scene_, backend_);
-  nlohmann::json plan = at;
-  plan["seconds_running"] = seconds_running;
-  out.texts[plan_text] = plan.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   out.texts[specimen_text] = fingerprint(prepared_);
-  std::vector<double> samples;
-  for (const ResponseSample& s : at.samples) {
-    samples.insert(samples.end(), {s.frequency_hz, s.time_s, s.strain, s.stress_pa});
-  }
-  out.arrays.push_back({samples_array, "Hz, s, 1, Pa", std::move(samples)});
-  for (std::size_t i = at.seconds.size() + 1; i < at.plan.frequencies.size(); ++i) {  // those still to be started
-    std::vector<double> motion;
-    for (const auto& z : at.plan.frequencies[i].motion) motion.insert(motion.end(), {z.real(), z.imag()});
-    if (!motion.empty()) out.arrays.push_back({motion_prefix + std::to_string(i), "m/m, rad/m", std::move(motion)});
-  }
+  content(out);
   for (StateArray& array : stepper.state()) {
     array.name = state_prefix + array.name;
     out.arrays.push_back(std::move(array));

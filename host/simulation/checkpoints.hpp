@@ -9,22 +9,10 @@
 #include <vector>
 
 #include "host/results/checkpoint.hpp"
-#include "host/simulation/plan.hpp"
+#include "macadam/simulation.hpp"
+#include "macadam/stepper.hpp"
 
 namespace macadam {
-
-/// All that a stepped run needs to go on to the same bits. The results of finished frequencies follow from plan and
-/// samples.
-struct RunState {
-  Plan plan;  ///< decided once: the harmonic solutions that it rests on are not needed again
-  double seconds_planning = 0;
-  std::vector<double> seconds;          ///< wall time of each finished frequency
-  double seconds_running = 0;           ///< of the one that runs, until now
-  std::vector<std::string> warnings;    ///< of checkpoints that could not be written
-  std::vector<ResponseSample> samples;  ///< of all frequencies until now
-  std::vector<StateArray> state;        ///< Stepper::state() of the one that runs; read from a checkpoint only
-  std::string specimen;                 ///< fingerprint; read from a checkpoint only
-};
 
 /// The checkpoint's name in the folder of the results.
 inline constexpr const char* checkpoint_name = "checkpoint.h5";
@@ -32,16 +20,22 @@ inline constexpr const char* checkpoint_name = "checkpoint.h5";
 /// Whether runs of this scene keep checkpoints; `why_not` (optional) says why they do not.
 bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not = nullptr);
 
-/// Reads a checkpoint of this scene on this backend.
+/// Reads a checkpoint of this scene on this backend, which belongs to one of its tests.
 /// \throws InputError as read_checkpoint(), and naming what differs: scene (with the first line that does), version,
 /// backend, precision, form or geometry.
-RunState read_run_state(const std::filesystem::path& file, const Scene& scene, Backend backend);
+Checkpoint read_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend);
 
 /// Whether a file is a whole checkpoint of this scene on this backend.
 bool is_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend);
 
 /// \throws InputError when the checkpoint's particles and contacts were others (its specimen file was changed).
-void require_same_specimen(const std::filesystem::path& file, const RunState& state, const Preparation& prepared);
+void require_same_specimen(const std::filesystem::path& file, const Checkpoint& found, const Preparation& prepared);
+
+/// Stepper::state() out of a checkpoint, whose other arrays stay.
+std::vector<StateArray> take_state(Checkpoint& from);
+
+/// A test's own part of a checkpoint: adds its texts and arrays.
+using Content = std::function<void(Checkpoint& to)>;
 
 /// Writes checkpoints of one run where they are due. One that cannot be written (a full disk) is a warning: the one
 /// before it stays, and the run goes on.
@@ -52,13 +46,13 @@ class Checkpoints {
 
   /// Looks whether it is time or the run is to stop; `where` is for the message.
   /// \throws InterruptedError when it was to stop, with the checkpoint written, or why it could not be.
-  void look(const RunState& at, double seconds_running, const Stepper& stepper, const std::string& where);
+  void look(const Content& content, const Stepper& stepper, const std::string& where);
 
   /// Whether the file, if it is there, is this run's: it was written, or the run goes on from it.
   bool own() const { return own_; }
 
  private:
-  void write(const RunState& at, double seconds_running, const Stepper& stepper) const;
+  void write(const Content& content, const Stepper& stepper) const;
 
   using Clock = std::chrono::steady_clock;
   std::filesystem::path file_;

@@ -9,6 +9,7 @@
 #include "host/fields/field_output.hpp"
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
+#include "host/simulation/checkpoints.hpp"
 #include "host/simulation/phases.hpp"
 #include "host/simulation/preparation_files.hpp"
 #include "host/simulation/sparing_save.hpp"
@@ -95,11 +96,14 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
       select_backend(scene.solver.backend, nullptr, scene.solver.device);  // before any work: it may not be there
   require_checkpoints(scene, result.backend, resume);
   const ResultFolder folder(out);
-  std::optional<RunState> resumed;
-  if (resume) resumed = read_run_state(out / checkpoint_name, scene, result.backend);
+  std::optional<Resumed> resumed;
+  if (resume) {
+    const std::filesystem::path file = out / checkpoint_name;
+    resumed = Resumed{read_checkpoint_of(file, scene, result.backend), file};
+  }
   starting.reset();
   const Preparation prepared = prepare(scene, watcher.progress);
-  if (resumed) require_same_specimen(out / checkpoint_name, *resumed, prepared);
+  if (resumed) require_same_specimen(resumed->file, resumed->checkpoint, prepared);
   if (watcher.prepared) watcher.prepared(prepared);
 
   const Saving save = [&](const std::string& status) {
@@ -109,8 +113,7 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   std::unique_ptr<Solution> solution;
   std::exception_ptr unsolvable;
   try {
-    solution = stepped ? plan_steps(scene, prepared, watcher, std::move(resumed), out / checkpoint_name, result)
-                       : plan_without_steps(scene, prepared, watcher, result);
+    solution = plan_experiment(scene, prepared, watcher, std::move(resumed), result);
   } catch (const InterruptedError&) {
     throw InterruptedError("interrupted while planning: the folder is as it was");
   } catch (const RunError&) {

@@ -36,37 +36,6 @@ struct Skip {
   std::string effect;  ///< on the answer: "none: same bits", or how much
 };
 
-/// An error of |E*| (relative) and of φ [rad], with signs.
-struct ErrorEstimate {
-  double e_star = 0, phase_rad = 0;
-};
-
-/// One frequency's outcome.
-struct FrequencyResult {
-  double frequency_hz = 0;
-  std::optional<double> temperature_c;  ///< where the scene has one
-  SolverMethod method = SolverMethod::explicit_;
-  Stiffness stiffness;  ///< the result, from the reaction of the top wall
-  double residual = 0;  ///< explicit: rms of stress that the fit leaves / amplitude; harmonic: ‖f − K·u‖/‖f‖
-  double density_scaling = 1;          ///< of the inertia that is in the result
-  double seconds = 0;                  ///< wall time of the solution
-  std::optional<CyclicResult> cyclic;  ///< explicit: fit, peaks, steadiness
-  double dt_s = 0;                     ///< explicit
-  std::int64_t steps = 0;              ///< explicit
-  int cycles = 0;                      ///< explicit
-  Start start = Start::rest;           ///< explicit
-  /// explicit: whether the tolerance that was asked for was kept; nothing where there is no harmonic solution to tell
-  std::optional<bool> kept;
-  std::optional<ErrorEstimate> predicted,
-      achieved;                       ///< explicit: against the harmonic solution at true mass, if there is one
-  std::optional<ModulusParts> parts;  ///< harmonic: of which |E*| and φ are the sum
-  std::string fault;                  ///< what of it cannot be right; empty where nothing is known to be wrong
-  std::optional<Stiffness> bottom;    ///< harmonic: from the reaction of the bottom wall
-  int iterations = 0;                 ///< harmonic
-  LinearMethod linear = LinearMethod::iterative;  ///< harmonic: that found the solution
-  double held_force = 0;                          ///< harmonic: force that holds free rigid motions / reaction
-};
-
 /// Wall time of a run's phases in this process [s], beside those of its Preparation: each moment is in one of them.
 struct PhaseSeconds {
   double start = 0;           ///< before preparing: a device is found, a checkpoint is read
@@ -82,22 +51,17 @@ struct PhaseSeconds {
 
 /// Outcome of a run.
 struct RunResult {
-  std::vector<FrequencyResult> frequencies;  ///< of cyclic tests and sweeps
-  ExperimentResult found;                    ///< of the others
-  PhaseSeconds phases;                       ///< a phase is in it once it is over
-  double seconds_planning = 0;  ///< explicit: wall time before the first stepper, harmonic solutions included; resumed
-                                ///< runs: that of the run that was interrupted
-  std::vector<std::string> decisions;         ///< explicit: what the scene left open, and what was chosen why
-  std::vector<Skip> skips;                    ///< explicit
-  std::vector<std::string> warnings;          ///< what a reader of the results must know, a sentence each
-  ContactForm form = ContactForm::condensed;  ///< explicit: that ran, likewise the next two
-  Geometry geometry = Geometry::updated;
-  Precision precision = Precision::double_;
+  ExperimentResult found;              ///< of the scene's test
+  PhaseSeconds phases;                 ///< a phase is in it once it is over
+  std::vector<std::string> decisions;  ///< what the scene left open, and what was chosen why
+  std::vector<Skip> skips;
+  std::vector<std::string> warnings;     ///< what a reader of the results must know, a sentence each
   std::string solver;                    ///< what ran, in words: Stepper::description(), or "harmonic, …"
   Backend backend = Backend::automatic;  ///< that ran
-  std::int64_t bytes = 0;                ///< explicit: Stepper::bytes()
-  std::int32_t critical_particle = -1;   ///< explicit: the particle that sets the critical step
-  double critical_dt_s = 0;              ///< explicit: the critical step at true mass
+
+  /// The cyclic test as it was stepped, or as it was solved. \throws std::bad_variant_access where it was not.
+  const experiments::SteppedCyclic& stepped() const { return std::get<experiments::SteppedCyclic>(found); }
+  const experiments::HarmonicCyclic& harmonic() const { return std::get<experiments::HarmonicCyclic>(found); }
 };
 
 /// Called as work goes on: what is being done, share of it done 0…1. What it throws ends the work.

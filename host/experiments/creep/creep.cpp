@@ -60,7 +60,7 @@ CreepResult response(const Creep& spec, Material material) {
 
 template <>
 std::unique_ptr<Solution> ExperimentOf<Creep>::plan(const Creep& spec, const Scene& scene, const Preparation& prepared,
-                                                    const Watcher& watcher, RunResult& result) {
+                                                    const Watcher& watcher, std::optional<Resumed>, RunResult& result) {
   History history{spec.times, {{0, spec.ramp}}};
   if (spec.release) history.ramps.push_back({*spec.release, spec.ramp});
   const auto responds = [spec](const std::filesystem::path& out, Material material, RunResult& found) {
@@ -79,29 +79,35 @@ std::unique_ptr<Solution> ExperimentOf<Creep>::plan(const Creep& spec, const Sce
 }
 
 template <>
-nlohmann::ordered_json ResultOf<CreepResult>::summary(const CreepResult& result, const Scene& scene) {
+void ResultOf<CreepResult>::summarise(const CreepResult& found, const Scene& scene, const RunResult&,
+                                      nlohmann::ordered_json& summary) {
   const auto& spec = std::get<Creep>(scene.experiment);
-  nlohmann::ordered_json out = material_json(spec.kind, result.material);
+  nlohmann::ordered_json out = material_json(spec.kind, found.material);
   out["stress_pa"] = spec.stress;
   out["ramp_s"] = spec.ramp;
   out["release_s"] = spec.release ? nlohmann::ordered_json(*spec.release) : nlohmann::ordered_json();
-  for (const auto& p : result.points) {
+  for (const auto& p : found.points) {
     out["points"].push_back({{"time_s", p.time_s},
                              {"stress_pa", p.stress_pa},
                              {"strain", p.strain},
                              {"compliance_1_pa", p.compliance_1_pa}});
   }
-  return out;
+  summary["results"].push_back(std::move(out));
 }
 
 template <>
-std::string ResultOf<CreepResult>::table(const CreepResult& result) {
+double ResultOf<CreepResult>::seconds(const CreepResult& found) {
+  return found.material.seconds;
+}
+
+template <>
+std::string ResultOf<CreepResult>::table(const CreepResult& found) {
   std::string out = fmt::format("\n{:>12} {:>14} {:>12} {:>14}\n", "t (s)", "stress (MPa)", "strain", "J(t) (1/GPa)");
-  for (const auto& p : result.points) {
+  for (const auto& p : found.points) {
     out += fmt::format("{:>12.5g} {:>14.6g} {:>12.6g} {:>14.6g}\n", p.time_s, p.stress_pa / 1e6, p.strain,
                        p.compliance_1_pa * 1e9);
   }
-  return out + material_lines(result.material);
+  return out + material_lines(found.material);
 }
 
 }  // namespace macadam

@@ -1,14 +1,327 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plan.cpp  The cyclic test without stepping: its steady states.
-#include "host/experiments/experiment.hpp"
+// plan.cpp  Density scaling, time step, start, cycles, precision and geometry from the error that is asked for.
+#include "host/experiments/cyclic/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/experiments/cyclic/error_model.hpp"
+#include "host/simulation/harmonic_options.hpp"
+#include "host/simulation/phases.hpp"
+#include "host/experiments/cyclic/scaling.hpp"
+#include "host/experiments/cyclic/methods.hpp"
+#include "macadam/error.hpp"
 
 namespace macadam {
+namespace {
 
-template <>
-std::unique_ptr<Solution> ExperimentOf<experiments::Cyclic>::plan(const experiments::Cyclic&, const Scene& scene,
-                                                                  const Preparation& prepared, const Watcher& watcher,
-                                                                  RunResult& result) {
-  return plan_harmonic(scene, prepared, watcher, result);
+/// Shares of the tolerance. Inertia is predicted by a solution and so takes the most of it; what it takes without one
+/// is an estimate. The rest is for rounding, geometry, start and time step.
+constexpr double inertia_share = 0.9, estimate_share = 0.5, precision_share = 0.05, geometry_share = 0.02;
+
+class Planner {
+ public:
+  Planner(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Watcher& watcher,
+          Backend backend, PhaseSeconds& phases)
+      : scene_(scene),
+        prepared_(prepared),
+        inertia_(inertia),
+        progress_(watcher.progress),
+        stop_(watcher.stop),
+        backend_(backend),
+        phases_(phases) {}
+
+  Plan make() {
+    choose_form_and_geometry();
+    StepperOptions options;
+    options.damping_kind = scene_.solver.damping_kind;
+    options.damping = scene_.solver.damping;
+    plan_.critical = critical_step(prepared_.network, scene_.laws, inertia_, options);
+    choose_start();
+    if (scene_.solver.time_step && scene_.solver.safety && (!automatic() || scene_.solver.density_scaling)) {
+      decide("safety has no part in it: time_step is given");
+    }
+    plan_frequencies();
+    choose_precision();
+    return std::move(plan_);
+  }
+
+ private:
+  template <class... Args>
+  void decide(fmt::format_string<Args...> text, Args&&... args) {
+    plan_.decisions.push_back(fmt::format(text, std::forward<Args>(args)...));
+  }
+  bool automatic() const { return scene_.solver.tolerance.has_value(); }
+  double tolerance() const { return *scene_.solver.tolerance; }
+  /// Residuals enter E* squared, and the motion of the start as they are, times the condition of K, some 1e5 at most.
+  double planning_residual() const {
+    return automatic() ? std::clamp(1e-5 * tolerance(), HarmonicOptions{}.tolerance, 1e-8)
+                       : HarmonicOptions{}.tolerance;
+  }
+  double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
+
+  void choose_form_and_geometry() {
+    // one point has three chains, a facet six
+    const bool one_point = scene_.network.quadrature == Quadrature::one_point;
+    plan_.form = scene_.solver.form.value_or(one_point ? ContactForm::points : ContactForm::condensed);
+    plan_.geometry = scene_.solver.geometry.value_or(Geometry::updated);
+    const double strain = scene_.cyclic().strain_amplitude, error = fixed_geometry_error(strain);
+    if (automatic() && !scene_.solver.geometry && error <= geometry_share * tolerance()) {
+      plan_.geometry = Geometry::fixed;
+    }
+    const bool fixed = plan_.geometry == Geometry::fixed;
+    if (automatic()) {
+      // carried frames turn while the points move with them: the two forms then part by the square of the strain
+      decide("form {}: the other gives the same to {}", to_string(plan_.form),
+             fixed ? "rounding" : fmt::format("about {:.0e}, the square of the strain", strain * strain));
+      decide("geometry {}: at a strain of {:g}, that of the start changes |E*| by at most about {:.1e}",
+             to_string(plan_.geometry), strain, error);
+    }
+    if (fixed) plan_.geometry_error = error;
+    nonlinear_ = fixed ? 0 : error;
+  }
+
+  /// `no_harmonic_` says why where there is none.
+  void make_harmonic() {
+    if (prepared_.loose_particles > 0) {
+      no_harmonic_ = fmt::format("{} particles are not joined to both walls", prepared_.loose_particles);
+      return;
+    }
+    if (progress_) progress_("harmonic: preconditioner", 0);
+    const InPhase in(phases_, &PhaseSeconds::preconditioner);
+    try {
+      harmonic_.emplace(prepared_.specimen, prepared_.network, scene_.laws, inertia_,
+                        harmonic_options(scene_, backend_, stop_, planning_residual()),
+                        geometric_mean(scene_.cyclic().frequencies));
+    } catch (const RunError& error) { no_harmonic_ = error.what(); }
+  }
+
+  void choose_start() {
+    const experiments::Cyclic& loading = scene_.cyclic();
+    const bool asked = loading.start == Start::steady;
+    start_ = loading.start.value_or(automatic() && loading.ramp_cycles.value_or(0) == 0 ? Start::steady : Start::rest);
+    if (!automatic() && start_ == Start::rest) return;
+    ramp_ = 1;
+    make_harmonic();
+    if (!harmonic_) decide("no harmonic solution: {}", no_harmonic_);
+    const bool local = scene_.solver.damping_kind == Damping::local;
+    if (local) decide("not linear: local damping, whose own effect is not predicted");
+    const bool large = nonlinear_ > (automatic() ? 0.1 * tolerance() : 1e-4);
+    if (large) {
+      decide("not linear at this strain: the harmonic solution, that of the start's geometry, differs by up to {:.1e}",
+             nonlinear_);
+    }
+    if (start_ == Start::steady && harmonic_ && !local && !large) {
+      decide("steady start from the harmonic solution: the first cycle is periodic");
+    } else {
+      decide("start from rest{}", asked ? ", not steady as asked" : "");
+      start_ = Start::rest;
+    }
+  }
+
+  /// One solution for each load, side by side; those that have none are said, and left out.
+  std::vector<std::optional<HarmonicResult>> solutions(const std::vector<HarmonicLoad>& loads) {
+    std::vector<std::optional<HarmonicResult>> out(loads.size());
+    if (!harmonic_) return out;
+    if (progress_) progress_("harmonic: " + std::to_string(loads.size()) + " solutions", 0);
+    const InPhase in(phases_, &PhaseSeconds::harmonic);
+    try {
+      std::vector<HarmonicResult> all = harmonic_->solve(loads);
+      std::move(all.begin(), all.end(), out.begin());
+    } catch (const InterruptedError&) { throw; } catch (const RunError&) {
+      for (std::size_t i = 0; i < loads.size(); ++i)
+        out[i] = solution(loads[i]);  // one must not cost the others theirs
+    }
+    for (const auto& r : out) {
+      if (r && !r->why_factors.empty()) decide("{} Hz: solved with factors: {}", r->frequency_hz, r->why_factors);
+    }
+    return out;
+  }
+
+  std::optional<HarmonicResult> solution(const HarmonicLoad& load) {
+    try {
+      return harmonic_->solve(std::vector{load}).front();
+    } catch (const InterruptedError&) { throw; } catch (const RunError& error) {
+      decide("{} Hz, density scaling {:.4g}: no harmonic solution: {}", load.frequency_hz, load.density_scaling,
+             error.what());
+      return {};
+    }
+  }
+
+  /// All frequencies at once: what they are at true mass, then with the inertia that they will be stepped with.
+  void plan_frequencies() {
+    const std::vector<double>& frequencies = scene_.cyclic().frequencies;
+    std::vector<HarmonicLoad> loads;
+    for (const double f : frequencies) loads.push_back({f, 1, 0});  // undamped: damping is no property of the specimen
+    const auto known = solutions(loads);
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+      loads[i].density_scaling = scaling_of(i, known[i]);
+      loads[i].viscous_damping = viscous();
+      if (known[i]) loads[i].near = &known[i]->motion;
+    }
+    auto scaled = solutions(loads);
+    correct(loads, known, scaled);
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+      FrequencyPlan f;
+      if (known[i]) f.known = known[i]->top;
+      f.density_scaling = loads[i].density_scaling;
+      finish(std::move(f), frequencies[i], std::move(scaled[i]));
+    }
+  }
+
+  double scaling_of(std::size_t i, const std::optional<HarmonicResult>& known) const {
+    if (scene_.solver.density_scaling || !automatic()) return density_scaling_of(scene_.solver, i);
+    if (scene_.solver.time_step) {  // as little as the given step needs
+      return std::max(1.0, std::pow(*scene_.solver.time_step / (safety() * plan_.critical.dt), 2));
+    }
+    const double frequency = scene_.cyclic().frequencies[i];
+    if (known) return largest_scaling(*known, viscous(), 0.97 * inertia_share * tolerance());
+    return std::max(1.0, estimate_share * tolerance() / inertia_estimate(scene_, prepared_, frequency));
+  }
+
+  /// A tolerance so large, or a resonance so near, that the change is not straight: what came out too far off is found
+  /// by more solutions.
+  void correct(std::vector<HarmonicLoad>& loads, const std::vector<std::optional<HarmonicResult>>& known,
+               std::vector<std::optional<HarmonicResult>>& scaled) {
+    if (!automatic() || scene_.solver.density_scaling || scene_.solver.time_step) return;
+    const double wanted = inertia_share * tolerance();
+    for (int attempt = 0; attempt < 6; ++attempt) {
+      std::vector<std::size_t> missed;
+      std::vector<HarmonicLoad> again;
+      for (std::size_t i = 0; i < loads.size(); ++i) {
+        if (!known[i] || loads[i].density_scaling <= 1) continue;
+        const double error = scaled[i] ? largest(difference(scaled[i]->top, known[i]->top)) : 10 * wanted;
+        if (error <= wanted) continue;
+        loads[i].density_scaling = 1 + (loads[i].density_scaling - 1) * std::clamp(0.9 * wanted / error, 1e-3, 0.9);
+        missed.push_back(i);
+        again.push_back(loads[i]);
+      }
+      if (missed.empty()) return;
+      auto found = solutions(again);
+      for (std::size_t k = 0; k < missed.size(); ++k) scaled[missed[k]] = std::move(found[k]);
+    }
+  }
+
+  void finish(FrequencyPlan f, double frequency, std::optional<HarmonicResult> scaled) {
+    f.start = scaled ? start_ : Start::rest;
+    const double ramp = choose_cycles(f);
+    f.loading = make_loading(f, frequency, ramp);
+    if (scaled && f.known) f.predicted = difference(scaled->top, *f.known);
+    if (automatic() && nonlinear_ > tolerance()) f.known.reset(), f.predicted.reset();  // no measure of such strains
+    if (f.start == Start::steady) f.motion = std::move(scaled->motion);
+    say(f, frequency, ramp);
+    plan_.frequencies.push_back(std::move(f));
+  }
+
+  void say(const FrequencyPlan& f, double frequency, double ramp) {
+    if (automatic()) {
+      std::string error;
+      if (f.predicted) {
+        error =
+            fmt::format("predicted error |E*| {:+.1e}, phi {:+.1e} rad", f.predicted->e_star, f.predicted->phase_rad);
+      } else {
+        error = fmt::format("inertia costs about {:.1e} by the height and the slowest wave",
+                            f.density_scaling * inertia_estimate(scene_, prepared_, frequency));
+      }
+      if (f.predicted && largest(*f.predicted) + plan_.geometry_error > tolerance()) error += ", more than is asked";
+      decide("{} Hz: density scaling {:.4g}, {} cycle{} of {} steps of {:.3g} s: {}", frequency, f.density_scaling,
+             f.cycles, f.cycles == 1 ? "" : "s", f.loading.steps_per_period, f.loading.dt(), error);
+    }
+    if (f.start == Start::rest && ramp_ > 0) {
+      decide("{} Hz: {}", frequency,
+             ramp > 0 ? fmt::format("a ramp of {:g} cycle{}, so that the start rings less", ramp, ramp == 1 ? "" : "s")
+                      : "no ramp: waves of the start stay, which leave 1e-5 to 1e-3 at random");
+    }
+    const double share = f.loading.dt() / (plan_.critical.dt * std::sqrt(f.density_scaling));
+    if (share > 1) decide("{} Hz: the given step is {:.2f} of the largest that is surely stable", frequency, share);
+  }
+
+  /// Also returns the cycles of the ramp.
+  double choose_cycles(FrequencyPlan& f) const {
+    const experiments::Cyclic& loading = scene_.cyclic();
+    const bool steady = f.start == Start::steady;
+    const double ramp = steady ? 0 : loading.ramp_cycles.value_or(ramp_);
+    f.cycles = loading.cycles.value_or(steady ? 1 : automatic() ? cycles_from_rest(tolerance()) : 5);
+    if (!loading.cycles) {
+      while (f.cycles - loading.fitted(f.cycles) < ramp) ++f.cycles;
+    }
+    f.fit_cycles = std::min(f.cycles, loading.fitted(f.cycles));
+    return loading.ramp_cycles ? ramp : std::min(ramp, static_cast<double>(f.cycles - f.fit_cycles));
+  }
+  double safety() const { return scene_.solver.safety.value_or(automatic() ? 0.95 : 0.8); }
+
+  /// A whole number of samples a period, a whole number of steps a sample.
+  drives::Cyclic make_loading(const FrequencyPlan& f, double frequency, double ramp) const {
+    const experiments::Cyclic& spec = scene_.cyclic();
+    double step = scene_.solver.time_step.value_or(safety() * plan_.critical.dt * std::sqrt(f.density_scaling));
+    if (viscous() > 0 && !scene_.solver.time_step) step = std::min(step, 1 / viscous());  // follow the decay
+    const double wanted = 1 / (frequency * step * spec.samples_per_cycle);
+    if (!(wanted < 1e12)) {
+      throw RunError(fmt::format("the time step of {} s would take {} steps a cycle at {} Hz; raise density_scaling",
+                                 step, wanted * spec.samples_per_cycle, frequency));
+    }
+    drives::Cyclic loading;
+    loading.amplitude = spec.strain_amplitude * prepared_.specimen.box.size.z;
+    loading.frequency = frequency;
+    loading.steps_per_period = std::max<std::int64_t>(1, std::llround(std::ceil(wanted))) * spec.samples_per_cycle;
+    loading.ramp_steps = std::llround(ramp * static_cast<double>(loading.steps_per_period));
+    return loading;
+  }
+
+  void choose_precision() {
+    const bool reference = scene_.solver.backend == Backend::reference;
+    if (scene_.solver.precision || !automatic() || reference) {
+      plan_.precision = scene_.solver.precision.value_or(Precision::double_);
+      return;
+    }
+    double single = 0, mixed = 0;
+    std::string beyond_single, beyond_mixed;
+    for (std::size_t i = 0; i < plan_.frequencies.size(); ++i) {
+      const FrequencyPlan& f = plan_.frequencies[i];
+      const RoundingScale scale = rounding_scale(scene_, prepared_, scene_.cyclic().frequencies[i],
+                                                 f.cycles * f.loading.steps_per_period, f.density_scaling);
+      single = std::max(single, single_precision_error(scale));
+      mixed = std::max(mixed, mixed_precision_error(scale));
+      if (beyond_single.empty()) beyond_single = beyond(scale, single_measured);
+      if (beyond_mixed.empty()) beyond_mixed = beyond(scale, mixed_measured);
+    }
+    const double share = precision_share * tolerance();
+    plan_.precision = single <= share && beyond_single.empty() ? Precision::single
+                      : mixed <= share && beyond_mixed.empty() ? Precision::mixed
+                                                               : Precision::double_;
+    decide(
+        "precision {}: estimated differences from double: single {:.1e}, mixed {:.1e}; no bounds: what was measured is "
+        "at "
+        "most {:.1e} (up to {:.1e} steps) and {:.1e} (up to {:.1e})",
+        to_string(plan_.precision), single, mixed, single_measured.largest,
+        static_cast<double>(single_measured.up_to.steps), mixed_measured.largest,
+        static_cast<double>(mixed_measured.up_to.steps));
+    if (!beyond_single.empty()) decide("not single precision, which was not measured so far: {}", beyond_single);
+    if (!beyond_mixed.empty()) decide("not mixed precision, which was not measured so far: {}", beyond_mixed);
+  }
+
+  const Scene& scene_;
+  const Preparation& prepared_;
+  const Inertia& inertia_;
+  const Progress& progress_;
+  const std::function<bool()>& stop_;
+  Backend backend_;
+  PhaseSeconds& phases_;
+  Plan plan_;
+  std::optional<Harmonic> harmonic_;
+  std::string no_harmonic_;
+  Start start_ = Start::rest;
+  double ramp_ = 0;       ///< [cycles] from rest where the scene gives none
+  double nonlinear_ = 0;  ///< what the strain changes of |E*| that the harmonic solution does not see
+};
+
+}  // namespace
+
+Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Watcher& watcher,
+               Backend backend, PhaseSeconds& phases) {
+  return Planner(scene, prepared, inertia, watcher, backend, phases).make();
 }
 
 }  // namespace macadam

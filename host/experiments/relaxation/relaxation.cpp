@@ -35,7 +35,7 @@ Relaxation ExperimentOf<Relaxation>::read(const scene::Section& section) {
 template <>
 std::unique_ptr<Solution> ExperimentOf<Relaxation>::plan(const Relaxation& spec, const Scene& scene,
                                                          const Preparation& prepared, const Watcher& watcher,
-                                                         RunResult& result) {
+                                                         std::optional<Resumed>, RunResult& result) {
   const auto responds = [spec](const std::filesystem::path& out, Material material, RunResult& found) {
     RelaxationResult r{std::move(material), {}};
     const PronySeries& series = r.material.spectrum.relaxation;
@@ -55,26 +55,32 @@ std::unique_ptr<Solution> ExperimentOf<Relaxation>::plan(const Relaxation& spec,
 }
 
 template <>
-nlohmann::ordered_json ResultOf<RelaxationResult>::summary(const RelaxationResult& result, const Scene& scene) {
+void ResultOf<RelaxationResult>::summarise(const RelaxationResult& found, const Scene& scene, const RunResult&,
+                                           nlohmann::ordered_json& summary) {
   const auto& spec = std::get<Relaxation>(scene.experiment);
-  nlohmann::ordered_json out = material_json(spec.kind, result.material);
+  nlohmann::ordered_json out = material_json(spec.kind, found.material);
   out["strain"] = spec.strain;
   out["ramp_s"] = spec.ramp;
-  for (const auto& p : result.points) {
+  for (const auto& p : found.points) {
     out["points"].push_back(
         {{"time_s", p.time_s}, {"strain", p.strain}, {"stress_pa", p.stress_pa}, {"modulus_pa", p.modulus_pa}});
   }
-  return out;
+  summary["results"].push_back(std::move(out));
 }
 
 template <>
-std::string ResultOf<RelaxationResult>::table(const RelaxationResult& result) {
+double ResultOf<RelaxationResult>::seconds(const RelaxationResult& found) {
+  return found.material.seconds;
+}
+
+template <>
+std::string ResultOf<RelaxationResult>::table(const RelaxationResult& found) {
   std::string out = fmt::format("\n{:>12} {:>12} {:>14} {:>12}\n", "t (s)", "strain", "stress (MPa)", "E(t) (MPa)");
-  for (const auto& p : result.points) {
+  for (const auto& p : found.points) {
     out += fmt::format("{:>12.5g} {:>12.5g} {:>14.6g} {:>12.6g}\n", p.time_s, p.strain, p.stress_pa / 1e6,
                        p.modulus_pa / 1e6);
   }
-  return out + material_lines(result.material);
+  return out + material_lines(found.material);
 }
 
 }  // namespace macadam

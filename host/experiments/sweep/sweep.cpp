@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/experiments/cyclic/frequency_summary.hpp"
+#include "host/experiments/cyclic/methods.hpp"
 #include "host/experiments/experiment.hpp"
 #include "host/experiments/material_solution.hpp"
 #include "host/experiments/read_points.hpp"
@@ -13,7 +15,9 @@
 
 namespace macadam {
 
+using experiments::HarmonicFrequency;
 using experiments::Sweep;
+using experiments::SweepResult;
 
 template <>
 Sweep ExperimentOf<Sweep>::read(const scene::Section& section) {
@@ -31,13 +35,13 @@ Sweep ExperimentOf<Sweep>::read(const scene::Section& section) {
 
 namespace {
 
-void write_sweep(const std::filesystem::path& file, const Scene& scene, const RunResult& result) {
+void write_sweep(const std::filesystem::path& file, const Scene& scene, const SweepResult& found) {
   std::string text = fmt::format("# {}; error: relative difference of the two walls' reactions\n",
                                  modulus_words(scene.network.lateral_walls));
   text +=
       "temperature_c,frequency_hz,e_star_pa,phase_deg,storage_pa,loss_pa,log10_a_T,reduced_frequency_hz,residual,"
       "error\n";
-  for (const FrequencyResult& f : result.frequencies) {
+  for (const HarmonicFrequency& f : found.points) {
     const double phase = f.stiffness.phase_deg * std::numbers::pi / 180, e_star = f.stiffness.e_star_pa;
     std::string temperature, shift, reduced;
     if (f.temperature_c) {
@@ -52,7 +56,7 @@ void write_sweep(const std::filesystem::path& file, const Scene& scene, const Ru
     };
     text += fmt::format("{},{},{},{},{},{},{},{},{:.2e},{:.2e}\n", temperature, f.frequency_hz, e_star,
                         f.stiffness.phase_deg, e_star * std::cos(phase), e_star * std::sin(phase), shift, reduced,
-                        f.residual, std::abs(modulus(*f.bottom) / modulus(f.stiffness) - 1.0));
+                        f.residual, std::abs(modulus(f.bottom) / modulus(f.stiffness) - 1.0));
   }
   write_whole(file, text);
 }
@@ -65,7 +69,7 @@ class SweepSolution : public Solution {
     states_->solve(
         out,
         [&](const std::string& status) {
-          write_sweep(out / "sweep.csv", scene_, result);
+          write_sweep(out / "sweep.csv", scene_, std::get<SweepResult>(result.found));
           save(status);
         },
         result);
@@ -80,8 +84,32 @@ class SweepSolution : public Solution {
 
 template <>
 std::unique_ptr<Solution> ExperimentOf<Sweep>::plan(const Sweep&, const Scene& scene, const Preparation& prepared,
-                                                    const Watcher& watcher, RunResult& result) {
-  return std::make_unique<SweepSolution>(scene, plan_harmonic(scene, prepared, watcher, result));
+                                                    const Watcher& watcher, std::optional<Resumed>, RunResult& result) {
+  return std::make_unique<SweepSolution>(
+      scene, plan_harmonic(scene, prepared, watcher, result, result.found.emplace<SweepResult>().points));
+}
+
+template <>
+void ResultOf<SweepResult>::summarise(const SweepResult& found, const Scene& scene, const RunResult&,
+                                      nlohmann::ordered_json& out) {
+  for (const HarmonicFrequency& f : found.points) {
+    nlohmann::ordered_json point = frequency_json(f, scene);
+    const auto e_star = std::polar(f.stiffness.e_star_pa, f.stiffness.phase_deg * std::numbers::pi / 180);
+    point["storage_pa"] = e_star.real();
+    point["loss_pa"] = e_star.imag();
+    point["modulus"] = scene.network.lateral_walls ? "confined" : "uniaxial";
+    out["results"].push_back(std::move(point));
+  }
+}
+
+template <>
+double ResultOf<SweepResult>::seconds(const SweepResult& found) {
+  return seconds_of(found.points);
+}
+
+template <>
+std::string ResultOf<SweepResult>::table(const SweepResult& found) {
+  return frequency_table(found.points);
 }
 
 }  // namespace macadam

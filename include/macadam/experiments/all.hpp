@@ -14,7 +14,9 @@ namespace macadam {
 /// `[loading]`: one of these, by its `kind`.
 using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep>;
 
-/// What the tests other than `cyclic` and `sweep` find; none before.
-using ExperimentResult = std::variant<std::monostate, experiments::RelaxationResult, experiments::CreepResult>;
+/// What they find, by the method that ran; none before.
+using ExperimentResult =
+    std::variant<std::monostate, experiments::SteppedCyclic, experiments::HarmonicCyclic, experiments::SweepResult,
+                 experiments::RelaxationResult, experiments::CreepResult>;
 
 }  // namespace macadam

@@ -7,6 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "macadam/backend.hpp"
+#include "macadam/experiments/frequency.hpp"
+
 namespace macadam {
 
 /// `rest`: from zero displacement. `steady`: from the harmonic solution, so that the first cycle is periodic already.
@@ -32,6 +35,38 @@ struct Cyclic {
 
   /// Last cycles that are fitted of so many: as given, else two of four or more, else one.
   int fitted(int of_cycles) const { return fit_cycles.value_or(of_cycles >= 4 ? 2 : 1); }
+};
+
+/// One frequency, stepped.
+struct SteppedFrequency : Frequency {
+  CyclicResult cyclic;  ///< fit, peaks, steadiness
+  double dt_s = 0;
+  std::int64_t steps = 0;
+  int cycles = 0;
+  Start start = Start::rest;
+  /// Whether the tolerance that was asked for was kept; nothing where there is no harmonic solution to tell.
+  std::optional<bool> kept;
+  std::optional<ErrorEstimate> predicted, achieved;  ///< against the harmonic solution at true mass, if there is one
+
+  double residual() const { return cyclic.fit_rms; }  ///< rms of stress that the fit leaves / amplitude
+};
+
+/// By method "explicit".
+struct SteppedCyclic {
+  std::vector<SteppedFrequency> frequencies;
+  double seconds_planning = 0;  ///< wall time before the first stepper, harmonic solutions included; resumed runs: that
+                                ///< of the run that was interrupted
+  ContactForm form = ContactForm::condensed;  ///< that ran, likewise the next two
+  Geometry geometry = Geometry::updated;
+  Precision precision = Precision::double_;
+  std::int64_t bytes = 0;               ///< Stepper::bytes()
+  std::int32_t critical_particle = -1;  ///< the particle that sets the critical step
+  double critical_dt_s = 0;             ///< the critical step at true mass
+};
+
+/// By method "harmonic".
+struct HarmonicCyclic {
+  std::vector<HarmonicFrequency> frequencies;
 };
 
 }  // namespace experiments

@@ -5,6 +5,8 @@
 #include <array>
 #include <vector>
 
+#include "macadam/experiments/frequency.hpp"
+
 namespace macadam::experiments {
 
 /// `[loading]`, kind "sweep": steady states, each frequency at each temperature.
@@ -15,6 +17,10 @@ struct Sweep {
 
   std::vector<double> frequencies;   ///< [Hz], rising
   std::vector<double> temperatures;  ///< [°C]; empty: Materials::temperature
+};
+
+struct SweepResult {
+  std::vector<HarmonicFrequency> points;  ///< temperature by temperature
 };
 
 }  // namespace macadam::experiments

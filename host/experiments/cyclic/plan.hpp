@@ -40,11 +40,4 @@ struct Plan {
 Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Watcher& watcher,
                Backend backend, PhaseSeconds& phases);
 
-/// How a scene's linear systems are solved; beside backend reference, on the CPU.
-HarmonicOptions harmonic_options(const Scene& scene, Backend backend, const std::function<bool()>& stop,
-                                 double residual = HarmonicOptions{}.tolerance);
-
-/// The frequency at which factors serve all of these best: halfway for a relaxation spectrum.
-double geometric_mean(const std::vector<double>& values);
-
 }  // namespace macadam

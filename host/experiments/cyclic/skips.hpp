@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "host/simulation/plan.hpp"
+#include "host/experiments/cyclic/plan.hpp"
 
 namespace macadam {
 

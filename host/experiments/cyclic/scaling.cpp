@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // scaling.cpp  The derivative of E* by the density scaling is its inertia part: nothing is solved again.
-#include "host/simulation/scaling.hpp"
+#include "host/experiments/cyclic/scaling.hpp"
 
 #include <cmath>
 
-#include "host/simulation/error_model.hpp"
+#include "host/experiments/cyclic/error_model.hpp"
 
 namespace macadam {
 

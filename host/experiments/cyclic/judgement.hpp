@@ -19,10 +19,11 @@ double stiffest_contact(const Scene& scene, const ContactNetwork& network, doubl
 /// leaves more than it takes, walls that disagree, a tolerance that was not kept or that nothing could verify. Without
 /// a harmonic solution a tolerance is known not to be kept (`kept` is false) where there is a fault, or where the last
 /// cycle still differs from the one before by more. \throws RunError for a modulus that is no positive finite number.
-void judge(FrequencyResult& result, double stiffest, std::optional<double> tolerance,
+void judge(experiments::SteppedFrequency& result, double stiffest, std::optional<double> tolerance,
            std::vector<std::string>& warnings);
+void judge(experiments::HarmonicFrequency& result, double stiffest, std::vector<std::string>& warnings);
 
 /// \throws RunError where a tolerance was asked for and a result cannot be right.
-void require_sense(const Scene& scene, const RunResult& result);
+void require_sense(const Scene& scene, const experiments::SteppedCyclic& result);
 
 }  // namespace macadam

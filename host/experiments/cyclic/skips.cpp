@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // skips.cpp  Says what is skipped; the skipping itself is where the arrays are made (kernels/contact_data.hpp).
-#include "host/simulation/skips.hpp"
+#include "host/experiments/cyclic/skips.hpp"
 
 #include <fmt/format.h>
 
-#include "host/simulation/error_model.hpp"
+#include "host/experiments/cyclic/error_model.hpp"
 
 namespace macadam {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cyclic.cpp  |E*| and φ from the samples of a cyclic test: fit of the fundamental, and Eq. 24–25.
+// evaluate.cpp  |E*| and φ from the samples of a cyclic test: fit of the fundamental, and Eq. 24–25.
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>

@@ -10,17 +10,22 @@
 
 #include "host/fields/field_output.hpp"
 #include "host/results/files.hpp"
+#include "host/experiments/cyclic/run_state.hpp"
 #include "host/simulation/checkpoints.hpp"
-#include "host/simulation/error_model.hpp"
-#include "host/simulation/judgement.hpp"
+#include "host/experiments/cyclic/error_model.hpp"
+#include "host/experiments/cyclic/judgement.hpp"
 #include "host/simulation/phases.hpp"
-#include "host/simulation/plan.hpp"
-#include "host/simulation/skips.hpp"
-#include "host/simulation/solution.hpp"
+#include "host/experiments/cyclic/plan.hpp"
+#include "host/experiments/cyclic/skips.hpp"
+#include "host/experiments/cyclic/methods.hpp"
 #include "macadam/error.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam {
+
+using experiments::SteppedCyclic;
+using experiments::SteppedFrequency;
+
 namespace {
 
 /// The share of the tolerance that steps in blocks may cost, where a device takes them so.
@@ -100,10 +105,10 @@ std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& sa
 }
 
 /// What a finished frequency says.
-FrequencyResult finished(const Plan& whole, std::size_t number, std::span<const ResponseSample> samples, double seconds,
-                         std::optional<double> tolerance) {
+SteppedFrequency finished(const Plan& whole, std::size_t number, std::span<const ResponseSample> samples,
+                          double seconds, std::optional<double> tolerance) {
   const FrequencyPlan& plan = whole.frequencies[number];
-  FrequencyResult f;
+  SteppedFrequency f;
   f.frequency_hz = plan.loading.frequency;
   f.density_scaling = plan.density_scaling;
   f.dt_s = plan.loading.dt();
@@ -111,8 +116,7 @@ FrequencyResult finished(const Plan& whole, std::size_t number, std::span<const 
   f.start = plan.start;
   f.steps = plan.loading.steps_per_period * plan.cycles;
   f.cyclic = evaluate_cyclic(samples, f.frequency_hz, plan.fit_cycles);
-  f.stiffness = f.cyclic->fit;
-  f.residual = f.cyclic->fit_rms;
+  f.stiffness = f.cyclic.fit;
   f.predicted = plan.predicted;
   if (plan.known) f.achieved = difference(f.stiffness, *plan.known);
   if (plan.known && tolerance) f.kept = largest(*f.achieved) + whole.geometry_error <= *tolerance;
@@ -193,12 +197,13 @@ class Steps : public Solution {
   /// What is known before the first step, and the frequencies that a checkpoint has finished.
   void begin(RunResult& result) {
     result.decisions = at_.plan.decisions;
-    result.form = at_.plan.form;
-    result.geometry = at_.plan.geometry;
-    result.precision = at_.plan.precision;
-    result.critical_particle = at_.plan.critical.particle;
-    result.critical_dt_s = at_.plan.critical.dt;
-    result.seconds_planning = at_.seconds_planning;
+    SteppedCyclic& found = result.found.emplace<SteppedCyclic>();
+    found.form = at_.plan.form;
+    found.geometry = at_.plan.geometry;
+    found.precision = at_.plan.precision;
+    found.critical_particle = at_.plan.critical.particle;
+    found.critical_dt_s = at_.plan.critical.dt;
+    found.seconds_planning = at_.seconds_planning;
     result.skips = find_skips(scene_, prepared_, at_.plan);
     result.warnings = at_.warnings;
     for (std::size_t i = 0; i < at_.seconds.size(); ++i) finish(i, result);
@@ -219,7 +224,7 @@ class Steps : public Solution {
       finish(i, result);
       owns_checkpoint_ = checkpoints.own();
     }
-    require_sense(scene_, result);
+    require_sense(scene_, result.stepped());
   }
 
   bool owns_checkpoint() const override { return owns_checkpoint_; }
@@ -245,13 +250,14 @@ class Steps : public Solution {
     if (used_) stepper_ = make(p, {}, result);
     used_ = true;
     result.solver = stepper_->description();
-    result.bytes = stepper_->bytes();
+    std::get<SteppedCyclic>(result.found).bytes = stepper_->bytes();
     save("running");
     const double per_cycle = static_cast<double>(p.loading.steps_per_period);
     const std::int64_t begun = stepper_->observe().step;
     const auto look = [&] {
       const InPhase writing(result.phases, &PhaseSeconds::writing);  // nearly nothing where no checkpoint is due
-      checkpoints.look(at_, before + seconds_since(start), *stepper_, fmt::format("{} Hz", p.loading.frequency));
+      checkpoints.look([&](Checkpoint& to) { add_to(to, at_, before + seconds_since(start)); }, *stepper_,
+                       fmt::format("{} Hz", p.loading.frequency));
     };
     for (const std::string& gap : fields_->begin(p.loading.frequency, stepper_->observe().time)) warn(gap, result);
     const auto frame = [&](double time) {
@@ -273,8 +279,9 @@ class Steps : public Solution {
   void finish(std::size_t i, RunResult& result) {
     const auto samples = samples_of(at_.samples, samples_read_, at_.plan.frequencies[i].loading.frequency);
     samples_read_ += samples.size();
-    result.frequencies.push_back(finished(at_.plan, i, samples, at_.seconds[i], scene_.solver.tolerance));
-    FrequencyResult& f = result.frequencies.back();
+    auto& frequencies = std::get<SteppedCyclic>(result.found).frequencies;
+    frequencies.push_back(finished(at_.plan, i, samples, at_.seconds[i], scene_.solver.tolerance));
+    SteppedFrequency& f = frequencies.back();
     f.temperature_c = scene_.materials.temperature;
     judge(f, stiffest_contact(scene_, prepared_.network, f.frequency_hz), scene_.solver.tolerance, result.warnings);
   }
@@ -293,27 +300,21 @@ class Steps : public Solution {
 
 }  // namespace
 
-double density_scaling_of(const SolverSpec& solver, std::size_t frequency) {
-  if (!solver.density_scaling) return 1;
-  return (*solver.density_scaling)[solver.density_scaling->size() == 1 ? 0 : frequency];
-}
-
 std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                     std::optional<RunState> resumed, const std::filesystem::path& checkpoint,
-                                     RunResult& result) {
+                                     std::optional<Resumed> resumed, RunResult& result) {
   const InPhase planning(result.phases, &PhaseSeconds::planning);
   const auto start = Clock::now();
   const Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
   RunState at;
   if (resumed) {
-    at = *std::move(resumed);
+    at = to_run_state(std::move(resumed->checkpoint), resumed->file);
   } else {
     at.plan = make_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
     decide_blocks(scene.solver, result.backend, at.plan);
     at.seconds_planning = seconds_since(start);
   }
   auto steps = std::make_unique<Steps>(scene, prepared, watcher, inertia, std::move(at), resumed.has_value());
-  steps->make_first(result, checkpoint);
+  steps->make_first(result, resumed ? resumed->file : std::filesystem::path());
   steps->begin(result);
   return steps;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // error_model.cpp  Figures measured on specimens of asphalt (docs/accuracy.md) with a factor of safety.
-#include "host/simulation/error_model.hpp"
+#include "host/experiments/cyclic/error_model.hpp"
 
 #include <fmt/format.h>
 

@@ -6,15 +6,19 @@
 #include <cmath>
 #include <optional>
 
+#include "host/experiments/cyclic/judgement.hpp"
+#include "host/simulation/harmonic_options.hpp"
 #include "host/fields/field_output.hpp"
-#include "host/simulation/judgement.hpp"
 #include "host/simulation/phases.hpp"
-#include "host/simulation/plan.hpp"
-#include "host/simulation/solution.hpp"
+#include "host/experiments/cyclic/plan.hpp"
+#include "host/experiments/cyclic/methods.hpp"
 #include "macadam/error.hpp"
 #include "macadam/harmonic.hpp"
 
 namespace macadam {
+
+using experiments::HarmonicFrequency;
+
 namespace {
 
 /// What the scene gives that only a stepped run takes.
@@ -53,8 +57,9 @@ std::string described(const Scene& scene, double viscous) {
 
 class HarmonicSolution : public Solution {
  public:
-  HarmonicSolution(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result)
-      : scene_(scene), prepared_(prepared), watcher_(watcher) {
+  HarmonicSolution(const Scene& scene, const Preparation& prepared, const Watcher& watcher, RunResult& result,
+                   std::vector<HarmonicFrequency>& found)
+      : scene_(scene), prepared_(prepared), watcher_(watcher), found_(found) {
     const SolverSpec& solver = scene.solver;
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
     // the reference writes the time step again, not this; factors are the CPU's
@@ -137,12 +142,11 @@ class HarmonicSolution : public Solution {
 
   void take(const std::vector<HarmonicResult>& solved, RunResult& result, const Saving& save) {
     for (const HarmonicResult& s : solved) {
-      const std::size_t i = result.frequencies.size() % frequencies_.size();
-      FrequencyResult f;
+      const std::size_t i = found_.size() % frequencies_.size();
+      HarmonicFrequency f;
       f.density_scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
       f.frequency_hz = s.frequency_hz;
       f.temperature_c = isothermal_.materials.temperature;
-      f.method = SolverMethod::harmonic;
       f.linear = s.linear;
       if (!s.why_factors.empty()) {
         result.warnings.push_back(fmt::format("{} Hz: solved with factors: {}", s.frequency_hz, s.why_factors));
@@ -154,11 +158,13 @@ class HarmonicSolution : public Solution {
       f.iterations = s.iterations;
       f.held_force = s.held_force;
       f.seconds = s.seconds;
-      judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), {}, result.warnings);
-      result.frequencies.push_back(f);
-      const InPhase writing(result.phases, &PhaseSeconds::writing);
-      const bool several = !scene_.cyclic().temperatures.empty();
-      fields_->write(s, isothermal_.laws, several ? f.temperature_c : std::nullopt);
+      judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), result.warnings);
+      {
+        const InPhase writing(result.phases, &PhaseSeconds::writing);
+        const bool several = !temperatures_.empty();
+        fields_->write(s, isothermal_.laws, several ? f.temperature_c : std::nullopt);
+      }
+      found_.push_back(std::move(f));
     }
     save("running");
   }
@@ -166,6 +172,7 @@ class HarmonicSolution : public Solution {
   const Scene& scene_;
   const Preparation& prepared_;
   const Watcher& watcher_;
+  std::vector<HarmonicFrequency>& found_;
   std::vector<double> frequencies_ = frequencies_of(scene_.experiment),
                       temperatures_ = temperatures_of(scene_.experiment);
   Backend backend_ = Backend::cpu;
@@ -178,8 +185,8 @@ class HarmonicSolution : public Solution {
 }  // namespace
 
 std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                        RunResult& result) {
-  return std::make_unique<HarmonicSolution>(scene, prepared, watcher, result);
+                                        RunResult& result, std::vector<HarmonicFrequency>& found) {
+  return std::make_unique<HarmonicSolution>(scene, prepared, watcher, result, found);
 }
 
 }  // namespace macadam

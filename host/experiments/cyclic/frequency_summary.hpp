@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file frequency_summary.hpp  A frequency in summary.json and in the command's table.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "macadam/scene.hpp"
+
+namespace macadam {
+
+/// The entry of a steady state in `results`.
+nlohmann::ordered_json frequency_json(const experiments::HarmonicFrequency& f, const Scene& scene);
+
+/// A line a steady state, below a line of what they are.
+std::string frequency_table(const std::vector<experiments::HarmonicFrequency>& frequencies);
+
+/// Wall time of all.
+template <class F>
+double seconds_of(const std::vector<F>& frequencies) {
+  double out = 0;
+  for (const F& f : frequencies) out += f.seconds;
+  return out;
+}
+
+}  // namespace macadam

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// judgement.cpp  Limits that hold for every passive specimen.
+#include "host/experiments/cyclic/judgement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/experiments/cyclic/error_model.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+using experiments::Frequency;
+using experiments::HarmonicFrequency;
+using experiments::SteppedFrequency;
+
+namespace {
+
+/// Springs and dashpots turn the phase by 0 to 90 degrees; start-up waves turn it a little further.
+constexpr double phase_margin_deg = 1;
+/// What the fit may leave, rms over the amplitude. What leaves half is plainly no sine; it is no measure of accuracy.
+constexpr double largest_residual = 0.5;
+/// The bound is that of a static specimen; waves of the start pass it by little.
+constexpr double bound_margin = 1.05;
+/// Top and bottom carry the same force where nothing has inertia. Solutions agree to 1e-9 or better.
+constexpr double wall_difference = 1e-6;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// What no passive specimen has.
+std::vector<std::string> faults_of(const Frequency& f, double stiffest) {
+  std::vector<std::string> faults;
+  const double phase = f.stiffness.phase_deg;
+  if (phase < -phase_margin_deg || phase > 90 + phase_margin_deg) {
+    faults.push_back(fmt::format("a phase angle of {:.4g} degrees, where springs and dashpots give 0 to 90", phase));
+  }
+  if (f.stiffness.e_star_pa > bound_margin * stiffest) {
+    faults.push_back(
+        fmt::format("|E*| of {:.4g} Pa, where the stiffest contact has {:.4g}", f.stiffness.e_star_pa, stiffest));
+  }
+  return faults;
+}
+
+void require_modulus(const Frequency& f) {
+  const Stiffness& found = f.stiffness;
+  if (!std::isfinite(found.phase_deg) || !(found.e_star_pa > 0 && std::isfinite(found.e_star_pa))) {
+    throw RunError(
+        fmt::format("{} Hz: |E*| = {} Pa, phi = {} degrees: expected finite numbers and |E*| above 0 (a "
+                    "strain too small for the precision?)",
+                    f.frequency_hz, found.e_star_pa, found.phase_deg));
+  }
+}
+
+void warn(const Frequency& f, const std::string& text, std::vector<std::string>& warnings) {
+  warnings.push_back(fmt::format("{} Hz: {}", f.frequency_hz, text));
+}
+
+}  // namespace
+
+double stiffest_contact(const Scene& scene, const ContactNetwork& network, double frequency_hz) {
+  double stiffest = 0;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (network.count[pair] == 0) continue;
+    const auto modulus = [&](const auto& law) {
+      return std::max(1.0, law.alpha) *
+             std::abs(law.stiffness(std::complex<double>(0, 2 * std::numbers::pi * frequency_hz)));
+    };
+    stiffest = std::max(stiffest, std::visit(modulus, *scene.laws[pair]));
+  }
+  return stiffest;
+}
+
+void judge(HarmonicFrequency& f, double stiffest, std::vector<std::string>& warnings) {
+  require_modulus(f);
+  f.fault = fmt::format("{}", fmt::join(faults_of(f, stiffest), " and "));
+  if (!f.fault.empty()) warn(f, f.fault + ": inertia rules the result", warnings);
+  if (f.density_scaling != 0) return;
+  const ErrorEstimate walls = difference(f.bottom, f.stiffness);
+  if (largest(walls) > wall_difference) {
+    warn(f,
+         fmt::format("the bottom wall's reaction differs from the top's by {:.1e} of |E*| and {:.1e} rad: the "
+                     "solution is no better than that (stiffnesses too far apart?)",
+                     walls.e_star, walls.phase_rad),
+         warnings);
+  }
+}
+
+void judge(SteppedFrequency& f, double stiffest, std::optional<double> tolerance, std::vector<std::string>& warnings) {
+  require_modulus(f);
+  std::vector<std::string> faults = faults_of(f, stiffest);
+  if (f.residual() > largest_residual) {
+    faults.push_back(fmt::format("a stress that is no sine: the fit leaves {:.2g} of the amplitude", f.residual()));
+  }
+  f.fault = fmt::format("{}", fmt::join(faults, " and "));
+  if (!f.fault.empty()) {
+    warn(f, f.fault + ": inertia, waves of the start, or too few cycles rule the result", warnings);
+  }
+  if (!tolerance) return;
+  if (!f.kept) {
+    const bool compared = std::isfinite(f.cyclic.change_e_star);
+    const double change =
+        compared ? std::max(std::abs(f.cyclic.change_e_star), std::abs(radians(f.cyclic.change_phase_deg))) : 0;
+    if (!f.fault.empty() || change > *tolerance) f.kept = false;
+    warn(f,
+         fmt::format(
+             "the tolerance could not be verified, there is no harmonic solution to compare with{}: {}, the fit "
+             "leaves {:.1e} of the amplitude",
+             f.kept ? ", and cannot have been kept" : "",
+             compared ? fmt::format("the last two cycles differ by {:.1e}", change) : "it ran one cycle", f.residual()),
+         warnings);
+  } else if (!*f.kept) {
+    warn(f, "the tolerance was not kept", warnings);
+  }
+}
+
+void require_sense(const Scene& scene, const experiments::SteppedCyclic& result) {
+  if (!scene.solver.tolerance) return;
+  for (const SteppedFrequency& f : result.frequencies) {
+    if (f.fault.empty()) continue;
+    throw RunError(fmt::format("{} Hz: the result is far from the tolerance of {:g} that was asked for: {}",
+                               f.frequency_hz, *scene.solver.tolerance, f.fault));
+  }
+}
+
+}  // namespace macadam

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file methods.hpp  The two ways from a prepared scene to |E*| and φ.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "host/experiments/experiment.hpp"
+
+namespace macadam {
+
+/// Steps in time, from the beginning or from where a checkpoint stands; each sample goes to response.csv at once.
+/// What was decided goes into `result`. \throws InputError, also naming the `checkpoint` whose state is another
+/// machine's; RunError as make_plan() and make_stepper() do.
+std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                     std::optional<Resumed> resumed, RunResult& result);
+
+/// Solves the steady states of the test's frequencies and temperatures into `found`, a part of `result`. \throws as the
+/// constructor of Harmonic does.
+std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                        RunResult& result, std::vector<experiments::HarmonicFrequency>& found);
+
+}  // namespace macadam

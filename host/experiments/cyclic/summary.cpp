@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// summary.cpp  The cyclic test in summary.json.
+#include <cmath>
+#include <numbers>
+
+#include "host/experiments/cyclic/frequency_summary.hpp"
+#include "host/experiments/experiment.hpp"
+
+namespace macadam {
+
+using experiments::Frequency;
+using experiments::HarmonicCyclic;
+using experiments::HarmonicFrequency;
+using experiments::SteppedCyclic;
+using experiments::SteppedFrequency;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json error_json(const ErrorEstimate& error) { return {{"e_star", error.e_star}, {"phase_rad", error.phase_rad}}; }
+
+/// Derivatives by the logarithms of the parameters, and what each pair carries.
+void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, Json& out) {
+  out["sensitivities"] = Json::array();
+  for (const Sensitivity& s : sensitivities(f.parts, laws, {0, 2 * std::numbers::pi * f.frequency_hz})) {
+    out["sensitivities"].push_back(
+        {{"parameter", s.parameter}, {"d_e_star_pa", s.d_e_star_pa}, {"d_phase_deg", s.d_phase_deg}});
+  }
+  const auto parts = shares(f.parts);
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (parts[pair] != 0) out["shares"][to_string(static_cast<PairType>(pair))] = parts[pair];
+  }
+}
+
+/// What does not depend on the method.
+Json begun(const Frequency& f, const char* method, double residual, const Scene& scene) {
+  Json out = {{"frequency_hz", f.frequency_hz},
+              {"e_star_pa", f.stiffness.e_star_pa},
+              {"phase_deg", f.stiffness.phase_deg},
+              {"method", method},
+              {"residual", residual},
+              {"density_scaling", f.density_scaling},
+              {"solve_s", f.seconds}};
+  if (f.temperature_c) {
+    out["temperature_c"] = *f.temperature_c;
+    if (const auto shift = common_log10_shift(scene, *f.temperature_c)) {
+      out["log10_a_T"] = *shift;
+      out["reduced_frequency_hz"] = f.frequency_hz * std::pow(10.0, *shift);
+    }
+  }
+  return out;
+}
+
+Json stepped_json(const SteppedFrequency& f, const Scene& scene) {
+  Json out = begun(f, "explicit", f.residual(), scene);
+  out["e_star_peaks_pa"] = f.cyclic.peaks.e_star_pa;
+  out["phase_peaks_deg"] = f.cyclic.peaks.phase_deg;
+  out["change_e_star"] = f.cyclic.change_e_star;
+  out["change_phase_deg"] = f.cyclic.change_phase_deg;
+  out["dt_s"] = f.dt_s;
+  out["steps"] = f.steps;
+  out["cycles"] = f.cycles;
+  out["start"] = to_string(f.start);
+  if (f.predicted) out["predicted_error"] = error_json(*f.predicted);
+  if (f.achieved) out["difference_from_harmonic"] = error_json(*f.achieved);
+  if (scene.solver.tolerance) out["tolerance_kept"] = f.kept ? Json(*f.kept) : Json();
+  return out;
+}
+
+}  // namespace
+
+Json frequency_json(const HarmonicFrequency& f, const Scene& scene) {
+  Json out = begun(f, "harmonic", f.residual, scene);
+  out["e_star_bottom_pa"] = f.bottom.e_star_pa;
+  out["phase_bottom_deg"] = f.bottom.phase_deg;
+  out["iterations"] = f.iterations;
+  out["linear"] = to_string(f.linear);
+  if (scene.output.sensitivities) {
+    add_sensitivities(f, f.temperature_c ? laws_at(scene, *f.temperature_c) : scene.laws, out);
+  }
+  out["held_force"] = f.held_force;
+  return out;
+}
+
+template <>
+void ResultOf<HarmonicCyclic>::summarise(const HarmonicCyclic& found, const Scene& scene, const RunResult&, Json& out) {
+  for (const HarmonicFrequency& f : found.frequencies) out["results"].push_back(frequency_json(f, scene));
+}
+
+template <>
+double ResultOf<HarmonicCyclic>::seconds(const HarmonicCyclic& found) {
+  return seconds_of(found.frequencies);
+}
+
+template <>
+void ResultOf<SteppedCyclic>::summarise(const SteppedCyclic& found, const Scene& scene, const RunResult& run,
+                                        Json& out) {
+  std::int64_t steps = 0;
+  for (const SteppedFrequency& f : found.frequencies) {
+    out["results"].push_back(stepped_json(f, scene));
+    steps += f.steps;
+  }
+  Json& solver = out["solver"];
+  if (!found.frequencies.empty()) solver["dt_s"] = found.frequencies.back().dt_s;
+  solver["steps"] = steps;
+  solver["precision"] = to_string(found.precision);
+  solver["form"] = to_string(found.form);
+  solver["geometry"] = to_string(found.geometry);
+  solver["damping"] = {{"kind", to_string(scene.solver.damping_kind)}, {"value", scene.solver.damping}};
+  solver["strain_amplitude"] = scene.cyclic().strain_amplitude;
+  solver["tolerance"] = scene.solver.tolerance ? Json(*scene.solver.tolerance) : Json();
+  solver["decisions"] = run.decisions;
+  solver["critical_particle"] = found.critical_particle;
+  solver["critical_dt_s"] = found.critical_dt_s;
+  solver["bytes"] = found.bytes;
+}
+
+template <>
+double ResultOf<SteppedCyclic>::seconds(const SteppedCyclic& found) {
+  return found.seconds_planning + seconds_of(found.frequencies);
+}
+
+}  // namespace macadam
