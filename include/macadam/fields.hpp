@@ -83,8 +83,7 @@ std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNe
 /// part of what is multiplied by e^(iωt), amplitude and phase.
 std::vector<FieldArray> particle_arrays(const std::vector<std::complex<double>>& motion, double amplitude);
 /// Forces by the complex stiffness of the laws at this frequency, about the geometry of the start.
-std::vector<FieldArray> contact_arrays(const ContactNetwork& network,
-                                       const LawTable& laws, double frequency_hz,
+std::vector<FieldArray> contact_arrays(const ContactNetwork& network, const LawTable& laws, double frequency_hz,
                                        const std::vector<std::complex<double>>& motion, double amplitude);
 
 /// A file to which frames are added; after each it is whole, whatever becomes of the program.
