@@ -133,6 +133,21 @@ TEST_F(Experiments, RampsTakeTheirTime) {
   }
 }
 
+TEST_F(Experiments, ConstantRatesIntegrateTheRelaxation) {
+  const auto rows =
+      rows_of(run_t8("kind = \"monotonic\"\nrate = \"-1e-5 1/s\"\ntimes = [1e-3, 0.1, 10]\n", "monotonic.csv"));
+  const FullSolutions modulus(folder_ / "scene.toml");
+  ASSERT_EQ(rows.size(), 3u);
+  for (const auto& row : rows) {
+    const double t = row.at("time_s");
+    const double stress = -1e-5 * talbot([&](Complex s) { return modulus(s) / (s * s); }, t, 18);
+    EXPECT_NEAR(row.at("stress_pa") / stress, 1, row.at("error") + 1e-7) << t;
+    EXPECT_EQ(row.at("strain"), -1e-5 * t);
+    EXPECT_NEAR(row.at("secant_pa") * row.at("strain") / row.at("stress_pa"), 1, 1e-14);
+  }
+  EXPECT_EQ(summary("out").at("results").at(0).at("kind"), "monotonic");
+}
+
 TEST_F(Experiments, SweepsAreTheHarmonicTestAndItsMasterCurve) {
   const auto rows =
       rows_of(run_t8("kind = \"sweep\"\nfrequencies = [0.1, \"10 Hz\"]\npoints_per_decade = 2\n", "sweep.csv"));
@@ -261,6 +276,7 @@ TEST_F(Experiments, WhatMakesNoSenseIsRefused) {
   EXPECT_HAS(refusal(relaxation + "frequencies = [1]\n"), "frequencies");
   EXPECT_HAS(refusal("kind = \"creep\"\ntimes = [1]\n"), "stress");
   EXPECT_HAS(refusal("kind = \"creep\"\nstress = 1\nramp = 2\nrelease = 1\ntimes = [1]\n"), "end of the ramp");
+  EXPECT_HAS(refusal("kind = \"monotonic\"\nrate = 0\ntimes = [1]\n"), "not 0");
   EXPECT_HAS(refusal("kind = \"sweep\"\nfrequencies = [1]\ncycles = 3\n"), "cycles");
   EXPECT_HAS(refusal(relaxation, "inertia = true\n"), "inertia");
   EXPECT_HAS(refusal(relaxation, "method = \"explicit\"\n"), "not stepped in time");
@@ -269,8 +285,8 @@ TEST_F(Experiments, WhatMakesNoSenseIsRefused) {
   // commands that take a cyclic test say so
   write_scene_of(relaxation);
   std::ofstream(folder_ / "lab.csv") << "frequency_hz,e_star_pa,phase_deg\n1,1e10,10\n";
-  const Outcome calibrate = macadam(
-      fmt::format("calibrate {} --target {} --out {} --free M-M.delta", path("scene.toml"), path("lab.csv"), path("c")));
+  const Outcome calibrate = macadam(fmt::format("calibrate {} --target {} --out {} --free M-M.delta",
+                                                path("scene.toml"), path("lab.csv"), path("c")));
   EXPECT_EQ(calibrate.code, 2) << calibrate.err;
 }
 
