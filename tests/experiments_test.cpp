@@ -250,10 +250,15 @@ TEST_F(Experiments, HeldSidesAreSaid) {
   const auto result = summary("out").at("results").at(0);
   EXPECT_EQ(result.at("modulus"), "confined");
   EXPECT_EQ(result.at("sides"), "held");
-  EXPECT_EQ(summary("out").at("warnings").size(), 1u);
+  EXPECT_EQ(summary("out").at("warnings").size(), 2u);
   EXPECT_TRUE(contains(text("out/prony.csv"), "confined modulus"));
   EXPECT_FALSE(fs::exists(folder_ / "out/prony_abaqus.inp"));  // what is not uniaxial would be taken for it
   EXPECT_FALSE(fs::exists(folder_ / "out/prony_ansys.txt"));
+
+  for (const char* solver : {"method = \"harmonic\"\n", quick}) {
+    std::ofstream(write_scene(solver), std::ios::app) << "[network]\nlateral_walls = true\n";
+    EXPECT_HAS(run_quick("cyclic").out, "warning: the sides are held: moduli are those of a confined specimen");
+  }
 }
 
 TEST_F(Experiments, ResultsOfAnotherTestDoNotStay) {
