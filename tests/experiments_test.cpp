@@ -133,6 +133,21 @@ TEST_F(Experiments, RampsTakeTheirTime) {
   }
 }
 
+TEST_F(Experiments, ConstantRatesIntegrateTheRelaxation) {
+  const auto rows =
+      rows_of(run_t8("kind = \"monotonic\"\nrate = \"-1e-5 1/s\"\ntimes = [1e-3, 0.1, 10]\n", "monotonic.csv"));
+  const FullSolutions modulus(folder_ / "scene.toml");
+  ASSERT_EQ(rows.size(), 3u);
+  for (const auto& row : rows) {
+    const double t = row.at("time_s");
+    const double stress = -1e-5 * talbot([&](Complex s) { return modulus(s) / (s * s); }, t, 18);
+    EXPECT_NEAR(row.at("stress_pa") / stress, 1, row.at("error") + 1e-7) << t;
+    EXPECT_EQ(row.at("strain"), -1e-5 * t);
+    EXPECT_NEAR(row.at("secant_pa") * row.at("strain") / row.at("stress_pa"), 1, 1e-14);
+  }
+  EXPECT_EQ(summary("out").at("results").at(0).at("kind"), "monotonic");
+}
+
 TEST_F(Experiments, SweepsAreTheHarmonicTestAndItsMasterCurve) {
   const auto rows =
       rows_of(run_t8("kind = \"sweep\"\nfrequencies = [0.1, \"10 Hz\"]\npoints_per_decade = 2\n", "sweep.csv"));
@@ -235,10 +250,15 @@ TEST_F(Experiments, HeldSidesAreSaid) {
   const auto result = summary("out").at("results").at(0);
   EXPECT_EQ(result.at("modulus"), "confined");
   EXPECT_EQ(result.at("sides"), "held");
-  EXPECT_EQ(summary("out").at("warnings").size(), 1u);
+  EXPECT_EQ(summary("out").at("warnings").size(), 2u);
   EXPECT_TRUE(contains(text("out/prony.csv"), "confined modulus"));
   EXPECT_FALSE(fs::exists(folder_ / "out/prony_abaqus.inp"));  // what is not uniaxial would be taken for it
   EXPECT_FALSE(fs::exists(folder_ / "out/prony_ansys.txt"));
+
+  for (const char* solver : {"method = \"harmonic\"\n", quick}) {
+    std::ofstream(write_scene(solver), std::ios::app) << "[network]\nlateral_walls = true\n";
+    EXPECT_HAS(run_quick("cyclic").out, "warning: the sides are held: moduli are those of a confined specimen");
+  }
 }
 
 TEST_F(Experiments, ResultsOfAnotherTestDoNotStay) {
@@ -261,6 +281,7 @@ TEST_F(Experiments, WhatMakesNoSenseIsRefused) {
   EXPECT_HAS(refusal(relaxation + "frequencies = [1]\n"), "frequencies");
   EXPECT_HAS(refusal("kind = \"creep\"\ntimes = [1]\n"), "stress");
   EXPECT_HAS(refusal("kind = \"creep\"\nstress = 1\nramp = 2\nrelease = 1\ntimes = [1]\n"), "end of the ramp");
+  EXPECT_HAS(refusal("kind = \"monotonic\"\nrate = 0\ntimes = [1]\n"), "not 0");
   EXPECT_HAS(refusal("kind = \"sweep\"\nfrequencies = [1]\ncycles = 3\n"), "cycles");
   EXPECT_HAS(refusal(relaxation, "inertia = true\n"), "inertia");
   EXPECT_HAS(refusal(relaxation, "method = \"explicit\"\n"), "not stepped in time");

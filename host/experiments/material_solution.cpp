@@ -79,8 +79,7 @@ class MaterialSolution : public Solution {
     write_material(out, material, poisson_ratio_);
     if (material.confined) {
       result.warnings.emplace_back(
-          "the sides are held: moduli are those of a confined specimen, and tables for finite-element programs, which "
-          "take uniaxial ones, are not written");
+          "no tables for finite-element programs are written: they take uniaxial moduli, and the sides are held");
     }
     responds_(out, std::move(material), result);
   }

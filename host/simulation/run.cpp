@@ -120,6 +120,10 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
     if (std::filesystem::exists(out / "summary.json")) throw;
     unsolvable = std::current_exception();  // whoever has nothing yet wants to look at the specimen
   }
+  if (scene.network.lateral_walls) {
+    result.warnings.emplace_back(
+        "the sides are held: moduli are those of a confined specimen, not |E*| or E(t) of a free one");
+  }
   if (watcher.progress) watcher.progress("writing the specimen", 0);  // the last to be interrupted without a trace
   {
     const InPhase writing(result.phases, &PhaseSeconds::writing);
