@@ -134,7 +134,7 @@ Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::ve
     labels.voxels[next.voxel] = next.grain;
     leave(next.voxel, next.grain);
   }
-  keep_cuts_smooth(watershed, labels, 2);
+  keep_cuts_smooth(watershed, labels, 1);
   return labels;
 }
 

@@ -23,14 +23,19 @@ LINES = (  # name, column, factor, digits, sign
     ("air voids (points)", "air_voids_points_error", 1, 2, True),
     ("aggregate (points)", "aggregate_points_error", 1, 2, True),
 )
+COST = (
+    ("edge of a voxel (µm)", "voxel_um", 1, 0, False),
+    ("time with two threads (s)", "seconds", 1, 0, False),
+    ("memory (GB)", "peak_mb", 1e-3, 2, False),
+)
 
 
 @mark
-def ct():
-    runs = rows("ct.csv")
-    heads = [f"seed {r['seed']:g}, {r['recipe']}" for r in runs]
+def ct(recipe):
+    runs = [r for r in rows("ct.csv") if r["recipe"] == recipe]
+    heads = [f"seed {r['seed']:g}" + (", noisy" if r["faults"] else "") for r in runs]
     lines = [[name, *(minus(f"{factor * r[column]:{'+' if sign else ''}.{digits}f}") for r in runs)]
-             for name, column, factor, digits, sign in LINES if all(column in r for r in runs)]
+             for name, column, factor, digits, sign in COST + LINES]
     return table(["", *heads], lines, range(1, len(heads) + 1))
 
 
