@@ -33,7 +33,7 @@ COST = (
 @mark
 def ct(recipe):
     runs = [r for r in rows("ct.csv") if r["recipe"] == recipe]
-    heads = [f"seed {r['seed']:g}" + (", noisy" if r["faults"] else "") for r in runs]
+    heads = [f"seed {r['seed']:g}" + (", projections" if r["faults"] == "projections" else ", noisy" if r["faults"] else "") for r in runs]
     lines = [[name, *(minus(f"{factor * r[column]:{'+' if sign else ''}.{digits}f}") for r in runs)]
              for name, column, factor, digits, sign in COST + LINES]
     return table(["", *heads], lines, range(1, len(heads) + 1))
