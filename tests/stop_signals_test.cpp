@@ -39,6 +39,16 @@ class StopSignals : public Program {
     }
     FAIL() << "it ended too soon: " << read(folder_ / "stderr.txt");
   }
+  /// Waits until the program catches SIGTERM: a larger one takes its time to be loaded.
+  static void wait_until_it_listens(pid_t child) {
+    while (waitpid(child, nullptr, WNOHANG) == 0) {
+      std::ifstream status("/proc/" + std::to_string(child) + "/status");
+      for (std::string line; std::getline(status, line);) {
+        if (line.starts_with("SigCgt:") && (std::stoull(line.substr(7), nullptr, 16) >> (SIGTERM - 1) & 1)) return;
+      }
+      usleep(1000);
+    }
+  }
   static int end_of(pid_t child) {
     int status = -1;
     waitpid(child, &status, 0);
@@ -123,6 +133,7 @@ TEST_F(StopSignals, BeforeTheFirstStepTheyLeaveTheFolderAsItWas) {
     const std::string out = *command == 'r' ? "out" : "new";
     const pid_t child = start({command, MACADAM_EXAMPLES "/demo/scene.toml", "--out", (folder_ / out).string()});
     while (*command == 's' && !fs::exists(folder_ / out) && waitpid(child, nullptr, WNOHANG) == 0) usleep(1000);
+    wait_until_it_listens(child);
     usleep(100'000);
     kill(child, SIGTERM);
     usleep(5000);
