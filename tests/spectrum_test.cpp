@@ -107,6 +107,19 @@ TEST(Series, ARampIsTheMeanOfSteps) {
   EXPECT_EQ(creep.after_ramp(-1, 3), 0);
 }
 
+// A Kelvin unit that is slow enough is a dashpot, but for a share t/τ of its strain.
+TEST(Series, ASlowUnitFlowsAfterARamp) {
+  const CreepSeries dashpot{0, 1e-9, {}};
+  const double duration = 0.02;
+  for (const double time : {1e3, 1e6, 1e10, 1e14, 1e20}) {
+    const CreepSeries unit{0, 0, {{1e-9 * time, time}}};
+    for (const double t : {1e-3, 0.02, 0.021, 0.25, 0.3}) {
+      const double flowed = dashpot.after_ramp(t, duration);
+      EXPECT_NEAR(unit.after_ramp(t, duration) / flowed, 1, t / time + 1e-14) << t << " s, unit of " << time << " s";
+    }
+  }
+}
+
 TEST(Series, FewUnitsAreAsGoodAsAsked) {
   PronySeries many{2e7, {}};
   for (const double t : log_range(1e-4, 1e3, 30)) many.units.push_back({1e8 * (1 + std::sin(3 * std::log(t))), t});

@@ -59,7 +59,6 @@ TEST_F(SteppedSpectrum, IsTheRelaxation) {
 
 // The platen under a stress that rises, is held and is taken off: strain grows, and part of it comes back.
 TEST_F(SteppedSpectrum, IsTheCreepAndTheRecovery) {
-  if (!long_tests) GTEST_SKIP() << "a hundred thousand steps";
   const double stress = 1e5, rise = 0.02, release = 0.1, end = 0.3, mass = 1e-4;
   StepperOptions given = options(100, 200);
   given.boundary.load(wall_z_hi, 2, std::make_shared<drives::Ramp>(), mass);  // the step rests on its mass

@@ -46,12 +46,25 @@ double CreepSeries::compliance(double t) const {
   return out;
 }
 
+namespace {
+
+/// x − 1 + e^(−x). Of a unit that is much slower than its ramp, x²/2 is left of two numbers near x.
+double lag(double x) {
+  if (x > 0.5) return x + std::expm1(-x);
+  double out = 0;
+  for (int n = 16; n >= 2; --n) out = (1 - out) * x / n;  // Horner's scheme: x²/2·(1 − x/3·(1 − x/4·(…
+  return out * x;
+}
+
+}  // namespace
+
 double CreepSeries::after_ramp(double t, double duration) const {
   if (duration == 0 || t < 0) return compliance(t);
   const double ramp = std::min(t, duration), held = t - ramp;
   double out = instantaneous * ramp + fluidity * ramp * (0.5 * ramp + held);
-  for (const Unit& u : units)
-    out += u.compliance * (ramp + u.time * std::exp(-held / u.time) * std::expm1(-ramp / u.time));
+  for (const Unit& u : units) {
+    out += u.compliance * (u.time * std::exp(-held / u.time) * lag(ramp / u.time) - ramp * std::expm1(-held / u.time));
+  }
   return out / duration;
 }
 
