@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kernels/aligned.hpp"
+#include "kernels/carried_frame.hpp"
 #include "kernels/layout.hpp"
 #include "macadam/stepper.hpp"
 
@@ -40,6 +41,7 @@ struct ContactView {
   std::int32_t frame_words;
   std::int32_t components;  ///< of the law: condensed 6, 3 (no shear) or 1 (nor turns), points 3 or 1 (no shear)
   std::int32_t units;       ///< Kelvin units
+  bool by_points;           ///< rows of chains are points
   bool wall;                ///< body_b is a wall: its plane is the facet
   Geometry alpha;
 };
@@ -66,13 +68,6 @@ struct ContactArrays {
   }
 };
 
-/// Words of the carried frame: ŝ, and in single precision the angle about n that is still to be applied, because
-/// increments of 1e-10 would be lost in ŝ itself.
-template <class P>
-constexpr std::int32_t frame_words_of(Geometry geometry) {
-  return geometry == Geometry::fixed ? 0 : sizeof(typename P::State) == 8 ? 3 : 4;
-}
-
 /// How long the arrays of a group are.
 template <class P>
 struct GroupShape {
@@ -88,10 +83,11 @@ struct GroupShape {
         lanes(static_cast<std::size_t>(layout.lanes)),
         rows(by_points ? group.packet_row.back() : group.packets()) {
     const bool shear = law.alpha != 0 || !options.skip_shear, turns = !options.skip_rotations;
+    view.by_points = by_points;
     view.alpha = static_cast<typename P::Geometry>(law.alpha);
     view.packets = static_cast<std::uint32_t>(group.packets());
     view.geometry_words = options.geometry == Geometry::updated ? distance + 1 : distance;
-    view.frame_words = frame_words_of<P>(options.geometry);
+    view.frame_words = options.geometry == Geometry::updated ? tangent_words<typename P::State> : 0;
     view.components = by_points ? (shear ? 3 : 1) : shear ? 6 : turns ? 3 : 1;
     view.units = law.units;
     view.wall = group.pair == PairType::aw || group.pair == PairType::mw;

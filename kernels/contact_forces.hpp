@@ -8,6 +8,7 @@
 
 #include <type_traits>
 
+#include "kernels/carried_frame.hpp"
 #include "kernels/contact_data.hpp"
 #include "kernels/contact_kinematics.hpp"
 
@@ -185,57 +186,35 @@ struct ContactForces {
     using S = typename Item::template Value<State>;
     const Vec3<T> branch = d0 * n0 + item.template relative<typename P::Geometry>(motion.displacement, ia, ib);
     const Vec3<T> step = T(static_cast<typename P::Geometry>(dt)) * (b.linear - a.linear);
+    const Distance<T> d = follow_branch(now, n0, d0, branch, view.wall);
     Vec3<T> n_before = n0;
-    now.n = middle.n = n0;
-    middle.arm_b = now.arm_b;
-    if (view.wall) {  // the facet stays on the wall
-      now.arm_a = dot(branch, n0);
+    middle = now;
+    if (view.wall) {
       middle.arm_a = now.arm_a - T(0.5f) * dot(step, n0);
     } else {
-      // all lengths of a step are nearly one another's: one root and one division do, the rest are series
+      // all lengths of a step are nearly one another's: what the root and the division of d gave serves them too
       const Vec3<T> branch_before = branch - step;
-      const T d = norm(branch), inverse_d = T(1) / d;
-      now.n = inverse_d * branch;
-      n_before = inverse_d * branch_before;
+      n_before = d.inverse * branch_before;
       n_before = inverse_root_near_one(dot(n_before, n_before)) * n_before;
       const T d_before = dot(branch_before, n_before);
       middle.n = T(0.5f) * (now.n + n_before);
       middle.n = inverse_root_near_one(dot(middle.n, middle.n)) * middle.n;
-      const T to_middle = T(0.25f) * (d_before - d), to_now = T(0.5f) * (d - d0);
-      now.arm_a += to_now;
-      now.arm_b += to_now;
-      middle.arm_a = now.arm_a + to_middle;
-      middle.arm_b = now.arm_b + to_middle;
+      const T to_middle = T(0.25f) * (d_before - d.length);
+      middle.arm_a += to_middle;
+      middle.arm_b += to_middle;
     }
     const T spin_rate = T(0.5f) * dot(a.angular + b.angular, middle.n);
 
     State* stored =
         view.frame + static_cast<std::size_t>(packet) * static_cast<std::size_t>(view.frame_words) * item.lanes();
-    const Vec3<S> old{item.load(stored), item.load(stored + item.lanes()), item.load(stored + 2 * item.lanes())};
-    const Vec3<S> ns = converted<State>(item, now.n), nb = converted<State>(item, n_before);
-    const S turn = item.template convert<State>(spin_rate) * S(dt);
-    Vec3<S> before = old, s;
-    if constexpr (sizeof(State) == 8) {
-      s = spun(swung(before, nb, ns), ns, turn);
-      item.store(stored, s.x);
-      item.store(stored + item.lanes(), s.y);
-      item.store(stored + 2 * item.lanes(), s.z);
-    } else {  // ŝ is rewritten only when the normal or the spin has moved by more than single precision can lose
-      const S pending = item.load(stored + 3 * item.lanes());
-      before = spun(swung(old, nb, nb), nb, pending);
-      s = spun(swung(before, nb, ns), ns, turn);
-      const S tilt = dot(old, ns), spin = pending + turn;
-      const auto rebase = tilt * tilt + spin * spin > S(1e-6f);
-      item.store(stored, item.select(rebase, s.x, old.x));
-      item.store(stored + item.lanes(), item.select(rebase, s.y, old.y));
-      item.store(stored + 2 * item.lanes(), item.select(rebase, s.z, old.z));
-      item.store(stored + 3 * item.lanes(), item.select(rebase, S(0), spin));
-    }
-    Vec3<S> s_middle = S(0.5f) * (before + s);
+    const auto turned =
+        turn_tangent<State>(item, stored, converted<State>(item, n_before), converted<State>(item, now.n),
+                            S(item.template convert<State>(spin_rate) * S(dt)));
+    Vec3<S> s_middle = S(0.5f) * (turned.before + turned.now);
     const Vec3<S> nm = converted<State>(item, middle.n);
     s_middle -= dot(s_middle, nm) * nm;  // of the order of swing times spin
     s_middle = inverse_root_near_one(dot(s_middle, s_middle)) * s_middle;
-    now.s = converted<typename P::Geometry>(item, s);
+    now.s = converted<typename P::Geometry>(item, turned.now);
     now.t = cross(now.n, now.s);
     middle.s = converted<typename P::Geometry>(item, s_middle);
     middle.t = cross(middle.n, middle.s);
@@ -245,32 +224,6 @@ struct ContactForces {
   MACADAM_HD static auto converted(const Item& item, const Vec3<T>& v) {
     return Vec3<typename Item::template Value<To>>{item.template convert<To>(v.x), item.template convert<To>(v.y),
                                                    item.template convert<To>(v.z)};
-  }
-
- public:
-  /// 1/√x by its series about 1: exact to rounding for |1 − x| < 1e-3 in double, and never NaN for a finite x.
-  template <class S>
-  MACADAM_HD static S inverse_root_near_one(const S& x) {
-    const S e = S(1) - x;
-    return S(1) + e * (S(0.5f) + e * (S(0.375f) + e * (S(0.3125f) + e * S(0.2734375f))));
-  }
-
-  /// ŝ by the smallest rotation that takes one normal to the other, and one Newton step towards unit length. The exact
-  /// divisor of (from + to) is 1 + from·to = 2 − e; 1/(2 − e) is expanded in the small e.
-  template <class S>
-  MACADAM_HD static Vec3<S> swung(Vec3<S> s, const Vec3<S>& from, const Vec3<S>& to) {
-    const S e = S(1) - dot(from, to);
-    const S inverse = S(0.5f) + e * (S(0.25f) + e * (S(0.125f) + e * S(0.0625f)));
-    s -= (dot(s, to) * inverse) * (from + to);
-    return (S(1.5f) - S(0.5f) * dot(s, s)) * s;
-  }
-
-  /// ŝ turned about n by a small angle; the series is exact to rounding below 1e-3.
-  template <class S>
-  MACADAM_HD static Vec3<S> spun(const Vec3<S>& s, const Vec3<S>& n, const S& angle) {
-    const S square = angle * angle;
-    return (S(1) - S(0.5f) * square) * s +
-           (angle * (S(1) - square * S(static_cast<typename P::State>(1.0 / 6)))) * cross(n, s);
   }
 };
 

@@ -37,7 +37,7 @@ template <class T>
 MACADAM_HD void relative_rates(const Placement<T>& f, const Twist<T>& a, const Twist<T>& b, T (&u)[6]) {
   const Vec3<T> v = b.linear - a.linear;
   const Vec3<T> w = b.angular - a.angular;
-  const Vec3<T> q = f.arm_a * a.angular + f.arm_b * b.angular;
+  const Vec3<T> q = multiply_add(f.arm_b, b.angular, f.arm_a * a.angular);
   u[0] = dot(v, f.n);
   u[1] = -dot(w, f.t);
   u[2] = dot(w, f.s);
@@ -59,12 +59,13 @@ template <class T>
 MACADAM_HD FacetLoad<T> condensed_load(const T (&f)[6], const T& alpha, const T (&m)[6]) {
   const T slip_s = alpha * f[3], slip_t = alpha * f[4], twist = alpha * f[5];
   FacetLoad<T> load;
-  load.n = f[0] * m[0] + f[1] * m[1] + f[2] * m[2];
-  load.moment_t = -(f[0] * m[1] + f[1] * m[3] + f[2] * m[4]);
-  load.moment_s = f[0] * m[2] + f[1] * m[4] + f[2] * m[5];
-  load.s = slip_s * m[0] - twist * m[2];
-  load.t = slip_t * m[0] + twist * m[1];
-  load.moment_n = twist * (m[3] + m[5]) + slip_t * m[1] - slip_s * m[2];
+  const Vec3<T> normal{f[0], f[1], f[2]};
+  load.n = dot(normal, Vec3<T>{m[0], m[1], m[2]});
+  load.moment_t = -dot(normal, Vec3<T>{m[1], m[3], m[4]});
+  load.moment_s = dot(normal, Vec3<T>{m[2], m[4], m[5]});
+  load.s = multiply_add(slip_s, m[0], -(twist * m[2]));
+  load.t = multiply_add(slip_t, m[0], twist * m[1]);
+  load.moment_n = dot(Vec3<T>{twist, slip_t, -slip_s}, Vec3<T>{m[3] + m[5], m[1], m[2]});
   return load;
 }
 
@@ -76,9 +77,12 @@ struct ContactLoad {
 
 template <class T>
 MACADAM_HD ContactLoad<T> to_centres(const Placement<T>& f, const FacetLoad<T>& load) {
-  const Vec3<T> m0 = load.moment_n * f.n + load.moment_s * f.s + load.moment_t * f.t;
-  const Vec3<T> lever = load.s * f.t - load.t * f.s;  // n × force
-  return {load.n * f.n + load.s * f.s + load.t * f.t, m0 + f.arm_a * lever, f.arm_b * lever - m0};
+  const auto seen = [&f](const T& n, const T& s, const T& t) {
+    return multiply_add(t, f.t, multiply_add(s, f.s, n * f.n));
+  };
+  const Vec3<T> m0 = seen(load.moment_n, load.moment_s, load.moment_t);
+  const Vec3<T> lever = multiply_add(load.s, f.t, -(load.t * f.s));  // n × force
+  return {seen(load.n, load.s, load.t), multiply_add(f.arm_a, lever, m0), multiply_add(f.arm_b, lever, -m0)};
 }
 
 }  // namespace macadam::kernels

@@ -73,26 +73,13 @@ class GroupReading {
   Placement<double> placement(std::size_t slot, const Contact& c, const Vector& apart) const {
     Placement<double> out{c.n, c.s, c.t, c.arm_a, c.arm_b};
     if (!updated_) return out;
-    const Vector branch = c.distance * c.n + apart;
-    if (shape_.view.wall) {
-      out.arm_a = dot(branch, c.n);
-    } else {
-      const double d = norm(branch);
-      out.n = (1 / d) * branch;
-      out.arm_a += 0.5 * (d - c.distance);
-      out.arm_b += 0.5 * (d - c.distance);
-    }
+    follow_branch(out, c.n, c.distance, c.distance * c.n + apart, shape_.view.wall);
     const std::size_t lanes = shape_.lanes, count = static_cast<std::size_t>(shape_.view.frame_words);
     const auto* stored = &state_.frame[slot / lanes * count * lanes + slot % lanes];
-    Vector s{double(stored[0]), double(stored[lanes]), double(stored[2 * lanes])};
-    s -= dot(s, out.n) * out.n;
-    s = (1 / norm(s)) * s;
-    if (count == 4) {  // the spin that is not in ŝ yet
-      const double turn = stored[3 * lanes];
-      s = std::cos(turn) * s + std::sin(turn) * cross(out.n, s);
-    }
-    out.s = s;
-    out.t = cross(out.n, s);
+    const Vector s{double(stored[0]), double(stored[lanes]), double(stored[2 * lanes])};
+    const double pending = count == 4 ? stored[3 * lanes] : 0;
+    out.s = spun(swung(s, out.n, out.n), out.n, pending);
+    out.t = cross(out.n, out.s);
     return out;
   }
 

@@ -120,36 +120,16 @@ struct SettleContact {
     const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
     const Vec3<double> branch = d0 * n0 + (vector(now, b, 0) - vector(now, a, 0));
     Placement<double> out{n0, {}, {}, arm_a, arm_b};
+    follow_branch(out, n0, d0, branch, view.wall);
     Vec3<double> n_before = n0;
-    if (view.wall) {
-      out.arm_a = dot(branch, n0);
-    } else {
+    if (!view.wall) {
       const Vec3<double> branch_before = d0 * n0 + (vector(before, b, 0) - vector(before, a, 0));
-      const double d = norm(branch);
-      out.n = (1 / d) * branch;
       n_before = (1 / norm(branch_before)) * branch_before;
-      out.arm_a += 0.5 * (d - d0);
-      out.arm_b += 0.5 * (d - d0);
     }
     const Vec3<double> turned = (vector(now, a, 4) - vector(before, a, 4)) + (vector(now, b, 4) - vector(before, b, 4));
     const double spin = 0.25 * dot(turned, n_before + out.n);
-    State* stored = view.frame + static_cast<std::size_t>(slot / 32) * view.frame_words * 32 + slot % 32;
-    using D = ContactForces<DoublePrecision, laws::Elastic::Step<double>, 0, ContactForm::condensed, geometry>;
-    const Vec3<double> old{stored[0], stored[32], stored[64]};
-    if constexpr (sizeof(State) == 8) {
-      out.s = D::spun(D::swung(old, n_before, out.n), out.n, spin);
-      stored[0] = out.s.x, stored[32] = out.s.y, stored[64] = out.s.z;
-    } else {  // ŝ is rewritten only when it has moved by more than single precision can lose
-      const double pending = stored[96];
-      const Vec3<double> then = D::spun(D::swung(old, n_before, n_before), n_before, pending);
-      out.s = D::spun(D::swung(then, n_before, out.n), out.n, spin);
-      const double tilt = dot(old, out.n), angle = pending + spin;
-      if (tilt * tilt + angle * angle > 1e-6) {
-        stored[0] = float(out.s.x), stored[32] = float(out.s.y), stored[64] = float(out.s.z), stored[96] = 0;
-      } else {
-        stored[96] = static_cast<State>(angle);
-      }
-    }
+    State* stored = view.frame + static_cast<std::size_t>(slot / 32) * view.frame_words * 32;
+    out.s = turn_tangent<double>(LaneItem{slot % 32}, stored, n_before, out.n, spin).now;
     out.t = cross(out.n, out.s);
     return out;
   }

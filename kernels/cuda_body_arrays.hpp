@@ -23,22 +23,10 @@ class CudaBodyArrays {
   using G = typename P::Geometry;
   static constexpr int lanes = 32;
 
-  /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that several tiles share
-  /// one. A contact takes some 75 bytes of shared memory there: two slots of loads and its share of the bodies.
-  static std::size_t tile_contacts(const ContactNetwork& network, const StepperOptions& options) {
-    check_cuda(cudaSetDevice(options.device.value()), "device");
-    const DeviceLimits limits = DeviceLimits::query();
-    const auto chips = static_cast<std::size_t>(limits.multiprocessors),
-               shared = static_cast<std::size_t>(limits.shared);
-    const std::size_t contacts = network.contacts.size();
-    if (contacts > shared / 75 * chips) return std::min<std::size_t>(1000, shared / 100);
-    return std::max<std::size_t>(128, contacts / (chips + 1) + 1);
-  }
-
-  CudaBodyArrays(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
+  CudaBodyArrays(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, RecordOrder order)
       : device_(options.device.value()),
         layout_(layout),
-        rows_(network, layout),
+        rows_(network, layout, order),
         views_(layout.groups.size()),
         master_(bodies() * velocity_words),
         displacement_(bodies() * displacement_words),
@@ -51,8 +39,8 @@ class CudaBodyArrays {
   /// That it answers is known by then.
   void use_device() const { cudaSetDevice(device_); }
 
-  const double* wall_table(std::size_t most_values) { return wall_rows_.prepare(most_values); }
-  void set_wall_rows(const std::vector<double>& rows) { wall_rows_.put(rows, stream_); }
+  const R* wall_table(std::size_t most_values) { return wall_rows_.prepare(most_values); }
+  void set_wall_rows(const std::vector<R>& rows) { wall_rows_.put(rows, stream_); }
 
   BodyView<P> set_bodies(const std::vector<R>& inverse, const std::vector<R>& weight) {
     if (inverse_.size() == 0) inverse_ = DeviceArray<R>(inverse.size());
@@ -134,8 +122,9 @@ class CudaBodyArrays {
           check_cuda(cudaMemcpy(pointer, array.data(), static_cast<std::size_t>(size), cudaMemcpyHostToDevice),
                      "states of the start");
         }
-        add_device_state(states_, std::string(name) + "_" + to_string(layout_.groups[number].pair), unit, pointer,
-                         array.size());
+        const GroupLayout& group = layout_.groups[number];
+        add_device_state(states_, std::string(name) + "_" + to_string(group.pair), unit, pointer, array.size(),
+                         state_order(layout_, group, view, &pointer == &view.chain));
       }
     });
     return views_[number] = view;
@@ -143,7 +132,8 @@ class CudaBodyArrays {
 
   void add_body_states() {
     const auto add = [&](const char* name, const char* unit, const auto& array) {
-      add_device_state(states_, name, unit, array.data(), array.size());
+      add_device_state(states_, name, unit, array.data(), array.size(),
+                       [this] { return body_order(layout_, velocity_words); });
     };
     add("velocity", "m/s, rad/s", master_);
     add("displacement", "m, rad", displacement_);
@@ -199,7 +189,7 @@ class CudaBodyArrays {
   DeviceArray<R> master_, inverse_, weight_;
   DeviceArray<double> displacement_;
   DeviceArray<G> velocity_;
-  WallRowsOnDevice wall_rows_;
+  WallRowsOnDevice<R> wall_rows_;
   mutable std::unique_ptr<DivergenceSearch<P>> divergence_;  // made when first asked
   DeviceStore store_;
   StateList states_;

@@ -96,16 +96,43 @@ struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
   }
 };
 
-/// Steps every contact of a launch and writes its loads; counts the step where `step` is given.
+/// Counts the steps on the device and brings the row of the walls' table that belongs to the step to where the bodies
+/// find it. One warp does.
+template <class R>
+struct WallClock {
+  std::int64_t* step = nullptr;  ///< rows that were brought; null: no clock
+  const R* table = nullptr;
+  R* now = nullptr;    ///< [words]
+  unsigned words = 0;  ///< of a row
+
+  __device__ __forceinline__ void tick() const {
+    const unsigned lane = threadIdx.x;
+    if (lane >= 32) return;
+    const std::int64_t row = *step;
+    if (lane < words) now[lane] = table[static_cast<std::size_t>(row) * words + lane];
+    __syncwarp();
+    if (lane == 0) *step = row + 1;
+  }
+};
+template <class R>
+__global__ void start_clock(const WallClock<R> clock) {
+  if (threadIdx.x == 0) *clock.step = 0;
+  __syncwarp();
+  clock.tick();
+}
+
+/// Steps every contact of a launch and writes its loads; where there is a clock, the first block is its.
 template <class P, class AnyLaw, ContactForm form, Geometry geometry, int Units>
 __global__ void __launch_bounds__(contact_threads, contact_blocks)
     step_contacts(const __grid_constant__ ContactGroups<P, AnyLaw, form, geometry, Units> groups,
-                  const MotionView<P> motion, const LoadRecords<typename P::Geometry> records, std::int64_t* step) {
-  if (step && blockIdx.x == 0 && threadIdx.x == 0) ++*step;
+                  const MotionView<P> motion, const LoadRecords<typename P::Geometry> records,
+                  const WallClock<typename P::Particle> clock) {
+  std::uint32_t block = blockIdx.x;
+  if (clock.step && block-- == 0) return clock.tick();
   int number = 0;
-  while (number + 1 < groups.groups && groups.group[number + 1].first_block <= blockIdx.x) ++number;
+  while (number + 1 < groups.groups && groups.group[number + 1].first_block <= block) ++number;
   const auto& group = groups.group[number];
-  const std::uint32_t slot = (blockIdx.x - group.first_block) * contact_threads + threadIdx.x;
+  const std::uint32_t slot = (block - group.first_block) * contact_threads + threadIdx.x;
   if (slot >= group.slots) return;  // a whole warp
   group.functor.visit([&](const auto& forces) {
     records.store_by_warp(group.first_slot + slot, forces(LaneItem{slot % 32}, slot / 32, motion));
@@ -117,6 +144,7 @@ template <class P, class AnyLaw>
 class ContactLaunches {
  public:
   using Records = LoadRecords<typename P::Geometry>;
+  using Clock = WallClock<typename P::Particle>;
 
   /// Adds a group whose first contact is `first_slot` of all.
   template <class LawStep, int Units, ContactForm form, Geometry geometry>
@@ -130,16 +158,17 @@ class ContactLaunches {
     auto groups = std::static_pointer_cast<Groups>(to.groups);
     groups->add(first_slot, slots, forces);
     to.run = [groups, kernel](cudaStream_t stream, const MotionView<P>& motion, const Records& records,
-                              std::int64_t* step) {
-      launch("contacts", kernel, groups->blocks, contact_threads, 0, stream, *groups, motion, records, step);
+                              const Clock& clock) {
+      launch("contacts", kernel, groups->blocks + (clock.step ? 1 : 0), contact_threads, 0, stream, *groups, motion,
+             records, clock);
     };
     to.use = kernel_use("contacts", kernel, contact_threads, 0);
   }
-  /// Steps all contacts and counts the step.
-  void run(cudaStream_t stream, const MotionView<P>& motion, const Records& records, std::int64_t* step) const {
+  /// Steps all contacts and the clock.
+  void run(cudaStream_t stream, const MotionView<P>& motion, const Records& records, Clock clock) const {
     for (const auto& [units, to] : launches_) {
-      to.run(stream, motion, records, step);
-      step = nullptr;
+      to.run(stream, motion, records, clock);
+      clock = {};
     }
   }
   std::vector<KernelUse> kernels() const {
@@ -152,7 +181,7 @@ class ContactLaunches {
   struct Launch {
     std::shared_ptr<void> groups;
     KernelUse use;
-    std::function<void(cudaStream_t, const MotionView<P>&, const Records&, std::int64_t*)> run;
+    std::function<void(cudaStream_t, const MotionView<P>&, const Records&, const Clock&)> run;
   };
   std::map<int, Launch> launches_;
 };

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cuda_runtime.h>
+#include <nvtx3/nvToolsExt.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,13 +23,41 @@ inline void check_cuda(cudaError_t status, const char* what) {
   if (status != cudaSuccess) throw RunError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
 }
 
+/// A named stretch of the host's work, for profilers that read NVTX.
+class Range {
+ public:
+  explicit Range(const char* name) { nvtxRangePushA(name); }
+  Range(const Range&) = delete;
+  ~Range() { nvtxRangePop(); }
+};
+
+/// Whether MACADAM_CUDA_SYNC is set: then the host waits for every kernel, and an error names the one that failed.
+inline bool waits_for_launches() {
+  static const bool set = std::getenv("MACADAM_CUDA_SYNC") != nullptr;
+  return set;
+}
+
+/// Every launch of a kernel ends here.
+inline void check_launch(const char* name, cudaStream_t stream) {
+  check_cuda(cudaGetLastError(), name);
+  if (waits_for_launches()) check_cuda(cudaStreamSynchronize(stream), name);
+}
+
 /// Launches a kernel in a stream and checks the launch; an empty grid is no launch.
 template <class... Parameters, class... Arguments>
 void launch(const char* name, void (*kernel)(Parameters...), std::size_t blocks, unsigned threads, std::size_t shared,
             cudaStream_t stream, Arguments&&... arguments) {
   if (blocks == 0) return;
   kernel<<<static_cast<unsigned>(blocks), threads, shared, stream>>>(std::forward<Arguments>(arguments)...);
-  check_cuda(cudaGetLastError(), name);
+  check_launch(name, stream);
+}
+/// The same for blocks that wait for one another: all are on the device at once, or the launch fails.
+template <class... Parameters>
+void launch_together(const char* name, void (*kernel)(Parameters...), std::size_t blocks, unsigned threads,
+                     std::size_t shared, cudaStream_t stream, Parameters... parameters) {
+  void* list[] = {&parameters...};
+  check_cuda(cudaLaunchCooperativeKernel(kernel, static_cast<unsigned>(blocks), threads, list, shared, stream), name);
+  check_launch(name, stream);
 }
 
 /// What a launch of a kernel takes of a multiprocessor. `shared`: dynamic shared memory [bytes].
@@ -97,7 +127,8 @@ class DeviceArray {
 
 /// Adds an array on the device, which must stay where it is, to what a checkpoint copies and replaces.
 template <class T>
-void add_device_state(StateList& states, const std::string& name, const std::string& unit, T* data, std::size_t size) {
+void add_device_state(StateList& states, const std::string& name, const std::string& unit, T* data, std::size_t size,
+                      StateList::Order order = {}) {
   const std::size_t bytes = size * sizeof(T);
   states.add<T>(
       name, unit, size,
@@ -108,7 +139,8 @@ void add_device_state(StateList& states, const std::string& name, const std::str
       },
       [=](const std::vector<T>& values) {
         check_cuda(cudaMemcpy(data, values.data(), bytes, cudaMemcpyHostToDevice), "setting the state");
-      });
+      },
+      std::move(order));
 }
 
 }  // namespace macadam::kernels

@@ -16,7 +16,8 @@ struct DeviceLimits {
   bool cooperative = false;             ///< blocks of a launch may wait for one another
   bool whole_words = false;             ///< words of 16 bytes are written and read whole
 
-  static DeviceLimits query() {
+  /// `multiprocessors`: as StepperOptions has it.
+  static DeviceLimits query(int multiprocessors) {
     int device = 0, cooperative = 0, major = 0;
     DeviceLimits out;
     check_cuda(cudaGetDevice(&device), "device");
@@ -24,6 +25,7 @@ struct DeviceLimits {
     check_cuda(cudaDeviceGetAttribute(&out.shared, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), "device");
     check_cuda(cudaDeviceGetAttribute(&cooperative, cudaDevAttrCooperativeLaunch, device), "device");
     check_cuda(cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, device), "device");
+    if (multiprocessors > 0) out.multiprocessors = std::min(out.multiprocessors, multiprocessors);
     out.cooperative = cooperative != 0;
     out.whole_words = major >= 7;
     return out;

@@ -7,9 +7,8 @@
 #include <memory>
 #include <utility>
 
-#include "kernels/block_length.hpp"
-#include "kernels/cuda_blocks.hpp"
 #include "kernels/cuda_record_rows.hpp"
+#include "kernels/cuda_settling.hpp"
 #include "kernels/cuda_tile_limits.hpp"
 #include "kernels/cuda_tiles_resident.hpp"
 #include "kernels/cuda_tiles_streamed.hpp"
@@ -25,10 +24,11 @@ class TileRunner {
   TileRunner(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, cudaStream_t stream)
       : plan_(plan_tiles(network, layout)),
         carried_(options.geometry == Geometry::updated),
+        layout_(layout),
         bodies_(layout.particles()),
         stream_(stream),
         constants_(plan_.contact.size() * static_cast<std::size_t>(tile_constants(carried_))) {
-    choose();
+    choose(options.multiprocessors);
     std::size_t slots = 0;
     for (const auto& group : layout.groups) {
       group_slot_.push_back(slots);
@@ -77,7 +77,7 @@ class TileRunner {
     const auto block = law.block(dt, block_);
     scene_.law[number] = {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
                           static_cast<float>(view.alpha), static_cast<float>(block.follow)};
-    set_settling<geometry>(number, law, view, dt);
+    settling_.template set_group<geometry>(number, group_slot_[static_cast<std::size_t>(number)], law, view, dt);
   }
 
   /// Ends every set-up: everything as it is before the first step. Words of the exchange may stay, as tags go on.
@@ -98,7 +98,7 @@ class TileRunner {
     }
     clear(scene_.wall_load, wall_load_count_);
     clear(before_, (bodies_ + walls) * displacement_words);
-    if (settle_contacts_) settle_contacts_(settling_starts, block_);
+    settling_.run(settling_starts, block_, settled(), stream_);
     check_cuda(cudaStreamSynchronize(stream_), "start");
   }
 
@@ -106,7 +106,7 @@ class TileRunner {
   std::size_t bytes_to_come(std::size_t records) const {
     const std::size_t loads = 2 * velocity_words * sizeof(R) + displacement_words * sizeof(double);
     return constants_.size() * sizeof(float4) + plan_.contact.size() * tile_states * sizeof(float4) +
-           (bodies_ + walls) * loads + records * record_words * sizeof(R) + bodies_ * 4 * sizeof(ulonglong2) +
+           (bodies_ + walls) * loads + records * record_words * sizeof(R) + (bodies_ + walls) * 4 * sizeof(ulonglong2) +
            places_.size() * sizeof(uint2) + (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4;
   }
 
@@ -114,14 +114,19 @@ class TileRunner {
   void add_states(StateList& states) {
     const auto words = [](auto* data) { return reinterpret_cast<float*>(data); };
     const std::size_t loads = (bodies_ + walls) * velocity_words;
-    add_device_state(states, "tile_constants", "1, m, m2, m3, m", words(constant_.data()), 4 * constant_.size());
-    add_device_state(states, "tile_states", "Pa m", words(scene_.state), 4 * state_count_);
-    add_device_state(states, "base_loads", "N, N m", base_, loads);
-    add_device_state(states, "forces", "N, N m", scene_.force, bodies_ * velocity_words);  // walls': forces() sums them
+    const auto by_body = [this] { return body_order(layout_, velocity_words); };
+    add_device_state(states, "tile_drives", "Pa m, 1, m", words(constant_.data()), 4 * constant_.size(),
+                     [this] { return order(tile_constants(carried_), words_of_block(carried_)); });
+    add_device_state(states, "tile_states", "Pa m", words(scene_.state), 4 * state_count_, [this] {
+      std::vector<std::uint64_t> all;
+      for (const int w : {tile_change, tile_both, tile_sum}) add_words(all, w, 4);
+      return order(tile_states, all);
+    });
+    add_device_state(states, "base_loads", "N, N m", base_, loads, by_body);
+    add_device_state(states, "forces", "N, N m", scene_.force, bodies_ * velocity_words,  // walls': forces() sums them
+                     [this] { return body_order(layout_, velocity_words, false); });
     add_device_state(states, "wall_loads", "N, N m", words(scene_.wall_load), 4 * wall_load_count_);
-    if (carried_) {
-      add_device_state(states, "displacement_at_block", "m, rad", before_, (bodies_ + walls) * displacement_words);
-    }
+    if (carried_) add_device_state(states, "displacement_at_block", "m, rad", before_, loads, by_body);
     states.add<std::int64_t>(
         "block", "1", 3,
         [this] {
@@ -136,6 +141,7 @@ class TileRunner {
 
   /// Queues steps first … first + steps − 1, the first of which has the first row of the walls' table.
   void run(std::int64_t first, std::int64_t steps) {
+    const Range range("time steps");
     scene_.motion.wall.table = wall_table_;
     for (std::int64_t done = 0; done < steps;) {
       if (in_block_ == length_ || !begun_) {
@@ -144,7 +150,7 @@ class TileRunner {
       }
       const auto n = static_cast<std::uint32_t>(std::min<std::int64_t>(length_ - in_block_, steps - done));
       run_(n);
-      scene_.motion.wall.table += n * static_cast<std::size_t>(scene_.motion.wall.columns);
+      scene_.motion.wall.table += n * scene_.motion.wall.row_words();
       tag_ += n;
       in_block_ += static_cast<int>(n);
       done += n;
@@ -186,15 +192,49 @@ class TileRunner {
   std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
 
  private:
+  /// Adds the first `count` components of word w of 16 bytes.
+  static void add_words(std::vector<std::uint64_t>& to, int w, int count) {
+    for (int k = 0; k < count; ++k)
+      to.push_back(static_cast<std::uint64_t>(w) * 32 * 4 + static_cast<std::uint64_t>(k));
+  }
+  /// Of a contact's constants, those that a block begins with.
+  static std::vector<std::uint64_t> words_of_block(bool carried) {
+    std::vector<std::uint64_t> out;
+    add_words(out, tile_drive_a, 4);
+    add_words(out, tile_drive_b, 2);
+    if (!carried) return out;
+    add_words(out, tile_normal, 4);
+    add_words(out, tile_moment_a, 1);
+    add_words(out, tile_tangent, 3);
+    return out;
+  }
+  /// Of an array [packet][count] of words of 16 bytes, as floats.
+  StateOrder order(int count, std::vector<std::uint64_t> words) const {
+    std::vector<uint2> places(slots_);
+    check_cuda(cudaMemcpy(places.data(), settle_place_, slots_ * sizeof(uint2), cudaMemcpyDeviceToHost), "places");
+    const auto at = [&](std::uint32_t place) {
+      return place == UINT32_MAX ? StateOrder::none
+                                 : (std::uint64_t{place / 32} * static_cast<unsigned>(count) * 32 + place % 32) * 4;
+    };
+    StateOrder out{{}, std::move(words), {}};
+    for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
+      for (const std::uint32_t slot : slots_in_order(layout_.groups[g])) {
+        const uint2 place = places[group_slot_[g] + slot];
+        out.first.push_back(at(place.x));
+        out.twin.push_back(at(place.y));
+      }
+    }
+    return out;
+  }
   static float bits(std::uint32_t x) {
     float out = 0;
     std::memcpy(&out, &x, sizeof out);
     return out;
   }
   /// Chooses the kernel by what the device has.
-  void choose() {
+  void choose(int multiprocessors) {
     if (!plan_.fits) return;
-    limits_ = DeviceLimits::query();
+    limits_ = DeviceLimits::query(multiprocessors);
     scene_.most_bodies = plan_.most_bodies;
     scene_.most_halo = plan_.most_halo;
     scene_.most_locals = plan_.most_locals;
@@ -234,8 +274,7 @@ class TileRunner {
     use_ = kernel_use("tiles on the chip", kernel, Threads, shared);
     const auto blocks = static_cast<unsigned>(plan_.tile.size());
     run_ = [this, kernel, shared, blocks](std::uint32_t steps) {
-      void* arguments[] = {&scene_, &steps, &tag_};
-      check_cuda(cudaLaunchCooperativeKernel(kernel, blocks, Threads, arguments, shared, stream_), "time steps");
+      launch_together("time steps", kernel, blocks, Threads, shared, stream_, scene_, steps, tag_);
     };
     return true;
   }
@@ -277,61 +316,33 @@ class TileRunner {
     scene_.force = store_.template zeros<R>((bodies_ + walls) * velocity_words);
     wall_load_count_ = 2 * (plan_.wall_begin.back() + 1);
     scene_.wall_load = store_.template zeros<float4>(wall_load_count_);
-    scene_.exchange = store_.template zeros<ulonglong2>(4 * bodies_);
+    scene_.exchange = store_.template zeros<ulonglong2>(4 * (bodies_ + walls));
     before_ = store_.template zeros<double>((bodies_ + walls) * displacement_words);
     wall_begin_ = store_.keep(plan_.wall_begin);
     long_body_ = rows.long_body.data();
     long_rows_ = static_cast<std::uint32_t>(rows.long_body.size());
     records_ = {store_.template zeros<R>(rows.records * record_words), rows.begin.data(), rows.place.data()};
+    slots_ = places_.size();
     settle_place_ = store_.keep(places_);
     constants_ = {};
     places_ = {};
     plan_.contact = {};
   }
 
-  template <Geometry geometry, class L>
-  void set_settling(int number, const L& law, const ContactView<P>& view, double dt) {
-    using Groups = SettleGroups<P, AnyLaw, geometry>;
-    if (!settle_groups_) settle_groups_ = std::make_shared<Groups>();
-    auto groups = std::static_pointer_cast<Groups>(settle_groups_);
-    auto& g = groups->group[number];
-    if (g.first_block == UINT32_MAX) {
-      g.first_block = settle_blocks_;
-      g.first_slot = static_cast<std::uint32_t>(group_slot_[static_cast<std::size_t>(number)]);
-      g.slots = view.packets * 32;
-      settle_blocks_ += (g.slots + contact_threads - 1) / contact_threads;
-    }
-    fill_settling_[number] = [groups, number, law, view, dt](int ended, int steps) {
-      auto& g = groups->group[number];
-      const auto block = block_after(law, dt, ended, steps);
-      dispatch_units<false>(law, [&](auto units) {
-        g.functor.put(SettleContact<P, typename L::Block, units(), geometry>{view, block});
-      });
-    };
-    filled_ended_ = filled_steps_ = 0;  // for other laws and time steps
-    settle_contacts_ = [this, groups](int ended, int steps) {
-      const int known = ended > 0 ? ended : steps;
-      if (filled_ended_ != known || filled_steps_ != steps) {
-        filled_ended_ = known, filled_steps_ = steps;
-        for (const auto& fill : fill_settling_) {
-          if (fill) fill(known, steps);
-        }
-      }
-      groups->place = settle_place_;
-      launch("settling", settle_contacts<P, AnyLaw, geometry>, settle_blocks_, contact_threads, 0, stream_, *groups,
-             constant_.data(), scene_.state, scene_.motion.body.displacement, before_, ended, records_);
-    };
+  SettledArrays<P> settled() const {
+    return {constant_.data(), scene_.state, scene_.motion.body.displacement, before_, records_, settle_place_};
   }
 
   /// Ends a block, if one has begun, and begins the next, of so many steps.
   void settle(int steps) {
+    const Range range("settling");
     if (!begun_) {
       check_cuda(
           cudaMemcpyAsync(before_, scene_.motion.body.displacement,
                           (bodies_ + walls) * displacement_words * sizeof(*before_), cudaMemcpyDeviceToDevice, stream_),
           "first block");
     }
-    settle_contacts_(begun_ ? in_block_ : 0, steps);
+    settling_.run(begun_ ? in_block_ : 0, steps, settled(), stream_);
     launch("base loads", sum_base<P>, long_rows_ + (bodies_ + walls + bodies_a_block - 1) / bodies_a_block,
            body_threads, 0, stream_, records_, long_body_, long_rows_, static_cast<std::uint32_t>(bodies_ + walls),
            scene_.motion.body.weight, static_cast<std::uint32_t>(bodies_), base_, scene_.motion.body.displacement,
@@ -344,6 +355,7 @@ class TileRunner {
   TilePlan plan_;
   bool carried_, resident_ = false, prepared_ = false, begun_ = false, to_observations_ = false;
   int block_ = 0, in_block_ = 0, length_ = 0;  // length_: of the block that runs, the first may be another
+  const Layout& layout_;
   std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;
   cudaStream_t stream_;
   DeviceLimits limits_;
@@ -355,15 +367,13 @@ class TileRunner {
   DeviceArray<float4> constant_;
   R* base_ = nullptr;
   double* before_ = nullptr;
-  const double* wall_table_ = nullptr;
+  const R* wall_table_ = nullptr;
   const std::uint32_t *wall_begin_ = nullptr, *long_body_ = nullptr;
   const uint2* settle_place_ = nullptr;
-  std::uint32_t long_rows_ = 0, settle_blocks_ = 0;
+  std::size_t slots_ = 0;  // of all groups
+  std::uint32_t long_rows_ = 0;
   LoadRecords<R> records_{};
-  std::shared_ptr<void> settle_groups_;
-  std::array<std::function<void(int, int)>, pair_types> fill_settling_;  // steps of the blocks that end and begin
-  int filled_ended_ = 0, filled_steps_ = 0;
-  std::function<void(int, int)> settle_contacts_;
+  Settling<P, AnyLaw> settling_;
   std::function<void(std::uint32_t)> run_;
   KernelUse use_;
   DeviceStore store_;

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "kernels/contact_kinematics.hpp"
+#include "kernels/cuda_lane_item.hpp"
 #include "kernels/cuda_launch.hpp"
 #include "kernels/particle_motion.hpp"
 #include "kernels/precision.hpp"
@@ -45,7 +46,8 @@ struct TileScene {
   const R* base;             ///< [body][8] loads at the block's beginning [N, N·m]
   R* force;                  ///< [body][8] loads now
   float4* wall_load;         ///< [wall row][2] change of the loads on the walls since the block's beginning
-  ulonglong2* exchange;      ///< [2][body] velocities of even and odd steps, 32 bytes a body in single precision
+  ulonglong2* exchange;      ///< [2][body] velocities of even and odd steps, 32 bytes a body in single precision; walls
+                             ///< last, for streamed tiles
   ParticleMotion<P> motion;  ///< its table of the walls begins with the launch's first step
   float4 law[pair_types];    ///< rate·Δt, relax, α, follow
   unsigned char* rest;       ///< [tile] what has no room in shared memory; null where all has
@@ -132,33 +134,43 @@ __device__ __forceinline__ void sum_rows(const Tile& tile, const uint2* row, con
   }
 }
 
-/// Velocity of a wall at step k of the launch, as particles' are.
+/// Velocity of a wall that moves, at step k of the launch, as particles' are.
 template <class P>
 __device__ __forceinline__ float4 wall_velocity(const TileScene<P>& s, int wall, std::uint32_t k) {
-  if (!s.motion.wall.moves(wall)) return {0, 0, 0, 0};
-  const auto along = [&](int axis) {
-    return static_cast<float>(static_cast<typename P::Particle>(s.motion.wall.at(wall, axis, k)));
-  };
-  return {along(0), along(1), along(2), 0};
+  const auto v = load_vec3(s.motion.wall.row(wall, k));
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
 }
 
-/// Moves a wall along an axis by the steps first … end − 1 of the launch.
+/// One axis of a wall, over some steps of a launch: what it needs is asked for early, and used later.
 template <class P>
-__device__ __forceinline__ void move_wall(const TileScene<P>& s, int wall, int axis, std::uint32_t first,
-                                          std::uint32_t end) {
+struct WallAxisMotion {
   using R = typename P::Particle;
-  const std::size_t body = static_cast<std::size_t>(s.motion.body.particles) + static_cast<std::size_t>(wall);
-  double& u = s.motion.body.displacement[body * displacement_words + static_cast<std::size_t>(axis)];
-  double at = u;
-  R v = 0;
-#pragma unroll 8
-  for (std::uint32_t k = first; k < end; ++k) {
-    v = static_cast<R>(s.motion.wall.at(wall, axis, k));
-    at += s.motion.dt * v;
+  bool moves = false;
+  int axis = 0;
+  std::size_t at = 0;  ///< among the words of the bodies
+  double u = 0;        ///< [m]
+  R v = 0;             ///< of the first step [m/s]
+
+  /// `number`: any; that of no axis does not move.
+  __device__ __forceinline__ WallAxisMotion(const TileScene<P>& s, int number, std::uint32_t first)
+      : moves(number >= 0 && number < wall_axes && s.motion.wall.moves(number / 3)), axis(number) {
+    if (!moves) return;
+    at = ParticleMotion<P>::place(s.motion.body.particles + axis / 3, axis % 3);
+    u = s.motion.body.displacement[at];
+    v = s.motion.wall.row(axis / 3, first)[axis % 3];
   }
-  u = at;
-  s.motion.body.master[body * velocity_words + static_cast<std::size_t>(axis)] = v;
-}
+  /// Takes the first step and those up to end − 1.
+  __device__ __forceinline__ void move(const TileScene<P>& s, std::uint32_t first, std::uint32_t end) {
+    u = multiply_add(s.motion.dt, double(v), u);
+#pragma unroll 8
+    for (std::uint32_t k = first + 1; k < end; ++k) {
+      v = s.motion.wall.row(axis / 3, k)[axis % 3];
+      u = multiply_add(s.motion.dt, double(v), u);
+    }
+    s.motion.body.displacement[at] = u;
+    s.motion.body.master[at] = v;
+  }
+};
 
 /// Words of a velocity array that move: v and ω without their pads.
 __host__ __device__ constexpr int moving_word(int c) { return c < 3 ? c : c + 1; }

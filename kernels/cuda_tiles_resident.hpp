@@ -40,90 +40,176 @@ struct ResidentMemory {
   }
 };
 
-/// Takes `steps` steps from tag `first_tag` on. Resident: packets of a warp whose states stay in registers.
-template <class P, int Resident, int Threads, bool carried>
-__global__ void __launch_bounds__(Threads, 1)
-    run_resident(const __grid_constant__ TileScene<P> s, std::uint32_t steps, std::uint32_t first_tag) {
+/// A tile in the shared memory of its block, and what the threads do with it in a step.
+template <class P, int Threads, bool carried>
+class ResidentTile {
+ public:
   using R = typename P::Particle;
-  extern __shared__ __align__(16) unsigned char shared[];
-  const ResidentMemory<P> m(s.most_bodies, s.most_halo, s.most_locals, s.most_slots, s.cached_packets, carried,
-                            s.rest == nullptr);
-  auto* v = reinterpret_cast<float4*>(shared + m.velocity);
-  auto* w = reinterpret_cast<float4*>(shared + m.spin);
-  auto* own = reinterpret_cast<R*>(shared + m.own);
-  auto* displacement = reinterpret_cast<double*>(
-      s.rest ? s.rest + std::size_t{blockIdx.x} * ResidentMemory<P>::rest_bytes(s.most_bodies) : shared + m.rest);
-  auto* base = reinterpret_cast<R*>(displacement + 6 * s.most_bodies);
-  auto* inverse = base + 6 * s.most_bodies;
-  auto* halo = reinterpret_cast<std::int32_t*>(shared + m.halo);
-  auto* diagonal = reinterpret_cast<std::uint32_t*>(shared + m.diagonal);
-  auto* row = reinterpret_cast<uint2*>(shared + m.row);
-  auto* law = reinterpret_cast<float4*>(shared + m.law);
-  auto* cache = reinterpret_cast<float4*>(shared + m.cache);
-  const TileSlots slots{reinterpret_cast<float2*>(shared + m.slots), s.most_slots};
-  constexpr std::uint32_t words = tile_constants(carried);
-  const unsigned tid = threadIdx.x, lane = tid % 32, warp = tid / 32;
-  constexpr unsigned warps = Threads / 32;
-  const Tile tile = s.tile[blockIdx.x];
-  const std::uint32_t locals = tile.bodies + tile.halo + walls, stride = s.most_bodies;
-  const std::int32_t* body = s.body + tile.first_body;
+  static constexpr unsigned warps = Threads / 32;
 
-  for (std::uint32_t r = tid; r < tile.bodies; r += Threads) {
-    const auto i = static_cast<std::size_t>(body[r]);
-    for (int c = 0; c < 6; ++c) {
-      own[c * stride + r] = s.motion.body.master[i * velocity_words + moving_word(c)];
-      base[c * stride + r] = s.base[i * velocity_words + moving_word(c)];
-      displacement[c * stride + r] = s.motion.body.displacement[i * displacement_words + moving_word(c)];
+  __device__ __forceinline__ ResidentTile(const TileScene<P>& scene, unsigned char* shared, const ResidentMemory<P>& m)
+      : s(scene),
+        tile(s.tile[blockIdx.x]),
+        body(s.body + tile.first_body),
+        v(reinterpret_cast<float4*>(shared + m.velocity)),
+        w(reinterpret_cast<float4*>(shared + m.spin)),
+        law(reinterpret_cast<float4*>(shared + m.law)),
+        cache(reinterpret_cast<float4*>(shared + m.cache)),
+        constants(s.constant + std::size_t{tile.first_packet} * words * 32),
+        states(s.state + std::size_t{tile.first_packet} * tile_states * 32),
+        slots{reinterpret_cast<float2*>(shared + m.slots), s.most_slots},
+        own(reinterpret_cast<R*>(shared + m.own)),
+        displacement(reinterpret_cast<double*>(s.rest ? s.rest + std::size_t{blockIdx.x} *
+                                                                     ResidentMemory<P>::rest_bytes(s.most_bodies)
+                                                      : shared + m.rest)),
+        base(reinterpret_cast<R*>(displacement + 6 * s.most_bodies)),
+        inverse(base + 6 * s.most_bodies),
+        halo(reinterpret_cast<std::int32_t*>(shared + m.halo)),
+        diagonal(reinterpret_cast<std::uint32_t*>(shared + m.diagonal)),
+        row(reinterpret_cast<uint2*>(shared + m.row)),
+        cached(min(s.cached_packets, tile.packets)),
+        first_wall(tile.bodies + tile.halo) {}
+
+  __device__ __forceinline__ std::uint32_t packets() const { return tile.packets; }
+  __device__ __forceinline__ float4* state(std::uint32_t packet) const {
+    return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
+  }
+
+  /// From memory: all but the states of the contacts.
+  __device__ __forceinline__ void load() const {
+    for (std::uint32_t r = threadIdx.x; r < tile.bodies; r += Threads) {
+      const auto i = static_cast<std::size_t>(body[r]);
+      for (int c = 0; c < 6; ++c) {
+        own[c * stride() + r] = s.motion.body.master[i * velocity_words + moving_word(c)];
+        base[c * stride() + r] = s.base[i * velocity_words + moving_word(c)];
+        displacement[c * stride() + r] = s.motion.body.displacement[i * displacement_words + moving_word(c)];
+      }
+      for (int c = 0; c < 2; ++c) inverse[c * stride() + r] = s.motion.body.inverse[2 * i + c];
+      row[r] = s.row[tile.first_body + r];
     }
-    for (int c = 0; c < 2; ++c) inverse[c * stride + r] = s.motion.body.inverse[2 * i + c];
-    row[r] = s.row[tile.first_body + r];
-  }
-  for (std::uint32_t h = tid; h < tile.halo; h += Threads) halo[h] = s.halo[tile.first_halo + h];
-  for (std::uint32_t e = tid; e < TilePlan::longest_short_row; e += Threads)
-    diagonal[e] = s.diagonal[blockIdx.x * TilePlan::longest_short_row + e];
-  if (tid < pair_types) law[tid] = s.law[tid];
-  if (tid < walls) v[locals - walls + tid] = w[locals - walls + tid] = {0, 0, 0, 0};
-  const float4* constants = s.constant + static_cast<std::size_t>(tile.first_packet) * words * 32;
-  const std::uint32_t cached = min(s.cached_packets, tile.packets);
-  for (std::uint32_t i = tid; i < cached * words * 32; i += Threads) cache[i] = constants[i];
-  float4* states = s.state + static_cast<std::size_t>(tile.first_packet) * tile_states * 32;
-  float change[Resident > 0 ? Resident : 1][6], sum[Resident > 0 ? Resident : 1][6];
-#pragma unroll
-  for (int j = 0; j < Resident; ++j) {
-    const std::uint32_t packet = warp + j * warps;
-    if (packet < tile.packets) load_state(states + packet * tile_states * 32 + lane, change[j], sum[j]);
+    for (std::uint32_t h = threadIdx.x; h < tile.halo; h += Threads) halo[h] = s.halo[tile.first_halo + h];
+    for (std::uint32_t e = threadIdx.x; e < TilePlan::longest_short_row; e += Threads)
+      diagonal[e] = s.diagonal[blockIdx.x * TilePlan::longest_short_row + e];
+    if (threadIdx.x < pair_types) law[threadIdx.x] = s.law[threadIdx.x];
+    if (threadIdx.x < walls) v[first_wall + threadIdx.x] = w[first_wall + threadIdx.x] = {0, 0, 0, 0};
+    for (std::uint32_t i = threadIdx.x; i < cached * words * 32; i += Threads) cache[i] = constants[i];
   }
 
-  // A thread's last body is displaced while the thread waits for the neighbours: by then its velocity is on its way.
-  constexpr std::uint32_t nobody = UINT32_MAX;
-  std::uint32_t moved = nobody;
-  R x[6];
-  const auto displace = [&] {
+  /// Moves all bodies by their loads in memory, or by those that the last contacts left in shared memory.
+  __device__ __forceinline__ void move_by_memory(std::uint32_t tag) {
+    for (std::uint32_t r = threadIdx.x; r < tile.bodies; r += Threads) {
+      R force[6];
+      for (int c = 0; c < 6; ++c)
+        force[c] = s.force[static_cast<std::size_t>(body[r]) * velocity_words + moving_word(c)];
+      move(r, force, tag);
+    }
+  }
+  __device__ __forceinline__ void move_by_sums(std::uint32_t tag) {
+    sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
+      R force[6];
+      for (int c = 0; c < 6; ++c) force[c] = base[c * stride() + r] + static_cast<R>(extra[c]);
+      move(r, force, tag);
+    });
+  }
+  __device__ __forceinline__ void set_wall(int wall, const float4& velocity) const { v[first_wall + wall] = velocity; }
+
+  /// Waits for the velocities of the bodies of other tiles; displaces the last own one meanwhile.
+  __device__ __forceinline__ void receive(std::uint32_t tag) {
+    const ulonglong2* from = s.exchange + 2 * static_cast<std::size_t>(tag & 1) * s.bodies;
+    wait_for_words(
+        threadIdx.x, Threads, 2 * tile.halo, tag,
+        [&](std::uint32_t h) { return from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2; }, [&] { displace(); },
+        [&](std::uint32_t h, const float4& numbers) { (h % 2 ? w : v)[tile.bodies + h / 2] = numbers; });
+  }
+
+  __device__ __forceinline__ void step(std::uint32_t packet, float (&change)[6], float (&sum)[6], bool last) const {
+    const unsigned lane = threadIdx.x % 32;
+    const float4* constant =
+        packet < cached ? cache + packet * words * 32 + lane : constants + std::size_t{packet} * words * 32 + lane;
+    std::uint32_t places, group;
+    const auto load = step_in_block<carried>(constant, law, v, w, change, sum, places, group);
+    slots.put(places, load);
+    if (last) store_wall_load(s.wall_load, group, load);
+  }
+
+  /// To memory: the bodies, with their loads of now.
+  __device__ __forceinline__ void store() const {
+    sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
+      const auto i = static_cast<std::size_t>(body[r]);
+      for (int c = 0; c < 6; ++c) {
+        s.force[i * velocity_words + moving_word(c)] = base[c * stride() + r] + static_cast<R>(extra[c]);
+        s.motion.body.master[i * velocity_words + moving_word(c)] = own[c * stride() + r];
+        s.motion.body.displacement[i * displacement_words + moving_word(c)] = displacement[c * stride() + r];
+      }
+    });
+  }
+
+ private:
+  static constexpr std::uint32_t words = tile_constants(carried), nobody = UINT32_MAX;
+  __device__ __forceinline__ std::uint32_t stride() const { return s.most_bodies; }
+
+  /// A thread's last body is displaced while the thread waits for the neighbours: by then its velocity is on its way.
+  __device__ __forceinline__ void displace() {
     if (moved == nobody) return;
-    for (int c = 0; c < 6; ++c) displacement[c * stride + moved] += s.motion.dt * x[c];
+    for (int c = 0; c < 6; ++c) {
+      double& u = displacement[c * stride() + moved];
+      u = multiply_add(s.motion.dt, double(x[c]), u);
+    }
     moved = nobody;
-  };
-  const auto move = [&](std::uint32_t r, const R(&force)[6], std::uint32_t tag) {
+  }
+  __device__ __forceinline__ void move(std::uint32_t r, const R (&force)[6], std::uint32_t tag) {
     displace();
     moved = r;
     for (int c = 0; c < 6; ++c) {
-      x[c] = s.motion.moved(own[c * stride + r], force[c], inverse[c / 3 * stride + r]);
-      own[c * stride + r] = x[c];
+      x[c] = s.motion.moved(own[c * stride() + r], force[c], inverse[c / 3 * stride() + r]);
+      own[c * stride() + r] = x[c];
     }
     const float y[6] = {float(x[0]), float(x[1]), float(x[2]), float(x[3]), float(x[4]), float(x[5])};
     put_velocity(s.exchange + 2 * (static_cast<std::size_t>(tag & 1) * s.bodies + tile.first_body + r), y, tag);
     v[r] = {y[0], y[1], y[2], 0};
     w[r] = {y[3], y[4], y[5], 0};
-  };
-  const auto receive = [&](std::uint32_t tag) {
-    const ulonglong2* from = s.exchange + 2 * static_cast<std::size_t>(tag & 1) * s.bodies;
-    wait_for_words(
-        tid, Threads, 2 * tile.halo, tag,
-        [&](std::uint32_t h) { return from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2; }, displace,
-        [&](std::uint32_t h, const float4& numbers) { (h % 2 ? w : v)[tile.bodies + h / 2] = numbers; });
-  };
+  }
 
-  const int wall = static_cast<int>(tid) - (Threads - walls);
+  const TileScene<P>& s;
+  const Tile tile;
+  const std::int32_t* body;
+  float4 *v, *w, *law, *cache;
+  const float4* constants;
+  float4* states;
+  const TileSlots slots;
+  R* own;
+  double* displacement;
+  R *base, *inverse;
+  std::int32_t* halo;
+  std::uint32_t* diagonal;
+  uint2* row;
+  const std::uint32_t cached, first_wall;
+  std::uint32_t moved = nobody;  ///< rank of the body whose velocity is x
+  R x[6];
+};
+
+/// Takes `steps` steps from tag `first_tag` on. Resident: packets of a warp whose states stay in registers.
+template <class P, int Resident, int Threads, bool carried>
+__global__ void __launch_bounds__(Threads, 1)
+    run_resident(const __grid_constant__ TileScene<P> s, std::uint32_t steps, std::uint32_t first_tag) {
+  extern __shared__ __align__(16) unsigned char shared[];
+  using OfTile = ResidentTile<P, Threads, carried>;
+  OfTile tile(s, shared,
+              ResidentMemory<P>(s.most_bodies, s.most_halo, s.most_locals, s.most_slots, s.cached_packets, carried,
+                                s.rest == nullptr));
+  const unsigned warp = threadIdx.x / 32;
+  tile.load();
+  float change[Resident][6], sum[Resident][6];
+  const auto each_resident = [&](auto&& f) {
+#pragma unroll
+    for (int j = 0; j < Resident; ++j) {
+      const std::uint32_t packet = warp + j * OfTile::warps;
+      if (packet < tile.packets()) f(packet, change[j], sum[j]);
+    }
+  };
+  each_resident([&](std::uint32_t packet, auto& df, auto& both) { load_state(tile.state(packet), df, both); });
+
+  const int wall = static_cast<int>(threadIdx.x) - (Threads - walls);
   const bool drives_wall = wall >= 0 && s.motion.wall.moves(wall);
   __syncthreads();
   for (std::uint32_t k = 0; k < steps; ++k) {
@@ -131,63 +217,29 @@ __global__ void __launch_bounds__(Threads, 1)
     const bool last = k + 1 == steps;
     float4 of_wall;
     if (drives_wall) of_wall = wall_velocity(s, wall, k);  // asked for early: it comes while loads are summed
-    if (k == 0) {
-      for (std::uint32_t r = tid; r < tile.bodies; r += Threads) {
-        R force[6];
-        for (int c = 0; c < 6; ++c)
-          force[c] = s.force[static_cast<std::size_t>(body[r]) * velocity_words + moving_word(c)];
-        move(r, force, tag);
-      }
-    } else {
-      sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
-        R force[6];
-        for (int c = 0; c < 6; ++c) force[c] = base[c * stride + r] + static_cast<R>(extra[c]);
-        move(r, force, tag);
-      });
-    }
-    if (drives_wall) v[locals - walls + wall] = of_wall;
-    receive(tag);
+    if (k == 0)
+      tile.move_by_memory(tag);
+    else
+      tile.move_by_sums(tag);
+    if (drives_wall) tile.set_wall(wall, of_wall);
+    tile.receive(tag);
     __syncthreads();
-    const auto step = [&](std::uint32_t packet, float(&df)[6], float(&both)[6]) {
-      const float4* constant = packet < cached ? cache + packet * words * 32 + lane
-                                               : constants + static_cast<std::size_t>(packet) * words * 32 + lane;
-      std::uint32_t places, group;
-      const auto load = step_in_block<carried>(constant, law, v, w, df, both, places, group);
-      slots.put(places, load);
-      if (last) store_wall_load(s.wall_load, group, load);
-    };
-#pragma unroll
-    for (int j = 0; j < Resident; ++j) {
-      const std::uint32_t packet = warp + j * warps;
-      if (packet < tile.packets) step(packet, change[j], sum[j]);
-    }
-    for (std::uint32_t j = Resident; j < (tile.packets + warps - 1) / warps; ++j) {
-      const std::uint32_t packet = warp + j * warps;
-      if (packet >= tile.packets) continue;
+    each_resident([&](std::uint32_t packet, auto& df, auto& both) { tile.step(packet, df, both, last); });
+    for (std::uint32_t packet = warp + Resident * OfTile::warps; packet < tile.packets(); packet += OfTile::warps) {
       float df[6], both[6];
-      float4* at = states + static_cast<std::size_t>(packet) * tile_states * 32 + lane;
-      load_state(at, df, both);
-      step(packet, df, both);
-      store_state(at, df, both);
+      load_state(tile.state(packet), df, both);
+      tile.step(packet, df, both, last);
+      store_state(tile.state(packet), df, both);
     }
     __syncthreads();
   }
 
-#pragma unroll
-  for (int j = 0; j < Resident; ++j) {
-    const std::uint32_t packet = warp + j * warps;
-    if (packet < tile.packets) store_state(states + packet * tile_states * 32 + lane, change[j], sum[j]);
+  each_resident([&](std::uint32_t packet, auto& df, auto& both) { store_state(tile.state(packet), df, both); });
+  tile.store();
+  if (blockIdx.x == 0) {
+    WallAxisMotion<P> axis(s, static_cast<int>(threadIdx.x), 0);
+    if (axis.moves) axis.move(s, 0, steps);
   }
-  sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
-    const auto i = static_cast<std::size_t>(body[r]);
-    for (int c = 0; c < 6; ++c) {
-      s.force[i * velocity_words + moving_word(c)] = base[c * stride + r] + static_cast<R>(extra[c]);
-      s.motion.body.master[i * velocity_words + moving_word(c)] = own[c * stride + r];
-      s.motion.body.displacement[i * displacement_words + moving_word(c)] = displacement[c * stride + r];
-    }
-  });
-  if (blockIdx.x == 0 && tid < WallMotion::axes && s.motion.wall.moves(tid / 3))
-    move_wall(s, tid / 3, tid % 3, 0, steps);
 }
 
 }  // namespace macadam::kernels

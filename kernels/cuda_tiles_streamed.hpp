@@ -10,10 +10,14 @@
 
 namespace macadam::kernels {
 
-/// Where the velocities of step k of all bodies are, by first_body + rank.
+/// Where the velocities of step k of all bodies are, by first_body + rank, and of the walls behind them.
 template <class P>
 __device__ __forceinline__ float4* velocities_of(const TileScene<P>& s, std::uint32_t k) {
-  return reinterpret_cast<float4*>(s.exchange) + 2 * static_cast<std::size_t>(k & 1) * s.bodies;
+  return reinterpret_cast<float4*>(s.exchange) + 2 * static_cast<std::size_t>(k & 1) * (s.bodies + walls);
+}
+template <class P>
+__device__ __forceinline__ float& wall_velocity_of(const TileScene<P>& s, std::uint32_t k, int axis) {
+  return reinterpret_cast<float*>(velocities_of(s, k) + 2 * (s.bodies + axis / 3))[axis % 3];
 }
 
 /// Moves body number `i`, at place `place`, under `force` at step k of the launch's block.
@@ -21,12 +25,11 @@ template <class P>
 __device__ __forceinline__ void move_body(const TileScene<P>& s, std::size_t i, std::size_t place,
                                           const typename P::Particle (&force)[6], std::uint32_t k) {
   using R = typename P::Particle;
+  const auto at = [&](int c) { return i * velocity_words + moving_word(c); };
   R x[6];
-  for (int c = 0; c < 6; ++c) {
-    R& v = s.motion.body.master[i * velocity_words + moving_word(c)];
-    x[c] = v = s.motion.moved(v, force[c], s.motion.body.inverse[2 * i + c / 3]);
-  }
-  for (int c = 0; c < 6; ++c) s.motion.body.displacement[i * displacement_words + moving_word(c)] += s.motion.dt * x[c];
+  for (int c = 0; c < 6; ++c)
+    x[c] = s.motion.moved(s.motion.body.master[at(c)], force[c], s.motion.body.inverse[2 * i + c / 3]);
+  for (int c = 0; c < 6; ++c) s.motion.displace(at(c), x[c]);
   float4* to = velocities_of(s, k) + 2 * place;
   to[0] = {float(x[0]), float(x[1]), float(x[2]), 0};
   to[1] = {float(x[3]), float(x[4]), float(x[5]), 0};
@@ -37,7 +40,14 @@ template <class P>
 __global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k) {
   using R = typename P::Particle;
   const std::uint32_t place = blockIdx.x * blockDim.x + threadIdx.x;
-  if (place < WallMotion::axes && s.motion.wall.moves(place / 3)) move_wall(s, place / 3, place % 3, k, k + 1);
+  const int axis = static_cast<int>(place);
+  WallAxisMotion<P> wall(s, axis, k);
+  if (wall.moves) {
+    wall.move(s, k, k + 1);
+    wall_velocity_of(s, k, axis) = static_cast<float>(wall.v);
+  } else if (axis < wall_axes) {
+    wall_velocity_of(s, k, axis) = wall_velocity_of(s, k + 1, axis) = 0;
+  }
   if (place >= s.bodies) return;
   const auto i = static_cast<std::size_t>(s.body[place]);
   R force[6];
@@ -65,9 +75,10 @@ __global__ void __launch_bounds__(Threads, Blocks)
   constexpr unsigned warps = Threads / 32;
   constexpr std::uint32_t words = tile_constants(carried);
   const Tile tile = s.tile[blockIdx.x];
-  float4 of_wall{0, 0, 0, 0};
-  if (tid < walls) of_wall = wall_velocity(s, static_cast<int>(tid), k);  // asked for early
   const float4* from = velocities_of(s, k);
+  // the first tile moves the walls on, with its last warp
+  const int axis = !last && blockIdx.x == 0 ? static_cast<int>(tid) - (Threads - wall_axes) : -1;
+  WallAxisMotion<P> wall(s, axis, k + 1);
   for (std::uint32_t r = tid; r < 2 * tile.bodies; r += Threads)
     (r % 2 ? w : v)[r / 2] = from[2 * static_cast<std::size_t>(tile.first_body) + r];
   for (std::uint32_t h = tid; h < 2 * tile.halo; h += Threads) {
@@ -76,9 +87,13 @@ __global__ void __launch_bounds__(Threads, Blocks)
   if (tid < walls) {
     const std::uint32_t at = tile.bodies + tile.halo + tid;
     w[at] = {0, 0, 0, 0};
-    v[at] = of_wall;
+    v[at] = from[2 * (s.bodies + tid)];
   }
   __syncthreads();
+  if (wall.moves) {
+    wall.move(s, k + 1, k + 2);
+    wall_velocity_of(s, k + 1, axis) = static_cast<float>(wall.v);
+  }
   for (std::uint32_t packet = warp; packet < tile.packets; packet += warps) {
     const std::size_t at = tile.first_packet + packet;
     float4* state = s.state + at * tile_states * 32 + lane;
@@ -103,8 +118,6 @@ __global__ void __launch_bounds__(Threads, Blocks)
              }
              if (!last) move_body(s, i, place, force, k + 1);
            });
-  if (!last && blockIdx.x == 0 && tid < WallMotion::axes && s.motion.wall.moves(tid / 3))
-    move_wall(s, tid / 3, tid % 3, k + 1, k + 2);
 }
 
 }  // namespace macadam::kernels

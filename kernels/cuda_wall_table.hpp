@@ -11,6 +11,7 @@ namespace macadam::kernels {
 
 /// One table on the device, whose address stays, and two buffers from which it is filled in turn: the host writes one
 /// while the copy from the other waits in the stream behind the steps that still read the table.
+template <class R>
 class WallRowsOnDevice {
  public:
   WallRowsOnDevice() = default;
@@ -18,24 +19,24 @@ class WallRowsOnDevice {
   ~WallRowsOnDevice() { forget(); }
 
   /// Makes room; the address of the table, null for none.
-  const double* prepare(std::size_t most_values) {
+  const R* prepare(std::size_t most_values) {
     if (most_values == table_.size()) return table_.data();
     forget();
-    table_ = DeviceArray<double>(most_values);
+    table_ = DeviceArray<R>(most_values);
     for (Buffer& b : buffers_) {
       if (most_values == 0) continue;
-      check_cuda(cudaMallocHost(reinterpret_cast<void**>(&b.values), most_values * sizeof(double)), "walls' table");
+      check_cuda(cudaMallocHost(reinterpret_cast<void**>(&b.values), most_values * sizeof(R)), "walls' table");
       check_cuda(cudaEventCreateWithFlags(&b.copied, cudaEventDisableTiming), "walls' table");
     }
     return table_.data();
   }
 
   /// Queues the rows behind all that the stream has.
-  void put(const std::vector<double>& rows, cudaStream_t stream) {
+  void put(const std::vector<R>& rows, cudaStream_t stream) {
     if (rows.empty()) return;
     Buffer& b = buffers_[next_ ^= 1];
     check_cuda(cudaEventSynchronize(b.copied), "walls' table");
-    const std::size_t bytes = rows.size() * sizeof(double);
+    const std::size_t bytes = rows.size() * sizeof(R);
     std::memcpy(b.values, rows.data(), bytes);
     check_cuda(cudaMemcpyAsync(table_.data(), b.values, bytes, cudaMemcpyHostToDevice, stream), "walls' table");
     check_cuda(cudaEventRecord(b.copied, stream), "walls' table");
@@ -43,7 +44,7 @@ class WallRowsOnDevice {
 
  private:
   struct Buffer {
-    double* values = nullptr;
+    R* values = nullptr;
     cudaEvent_t copied = nullptr;
   };
   void forget() {
@@ -54,7 +55,7 @@ class WallRowsOnDevice {
     }
   }
 
-  DeviceArray<double> table_;
+  DeviceArray<R> table_;
   Buffer buffers_[2];
   int next_ = 0;
 };

@@ -17,14 +17,15 @@
 
 namespace macadam::kernels {
 
-/// Owns the arrays of a scene in precision P and runs bodies and contacts over them.
-template <class P, class Laws>
+/// Owns the arrays of a scene in precision P and runs bodies and contacts over them. `width`: contacts of a packet, 4
+/// or 8; the numbers do not depend on it.
+template <class P, class Laws, std::size_t width = packet_width<P>>
 class ExecCpu {
  public:
   using Policy = P;
   using AnyLaw = Laws;
   using R = typename P::Particle;
-  using Item = PackItem<packet_width<P>>;
+  using Item = PackItem<width>;
   static constexpr int lanes = static_cast<int>(Item::lanes());
   static constexpr bool room_for_five = false;
 
@@ -48,10 +49,11 @@ class ExecCpu {
     master_.assign(bodies * velocity_words, R(0));
     displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
-    add_state("sums", "N, N m", sums_);
-    add_state("velocity", "m/s, rad/s", master_);
-    add_state("displacement", "m, rad", displacement_);
-    add_state("gathered_velocity", "m/s, rad/s", velocity_);
+    add_state("sums", "N, N m", sums_);  // tiles are those of any CPU
+    const auto by_body = [this] { return body_order(layout_, velocity_words); };
+    add_state("velocity", "m/s, rad/s", master_, by_body);
+    add_state("displacement", "m, rad", displacement_, by_body);
+    add_state("gathered_velocity", "m/s, rad/s", velocity_, by_body);
   }
 
   BodyView<P> set_bodies(std::vector<R> inverse, std::vector<R> weight) {
@@ -65,11 +67,11 @@ class ExecCpu {
             static_cast<std::int32_t>(layout_.particles())};
   }
 
-  const double* wall_table(std::size_t most_values) {
+  const R* wall_table(std::size_t most_values) {
     wall_table_.resize(most_values);
     return wall_table_.data();
   }
-  void set_wall_rows(const std::vector<double>& rows) { std::copy(rows.begin(), rows.end(), wall_table_.begin()); }
+  void set_wall_rows(const std::vector<R>& rows) { std::copy(rows.begin(), rows.end(), wall_table_.begin()); }
 
   template <class L, class Forces>
   void set_group(std::size_t number, bool first, const L&, ContactArrays<P> arrays, const Forces& forces) {
@@ -91,7 +93,10 @@ class ExecCpu {
       const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
       if (first) bytes_ += size;
       if (first && state) state_bytes_ += size;
-      if constexpr (state) add_state(std::string(name) + "_" + to_string(layout_.groups[number].pair), unit, array);
+      const GroupLayout& of = layout_.groups[number];
+      if constexpr (state)
+        add_state(std::string(name) + "_" + to_string(of.pair), unit, array,
+                  state_order(layout_, of, own.view, &pointer == &own.view.chain));
     });
   }
 
@@ -236,10 +241,12 @@ class ExecCpu {
 
   /// The array must stay where it is.
   template <class T>
-  void add_state(const std::string& name, const std::string& unit, AlignedVector<T>& array) {
+  void add_state(const std::string& name, const std::string& unit, AlignedVector<T>& array,
+                 StateList::Order order = {}) {
     states_.add<T>(
         name, unit, array.size(), [&array] { return std::vector<T>(array.begin(), array.end()); },
-        [&array](const std::vector<T>& values) { std::copy(values.begin(), values.end(), array.begin()); });
+        [&array](const std::vector<T>& values) { std::copy(values.begin(), values.end(), array.begin()); },
+        std::move(order));
   }
 
   struct Group {
@@ -257,22 +264,25 @@ class ExecCpu {
       const auto& packets = exec.layout_.groups[this->number].tile_packet;
       const std::uint32_t* end_a = exec.accumulators_.end_a[this->number].data();
       const std::uint32_t* end_b = exec.accumulators_.end_b[this->number].data();
-      for (std::uint32_t packet = packets[tile]; packet < packets[tile + 1]; ++packet) {
-        const auto load = forces(Item{}, packet, motion);
-        exec.add(load, end_a + packet * lanes, end_b + packet * lanes);
+      // eight contacts at a time, first their ends A: the order of additions is the same for both widths
+      constexpr std::uint32_t together = 8 / lanes;
+      for (std::uint32_t first = packets[tile]; first < packets[tile + 1]; first += together) {
+        using Load = decltype(forces(Item{}, first, motion));
+        const std::uint32_t count = std::min(together, packets[tile + 1] - first);
+        Load load[together];
+        for (std::uint32_t k = 0; k < count; ++k) load[k] = forces(Item{}, first + k, motion);
+        R *force = exec.sums_.data(), *moment = force + velocity_words / 2;
+        for (std::uint32_t k = 0; k < count; ++k) {
+          Item::scatter_add(force, end_a + (first + k) * lanes, load[k].force_a);
+          Item::scatter_add(moment, end_a + (first + k) * lanes, load[k].moment_a);
+        }
+        for (std::uint32_t k = 0; k < count; ++k) {
+          Item::scatter_add(force, end_b + (first + k) * lanes, -load[k].force_a);
+          Item::scatter_add(moment, end_b + (first + k) * lanes, load[k].moment_b);
+        }
       }
     }
   };
-
-  /// Adds a packet's loads, contact by contact.
-  template <class T>
-  void add(const ContactLoad<T>& load, const std::uint32_t* end_a, const std::uint32_t* end_b) {
-    R *force = sums_.data(), *moment = force + velocity_words / 2;
-    Item::scatter_add(force, end_a, load.force_a);
-    Item::scatter_add(moment, end_a, load.moment_a);
-    Item::scatter_add(force, end_b, -load.force_a);
-    Item::scatter_add(moment, end_b, load.moment_b);
-  }
 
   /// A body's own accumulator (walls have `none`) and its halo row.
   Twist<R> sum(std::int32_t body, std::uint32_t own) const {
@@ -302,8 +312,7 @@ class ExecCpu {
   AlignedVector<double> displacement_;            // [body][8]
   AlignedVector<typename P::Geometry> velocity_;  // [body][8], where Geometry is not Particle
   ParticleMotion<P> motion_{};
-  std::vector<R> inverse_, weight_;
-  std::vector<double> wall_table_;
+  std::vector<R> inverse_, weight_, wall_table_;
   StateList states_;
   std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
   int threads_;

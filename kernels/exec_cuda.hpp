@@ -22,8 +22,11 @@ class ExecCuda : public CudaBodyArrays<P> {
   using G = typename P::Geometry;
   static constexpr bool room_for_five = true;  ///< Kelvin units in registers, beside exactly three
 
+  /// Of any device: the order of the sums is that of the layout.
+  static std::size_t tile_contacts(const ContactNetwork&, const StepperOptions&) { return 1024; }
+
   ExecCuda(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
-      : Base(network, layout, options), step_(1) {}
+      : Base(network, layout, options, RecordOrder::as_written), step_(1), wall_row_(walls * WallMotion<R>::words) {}
   ~ExecCuda() { forget_graphs(); }
 
   bool suits(const ExecStart&) const { return true; }
@@ -48,13 +51,22 @@ class ExecCuda : public CudaBodyArrays<P> {
 
   void prepare(const ParticleMotion<P>& motion) {
     motion_ = motion;
+    clock_ = {};
+    if (motion.wall.driven > 0)
+      clock_ = {step_.data(), motion.wall.table, wall_row_.data(), static_cast<unsigned>(motion.wall.row_words())};
+    motion_.wall.table = wall_row_.data();
     this->add_body_states();
-    add_device_state(this->states_, "loads", "N, N m", records_.data(), records_.size());
+    add_device_state(this->states_, "loads", "N, N m", records_.data(), records_.size(),
+                     [this] { return this->rows_.state_order(this->layout_); });
   }
 
-  /// Queues all steps. The row of the walls' table is counted on the device.
+  /// Queues all steps.
   void run(std::int64_t, std::int64_t steps) {
-    check_cuda(cudaMemsetAsync(step_.data(), 0, sizeof(std::int64_t), this->stream_), "time steps");
+    const Range range("time steps");
+    if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->stream_, clock_);
+    if (waits_for_launches()) {  // which a graph cannot
+      for (; steps > 0; --steps) step();
+    }
     const auto queue = [&](cudaGraphExec_t& graph, std::int64_t n) {
       if (!graph) graph = record(n);
       check_cuda(cudaGraphLaunch(graph, this->stream_), "time steps");
@@ -95,8 +107,8 @@ class ExecCuda : public CudaBodyArrays<P> {
         pushed ? static_cast<std::uint32_t>(this->rows_.long_body.size()) : this->rows_.long_particles;
     const std::size_t blocks = long_rows + (this->bodies() + bodies_a_block - 1) / bodies_a_block;
     launch("bodies", pushed ? step_bodies<P, true> : step_bodies<P, false>, blocks, body_threads, 0, this->stream_,
-           motion_, records(), this->rows_.long_body.data(), long_rows, step_.data());
-    contacts_.run(this->stream_, {this->gathered(), this->displacement_.data()}, records(), step_.data());
+           motion_, records(), this->rows_.long_body.data(), long_rows);
+    contacts_.run(this->stream_, {this->gathered(), this->displacement_.data()}, records(), clock_);
   }
 
   cudaGraphExec_t record(std::int64_t steps) {
@@ -121,6 +133,8 @@ class ExecCuda : public CudaBodyArrays<P> {
   cudaGraphExec_t many_ = nullptr, one_ = nullptr;
   DeviceArray<G> records_;
   DeviceArray<std::int64_t> step_;
+  DeviceArray<R> wall_row_;  // of the step
+  WallClock<R> clock_;
   ContactLaunches<P, AnyLaw> contacts_;
   std::uint32_t slots_ = 0;  // of the groups so far
 };

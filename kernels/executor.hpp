@@ -41,10 +41,10 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
   { E::tile_contacts(network, start.options) } -> std::same_as<std::size_t>;
   { read.suits(start) } -> std::same_as<bool>;  // whether groups once taken can be stepped so
   exec.begin(start);
-  { exec.wall_table(std::size_t{}) } -> std::same_as<const double*>;
+  { exec.wall_table(std::size_t{}) } -> std::same_as<const typename E::Policy::Particle*>;
   exec.set_bodies(words, words);
   exec.prepare(motion);
-  exec.set_wall_rows(doubles);
+  exec.set_wall_rows(words);
   exec.run(std::int64_t{}, std::int64_t{});  // first step, number of steps; the walls' table begins with the first
   exec.wait();
   { read.forces(std::int32_t{}, std::size_t{}) } -> std::same_as<std::vector<Twist<typename E::Policy::Particle>>>;

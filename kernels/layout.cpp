@@ -144,18 +144,16 @@ GroupLayout make_group(const ContactNetwork& network, const Layout& layout, cons
     group.tile_packet.push_back(static_cast<std::uint32_t>(group.contact.size() / lanes));
     for (; k < keys.size() && std::get<0>(keys[k]) == static_cast<std::int32_t>(tile); ++k) {
       group.contact.push_back(std::get<4>(keys[k]));
+      group.points.push_back(std::get<1>(keys[k]));
     }
     while (group.contact.size() % lanes != 0) group.contact.push_back(inert);
+    group.points.resize(group.contact.size(), 0);
   }
   group.tile_packet.push_back(static_cast<std::uint32_t>(group.contact.size() / lanes));
   for (std::size_t packet = 0; packet < group.packets(); ++packet) {
     group.packet_row.push_back(row);
-    std::uint32_t most = 0;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::uint32_t c = group.contact[packet * lanes + lane];
-      if (c != inert) most = std::max(most, network.contacts[c].point_end - network.contacts[c].point_begin);
-    }
-    row += most;
+    const auto first = group.points.begin() + static_cast<std::ptrdiff_t>(packet * lanes);
+    row += *std::max_element(first, first + layout.lanes);
   }
   group.packet_row.push_back(row);
   return group;

@@ -25,6 +25,7 @@ inline constexpr std::uint32_t inert = UINT32_MAX;
 struct GroupLayout {
   PairType pair = PairType::mm;
   std::vector<std::uint32_t> contact;      ///< slot → network contact, or `inert`; a multiple of lanes
+  std::vector<std::uint32_t> points;       ///< [slot] of its contact; 0 where inert
   std::vector<std::uint32_t> tile_packet;  ///< tile → first packet; tiles + 1 entries
   std::vector<std::uint32_t> packet_row;   ///< packet → first row of points; packets + 1 entries
   std::size_t packets() const { return tile_packet.back(); }

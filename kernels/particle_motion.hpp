@@ -28,38 +28,24 @@ struct ParticleMotion {
   using R = typename P::Particle;
   BodyView<P> body;
   Damping damping;
-  R chi;          ///< local damping
-  R keep, drive;  ///< of viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2); 1 and 1 without
-  double dt;      ///< [s]
-  WallMotion wall;
+  R chi;         ///< local damping
+  R keep, gain;  ///< of viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2); 1 and 1 without
+  double dt;     ///< [s]
+  WallMotion<R> wall;
 
-  /// v ← v + Δt·(F + F_d)/m, u ← u + Δt·v for a particle, likewise its spin and rotation; walls do what row k of their
-  /// table says.
-  MACADAM_HD void operator()(std::int32_t i, Twist<R> force, std::int64_t k) const {
-    R* v = body.master + static_cast<std::size_t>(i) * velocity_words;
-    double* u = body.displacement + static_cast<std::size_t>(i) * displacement_words;
-    if (i < body.particles) {
-      const R by_mass = body.inverse[2 * i], by_inertia = body.inverse[2 * i + 1];
-      if (body.weight) {
-        const R* w = body.weight + static_cast<std::size_t>(i) * 4;
-        force.linear += Vec3<R>{w[0], w[1], w[2]};
-      }
-      v[0] = moved(v[0], force.linear.x, by_mass);
-      v[1] = moved(v[1], force.linear.y, by_mass);
-      v[2] = moved(v[2], force.linear.z, by_mass);
-      v[4] = moved(v[4], force.angular.x, by_inertia);
-      v[5] = moved(v[5], force.angular.y, by_inertia);
-      v[6] = moved(v[6], force.angular.z, by_inertia);
-    } else {
-      const R sum[3] = {force.linear.x, force.linear.y, force.linear.z};
-      for (int axis = 0; axis < 3; ++axis) v[axis] = of_wall(i, axis, v[axis], sum[axis], k);
-    }
-    for (const int w : {0, 1, 2, 4, 5, 6}) u[w] += dt * v[w];
-    if constexpr (!std::is_same_v<typename P::Geometry, R>) {
-      for (int w = 0; w < velocity_words; ++w) {
-        body.velocity[static_cast<std::size_t>(i) * velocity_words + static_cast<std::size_t>(w)] =
-            static_cast<typename P::Geometry>(v[w]);
-      }
+  /// Body i: v ← v + Δt·(F + F_d)/m, u ← u + Δt·v for a particle, likewise its spin and rotation; walls do what row k
+  /// of their table says.
+  MACADAM_HD void operator()(std::int32_t i, const Twist<R>& force, std::int64_t k) const {
+    const R f[6] = {force.linear.x, force.linear.y, force.linear.z, force.angular.x, force.angular.y, force.angular.z};
+    const bool particle = i < body.particles;
+    const R by_mass = body.inverse[2 * i], by_inertia = body.inverse[2 * i + 1];
+    const R* weight = particle && body.weight ? body.weight + static_cast<std::size_t>(i) * 4 : nullptr;
+    for (int c = 0; c < (particle ? 6 : 3); ++c) {
+      const std::size_t at = place(i, c < 3 ? c : c + 1);
+      if (particle)
+        set(at, moved(body.master[at], weight && c < 3 ? f[c] + weight[c] : f[c], c < 3 ? by_mass : by_inertia));
+      else
+        set(at, of_wall<true>(i, c, body.master[at], f[c], k));
     }
   }
 
@@ -67,38 +53,46 @@ struct ParticleMotion {
   /// body forces, or walls under forces.
   template <bool pushed>
   MACADAM_HD void word(std::int32_t i, int w, R force, std::int64_t k) const {
-    const auto at = static_cast<std::size_t>(i) * velocity_words + static_cast<std::size_t>(w);
-    R v = body.master[at];
+    const std::size_t at = place(i, w);
     if (i < body.particles) {
-      if (pushed && body.weight && w < 3)
-        force += body.weight[static_cast<std::size_t>(i) * 4 + static_cast<std::size_t>(w)];
-      v = moved(v, force, body.inverse[2 * i + w / 4]);
+      if (pushed && body.weight && w < 3) force += body.weight[static_cast<std::size_t>(i) * 4 + std::size_t(w)];
+      set(at, moved(body.master[at], force, body.inverse[2 * i + w / 4]));
     } else if (w < 3) {
-      v = of_wall<pushed>(i, w, v, force, k);
-    }
-    body.master[at] = v;
-    if constexpr (!std::is_same_v<typename P::Geometry, R>) body.velocity[at] = static_cast<typename P::Geometry>(v);
-    if (w % 4 != 3) {
-      body.displacement[static_cast<std::size_t>(i) * displacement_words + static_cast<std::size_t>(w)] += dt * v;
+      set(at, of_wall<pushed>(i, w, body.master[at], force, k));
     }
   }
 
+  /// Gives word `at` of the bodies its velocity v for a step.
+  MACADAM_HD void set(std::size_t at, R v) const {
+    if constexpr (!std::is_same_v<typename P::Geometry, R>) body.velocity[at] = static_cast<typename P::Geometry>(v);
+    displace(at, v);
+  }
+  MACADAM_HD void displace(std::size_t at, R v) const {
+    body.master[at] = v;
+    if (at % 4 != 3) body.displacement[at] = multiply_add(dt, double(v), body.displacement[at]);
+  }
+  /// Of word w of body i in the arrays of velocities and of displacements.
+  MACADAM_HD static std::size_t place(std::int32_t i, int w) {
+    static_assert(velocity_words == displacement_words);
+    return static_cast<std::size_t>(i) * velocity_words + static_cast<std::size_t>(w);
+  }
+
   /// Velocity of a wall along an axis; `force`: of the particles on it.
-  template <bool pushed = true>
+  template <bool pushed>
   MACADAM_HD R of_wall(std::int32_t i, int axis, R v, R force, std::int64_t k) const {
     const int number = i - body.particles;
     if (!wall.moves(number)) return v;
-    const R given = static_cast<R>(wall.at(number, axis, k));
-    return pushed && wall.loaded(number, axis) ? moved(v, force + given, body.inverse[2 * i]) : given;
+    const R given = wall.row(number, k)[axis];
+    return pushed && wall.loaded(3 * number + axis) ? moved(v, force + given, body.inverse[2 * i]) : given;
   }
 
   /// v half a step later.
   MACADAM_HD R moved(R v, R f, R inverse) const {
-    if (damping == Damping::local) {
-      const R drag = chi * (f < 0 ? -f : f);  // F_d = −χ·|F|·sign(v)
-      f -= v > 0 ? drag : v < 0 ? -drag : R(0);
+    if (damping == Damping::local) {  // F_d = −χ·|F|·sign(v)
+      const R against = v > 0 ? -chi : v < 0 ? chi : R(0);
+      f = multiply_add(against, f < 0 ? -f : f, f);
     }
-    return keep * v + drive * inverse * f;
+    return multiply_add(keep, v, gain * inverse * f);
   }
 };
 

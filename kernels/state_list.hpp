@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/state_order.hpp"
 #include "macadam/error.hpp"
 #include "macadam/stepper.hpp"
 
@@ -18,18 +19,29 @@ namespace macadam::kernels {
 /// Where an executor's arrays live (host or device) is the business of the two functions given for each.
 class StateList {
  public:
-  /// Takes an array of `size` numbers of type T. Empty ones are left out.
+  using Order = std::function<StateOrder()>;
+
+  /// Takes an array of `size` numbers of type T. Empty ones are left out. `order`: made when needed; none: the array
+  /// goes into a checkpoint as it is.
   template <class T>
   void add(const std::string& name, const std::string& unit, std::size_t size, std::function<std::vector<T>()> copy,
-           std::function<void(const std::vector<T>&)> replace) {
+           std::function<void(const std::vector<T>&)> replace, Order order = {}) {
     if (size == 0) return;
     using List = std::vector<T>;
-    entries_.push_back(
-        {name, unit, size, [copy = std::move(copy)] { return StateArray::Values(copy()); },
-         [size](const StateArray::Values& values) {
-           return std::holds_alternative<List>(values) && std::get<List>(values).size() == size;
-         },
-         [replace = std::move(replace)](const StateArray::Values& values) { replace(std::get<List>(values)); }});
+    entries_.push_back({name, unit,
+                        [copy, order] { return StateArray::Values(order ? order().gathered(copy()) : copy()); },
+                        [size, order](const StateArray::Values& values) {
+                          const std::size_t expected = order ? order().size() : size;
+                          const auto* list = std::get_if<List>(&values);
+                          return list && list->size() == expected ? 0 : expected;
+                        },
+                        [copy, replace, order](const StateArray::Values& values) {
+                          const auto& list = std::get<List>(values);
+                          if (!order) return replace(list);
+                          List own = copy();
+                          order().scatter(list, own);
+                          replace(own);
+                        }});
   }
 
   void clear() { entries_.clear(); }
@@ -47,10 +59,10 @@ class StateList {
     std::vector<const StateArray*> found;
     for (const Entry& e : entries_) {
       const auto array = std::find_if(arrays.begin(), arrays.end(), [&](const auto& a) { return a.name == e.name; });
-      if (array == arrays.end() || !e.fits(array->values)) {
-        throw RunError("state: array " + e.name + ": found " +
-                       (array == arrays.end() ? "none" : "one of another length or precision") + ", expected " +
-                       std::to_string(e.size) + " numbers");
+      if (array == arrays.end()) throw RunError("state: array " + e.name + ": found none");
+      if (const std::size_t expected = e.missing(array->values); expected > 0) {
+        throw RunError("state: array " + e.name + ": found one of another length or precision, expected " +
+                       std::to_string(expected) + " numbers");
       }
       found.push_back(&*array);
     }
@@ -60,9 +72,8 @@ class StateList {
  private:
   struct Entry {
     std::string name, unit;
-    std::size_t size;
     std::function<StateArray::Values()> copy;
-    std::function<bool(const StateArray::Values&)> fits;
+    std::function<std::size_t(const StateArray::Values&)> missing;  // 0: it fits; else the length that does
     std::function<void(const StateArray::Values&)> replace;
   };
   std::vector<Entry> entries_;

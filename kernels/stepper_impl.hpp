@@ -57,7 +57,7 @@ class StepperImpl final : public Stepper {
     const FactsTable facts = facts_of(laws);
     const StepperOptions next = decided(options, network, facts);
     const auto kept = [](const StepperOptions& o) {
-      return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.device);
+      return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.device, o.multiprocessors);
     };
     if (kept(next) != kept(options_) || network.contacts.size() != contacts_ ||
         !exec_.suits({next, facts, size_, false, 0}))
@@ -69,8 +69,8 @@ class StepperImpl final : public Stepper {
 
   void advance(std::int64_t steps) override {
     exec_.use_device();
-    for (const std::int64_t end = step_ + steps; step_ < end;) {
-      const std::int64_t n = wall_table_.rows(end - step_);
+    for (const std::int64_t begin = step_, end = begin + steps; step_ < end;) {
+      const std::int64_t n = wall_table_.rows(step_ - begin, end - step_);
       exec_.set_wall_rows(wall_table_.fill(step_, n));
       exec_.run(step_, n);
       step_ += n;
@@ -181,29 +181,20 @@ class StepperImpl final : public Stepper {
 
   std::vector<StateArray> state() const override {
     exec_.use_device();
-    std::vector<StateArray> out{{"step", "1", std::vector{step_}}, {"layout", "1", order()}};
+    std::vector<StateArray> out{{"step", "1", std::vector{step_}}};
     for (StateArray& array : exec_.states().copy()) out.push_back(std::move(array));
     return out;
   }
 
   void set_state(const std::vector<StateArray>& arrays) override {
     exec_.use_device();
-    const auto integers = [&](const char* name) {
-      for (const StateArray& array : arrays) {
-        const auto* values = std::get_if<std::vector<std::int64_t>>(&array.values);
-        if (array.name == name && values) return *values;
-      }
-      return std::vector<std::int64_t>();
-    };
-    const std::vector<std::int64_t> step = integers("step");
-    if (step.size() != 1) throw RunError("state: found no number of the step, expected one");
-    if (integers("layout") != order()) {
-      throw RunError(
-          "state: found contacts in another order, expected that of this program, precision and processor or device "
-          "(packet width, tiles and bodies)");
+    const std::vector<std::int64_t>* step = nullptr;
+    for (const StateArray& array : arrays) {
+      if (array.name == "step") step = std::get_if<std::vector<std::int64_t>>(&array.values);
     }
+    if (!step || step->size() != 1) throw RunError("state: found no number of the step, expected one");
     exec_.states().replace(arrays);
-    step_ = step.front();
+    step_ = step->front();
   }
 
   std::int64_t first_divergent() const override {
@@ -232,11 +223,6 @@ class StepperImpl final : public Stepper {
     double out = 0;
     for (const Vec3d& v : list) out = std::max(out, dot(v, v));
     return out;
-  }
-
-  /// What the order of all arrays rests on besides the scene.
-  std::vector<std::int64_t> order() const {
-    return {layout_.lanes, static_cast<std::int64_t>(layout_.tiles()), static_cast<std::int64_t>(layout_.particles())};
   }
 
   /// All that the options decide. The first time, the groups are made and kept; later only their states are.
@@ -275,8 +261,8 @@ class StepperImpl final : public Stepper {
       const double words[3] = {force.x, force.y, force.z};
       for (std::size_t w = 0; w < 3; ++w) weight[4 * b + w] = static_cast<R>(words[w]);
     }
-    wall_table_ = WallTable(boundary);
-    WallMotion wall = wall_table_.motion();
+    wall_table_ = WallTable<R>(boundary);
+    WallMotion<R> wall = wall_table_.motion();
     wall.table = exec_.wall_table(wall_table_.most_values());
     const double beta = options.damping_kind == Damping::viscous ? options.damping : 0;
     motion_ = {exec_.set_bodies(std::move(inverse), std::move(weight)),
@@ -373,7 +359,7 @@ class StepperImpl final : public Stepper {
   Layout layout_;
   Exec exec_;
   ParticleMotion<P> motion_{};
-  WallTable wall_table_;
+  WallTable<R> wall_table_;
   std::int64_t step_ = 0;
 };
 

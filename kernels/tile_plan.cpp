@@ -40,31 +40,33 @@ class Planner {
   bool is_wall(std::int32_t body) const { return at(body) >= layout_.particles(); }
   bool owns(int tile, std::int32_t body) const { return !is_wall(body) && tile_of_[at(body)] == tile; }
 
-  template <class F>
-  void for_each_contact(F&& f) const {
+  /// Contacts in order of their numbers.
+  void find_touches() {
+    touches_.resize(layout_.tiles());
+    std::vector<std::uint32_t> next_row(walls + 1, 0);
+    for (const Contact& c : network_.contacts) {
+      if (c.b < 0) ++next_row[at(-c.b)];
+    }
+    std::partial_sum(next_row.begin(), next_row.end(), next_row.begin());
+    out_.wall_begin = next_row;
+    struct Slot {
+      std::uint32_t group, slot;
+    };
+    std::vector<Slot> slot_of(network_.contacts.size());
     for (std::uint32_t g = 0; g < layout_.groups.size(); ++g) {
       const auto& slots = layout_.groups[g].contact;
       for (std::uint32_t s = 0; s < slots.size(); ++s) {
-        if (slots[s] != inert) f(network_.contacts[slots[s]], g, s);
+        if (slots[s] != inert) slot_of[slots[s]] = {g, s};
       }
     }
-  }
-
-  void find_touches() {
-    touches_.resize(layout_.tiles());
-    std::vector<std::uint32_t> wall_count(walls + 1, 0);
-    for_each_contact([&](const Contact& c, std::uint32_t, std::uint32_t) {
-      if (c.b < 0) ++wall_count[at(-c.b)];
-    });
-    std::partial_sum(wall_count.begin(), wall_count.end(), wall_count.begin());
-    out_.wall_begin = wall_count;
-    for_each_contact([&](const Contact& c, std::uint32_t g, std::uint32_t s) {
-      const Touch touch{layout_.body_of(c.a), layout_.body_of(c.b), g, s,
-                        c.b < 0 ? wall_count[at(-c.b) - 1]++ : UINT32_MAX};
+    for (std::size_t number = 0; number < slot_of.size(); ++number) {
+      const Contact& c = network_.contacts[number];
+      const Touch touch{layout_.body_of(c.a), layout_.body_of(c.b), slot_of[number].group, slot_of[number].slot,
+                        c.b < 0 ? next_row[at(-c.b) - 1]++ : UINT32_MAX};
       const int tile = tile_of_[at(touch.a)];
       touches_[static_cast<std::size_t>(tile)].push_back(touch);
       if (!is_wall(touch.b) && !owns(tile, touch.b)) touches_[at(tile_of_[at(touch.b)])].push_back(touch);
-    });
+    }
   }
 
   void add_tile(int t) {
@@ -141,12 +143,15 @@ class Planner {
       if (owns(t, body)) return rank[at(body) - tile.first_body];
       return tile.bodies + static_cast<std::uint32_t>(std::lower_bound(halo.begin(), halo.end(), body) - halo.begin());
     };
-    const auto slot = [&](std::uint32_t r) -> std::uint32_t {
+    const auto fill = [&](std::uint32_t r, std::uint16_t& slot) {
       const std::uint32_t e = filled[r]++;
-      return r < tile.long_rows ? out_.row[2 * (tile.first_body + r) + 1] + e : diagonal[e] + r;
+      slot = static_cast<std::uint16_t>(r < tile.long_rows ? out_.row[2 * (tile.first_body + r) + 1] + e
+                                                           : diagonal[e] + r);
+      return e;
     };
     std::vector<Entry> entries;
     for (const Touch& touch : touches) {
+      const bool own_a = owns(t, touch.a), own_b = owns(t, touch.b);
       TileContact c{touch.group_slot,
                     static_cast<std::uint16_t>(local(touch.a)),
                     static_cast<std::uint16_t>(local(touch.b)),
@@ -154,15 +159,13 @@ class Planner {
                     TilePlan::no_slot,
                     touch.group,
                     touch.wall_row};
-      const bool own_a = owns(t, touch.a), own_b = owns(t, touch.b);
-      const std::uint32_t r = own_a ? c.local_a : c.local_b;
-      entries.push_back({!(own_a && own_b) && !is_wall(touch.b), filled[r], r, c});
-      (own_a ? entries.back().contact.slot_a : entries.back().contact.slot_b) = static_cast<std::uint16_t>(slot(r));
+      entries.push_back({!(own_a && own_b) && !is_wall(touch.b), 0, own_a ? c.local_a : c.local_b, c});
+      if (own_a) entries.back().entry = fill(c.local_a, entries.back().contact.slot_a);
     }
-    for (Entry& e : entries) {
-      if (!e.shared && e.contact.wall_row == UINT32_MAX) {
-        e.contact.slot_b = static_cast<std::uint16_t>(slot(e.contact.local_b));
-      }
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (!owns(t, touches[i].b)) continue;
+      const std::uint32_t entry = fill(entries[i].contact.local_b, entries[i].contact.slot_b);
+      if (!owns(t, touches[i].a)) entries[i].entry = entry;
     }
     std::stable_sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
       return std::tie(x.shared, x.entry, x.rank) < std::tie(y.shared, y.entry, y.rank);

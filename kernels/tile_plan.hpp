@@ -3,7 +3,8 @@
 ///
 /// A tile computes every contact that touches one of its particles: a contact across a box's face is computed by both
 /// sides, from the same numbers in the same way, so only velocities cross. The particles of a tile are ranked by their
-/// number of contacts; each has a row of slots for the loads of its contacts, which it sums in fixed order.
+/// number of contacts; each has a row of slots for the loads of its contacts, which it sums in the order in which the
+/// network numbers them, first those whose end A it is: the same for any tiles.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +30,7 @@ struct TileContact {
   std::uint16_t local_a = 0, local_b = 0;  ///< places in the table of velocities
   std::uint16_t slot_a = 0, slot_b = 0;    ///< of loads; no_slot where the body is not the tile's
   std::uint32_t group = 0;
-  std::uint32_t wall_row = UINT32_MAX;  ///< number among the wall contacts, which follow one another wall by wall
+  std::uint32_t wall_row = UINT32_MAX;  ///< number among the wall contacts: wall by wall, in order of their numbers
 };
 
 struct TilePlan {

@@ -12,65 +12,77 @@
 
 namespace macadam::kernels {
 
-/// The rows of the steps that are to come, a column for each driven axis. Passed to kernels by value.
-struct WallMotion {
-  static constexpr int axes = 3 * walls;
-  const double* table = nullptr;  ///< [row][columns] velocity over the step [m/s], or force at its beginning [N]
-  std::int32_t columns = 0;
-  std::int8_t column[axes] = {};  ///< of axis 3·wall + axis; −1: at rest
-  std::uint32_t by_force = 0;     ///< bit 3·wall + axis
-  std::uint32_t moving = 0;       ///< bit wall: any of its axes is driven
+inline constexpr int wall_axes = 3 * walls;  ///< axis 3·wall + 0, 1 or 2
 
-  MACADAM_HD bool moves(int wall) const { return moving >> wall & 1; }
-  MACADAM_HD bool loaded(int wall, int axis) const { return by_force >> (3 * wall + axis) & 1; }
-  /// The number of an axis at a row; 0 at rest.
-  MACADAM_HD double at(int wall, int axis, std::int64_t row) const {
-    const int c = column[3 * wall + axis];
-    return c < 0 ? 0.0 : table[row * columns + c];
+/// The rows of the steps that are to come: four words a driven wall, so that a load or two brings them. R: precision of
+/// the particles. Passed to kernels by value.
+template <class R>
+struct WallMotion {
+  static constexpr int words = 4;
+  const R* table = nullptr;       ///< [row][driven wall][4] velocity over the step [m/s], or force at its beginning [N]
+  std::int32_t driven = 0;        ///< walls of a row
+  std::int8_t place[walls] = {};  ///< of a wall in a row; −1: at rest
+  std::uint32_t by_force = 0;     ///< bit of an axis
+
+  MACADAM_HD bool moves(int wall) const { return place[wall] >= 0; }
+  MACADAM_HD bool loaded(int axis) const { return by_force >> axis & 1; }
+  MACADAM_HD std::size_t row_words() const { return static_cast<std::size_t>(driven) * words; }
+  /// Along x, y, z of a wall that moves.
+  MACADAM_HD const R* row(int wall, std::int64_t row) const {
+    return table + static_cast<std::size_t>(row) * row_words() + place[wall] * words;
   }
 };
 
 /// Fills the rows of a boundary's walls.
+template <class R>
 class WallTable {
  public:
-  static constexpr std::int64_t most_rows = 4096;
+  static constexpr std::int64_t first_rows = 256, most_rows = 4096;
 
   WallTable() = default;
   explicit WallTable(const Boundary& boundary) {
     for (int wall = 0; wall < walls; ++wall) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const WallAxis& a = boundary.wall[static_cast<std::size_t>(wall)].axis[static_cast<std::size_t>(axis)];
-        std::int8_t& column = motion_.column[3 * wall + axis];
-        column = -1;
-        if (a.by == DrivenBy::rest) continue;
-        column = static_cast<std::int8_t>(motion_.columns++);
-        motion_.moving |= 1u << wall;
-        if (a.by == DrivenBy::force) motion_.by_force |= 1u << (3 * wall + axis);
-        driven_.push_back(a);
+      const auto& axes = boundary.wall[static_cast<std::size_t>(wall)].axis;
+      motion_.place[wall] = -1;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (axes[axis].by == DrivenBy::rest) continue;
+        if (!motion_.moves(wall)) motion_.place[wall] = static_cast<std::int8_t>(motion_.driven++);
+        if (axes[axis].by == DrivenBy::force) motion_.by_force |= 1u << (3 * wall + static_cast<int>(axis));
+        driven_.push_back({axes[axis], static_cast<std::size_t>(motion_.place[wall] * WallMotion<R>::words) + axis});
       }
     }
   }
 
   /// Without the address of a table.
-  const WallMotion& motion() const { return motion_; }
-  /// Rows that are filled at once, where so many steps are left.
-  std::int64_t rows(std::int64_t steps) const { return driven_.empty() ? steps : std::min(steps, most_rows); }
-  std::size_t most_values() const { return static_cast<std::size_t>(most_rows) * driven_.size(); }
+  const WallMotion<R>& motion() const { return motion_; }
+  /// Rows that are filled at once, where `done` steps were asked for before and so many are left: few at first, so that
+  /// a device does not wait for the host, and then as many as there were.
+  std::int64_t rows(std::int64_t done, std::int64_t left) const {
+    return driven_.empty() ? left : std::min({left, std::max(first_rows, done), most_rows});
+  }
+  /// And a row behind the last one, which is asked for and not used.
+  std::size_t most_values() const { return static_cast<std::size_t>(most_rows + 1) * motion_.row_words(); }
 
-  /// The rows of the steps first … first + n − 1.
-  const std::vector<double>& fill(std::int64_t first, std::int64_t n) {
-    values_.resize(static_cast<std::size_t>(n) * driven_.size());
-    double* out = values_.data();
-    for (std::int64_t k = first; !driven_.empty() && k < first + n; ++k) {
-      for (const WallAxis& a : driven_) *out++ = a.by == DrivenBy::force ? a.drive->value(k) : a.drive->rate(k);
+  /// The rows of the steps first … first + n − 1; axes at rest are 0.
+  const std::vector<R>& fill(std::int64_t first, std::int64_t n) {
+    if (driven_.empty()) return values_;
+    values_.assign(static_cast<std::size_t>(n) * motion_.row_words(), R(0));
+    R* row = values_.data();
+    for (std::int64_t k = first; k < first + n; ++k, row += motion_.row_words()) {
+      for (const auto& [axis, word] : driven_)
+        row[word] = static_cast<R>(axis.by == DrivenBy::force ? axis.drive->value(k) : axis.drive->rate(k));
     }
     return values_;
   }
 
  private:
-  WallMotion motion_;
-  std::vector<WallAxis> driven_;
-  std::vector<double> values_;
+  struct Driven {
+    WallAxis axis;
+    std::size_t word;  // of a row
+  };
+  WallMotion<R> motion_;
+  std::vector<Driven> driven_;
+  std::vector<R> values_;
 };
 
 }  // namespace macadam::kernels

@@ -55,7 +55,7 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
     for (std::size_t k = 0; k < state.size(); ++k) {
       const std::string& name = state[k].name;
       // the step makes these anew; observe() alone reads the loads on walls
-      if (name == "layout" || name == "gathered_velocity" || name == "wall_loads") continue;
+      if (name == "gathered_velocity" || name == "wall_loads") continue;
       std::vector<StateArray> other = state;  // each array matters: the comparison finds one that was forgotten
       std::visit([](auto& list) { std::fill(list.begin(), list.end(), 0); }, other[k].values);
       second->set_state(other);
@@ -77,6 +77,33 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
   check("slow load", slow);
   scene_.laws = general_laws(scene_.laws, 5);
   check("laws of five units", options_);
+}
+
+// A device with fewer multiprocessors has other tiles, or streams them: the same bits, and a state goes from one to
+// another.
+TEST_P(StepperState, IsThatOfADeviceOfAnySize) {
+  if (backend_ != Backend::cuda) GTEST_SKIP() << "of devices alone";
+  const TestScene scene = make_scene(random_specimen(22, 9, 9, 9));
+  StepperOptions options = shaking_options(scene);
+  std::tie(options.precision, options.form, options.geometry) =
+      std::tie(options_.precision, options_.form, options_.geometry);
+  const auto of = [&](int multiprocessors) {
+    options.multiprocessors = multiprocessors;
+    return make_stepper(backend_, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+  };
+  const auto whole = of(0);
+  whole->advance(150);
+  const std::vector<StateArray> state = whole->state();
+  whole->advance(200);
+  for (const int multiprocessors : {1, 3, 5}) {
+    const auto small = of(multiprocessors), taken = of(multiprocessors);
+    small->advance(350);
+    EXPECT_TRUE(same_bits(small->state(), whole->state())) << multiprocessors;
+    EXPECT_EQ(small->observe().top_force(), whole->observe().top_force()) << multiprocessors;
+    taken->set_state(state);
+    taken->advance(200);
+    EXPECT_TRUE(same_bits(taken->state(), whole->state())) << multiprocessors;
+  }
 }
 
 /// Any complex motion, for a start of no particular meaning.

@@ -12,6 +12,17 @@
 
 namespace macadam {
 
+/// a·b + c. On a device rounded once, wherever it stands: what several kernels compute has the same bits in all of
+/// them.
+template <class R>
+MACADAM_HD R multiply_add(R a, R b, R c) {
+#ifdef __CUDA_ARCH__
+  return fma(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
 /// Three components of one quantity. T is double, float or a SIMD pack of either.
 template <class T>
 struct Vec3 {
@@ -35,12 +46,19 @@ using Vec3d = Vec3<double>;
 
 template <class T>
 MACADAM_HD T dot(const Vec3<T>& a, const Vec3<T>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+  return multiply_add(a.z, b.z, multiply_add(a.y, b.y, a.x * b.x));
 }
 
 template <class T>
 MACADAM_HD Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+  return {multiply_add(a.y, b.z, -(a.z * b.y)), multiply_add(a.z, b.x, -(a.x * b.z)),
+          multiply_add(a.x, b.y, -(a.y * b.x))};
+}
+
+/// k·a + b
+template <class T>
+MACADAM_HD Vec3<T> multiply_add(const T& k, const Vec3<T>& a, const Vec3<T>& b) {
+  return {multiply_add(k, a.x, b.x), multiply_add(k, a.y, b.y), multiply_add(k, a.z, b.z)};
 }
 
 /// Euclidean length; for SIMD packs the square root is found by argument-dependent look-up.

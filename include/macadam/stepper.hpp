@@ -40,13 +40,14 @@ struct StepperOptions {
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
   Damping damping_kind = Damping::none;
-  double damping = 0;                 ///< χ, or β [1/s]
-  double density_scaling = 1;         ///< multiplies mass and inertia
-  bool skip_shear = true;             ///< no shear chains where α = 0
-  bool skip_rotations = true;         ///< no rotations where nothing_turns()
-  int threads = 0;                    ///< cpu: 0 is OpenMP's choice; results do not depend on it
-  std::optional<int> device;          ///< cuda: made the calling thread's; none: the first that can run
-  Boundary boundary;                  ///< what drives the walls, fixes and loads particles; drives' dt() is dt
+  double damping = 0;          ///< χ, or β [1/s]
+  double density_scaling = 1;  ///< multiplies mass and inertia
+  bool skip_shear = true;      ///< no shear chains where α = 0
+  bool skip_rotations = true;  ///< no rotations where nothing_turns()
+  int threads = 0;             ///< cpu: 0 is OpenMP's choice; results do not depend on it
+  std::optional<int> device;   ///< cuda: made the calling thread's; none: the first that can run
+  int multiprocessors = 0;     ///< cuda: plan for so many, as if it had no more; 0: all; results do not depend on it
+  Boundary boundary;           ///< what drives the walls, fixes and loads particles; drives' dt() is dt
   const StartState* start = nullptr;  ///< read by make_stepper() only; a cyclic drive must have no ramp then
   /// A device may take steps in blocks, within which laws are not settled (model (6.8)). At least so many blocks go
   /// into the shortest of the drives' and the laws' times. What a block neglects is of second order in its length.

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_settling.hpp  Launches what lies between two blocks of steps, for the laws and numbers of steps at hand.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+
+#include "kernels/block_length.hpp"
+#include "kernels/cuda_blocks.hpp"
+
+namespace macadam::kernels {
+
+/// The arrays that settling works on besides a group's own.
+template <class P>
+struct SettledArrays {
+  float4 *constant, *state;    ///< of the tiles' contacts
+  const double *now, *before;  ///< displacements, and those when the block began [body][8]
+  LoadRecords<typename P::Particle> records;
+  const uint2* place;  ///< [slot of all groups] among the tiles' contacts
+};
+
+template <class P, class AnyLaw>
+class Settling {
+ public:
+  /// Takes the law of group `number`, whose first slot of all groups is `first_slot`, for steps of `dt`.
+  template <Geometry geometry, class L>
+  void set_group(int number, std::size_t first_slot, const L& law, const ContactView<P>& view, double dt) {
+    using Groups = SettleGroups<P, AnyLaw, geometry>;
+    if (!groups_) groups_ = std::make_shared<Groups>();
+    auto groups = std::static_pointer_cast<Groups>(groups_);
+    auto& g = groups->group[number];
+    if (g.first_block == UINT32_MAX) {
+      g.first_block = blocks_;
+      g.first_slot = static_cast<std::uint32_t>(first_slot);
+      g.slots = view.packets * 32;
+      blocks_ += (g.slots + contact_threads - 1) / contact_threads;
+    }
+    fill_[number] = [groups, number, law, view, dt](int ended, int steps) {
+      const auto block = block_after(law, dt, ended, steps);
+      dispatch_units<false>(law, [&](auto units) {
+        groups->group[number].functor.put(SettleContact<P, typename L::Block, units(), geometry>{view, block});
+      });
+    };
+    filled_ended_ = filled_steps_ = 0;  // for other laws and time steps
+    launch_ = [this, groups](int ended, const SettledArrays<P>& a, cudaStream_t stream) {
+      groups->place = a.place;
+      launch("settling", settle_contacts<P, AnyLaw, geometry>, blocks_, contact_threads, 0, stream, *groups, a.constant,
+             a.state, a.now, a.before, ended, a.records);
+    };
+  }
+
+  /// Queues the end of a block that had `ended` steps (0: none; settling_starts) and the beginning of one of `steps`.
+  void run(int ended, int steps, const SettledArrays<P>& arrays, cudaStream_t stream) {
+    if (!launch_) return;
+    const int known = ended > 0 ? ended : steps;
+    if (filled_ended_ != known || filled_steps_ != steps) {
+      filled_ended_ = known, filled_steps_ = steps;
+      for (const auto& fill : fill_) {
+        if (fill) fill(known, steps);
+      }
+    }
+    launch_(ended, arrays, stream);
+  }
+
+ private:
+  std::shared_ptr<void> groups_;
+  std::uint32_t blocks_ = 0;
+  std::array<std::function<void(int, int)>, pair_types> fill_;  // for steps of the blocks that end and begin
+  int filled_ended_ = 0, filled_steps_ = 0;
+  std::function<void(int, const SettledArrays<P>&, cudaStream_t)> launch_;
+};
+
+}  // namespace macadam::kernels
