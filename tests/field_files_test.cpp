@@ -70,7 +70,6 @@ class FieldFiles : public TestFolder {
       EXPECT_EQ(rows(file, "VTKHDF/PointData/f", k * points, points), std::vector<double>(points, -time));
     }
   }
-
 };
 
 TEST_F(FieldFiles, VtkHdfHasEveryGroupThatItsDocumentationAsksFor) {
