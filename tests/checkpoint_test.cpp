@@ -2,9 +2,7 @@
 // checkpoint_test.cpp  A run in pieces gives the bits of a run in one; no other checkpoint is taken for its own.
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <H5Cpp.h>
 #include <fmt/format.h>
@@ -15,7 +13,7 @@
 #include <thread>
 
 #include "host/results/checkpoint.hpp"
-#include "test_files.hpp"
+#include "test_folder.hpp"
 #include "test_scenes.hpp"
 
 namespace macadam::test {
@@ -24,42 +22,19 @@ namespace {
 constexpr const char* steady = "frequencies = [10.0, 20.0]\nstart = \"steady\"\nsamples_per_cycle = 40\n";
 constexpr const char* rest = "frequencies = [20.0]\ncycles = 3\nramp_cycles = 1\nsamples_per_cycle = 40\n";
 
-class CheckpointedRun : public testing::Test {
+class CheckpointedRun : public TestFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / fmt::format("macadam_checkpoint_{}", getpid());
-    fs::create_directories(folder_);
-    fs::copy_file(MACADAM_TEST_DATA "/t8.csv", folder_ / "t8.csv");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   Scene scene(const std::string& loading, const std::string& solver = "density_scaling = 1e5\n",
               const std::string& output = "") const {
-    write(folder_ / "scene.toml",
-          "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n[loading]\nkind = \"cyclic\"\n" + loading +
-              "[solver]\nbackend = \"cpu\"\n" + solver + "[output]\n" + output + am1_contacts);
-    return read_scene(folder_ / "scene.toml");
+    return read_scene(write_t8("kind = \"cyclic\"\n" + loading, "backend = \"cpu\"\n" + solver, output));
   }
-  fs::path out(const std::string& name) const { return folder_ / name; }
   fs::path file(const std::string& name) const { return out(name) / "checkpoint.h5"; }
 
-  /// Runs until `stop` was asked so many times after planning. Whether it was interrupted.
+  /// The summary tells of an interrupted run.
   bool run_until(const Scene& scene, const std::string& name, int asked, bool resume) const {
-    Watcher watcher;
-    int count = 0;
-    bool planned = false;
-    watcher.planned = [&](const RunResult&) { planned = true; };
-    watcher.stop = [&] { return planned && ++count >= asked; };
-    try {
-      run(scene, out(name), watcher, resume);
-      return false;
-    } catch (const InterruptedError& error) {
-      EXPECT_HAS(error.what(), "--resume");
-      EXPECT_HAS(error.what(), file(name).string());
-      EXPECT_EQ(summary(name).at("status"), "interrupted");
-      EXPECT_TRUE(fs::exists(file(name)));
-      return true;
-    }
+    const bool interrupted = TestFolder::run_until(scene, name, asked, resume);
+    if (interrupted) { EXPECT_EQ(summary(name).at("status"), "interrupted"); }
+    return interrupted;
   }
   nlohmann::json summary(const std::string& name) const {
     return nlohmann::json::parse(read(out(name) / "summary.json"));
@@ -86,8 +61,6 @@ class CheckpointedRun : public testing::Test {
     EXPECT_HAS(message, file(name).string());
     return message;
   }
-
-  fs::path folder_;
 };
 
 /// Loading, solver and output of a scene.
@@ -246,21 +219,6 @@ TEST_F(CheckpointedRun, AKillWhileWritingLeavesTheOldOrTheNewOne) {
   }
   EXPECT_HAS(message_of([&] { write_checkpoint(folder_ / "no" / "checkpoint.h5", checkpoint); }), "cannot be written");
 }
-
-/// No file of this process may grow beyond so many bytes while this lives: a full disk as far as checkpoints go.
-class FileLimit {
- public:
-  explicit FileLimit(rlim_t bytes) {
-    signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
   const Scene scene = this->scene(steady);

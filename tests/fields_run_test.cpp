@@ -3,37 +3,24 @@
 // resumed.
 #include <sstream>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fmt/format.h>
 
 #include <numbers>
 
 #include "hdf5_numbers.hpp"
-#include "test_files.hpp"
+#include "test_folder.hpp"
 
 namespace macadam::test {
 namespace {
 
-class RunFields : public testing::Test {
+class RunFields : public TestFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              fmt::format("macadam_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(), getpid());
-    fs::create_directories(folder_);
-    fs::copy_file(MACADAM_TEST_DATA "/t8.csv", folder_ / "t8.csv");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   Scene scene(const std::string& output, const std::string& loading = "frequencies = [20.0]\ncycles = 1\n",
               const std::string& solver = "density_scaling = 1e5\n") const {
-    write(folder_ / "scene.toml",
-          "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n[loading]\nkind = \"cyclic\"\n"
-          "samples_per_cycle = 40\n" +
-              loading + "[solver]\nbackend = \"cpu\"\n" + solver + "[output]\n" + output + am1_contacts);
-    return read_scene(folder_ / "scene.toml");
+    return read_scene(
+        write_t8("kind = \"cyclic\"\nsamples_per_cycle = 40\n" + loading, "backend = \"cpu\"\n" + solver, output));
   }
-  fs::path out(const std::string& name) const { return folder_ / name; }
   std::vector<std::string> files(const std::string& name) const {
     std::vector<std::string> found;
     std::error_code error;
@@ -43,20 +30,6 @@ class RunFields : public testing::Test {
     std::sort(found.begin(), found.end());
     return found;
   }
-  /// Runs, and stops when asked for the n-th time after planning; 0: not at all.
-  void run_until(const Scene& scene, const std::string& name, int asked, bool resume = false) const {
-    Watcher watcher;
-    int count = 0;
-    bool planned = false;
-    watcher.planned = [&](const RunResult&) { planned = true; };
-    watcher.stop = [&] { return planned && asked > 0 && ++count >= asked; };
-    try {
-      run(scene, out(name), watcher, resume);
-      EXPECT_EQ(asked, 0);
-    } catch (const InterruptedError&) { EXPECT_GT(asked, 0); }
-  }
-
-  fs::path folder_;
 };
 
 using Names = std::vector<std::string>;

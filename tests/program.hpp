@@ -5,14 +5,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "test_files.hpp"
+#include "test_folder.hpp"
 
 namespace macadam::test {
 
@@ -34,16 +33,8 @@ struct Outcome {
 };
 
 /// A folder with the specimen t8, and the program run in it.
-class Program : public testing::Test {
+class Program : public TestFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              fmt::format("macadam_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(), getpid());
-    fs::create_directories(folder_);
-    fs::copy_file(MACADAM_TEST_DATA "/t8.csv", folder_ / "t8.csv");
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   /// Runs the program in a shell; output goes to files, which are no terminals.
   Outcome macadam(const std::string& arguments) const {
     const fs::path out = folder_ / "stdout.txt", err = folder_ / "stderr.txt";
@@ -61,12 +52,7 @@ class Program : public testing::Test {
 
   /// The same with another test.
   fs::path write_scene_of(const std::string& loading, const std::string& solver = "") const {
-    const fs::path file = folder_ / "scene.toml";
-    std::ofstream(file) << "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n"
-                        << "[loading]\n"
-                        << loading << "[solver]\n"
-                        << solver << am1_contacts;
-    return file;
+    return write_t8(loading, solver);
   }
 
   Outcome run_quick(const std::string& out, const std::string& options = "--backend cpu") const {
@@ -76,8 +62,6 @@ class Program : public testing::Test {
   nlohmann::json summary(const std::string& out) const {
     return nlohmann::json::parse(read(folder_ / out / "summary.json"));
   }
-
-  fs::path folder_;
 };
 
 }  // namespace macadam::test

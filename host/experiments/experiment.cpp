@@ -35,8 +35,8 @@ const char* kind_of(const Experiment& experiment) {
   return std::visit([](const auto& spec) { return spec.kind; }, experiment);
 }
 
-bool steps(const Experiment& experiment) {
-  return std::visit([](const auto& spec) { return spec.steps; }, experiment);
+experiments::Stepping stepping_of(const Experiment& experiment) {
+  return std::visit([](const auto& spec) { return spec.stepping; }, experiment);
 }
 
 std::vector<double> frequencies_of(const Experiment& experiment) {
@@ -55,6 +55,10 @@ std::vector<double> temperatures_of(const Experiment& experiment) {
         return {};
       },
       experiment);
+}
+
+bool has_fields(const Scene& scene) {
+  return scene.solver.method == SolverMethod::explicit_ || !frequencies_of(scene.experiment).empty();
 }
 
 std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
@@ -98,8 +102,10 @@ T of_found(const ExperimentResult& found, T nothing, F&& f) {
 
 void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_json& out) {
   const bool nothing = std::holds_alternative<std::monostate>(result.found);
-  const ExperimentResult none = experiments::SteppedCyclic{};
-  const bool shown = nothing && scene.solver.method == SolverMethod::explicit_ && steps(scene.experiment);
+  const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
+  const ExperimentResult none =
+      cyclic ? ExperimentResult(experiments::SteppedCyclic{}) : ExperimentResult(experiments::SteppedResponse{});
+  const bool shown = nothing && scene.solver.method == SolverMethod::explicit_;
   of_found(shown ? none : result.found, 0, [&]<class Result>(const Result& found) {
     ResultOf<Result>::summarise(found, scene, result, out);
     return 0;
@@ -109,7 +115,8 @@ void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_js
 double solve_seconds(const RunResult& result) {
   const double found =
       of_found(result.found, 0.0, []<class Result>(const Result& f) { return ResultOf<Result>::seconds(f); });
-  const bool stepped = std::holds_alternative<experiments::SteppedCyclic>(result.found);
+  const bool stepped = of_found(
+      result.found, false, []<class Result>(const Result&) { return std::is_base_of_v<experiments::Stepped, Result>; });
   return found + (stepped ? 0 : result.phases.preconditioner);  // a stepped one has it in its planning
 }
 

@@ -19,10 +19,11 @@ void require_once(const Section& section, const std::string& key, std::vector<do
   }
 }
 
-std::vector<Key> Points::keys(const std::string& key, const Quantity& quantity) {
-  constexpr std::int64_t most = 1000;
-  return {{key, Need::required, into(given, quantity, positive)},
-          {"points_per_decade", Need::optional, into(per_decade, 1, most)}};
+std::vector<Key> Points::keys(const std::string& key, const Quantity& quantity, Need need) {
+  constexpr std::int64_t most = 1000, most_evenly = 1'000'000;
+  return {{key, need, into(given, quantity, positive)},
+          {"points_per_decade", Need::optional, into(per_decade, 1, most)},
+          {"points", Need::optional, into(evenly, 2, most_evenly)}};
 }
 
 std::vector<double> Points::all(const Section& section, const std::string& key, const char* unit,
@@ -30,11 +31,17 @@ std::vector<double> Points::all(const Section& section, const std::string& key, 
   require_once(section, key, given, unit, what);
   std::vector<double> out = given;
   std::sort(out.begin(), out.end());
-  if (!per_decade) return out;
+  if (per_decade && evenly) section.refuse("points", "points beside points_per_decade", "one of them");
+  if (!per_decade && !evenly) return out;
   if (out.size() != 2) {
-    section.refuse(key, fmt::format("{} of them beside points_per_decade", out.size()), "the two ends of a range");
+    section.refuse(key, fmt::format("{} of them beside {}", out.size(), evenly ? "points" : "points_per_decade"),
+                   "the two ends of a range");
   }
-  return log_range(out.front(), out.back(), *per_decade);
+  const double first = out.front(), last = out.back();
+  if (per_decade) return log_range(first, last, *per_decade);
+  out.clear();
+  for (int i = 0; i < *evenly; ++i) out.push_back(first + (last - first) * i / (*evenly - 1));
+  return out;
 }
 
 }  // namespace macadam::scene

@@ -19,13 +19,13 @@ inline Key kind_key() {
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
                   const char* what);
 
-/// Times or frequencies: each one, or the two ends of a range beside `points_per_decade`.
+/// Times or frequencies: each one, or the two ends of a range beside `points_per_decade` or `points`.
 struct Points {
   std::vector<double> given;
-  std::optional<int> per_decade;
+  std::optional<int> per_decade, evenly;
 
-  /// The keys of both.
-  std::vector<Key> keys(const std::string& key, const Quantity& quantity);
+  /// The keys of all.
+  std::vector<Key> keys(const std::string& key, const Quantity& quantity, Need need = Need::required);
   /// Rising. \throws InputError
   std::vector<double> all(const Section& section, const std::string& key, const char* unit, const char* what) const;
 };

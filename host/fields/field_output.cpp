@@ -89,9 +89,9 @@ std::unique_ptr<FieldSeries> FieldOutput::series(const char* kind, const std::st
   return out;
 }
 
-std::vector<std::string> FieldOutput::begin(double frequency_hz, double time) {
+std::vector<std::string> FieldOutput::begin(const std::string& of, int samples, double time) {
   const FieldSpec& spec = scene_.output.fields;
-  const std::string of = fmt::format("{}Hz", frequency_hz);
+  stride_ = spec.stride(samples);
   std::vector<std::string> missing;
   if (spec.particles) {
     particles_ = series(particles, of, particle_mesh(prepared_.specimen, prepared_.aggregates), time, missing);
@@ -101,9 +101,7 @@ std::vector<std::string> FieldOutput::begin(double frequency_hz, double time) {
   return missing;
 }
 
-bool FieldOutput::wants(std::int64_t sample) const {
-  return (particles_ || contacts_) && sample % scene_.output.fields.stride(scene_.cyclic().samples_per_cycle) == 0;
-}
+bool FieldOutput::wants(std::int64_t sample) const { return (particles_ || contacts_) && sample % stride_ == 0; }
 
 void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometry, double time) {
   ParticleState state;

@@ -26,10 +26,10 @@ class FieldOutput {
   /// Writes the cells, if they are asked for: they do not change. \throws RunError.
   FieldOutput(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 
-  /// Begins the series of one frequency that is stepped, or goes on with those that are there where the stepper starts
-  /// at a time other than 0. Returns a sentence about each that should have been there and was not.
-  /// \throws InputError for a file that is no series of this run.
-  std::vector<std::string> begin(double frequency_hz, double time);
+  /// Begins the series `of` what is stepped ("20Hz"), or goes on with those that are there where the stepper starts at
+  /// a time other than 0. A period, or the whole test, has so many samples. Returns a sentence about each series that
+  /// should have been there and was not. \throws InputError for a file that is no series of this run.
+  std::vector<std::string> begin(const std::string& of, int samples, double time);
   /// Whether a frame is due at this sample.
   bool wants(std::int64_t sample) const;
   /// Adds a frame. \throws RunError.
@@ -48,6 +48,7 @@ class FieldOutput {
   const Preparation& prepared_;
   std::filesystem::path folder_;
   std::unique_ptr<FieldSeries> particles_, contacts_;
+  int stride_ = 1;  ///< samples from one frame to the next
 };
 
 }  // namespace macadam

@@ -76,13 +76,14 @@ std::string csv_field(const std::string& name) {
   return out + "\"";
 }
 
-ResponseWriter::ResponseWriter(const std::filesystem::path& file) : file_(file), out_(file, std::ios::binary) {
-  out_ << "frequency_hz,time_s,strain,stress_pa\n" << std::flush;
+LineWriter::LineWriter(const std::filesystem::path& file, std::string_view head)
+    : file_(file), out_(file, std::ios::binary) {
+  out_ << head << '\n' << std::flush;
   if (!out_) throw RunError(file_.string() + ": cannot be written (disk full, or no permission)");
 }
 
-void ResponseWriter::add(const ResponseSample& s) {
-  out_ << fmt::format("{},{},{},{}\n", s.frequency_hz, s.time_s, s.strain, s.stress_pa) << std::flush;
+void LineWriter::add(std::string_view line) {
+  out_ << line << '\n' << std::flush;
   if (!out_) throw RunError(file_.string() + ": cannot be written on (disk full?)");
 }
 

@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "macadam/contact_network.hpp"
-#include "macadam/results.hpp"
 
 namespace macadam {
 
@@ -20,13 +19,13 @@ void write_whole(const std::filesystem::path& file, std::string_view bytes, bool
 /// A name as a field of a CSV file: quoted where it has to be (RFC 4180).
 std::string csv_field(const std::string& name);
 
-/// response.csv: every line is flushed as it is measured.
-class ResponseWriter {
+/// A table that grows as a run goes on: every line is flushed as it is measured.
+class LineWriter {
  public:
-  /// \throws RunError when the file cannot be opened.
-  explicit ResponseWriter(const std::filesystem::path& file);
-  /// \throws RunError when the disk refuses.
-  void add(const ResponseSample& sample);
+  /// Begins anew; `head`: its first lines. \throws RunError when the file cannot be opened.
+  LineWriter(const std::filesystem::path& file, std::string_view head);
+  /// A line without its end. \throws RunError when the disk refuses.
+  void add(std::string_view line);
 
  private:
   std::filesystem::path file_;

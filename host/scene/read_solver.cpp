@@ -14,6 +14,7 @@ void read_damping(const Section& section, SolverSpec& spec) {
   constexpr Rule chi{[](double v) { return v >= 0 && v < 1; }, "a local damping from 0 to below 1"};
   const auto value = section.find("damping");
   const auto kind = section.find("damping_kind");
+  spec.damping_given = value || kind;
   if (!kind) spec.damping_kind = Damping::local;
   if (value) {
     spec.damping = spec.damping_kind == Damping::local ? value->number(ratio, chi) : value->number(rate, non_negative);
@@ -41,7 +42,7 @@ std::vector<double> read_density_scaling(const Value& value, std::size_t frequen
 
 SolverSpec usual_solver(const Experiment& experiment) {
   SolverSpec out;
-  if (!steps(experiment)) out.method = SolverMethod::harmonic;
+  if (stepping_of(experiment) != experiments::Stepping::usual) out.method = SolverMethod::harmonic;
   return out;
 }
 
@@ -57,7 +58,9 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         into<SolverMethod>(spec.method, {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}})},
        {"tolerance", Need::optional, into(spec.tolerance, ratio, error)},
        {"density_scaling", Need::optional,
-        [&](const Value& v) { spec.density_scaling = read_density_scaling(v, frequencies.size()); }},
+        [&](const Value& v) {
+          spec.density_scaling = read_density_scaling(v, std::max<std::size_t>(1, frequencies.size()));
+        }},
        {"safety", Need::optional, into(spec.safety, ratio, share)},
        {"time_step", Need::optional, into(spec.time_step, duration, positive)},
        {"damping_kind", Need::optional,
@@ -85,7 +88,7 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
        {"inertia", Need::optional, into(spec.inertia)}});
   read_damping(section, spec);
 
-  if (spec.method == SolverMethod::explicit_ && !steps(experiment)) {
+  if (spec.method == SolverMethod::explicit_ && stepping_of(experiment) == experiments::Stepping::never) {
     section.refuse("method", fmt::format("\"explicit\" beside kind = \"{}\" in [loading]", kind_of(experiment)),
                    "\"harmonic\": it is not stepped in time");
   }

@@ -96,11 +96,9 @@ void check_together(const Scene& scene, const Section& root) {
     root.find("network")->section().refuse("quadrature", "\"exact\" beside form = \"points\" in [solver]",
                                            "\"lumped\", or form = \"condensed\"");
   }
-  if (scene.output.fields.any() && !std::holds_alternative<experiments::Cyclic>(scene.experiment) &&
-      !std::holds_alternative<experiments::Sweep>(scene.experiment)) {
-    root.find("output")->section().refuse("fields",
-                                          "this key beside a kind of [loading] that has no motion of particles",
-                                          "kind = \"cyclic\" or \"sweep\"");
+  if (scene.output.fields.any() && !has_fields(scene)) {
+    root.find("output")->section().refuse("fields", "this key beside a test that has no motion of particles to show",
+                                          "kind = \"cyclic\" or \"sweep\", or method = \"explicit\" in [solver]");
   }
   const auto need_density = [&](bool generated, double density, const std::string& phase) {
     if (generated && density == 0) {

@@ -15,6 +15,7 @@ constexpr Unit viscosities[] = {{"Pa s", 0},      {"kPa s", 3},      {"MPa s", 6
                                 {"Pa\u00b7s", 0}, {"kPa\u00b7s", 3}, {"MPa\u00b7s", 6}, {"GPa\u00b7s", 9}};
 constexpr Unit densities[] = {{"kg/m3", 0},      {"g/cm3", 3},      {"t/m3", 3},      {"kg/m^3", 0}, {"g/cm^3", 3},
                               {"kg/m\u00b3", 0}, {"g/cm\u00b3", 3}, {"t/m\u00b3", 3}, {"t/m^3", 3}};
+constexpr Unit masses[] = {{"kg", 0}, {"g", -3}, {"mg", -6}, {"t", 3}};
 constexpr Unit frequencies[] = {{"Hz", 0}, {"mHz", -3}, {"kHz", 3}};
 constexpr Unit durations[] = {{"s", 0},        {"ms", -3}, {"us", -6},     {"\u00b5s", -6},
                               {"\u03bcs", -6}, {"ns", -9}, {"min", 0, 60}, {"h", 0, 3600}};
@@ -53,6 +54,7 @@ const Quantity length{"length", lengths};
 const Quantity modulus{"modulus", moduli};
 const Quantity viscosity{"viscosity", viscosities};
 const Quantity density{"density", densities};
+const Quantity mass{"mass", masses};
 const Quantity frequency{"frequency", frequencies};
 const Quantity duration{"time", durations};
 const Quantity rate{"rate", rates};

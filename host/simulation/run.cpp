@@ -23,7 +23,7 @@ namespace {
 
 /// What the command line may have combined.
 void require_backend_fits(const Scene& scene) {
-  if (scene.solver.method == SolverMethod::explicit_ && !steps(scene.experiment)) {
+  if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
     throw InputError(scene.file.string(), 0, "method",
                      std::string("\"explicit\" beside kind \"") + kind_of(scene.experiment) + "\"",
                      "\"harmonic\": it is not stepped in time");
@@ -36,6 +36,11 @@ void require_backend_fits(const Scene& scene) {
     throw InputError(scene.file.string(), 0, "temperatures in [loading]",
                      fmt::format("{} of them beside method \"explicit\"", temperatures_of(scene.experiment).size()),
                      "method \"harmonic\", or one as temperature in [materials]");
+  }
+  if (scene.output.fields.any() && !has_fields(scene)) {
+    throw InputError(scene.file.string(), 0, "fields in [output]",
+                     std::string("some beside method \"harmonic\" of kind \"") + kind_of(scene.experiment) + "\"",
+                     "none, or method \"explicit\"");
   }
   if (scene.solver.method != SolverMethod::explicit_ || scene.solver.backend != Backend::reference) return;
   const auto refuse = [&](const char* what, const char* found, const char* expected) {

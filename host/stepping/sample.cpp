@@ -1,11 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sample.cpp  Observations at even distances of a run.
+// sample.cpp  Observations at even distances of a run, and that it has not blown up until then.
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "host/stepping/divergence.hpp"
 #include "macadam/error.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam {
+
+void require_convergence(const Stepper& stepper, const Observation& now, const std::string& of) {
+  const std::int64_t particle = stepper.first_divergent();
+  if (particle < 0 && std::isfinite(now.top_force()) && std::isfinite(now.top_displacement())) return;
+  const std::string what =
+      particle >= 0 ? fmt::format("particle {} moves more than its radius in a step, or not finitely", particle)
+                    : "force or motion of the top wall is not finite";
+  const std::string where = of.empty() ? fmt::format("step {}", now.step) : fmt::format("{}, step {}", of, now.step);
+  throw DivergenceError(fmt::format("the time stepping diverged: {}, at t = {:.6g} s ({}); use a smaller "
+                                    "time_step or safety",
+                                    what, now.time, where),
+                        particle, now.time);
+}
 
 void sample(Stepper& stepper, std::int64_t every, std::int64_t n, const std::function<void(const Observation&)>& f) {
   if (every < 1) throw InputError("sample: found every = " + std::to_string(every) + ", expected at least 1 step");
@@ -13,13 +29,7 @@ void sample(Stepper& stepper, std::int64_t every, std::int64_t n, const std::fun
   for (std::int64_t k = 0; k < n; ++k) {
     stepper.advance(every);
     const Observation now = stepper.observe();
-    if (const std::int64_t particle = stepper.first_divergent(); particle >= 0) {
-      throw DivergenceError(
-          fmt::format("the time stepping diverged: particle {} moves more than its radius in a step, or "
-                      "not finitely, at t = {:.6g} s (step {}); use a smaller time step",
-                      particle, now.time, now.step),
-          particle, now.time);
-    }
+    require_convergence(stepper, now, "");
     f(now);
   }
 }

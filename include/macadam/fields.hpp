@@ -29,11 +29,13 @@ enum class FieldFormat : std::uint8_t { vtkhdf, vtp };
 /// What of `[output]` asks for fields.
 struct FieldSpec {
   bool particles = false, contacts = false, cells = false;
-  std::optional<int> every;  ///< samples of a stepped run from one frame to the next; none: a twentieth of a cycle
+  /// Samples of a stepped run from one frame to the next; none: a twentieth of a cycle's, or of a test's without
+  /// cycles.
+  std::optional<int> every;
   FieldFormat format = FieldFormat::vtkhdf;
 
   bool any() const { return particles || contacts || cells; }
-  int stride(int samples_per_cycle) const { return every.value_or(std::max(1, samples_per_cycle / 20)); }
+  int stride(int samples) const { return every.value_or(std::max(1, samples / 20)); }
 };
 
 /// One array: `components` numbers for each particle, contact or polygon, one after another.

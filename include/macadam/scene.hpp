@@ -47,6 +47,7 @@ struct SolverSpec {
   std::optional<std::vector<double>> density_scaling;  ///< one, or one a frequency
   std::optional<double> safety;                        ///< share of the computed critical step
   std::optional<double> time_step;                     ///< [s]: given instead of computed
+  bool damping_given = false;  ///< by the scene, 0 too; what is not cyclic chooses its own otherwise
   Damping damping_kind = Damping::none;
   double damping = 0;  ///< χ of local damping, or β [1/s] of viscous damping
   std::optional<ContactForm> form;
@@ -94,10 +95,13 @@ const char* kind_of(const Experiment& experiment);
 /// Files of results that a run of it may leave, besides those of every run.
 std::vector<std::string> files_of(const Experiment& experiment);
 /// Whether it may be stepped in time (method "explicit").
-bool steps(const Experiment& experiment);
+experiments::Stepping stepping_of(const Experiment& experiment);
 /// Frequencies [Hz] and temperatures [°C] that it names; none of those that name none.
 std::vector<double> frequencies_of(const Experiment& experiment);
 std::vector<double> temperatures_of(const Experiment& experiment);
+
+/// Whether its test has a motion of particles to show: steady states and steps have, spectra have not.
+bool has_fields(const Scene& scene);
 
 /// Reads a TOML scene and checks all that can be known without building the specimen: unknown keys (the nearest known
 /// one is named), wrong types, impossible values, missing sections, units ("12.5 mm", "35 GPa").

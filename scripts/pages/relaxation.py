@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/relaxation.md: from bench/relaxation/run's relaxation.csv, a row a scene, and relaxation-curves.csv."""
+"""docs/relaxation.md: from bench/relaxation/run's relaxation.csv, a row a scene, and relaxation-curves.csv, and from
+bench/relaxation/stepped's stepped-loads.csv, a row a test."""
 from pages.data import one, power, rows, table, thousands, upto
 from pages.marks import mark
 
@@ -30,6 +31,20 @@ def moduli():
                                                       f"{1e9 * at(s, t)['compliance_1_pa']:.4g}"))] for t in DECADES]
     return table(["t (s)", *(x for s in scenes for x in (f"{s}: E(t) (MPa)", "J(t) (1/GPa)"))], lines,
                  range(2 * len(scenes) + 1))
+
+
+@mark
+def stepped():
+    lines = [[r["kind"], thousands(r["density_scaling"]), thousands(r["steps"]), power(upto(r["difference"])),
+              power(upto(r["error"])), power(upto(r["kinetic_share"])), f"{r['wall_s']:.1f}"]
+             for r in rows("stepped-loads.csv")]
+    return table(["kind", "density scaling", "steps", "from the test without a step", "`error`", "`kinetic_share`",
+                  "wall (s)"], lines, range(1, 7))
+
+
+@mark
+def stepped_particles():
+    return thousands(rows("stepped-loads.csv")[0]["particles"])
 
 
 @mark

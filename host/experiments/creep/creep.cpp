@@ -2,19 +2,17 @@
 // creep.cpp  Kind "creep": strain under a stress that is held, and after it is taken off.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "host/experiments/experiment.hpp"
-#include "host/experiments/material_solution.hpp"
+#include "host/experiments/loaded/load_test.hpp"
 #include "host/experiments/read_points.hpp"
-#include "host/results/files.hpp"
+#include "macadam/drives/ramp.hpp"
 
 namespace macadam {
 
 using experiments::Creep;
-using experiments::CreepResult;
-using experiments::Material;
+using experiments::ResponsePoint;
 
 template <>
 Creep ExperimentOf<Creep>::read(const scene::Section& section) {
@@ -27,7 +25,8 @@ Creep ExperimentOf<Creep>::read(const scene::Section& section) {
                            poisson_key(out.poisson_ratio),
                            {"stress", Need::required, into(out.stress, modulus, any)},
                            {"ramp", Need::optional, into(out.ramp, duration, non_negative)},
-                           {"release", Need::optional, into(out.release, duration, positive)}});
+                           {"release", Need::optional, into(out.release, duration, positive)},
+                           {"platen_mass", Need::optional, into(out.platen_mass, mass, positive)}});
   section.read(keys);
   out.times = times.all(section, "times", "s", "time");
   if (out.release && *out.release < out.ramp) {
@@ -45,69 +44,38 @@ double loaded(const Creep& spec, double t) {
   return grown(t) - (spec.release ? grown(t - *spec.release) : 0);
 }
 
-CreepResult response(const Creep& spec, Material material) {
-  CreepResult out{std::move(material), {}};
-  const CreepSeries& series = out.material.spectrum.creep;
-  for (const double t : spec.times) {
+}  // namespace
+
+LoadTest load_test(const Creep& spec) {
+  LoadTest out;
+  out.kind = spec.kind;
+  out.history = {spec.times, {{0, spec.ramp}}};
+  if (spec.release) out.history.ramps.push_back({*spec.release, spec.ramp});
+  out.poisson_ratio = spec.poisson_ratio;
+  out.load = {{"stress_pa", spec.stress}, {"ramp_s", spec.ramp}, {"release_s", spec.release}};
+  out.by_stress = true;
+  out.ramp = spec.ramp;
+  out.release = spec.release;
+  out.platen_mass = spec.platen_mass;
+  out.unstepped = [spec](const Spectrum& spectrum, double t) -> ResponsePoint {
+    const CreepSeries& series = spectrum.creep;
     double strain = series.after_ramp(t, spec.ramp);
     if (spec.release) strain -= series.after_ramp(t - *spec.release, spec.ramp);
-    out.points.push_back({t, spec.stress * loaded(spec, t), spec.stress * strain, series.compliance(t)});
-  }
+    return {t, spec.stress * strain, spec.stress * loaded(spec, t) + 0.0, series.compliance(t)};
+  };
+  out.drive = [spec](double unit, double dt, double ramp) {
+    const std::int64_t rise = std::llround(ramp / dt);
+    const std::int64_t hold = spec.release ? std::llround(*spec.release / dt) - rise : drives::Ramp::forever;
+    return std::make_shared<drives::Ramp>(unit * spec.stress, dt, rise, hold);
+  };
   return out;
 }
 
-}  // namespace
-
 template <>
 std::unique_ptr<Solution> ExperimentOf<Creep>::plan(const Creep& spec, const Scene& scene, const Preparation& prepared,
-                                                    const Watcher& watcher, std::optional<Resumed>, RunResult& result) {
-  History history{spec.times, {{0, spec.ramp}}};
-  if (spec.release) history.ramps.push_back({*spec.release, spec.ramp});
-  const auto responds = [spec](const std::filesystem::path& out, Material material, RunResult& found) {
-    CreepResult r = response(spec, std::move(material));
-    std::string text = fmt::format("# of a {} specimen; compliance_1_pa is after a step; error: of it, relative\n",
-                                   r.material.confined ? "confined" : "free") +
-                       "time_s,stress_pa,strain,compliance_1_pa,error\n";
-    for (const auto& p : r.points) {
-      text +=
-          fmt::format("{},{},{},{},{:.2e}\n", p.time_s, p.stress_pa, p.strain, p.compliance_1_pa, r.material.error());
-    }
-    write_whole(out / "creep.csv", text);
-    found.found = std::move(r);
-  };
-  return plan_material(scene, prepared, watcher, result, history, spec.poisson_ratio, responds);
-}
-
-template <>
-void ResultOf<CreepResult>::summarise(const CreepResult& found, const Scene& scene, const RunResult&,
-                                      nlohmann::ordered_json& summary) {
-  const auto& spec = std::get<Creep>(scene.experiment);
-  nlohmann::ordered_json out = material_json(spec.kind, found.material);
-  out["stress_pa"] = spec.stress;
-  out["ramp_s"] = spec.ramp;
-  out["release_s"] = spec.release ? nlohmann::ordered_json(*spec.release) : nlohmann::ordered_json();
-  for (const auto& p : found.points) {
-    out["points"].push_back({{"time_s", p.time_s},
-                             {"stress_pa", p.stress_pa},
-                             {"strain", p.strain},
-                             {"compliance_1_pa", p.compliance_1_pa}});
-  }
-  summary["results"].push_back(std::move(out));
-}
-
-template <>
-double ResultOf<CreepResult>::seconds(const CreepResult& found) {
-  return found.material.seconds;
-}
-
-template <>
-std::string ResultOf<CreepResult>::table(const CreepResult& found) {
-  std::string out = fmt::format("\n{:>12} {:>14} {:>12} {:>14}\n", "t (s)", "stress (MPa)", "strain", "J(t) (1/GPa)");
-  for (const auto& p : found.points) {
-    out += fmt::format("{:>12.5g} {:>14.6g} {:>12.6g} {:>14.6g}\n", p.time_s, p.stress_pa / 1e6, p.strain,
-                       p.compliance_1_pa * 1e9);
-  }
-  return out + material_lines(found.material);
+                                                    const Watcher& watcher, std::optional<Resumed> resumed,
+                                                    RunResult& result) {
+  return plan_load_test(load_test(spec), scene, prepared, watcher, std::move(resumed), result);
 }
 
 }  // namespace macadam

@@ -18,4 +18,16 @@ std::unique_ptr<Solution> ExperimentOf<Cyclic>::plan(const Cyclic&, const Scene&
                        result.found.emplace<experiments::HarmonicCyclic>().frequencies);
 }
 
+experiments::Frequency frequency_of(const Scene& scene, double frequency_hz, std::optional<double> temperature_c,
+                                    double density_scaling, const Stiffness& stiffness, double seconds) {
+  experiments::Frequency out;
+  out.frequency_hz = frequency_hz;
+  out.temperature_c = temperature_c;
+  out.stiffness = stiffness;
+  out.confined = scene.network.lateral_walls;
+  out.density_scaling = density_scaling;
+  out.seconds = seconds;
+  return out;
+}
+
 }  // namespace macadam

@@ -17,6 +17,10 @@ namespace macadam {
 std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                      std::optional<Resumed> resumed, RunResult& result);
 
+/// What both ways say of a frequency.
+experiments::Frequency frequency_of(const Scene& scene, double frequency_hz, std::optional<double> temperature_c,
+                                    double density_scaling, const Stiffness& stiffness, double seconds);
+
 /// Solves the steady states of the test's frequencies and temperatures into `found`, a part of `result`. \throws as the
 /// constructor of Harmonic does.
 std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/experiments/cyclic/choose_precision.hpp"
 #include "host/experiments/cyclic/error_model.hpp"
+#include "host/experiments/stepped/settings.hpp"
 #include "host/simulation/harmonic_options.hpp"
 #include "host/simulation/phases.hpp"
 #include "host/experiments/cyclic/scaling.hpp"
@@ -18,8 +20,8 @@ namespace macadam {
 namespace {
 
 /// Shares of the tolerance. Inertia is predicted by a solution and so takes the most of it; what it takes without one
-/// is an estimate. The rest is for rounding, geometry, start and time step.
-constexpr double inertia_share = 0.9, estimate_share = 0.5, precision_share = 0.05, geometry_share = 0.02;
+/// is an estimate. The rest is for rounding (choose_precision()), geometry, start and time step.
+constexpr double inertia_share = 0.9, estimate_share = 0.5, geometry_share = 0.02;
 
 class Planner {
  public:
@@ -44,7 +46,7 @@ class Planner {
       decide("safety has no part in it: time_step is given");
     }
     plan_frequencies();
-    choose_precision();
+    choose_precision(scene_, prepared_, plan_);
     return std::move(plan_);
   }
 
@@ -63,9 +65,7 @@ class Planner {
   double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
 
   void choose_form_and_geometry() {
-    // one point has three chains, a facet six
-    const bool one_point = scene_.network.quadrature == Quadrature::one_point;
-    plan_.form = scene_.solver.form.value_or(one_point ? ContactForm::points : ContactForm::condensed);
+    plan_.form = form_of(scene_);
     plan_.geometry = scene_.solver.geometry.value_or(Geometry::updated);
     const double strain = scene_.cyclic().strain_amplitude, error = fixed_geometry_error(strain);
     if (automatic() && !scene_.solver.geometry && error <= geometry_share * tolerance()) {
@@ -258,48 +258,13 @@ class Planner {
     double step = scene_.solver.time_step.value_or(safety() * plan_.critical.dt * std::sqrt(f.density_scaling));
     if (viscous() > 0 && !scene_.solver.time_step) step = std::min(step, 1 / viscous());  // follow the decay
     const double wanted = 1 / (frequency * step * spec.samples_per_cycle);
-    if (!(wanted < 1e12)) {
-      throw RunError(fmt::format("the time step of {} s would take {} steps a cycle at {} Hz; raise density_scaling",
-                                 step, wanted * spec.samples_per_cycle, frequency));
-    }
+    require_possible(wanted * spec.samples_per_cycle, step, fmt::format("a cycle at {} Hz", frequency));
     drives::Cyclic loading;
     loading.amplitude = spec.strain_amplitude * prepared_.specimen.box.size.z;
     loading.frequency = frequency;
     loading.steps_per_period = std::max<std::int64_t>(1, std::llround(std::ceil(wanted))) * spec.samples_per_cycle;
     loading.ramp_steps = std::llround(ramp * static_cast<double>(loading.steps_per_period));
     return loading;
-  }
-
-  void choose_precision() {
-    const bool reference = scene_.solver.backend == Backend::reference;
-    if (scene_.solver.precision || !automatic() || reference) {
-      plan_.precision = scene_.solver.precision.value_or(Precision::double_);
-      return;
-    }
-    double single = 0, mixed = 0;
-    std::string beyond_single, beyond_mixed;
-    for (std::size_t i = 0; i < plan_.frequencies.size(); ++i) {
-      const FrequencyPlan& f = plan_.frequencies[i];
-      const RoundingScale scale = rounding_scale(scene_, prepared_, scene_.cyclic().frequencies[i],
-                                                 f.cycles * f.loading.steps_per_period, f.density_scaling);
-      single = std::max(single, single_precision_error(scale));
-      mixed = std::max(mixed, mixed_precision_error(scale));
-      if (beyond_single.empty()) beyond_single = beyond(scale, single_measured);
-      if (beyond_mixed.empty()) beyond_mixed = beyond(scale, mixed_measured);
-    }
-    const double share = precision_share * tolerance();
-    plan_.precision = single <= share && beyond_single.empty() ? Precision::single
-                      : mixed <= share && beyond_mixed.empty() ? Precision::mixed
-                                                               : Precision::double_;
-    decide(
-        "precision {}: estimated differences from double: single {:.1e}, mixed {:.1e}; no bounds: what was measured is "
-        "at "
-        "most {:.1e} (up to {:.1e} steps) and {:.1e} (up to {:.1e})",
-        to_string(plan_.precision), single, mixed, single_measured.largest,
-        static_cast<double>(single_measured.up_to.steps), mixed_measured.largest,
-        static_cast<double>(mixed_measured.up_to.steps));
-    if (!beyond_single.empty()) decide("not single precision, which was not measured so far: {}", beyond_single);
-    if (!beyond_mixed.empty()) decide("not mixed precision, which was not measured so far: {}", beyond_mixed);
   }
 
   const Scene& scene_;

@@ -144,20 +144,18 @@ class HarmonicSolution : public Solution {
     for (const HarmonicResult& s : solved) {
       const std::size_t i = found_.size() % frequencies_.size();
       HarmonicFrequency f;
-      f.density_scaling = scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0;
-      f.frequency_hz = s.frequency_hz;
-      f.temperature_c = isothermal_.materials.temperature;
+      static_cast<experiments::Frequency&>(f) =
+          frequency_of(scene_, s.frequency_hz, isothermal_.materials.temperature,
+                       scene_.solver.inertia ? density_scaling_of(scene_.solver, i) : 0, s.top, s.seconds);
       f.linear = s.linear;
       if (!s.why_factors.empty()) {
         result.warnings.push_back(fmt::format("{} Hz: solved with factors: {}", s.frequency_hz, s.why_factors));
       }
-      f.stiffness = s.top;
       f.parts = s.parts;
       f.bottom = s.bottom;
       f.residual = s.residual;
       f.iterations = s.iterations;
       f.held_force = s.held_force;
-      f.seconds = s.seconds;
       judge(f, stiffest_contact(isothermal_, prepared_.network, f.frequency_hz), result.warnings);
       {
         const InPhase writing(result.phases, &PhaseSeconds::writing);

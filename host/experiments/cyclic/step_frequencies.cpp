@@ -3,23 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <span>
 #include <utility>
 
-#include "host/fields/field_output.hpp"
+#include "host/experiments/stepped/course.hpp"
+#include "host/experiments/stepped/settings.hpp"
+#include "host/experiments/stepped/skips.hpp"
 #include "host/results/files.hpp"
 #include "host/experiments/cyclic/run_state.hpp"
-#include "host/simulation/checkpoints.hpp"
 #include "host/experiments/cyclic/error_model.hpp"
 #include "host/experiments/cyclic/judgement.hpp"
 #include "host/simulation/phases.hpp"
 #include "host/experiments/cyclic/plan.hpp"
-#include "host/experiments/cyclic/skips.hpp"
 #include "host/experiments/cyclic/methods.hpp"
 #include "macadam/error.hpp"
-#include "macadam/stepper.hpp"
 
 namespace macadam {
 
@@ -31,71 +29,6 @@ namespace {
 /// The share of the tolerance that steps in blocks may cost, where a device takes them so.
 constexpr double block_share = 0.02;
 
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Advances in pieces of some tenths of a second, so that a signal is answered soon however long a step takes. The bits
-/// do not depend on where a run is cut.
-class Pieces {
- public:
-  /// Goes from one step to another and calls look() after each piece, once at least.
-  void advance(Stepper& stepper, std::int64_t from, std::int64_t to, const std::function<void()>& look) {
-    do {
-      const auto start = Clock::now();
-      const std::int64_t piece = std::min(piece_, to - from);
-      if (piece > 0) stepper.advance(piece);
-      from += piece;
-      const double seconds = seconds_since(start);
-      if (piece == piece_ && seconds < 0.1) piece_ *= 2;
-      if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);
-      look();
-    } while (from < to);
-  }
-
- private:
-  std::int64_t piece_ = 16;
-};
-
-/// Runs one frequency from where the stepper stands; every sample goes to `samples` and `writer` at once. Without a
-/// writer, only the cycles that are fitted and the one before, which shows the change from cycle to cycle, are
-/// observed. `look` is called between steps, before the sample of the step that was reached is taken. `frame` adds a
-/// frame to the fields, where they want one. \throws DivergenceError naming the particle that left the range of sense
-/// first.
-void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, const FrequencyPlan& plan,
-                std::vector<ResponseSample>& samples, ResponseWriter* writer, const FieldOutput& fields,
-                const std::function<void()>& look, const std::function<void(double)>& frame,
-                const std::function<void(std::int64_t)>& stepped) {
-  const drives::Cyclic& loading = plan.loading;
-  const int per_cycle = scene.cyclic().samples_per_cycle;
-  const std::int64_t samples_wanted = static_cast<std::int64_t>(plan.cycles) * per_cycle;
-  const std::int64_t stride = loading.steps_per_period / per_cycle;
-  const double area = specimen.box.size.x * specimen.box.size.y, height = specimen.box.size.z;
-  const std::int64_t first = writer ? 0 : std::int64_t{std::max(0, plan.cycles - plan.fit_cycles - 1)} * per_cycle;
-  Pieces pieces;
-  std::int64_t step = stepper.observe().step;
-  for (std::int64_t k = (step + stride - 1) / stride; k <= samples_wanted; ++k) {
-    pieces.advance(stepper, step, k * stride, look);
-    step = k * stride;
-    if (k < first && k % per_cycle != 0 && !fields.wants(k)) continue;
-    const Observation now = stepper.observe();
-    const double stress = -now.top_force() / area;  // particles pull a wall that moves away from them
-    if (const std::int64_t particle = stepper.first_divergent(); particle >= 0 || !std::isfinite(stress)) {
-      const std::string what =
-          particle >= 0 ? fmt::format("particle {} moves more than its radius in a step, or not finitely", particle)
-                        : "the stress at the top wall is not finite";
-      throw DivergenceError(
-          fmt::format("the time stepping diverged: {}, at t = {:.6g} s ({} Hz, step {}, dt = {:.6g} s); use a smaller "
-                      "time_step or safety",
-                      what, now.time, loading.frequency, now.step, loading.dt()),
-          particle, now.time);
-    }
-    if (k >= first) samples.push_back({loading.frequency, now.time, now.top_displacement() / height, stress});
-    if (writer) writer->add(samples.back());
-    if (fields.wants(k)) frame(now.time);
-    stepped(step);
-  }
-}
-
 /// The samples of one frequency, which stand together, from number `first` on.
 std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& samples, std::size_t first,
                                            double frequency) {
@@ -105,35 +38,29 @@ std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& sa
 }
 
 /// What a finished frequency says.
-SteppedFrequency finished(const Plan& whole, std::size_t number, std::span<const ResponseSample> samples,
-                          double seconds, std::optional<double> tolerance) {
+SteppedFrequency finished(const Scene& scene, const Plan& whole, std::size_t number,
+                          std::span<const ResponseSample> samples, double seconds) {
   const FrequencyPlan& plan = whole.frequencies[number];
+  const double frequency = plan.loading.frequency;
+  const CyclicResult cyclic = evaluate_cyclic(samples, frequency, plan.fit_cycles);
   SteppedFrequency f;
-  f.frequency_hz = plan.loading.frequency;
-  f.density_scaling = plan.density_scaling;
+  static_cast<experiments::Frequency&>(f) =
+      frequency_of(scene, frequency, scene.materials.temperature, plan.density_scaling, cyclic.fit, seconds);
+  f.cyclic = cyclic;
   f.dt_s = plan.loading.dt();
   f.cycles = plan.cycles;
   f.start = plan.start;
   f.steps = plan.loading.steps_per_period * plan.cycles;
-  f.cyclic = evaluate_cyclic(samples, f.frequency_hz, plan.fit_cycles);
-  f.stiffness = f.cyclic.fit;
   f.predicted = plan.predicted;
+  const std::optional<double>& tolerance = scene.solver.tolerance;
   if (plan.known) f.achieved = difference(f.stiffness, *plan.known);
   if (plan.known && tolerance) f.kept = largest(*f.achieved) + whole.geometry_error <= *tolerance;
-  f.seconds = seconds;
   return f;
 }
 
 /// What all frequencies have in common.
 StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
-  StepperOptions options;
-  options.form = plan.form;
-  options.geometry = plan.geometry;
-  options.precision = plan.precision;
-  options.damping_kind = solver.damping_kind;
-  options.damping = solver.damping;
-  options.threads = solver.threads;
-  options.device = solver.device;
+  StepperOptions options = stepper_options(solver, plan.form, plan.geometry, plan.precision);
   if (solver.tolerance) options.blocks = blocks_within(block_share * *solver.tolerance);
   return options;
 }
@@ -163,10 +90,12 @@ std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepa
     start = steady_start(prepared.network, scene.laws, p.motion, p.loading);
     options.start = &start;
   }
-  auto stepper =
-      make_stepper(backend, prepared.specimen, prepared.network, scene.laws, inertia, options, std::move(used));
-  if (!from.empty()) stepper->set_state(from);
-  return stepper;
+  return stepper_from(from, backend, scene, prepared, inertia, options, std::move(used));
+}
+
+/// The line of response.csv.
+std::string line_of(const ResponseSample& s) {
+  return fmt::format("{},{},{},{}", s.frequency_hz, s.time_s, s.strain, s.stress_pa);
 }
 
 /// A stepped run from its plan on.
@@ -204,25 +133,28 @@ class Steps : public Solution {
     found.critical_particle = at_.plan.critical.particle;
     found.critical_dt_s = at_.plan.critical.dt;
     found.seconds_planning = at_.seconds_planning;
-    result.skips = find_skips(scene_, prepared_, at_.plan);
+    result.skips = find_skips(scene_, prepared_, at_.plan.form, at_.plan.geometry, scene_.cyclic().strain_amplitude);
+    if (!scene_.output.response) {
+      result.skips.push_back({"observation",
+                              "response.csv is not asked for: only the fitted cycles and the one before are observed",
+                              "none: same bits"});
+    }
     result.warnings = at_.warnings;
     for (std::size_t i = 0; i < at_.seconds.size(); ++i) finish(i, result);
   }
 
   void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
-    Checkpoints checkpoints(
-        out / checkpoint_name, scene_, prepared_, result.backend, watcher_.stop,
-        [&](const std::string& warning) { warn(warning, result); }, owns_checkpoint_);
-    fields_.emplace(scene_, prepared_, out);
-    std::optional<ResponseWriter> writer;
+    Courses courses(scene_, prepared_, watcher_, result, out, owns_checkpoint_,
+                    [&](const std::string& warning) { warn(warning, result); });
+    std::optional<LineWriter> writer;
     if (scene_.output.response) {
-      writer.emplace(out / "response.csv");
-      for (const ResponseSample& s : at_.samples) writer->add(s);  // none is lost or doubled, whatever became of it
+      writer.emplace(out / "response.csv", "frequency_hz,time_s,strain,stress_pa");
+      for (const ResponseSample& s : at_.samples) writer->add(line_of(s));  // none is lost or doubled
     }
     for (std::size_t i = at_.seconds.size(); i < at_.plan.frequencies.size(); ++i) {
-      step(i, writer ? &*writer : nullptr, checkpoints, save, result);
+      step(i, writer ? &*writer : nullptr, courses, save, result);
       finish(i, result);
-      owns_checkpoint_ = checkpoints.own();
+      owns_checkpoint_ = courses.own_checkpoint();
     }
     require_sense(scene_, result.stepped());
   }
@@ -242,8 +174,7 @@ class Steps : public Solution {
     return stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, from, std::move(stepper_));
   }
 
-  void step(std::size_t i, ResponseWriter* writer, Checkpoints& checkpoints, const Saving& save, RunResult& result) {
-    const InPhase stepping(result.phases, &PhaseSeconds::stepping);
+  void step(std::size_t i, LineWriter* writer, Courses& courses, const Saving& save, RunResult& result) {
     const auto start = Clock::now();
     const double before = std::exchange(at_.seconds_running, 0);
     const FrequencyPlan& p = at_.plan.frequencies[i];
@@ -252,37 +183,49 @@ class Steps : public Solution {
     result.solver = stepper_->description();
     std::get<SteppedCyclic>(result.found).bytes = stepper_->bytes();
     save("running");
-    const double per_cycle = static_cast<double>(p.loading.steps_per_period);
-    const std::int64_t begun = stepper_->observe().step;
-    const auto look = [&] {
-      const InPhase writing(result.phases, &PhaseSeconds::writing);  // nearly nothing where no checkpoint is due
-      checkpoints.look([&](Checkpoint& to) { add_to(to, at_, before + seconds_since(start)); }, *stepper_,
-                       fmt::format("{} Hz", p.loading.frequency));
-    };
-    for (const std::string& gap : fields_->begin(p.loading.frequency, stepper_->observe().time)) warn(gap, result);
-    const auto frame = [&](double time) {
-      const InPhase writing(result.phases, &PhaseSeconds::writing);
-      fields_->add(*stepper_, at_.plan.form, at_.plan.geometry, time);
-    };
-    const auto stepped = [&](std::int64_t done) {
-      if (!watcher_.progress || done == 0) return;
-      const auto steps = static_cast<double>(done);
-      watcher_.progress(fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}, {:.0f} steps/s", p.loading.frequency, i + 1,
-                                    at_.plan.frequencies.size(), steps / per_cycle, p.cycles,
-                                    static_cast<double>(done - begun) / seconds_since(start)),
-                        steps / (per_cycle * p.cycles));
-    };
-    run_cyclic(scene_, prepared_.specimen, *stepper_, p, at_.samples, writer, *fields_, look, frame, stepped);
+    const Course course = course_of(i, writer, [&](Checkpoint& to) { add_to(to, at_, before + seconds_since(start)); });
+    courses.begin_fields(fmt::format("{}Hz", p.loading.frequency), scene_.cyclic().samples_per_cycle,
+                         stepper_->observe().time);
+    courses.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
     at_.seconds.push_back(before + seconds_since(start));
+  }
+
+  /// Every sample goes to `at_` and `writer` at once. Without a writer, only the cycles that are fitted and the one
+  /// before, which shows the change from cycle to cycle, are kept.
+  Course course_of(std::size_t i, LineWriter* writer, const Content& content) {
+    const FrequencyPlan& p = at_.plan.frequencies[i];
+    const std::int64_t per_cycle = scene_.cyclic().samples_per_cycle, per_period = p.loading.steps_per_period;
+    const std::int64_t stride = per_period / per_cycle;
+    const std::int64_t kept = writer ? 0 : std::int64_t{std::max(0, p.cycles - p.fit_cycles - 1)} * per_cycle;
+    Course course;
+    course.name = fmt::format("{} Hz", p.loading.frequency);
+    course.dt = p.loading.dt();
+    course.first = (stepper_->observe().step + stride - 1) / stride;
+    course.last = p.cycles * per_cycle;
+    course.step_of = [stride](std::int64_t k) { return k * stride; };
+    course.taken = [=](std::int64_t k) { return k >= kept || k % per_cycle == 0; };
+    course.take = [=, this, &p](std::int64_t k, const Observation& now) {
+      if (k < kept) return;
+      const Vec3d& box = prepared_.specimen.box.size;
+      // particles pull a wall that moves away from them
+      at_.samples.push_back(
+          {p.loading.frequency, now.time, now.top_displacement() / box.z, -now.top_force() / (box.x * box.y)});
+      if (writer) writer->add(line_of(at_.samples.back()));
+    };
+    course.shown = [=, this, &p](std::int64_t step, double steps_a_second) {
+      return fmt::format("{} Hz ({} of {}), cycle {:.2f} of {}, {:.0f} steps/s", p.loading.frequency, i + 1,
+                         at_.plan.frequencies.size(), static_cast<double>(step) / static_cast<double>(per_period),
+                         p.cycles, steps_a_second);
+    };
+    course.content = content;
+    return course;
   }
 
   void finish(std::size_t i, RunResult& result) {
     const auto samples = samples_of(at_.samples, samples_read_, at_.plan.frequencies[i].loading.frequency);
     samples_read_ += samples.size();
     auto& frequencies = std::get<SteppedCyclic>(result.found).frequencies;
-    frequencies.push_back(finished(at_.plan, i, samples, at_.seconds[i], scene_.solver.tolerance));
-    SteppedFrequency& f = frequencies.back();
-    f.temperature_c = scene_.materials.temperature;
+    SteppedFrequency& f = frequencies.emplace_back(finished(scene_, at_.plan, i, samples, at_.seconds[i]));
     judge(f, stiffest_contact(scene_, prepared_.network, f.frequency_hz), scene_.solver.tolerance, result.warnings);
   }
 
@@ -291,7 +234,6 @@ class Steps : public Solution {
   const Watcher& watcher_;
   Inertia inertia_;
   RunState at_;
-  std::optional<FieldOutput> fields_;
   std::unique_ptr<Stepper> stepper_;  ///< of the frequency that runs, or is to run first
   bool used_ = false;                 ///< it has run one
   std::size_t samples_read_ = 0;      ///< of finished frequencies

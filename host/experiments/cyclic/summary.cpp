@@ -5,6 +5,7 @@
 
 #include "host/experiments/cyclic/frequency_summary.hpp"
 #include "host/experiments/experiment.hpp"
+#include "host/experiments/stepped/settings.hpp"
 
 namespace macadam {
 
@@ -38,6 +39,7 @@ Json begun(const Frequency& f, const char* method, double residual, const Scene&
   Json out = {{"frequency_hz", f.frequency_hz},
               {"e_star_pa", f.stiffness.e_star_pa},
               {"phase_deg", f.stiffness.phase_deg},
+              {"modulus", f.confined ? "confined" : "uniaxial"},
               {"method", method},
               {"residual", residual},
               {"density_scaling", f.density_scaling},
@@ -102,18 +104,10 @@ void ResultOf<SteppedCyclic>::summarise(const SteppedCyclic& found, const Scene&
     steps += f.steps;
   }
   Json& solver = out["solver"];
-  if (!found.frequencies.empty()) solver["dt_s"] = found.frequencies.back().dt_s;
-  solver["steps"] = steps;
-  solver["precision"] = to_string(found.precision);
-  solver["form"] = to_string(found.form);
-  solver["geometry"] = to_string(found.geometry);
-  solver["damping"] = {{"kind", to_string(scene.solver.damping_kind)}, {"value", scene.solver.damping}};
+  add_settings(found, scene, run, steps,
+               found.frequencies.empty() ? std::nullopt : std::optional(found.frequencies.back().dt_s), solver);
   solver["strain_amplitude"] = scene.cyclic().strain_amplitude;
   solver["tolerance"] = scene.solver.tolerance ? Json(*scene.solver.tolerance) : Json();
-  solver["decisions"] = run.decisions;
-  solver["critical_particle"] = found.critical_particle;
-  solver["critical_dt_s"] = found.critical_dt_s;
-  solver["bytes"] = found.bytes;
 }
 
 template <>

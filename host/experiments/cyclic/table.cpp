@@ -20,8 +20,20 @@ bool warm(const std::vector<F>& frequencies) {
   return !frequencies.empty() && frequencies.front().temperature_c;
 }
 
-std::string heads(bool warm) {
-  return fmt::format("\n{}{:>8} {:>11} {:>9}", warm ? "   T (C) " : "", "f (Hz)", "|E*| (GPa)", "phi (deg)");
+template <class F>
+bool confined(const std::vector<F>& frequencies) {
+  return !frequencies.empty() && frequencies.front().confined;
+}
+
+/// What |E*| is the name of: the modulus of a specimen with free sides.
+const char* symbol(bool confined) { return confined ? "|M*|" : "|E*|"; }
+
+template <class F>
+std::string heads(const std::vector<F>& frequencies) {
+  const bool held = confined(frequencies);
+  return fmt::format("\n{}{}{:>8} {:>11} {:>9}", held ? "|M*|: confined modulus (the sides are held)\n" : "",
+                     warm(frequencies) ? "   T (C) " : "", "f (Hz)", fmt::format("{} (GPa)", symbol(held)),
+                     "phi (deg)");
 }
 
 std::string begun(const Frequency& f, bool warm) {
@@ -32,7 +44,7 @@ std::string begun(const Frequency& f, bool warm) {
 }  // namespace
 
 std::string frequency_table(const std::vector<HarmonicFrequency>& frequencies) {
-  std::string out = heads(warm(frequencies)) +
+  std::string out = heads(frequencies) +
                     fmt::format(" {:>9} {:>10} {:>11} {:>9}\n", "residual", "iterations", "held force", "time (s)");
   for (const HarmonicFrequency& f : frequencies) {
     out += begun(f, warm(frequencies)) +
@@ -49,16 +61,19 @@ std::string ResultOf<HarmonicCyclic>::table(const HarmonicCyclic& found) {
 template <>
 std::string ResultOf<SteppedCyclic>::table(const SteppedCyclic& found) {
   const bool known = !found.frequencies.empty() && found.frequencies.front().achieved;
-  std::string out = heads(warm(found.frequencies)) +
-                    fmt::format(" {:>11} {:>9} {:>9} {:>10} {:>9}\n", known ? "err |E*|" : "d|E*| cycle",
-                                known ? "err (rad)" : "d phi", "scaling", "steps", "time (s)");
+  const char* modulus = symbol(confined(found.frequencies));
+  std::string out =
+      heads(found.frequencies) + fmt::format(" {:>11} {:>9} {:>9} {:>10} {:>9}\n",
+                                             known ? fmt::format("err {}", modulus) : fmt::format("d{} cycle", modulus),
+                                             known ? "err (rad)" : "d phi", "scaling", "steps", "time (s)");
   for (const SteppedFrequency& f : found.frequencies) {
     const double e_star = f.achieved ? f.achieved->e_star : f.cyclic.change_e_star;
     const double phase = f.achieved ? f.achieved->phase_rad : f.cyclic.change_phase_deg;
     out += begun(f, warm(found.frequencies)) + fmt::format(" {:>11.1e} {:>9.1e} {:>9.5g} {:>10} {:>9.1f}\n", e_star,
                                                            phase, f.density_scaling, f.steps, f.seconds);
   }
-  if (known) out += "err: against the harmonic solution at true mass, |E*| relative, phi in radians\n";
+  if (known)
+    out += fmt::format("err: against the harmonic solution at true mass, {} relative, phi in radians\n", modulus);
   return out;
 }
 

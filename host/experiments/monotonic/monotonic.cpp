@@ -2,78 +2,69 @@
 // monotonic.cpp  Kind "monotonic": stress under a strain that grows evenly.
 #include <fmt/format.h>
 
-#include "host/experiments/experiment.hpp"
-#include "host/experiments/material_solution.hpp"
+#include "host/experiments/loaded/load_test.hpp"
 #include "host/experiments/read_points.hpp"
-#include "host/results/files.hpp"
+#include "macadam/drives/constant_rate.hpp"
 
 namespace macadam {
 
-using experiments::Material;
 using experiments::Monotonic;
-using experiments::MonotonicResult;
+using experiments::ResponsePoint;
 
 template <>
 Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
   using namespace scene;
-  constexpr Rule any{[](double v) { return v != 0; }, "a rate that is not 0"};
+  constexpr Rule rule{[](double v) { return v != 0; }, "a rate that is not 0"};
+  constexpr Rule any{[](double v) { return v != 0 && v > -1; }, "a strain above -1 that is not 0"};
+  constexpr int usual_points = 100;
   Monotonic out;
   Points times;
-  std::vector<Key> keys = times.keys("times", duration);
-  keys.insert(keys.end(),
-              {kind_key(), poisson_key(out.poisson_ratio), {"rate", Need::required, into(out.rate, scene::rate, any)}});
+  std::optional<double> strain;
+  std::vector<Key> keys = times.keys("times", duration, Need::optional);
+  keys.insert(keys.end(), {kind_key(),
+                           poisson_key(out.poisson_ratio),
+                           {"rate", Need::required, into(out.rate, scene::rate, rule)},
+                           {"strain", Need::optional, into(strain, ratio, any)}});
   section.read(keys);
-  out.times = times.all(section, "times", "s", "time");
+  if (!strain) {
+    if (!section.has("times")) section.refuse("times", "nothing", "times, or the strain at which the test ends");
+    out.times = times.all(section, "times", "s", "time");
+    return out;
+  }
+  for (const char* key : {"times", "points_per_decade"}) {
+    if (section.has(key)) section.refuse(key, std::string(key) + " beside strain", "one of them");
+  }
+  const double end = *strain / out.rate;
+  if (!(end > 0)) section.refuse("strain", fmt::format("{} at a rate of {} 1/s", *strain, out.rate), "the rate's sign");
+  const int points = times.evenly.value_or(usual_points);
+  for (int i = 1; i <= points; ++i) out.times.push_back(end * i / points);
+  return out;
+}
+
+LoadTest load_test(const Monotonic& spec) {
+  const double end = spec.times.back();
+  LoadTest out;
+  out.kind = spec.kind;
+  out.history = {spec.times, {{0, end}}};
+  out.poisson_ratio = spec.poisson_ratio;
+  out.load = {{"rate_1_s", spec.rate}};
+  out.grows = true;
+  out.strain = spec.rate * end;
+  out.unstepped = [spec](const Spectrum& spectrum, double t) -> ResponsePoint {
+    const double secant = spectrum.relaxation.after_ramp(t, t), strain = spec.rate * t;
+    return {t, strain, secant * strain, secant};
+  };
+  out.drive = [spec, end](double unit, double dt, double) {
+    return std::make_shared<drives::ConstantRate>(unit * spec.rate, dt, end);
+  };
   return out;
 }
 
 template <>
 std::unique_ptr<Solution> ExperimentOf<Monotonic>::plan(const Monotonic& spec, const Scene& scene,
                                                         const Preparation& prepared, const Watcher& watcher,
-                                                        std::optional<Resumed>, RunResult& result) {
-  const auto responds = [spec](const std::filesystem::path& out, Material material, RunResult& found) {
-    MonotonicResult r{std::move(material), {}};
-    std::string text =
-        fmt::format("# {}; error: of stress and modulus, relative\n", modulus_words(r.material.confined)) +
-        "time_s,strain,stress_pa,secant_pa,error\n";
-    for (const double t : spec.times) {
-      const double secant = r.material.spectrum.relaxation.after_ramp(t, t), strain = spec.rate * t;
-      r.points.push_back({t, strain, secant * strain, secant});
-      text += fmt::format("{},{},{},{},{:.2e}\n", t, strain, secant * strain, secant, r.material.error());
-    }
-    write_whole(out / "monotonic.csv", text);
-    found.found = std::move(r);
-  };
-  const History history{spec.times, {{0, spec.times.back()}}};
-  return plan_material(scene, prepared, watcher, result, history, spec.poisson_ratio, responds);
-}
-
-template <>
-void ResultOf<MonotonicResult>::summarise(const MonotonicResult& found, const Scene& scene, const RunResult&,
-                                          nlohmann::ordered_json& summary) {
-  const auto& spec = std::get<Monotonic>(scene.experiment);
-  nlohmann::ordered_json out = material_json(spec.kind, found.material);
-  out["rate_1_s"] = spec.rate;
-  for (const auto& p : found.points) {
-    out["points"].push_back(
-        {{"time_s", p.time_s}, {"strain", p.strain}, {"stress_pa", p.stress_pa}, {"secant_pa", p.secant_pa}});
-  }
-  summary["results"].push_back(std::move(out));
-}
-
-template <>
-double ResultOf<MonotonicResult>::seconds(const MonotonicResult& found) {
-  return found.material.seconds;
-}
-
-template <>
-std::string ResultOf<MonotonicResult>::table(const MonotonicResult& found) {
-  std::string out = fmt::format("\n{:>12} {:>12} {:>14} {:>14}\n", "t (s)", "strain", "stress (MPa)", "secant (MPa)");
-  for (const auto& p : found.points) {
-    out += fmt::format("{:>12.5g} {:>12.5g} {:>14.6g} {:>14.6g}\n", p.time_s, p.strain, p.stress_pa / 1e6,
-                       p.secant_pa / 1e6);
-  }
-  return out + material_lines(found.material);
+                                                        std::optional<Resumed> resumed, RunResult& result) {
+  return plan_load_test(load_test(spec), scene, prepared, watcher, std::move(resumed), result);
 }
 
 }  // namespace macadam

@@ -97,7 +97,6 @@ void ResultOf<SweepResult>::summarise(const SweepResult& found, const Scene& sce
     const auto e_star = std::polar(f.stiffness.e_star_pa, f.stiffness.phase_deg * std::numbers::pi / 180);
     point["storage_pa"] = e_star.real();
     point["loss_pa"] = e_star.imag();
-    point["modulus"] = scene.network.lateral_walls ? "confined" : "uniaxial";
     out["results"].push_back(std::move(point));
   }
 }

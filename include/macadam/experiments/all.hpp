@@ -8,6 +8,7 @@
 #include "macadam/experiments/cyclic.hpp"
 #include "macadam/experiments/monotonic.hpp"
 #include "macadam/experiments/relaxation.hpp"
+#include "macadam/experiments/response.hpp"
 #include "macadam/experiments/sweep.hpp"
 
 namespace macadam {
@@ -19,6 +20,6 @@ using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experim
 /// What they find, by the method that ran; none before.
 using ExperimentResult =
     std::variant<std::monostate, experiments::SteppedCyclic, experiments::HarmonicCyclic, experiments::SweepResult,
-                 experiments::RelaxationResult, experiments::CreepResult, experiments::MonotonicResult>;
+                 experiments::SpectrumResponse, experiments::SteppedResponse>;
 
 }  // namespace macadam

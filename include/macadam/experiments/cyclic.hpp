@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "macadam/backend.hpp"
 #include "macadam/experiments/frequency.hpp"
+#include "macadam/experiments/stepped.hpp"
 
 namespace macadam {
 
@@ -21,7 +21,7 @@ namespace experiments {
 /// `[loading]`, kind "cyclic". What is empty was not given: make_plan() decides it.
 struct Cyclic {
   static constexpr const char* kind = "cyclic";
-  static constexpr bool steps = true;                    ///< whether it may be stepped in time
+  static constexpr Stepping stepping = Stepping::usual;
   static constexpr std::array files = {"response.csv"};  ///< that a run may leave
 
   std::vector<double> frequencies;   ///< [Hz]
@@ -52,16 +52,8 @@ struct SteppedFrequency : Frequency {
 };
 
 /// By method "explicit".
-struct SteppedCyclic {
+struct SteppedCyclic : Stepped {
   std::vector<SteppedFrequency> frequencies;
-  double seconds_planning = 0;  ///< wall time before the first stepper, harmonic solutions included; resumed runs: that
-                                ///< of the run that was interrupted
-  ContactForm form = ContactForm::condensed;  ///< that ran, likewise the next two
-  Geometry geometry = Geometry::updated;
-  Precision precision = Precision::double_;
-  std::int64_t bytes = 0;               ///< Stepper::bytes()
-  std::int32_t critical_particle = -1;  ///< the particle that sets the critical step
-  double critical_dt_s = 0;             ///< the critical step at true mass
 };
 
 /// By method "harmonic".

@@ -23,6 +23,7 @@ struct Frequency {
   double frequency_hz = 0;
   std::optional<double> temperature_c;  ///< where the scene has one
   Stiffness stiffness;                  ///< the result, from the reaction of the top wall
+  bool confined = false;                ///< the sides were held: it is a confined modulus
   double density_scaling = 1;           ///< of the inertia that is in the result
   double seconds = 0;                   ///< wall time of the solution
   std::string fault;                    ///< what of it cannot be right; empty where nothing is known to be wrong

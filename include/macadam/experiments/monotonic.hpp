@@ -5,30 +5,20 @@
 #include <array>
 #include <vector>
 
-#include "macadam/experiments/material.hpp"
+#include "macadam/experiments/stepped.hpp"
 
 namespace macadam::experiments {
 
 /// `[loading]`, kind "monotonic".
 struct Monotonic {
   static constexpr const char* kind = "monotonic";
-  static constexpr bool steps = false;  ///< whether it may be stepped in time
+  static constexpr Stepping stepping = Stepping::if_asked;
   static constexpr std::array files = {"monotonic.csv", "prony.csv", "kelvin.csv", "prony_abaqus.inp",
                                        "prony_ansys.txt"};
 
   double rate = 0;            ///< of the strain [1/s], tension positive
   std::vector<double> times;  ///< from the beginning [s], rising
   double poisson_ratio = 0;   ///< for the tables of finite-element programs
-};
-
-struct MonotonicPoint {
-  double time_s, strain, stress_pa;
-  double secant_pa;  ///< stress over strain
-};
-
-struct MonotonicResult {
-  Material material;
-  std::vector<MonotonicPoint> points;
 };
 
 }  // namespace macadam::experiments

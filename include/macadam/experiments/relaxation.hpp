@@ -5,14 +5,14 @@
 #include <array>
 #include <vector>
 
-#include "macadam/experiments/material.hpp"
+#include "macadam/experiments/stepped.hpp"
 
 namespace macadam::experiments {
 
 /// `[loading]`, kind "relaxation".
 struct Relaxation {
   static constexpr const char* kind = "relaxation";
-  static constexpr bool steps = false;  ///< whether it may be stepped in time
+  static constexpr Stepping stepping = Stepping::if_asked;
   static constexpr std::array files = {"relaxation.csv", "prony.csv", "kelvin.csv", "prony_abaqus.inp",
                                        "prony_ansys.txt"};
 
@@ -20,16 +20,6 @@ struct Relaxation {
   double ramp = 0;            ///< over which it grows evenly [s]; 0: at once
   std::vector<double> times;  ///< from the beginning of the ramp [s], rising
   double poisson_ratio = 0;   ///< for the tables of finite-element programs
-};
-
-struct RelaxationPoint {
-  double time_s, strain, stress_pa;
-  double modulus_pa;  ///< E(t), after a step
-};
-
-struct RelaxationResult {
-  Material material;
-  std::vector<RelaxationPoint> points;
 };
 
 }  // namespace macadam::experiments

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "macadam/experiments/frequency.hpp"
+#include "macadam/experiments/stepped.hpp"
 
 namespace macadam::experiments {
 
 /// `[loading]`, kind "sweep": steady states, each frequency at each temperature.
 struct Sweep {
   static constexpr const char* kind = "sweep";
-  static constexpr bool steps = false;                ///< whether it may be stepped in time
+  static constexpr Stepping stepping = Stepping::never;
   static constexpr std::array files = {"sweep.csv"};  ///< that a run may leave
 
   std::vector<double> frequencies;   ///< [Hz], rising

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // skips.cpp  Says what is skipped; the skipping itself is where the arrays are made (kernels/contact_data.hpp).
-#include "host/experiments/cyclic/skips.hpp"
+#include "host/experiments/stepped/skips.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
 
 #include "host/experiments/cyclic/error_model.hpp"
 
@@ -24,10 +26,11 @@ std::pair<std::string, std::int64_t> pairs_that(const Scene& scene, const Prepar
 
 }  // namespace
 
-std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, const Plan& plan) {
+std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, ContactForm form, Geometry geometry,
+                             std::optional<double> strain) {
   constexpr const char* none = "none: same bits";
   const bool reference = scene.solver.backend == Backend::reference;
-  const bool fixed = plan.geometry == Geometry::fixed;
+  const bool fixed = geometry == Geometry::fixed;
   std::vector<Skip> out;
   const auto [unitless, unitless_count] = pairs_that(scene, prepared, [](const auto& law) { return law.units() == 0; });
   if (unitless_count > 0) {
@@ -50,12 +53,12 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, co
                    "first moments below 1e-12 are taken as 0"});
   }
   if (fixed) {
-    out.push_back(
-        {"geometry update", "normals and lever arms are those of the start",
-         fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
-                     fixed_geometry_error(scene.cyclic().strain_amplitude), scene.cyclic().strain_amplitude)});
+    out.push_back({"geometry update", "normals and lever arms are those of the start",
+                   strain ? fmt::format("at most about {:.0e} of |E*| at a strain of {:g}",
+                                        fixed_geometry_error(std::abs(*strain)), *strain)
+                          : "grows as the square of the strain: see docs/accuracy.md"});
   }
-  if (scene.network.quadrature == Quadrature::one_point && plan.form == ContactForm::points) {
+  if (scene.network.quadrature == Quadrature::one_point && form == ContactForm::points) {
     out.push_back({"second moments", "a facet has one point: three chains in place of six", "rounding"});
   }
   if (const auto n = prepared.network.dropped_area; n > 0) {
@@ -68,10 +71,6 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, co
   }
   if (!scene.network.lateral_walls)
     out.push_back({"lateral walls", "the sides are free", "free sides, as the scene has them"});
-  if (!scene.output.response) {
-    out.push_back(
-        {"observation", "response.csv is not asked for: only the fitted cycles and the one before are observed", none});
-  }
   if (!scene.output.contacts) out.push_back({"contacts.csv", "not asked for", none});
   return out;
 }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// choose_precision.cpp  The least precision whose rounding is a small share of the tolerance, where that was measured.
+#include "host/experiments/cyclic/choose_precision.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/experiments/cyclic/error_model.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr double precision_share = 0.05;  ///< of the tolerance
+
+}  // namespace
+
+void choose_precision(const Scene& scene, const Preparation& prepared, Plan& plan) {
+  const bool reference = scene.solver.backend == Backend::reference;
+  if (scene.solver.precision || !scene.solver.tolerance || reference) {
+    plan.precision = scene.solver.precision.value_or(Precision::double_);
+    return;
+  }
+  const auto decide = [&]<class... Args>(fmt::format_string<Args...> text, Args&&... args) {
+    plan.decisions.push_back(fmt::format(text, std::forward<Args>(args)...));
+  };
+  double single = 0, mixed = 0;
+  std::string beyond_single, beyond_mixed;
+  for (std::size_t i = 0; i < plan.frequencies.size(); ++i) {
+    const FrequencyPlan& f = plan.frequencies[i];
+    const RoundingScale scale = rounding_scale(scene, prepared, scene.cyclic().frequencies[i],
+                                               f.cycles * f.loading.steps_per_period, f.density_scaling);
+    single = std::max(single, single_precision_error(scale));
+    mixed = std::max(mixed, mixed_precision_error(scale));
+    if (beyond_single.empty()) beyond_single = beyond(scale, single_measured);
+    if (beyond_mixed.empty()) beyond_mixed = beyond(scale, mixed_measured);
+  }
+  const double share = precision_share * *scene.solver.tolerance;
+  plan.precision = single <= share && beyond_single.empty() ? Precision::single
+                   : mixed <= share && beyond_mixed.empty() ? Precision::mixed
+                                                            : Precision::double_;
+  decide(
+      "precision {}: estimated differences from double: single {:.1e}, mixed {:.1e}; no bounds: what was measured is "
+      "at "
+      "most {:.1e} (up to {:.1e} steps) and {:.1e} (up to {:.1e})",
+      to_string(plan.precision), single, mixed, single_measured.largest,
+      static_cast<double>(single_measured.up_to.steps), mixed_measured.largest,
+      static_cast<double>(mixed_measured.up_to.steps));
+  if (!beyond_single.empty()) decide("not single precision, which was not measured so far: {}", beyond_single);
+  if (!beyond_mixed.empty()) decide("not mixed precision, which was not measured so far: {}", beyond_mixed);
+}
+
+}  // namespace macadam

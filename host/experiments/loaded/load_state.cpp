@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// load_state.cpp  Plan, times and points as text and an array.
+#include "host/experiments/loaded/load_state.hpp"
+
+#include "host/simulation/checkpoints.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+using experiments::SteppedPoint;
+
+// JSON's numbers are the shortest that give the same double again; all of these are finite.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadPlan, form, geometry, precision, critical, density_scaling, damping_kind,
+                                   damping, ramp, platen_mass, dt, decisions)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, seconds_planning, seconds, warnings)
+
+namespace {
+
+constexpr const char *plan_text = "plan", *points_array = "points";
+constexpr std::size_t point_words = 8;
+
+}  // namespace
+
+LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file) {
+  const auto damaged = [&](const std::string& what) {
+    throw InputError(file.string(), 0, "checkpoint", what, "what this version writes");
+  };
+  LoadState out;
+  try {
+    out = nlohmann::json::parse(checkpoint.texts[plan_text]).get<LoadState>();
+  } catch (const nlohmann::json::exception& error) { damaged(error.what()); }
+  out.state = take_state(checkpoint);
+  for (const StateArray& array : checkpoint.arrays) {
+    const auto* values = std::get_if<std::vector<double>>(&array.values);
+    if (array.name != points_array) continue;
+    if (!values || values->size() % point_words != 0) damaged("array " + array.name + " of another kind");
+    for (std::size_t i = 0; i < values->size(); i += point_words) {
+      const double* w = &(*values)[i];
+      out.points.push_back({{w[0], w[1], w[2], w[3]}, w[4], w[5], w[6], w[7]});
+    }
+  }
+  if (out.state.empty()) damaged("no state");
+  return out;
+}
+
+void add_to(Checkpoint& out, const LoadState& at) {
+  out.texts[plan_text] = nlohmann::json(at).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::vector<double> points;
+  for (const SteppedPoint& p : at.points) {
+    points.insert(points.end(),
+                  {p.time_s, p.strain, p.stress_pa, p.ratio, p.top_pa, p.bottom_pa, p.kinetic_j, p.error});
+  }
+  out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1", std::move(points)});
+}
+
+}  // namespace macadam

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// step_load.cpp  A load of the top wall, stepped from point to point.
+#include "host/experiments/loaded/step_load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "host/experiments/loaded/load_state.hpp"
+#include "host/experiments/stepped/course.hpp"
+#include "host/experiments/stepped/settings.hpp"
+#include "host/experiments/stepped/skips.hpp"
+#include "host/results/files.hpp"
+#include "host/simulation/phases.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+using experiments::SteppedPoint;
+using experiments::SteppedResponse;
+
+namespace {
+
+/// More steps, or more seconds, than anybody asks for unawares.
+constexpr std::int64_t many_steps = 100'000'000;
+constexpr double many_seconds = 3600;
+/// Walls that differ by more are no equilibrium.
+constexpr double largest_difference = 1e-2;
+
+double kinetic_energy(const ParticleState& p, const Inertia& inertia) {
+  double out = 0;
+  for (std::size_t i = 0; i < p.velocity.size(); ++i) {
+    out += 0.5 * (inertia.mass[i] * dot(p.velocity[i], p.velocity[i]) + inertia.inertia[i] * dot(p.spin[i], p.spin[i]));
+  }
+  return out;
+}
+
+class SteppedLoad : public Solution {
+ public:
+  SteppedLoad(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+              Inertia inertia, LoadState at, bool resumed)
+      : test_(test),
+        scene_(scene),
+        prepared_(prepared),
+        watcher_(watcher),
+        inertia_(std::move(inertia)),
+        at_(std::move(at)),
+        owns_checkpoint_(resumed) {}
+
+  /// Makes the stepper: what it refuses is refused before a file is touched.
+  void make(RunResult& result, const std::filesystem::path& checkpoint) {
+    const InPhase in(result.phases, &PhaseSeconds::stepper);
+    const LoadPlan& p = at_.plan;
+    StepperOptions options = stepper_options(scene_.solver, p.form, p.geometry, p.precision);
+    options.damping_kind = p.damping_kind;
+    options.damping = p.damping;
+    options.density_scaling = p.density_scaling;
+    options.dt = p.dt;
+    options.boundary = boundary_of(test_, p, prepared_.specimen.box);
+    drive_ = options.boundary.wall[wall_index(wall_z_hi)].axis[2].drive;
+    const std::vector<StateArray> state = std::exchange(at_.state, {});
+    try {
+      stepper_ = stepper_from(state, result.backend, scene_, prepared_, inertia_, options);
+    } catch (const Error& error) {
+      if (!state.empty()) throw InputError(checkpoint.string() + ": checkpoint of another machine: " + error.what());
+      throw;
+    }
+  }
+
+  /// What is known before the first step.
+  void begin(RunResult& result) {
+    const LoadPlan& p = at_.plan;
+    result.decisions = p.decisions;
+    result.skips = find_skips(scene_, prepared_, p.form, p.geometry, test_.strain);
+    result.warnings = at_.warnings;
+    result.solver = stepper_->description();
+    SteppedResponse& found = result.found.emplace<SteppedResponse>();
+    found.form = p.form;
+    found.geometry = p.geometry;
+    found.precision = p.precision;
+    found.bytes = stepper_->bytes();
+    found.critical_particle = p.critical.particle;
+    found.critical_dt_s = p.critical.dt;
+    found.seconds_planning = at_.seconds_planning;
+    found.kind = test_.kind;
+    found.confined = scene_.network.lateral_walls;
+    found.ramp_s = p.ramp;
+    found.platen_mass_kg = p.platen_mass;
+    found.density_scaling = p.density_scaling;
+    found.damping_kind = p.damping_kind;
+    found.damping = p.damping;
+    found.dt_s = p.dt;
+    found.steps = p.step_at(test_.history.times.back());
+  }
+
+  /// Says how long it will be, if that is long.
+  void foretell() const {
+    const std::int64_t steps = at_.plan.step_at(test_.history.times.back());
+    if (steps > many_steps && watcher_.warn) {
+      watcher_.warn(fmt::format("{} steps of {:.3g} s until {:g} s: {}", steps, at_.plan.dt, test_.history.times.back(),
+                                fewer_steps()));
+    }
+  }
+
+  void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) override {
+    auto& found = std::get<SteppedResponse>(result.found);
+    Courses courses(scene_, prepared_, watcher_, result, out, owns_checkpoint_, [&](const std::string& warning) {
+      at_.warnings.push_back(warning);
+      result.warnings.push_back(warning);
+      if (watcher_.warn) watcher_.warn(warning);
+    });
+    const LoadWords& words = words_of(test_.kind);
+    LineWriter writer(out / words.file, head(words));
+    for (const SteppedPoint& p : at_.points) writer.add(line(words, p));
+    save("running");
+    const auto start = Clock::now();
+    const double before = at_.seconds;
+    const Course course = course_of(
+        [&](const SteppedPoint& point) {
+          at_.points.push_back(point);
+          writer.add(line(words, point));
+        },
+        [&](Checkpoint& to) {
+          at_.seconds = before + seconds_since(start);
+          add_to(to, at_);
+        });
+    courses.begin_fields(test_.kind, static_cast<int>(test_.history.times.size()), stepper_->observe().time);
+    const auto finish = [&] {
+      found.points = at_.points;
+      found.seconds = before + seconds_since(start);
+      found.kinetic_share = kinetic_share(found);
+      owns_checkpoint_ = courses.own_checkpoint();
+    };
+    try {
+      courses.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
+    } catch (...) {
+      finish();
+      throw;
+    }
+    finish();
+    judge(found, result.warnings);
+  }
+
+  bool owns_checkpoint() const override { return owns_checkpoint_; }
+
+ private:
+  std::string head(const LoadWords& words) const {
+    return fmt::format(
+        "# {}, stepped in time; {}: of this strain and stress; error: largest difference of load and walls' stresses, "
+        "relative\n{},error,{}bottom_pa,kinetic_j",
+        modulus_words(scene_.network.lateral_walls), words.ratio, csv_head(words), test_.by_stress ? "top_pa," : "");
+  }
+  std::string line(const LoadWords& words, const SteppedPoint& p) const {
+    return fmt::format("{},{:.2e},{}{},{}", csv_line(words, p), p.error,
+                       test_.by_stress ? fmt::format("{},", p.top_pa) : "", p.bottom_pa, p.kinetic_j);
+  }
+
+  /// Sample 0 is the start, for the fields; the others are the points.
+  Course course_of(std::function<void(const SteppedPoint&)> add, Content content) {
+    const std::vector<double>& times = test_.history.times;
+    Course course;
+    course.name = test_.kind;
+    course.dt = at_.plan.dt;
+    course.first = stepper_->observe().step == 0 ? 0 : static_cast<std::int64_t>(at_.points.size()) + 1;
+    course.last = static_cast<std::int64_t>(times.size());
+    course.step_of = [this, &times](std::int64_t k) {
+      return k == 0 ? 0 : at_.plan.step_at(times[static_cast<std::size_t>(k - 1)]);
+    };
+    course.taken = [](std::int64_t k) { return k > 0; };
+    course.take = [this, add](std::int64_t k, const Observation& now) {
+      if (k > 0) add(point(now));
+    };
+    course.shown = [this](std::int64_t step, double steps_a_second) {
+      return fmt::format("{}, t = {:.4g} s of {:g}, {:.0f} steps/s", test_.kind,
+                         static_cast<double>(step) * at_.plan.dt, test_.history.times.back(), steps_a_second);
+    };
+    course.content = std::move(content);
+    course.foretold = [this](double seconds) {
+      if (seconds > many_seconds && watcher_.warn) {
+        watcher_.warn(fmt::format("the steps take about {:.1f} h more; {}", seconds / 3600, fewer_steps()));
+      }
+    };
+    return course;
+  }
+
+  SteppedPoint point(const Observation& now) const {
+    const Vec3d& box = prepared_.specimen.box.size;
+    const double area = box.x * box.y, load = drive_->value(now.step) / area + 0.0;  // no −0
+    SteppedPoint out{};
+    out.time_s = now.time;
+    out.strain = now.top_displacement() / box.z;
+    out.top_pa = -now.top_force() / area;  // particles pull a wall that moves away from them
+    out.bottom_pa = now.wall_force[wall_index(wall_z_lo)].z / area;
+    out.kinetic_j = at_.plan.density_scaling * kinetic_energy(stepper_->particles(), inertia_);
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    if (test_.by_stress) {
+      const double height = std::abs(held_stress());
+      out.stress_pa = load;
+      out.ratio = test_.release && now.time > *test_.release + 0.5 * at_.plan.dt ? none : out.strain / load;
+      out.error = std::max({std::abs(load - out.top_pa), std::abs(load - out.bottom_pa),
+                            std::abs(out.top_pa - out.bottom_pa)}) /
+                  height;
+    } else {
+      out.stress_pa = out.top_pa;
+      out.ratio = out.stress_pa / out.strain;
+      const double larger = std::max(std::abs(out.top_pa), std::abs(out.bottom_pa));
+      out.error = larger > 0 ? std::abs(out.top_pa - out.bottom_pa) / larger : 0;
+    }
+    return out;
+  }
+
+  double held_stress() const {
+    const Vec3d& box = prepared_.specimen.box.size;
+    return drive_->value(at_.plan.step_at(at_.plan.ramp)) / (box.x * box.y);
+  }
+
+  double kinetic_share(const SteppedResponse& found) const {
+    double kinetic = 0, strain = 0, stress = 0;
+    for (const SteppedPoint& p : found.points) {
+      kinetic = std::max(kinetic, p.kinetic_j);
+      strain = std::max(strain, std::abs(p.strain));
+      stress = std::max(stress, std::abs(p.stress_pa));
+    }
+    const double work = 0.5 * strain * stress * prepared_.specimen.box.volume();
+    return work > 0 ? kinetic / work : 0;
+  }
+
+  static std::string fewer_steps() {
+    return "density_scaling takes fewer, method = \"harmonic\" none at all where all laws are linear";
+  }
+
+  /// Whoever reads the points must know where they are of no specimen in equilibrium.
+  void judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
+    const auto worst = std::max_element(found.points.begin(), found.points.end(),
+                                        [](const auto& a, const auto& b) { return a.error < b.error; });
+    if (worst == found.points.end() || worst->error <= largest_difference) return;
+    warnings.push_back(fmt::format(
+        "at t = {:.4g} s load and walls' stresses differ by {:.1f} %: waves or damping are in the result there; less "
+        "density_scaling, a longer ramp or later times have less of them",
+        worst->time_s, 100 * worst->error));
+  }
+
+  const LoadTest test_;
+  const Scene& scene_;
+  const Preparation& prepared_;
+  const Watcher& watcher_;
+  Inertia inertia_;
+  LoadState at_;
+  std::shared_ptr<const Drive> drive_;
+  std::unique_ptr<Stepper> stepper_;
+  bool owns_checkpoint_;
+};
+
+}  // namespace
+
+std::unique_ptr<Solution> plan_load_steps(const LoadTest& test, const Scene& scene, const Preparation& prepared,
+                                          const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result) {
+  const InPhase planning(result.phases, &PhaseSeconds::planning);
+  const auto start = Clock::now();
+  Inertia inertia = make_inertia(prepared.specimen, scene.materials.aggregate, scene.materials.mastic);
+  LoadState at;
+  if (resumed) {
+    at = to_load_state(std::move(resumed->checkpoint), resumed->file);
+  } else {
+    at.plan = make_load_plan(test, scene, prepared, inertia);
+    at.seconds_planning = seconds_since(start);
+  }
+  auto steps = std::make_unique<SteppedLoad>(test, scene, prepared, watcher, std::move(inertia), std::move(at),
+                                             resumed.has_value());
+  steps->foretell();
+  steps->make(result, resumed ? resumed->file : std::filesystem::path());
+  steps->begin(result);
+  return steps;
+}
+
+}  // namespace macadam

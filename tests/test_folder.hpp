@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file test_folder.hpp  A folder of a test's own, with the small specimen in it, and a disk that is full.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "test_files.hpp"
+
+namespace macadam::test {
+
+/// A folder with the specimen t8, gone after the test.
+class TestFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / fmt::format("macadam_test_{}", getpid());  // tests of a process take turns
+    fs::create_directories(folder_);
+    fs::copy_file(MACADAM_TEST_DATA "/t8.csv", folder_ / "t8.csv");
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// A scene of the 175 particles; the specimen's path is relative to it.
+  fs::path write_t8(const std::string& loading, const std::string& solver, const std::string& output = "") const {
+    write(folder_ / "scene.toml", "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n[loading]\n" + loading +
+                                      "[solver]\n" + solver + (output.empty() ? "" : "[output]\n" + output) +
+                                      am1_contacts);
+    return folder_ / "scene.toml";
+  }
+  fs::path out(const std::string& name) const { return folder_ / name; }
+
+  /// Runs until `stop` was asked for the `asked`-th time after planning; 0: to the end. Whether it was interrupted.
+  bool run_until(const Scene& scene, const std::string& name, int asked, bool resume = false) const {
+    Watcher watcher;
+    int count = 0;
+    bool planned = false;
+    watcher.planned = [&](const RunResult&) { planned = true; };
+    watcher.stop = [&] { return planned && asked > 0 && ++count >= asked; };
+    try {
+      run(scene, out(name), watcher, resume);
+      return false;
+    } catch (const InterruptedError& error) {
+      EXPECT_HAS(error.what(), "--resume");
+      EXPECT_HAS(error.what(), (out(name) / "checkpoint.h5").string());
+      EXPECT_TRUE(fs::exists(out(name) / "checkpoint.h5"));
+      return true;
+    }
+  }
+
+  fs::path folder_;
+};
+
+/// No file of this process may grow beyond so many bytes while this lives: a full disk.
+class FileLimit {
+ public:
+  explicit FileLimit(rlim_t bytes) {
+    signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+
+ private:
+  rlimit before_{};
+};
+
+}  // namespace macadam::test
