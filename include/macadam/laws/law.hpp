@@ -13,12 +13,6 @@
 ///   - `template <class F> void each_key(F&& f)` — calls f(key, member, ValueKind, ValueNeed) for each modulus and
 ///     viscosity, a double or a std::vector<double>: what a scene may say of it, in the order of the names below;
 ///   - `double instantaneous() const` — stiffness of an infinitely fast displacement [Pa], for the critical step;
-///   - `std::complex<double> stiffness(std::complex<double> s) const` — exact stiffness [Pa] for motions as e^(s·t);
-///     s = iω for the steady state at ω [1/s];
-///   - `template <class F> void each_parameter(std::complex<double> s, F&& f) const` — calls f(name, ∂ln k*/∂ln θ) for
-///     each parameter θ of the stiffness, by its symbol in docs/model.md ("E_m", "C_1");
-///   - `std::complex<double> unit_compliance(int l, std::complex<double> s) const` — x_l per unit of f [1/Pa], for l
-///     below units();
 ///   - `template <class R> struct Step` — coefficients of one time step in precision R, made by
 ///     `template <class R> Step<R> step(double dt) const` (computed in double, then rounded once), with
 ///     `template <int L, class S, class Units> S advance(S f, S dx, Units&& x) const` — returns f(t+Δt) for the
@@ -29,8 +23,15 @@
 /// All of the following may be absent:
 ///   - `std::optional<LawFault> fault() const` — what its values, each good by itself, fail to satisfy together;
 ///   - `static constexpr bool linear = false` — f is no linear function of the history of x. Such a law is stepped by
-///     contact points only, and has no place in the frequency domain: no stiffness(), each_parameter(),
-///     unit_compliance().
+///     contact points only, and has no place in the frequency domain;
+///   - what the frequency domain asks for, all three or none (the trait `has_stiffness` of facts.hpp; a scene whose law
+///     has none is refused there by name, and may be stepped):
+///     `std::complex<double> stiffness(std::complex<double> s) const` — exact stiffness [Pa] for motions as e^(s·t);
+///     s = iω for the steady state at ω [1/s];
+///     `template <class F> void each_parameter(std::complex<double> s, F&& f) const` — calls f(name, ∂ln k*/∂ln θ) for
+///     each parameter θ of the stiffness, by its symbol in docs/model.md ("E_m", "C_1");
+///     `std::complex<double> unit_compliance(int l, std::complex<double> s) const` — x_l per unit of f [1/Pa], for l
+///     below units();
 ///   - `static constexpr int only_units` — units(), where it is always the same number;
 ///   - `struct Block` — (without it a device takes two kernels a step) M steps taken as one block in which f changes
 ///   little, made by
