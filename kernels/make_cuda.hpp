@@ -18,6 +18,7 @@ template <class P, class Any>
 std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNetwork& network,
                                       const std::array<std::optional<Any>, pair_types>& laws, const Inertia& inertia,
                                       const StepperOptions& options, std::unique_ptr<Stepper> used) {
+  require_steppable(std::type_identity<Any>{});
   StepperOptions given = options;
   given.device = options.device.value_or(0);
   if constexpr (!std::is_same_v<P, DoublePrecision> && any_has_blocks(std::type_identity<Any>{})) {

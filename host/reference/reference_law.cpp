@@ -30,7 +30,7 @@ ReferenceLaw read(const laws::GeneralisedKelvin& law, const std::string& pair) {
     throw InputError("law of pair " + pair, 0, "Kelvin units", fmt::format("{} E and {} C", law.E.size(), law.C.size()),
                      "as many of each");
   }
-  ReferenceLaw out{law.E_m, law.C_m, {}, law.alpha};
+  ReferenceLaw out{law.E_m, law.C_m, {}, law.alpha, {}};
   for (std::size_t l = 0; l < law.E.size(); ++l) {
     require(std::isfinite(law.E[l]) && law.E[l] >= 0, pair, "E of a Kelvin unit", law.E[l],
             "a modulus of at least 0 Pa");

@@ -40,7 +40,6 @@ struct Elastic {
     MACADAM_HD S value(S x) const {
       return S(E) * x;
     }
-    MACADAM_HD int units() const { return 0; }
     template <int L, class S, class Units>
     MACADAM_HD S advance(S f, S dx, Units&&) const {
       return f + S(E) * dx;  // Eq. 9

@@ -23,7 +23,8 @@ struct LawFacts {
   double shortest_time = std::numeric_limits<double>::infinity();  ///< [s]
   int units = 0;                                                   ///< state numbers a component besides f
   int only_units = -1;                                             ///< that the compiler knows of; −1: any
-  bool memoryless = false, linear = true, blocks = false;          ///< see law.hpp
+  bool memoryless = false, linear = true, blocks = false;          ///< see law.hpp, likewise the next two
+  bool coupled = false;                                            ///< normal and shear of a point together
   bool stiffness = true;                                           ///< has a place in the frequency domain
 };
 
@@ -40,6 +41,12 @@ constexpr bool is_linear() {
 }
 template <class L>
 inline constexpr bool linear_law = is_linear<L>();
+template <class Step>
+inline constexpr bool coupled_step = requires {
+  requires Step::coupled;
+};
+template <class L>
+inline constexpr bool coupled_law = coupled_step<typename L::template Step<double>>;
 /// Whether it has all that the frequency domain asks for.
 template <class L>
 inline constexpr bool has_stiffness = linear_law<L>&& requires(const L& law, std::complex<double> s,
@@ -66,8 +73,8 @@ constexpr int units_of() {
 
 template <class L>
 LawFacts facts_of(const L& law) {
-  return {L::name,       law.alpha,         law.instantaneous(), law.shortest_time(), law.units(),
-          units_of<L>(), memoryless_law<L>, linear_law<L>,       has_blocks<L>,       has_stiffness<L>};
+  return {L::name,           law.alpha,     law.instantaneous(), law.shortest_time(), law.units(),     units_of<L>(),
+          memoryless_law<L>, linear_law<L>, has_blocks<L>,       coupled_law<L>,      has_stiffness<L>};
 }
 
 /// Of each pair that has a law.

@@ -93,7 +93,6 @@ struct GeneralisedKelvin {
     R recover[max_units];     ///< 1 − b_l/a_l                  [1]
     R compliance[max_units];  ///< Δt/(2·a_l·η_l)               [1/Pa]
     int n;
-    MACADAM_HD int units() const { return n; }
 
     template <int L, class S, class Units>
     MACADAM_HD S advance(S f, S dx, Units&& x) const {
