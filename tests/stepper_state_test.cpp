@@ -77,6 +77,9 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
   check("slow load", slow);
   scene_.laws = general_laws(scene_.laws, 5);
   check("laws of five units", options_);
+  if (options_.form != ContactForm::points) return;
+  scene_.laws.fill(laws::BrittleBond{2e10, 3e4, 2e4, 0.3});
+  check("bonds, many of them broken", options_);
 }
 
 /// Any complex motion, for a start of no particular meaning.
