@@ -61,6 +61,26 @@ TEST(Drives, ConstantRateAndTable) {
   EXPECT_THROW(drives::Table(0.25, {1, 2, 3}, {5, 6}), InputError);
 }
 
+TEST(Drives, HaversinePulsesWithRest) {
+  const double dt = 1e-3, height = -2e-6;
+  const drives::Haversine load(height, dt, 40, 160, 3);
+  expect_rates_of(load, 700, std::abs(height));
+  for (const int pulse : {0, 1, 2}) {
+    const std::int64_t begin = 200 * pulse;
+    EXPECT_EQ(load.value(begin), 0);
+    EXPECT_NEAR(load.value(begin + 10), height / 2, 1e-12 * std::abs(height));  // ½·(1 − cos 90°)
+    EXPECT_EQ(load.value(begin + 20), height);
+    EXPECT_NEAR(load.value(begin + 33), height / 2 * (1 - std::cos(2 * std::numbers::pi * 33 / 40)), 1e-18);
+    for (const int resting : {40, 41, 120, 199}) EXPECT_EQ(load.value(begin + resting), 0) << resting;
+    EXPECT_EQ(load.rate(begin + 40), 0);
+    EXPECT_EQ(load.value(begin + 20), load.value(20)) << "the last pulse is the first, to the bit";
+  }
+  for (const std::int64_t outside : {std::int64_t{-1}, std::int64_t{-20}, std::int64_t{620}, std::int64_t{1} << 60})
+    EXPECT_EQ(load.value(outside), 0) << outside;
+  EXPECT_EQ(drives::Haversine(3, dt, 40, 0).value(20 + 40 * (std::int64_t{1} << 50)), 3) << "for ever, without rest";
+  EXPECT_DOUBLE_EQ(load.shortest_time(), 0.04);
+}
+
 class DrivenWalls : public BackendTest<StepperCase> {
  protected:
   /// Motion of particles and walls, and forces on walls, against the reference.
@@ -139,6 +159,19 @@ TEST_P(DrivenWalls, UnderForcesWithFixedParticlesAndWeight) {
   options.boundary.fixed = {3, 17};
   for (const double m : of.inertia.mass) options.boundary.body_force.push_back({0, 100 * m, -981 * m});
   compare(of, options, 150);
+}
+
+// The usual load of the laboratory: pulses, and rests between them.
+TEST_P(DrivenWalls, UnderHaversinePulses) {
+  const TestScene of = scene(test_seed() + 4);
+  StepperOptions options = shaking_options(of);
+  options.boundary = {};
+  double mass = 0;
+  for (const double m : of.inertia.mass) mass += m;
+  const double area = of.specimen.box.size.x * of.specimen.box.size.y, size = of.specimen.box.size.x;
+  options.boundary.load(wall_z_hi, 2, std::make_shared<drives::Haversine>(-1e6 * area, options.dt, 40, 30), mass);
+  options.boundary.move(wall_x_lo, 0, std::make_shared<drives::Haversine>(3e-4 * size, options.dt, 60, 20, 1));
+  compare(of, options, 120);  // within the second pulse of the platen, and after the only one of the side
 }
 
 // In blocks of steps as well, where a device takes them
