@@ -33,3 +33,10 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
 }
 
 }  // namespace macadam::kernels
+
+/// Compiles the steppers of a list of laws, by its name, in one of the precisions of kernels/precision.hpp.
+#define MACADAM_CUDA_STEPPER(P, Any)                                                                   \
+  template std::unique_ptr<macadam::Stepper> macadam::kernels::make_cuda_in<macadam::kernels::P, Any>( \
+      const macadam::Specimen&, const macadam::ContactNetwork&,                                        \
+      const std::array<std::optional<Any>, macadam::pair_types>&, const macadam::Inertia&,             \
+      const macadam::StepperOptions&, std::unique_ptr<macadam::Stepper>)
