@@ -173,6 +173,7 @@ class ExecCpu {
   std::vector<double> wall_displacements() const {
     return {displacement_.end() - walls * displacement_words, displacement_.end()};
   }
+  std::vector<R> wall_velocities() const { return {master_.end() - walls * velocity_words, master_.end()}; }
   void set_displacements(const std::vector<double>& u) { std::copy(u.begin(), u.end(), displacement_.begin()); }
   void set_velocities(const std::vector<R>& v) {
     std::copy(v.begin(), v.end(), master_.begin());

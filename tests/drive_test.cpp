@@ -95,6 +95,7 @@ class DrivenWalls : public BackendTest<StepperCase> {
     const bool blocks = backend == Backend::cuda && precision != Precision::double_ && form == ContactForm::condensed &&
                         kernels::block_steps(options, facts_of(scene.laws), scene.specimen.box.size) > 0;
     EXPECT_EQ(stepper->description().find("tiles") != std::string::npos, blocks) << stepper->description();
+    for (const Vec3d& v : stepper->observe().wall_velocity) EXPECT_EQ(norm(v), 0);
     reference->advance(steps);
     stepper->advance(steps / 3);
     stepper->advance(steps - steps / 3);
@@ -110,6 +111,7 @@ class DrivenWalls : public BackendTest<StepperCase> {
     const Observation want = reference->observe(), have = stepper->observe();
     const auto list = [](const auto& array) { return std::vector<Vec3d>(array.begin(), array.end()); };
     EXPECT_LT(relative_difference(list(have.wall_force), list(want.wall_force)), tolerance);
+    EXPECT_LT(relative_difference(list(have.wall_velocity), list(want.wall_velocity)), tolerance);
     // a cyclic drive's rates add up to its value to second order in the step
     EXPECT_LT(relative_difference(list(have.wall_displacement), list(want.wall_displacement)), 1e-4);
   }

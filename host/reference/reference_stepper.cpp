@@ -77,6 +77,7 @@ class ReferenceStepper : public Stepper {
     out.time = static_cast<double>(step_) * options_.dt;
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       out.wall_displacement[w] = to_vec3(walls_[w].displacement);
+      out.wall_velocity[w] = to_vec3(walls_[w].velocity);
       out.wall_force[w] = to_vec3(walls_[w].force);
     }
     return out;
