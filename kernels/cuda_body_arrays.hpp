@@ -177,8 +177,9 @@ class CudaBodyArrays {
                                      inverse_.bytes());
   }
   std::int64_t held_bytes() const {
-    return group_bytes_ + static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() +
-                                                    velocity_.bytes() + rows_.place.bytes());
+    return group_bytes_ +
+           static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() + velocity_.bytes() +
+                                     rows_.place.bytes() + weight_.bytes() + wall_rows_.bytes());
   }
 
   static std::vector<Twist<R>> twists(const std::vector<R>& words) {

@@ -212,9 +212,10 @@ class ExecCpu {
   std::vector<KernelUse> kernels() const { return {}; }
   std::int64_t traffic() const { return bytes() + state_bytes_; }
   std::int64_t bytes() const {
-    return bytes_ + static_cast<std::int64_t>((sums_.size() + master_.size()) * sizeof(R) +
-                                              displacement_.size() * sizeof(double) +
-                                              velocity_.size() * sizeof(typename P::Geometry));
+    return bytes_ +
+           static_cast<std::int64_t>((sums_.size() + master_.size() + inverse_.size() + weight_.size()) * sizeof(R) +
+                                     (displacement_.size() + wall_table_.size()) * sizeof(double) +
+                                     velocity_.size() * sizeof(typename P::Geometry));
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "kernels/block_length.hpp"
+#include "kernels/wall_motion.hpp"
 #include "stepper_cases.hpp"
 #include "test_networks.hpp"
 
@@ -268,6 +269,21 @@ TEST(FixedParticles, StayWhereTheyAreWhateverTheirVelocityWasSetTo) {
     EXPECT_EQ(norm(state.rotation[2]), 0);
     EXPECT_GT(norm(state.displacement[3]), 0);
   }
+}
+
+// The weights and the walls' table are held for the step too.
+TEST(SteppersBytes, CountWeightsAndTheWallsTable) {
+  const TestScene scene = make_scene(random_specimen(6));
+  StepperOptions options;
+  options.dt = 1e-8;
+  const auto bytes = [&] {
+    return make_stepper(Backend::cpu, scene.specimen, scene.network, scene.laws, scene.inertia, options)->bytes();
+  };
+  const std::int64_t bare = bytes(), particles = static_cast<std::int64_t>(scene.specimen.size());
+  options.boundary.body_force.resize(scene.specimen.size());
+  EXPECT_EQ(bytes() - bare, 4 * 8 * particles);
+  options.boundary.move(wall_z_hi, 2, std::make_shared<drives::Ramp>(1e-6, options.dt, 5));
+  EXPECT_EQ(bytes() - bare, 4 * 8 * particles + 8 * kernels::WallTable::most_rows);
 }
 
 // A platen on an elastic contact: λ = E·A/(d·m), and the step is √(2/λ).
