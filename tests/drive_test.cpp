@@ -320,6 +320,16 @@ TEST(BoundaryInput, IsRefusedByName) {
       std::string::npos);
   EXPECT_NE(message(Boundary().move(wall_y_lo, 0, nullptr)).find("no drive"), std::string::npos);
   EXPECT_NE(message(Boundary().load(wall_z_hi, 2, ramp, 0)).find("mass"), std::string::npos);
+  Boundary platen;
+  platen.load(wall_z_hi, 2, ramp, 1e-6).load(wall_z_hi, 0, ramp, 1e-6).load(wall_x_hi, 0, ramp, 3);
+  EXPECT_EQ(message(platen), "accepted");
+  try {
+    platen.load(wall_z_hi, 1, ramp, 2e-6);
+    ADD_FAILURE() << "a platen has one mass";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "boundary: wall +z: mass: found 2e-06 kg, expected 1e-06 kg, as was said with its axis x");
+  }
   EXPECT_NE(
       message(Boundary().move(wall_x_hi, 0,
                               std::make_shared<drives::Table>(1e-7, std::vector{0.0, 1.0}, std::vector{1e-6, 2e-6})))
