@@ -2,6 +2,10 @@
 // device_test.cpp  Which CUDA device runs, and which a build has code for.
 #include <gtest/gtest.h>
 
+#ifdef MACADAM_CUDA
+#include <cuda_runtime_api.h>
+#endif
+
 #include "kernels/device_code.hpp"
 #include "kernels/make_stepper.hpp"
 #include "test_files.hpp"

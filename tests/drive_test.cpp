@@ -177,6 +177,40 @@ TEST_P(DrivenWalls, UnderHaversinePulses) {
   compare(of, options, 120);  // within the second pulse of the platen, and after the only one of the side
 }
 
+// A wall whose contacts are more than those that one thread adds up on a device.
+TEST_P(DrivenWalls, APlatenOnManyParticles) {
+  const TestScene of = make_scene(random_specimen(test_seed() + 5, 9, 9, 2));
+  std::int64_t on_top = 0;
+  for (const Contact& c : of.network.contacts) on_top += c.b == wall_z_hi;
+  ASSERT_GT(on_top, 64);
+  StepperOptions options = shaking_options(of);
+  options.boundary = {};
+  const double area = of.specimen.box.size.x * of.specimen.box.size.y;
+  options.boundary.load(wall_z_hi, 2, std::make_shared<drives::Ramp>(-1e5 * area, options.dt, 50), 1e-3);
+  compare(of, options, 100);
+}
+
+// Longer than the piece of the walls' table that a stepper makes at once.
+TEST_P(DrivenWalls, OverMoreStepsThanOnePieceOfTheTable) {
+  const std::int64_t piece = kernels::WallTable::most_rows;
+  const TestScene of = make_scene(random_specimen(test_seed() + 6, 2, 2, 2));
+  StepperOptions options = shaking_options(of);
+  options.damping_kind = Damping::viscous;
+  options.damping = 1e4;
+  options.boundary = {};
+  const double size = of.specimen.box.size.z, area = of.specimen.box.size.x * of.specimen.box.size.y;
+  // each does something in the second piece that it did not do in the first
+  const auto steps = [&](std::int64_t k) { return static_cast<double>(k) * options.dt; };
+  options.boundary.move(wall_z_lo, 2,
+                        std::make_shared<drives::Table>(options.dt, std::vector{0.0, steps(piece), steps(2 * piece)},
+                                                        std::vector{0.0, 1e-5 * size, -2e-5 * size}));
+  options.boundary.load(wall_z_hi, 2,
+                        std::make_shared<drives::Table>(options.dt, std::vector{0.0, steps(piece), steps(2 * piece)},
+                                                        std::vector{0.0, 1e5 * area, -2e5 * area}),
+                        1e-4);
+  compare(of, options, piece + 300);
+}
+
 // In blocks of steps as well, where a device takes them
 TEST_P(DrivenWalls, FixedParticlesAndWeightUnderASlowDrive) {
   const TestScene of = scene(test_seed() + 2);
