@@ -28,9 +28,9 @@ struct ParticleMotion {
   using R = typename P::Particle;
   BodyView<P> body;
   Damping damping;
-  R chi;          ///< local damping
-  R keep, drive;  ///< of viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2); 1 and 1 without
-  double dt;      ///< [s]
+  R chi;         ///< local damping
+  R keep, gain;  ///< of viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2); 1 and 1 without
+  double dt;     ///< [s]
   WallMotion wall;
 
   /// v ← v + Δt·(F + F_d)/m, u ← u + Δt·v for a particle, likewise its spin and rotation; walls do what row k of their
@@ -98,7 +98,7 @@ struct ParticleMotion {
       const R drag = chi * (f < 0 ? -f : f);  // F_d = −χ·|F|·sign(v)
       f -= v > 0 ? drag : v < 0 ? -drag : R(0);
     }
-    return keep * v + drive * inverse * f;
+    return keep * v + gain * inverse * f;
   }
 };
 

@@ -56,7 +56,7 @@ struct Elastic {
     double rate, relax, follow;
     void settled_as(const Block&) {}
     template <int L, class Units>
-    MACADAM_HD double drive(double, Units&&) const {
+    MACADAM_HD double drift(double, Units&&) const {
       return 0;
     }
     template <int L, class Units>

@@ -48,9 +48,9 @@
 ///     `Block block(double dt, int M) const` (all double): members `rate`, `relax`, `follow`, `static constexpr int
 ///     most_units`, `void settled_as(const Block& before)`, which takes what settle() needs from the block that ends,
 ///     and functions
-///     `template <int L, class Units> double drive(double f, Units&& x) const` and
+///     `template <int L, class Units> double drift(double f, Units&& x) const` and
 ///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
-///     follows δf' = δf + rate·dx + drive + follow·s − relax·δf, with the drive of f and x(l) at its beginning and s
+///     follows δf' = δf + rate·dx + drift + follow·s − relax·δf, with the drift of f and x(l) at its beginning and s
 ///     the sum of δf' + δf over its steps so far; at its end settle() takes Σ (f' + f) and updates x(l): model (6.8)
 ///     and (6.9). What is neglected is of second order in the block's length and has no mean over it.
 /// S is a number or, on the CPU, a packet of them, so a law has no branches: select() chooses.
