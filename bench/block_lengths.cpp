@@ -43,7 +43,7 @@ struct Element {
       const double start = f[c];
       f[c] = block ? start + change[c] : rate * at[c];
       if (block && steps > 0) block->settle<-1>(2.0 * steps * start + sum[c], unit);
-      if (block) drive[c] = block->drive<-1>(f[c], unit);
+      if (block) drive[c] = block->drift<-1>(f[c], unit);
       change[c] = sum[c] = 0;
     }
   }

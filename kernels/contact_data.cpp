@@ -51,7 +51,7 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
     word(n_x) = static_cast<Geo>(c.n.x);
     word(n_y) = static_cast<Geo>(c.n.y);
     word(n_z) = static_cast<Geo>(c.n.z);
-    if (options.geometry == Geometry::updated) word(distance) = static_cast<Geo>(c.distance);
+    if (shape.geometry_words > distance) word(distance) = static_cast<Geo>(c.distance);
     if (!real) return;
     word(arm_a) = static_cast<Geo>(c.arm_a);
     word(arm_b) = static_cast<Geo>(c.arm_b);

@@ -18,7 +18,7 @@
 
 namespace macadam::kernels {
 
-/// Words of ContactView::geometry, in order. `distance` is only kept where the geometry is updated.
+/// Words of ContactView::geometry, in order. `distance` is only kept where the geometry is updated or the law coupled.
 enum GeometryWord { n_x, n_y, n_z, arm_a, arm_b, moment_0, distance = moment_0 + 6 };
 /// Words of one row of ContactView::points.
 enum PointWord { point_s, point_t, point_weight, point_words };
@@ -82,11 +82,11 @@ struct GroupShape {
         slots(group.contact.size()),
         lanes(static_cast<std::size_t>(layout.lanes)),
         rows(by_points ? group.packet_row.back() : group.packets()) {
-    const bool shear = law.alpha != 0 || !options.skip_shear, turns = !options.skip_rotations;
+    const bool shear = law.alpha != 0 || !options.skip_shear || law.coupled, turns = !options.skip_rotations;
     view.by_points = by_points;
     view.alpha = static_cast<typename P::Geometry>(law.alpha);
     view.packets = static_cast<std::uint32_t>(group.packets());
-    view.geometry_words = options.geometry == Geometry::updated ? distance + 1 : distance;
+    view.geometry_words = options.geometry == Geometry::updated || law.coupled ? distance + 1 : distance;
     view.frame_words = options.geometry == Geometry::updated ? tangent_words<typename P::State> : 0;
     view.components = by_points ? (shear ? 3 : 1) : shear ? 6 : turns ? 3 : 1;
     view.units = law.units;

@@ -32,6 +32,9 @@ struct ContactForces {
   static constexpr Geometry geometry_of = geometry;
   /// Whether f follows from the displacements of now: no state is read or written.
   static constexpr bool stateless = LawStep::memoryless && geometry == Geometry::fixed;
+  /// Whether the components of a contact point are advanced together.
+  static constexpr bool coupled = coupled_step<LawStep>;
+  static_assert(!coupled || (form == ContactForm::points && Units >= 0), "a coupled law is stepped by points");
   /// What a contact computes in. A force that follows from the displacement alone is rounded in the same way whenever
   /// the particles come back to the same place. Such errors do not average out, and energy drifts. So this force is
   /// computed as precisely as a state.
@@ -86,7 +89,10 @@ struct ContactForces {
       for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
       return to_centres(now, condensed_load(density, T(view.alpha), m));
     } else {
-      return to_centres(now, points_load(item, packet, u));
+      if constexpr (coupled)
+        return to_centres(now, coupled_points_load(item, packet, u, word(distance)));
+      else
+        return to_centres(now, points_load(item, packet, u));
     }
   }
 
@@ -160,18 +166,59 @@ struct ContactForces {
       const T s = of(point_s), t = of(point_t), weight = of(point_weight);
       typename P::State* chain = view.chain + static_cast<std::size_t>(row) * chain_words() * item.lanes();
       const T n = weight * advance(item, u[0] + s * u[1] + t * u[2], chain);
-      load.n += n;
-      load.moment_s += t * n;
-      load.moment_t -= s * n;
-      if (view.components == 1) continue;
-      const T shear = T(view.alpha) * weight;
-      const T along_s = shear * advance(item, u[3] - t * u[5], chain + chain_stride(item));
-      const T along_t = shear * advance(item, u[4] + s * u[5], chain + 2 * chain_stride(item));
-      load.s += along_s;
-      load.t += along_t;
-      load.moment_n += s * along_t - t * along_s;
+      T along_s(0), along_t(0);
+      if (view.components == 3) {
+        const T shear = T(view.alpha) * weight;
+        along_s = shear * advance(item, u[3] - t * u[5], chain + chain_stride(item));
+        along_t = shear * advance(item, u[4] + s * u[5], chain + 2 * chain_stride(item));
+      }
+      add_point(load, s, t, n, along_s, along_t);
     }
     return load;
+  }
+
+  /// The same of a law that takes the components of a point together; `d`: the contact's distance.
+  template <class Item, class T>
+  MACADAM_HD FacetLoad<T> coupled_points_load(const Item& item, std::uint32_t packet, const T (&u)[6],
+                                              const T& d) const {
+    using S = typename Item::template Value<typename P::State>;
+    const auto of = [&](const T& x) { return item.template convert<typename P::State>(x); };
+    FacetLoad<T> load{T(0), T(0), T(0), T(0), T(0), T(0)};
+    for (std::uint32_t row = view.packet_row[packet]; row < view.packet_row[packet + 1]; ++row) {
+      const auto* point = view.points + static_cast<std::size_t>(row) * point_words * item.lanes();
+      const auto word = [&](std::size_t w) { return item.template convert<Work>(item.load(point + w * item.lanes())); };
+      const T s = word(point_s), t = word(point_t), weight = word(point_weight);
+      const S dx[3] = {of(u[0] + s * u[1] + t * u[2]) * S(dt), of(u[3] - t * u[5]) * S(dt),
+                       of(u[4] + s * u[5]) * S(dt)};
+      typename P::State* chain = view.chain + static_cast<std::size_t>(row) * chain_words() * item.lanes();
+      const auto place = [&](int c, int l) {
+        return chain + static_cast<std::size_t>(c * (1 + Units) + l) * item.lanes();
+      };
+      S state[3][1 + Units];
+      for (int c = 0; c < 3; ++c) {
+        for (int l = 0; l <= Units; ++l) state[c][l] = item.load(place(c, l));
+      }
+      law.advance_point(dx, of(d), [&](int c, int l) -> S& { return state[c][l]; });
+      for (int c = 0; c < 3; ++c) {
+        for (int l = 0; l <= Units; ++l) item.store(place(c, l), state[c][l]);
+      }
+      add_point(load, s, t, weight * item.template convert<Work>(state[0][0]),
+                T(view.alpha) * weight * item.template convert<Work>(state[1][0]),
+                T(view.alpha) * weight * item.template convert<Work>(state[2][0]));
+    }
+    return load;
+  }
+
+  /// Adds the forces of a point along n, ŝ and t̂.
+  template <class T>
+  MACADAM_HD static void add_point(FacetLoad<T>& load, const T& s, const T& t, const T& n, const T& along_s,
+                                   const T& along_t) {
+    load.n += n;
+    load.moment_s += t * n;
+    load.moment_t -= s * n;
+    load.s += along_s;
+    load.t += along_t;
+    load.moment_n += s * along_t - t * along_s;
   }
 
   /// Eq. 5–6 every step, docs/model.md, section 9: the normal from the displaced centres, x0 with half the change of

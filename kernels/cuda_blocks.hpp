@@ -44,7 +44,7 @@ struct SettleContact {
       frame = canonical_placement(n0, ::copysign(1.0, n0.z), word(arm_a), word(arm_b));
 
     double f[6] = {0, 0, 0, 0, 0, 0};
-    float drive[6] = {0, 0, 0, 0, 0, 0};
+    float drift[6] = {0, 0, 0, 0, 0, 0};
     if (!view.chain) {  // f follows from the displacements of now
       const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
       double x[6];
@@ -60,7 +60,7 @@ struct SettleContact {
       const double start = chain[0];
       f[c] = start + change[c];
       if (steps > 0) law.template settle<Units>(2.0 * steps * start + sum[c], unit);
-      drive[c] = static_cast<float>(law.template drive<Units>(f[c], unit));
+      drift[c] = static_cast<float>(law.template drift<Units>(f[c], unit));
       chain[0] = static_cast<State>(f[c]);
       for (int l = 0; l < units; ++l) chain[(1 + l) * 32] = static_cast<State>(x[l]);
     }
@@ -76,8 +76,8 @@ struct SettleContact {
       if (p == UINT32_MAX) continue;
       store_state(at(state, p, tile_states), none, none);
       float4* out = at(constant, p, tile_constants(carried));
-      out[tile_drive_a * 32] = {drive[0], drive[1], drive[2], drive[3]};
-      *reinterpret_cast<float2*>(out + tile_drive_b * 32) = {drive[4], drive[5]};
+      out[tile_drift_a * 32] = {drift[0], drift[1], drift[2], drift[3]};
+      *reinterpret_cast<float2*>(out + tile_drift_b * 32) = {drift[4], drift[5]};
       if constexpr (carried) {
         out[tile_normal * 32] = {float(frame.n.x), float(frame.n.y), float(frame.n.z), float(frame.arm_a)};
         out[tile_moment_a * 32].x = float(frame.arm_b);
@@ -96,7 +96,7 @@ struct SettleContact {
     return {w[0], w[1], w[2]};
   }
 
-  /// No drive, and the frame of the undeformed contact.
+  /// No drift, and the frame of the undeformed contact.
   __device__ void begin(std::uint32_t slot, uint2 place, float4* constant) const {
     const auto* g = view.geometry + static_cast<std::size_t>(slot / 32) * view.geometry_words * 32 + slot % 32;
     const auto word = [&](int k) { return static_cast<float>(g[k * 32]); };
@@ -104,8 +104,8 @@ struct SettleContact {
     for (const std::uint32_t p : {place.x, place.y}) {
       if (p == UINT32_MAX) continue;
       float4* out = at(constant, p, tile_constants(carried));
-      out[tile_drive_a * 32] = {0, 0, 0, 0};
-      *reinterpret_cast<float2*>(out + tile_drive_b * 32) = {0, 0};
+      out[tile_drift_a * 32] = {0, 0, 0, 0};
+      *reinterpret_cast<float2*>(out + tile_drift_b * 32) = {0, 0};
       if constexpr (carried) {
         out[tile_normal * 32] = {word(n_x), word(n_y), word(n_z), word(arm_a)};
         out[tile_moment_a * 32].x = word(arm_b);

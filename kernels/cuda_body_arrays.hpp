@@ -59,13 +59,8 @@ class CudaBodyArrays {
 
   std::vector<R> velocities() const { return master_.download(); }
   std::vector<double> displacements() const { return displacement_.download(); }
-  std::vector<double> wall_displacements() const {
-    std::vector<double> out(walls * displacement_words);
-    check_cuda(cudaMemcpy(out.data(), displacement_.data() + layout_.particles() * displacement_words,
-                          out.size() * sizeof(double), cudaMemcpyDeviceToHost),
-               "walls");
-    return out;
-  }
+  std::vector<double> wall_displacements() const { return of_walls(displacement_.data(), displacement_words); }
+  std::vector<R> wall_velocities() const { return of_walls(master_.data(), velocity_words); }
   void set_displacements(const std::vector<double>& u) { displacement_.upload(u.data()); }
   void set_velocities(const std::vector<R>& v) {
     master_.upload(v.data());
@@ -94,6 +89,16 @@ class CudaBodyArrays {
   /// What stays on the device where a stepper does.
   DeviceMotion device_motion() const {
     return {device_, sizeof(R) == 8, master_.data(), displacement_.data(), layout_.particle};
+  }
+
+ private:
+  template <class T>
+  std::vector<T> of_walls(const T* bodies, std::size_t words) const {
+    std::vector<T> out(walls * words);
+    check_cuda(
+        cudaMemcpy(out.data(), bodies + layout_.particles() * words, out.size() * sizeof(T), cudaMemcpyDeviceToHost),
+        "walls");
+    return out;
   }
 
  protected:
@@ -162,8 +167,9 @@ class CudaBodyArrays {
                                      inverse_.bytes());
   }
   std::int64_t held_bytes() const {
-    return group_bytes_ + static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() +
-                                                    velocity_.bytes() + rows_.place.bytes());
+    return group_bytes_ +
+           static_cast<std::int64_t>(master_.bytes() + displacement_.bytes() + inverse_.bytes() + velocity_.bytes() +
+                                     rows_.place.bytes() + weight_.bytes() + wall_rows_.bytes());
   }
 
   static std::vector<Twist<R>> twists(const std::vector<R>& words) {

@@ -66,7 +66,7 @@ class TileRunner {
       out[tile_moment_a * 32] = {word(arm_b), word(moment_0), word(moment_0 + 1), word(moment_0 + 2)};
       out[tile_moment_b * 32] = {word(moment_0 + 3), word(moment_0 + 4), word(moment_0 + 5),
                                  bits(c.local_a | static_cast<std::uint32_t>(c.local_b) << 16)};
-      out[tile_drive_b * 32] = {0, 0, bits(c.slot_a | static_cast<std::uint32_t>(c.slot_b) << 16),
+      out[tile_drift_b * 32] = {0, 0, bits(c.slot_a | static_cast<std::uint32_t>(c.slot_b) << 16),
                                 bits(g | std::min(c.wall_row, no_wall_row) << 4)};
     }
   }
@@ -115,7 +115,7 @@ class TileRunner {
     const auto words = [](auto* data) { return reinterpret_cast<float*>(data); };
     const std::size_t loads = (bodies_ + walls) * velocity_words;
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
-    add_device_state(states, "tile_drives", "Pa m, 1, m", words(constant_.data()), 4 * constant_.size(),
+    add_device_state(states, "tile_drifts", "Pa m, 1, m", words(constant_.data()), 4 * constant_.size(),
                      [this] { return order(tile_constants(carried_), words_of_block(carried_)); });
     add_device_state(states, "tile_states", "Pa m", words(scene_.state), 4 * state_count_, [this] {
       std::vector<std::uint64_t> all;
@@ -200,8 +200,8 @@ class TileRunner {
   /// Of a contact's constants, those that a block begins with.
   static std::vector<std::uint64_t> words_of_block(bool carried) {
     std::vector<std::uint64_t> out;
-    add_words(out, tile_drive_a, 4);
-    add_words(out, tile_drive_b, 2);
+    add_words(out, tile_drift_a, 4);
+    add_words(out, tile_drift_b, 2);
     if (!carried) return out;
     add_words(out, tile_normal, 4);
     add_words(out, tile_moment_a, 1);
@@ -301,7 +301,7 @@ class TileRunner {
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
       if (plan_.contact[i].group_slot != UINT32_MAX) continue;  // inert: adds nothing to nobody
       float4* out = &constants_[i / 32 * static_cast<std::size_t>(tile_constants(carried_)) * 32 + i % 32];
-      out[tile_drive_b * 32] = {0, 0, bits(UINT32_MAX), bits(no_wall_row << 4)};
+      out[tile_drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(no_wall_row << 4)};
     }
     scene_.tile = store_.keep(plan_.tile);
     scene_.body = store_.keep(plan_.body);

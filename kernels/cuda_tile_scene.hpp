@@ -2,7 +2,7 @@
 /// \file cuda_tile_scene.hpp  One step of a contact within a block of steps, and what a tile keeps in shared memory.
 ///
 /// Within a block of M steps a contact carries, for each of its six displacement components, the change δf of f since
-/// the block began and the sum of f' + f − 2F, in single precision; `drive` holds what the past still does. The loads
+/// the block began and the sum of f' + f − 2F, in single precision; `drift` holds what the past still does. The loads
 /// of the F at the block's beginning are part of the bodies' `base` loads. Chains are settled after every block
 /// (cuda_blocks.hpp).
 #pragma once
@@ -23,8 +23,8 @@ enum TileConstant {
   tile_normal,    ///< n, arm_a
   tile_moment_a,  ///< arm_b, moments 0…2
   tile_moment_b,  ///< moments 3…5, local_a | local_b << 16
-  tile_drive_a,   ///< drive of components 0…3
-  tile_drive_b,   ///< drive of components 4, 5, slot_a | slot_b << 16, group | wall row << 4
+  tile_drift_a,   ///< drift of components 0…3
+  tile_drift_b,   ///< drift of components 4, 5, slot_a | slot_b << 16, group | wall row << 4
   tile_tangent,   ///< s, –; updated geometry only
 };
 enum TileState { tile_change, tile_both, tile_sum, tile_states };  ///< δf 0…3; δf 4, 5, sum 0, 1; sum 2…5
@@ -61,7 +61,7 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const float4* consta
                                                             const float4* w, float (&change)[6], float (&sum)[6],
                                                             std::uint32_t& slots, std::uint32_t& group) {
   const float4 c0 = constant[tile_normal * 32], c1 = constant[tile_moment_a * 32], c2 = constant[tile_moment_b * 32];
-  const float4 c3 = constant[tile_drive_a * 32], c4 = constant[tile_drive_b * 32];
+  const float4 c3 = constant[tile_drift_a * 32], c4 = constant[tile_drift_b * 32];
   const auto locals = __float_as_uint(c2.w);
   slots = __float_as_uint(c4.z), group = __float_as_uint(c4.w);
   const float4 va = v[locals & 0xffff], wa = w[locals & 0xffff], vb = v[locals >> 16], wb = w[locals >> 16];
@@ -77,11 +77,11 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const float4* consta
   relative_rates(f, Twist<float>{{va.x, va.y, va.z}, {wa.x, wa.y, wa.z}},
                  Twist<float>{{vb.x, vb.y, vb.z}, {wb.x, wb.y, wb.z}}, u);
   const float4 l = law[group & 15];
-  const float drive[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
+  const float drift[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
 #pragma unroll
   for (int c = 0; c < 6; ++c) {
     const float before = change[c];
-    change[c] += l.x * u[c] + (drive[c] + l.w * sum[c] - l.y * before);
+    change[c] += l.x * u[c] + (drift[c] + l.w * sum[c] - l.y * before);
     sum[c] += change[c] + before;
   }
   const float moments[6] = {c1.y, c1.z, c1.w, c2.x, c2.y, c2.z};

@@ -31,6 +31,9 @@ class WallRowsOnDevice {
     return table_.data();
   }
 
+  /// On the device.
+  std::size_t bytes() const { return table_.bytes(); }
+
   /// Queues the rows behind all that the stream has.
   void put(const std::vector<R>& rows, cudaStream_t stream) {
     if (rows.empty()) return;

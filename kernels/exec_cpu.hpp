@@ -178,6 +178,7 @@ class ExecCpu {
   std::vector<double> wall_displacements() const {
     return {displacement_.end() - walls * displacement_words, displacement_.end()};
   }
+  std::vector<R> wall_velocities() const { return {master_.end() - walls * velocity_words, master_.end()}; }
   void set_displacements(const std::vector<double>& u) { std::copy(u.begin(), u.end(), displacement_.begin()); }
   void set_velocities(const std::vector<R>& v) {
     std::copy(v.begin(), v.end(), master_.begin());
@@ -216,9 +217,10 @@ class ExecCpu {
   std::vector<KernelUse> kernels() const { return {}; }
   std::int64_t traffic() const { return bytes() + state_bytes_; }
   std::int64_t bytes() const {
-    return bytes_ + static_cast<std::int64_t>((sums_.size() + master_.size()) * sizeof(R) +
-                                              displacement_.size() * sizeof(double) +
-                                              velocity_.size() * sizeof(typename P::Geometry));
+    return bytes_ +
+           static_cast<std::int64_t>(
+               (sums_.size() + master_.size() + inverse_.size() + weight_.size() + wall_table_.size()) * sizeof(R) +
+               displacement_.size() * sizeof(double) + velocity_.size() * sizeof(typename P::Geometry));
   }
 
  private:

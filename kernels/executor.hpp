@@ -52,6 +52,7 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
   { read.velocities() } -> std::same_as<std::vector<typename E::Policy::Particle>>;
   { read.displacements() } -> std::same_as<std::vector<double>>;
   { read.wall_displacements() } -> std::same_as<std::vector<double>>;
+  { read.wall_velocities() } -> std::same_as<std::vector<typename E::Policy::Particle>>;
   exec.set_velocities(words);
   exec.set_displacements(doubles);
   { read.first_divergent(doubles, double{}) } -> std::same_as<std::int64_t>;  // radii in specimen order, time step

@@ -9,9 +9,20 @@
 #include <variant>
 
 #include "kernels/contact_forces.hpp"
-#include "macadam/laws/facts.hpp"
+#include "macadam/laws/law.hpp"
 
 namespace macadam::kernels {
+
+/// Stops the compiler where a law is none.
+template <class L>
+struct Steppable {
+  static_assert(laws::SteppableLaw<L>,
+                "this law lacks a part of the contract of macadam/laws/law.hpp: the notes say which one");
+};
+template <class... L>
+constexpr void require_steppable(std::type_identity<std::variant<L...>>) {
+  (static_cast<void>(Steppable<L>{}), ...);
+}
 
 /// Calls f(std::integral_constant) with the `Units` of ContactForces that a law is stepped with.
 template <bool room_for_five, class L, class F>

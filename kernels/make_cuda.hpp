@@ -18,6 +18,7 @@ template <class P, class Any>
 std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNetwork& network,
                                       const std::array<std::optional<Any>, pair_types>& laws, const Inertia& inertia,
                                       const StepperOptions& options, std::unique_ptr<Stepper> used) {
+  require_steppable(std::type_identity<Any>{});
   StepperOptions given = options;
   given.device = options.device.value_or(0);
   if constexpr (!std::is_same_v<P, DoublePrecision> && any_has_blocks(std::type_identity<Any>{})) {
@@ -32,3 +33,10 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
 }
 
 }  // namespace macadam::kernels
+
+/// Compiles the steppers of a list of laws, by its name, in one of the precisions of kernels/precision.hpp.
+#define MACADAM_CUDA_STEPPER(P, Any)                                                                   \
+  template std::unique_ptr<macadam::Stepper> macadam::kernels::make_cuda_in<macadam::kernels::P, Any>( \
+      const macadam::Specimen&, const macadam::ContactNetwork&,                                        \
+      const std::array<std::optional<Any>, macadam::pair_types>&, const macadam::Inertia&,             \
+      const macadam::StepperOptions&, std::unique_ptr<macadam::Stepper>)

@@ -3,10 +3,4 @@
 // side.
 #include "kernels/make_cuda.hpp"
 
-namespace macadam::kernels {
-
-template std::unique_ptr<Stepper> make_cuda_in<MixedPrecision, Law>(const Specimen&, const ContactNetwork&,
-                                                                    const LawTable&, const Inertia&,
-                                                                    const StepperOptions&, std::unique_ptr<Stepper>);
-
-}  // namespace macadam::kernels
+MACADAM_CUDA_STEPPER(MixedPrecision, macadam::Law);

@@ -84,16 +84,23 @@ class StepperImpl final : public Stepper {
     out.step = step_;
     out.time = static_cast<double>(step_) * options_.dt;
     std::vector<double> moved;  // under forces: what they came to
-    if (motion_.wall.by_force) moved = exec_.wall_displacements();
+    std::vector<R> speed;
+    if (motion_.wall.by_force) moved = exec_.wall_displacements(), speed = exec_.wall_velocities();
     const auto forces = exec_.forces(static_cast<std::int32_t>(layout_.particles()), walls);
     for (std::size_t w = 0; w < walls; ++w) {
       const auto& f = forces[w].linear;
       out.wall_force[w] = {f.x, f.y, f.z};
       double* u[3] = {&out.wall_displacement[w].x, &out.wall_displacement[w].y, &out.wall_displacement[w].z};
+      double* v[3] = {&out.wall_velocity[w].x, &out.wall_velocity[w].y, &out.wall_velocity[w].z};
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const WallAxis& a = options_.boundary.wall[w].axis[axis];
-        if (a.by == DrivenBy::displacement) *u[axis] = a.drive->value(step_);
-        if (a.by == DrivenBy::force) *u[axis] = moved[w * displacement_words + axis];
+        if (a.by == DrivenBy::displacement) {
+          *u[axis] = a.drive->value(step_);
+          if (step_ > 0 || started_) *v[axis] = a.drive->rate(step_ - 1);
+        } else if (a.by == DrivenBy::force) {
+          *u[axis] = moved[w * displacement_words + axis];
+          *v[axis] = static_cast<double>(speed[w * velocity_words + axis]);
+        }
       }
     }
     return out;
@@ -274,7 +281,8 @@ class StepperImpl final : public Stepper {
                wall};
     for (std::size_t g = 0; g < layout_.groups.size(); ++g) set_group(network, g, laws, facts, first);
     exec_.prepare(motion_);
-    if (options.start) start_from(*options.start);
+    started_ = options.start != nullptr;
+    if (started_) start_from(*options.start);
     options_.start = nullptr;
   }
 
@@ -361,6 +369,7 @@ class StepperImpl final : public Stepper {
   ParticleMotion<P> motion_{};
   WallTable<R> wall_table_;
   std::int64_t step_ = 0;
+  bool started_ = false;  // in motion: from a step before the first
 };
 
 /// A used stepper begun anew where it suits, or a new one.

@@ -79,7 +79,7 @@ TEST(BlockLength, MayChangeFromABlockToTheNext) {
   };
   const auto drive = [&](const auto& block) {
     std::vector<double> x{1e-3, 2e-3, 3e-3};
-    return block.template drive<-1>(1e6, [&](int l) -> double& { return x[static_cast<std::size_t>(l)]; });
+    return block.template drift<-1>(1e6, [&](int l) -> double& { return x[static_cast<std::size_t>(l)]; });
   };
   EXPECT_EQ(settled(changed), settled(one));
   EXPECT_NE(settled(changed), settled(fifty));

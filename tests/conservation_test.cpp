@@ -184,8 +184,8 @@ TEST_P(FreeAssembly, EnergyOfElasticContactsStays) {
   EXPECT_LT(error, options.geometry == Geometry::fixed ? 10 * rounding * std::sqrt(steps) : 10 * strain);
 }
 
-/// Whatever moves as one body, by moves given step by step, creates no force. Masses are so large that the moves are
-/// kept whatever the forces.
+/// Whatever moves as one body, by moves given step by step, creates no force. Nothing can be fixed, as all of it moves;
+/// masses are so large that the moves are kept whatever the forces.
 class RigidMotion : public FreeAssembly {
  protected:
   TestScene heavy_assembly() const {

@@ -2,9 +2,14 @@
 // device_test.cpp  Which CUDA device runs, and which a build has code for.
 #include <gtest/gtest.h>
 
+#ifdef MACADAM_CUDA
+#include <cuda_runtime_api.h>
+#endif
+
 #include "kernels/device_code.hpp"
+#include "kernels/make_stepper.hpp"
 #include "test_files.hpp"
-#include "test_scenes.hpp"
+#include "stepper_cases.hpp"
 
 namespace macadam::test {
 namespace {
@@ -37,6 +42,84 @@ TEST(DeviceCode, MachineCodeServesItsGenerationAndVirtualCodeAllLater) {
         << c.list << " on " << c.major << "." << c.minor;
   }
 }
+
+TEST(OwnLaws, AreResolvedAsMacadamsAre) {
+  const TestScene scene = make_scene(random_specimen(1, 2, 2, 2));
+  StepperOptions options = shaking_options(scene);
+  const auto make = [&](Backend backend) {  // the kernels of Macadam's laws, as if they were a program's own
+    return make_stepper_of<Law, false, Precision::double_, Precision::mixed>(backend, scene.specimen, scene.network,
+                                                                             scene.laws, scene.inertia, options);
+  };
+  for (const Backend backend : {Backend::cpu, Backend::automatic}) {
+    EXPECT_HAS(make(backend)->description(), "cpu");  // it has no kernels for devices, whatever is there
+    EXPECT_HAS(make(backend)->description(), "double");
+  }
+  options.precision = Precision::mixed;
+  EXPECT_HAS(make(Backend::cpu)->description(), "mixed");
+  options.precision = Precision::single;
+  EXPECT_HAS(message_of([&] { make(Backend::cpu); }), "precision: found single, expected double or mixed");
+  EXPECT_HAS(message_of([&] { make(Backend::reference); }), "backend: found reference, expected cpu, cuda or auto");
+  EXPECT_THROW(make(Backend::reference), InputError);
+  EXPECT_THROW(make(Backend::cuda), RunError);
+  options.device = 0;
+  EXPECT_THROW(make(Backend::automatic), RunError);
+  EXPECT_THROW(make(Backend::cpu), InputError);
+}
+
+class Motion : public BackendTest<std::tuple<Backend, Precision>> {};
+
+// What lies on a device is what particles() tells, body by body; of the processor nothing is told.
+TEST_P(Motion, OnTheDeviceIsThatOfTheParticles) {
+  const TestScene scene = make_scene(random_specimen(4));
+  StepperOptions options = shaking_options(scene);
+  options.precision = std::get<Precision>(GetParam());
+  const auto stepper = make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, options);
+  stepper->advance(57);
+  const DeviceMotion motion = stepper->device_motion();
+  if (backend() == Backend::cpu) {
+    EXPECT_EQ(motion.velocity, nullptr);
+    EXPECT_EQ(motion.displacement, nullptr);
+    return;
+  }
+#ifdef MACADAM_CUDA
+  const std::size_t n = scene.specimen.size();
+  ASSERT_EQ(motion.particle.size(), n);
+  std::vector<double> u(8 * n), v(8 * n);
+  ASSERT_EQ(cudaSetDevice(motion.device), cudaSuccess);
+  ASSERT_EQ(cudaMemcpy(u.data(), motion.displacement, u.size() * sizeof(double), cudaMemcpyDeviceToHost), cudaSuccess);
+  if (motion.doubles) {
+    ASSERT_EQ(cudaMemcpy(v.data(), motion.velocity, v.size() * sizeof(double), cudaMemcpyDeviceToHost), cudaSuccess);
+  } else {
+    std::vector<float> single(v.size());
+    ASSERT_EQ(cudaMemcpy(single.data(), motion.velocity, single.size() * sizeof(float), cudaMemcpyDeviceToHost),
+              cudaSuccess);
+    v.assign(single.begin(), single.end());
+  }
+  EXPECT_EQ(motion.doubles, options.precision != Precision::single);
+  const ParticleState state = stepper->particles();
+  std::vector<int> seen(n, 0);
+  for (std::size_t b = 0; b < n; ++b) {
+    const auto i = static_cast<std::size_t>(motion.particle[b]);
+    ASSERT_LT(i, n);
+    ++seen[i];
+    const auto same = [&](const double* words, const Vec3d& of) {
+      EXPECT_EQ(words[0], of.x);
+      EXPECT_EQ(words[1], of.y);
+      EXPECT_EQ(words[2], of.z);
+    };
+    same(&u[8 * b], state.displacement[i]);
+    same(&u[8 * b + 4], state.rotation[i]);
+    same(&v[8 * b], state.velocity[i]);
+    same(&v[8 * b + 4], state.spin[i]);
+  }
+  EXPECT_EQ(seen, std::vector<int>(n, 1));
+#endif
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Motion,
+                         testing::Combine(all_backends(),
+                                          testing::Values(Precision::double_, Precision::mixed, Precision::single)),
+                         [](const auto& info) { return name_of_case(info); });
 
 TEST(DeviceChoice, BesideAnotherBackendIsRefused) {
   for (const Backend backend : {Backend::cpu, Backend::reference}) {

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "kernels/block_length.hpp"
+#include "kernels/wall_motion.hpp"
 #include "stepper_cases.hpp"
 #include "test_networks.hpp"
 
@@ -61,6 +62,26 @@ TEST(Drives, ConstantRateAndTable) {
   EXPECT_THROW(drives::Table(0.25, {1, 2, 3}, {5, 6}), InputError);
 }
 
+TEST(Drives, HaversinePulsesWithRest) {
+  const double dt = 1e-3, height = -2e-6;
+  const drives::Haversine load(height, dt, 40, 160, 3);
+  expect_rates_of(load, 700, std::abs(height));
+  for (const int pulse : {0, 1, 2}) {
+    const std::int64_t begin = 200 * pulse;
+    EXPECT_EQ(load.value(begin), 0);
+    EXPECT_NEAR(load.value(begin + 10), height / 2, 1e-12 * std::abs(height));  // ½·(1 − cos 90°)
+    EXPECT_EQ(load.value(begin + 20), height);
+    EXPECT_NEAR(load.value(begin + 33), height / 2 * (1 - std::cos(2 * std::numbers::pi * 33 / 40)), 1e-18);
+    for (const int resting : {40, 41, 120, 199}) EXPECT_EQ(load.value(begin + resting), 0) << resting;
+    EXPECT_EQ(load.rate(begin + 40), 0);
+    EXPECT_EQ(load.value(begin + 20), load.value(20)) << "the last pulse is the first, to the bit";
+  }
+  for (const std::int64_t outside : {std::int64_t{-1}, std::int64_t{-20}, std::int64_t{620}, std::int64_t{1} << 60})
+    EXPECT_EQ(load.value(outside), 0) << outside;
+  EXPECT_EQ(drives::Haversine(3, dt, 40, 0).value(20 + 40 * (std::int64_t{1} << 50)), 3) << "for ever, without rest";
+  EXPECT_DOUBLE_EQ(load.shortest_time(), 0.04);
+}
+
 class DrivenWalls : public BackendTest<StepperCase> {
  protected:
   /// Motion of particles and walls, and forces on walls, against the reference.
@@ -75,6 +96,7 @@ class DrivenWalls : public BackendTest<StepperCase> {
     const bool blocks = backend == Backend::cuda && precision != Precision::double_ && form == ContactForm::condensed &&
                         kernels::block_steps(options, facts_of(scene.laws), scene.specimen.box.size) > 0;
     EXPECT_EQ(stepper->description().find("tiles") != std::string::npos, blocks) << stepper->description();
+    for (const Vec3d& v : stepper->observe().wall_velocity) EXPECT_EQ(norm(v), 0);
     reference->advance(steps);
     stepper->advance(steps / 3);
     stepper->advance(steps - steps / 3);
@@ -90,6 +112,7 @@ class DrivenWalls : public BackendTest<StepperCase> {
     const Observation want = reference->observe(), have = stepper->observe();
     const auto list = [](const auto& array) { return std::vector<Vec3d>(array.begin(), array.end()); };
     EXPECT_LT(relative_difference(list(have.wall_force), list(want.wall_force)), tolerance);
+    EXPECT_LT(relative_difference(list(have.wall_velocity), list(want.wall_velocity)), tolerance);
     // a cyclic drive's rates add up to its value to second order in the step
     EXPECT_LT(relative_difference(list(have.wall_displacement), list(want.wall_displacement)), 1e-4);
   }
@@ -139,6 +162,53 @@ TEST_P(DrivenWalls, UnderForcesWithFixedParticlesAndWeight) {
   options.boundary.fixed = {3, 17};
   for (const double m : of.inertia.mass) options.boundary.body_force.push_back({0, 100 * m, -981 * m});
   compare(of, options, 150);
+}
+
+// The usual load of the laboratory: pulses, and rests between them.
+TEST_P(DrivenWalls, UnderHaversinePulses) {
+  const TestScene of = scene(test_seed() + 4);
+  StepperOptions options = shaking_options(of);
+  options.boundary = {};
+  double mass = 0;
+  for (const double m : of.inertia.mass) mass += m;
+  const double area = of.specimen.box.size.x * of.specimen.box.size.y, size = of.specimen.box.size.x;
+  options.boundary.load(wall_z_hi, 2, std::make_shared<drives::Haversine>(-1e6 * area, options.dt, 40, 30), mass);
+  options.boundary.move(wall_x_lo, 0, std::make_shared<drives::Haversine>(3e-4 * size, options.dt, 60, 20, 1));
+  compare(of, options, 120);  // within the second pulse of the platen, and after the only one of the side
+}
+
+// A wall whose contacts are more than those that one thread adds up on a device.
+TEST_P(DrivenWalls, APlatenOnManyParticles) {
+  const TestScene of = make_scene(random_specimen(test_seed() + 5, 9, 9, 2));
+  std::int64_t on_top = 0;
+  for (const Contact& c : of.network.contacts) on_top += c.b == wall_z_hi;
+  ASSERT_GT(on_top, 64);
+  StepperOptions options = shaking_options(of);
+  options.boundary = {};
+  const double area = of.specimen.box.size.x * of.specimen.box.size.y;
+  options.boundary.load(wall_z_hi, 2, std::make_shared<drives::Ramp>(-1e5 * area, options.dt, 50), 1e-3);
+  compare(of, options, 100);
+}
+
+// Longer than the piece of the walls' table that a stepper makes at once.
+TEST_P(DrivenWalls, OverMoreStepsThanOnePieceOfTheTable) {
+  const std::int64_t piece = kernels::WallTable::most_rows;
+  const TestScene of = make_scene(random_specimen(test_seed() + 6, 2, 2, 2));
+  StepperOptions options = shaking_options(of);
+  options.damping_kind = Damping::viscous;
+  options.damping = 1e4;
+  options.boundary = {};
+  const double size = of.specimen.box.size.z, area = of.specimen.box.size.x * of.specimen.box.size.y;
+  // each does something in the second piece that it did not do in the first
+  const auto steps = [&](std::int64_t k) { return static_cast<double>(k) * options.dt; };
+  options.boundary.move(wall_z_lo, 2,
+                        std::make_shared<drives::Table>(options.dt, std::vector{0.0, steps(piece), steps(2 * piece)},
+                                                        std::vector{0.0, 1e-5 * size, -2e-5 * size}));
+  options.boundary.load(wall_z_hi, 2,
+                        std::make_shared<drives::Table>(options.dt, std::vector{0.0, steps(piece), steps(2 * piece)},
+                                                        std::vector{0.0, 1e5 * area, -2e5 * area}),
+                        1e-4);
+  compare(of, options, piece + 300);
 }
 
 // In blocks of steps as well, where a device takes them
@@ -235,6 +305,21 @@ TEST(FixedParticles, StayWhereTheyAreWhateverTheirVelocityWasSetTo) {
   }
 }
 
+// The weights and the walls' table are held for the step too.
+TEST(SteppersBytes, CountWeightsAndTheWallsTable) {
+  const TestScene scene = make_scene(random_specimen(6));
+  StepperOptions options;
+  options.dt = 1e-8;
+  const auto bytes = [&] {
+    return make_stepper(Backend::cpu, scene.specimen, scene.network, scene.laws, scene.inertia, options)->bytes();
+  };
+  const std::int64_t bare = bytes(), particles = static_cast<std::int64_t>(scene.specimen.size());
+  options.boundary.body_force.resize(scene.specimen.size());
+  EXPECT_EQ(bytes() - bare, 4 * 8 * particles);
+  options.boundary.move(wall_z_hi, 2, std::make_shared<drives::Ramp>(1e-6, options.dt, 5));
+  EXPECT_EQ(bytes() - bare, 4 * 8 * particles + 8 * kernels::WallTable::most_rows);
+}
+
 // A platen on an elastic contact: λ = E·A/(d·m), and the step is √(2/λ).
 TEST(PlatenStep, IsCriticalWhereThePlatenIsLight) {
   const HandMade made = cubic_lattice_network(1, 1, 2, 2e-3, 2e-5);
@@ -269,6 +354,16 @@ TEST(BoundaryInput, IsRefusedByName) {
       std::string::npos);
   EXPECT_NE(message(Boundary().move(wall_y_lo, 0, nullptr)).find("no drive"), std::string::npos);
   EXPECT_NE(message(Boundary().load(wall_z_hi, 2, ramp, 0)).find("mass"), std::string::npos);
+  Boundary platen;
+  platen.load(wall_z_hi, 2, ramp, 1e-6).load(wall_z_hi, 0, ramp, 1e-6).load(wall_x_hi, 0, ramp, 3);
+  EXPECT_EQ(message(platen), "accepted");
+  try {
+    platen.load(wall_z_hi, 1, ramp, 2e-6);
+    ADD_FAILURE() << "a platen has one mass";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "boundary: wall +z: mass: found 2e-06 kg, expected 1e-06 kg, as was said with its axis x");
+  }
   EXPECT_NE(
       message(Boundary().move(wall_x_hi, 0,
                               std::make_shared<drives::Table>(1e-7, std::vector{0.0, 1.0}, std::vector{1e-6, 2e-6})))

@@ -203,6 +203,49 @@ TEST(HarmonicFields, AmplitudeAndPhaseAreThoseOfThePartsForAWallThatMovesAsACosi
   EXPECT_EQ(floats(arrays, "rotation_imag"), (std::vector<float>{0, 0, 2}));
 }
 
+// Forces that a uniform stress gives to all facets, ends of cells at the walls among them: every cell has that stress,
+// whatever its shape.
+TEST(SteppedFields, AUniformStressIsThatOfEveryCell) {
+  NetworkSpec spec;
+  spec.lateral_walls = true;
+  const TestScene scene = make_scene(random_specimen(test_seed()), spec);
+  const double xx = 3e5, yy = -1e5, zz = 2e6, xy = 4e5, yz = -7e5, xz = 5e4;
+  ContactState state;
+  for (const Contact& c : scene.network.contacts) {
+    const Vec3d &n = c.n, traction{xx * n.x + xy * n.y + xz * n.z, xy * n.x + yy * n.y + yz * n.z,
+                                   xz * n.x + yz * n.y + zz * n.z};
+    state.force.push_back(c.area * traction);
+  }
+  const FieldArray stress = stress_array(tessellate(scene.specimen), scene.network, state);
+  EXPECT_EQ(stress.components, 6);
+  EXPECT_EQ(stress.unit, "Pa");
+  const auto& found = std::get<std::vector<float>>(stress.values);
+  ASSERT_EQ(found.size(), 6 * scene.specimen.size());
+  const double expected[6] = {xx, yy, zz, xy, yz, xz};
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i % 6], 1e-6 * zz) << i;  // as a float
+}
+
+// At rest under a platen each cube of a lattice has the stress of the platen, in every geometry.
+TEST(SteppedFields, StressOfALatticeIsThatOfItsWalls) {
+  const double side = 2e-3, force = -3.0;
+  const HandMade made = cubic_lattice_network(2, 2, 3, side, 2e-5);
+  const Laws laws = same_law(laws::Elastic{3e9, 0});
+  StepperOptions options;
+  options.dt = 0.3 * critical_step(made.network, laws, made.inertia, options).dt;
+  options.damping_kind = Damping::local;
+  options.damping = 0.7;
+  options.boundary.load(wall_z_hi, 2, std::make_shared<drives::Ramp>(force, options.dt, 100), 1e-4);
+  const auto stepper = make_stepper(Backend::cpu, made.specimen, made.network, laws, made.inertia, options);
+  stepper->advance(6000);
+  const FieldArray stress = stress_array(tessellate(made.specimen), made.network, stepper->contacts(made.network));
+  const double expected = force / (4 * side * side);
+  for (std::size_t i = 0; i < made.specimen.size(); ++i) {
+    const float* one = &std::get<std::vector<float>>(stress.values)[6 * i];
+    EXPECT_NEAR(one[2], expected, 1e-3 * std::abs(expected));
+    for (const int k : {0, 1, 3, 4, 5}) EXPECT_NEAR(one[k], 0, 1e-3 * std::abs(expected)) << k;
+  }
+}
+
 TEST(SteppedFields, NormalsTurnWithTheParticles) {
   const HandMade made = two_sphere_network();
   ContactState state;

@@ -298,7 +298,7 @@ BlockErrors block_errors(const L& law, double frequency, int steps_per_cycle, in
       const double start = f;
       f += static_cast<double>(change);
       if (k > 0) blocks.template settle<-1>(2.0 * block * start + static_cast<double>(sum), unit);
-      drive = static_cast<Real>(blocks.template drive<-1>(f, unit));
+      drive = static_cast<Real>(blocks.template drift<-1>(f, unit));
       change = sum = 0;
     }
     const double phase = 2 * pi * (k % steps_per_cycle) / steps_per_cycle, next = phase + 2 * pi / steps_per_cycle;

@@ -23,6 +23,18 @@ class StepperState : public BackendTest<Case> {
   std::unique_ptr<Stepper> stepper(const StepperOptions& options) const {
     return make_stepper(backend_, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
   }
+  /// The same specimen under all that a boundary can do.
+  StepperOptions pushed() const {
+    StepperOptions out = options_;
+    const double area = scene_.specimen.box.size.x * scene_.specimen.box.size.y;
+    out.boundary = Boundary()
+                       .load(wall_z_hi, 2, std::make_shared<drives::Ramp>(-1e5 * area, out.dt, 300), 1e-4)
+                       .move(wall_z_lo, 0, std::make_shared<drives::ConstantRate>(1e-3, out.dt, 1.0));
+    out.boundary.fixed = {7, 20};
+    for (const double m : scene_.inertia.mass) out.boundary.body_force.push_back({0, 10 * m, -981 * m});
+    return out;
+  }
+
   TestScene scene_;
   StepperOptions options_;
   Backend backend_{};
@@ -75,8 +87,12 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
   std::tie(slow.precision, slow.form, slow.geometry) = std::tie(options_.precision, options_.form, options_.geometry);
   check("fast load", options_);
   check("slow load", slow);
+  check("a platen, a particle that is held, and weights", pushed());
   scene_.laws = general_laws(scene_.laws, 5);
   check("laws of five units", options_);
+  if (options_.form != ContactForm::points) return;
+  scene_.laws.fill(laws::BrittleBond{2e10, 3e4, 2e4, 0.3});
+  check("bonds, many of them broken", options_);
 }
 
 // A device with fewer multiprocessors has other tiles, or streams them: the same bits, and a state goes from one to
@@ -140,6 +156,7 @@ TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   started.observed_every = 60;  // blocks end there, though the start is one step before
   StepperOptions resting = slow;
   resting.boundary = {};
+  const StepperOptions pushed = this->pushed();
   StepperOptions other_geometry = slow;
   other_geometry.geometry = slow.geometry == Geometry::fixed ? Geometry::updated : Geometry::fixed;
   struct Use {
@@ -148,11 +165,11 @@ TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
     bool kept;  ///< on the processor; a device keeps less where it takes steps in blocks before or after
   };
   std::unique_ptr<Stepper> used;
-  for (const Use& use :
-       {Use{"slow", &slow, false}, Use{"slower, heavier, damped", &slower, true},
-        Use{"from a steady state", &started, true}, Use{"slow again", &slow, true}, Use{"fast", &options_, true},
-        Use{"fast again", &options_, true}, Use{"at rest", &resting, true},
-        Use{"of another geometry", &other_geometry, false}, Use{"slow once more", &slow, false}}) {
+  for (const Use& use : {Use{"slow", &slow, false}, Use{"slower, heavier, damped", &slower, true},
+                         Use{"from a steady state", &started, true}, Use{"slow again", &slow, true},
+                         Use{"pushed", &pushed, true}, Use{"pushed again", &pushed, true}, Use{"fast", &options_, true},
+                         Use{"fast again", &options_, true}, Use{"at rest", &resting, true},
+                         Use{"of another geometry", &other_geometry, false}, Use{"slow once more", &slow, false}}) {
     SCOPED_TRACE(use.name);
     const Stepper* before = used.get();
     used = make_stepper(backend_, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, *use.options,

@@ -25,7 +25,6 @@ struct Bilinear {
   struct Step {
     static constexpr bool memoryless = false;
     R E, E_2, x_0;
-    MACADAM_HD int units() const { return 1; }
     /// Written with sums and products only, so that it compiles for packets of contacts as well.
     template <int L, class S, class Units>
     MACADAM_HD S advance(S, S dx, Units&& x) const {

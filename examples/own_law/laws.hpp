@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file laws.hpp  The list of this program's laws, and who makes steppers for it.
+/// \file laws.hpp  The list of this program's laws.
 #pragma once
 
 #include <macadam/macadam.hpp>
@@ -12,8 +12,9 @@
 using OwnLaw = std::variant<StandardLinearSolid, Bilinear, macadam::laws::Elastic>;
 using OwnLaws = std::array<std::optional<OwnLaw>, macadam::pair_types>;
 
-/// The kernels compiled for OwnLaw in double precision: main.cpp, on_device.cu.
-std::unique_ptr<macadam::Stepper> make_own_stepper(const macadam::Specimen& specimen,
-                                                   const macadam::ContactNetwork& network, const OwnLaws& laws,
-                                                   const macadam::Inertia& inertia,
-                                                   const macadam::StepperOptions& options);
+/// Whether this program has the kernels for CUDA devices too: on_device.cu.
+#ifdef OWN_LAW_ON_DEVICE
+inline constexpr bool on_device = true;
+#else
+inline constexpr bool on_device = false;
+#endif

@@ -4,18 +4,10 @@
 #include <cstdio>
 #include <numbers>
 
-#include "laws.hpp"
-#ifndef OWN_LAW_ON_DEVICE
 #include <kernels/make_cpu.hpp>
+#include <kernels/make_stepper.hpp>
 
-std::unique_ptr<macadam::Stepper> make_own_stepper(const macadam::Specimen& specimen,
-                                                   const macadam::ContactNetwork& network, const OwnLaws& laws,
-                                                   const macadam::Inertia& inertia,
-                                                   const macadam::StepperOptions& options) {
-  return macadam::kernels::make_cpu_in<macadam::kernels::DoublePrecision, OwnLaw>(specimen, network, laws, inertia,
-                                                                                  options, nullptr);
-}
-#endif
+#include "laws.hpp"
 
 namespace {
 
@@ -47,7 +39,9 @@ double stress_after(const OwnLaw& law, StepperOptions options, D drive, double s
   drive.step = options.dt;
   drive.ramp_steps = std::llround(2e-4 / options.dt);
   options.boundary = moving_top(drive);
-  const auto stepper = make_own_stepper(column, network, laws, inertia, options);
+  // the kernels are compiled here, and in on_device.cu, for these laws and this precision
+  const auto stepper = make_stepper_of<OwnLaw, on_device, Precision::double_>(Backend::automatic, column, network, laws,
+                                                                              inertia, options);
   stepper->advance(std::llround(seconds / options.dt));
   std::printf("%s\n", stepper->description().c_str());
   return -stepper->observe().top_force() / area;

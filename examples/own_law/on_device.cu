@@ -4,10 +4,4 @@
 
 #include "laws.hpp"
 
-std::unique_ptr<macadam::Stepper> make_own_stepper(const macadam::Specimen& specimen,
-                                                   const macadam::ContactNetwork& network, const OwnLaws& laws,
-                                                   const macadam::Inertia& inertia,
-                                                   const macadam::StepperOptions& options) {
-  return macadam::kernels::make_cuda_in<macadam::kernels::DoublePrecision, OwnLaw>(specimen, network, laws, inertia,
-                                                                                   options, nullptr);
-}
+MACADAM_CUDA_STEPPER(DoublePrecision, OwnLaw);

@@ -25,7 +25,6 @@ struct StandardLinearSolid {
   struct Step {
     static constexpr bool memoryless = false;
     R E_inf, gain, loss;
-    MACADAM_HD int units() const { return 1; }
     template <int L, class S, class Units>
     MACADAM_HD S advance(S f, S dx, Units&& x) const {
       const S dg = S(gain) * dx - S(loss) * x(0);

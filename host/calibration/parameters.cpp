@@ -32,7 +32,8 @@ std::vector<Parameter> parameters_of(const Scene& scene) {
           add("alpha", "", l.alpha);
           each_value(l, [&](const std::string& key, double& value, ValueKind kind, laws::ValueNeed) {
             const bool viscous = kind == ValueKind::viscosity;
-            add(key, viscous ? "Pa s" : "Pa", value / delta / (viscous ? shift : 1));
+            const double factor = kind == ValueKind::strength ? 1 : delta;
+            add(key, viscous ? "Pa s" : "Pa", value / factor / (viscous ? shift : 1));
           });
         },
         law);
@@ -44,8 +45,9 @@ void multiply(LawTable& laws, const Parameter& parameter, double factor) {
   std::visit(
       [&](auto& law) {
         if (parameter.key == "alpha") law.alpha *= factor;
-        each_value(law, [&](const std::string& key, double& value, ValueKind, laws::ValueNeed) {
-          if (parameter.key == "delta" || parameter.key == key) value *= factor;
+        each_value(law, [&](const std::string& key, double& value, ValueKind kind, laws::ValueNeed) {
+          const bool scaled = parameter.key == "delta" && kind != ValueKind::strength;
+          if (scaled || parameter.key == key) value *= factor;
         });
       },
       *laws[static_cast<std::size_t>(parameter.pair)]);

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "host/experiments/material_files.hpp"
+#include "host/harmonic/law_stiffness.hpp"
 #include "host/simulation/harmonic_options.hpp"
 #include "host/simulation/phases.hpp"
 #include "macadam/error.hpp"
@@ -89,6 +90,7 @@ class MaterialSolution : public Solution {
   void require_solvable(RunResult& result) const {
     if (watcher_.progress) watcher_.progress("spectrum: preconditioner", 0);
     const InPhase in(result.phases, &PhaseSeconds::preconditioner);
+    require_stiffness(scene_.laws);
     for (const auto& law : scene_.laws)
       if (law) prony_series(*law);
     HarmonicOptions options = harmonic_options(scene_, result.backend, watcher_.stop);

@@ -106,10 +106,16 @@ bool FieldOutput::wants(std::int64_t sample) const { return (particles_ || conta
 void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometry, double time) {
   ParticleState state;
   if (particles_ || geometry == Geometry::updated) state = stepper.particles();
-  if (particles_) particles_->add(time, particle_arrays(state));
-  if (!contacts_) return;
+  std::vector<FieldArray> of_particles = particle_arrays(state);
   if (geometry == Geometry::fixed) state.displacement.clear();
-  ContactState carried = stepper.contacts(prepared_.network);
+  const bool told = scene_.solver.backend != Backend::reference;  // which does not tell of its contacts
+  ContactState carried;
+  if (contacts_ || told) carried = stepper.contacts(prepared_.network);
+  if (particles_) {
+    if (told) of_particles.push_back(stress_array(prepared_.tessellation, prepared_.network, carried));
+    particles_->add(time, of_particles);
+  }
+  if (!contacts_) return;
   if (form == ContactForm::points) carried.chain_begin.clear();  // chains of points, not of the facet
   contacts_->add(time, contact_arrays(prepared_.specimen, prepared_.network, carried, state.displacement));
 }

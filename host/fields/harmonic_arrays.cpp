@@ -5,6 +5,7 @@
 
 #include "host/fields/field_lists.hpp"
 #include "host/harmonic/contact_operator.hpp"
+#include "host/harmonic/law_stiffness.hpp"
 #include "macadam/fields.hpp"
 
 namespace macadam {
@@ -36,11 +37,9 @@ std::array<std::vector<Complex>, pair_types> stretches(const std::array<std::opt
   std::array<std::vector<Complex>, pair_types> out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (!laws[pair]) continue;
-    std::visit(
-        [&](const auto& law) {
-          for (int l = 0; l < law.units(); ++l) out[pair].push_back(law.stiffness(s) * law.unit_compliance(l, s));
-        },
-        *laws[pair]);
+    with_stiffness<void>(static_cast<PairType>(pair), *laws[pair], [&](const auto& law) {
+      for (int l = 0; l < law.units(); ++l) out[pair].push_back(law.stiffness(s) * law.unit_compliance(l, s));
+    });
   }
   return out;
 }

@@ -42,6 +42,30 @@ std::vector<FieldArray> particle_arrays(const ParticleState& state) {
   return out;
 }
 
+// What A and B get at the facet's centroid, x_0 + (S_s·ŝ + S_t·t̂)/A: arms from either centre, and opposite forces.
+FieldArray stress_array(const Tessellation& tessellation, const ContactNetwork& network, const ContactState& state) {
+  const std::size_t particles = network.row_begin.size() - 1;
+  std::vector<std::array<double, 6>> sum(particles);
+  const auto add = [&](std::int32_t particle, const Vec3d& arm, const Vec3d& f) {
+    const double outer[6] = {arm.x * f.x,
+                             arm.y * f.y,
+                             arm.z * f.z,
+                             0.5 * (arm.x * f.y + arm.y * f.x),
+                             0.5 * (arm.y * f.z + arm.z * f.y),
+                             0.5 * (arm.x * f.z + arm.z * f.x)};
+    for (std::size_t k = 0; k < 6; ++k) sum[static_cast<std::size_t>(particle)][k] += outer[k];
+  };
+  for (std::size_t i = 0; i < network.contacts.size(); ++i) {
+    const Contact& c = network.contacts[i];
+    const Vec3d aside = (1 / c.moments.a) * (c.moments.s * c.s + c.moments.t * c.t);
+    add(c.a, c.arm_a * c.n + aside, state.force[i]);
+    if (c.b >= 0) add(c.b, c.arm_b * c.n - aside, state.force[i]);
+  }
+  return tuples("stress", "Pa", particles, 6, [&](std::size_t i, int k) {
+    return sum[i][static_cast<std::size_t>(k)] / tessellation.cell_volume[i];
+  });
+}
+
 std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNetwork& network,
                                        const ContactState& state, const std::vector<Vec3d>& displacement) {
   const std::size_t contacts = network.contacts.size();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/harmonic/law_stiffness.hpp"
 #include "host/parallel.hpp"
 
 namespace macadam::harmonic {
@@ -16,8 +17,10 @@ PairStiffness pair_stiffness(const LawTable& laws, Complex s) {
   PairStiffness out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (!laws[pair]) continue;
-    out.k[pair] = std::visit([&](const auto& law) { return law.stiffness(s); }, *laws[pair]);
-    out.alpha[pair] = std::visit([](const auto& law) { return law.alpha; }, *laws[pair]);
+    with_stiffness<void>(static_cast<PairType>(pair), *laws[pair], [&](const auto& law) {
+      out.k[pair] = law.stiffness(s);
+      out.alpha[pair] = law.alpha;
+    });
   }
   return out;
 }

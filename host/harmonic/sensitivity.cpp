@@ -4,6 +4,8 @@
 
 #include <numbers>
 
+#include "host/harmonic/law_stiffness.hpp"
+
 namespace macadam {
 
 using Complex = std::complex<double>;
@@ -26,12 +28,10 @@ std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable
     const Complex whole = parts.normal[pair] + parts.shear[pair];
     if (!laws[pair] || whole == 0.0) continue;
     const std::string prefix = std::string(to_string(static_cast<PairType>(pair))) + ".";
-    std::visit(
-        [&](const auto& law) {
-          law.each_parameter(s, [&](const std::string& name, Complex change) { add(prefix + name, whole * change); });
-          if (law.alpha != 0) add(prefix + "alpha", parts.shear[pair]);
-        },
-        *laws[pair]);
+    with_stiffness<void>(static_cast<PairType>(pair), *laws[pair], [&](const auto& law) {
+      law.each_parameter(s, [&](const std::string& name, Complex change) { add(prefix + name, whole * change); });
+      if (law.alpha != 0) add(prefix + "alpha", parts.shear[pair]);
+    });
     add(prefix + "delta", whole);
   }
   if (parts.inertia != 0.0) add("density_scaling", parts.inertia);

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "host/harmonic/contact_operator.hpp"
+#include "host/harmonic/law_stiffness.hpp"
 
 namespace macadam {
 
@@ -35,12 +36,10 @@ StartState steady_start(const ContactNetwork& network, const LawTable& laws,
   std::array<Response, pair_types> response;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (!laws[pair]) continue;
-    std::visit(
-        [&](const auto& law) {
-          response[pair].stiffness = before * law.stiffness(s);
-          for (int l = 0; l < law.units(); ++l) response[pair].unit_compliance.push_back(law.unit_compliance(l, s));
-        },
-        *laws[pair]);
+    with_stiffness<void>(static_cast<PairType>(pair), *laws[pair], [&](const auto& law) {
+      response[pair].stiffness = before * law.stiffness(s);
+      for (int l = 0; l < law.units(); ++l) response[pair].unit_compliance.push_back(law.unit_compliance(l, s));
+    });
   }
   std::size_t numbers = 0;
   for (const Contact& c : network.contacts) {

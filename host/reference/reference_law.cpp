@@ -30,13 +30,40 @@ ReferenceLaw read(const laws::GeneralisedKelvin& law, const std::string& pair) {
     throw InputError("law of pair " + pair, 0, "Kelvin units", fmt::format("{} E and {} C", law.E.size(), law.C.size()),
                      "as many of each");
   }
-  ReferenceLaw out{law.E_m, law.C_m, {}, law.alpha};
+  ReferenceLaw out{law.E_m, law.C_m, {}, law.alpha, {}};
   for (std::size_t l = 0; l < law.E.size(); ++l) {
     require(std::isfinite(law.E[l]) && law.E[l] >= 0, pair, "E of a Kelvin unit", law.E[l],
             "a modulus of at least 0 Pa");
     require(law.C[l] > 0, pair, "C of a Kelvin unit", law.C[l], "a positive viscosity");
     out.units.push_back({law.E[l], law.C[l]});
   }
+  return out;
+}
+
+// Two springs k = E·A_J/d and α·k, whose stretch is kept beside the force: what has been pulled apart is known after
+// the break as well, and pushes again once it is closed. Stresses are forces over A_J.
+ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
+  require(std::isfinite(law.E) && law.E > 0, pair, "E", law.E, "a positive modulus");
+  require(law.tensile_strength > 0, pair, "tensile_strength", law.tensile_strength, "a positive strength");
+  require(law.shear_strength > 0, pair, "shear_strength", law.shear_strength, "a positive strength or infinity");
+  ReferenceLaw out;
+  out.E_m = law.E;
+  out.alpha = law.alpha;
+  out.kept = 2;  // the stretch, and whether it is broken
+  out.point = [law](double area, double distance, double, const std::array<double, 3>& dx, ChainState(&chain)[3]) {
+    const double k[3] = {law.E * area / distance, law.alpha * law.E * area / distance,
+                         law.alpha * law.E * area / distance};
+    for (int axis = 0; axis < 3; ++axis) {
+      chain[axis].stretch[0] += dx[static_cast<std::size_t>(axis)];
+      chain[axis].force = k[axis] * chain[axis].stretch[0];
+    }
+    double& broken = chain[0].stretch[1];
+    const double tension = chain[0].force / area, shear = std::hypot(chain[1].force, chain[2].force) / area;
+    if (tension > law.tensile_strength || shear > law.shear_strength) broken = 1;
+    if (broken == 0) return;
+    if (chain[0].force > 0) chain[0].force = 0;
+    chain[1].force = chain[2].force = 0;
+  };
   return out;
 }
 

@@ -54,7 +54,7 @@ class ReferenceStepper : public Stepper {
     }
     for (const std::int32_t i : options.boundary.fixed) bodies_[static_cast<std::size_t>(i)].fixed = true;
     for (const Contact& contact : network.contacts) {
-      contacts_.push_back(make_reference_contact(network, contact, law(contact.pair).units.size()));
+      contacts_.push_back(make_reference_contact(network, contact, law(contact.pair).states()));
     }
     if (options.start) start_from(*options.start);
     options_.start = nullptr;
@@ -77,6 +77,7 @@ class ReferenceStepper : public Stepper {
     out.time = static_cast<double>(step_) * options_.dt;
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       out.wall_displacement[w] = to_vec3(walls_[w].displacement);
+      out.wall_velocity[w] = to_vec3(walls_[w].velocity);
       out.wall_force[w] = to_vec3(walls_[w].force);
     }
     return out;
@@ -128,7 +129,7 @@ class ReferenceStepper : public Stepper {
   std::int64_t bytes() const override {
     std::size_t sum = bodies_.size() * sizeof(Body) + contacts_.size() * sizeof(ReferenceContact);
     for (const ReferenceContact& contact : contacts_) {
-      const std::size_t stretches = 3 * law(contact.pair).units.size() * sizeof(double);
+      const std::size_t stretches = 3 * law(contact.pair).states() * sizeof(double);
       sum += contact.points.size() * (sizeof(ContactPoint) + stretches);
     }
     return static_cast<std::int64_t>(sum);
@@ -269,7 +270,10 @@ class ReferenceStepper : public Stepper {
       const Vector3d increment = options_.dt * relative_velocity(contact, point);
       const ContactFrame &middle = contact.middle, &frame = contact.frame;
       const Vector3d local(increment.dot(middle.n), increment.dot(middle.s), increment.dot(middle.t));
-      for (int axis = 0; axis < 3; ++axis) {
+      if (law.point) {
+        law.point(point.area, contact.initial_distance, options_.dt, {local[0], local[1], local[2]}, point.chain);
+      }
+      for (int axis = 0; axis < 3 && !law.point; ++axis) {
         const double scale = (axis == 0 ? 1.0 : law.alpha) * point.area / contact.initial_distance;
         // No area, no shear stiffness (α = 0) or no modulus: no force, and no chain to advance.
         if (scale * law.E_m != 0) advance_chain(law, scale, options_.dt, local[axis], point.chain[axis]);

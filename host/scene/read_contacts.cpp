@@ -20,7 +20,7 @@ template <class L>
 std::vector<Key> keys_of(L& law) {
   std::vector<Key> out;
   law.each_key([&](const char* key, auto& member, ValueKind kind, ValueNeed need) {
-    const Quantity& unit = kind == ValueKind::modulus ? modulus : viscosity;
+    const Quantity& unit = kind == ValueKind::viscosity ? viscosity : modulus;
     Reader read = into(member, unit, positive);
     if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>) {
       if (need == ValueNeed::may_be_infinite) {  // written `inf`
@@ -96,7 +96,9 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
           section.read(keys);
           if (flows) shifts[pair] = shift.shift(section);
           check(law, section);
-          laws::each_value(law, [delta](const std::string&, double& value, ValueKind, ValueNeed) { value *= delta; });
+          laws::each_value(law, [delta](const std::string&, double& value, ValueKind kind, ValueNeed) {
+            if (kind != ValueKind::strength) value *= delta;
+          });
           if (!laws::usable(law)) {
             section.refuse("delta", fmt::format("a product of {} and a coefficient that is 0 or infinite", delta),
                            "products within the range of a double");

@@ -89,6 +89,11 @@ constexpr double beyond = 60;
 
 PronySeries prony_series(const Law& law) {
   if (const auto* elastic = std::get_if<laws::Elastic>(&law)) return {elastic->E, {}};
+  if (!std::holds_alternative<laws::GeneralisedKelvin>(law)) {
+    throw InputError(
+        "relaxation of a contact law", 0, "law", std::visit([](const auto& l) { return l.name; }, law),
+        fmt::format("{} or {}, whose relaxation times are known", laws::Elastic::name, laws::GeneralisedKelvin::name));
+  }
   const auto& chain = std::get<laws::GeneralisedKelvin>(law);
   // On s = −r the compliance 1/E_m − 1/(r·C_m) + Σ 1/(E_l − r·C_l) grows from −∞ to ∞ between its poles and once more
   // behind the last: k*(s) has its poles at these zeros.

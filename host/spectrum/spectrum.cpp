@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "host/harmonic/law_stiffness.hpp"
 #include "host/spectrum/reduced_spectrum.hpp"
 #include "macadam/error.hpp"
 #include "macadam/harmonic.hpp"
@@ -160,6 +161,7 @@ Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
     throw InputError("spectrum", 0, "tolerance", fmt::format("{:g}", options.tolerance),
                      "at least 1e-10: solutions have no more digits");
   }
+  require_stiffness(laws);
   for (const auto& law : laws)
     if (law) prony_series(*law);  // all of them before any work
   return Finder(specimen, network, laws, options).find();

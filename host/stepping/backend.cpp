@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "host/reference/reference_stepper.hpp"
-#include "kernels/precision.hpp"
+#include "kernels/make_stepper.hpp"
 #include "kernels/stepper_input.hpp"
-#include "kernels/steppers.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -109,36 +108,32 @@ Backend select_backend(Backend asked, std::string* reason, std::optional<int> de
   return chosen;
 }
 
+Backend kernels::resolved(Backend asked, bool on_device, StepperOptions& options) {
+  if (asked == Backend::reference) {
+    throw InputError("backend: found reference, expected cpu, cuda or auto: it knows Macadam's own laws alone");
+  }
+  if (asked == Backend::automatic && !options.device && !on_device) return Backend::cpu;
+  const Backend chosen = select_backend(asked, nullptr, options.device);
+  if (chosen != Backend::cuda) return chosen;
+  if (!on_device) {
+    throw RunError("backend cuda was asked for, and this program has no kernels for devices compiled for its laws");
+  }
+  options.device = chosen_device(report_backends(), options.device).number;
+  return chosen;
+}
+
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                       const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
                                       std::unique_ptr<Stepper> used) {
-  kernels::require_input(specimen.size(), network, facts_of(laws), options);
-  StepperOptions given = options;
-  const auto in_precision = [&](auto&& make) {
-    switch (options.precision) {
-      case Precision::single:
-        return make(kernels::SinglePrecision{});
-      case Precision::mixed:
-        return make(kernels::MixedPrecision{});
-      default:
-        return make(kernels::DoublePrecision{});
-    }
-  };
-  switch (select_backend(backend, nullptr, options.device)) {
-    case Backend::reference:
-      return make_reference_stepper(specimen, network, laws, inertia, given);
 #ifdef MACADAM_CUDA
-    case Backend::cuda:
-      given.device = chosen_device(report_backends(), options.device).number;
-      return in_precision([&](auto p) {
-        return kernels::make_cuda_in<decltype(p), Law>(specimen, network, laws, inertia, given, std::move(used));
-      });
+  constexpr bool on_device = true;
+#else
+  constexpr bool on_device = false;
 #endif
-    default:
-      return in_precision([&](auto p) {
-        return kernels::make_cpu_in<decltype(p), Law>(specimen, network, laws, inertia, given, std::move(used));
-      });
-  }
+  kernels::require_input(specimen.size(), network, facts_of(laws), options);
+  if (select_backend(backend, nullptr, options.device) == Backend::reference)
+    return make_reference_stepper(specimen, network, laws, inertia, options);
+  return make_stepper_of<Law, on_device>(backend, specimen, network, laws, inertia, options, std::move(used));
 }
 
 }  // namespace macadam

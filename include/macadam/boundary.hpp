@@ -4,11 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "macadam/drives/drive.hpp"
+#include "macadam/error.hpp"
 #include "macadam/numeric.hpp"
 #include "macadam/tessellation.hpp"
 
@@ -40,10 +43,19 @@ struct Boundary {
     wall[wall_index(which)].axis[static_cast<std::size_t>(axis)] = {DrivenBy::displacement, std::move(drive)};
     return *this;
   }
-  /// Loads one axis of a wall of this mass [kg] by a force.
+  /// Loads one axis of a wall of this mass [kg] by a force. \throws InputError where another axis of it has been given
+  /// another mass: a platen has one.
   Boundary& load(Wall which, int axis, std::shared_ptr<const Drive> drive, double mass) {
-    wall[wall_index(which)].axis[static_cast<std::size_t>(axis)] = {DrivenBy::force, std::move(drive)};
-    wall[wall_index(which)].mass = mass;
+    const std::size_t w = wall_index(which), loaded = static_cast<std::size_t>(axis);
+    for (std::size_t other = 0; other < 3; ++other) {
+      if (other == loaded || wall[w].axis[other].by != DrivenBy::force || wall[w].mass == mass) continue;
+      char text[96];
+      std::snprintf(text, sizeof text, "found %g kg, expected %g kg, as was said with its axis %c", mass, wall[w].mass,
+                    "xyz"[other]);
+      throw InputError(std::string("boundary: wall ") + wall_names[w] + ": mass: " + text);
+    }
+    wall[w].axis[loaded] = {DrivenBy::force, std::move(drive)};
+    wall[w].mass = mass;
     return *this;
   }
   /// Whether any axis of any wall is driven so.

@@ -75,6 +75,9 @@ struct FieldFrame {
 
 /// Arrays of a stepped run: displacement, rotation, velocity, spin, force and moment of the particles.
 std::vector<FieldArray> particle_arrays(const ParticleState& state);
+/// Mean stress in the Laguerre cell of each particle, model (8.3): xx, yy, zz, xy, yz, xz, tension positive [Pa].
+/// Volumes, arms and facets are those of the start.
+FieldArray stress_array(const Tessellation& tessellation, const ContactNetwork& network, const ContactState& state);
 /// Normal and shear force, force, moment, relative displacement and of contacts in condensed form,
 /// the stretch of each Kelvin unit.
 /// `displacement`: of the particles, by which normals have turned; empty: normals are those of the start.

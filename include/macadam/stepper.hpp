@@ -80,6 +80,7 @@ struct Observation {
   std::int64_t step = 0;
   double time = 0;                                    ///< [s]
   std::array<Vec3d, wall_count> wall_displacement{};  ///< of the walls, by wall_index() [m]
+  std::array<Vec3d, wall_count> wall_velocity{};      ///< likewise, at the last half step [m/s]
   std::array<Vec3d, wall_count> wall_force{};         ///< on the walls by the particles [N]
 
   /// Of the top wall along z: what the uniaxial test measures.

@@ -17,6 +17,17 @@ ErrorEstimate difference(const Stiffness& found, const Stiffness& expected) {
 
 double largest(const ErrorEstimate& error) { return std::max(std::abs(error.e_star), std::abs(error.phase_rad)); }
 
+double stiffness_at(const Law& any, double omega) {
+  return std::visit(
+      [&]<class L>(const L& law) {
+        if constexpr (has_stiffness<L>)
+          return std::abs(law.stiffness(std::complex<double>(0, omega)));
+        else
+          return law.instantaneous();
+      },
+      any);
+}
+
 namespace {
 
 /// Least and largest |k*(ω)| of the pair types that are there.
@@ -24,8 +35,7 @@ std::pair<double, double> stiffness_range(const Scene& scene, const Preparation&
   double least = std::numeric_limits<double>::infinity(), largest = 0;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (prepared.network.count[pair] == 0) continue;
-    const double k = std::visit(
-        [&](const auto& law) { return std::abs(law.stiffness(std::complex<double>(0, omega))); }, *scene.laws[pair]);
+    const double k = stiffness_at(*scene.laws[pair], omega);
     least = std::min(least, k);
     largest = std::max(largest, k);
   }

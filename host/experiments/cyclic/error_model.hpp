@@ -16,6 +16,9 @@ ErrorEstimate difference(const Stiffness& found, const Stiffness& expected);
 /// The larger of |E*|'s and φ's.
 double largest(const ErrorEstimate& error);
 
+/// |k*(ω)| of a law [Pa]; of one that has no complex stiffness, the largest that it ever has.
+double stiffness_at(const Law& law, double omega);
+
 /// What inertia costs per unit of density scaling, not known exactly: a bar of height H driven at one end has
 /// E·kH·cot(kH) ≈ E·(1 − (kH)²/3), with k² = ω²·ρ/E. E is taken as a third of the softest contact's |k*(ω)| (mastic
 /// alone has 0.6 of it, mixtures more than all of it), ρ as the heaviest material's.

@@ -18,8 +18,9 @@ double stiffest_contact(const Scene& scene, const ContactNetwork& network, doubl
 /// phase angle that no specimen has which only dissipates, a modulus above that of the `stiffest` contact, a fit that
 /// leaves more than it takes, walls that disagree, a tolerance that was not kept or that nothing could verify. Without
 /// a harmonic solution a tolerance is known not to be kept (`kept` is false) where there is a fault, or where the last
-/// cycle still differs from the one before by more. \throws RunError for a modulus that is no positive finite number.
-void judge(experiments::SteppedFrequency& result, double stiffest, std::optional<double> tolerance,
+/// cycle still differs from the one before by more. Without a `stiffest`, where a law is not linear, nothing is held
+/// against what linear specimens do. \throws RunError for a modulus that is no positive finite number.
+void judge(experiments::SteppedFrequency& result, std::optional<double> stiffest, std::optional<double> tolerance,
            std::vector<std::string>& warnings);
 void judge(experiments::HarmonicFrequency& result, double stiffest, std::vector<std::string>& warnings);
 

@@ -10,6 +10,7 @@
 #include "host/experiments/cyclic/choose_precision.hpp"
 #include "host/experiments/cyclic/error_model.hpp"
 #include "host/experiments/stepped/settings.hpp"
+#include "host/harmonic/law_stiffness.hpp"
 #include "host/simulation/harmonic_options.hpp"
 #include "host/simulation/phases.hpp"
 #include "host/experiments/cyclic/scaling.hpp"
@@ -36,6 +37,7 @@ class Planner {
         phases_(phases) {}
 
   Plan make() {
+    require_laws_to_fit();
     choose_form_and_geometry();
     StepperOptions options;
     options.damping_kind = scene_.solver.damping_kind;
@@ -64,6 +66,30 @@ class Planner {
   }
   double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
 
+  /// What a law that is not linear, or has no complex stiffness, takes away. \throws InputError
+  void require_laws_to_fit() {
+    const FactsTable facts = facts_of(scene_.laws);
+    for (std::size_t pair = 0; pair < pair_types; ++pair) {
+      if (!facts[pair]) continue;
+      const std::string beside =
+          fmt::format("beside law {} of {}", facts[pair]->name, to_string(static_cast<PairType>(pair)));
+      const auto refuse = [&](const char* what, const std::string& found, const char* expected) {
+        throw InputError(scene_.file.string(), 0, what, found + " " + beside, expected);
+      };
+      if (automatic() && !facts[pair]->stiffness) {
+        refuse("tolerance in [solver]", fmt::format("{}", tolerance()),
+               "none: the frequency domain, which errors are measured against, has no place for this law");
+      }
+      if (facts[pair]->linear) continue;
+      if (scene_.network.quadrature == Quadrature::exact) {
+        refuse("quadrature in [network]", "\"exact\"", "\"lumped\": a law that is not linear is stepped by points");
+      }
+      if (scene_.solver.form == ContactForm::condensed) {
+        refuse("form in [solver]", "\"condensed\"", "\"points\", or nothing: this law is not linear");
+      }
+    }
+  }
+
   void choose_form_and_geometry() {
     plan_.form = form_of(scene_);
     plan_.geometry = scene_.solver.geometry.value_or(Geometry::updated);
@@ -87,6 +113,10 @@ class Planner {
   void make_harmonic() {
     if (prepared_.loose_particles > 0) {
       no_harmonic_ = fmt::format("{} particles are not joined to both walls", prepared_.loose_particles);
+      return;
+    }
+    if (const auto without = first_without_stiffness(scene_.laws)) {
+      no_harmonic_ = fmt::format("law {} of {} has no complex stiffness", without->law, to_string(without->pair));
       return;
     }
     if (progress_) progress_("harmonic: preconditioner", 0);

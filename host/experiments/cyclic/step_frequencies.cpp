@@ -10,6 +10,7 @@
 #include "host/experiments/stepped/course.hpp"
 #include "host/experiments/stepped/settings.hpp"
 #include "host/experiments/stepped/skips.hpp"
+#include "host/harmonic/law_stiffness.hpp"
 #include "host/results/files.hpp"
 #include "host/experiments/cyclic/run_state.hpp"
 #include "host/experiments/cyclic/error_model.hpp"
@@ -226,7 +227,9 @@ class Steps : public Solution {
     samples_read_ += samples.size();
     auto& frequencies = std::get<SteppedCyclic>(result.found).frequencies;
     SteppedFrequency& f = frequencies.emplace_back(finished(scene_, at_.plan, i, samples, at_.seconds[i]));
-    judge(f, stiffest_contact(scene_, prepared_.network, f.frequency_hz), scene_.solver.tolerance, result.warnings);
+    const bool linear = !first_without_stiffness(scene_.laws);
+    judge(f, linear ? std::optional(stiffest_contact(scene_, prepared_.network, f.frequency_hz)) : std::nullopt,
+          scene_.solver.tolerance, result.warnings);
   }
 
   const Scene& scene_;
@@ -253,6 +256,12 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
   } else {
     at.plan = make_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
     decide_blocks(scene.solver, result.backend, at.plan);
+    if (const auto without = first_without_stiffness(scene.laws)) {
+      at.warnings.push_back(fmt::format(
+          "law {} of {} has no complex stiffness: |E*| and phi are those of the fundamental of the measured "
+          "loops, at this amplitude and after these cycles, and no frequency domain judges them",
+          without->law, to_string(without->pair)));
+    }
     at.seconds_planning = seconds_since(start);
   }
   auto steps = std::make_unique<Steps>(scene, prepared, watcher, inertia, std::move(at), resumed.has_value());

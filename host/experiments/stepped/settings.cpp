@@ -9,8 +9,9 @@
 namespace macadam {
 
 ContactForm form_of(const Scene& scene) {
-  const bool one_point = scene.network.quadrature == Quadrature::one_point;
-  return scene.solver.form.value_or(one_point ? ContactForm::points : ContactForm::condensed);
+  bool by_points = scene.network.quadrature == Quadrature::one_point;
+  for (const auto& law : facts_of(scene.laws)) by_points = by_points || (law && !law->linear);
+  return scene.solver.form.value_or(by_points ? ContactForm::points : ContactForm::condensed);
 }
 
 StepperOptions stepper_options(const SolverSpec& solver, ContactForm form, Geometry geometry, Precision precision) {

@@ -44,7 +44,8 @@ std::vector<Skip> find_skips(const Scene& scene, const Preparation& prepared, Co
                                elastic_count, elastic),
                    "rounding: not summed over the steps"});
   }
-  const auto [smooth, smooth_count] = pairs_that(scene, prepared, [](const auto& law) { return law.alpha == 0; });
+  const auto [smooth, smooth_count] =
+      pairs_that(scene, prepared, []<class L>(const L& law) { return law.alpha == 0 && !coupled_law<L>; });
   if (smooth_count > 0 && !reference) {
     out.push_back({"shear", fmt::format("{} contacts ({}) have alpha = 0", smooth_count, smooth), none});
   }

@@ -4,5 +4,6 @@
 
 #include "macadam/drives/constant_rate.hpp"
 #include "macadam/drives/cyclic.hpp"
+#include "macadam/drives/haversine.hpp"
 #include "macadam/drives/ramp.hpp"
 #include "macadam/drives/table.hpp"

@@ -6,6 +6,7 @@
 #include <optional>
 #include <variant>
 
+#include "macadam/laws/brittle_bond.hpp"
 #include "macadam/laws/elastic.hpp"
 #include "macadam/laws/facts.hpp"
 #include "macadam/laws/generalised_kelvin.hpp"
@@ -13,7 +14,7 @@
 namespace macadam {
 
 /// Any one law. To add a law, add its type here.
-using Law = std::variant<laws::Elastic, laws::GeneralisedKelvin>;
+using Law = std::variant<laws::Elastic, laws::GeneralisedKelvin, laws::BrittleBond>;
 
 /// One law for each pair type, by PairType; empty where there is none.
 using LawTable = std::array<std::optional<Law>, pair_types>;

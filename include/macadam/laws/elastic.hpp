@@ -40,7 +40,6 @@ struct Elastic {
     MACADAM_HD S value(S x) const {
       return S(E) * x;
     }
-    MACADAM_HD int units() const { return 0; }
     template <int L, class S, class Units>
     MACADAM_HD S advance(S f, S dx, Units&&) const {
       return f + S(E) * dx;  // Eq. 9
@@ -57,7 +56,7 @@ struct Elastic {
     double rate, relax, follow;
     void settled_as(const Block&) {}
     template <int L, class Units>
-    MACADAM_HD double drive(double, Units&&) const {
+    MACADAM_HD double drift(double, Units&&) const {
       return 0;
     }
     template <int L, class Units>

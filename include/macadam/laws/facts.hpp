@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <variant>
 
@@ -21,7 +23,9 @@ struct LawFacts {
   double shortest_time = std::numeric_limits<double>::infinity();  ///< [s]
   int units = 0;                                                   ///< state numbers a component besides f
   int only_units = -1;                                             ///< that the compiler knows of; −1: any
-  bool memoryless = false, linear = true, blocks = false;          ///< see law.hpp
+  bool memoryless = false, linear = true, blocks = false;          ///< see law.hpp, likewise the next two
+  bool coupled = false;                                            ///< normal and shear of a point together
+  bool stiffness = true;                                           ///< has a place in the frequency domain
 };
 
 /// The optional parts of a law's contract (law.hpp).
@@ -37,6 +41,20 @@ constexpr bool is_linear() {
 }
 template <class L>
 inline constexpr bool linear_law = is_linear<L>();
+template <class Step>
+inline constexpr bool coupled_step = requires {
+  requires Step::coupled;
+};
+template <class L>
+inline constexpr bool coupled_law = coupled_step<typename L::template Step<double>>;
+/// Whether it has all that the frequency domain asks for.
+template <class L>
+inline constexpr bool has_stiffness = linear_law<L>&& requires(const L& law, std::complex<double> s,
+                                                               void (&each)(const std::string&, std::complex<double>)) {
+  law.stiffness(s);
+  law.unit_compliance(0, s);
+  law.each_parameter(s, each);
+};
 template <class L>
 inline constexpr bool has_blocks = requires(const L& law) {
   law.block(1.0, 1).rate;
@@ -55,8 +73,8 @@ constexpr int units_of() {
 
 template <class L>
 LawFacts facts_of(const L& law) {
-  return {L::name,       law.alpha,         law.instantaneous(), law.shortest_time(), law.units(),
-          units_of<L>(), memoryless_law<L>, linear_law<L>,       has_blocks<L>};
+  return {L::name,           law.alpha,     law.instantaneous(), law.shortest_time(), law.units(),     units_of<L>(),
+          memoryless_law<L>, linear_law<L>, has_blocks<L>,       coupled_law<L>,      has_stiffness<L>};
 }
 
 /// Of each pair that has a law.

@@ -93,14 +93,13 @@ struct GeneralisedKelvin {
     R recover[max_units];     ///< 1 − b_l/a_l                  [1]
     R compliance[max_units];  ///< Δt/(2·a_l·η_l)               [1/Pa]
     int n;
-    MACADAM_HD int units() const { return n; }
 
     template <int L, class S, class Units>
     MACADAM_HD S advance(S f, S dx, Units&& x) const {
       const int m = L >= 0 ? L : n;
-      S drive = dx;
-      for (int l = 0; l < m; ++l) drive += S(recover[l]) * x(l);
-      const S f_new = f + (S(inv_c) * drive - S(relax) * f);  // model (6.6)
+      S stretched = dx;
+      for (int l = 0; l < m; ++l) stretched += S(recover[l]) * x(l);
+      const S f_new = f + (S(inv_c) * stretched - S(relax) * f);  // model (6.6)
       const S sum = f_new + f;
       for (int l = 0; l < m; ++l) x(l) += S(compliance[l]) * sum - S(recover[l]) * x(l);  // model (6.6)
       return f_new;
@@ -128,8 +127,8 @@ struct GeneralisedKelvin {
   /// M steps as one block, in which f changes little. x_l at step k of the block is x_l at its beginning, its own loss,
   /// and what f gave; the first two and the part of f at the beginning are taken at the mean step (M − 1)/2, the part
   /// of the change δf of f since then exactly, by the sum s of δf' + δf over the steps so far:
-  ///   δf(t+Δt) = δf(t) + rate·Δx + drive + follow·s − relax·δf(t)   (model (6.8)),
-  ///   drive = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
+  ///   δf(t+Δt) = δf(t) + rate·Δx + drift + follow·s − relax·δf(t)   (model (6.8)),
+  ///   drift = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
   /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with one weight for all steps (model (6.9)). What is
   /// neglected has no mean over a block and is of second order in M·Δt over the times of the load and of the units.
   struct Block {
@@ -149,7 +148,7 @@ struct GeneralisedKelvin {
 
     /// Change of f in a step at rest, from f and x_l at the beginning of the block.
     template <int L, class Units>
-    MACADAM_HD double drive(double f, Units&& x) const {
+    MACADAM_HD double drift(double f, Units&& x) const {
       double past = 0;
       for (int l = 0; l < (L >= 0 ? L : n); ++l) past += recover[l] * (x(l) + (ahead[l] * f - back[l] * x(l)));
       return rate * past - relax * f;

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file haversine.hpp  Pulses with rest between them: the load of resilient modulus, permanent deformation and fatigue
+/// tests.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "macadam/drives/drive.hpp"
+
+namespace macadam::drives {
+
+/// height·sin²(π·t/pulse) within a pulse, which is ½·height·(1 − cos(2π·t/pulse)), and 0 in the rest behind it. A whole
+/// number of steps makes a pulse and a rest, so that the last pulse is as exact as the first.
+struct Haversine final : Drive {
+  static constexpr std::int64_t forever = std::numeric_limits<std::int64_t>::max();
+  double height = 0;             ///< of the peaks [m] or [N]; below 0: compression, of the top wall
+  double step = 0;               ///< Δt [s]
+  std::int64_t pulse_steps = 1;  ///< of a pulse
+  std::int64_t rest_steps = 0;   ///< from the end of a pulse to the next
+  std::int64_t pulses = forever;
+
+  Haversine() = default;
+  Haversine(double height, double step, std::int64_t pulse_steps, std::int64_t rest_steps,
+            std::int64_t pulses = forever)
+      : height(height), step(step), pulse_steps(pulse_steps), rest_steps(rest_steps), pulses(pulses) {}
+
+  double dt() const override { return step; }
+  double shortest_time() const override { return static_cast<double>(pulse_steps) * step; }
+  double fastest() const override { return std::abs(height) * std::numbers::pi / shortest_time(); }
+  double value(std::int64_t k) const override {
+    const double s = std::sin(std::numbers::pi * share(k));
+    return height * (s * s);
+  }
+  /// sin²b − sin²a = sin(b − a)·sin(b + a): nothing cancels.
+  double rate(std::int64_t k) const override {
+    if (!within(k)) return 0;
+    const double a = std::numbers::pi * share(k), turn = std::numbers::pi / static_cast<double>(pulse_steps);
+    return height * (std::sin(turn) * std::sin(2 * a + turn)) / step;
+  }
+
+ private:
+  std::int64_t period() const { return pulse_steps + rest_steps; }
+  /// Whether the step from k to k + 1 is one of a pulse.
+  bool within(std::int64_t k) const { return k >= 0 && k / period() < pulses && k % period() < pulse_steps; }
+  /// Of the pulse that is over at step k.
+  double share(std::int64_t k) const {
+    return within(k) ? static_cast<double>(k % period()) / static_cast<double>(pulse_steps) : 0;
+  }
+};
+
+}  // namespace macadam::drives

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file make_stepper.hpp  make_stepper() for laws of any list: backend, device and precision, resolved as for
+/// Macadam's.
+#pragma once
+
+#include "kernels/precision.hpp"
+#include "kernels/steppers.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+/// As make_stepper(), for the laws of a list of one's own: `Any` is a std::variant<…>. The program compiles the kernels
+/// for them: one of its files includes kernels/make_cpu.hpp before it calls this. `on_device`: it also has them for
+/// devices, one CUDA file being `#include <kernels/make_cuda.hpp>` and MACADAM_CUDA_STEPPER(P, Any). `compiled`: the
+/// precisions that it has, which take a while to compile; all three where none is named.
+/// \throws as make_stepper(), and InputError for a precision or a backend that the program has not.
+template <class Any, bool on_device = false, Precision... compiled>
+std::unique_ptr<Stepper> make_stepper_of(Backend backend, const Specimen& specimen, const ContactNetwork& network,
+                                         const std::array<std::optional<Any>, pair_types>& laws, const Inertia& inertia,
+                                         const StepperOptions& options, std::unique_ptr<Stepper> used = nullptr) {
+  StepperOptions given = options;
+  const Backend chosen = kernels::resolved(backend, on_device, given);
+  const auto make = [&]<class P>(P) {
+    if constexpr (on_device) {
+      if (chosen == Backend::cuda)
+        return kernels::make_cuda_in<P, Any>(specimen, network, laws, inertia, given, std::move(used));
+    }
+    return kernels::make_cpu_in<P, Any>(specimen, network, laws, inertia, given, std::move(used));
+  };
+  constexpr auto has = []<Precision precision>(std::integral_constant<Precision, precision>) {
+    return sizeof...(compiled) == 0 || ((compiled == precision) || ...);
+  };
+  using std::integral_constant;
+  if constexpr (has(integral_constant<Precision, Precision::double_>{})) {
+    if (options.precision == Precision::double_) return make(kernels::DoublePrecision{});
+  }
+  if constexpr (has(integral_constant<Precision, Precision::mixed>{})) {
+    if (options.precision == Precision::mixed) return make(kernels::MixedPrecision{});
+  }
+  if constexpr (has(integral_constant<Precision, Precision::single>{})) {
+    if (options.precision == Precision::single) return make(kernels::SinglePrecision{});
+  }
+  std::string names;
+  ((names += (names.empty() ? "" : " or ") + std::string(to_string(compiled))), ...);
+  throw InputError(std::string("precision: found ") + to_string(options.precision) + ", expected " + names +
+                   ": the program has no other compiled for its laws");
+}
+
+}  // namespace macadam
