@@ -40,6 +40,13 @@ TEST(GroupShape, ForetellsTheArrays) {
       }
     }
   }
+  scene.laws.fill(laws::BrittleBond{1e9, 1e6});  // coupled: all three components, and the distance
+  for (const auto geometry : {Geometry::updated, Geometry::fixed}) {
+    StepperOptions options = shaking_options(scene);
+    options.form = ContactForm::points, options.geometry = geometry;
+    expect_foretold<kernels::DoublePrecision>(scene, options);
+    expect_foretold<kernels::SinglePrecision>(scene, options);
+  }
 }
 
 }  // namespace

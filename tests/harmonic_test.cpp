@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 #include <numbers>
 
+#include "host/harmonic/law_stiffness.hpp"
 #include "host/network/contact_stiffness.hpp"
 #include "host/reference/reference_spectrum.hpp"
 #include "macadam/harmonic.hpp"
@@ -68,7 +69,8 @@ Complex dense_modulus(const TestScene& scene, double frequency, double density_s
   std::vector<std::pair<std::int32_t, Matrix6>> top;
   auto complex_block = [&](const Contact& c, int i, int j) -> Eigen::Matrix<Complex, 6, 6> {
     const auto& law = *scene.laws[static_cast<std::size_t>(c.pair)];
-    const Complex stiffness = std::visit([&](const auto& l) { return l.stiffness(Complex(0, omega)); }, law);
+    const auto stiffness =
+        with_stiffness<Complex>(c.pair, law, [&](const auto& l) { return l.stiffness(Complex(0, omega)); });
     const double alpha = std::visit([](const auto& l) { return l.alpha; }, law);
     return stiffness * contact_block(c, 1, alpha, i, j).cast<Complex>();
   };
