@@ -9,7 +9,7 @@ from pages.marks import mark
 
 DOCUMENT = "bench/README.md"
 PARTS = (bench_command,)  # more functions of this document
-GPU = "gpu-step-h200-2026-11-21.csv"
+GPU = "gpu-step-h200-2026-11-22.csv"
 
 
 def cpu_rows():
@@ -68,16 +68,24 @@ def us(row):
 STEPS = [  # of the bench, how the table calls it, the bar that was set for it
     ("full/condensed/single", "full specimen, condensed, single", "8"),
     ("full/condensed/mixed", "… mixed", "20"),
-    ("full, elastic/condensed/mixed", "… mixed, all contacts elastic", "0.75 × mixed: missed"),
+    ("full, elastic/condensed/mixed", "… mixed, all contacts elastic", "0.75 × mixed"),
     ("full/condensed/double", "… double", "45"),
     *((f"full, {n} units/condensed/double", f"… double, {n} Kelvin units", "") for n in (0, 1, 2, 4, 5, 6)),
     ("full/points/double", "full specimen, points, double", "125"),
-    ("fcc 62,950/condensed/mixed", "fcc 62,500 / 360,150 contacts, mixed", "45"),
+    ("fcc 62,500/condensed/mixed", "fcc 62,500 / 360,150 contacts, mixed", "45"),
     ("fcc 1e6/condensed/single", "fcc 10⁶ / 5.9·10⁶, single", "650"),
     ("fcc 1e6/condensed/mixed", "… mixed", "1,050"),
     ("fcc 1e6/condensed/double", "… double", ""),
-    ("fcc 1e7/condensed/single", "fcc 10⁷ / 6·10⁷, single (an earlier commit)", "6,200"),
+    ("fcc 1e7/condensed/single", "fcc 10⁷ / 6·10⁷, single", "6,200"),
 ]
+
+
+def judged(bar, measured):
+    """The bar that was set, and whether it is missed."""
+    if not bar:
+        return ""
+    most = 0.75 * step("full/condensed/mixed", "fixed")["us"] if "×" in bar else float(bar.replace(",", ""))
+    return bar if measured["us"] <= most else f"{bar}: missed"
 
 
 @mark
@@ -85,7 +93,7 @@ def gpu():
     lines = []
     for name, label, bar in STEPS:
         fixed, updated = step(name, "fixed"), step(name, "updated")
-        lines.append((label, us(fixed), us(updated), fixed["path"].split(", ")[2], bar))
+        lines.append((label, us(fixed), us(updated), fixed["path"].split(", ")[2], judged(bar, fixed)))
     return table(["step", "µs fixed", "µs updated", "path", "bar (fixed)"], lines)
 
 

@@ -13,8 +13,8 @@
 
 namespace macadam {
 
-/// As asked for; else condensed, but by points where a law is not linear, or where a facet has one point: that has three
-/// chains in place of six.
+/// As asked for; else condensed, but by points where a law is not linear, or where a facet has one point: that has
+/// three chains in place of six.
 ContactForm form_of(const Scene& scene);
 
 /// What `[solver]` and the choices made say to every stepper of a run.
