@@ -65,9 +65,9 @@ class TileRunner {
       out[tile_normal * 32] = {word(n_x), word(n_y), word(n_z), word(arm_a)};
       out[tile_moment_a * 32] = {word(arm_b), word(moment_0), word(moment_0 + 1), word(moment_0 + 2)};
       out[tile_moment_b * 32] = {word(moment_0 + 3), word(moment_0 + 4), word(moment_0 + 5),
-                                 bits(c.local_a | static_cast<std::uint32_t>(c.local_b) << 16)};
-      out[tile_drift_b * 32] = {0, 0, bits(c.slot_a | static_cast<std::uint32_t>(c.slot_b) << 16),
-                                bits(g | std::min(c.wall_row, no_wall_row) << 4)};
+                                 bits(EndPair::of(c.local_a, c.local_b).word)};
+      out[tile_drift_b * 32] = {0, 0, bits(EndPair::of(c.slot_a, c.slot_b).word),
+                                bits(GroupAndRow::of(g, c.wall_row).word)};
     }
   }
 
@@ -301,7 +301,7 @@ class TileRunner {
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
       if (plan_.contact[i].group_slot != UINT32_MAX) continue;  // inert: adds nothing to nobody
       float4* out = &constants_[i / 32 * static_cast<std::size_t>(tile_constants(carried_)) * 32 + i % 32];
-      out[tile_drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(no_wall_row << 4)};
+      out[tile_drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(GroupAndRow::of(0, GroupAndRow::no_row).word)};
     }
     scene_.tile = store_.keep(plan_.tile);
     scene_.body = store_.keep(plan_.body);

@@ -22,13 +22,34 @@ namespace macadam::kernels {
 enum TileConstant {
   tile_normal,    ///< n, arm_a
   tile_moment_a,  ///< arm_b, moments 0…2
-  tile_moment_b,  ///< moments 3…5, local_a | local_b << 16
+  tile_moment_b,  ///< moments 3…5, EndPair of places in the table of velocities
   tile_drift_a,   ///< drift of components 0…3
-  tile_drift_b,   ///< drift of components 4, 5, slot_a | slot_b << 16, group | wall row << 4
+  tile_drift_b,   ///< drift of components 4, 5, EndPair of slots of loads, GroupAndRow
   tile_tangent,   ///< s, –; updated geometry only
 };
 enum TileState { tile_change, tile_both, tile_sum, tile_states };  ///< δf 0…3; δf 4, 5, sum 0, 1; sum 2…5
-inline constexpr std::uint32_t no_wall_row = (1u << 28) - 1;
+
+/// Two numbers of 16 bits in one word: of the ends A and B of a contact.
+struct EndPair {
+  std::uint32_t word;
+  __host__ __device__ static constexpr EndPair of(std::uint16_t a, std::uint16_t b) {
+    return {a | static_cast<std::uint32_t>(b) << 16};
+  }
+  __host__ __device__ constexpr std::uint32_t a() const { return word & 0xffff; }
+  __host__ __device__ constexpr std::uint32_t b() const { return word >> 16; }
+};
+
+/// The group of a contact, of pair_types, and its row among the loads on the walls, in one word.
+struct GroupAndRow {
+  static constexpr std::uint32_t group_bits = 4, no_row = (1u << (32 - group_bits)) - 1;
+  static_assert(pair_types <= 1 << group_bits);
+  std::uint32_t word;
+  __host__ __device__ static constexpr GroupAndRow of(std::uint32_t group, std::uint32_t row) {
+    return {group | (row < no_row ? row : no_row) << group_bits};
+  }
+  __host__ __device__ constexpr std::uint32_t group() const { return word & ((1u << group_bits) - 1); }
+  __host__ __device__ constexpr std::uint32_t row() const { return word >> group_bits; }
+};
 
 __host__ __device__ constexpr int tile_constants(bool carried) { return carried ? tile_tangent + 1 : tile_tangent; }
 
@@ -59,12 +80,12 @@ struct TileScene {
 template <bool carried>
 __device__ __forceinline__ ContactLoad<float> step_in_block(const float4* constant, const float4* law, const float4* v,
                                                             const float4* w, float (&change)[6], float (&sum)[6],
-                                                            std::uint32_t& slots, std::uint32_t& group) {
+                                                            EndPair& slots, GroupAndRow& of) {
   const float4 c0 = constant[tile_normal * 32], c1 = constant[tile_moment_a * 32], c2 = constant[tile_moment_b * 32];
   const float4 c3 = constant[tile_drift_a * 32], c4 = constant[tile_drift_b * 32];
-  const auto locals = __float_as_uint(c2.w);
-  slots = __float_as_uint(c4.z), group = __float_as_uint(c4.w);
-  const float4 va = v[locals & 0xffff], wa = w[locals & 0xffff], vb = v[locals >> 16], wb = w[locals >> 16];
+  const EndPair end{__float_as_uint(c2.w)};
+  slots.word = __float_as_uint(c4.z), of.word = __float_as_uint(c4.w);
+  const float4 va = v[end.a()], wa = w[end.a()], vb = v[end.b()], wb = w[end.b()];
   const Vec3<float> n{c0.x, c0.y, c0.z};
   Placement<float> f;
   if constexpr (carried) {
@@ -76,7 +97,7 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const float4* consta
   float u[6];
   relative_rates(f, Twist<float>{{va.x, va.y, va.z}, {wa.x, wa.y, wa.z}},
                  Twist<float>{{vb.x, vb.y, vb.z}, {wb.x, wb.y, wb.z}}, u);
-  const float4 l = law[group & 15];
+  const float4 l = law[of.group()];
   const float drift[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
 #pragma unroll
   for (int c = 0; c < 6; ++c) {
@@ -103,9 +124,9 @@ struct TileSlots {
     const float2 a = plane[slot], b = plane[size + slot], c = plane[2 * size + slot];
     f[0] += a.x, f[1] += a.y, f[2] += b.x, f[3] += b.y, f[4] += c.x, f[5] += c.y;
   }
-  __device__ __forceinline__ void put(std::uint32_t slots, const ContactLoad<float>& load) const {
-    put(slots & 0xffff, load.force_a, load.moment_a);
-    put(slots >> 16, -load.force_a, load.moment_b);
+  __device__ __forceinline__ void put(EndPair slots, const ContactLoad<float>& load) const {
+    put(slots.a(), load.force_a, load.moment_a);
+    put(slots.b(), -load.force_a, load.moment_b);
   }
 };
 
@@ -187,10 +208,9 @@ __device__ __forceinline__ void store_state(float4* state, const float (&change)
   state[tile_sum * 32] = {sum[2], sum[3], sum[4], sum[5]};
 }
 
-__device__ __forceinline__ void store_wall_load(float4* wall_load, std::uint32_t group,
-                                                const ContactLoad<float>& load) {
-  const std::uint32_t row = group >> 4;
-  if (row == no_wall_row) return;
+__device__ __forceinline__ void store_wall_load(float4* wall_load, GroupAndRow of, const ContactLoad<float>& load) {
+  const std::uint32_t row = of.row();
+  if (row == GroupAndRow::no_row) return;
   wall_load[2 * row] = {-load.force_a.x, -load.force_a.y, -load.force_a.z, 0};
   wall_load[2 * row + 1] = {load.moment_b.x, load.moment_b.y, load.moment_b.z, 0};
 }

@@ -126,10 +126,11 @@ class ResidentTile {
     const unsigned lane = threadIdx.x % 32;
     const float4* constant =
         packet < cached ? cache + packet * words * 32 + lane : constants + std::size_t{packet} * words * 32 + lane;
-    std::uint32_t places, group;
-    const auto load = step_in_block<carried>(constant, law, v, w, change, sum, places, group);
+    EndPair places;
+    GroupAndRow of;
+    const auto load = step_in_block<carried>(constant, law, v, w, change, sum, places, of);
     slots.put(places, load);
-    if (last) store_wall_load(s.wall_load, group, load);
+    if (last) store_wall_load(s.wall_load, of, load);
   }
 
   /// To memory: the bodies, with their loads of now.

@@ -99,12 +99,12 @@ __global__ void __launch_bounds__(Threads, Blocks)
     float4* state = s.state + at * tile_states * 32 + lane;
     float change[6], sum[6];
     load_state(state, change, sum);
-    std::uint32_t places, group;
-    const auto load =
-        step_in_block<carried>(s.constant + at * words * 32 + lane, s.law, v, w, change, sum, places, group);
+    EndPair places;
+    GroupAndRow of;
+    const auto load = step_in_block<carried>(s.constant + at * words * 32 + lane, s.law, v, w, change, sum, places, of);
     store_state(state, change, sum);
     slots.put(places, load);
-    if (last) store_wall_load(s.wall_load, group, load);
+    if (last) store_wall_load(s.wall_load, of, load);
   }
   __syncthreads();
   sum_rows(tile, s.row + tile.first_body, s.diagonal + blockIdx.x * TilePlan::longest_short_row, slots,
