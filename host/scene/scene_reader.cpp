@@ -127,6 +127,10 @@ void check_together(const Scene& scene, const Section& root) {
 
 toml::table read_toml(const std::filesystem::path& file, const std::string& what, std::string& text) {
   text = read_text(file, what);
+  return parse_toml(text, file, what);
+}
+
+toml::table parse_toml(const std::string& text, const std::filesystem::path& file, const std::string& what) {
   check_line_lengths(text, file.string(), what);
   try {
     return toml::parse(text, file.string());
@@ -136,13 +140,41 @@ toml::table read_toml(const std::filesystem::path& file, const std::string& what
   }
 }
 
-}  // namespace scene
+namespace {
 
-Scene read_scene(const std::filesystem::path& file) {
-  using namespace scene;
+toml::table without_lines(const toml::table& table);
+
+toml::array without_lines(const toml::array& array) {
+  toml::array out;
+  for (const toml::node& node : array) {
+    if (const toml::table* table = node.as_table())
+      out.push_back(without_lines(*table));
+    else if (const toml::array* inner = node.as_array())
+      out.push_back(without_lines(*inner));
+    else
+      out.push_back(node);
+  }
+  return out;
+}
+
+/// A copy that does not know where its keys and values stood.
+toml::table without_lines(const toml::table& table) {
+  toml::table out;
+  for (const auto& [key, node] : table) {
+    if (const toml::table* inner = node.as_table())
+      out.insert(key.str(), without_lines(*inner));
+    else if (const toml::array* array = node.as_array())
+      out.insert(key.str(), without_lines(*array));
+    else
+      out.insert(key.str(), node);
+  }
+  return out;
+}
+
+Scene read_tables(const std::filesystem::path& file, std::string text, const toml::table& table) {
   Scene out;
   out.file = file;
-  const toml::table table = read_toml(file, "scene", out.text);
+  out.text = std::move(text);
   const Section root(file.string(), 0, "", "", table);
   const std::filesystem::path folder = file.parent_path();
   const Need densities = table["specimen"]["recipe"] ? Need::optional : Need::required;
@@ -161,6 +193,20 @@ Scene read_scene(const std::filesystem::path& file) {
   check_together(out, root);
   apply_temperature(out, root);
   return out;
+}
+
+}  // namespace
+}  // namespace scene
+
+Scene read_scene(const std::filesystem::path& file) {
+  std::string text;
+  const toml::table table = scene::read_toml(file, "scene", text);
+  return scene::read_tables(file, std::move(text), table);
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::string& text, bool lines) {
+  const toml::table table = scene::parse_toml(text, file, "scene");
+  return scene::read_tables(file, text, lines ? table : scene::without_lines(table));
 }
 
 }  // namespace macadam

@@ -64,18 +64,23 @@ class Pieces {
 void run_cyclic(const Scene& scene, const Specimen& specimen, Stepper& stepper, const FrequencyPlan& plan,
                 std::vector<ResponseSample>& samples, ResponseWriter* writer, const FieldOutput& fields,
                 const std::function<void()>& look, const std::function<void(double)>& frame,
-                const std::function<void(std::int64_t)>& stepped) {
+                const std::function<void(std::int64_t)>& stepped, const Watcher& watcher) {
   const drives::Cyclic& loading = plan.loading;
   const int per_cycle = scene.cyclic().samples_per_cycle;
   const std::int64_t samples_wanted = static_cast<std::int64_t>(plan.cycles) * per_cycle;
   const std::int64_t stride = loading.steps_per_period / per_cycle;
   const double area = specimen.box.size.x * specimen.box.size.y, height = specimen.box.size.z;
   const std::int64_t first = writer ? 0 : std::int64_t{std::max(0, plan.cycles - plan.fit_cycles - 1)} * per_cycle;
+  const std::int64_t every = watcher.stepped ? watcher.every : 0;
   Pieces pieces;
   std::int64_t step = stepper.observe().step;
   for (std::int64_t k = (step + stride - 1) / stride; k <= samples_wanted; ++k) {
-    pieces.advance(stepper, step, k * stride, look);
-    step = k * stride;
+    do {  // stops on the way where the watcher wants to be told
+      const std::int64_t next = every > 0 ? std::min(k * stride, (step / every + 1) * every) : k * stride;
+      pieces.advance(stepper, step, next, look);
+      if (every > 0 && next > step && next % every == 0) watcher.stepped(stepper, loading.frequency);
+      step = next;
+    } while (step < k * stride);
     if (k < first && k % per_cycle != 0 && !fields.wants(k)) continue;
     const Observation now = stepper.observe();
     const double stress = -now.top_force() / area;  // particles pull a wall that moves away from them
@@ -272,7 +277,7 @@ class Steps : public Solution {
                                     static_cast<double>(done - begun) / seconds_since(start)),
                         steps / (per_cycle * p.cycles));
     };
-    run_cyclic(scene_, prepared_.specimen, *stepper_, p, at_.samples, writer, *fields_, look, frame, stepped);
+    run_cyclic(scene_, prepared_.specimen, *stepper_, p, at_.samples, writer, *fields_, look, frame, stepped, watcher_);
     at_.seconds.push_back(before + seconds_since(start));
   }
 
