@@ -143,31 +143,28 @@ toml::table parse_toml(const std::string& text, const std::filesystem::path& fil
 namespace {
 
 toml::table without_lines(const toml::table& table);
+toml::array without_lines(const toml::array& array);
+
+/// f(a copy of what stands in a node); the copy does not know where it stood.
+template <class F>
+void copied(const toml::node& node, F&& f) {
+  node.visit([&](const auto& one) {
+    if constexpr (toml::is_table<decltype(one)> || toml::is_array<decltype(one)>)
+      f(without_lines(one));
+    else
+      f(one.get());
+  });
+}
 
 toml::array without_lines(const toml::array& array) {
   toml::array out;
-  for (const toml::node& node : array) {
-    if (const toml::table* table = node.as_table())
-      out.push_back(without_lines(*table));
-    else if (const toml::array* inner = node.as_array())
-      out.push_back(without_lines(*inner));
-    else
-      out.push_back(node);
-  }
+  for (const toml::node& node : array) copied(node, [&](auto&& value) { out.push_back(value); });
   return out;
 }
 
-/// A copy that does not know where its keys and values stood.
 toml::table without_lines(const toml::table& table) {
   toml::table out;
-  for (const auto& [key, node] : table) {
-    if (const toml::table* inner = node.as_table())
-      out.insert(key.str(), without_lines(*inner));
-    else if (const toml::array* array = node.as_array())
-      out.insert(key.str(), without_lines(*array));
-    else
-      out.insert(key.str(), node);
-  }
+  for (const auto& [key, node] : table) copied(node, [&](auto&& value) { out.insert(key.str(), value); });
   return out;
 }
 
@@ -206,7 +203,8 @@ Scene read_scene(const std::filesystem::path& file) {
 
 Scene read_scene(const std::filesystem::path& file, const std::string& text, bool lines) {
   const toml::table table = scene::parse_toml(text, file, "scene");
-  return scene::read_tables(file, text, lines ? table : scene::without_lines(table));
+  if (lines) return scene::read_tables(file, text, table);
+  return scene::read_tables(file, text, scene::without_lines(table));
 }
 
 }  // namespace macadam

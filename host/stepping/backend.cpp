@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "host/reference/reference_stepper.hpp"
-#include "kernels/precision.hpp"
+#include "host/stepping/cuda_code.hpp"
+#include "host/stepping/processor_code.hpp"
 #include "kernels/stepper_input.hpp"
-#include "kernels/steppers.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -31,13 +31,9 @@ const DeviceInfo& chosen_device(const BackendReport& report, std::optional<int> 
 }
 
 /// Why a device that answers cannot be used after all; empty where it can.
-std::string refusal_of([[maybe_unused]] const DeviceInfo& device) {
-#ifdef MACADAM_CUDA
-  const std::string why = kernels::cuda_refusal(device.number);
+std::string refusal_of(const DeviceInfo& device) {
+  const std::string why = cuda_code()->refusal(device.number);
   return why.empty() ? "" : device.name + " cannot be used: " + why;
-#else
-  return "";
-#endif
 }
 
 }  // namespace
@@ -71,12 +67,10 @@ const char* to_string(Damping d) { return d == Damping::none ? "none" : d == Dam
 BackendReport report_backends() {
   BackendReport report;
   report.threads = omp_get_max_threads();
-#ifdef MACADAM_CUDA
-  report.cuda_compiled = true;
-  kernels::report_cuda_devices(report);
-#else
-  report.cuda_status = "this build has no CUDA backend (no CUDA toolkit was found when it was configured)";
-#endif
+  if (const kernels::CudaCode* code = cuda_code(&report.cuda_status)) {
+    report.cuda_compiled = true;
+    code->report(report);
+  }
   return report;
 }
 
@@ -114,30 +108,14 @@ std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen,
                                       std::unique_ptr<Stepper> used) {
   kernels::require_input(specimen.size(), network, facts_of(laws), options);
   StepperOptions given = options;
-  const auto in_precision = [&](auto&& make) {
-    switch (options.precision) {
-      case Precision::single:
-        return make(kernels::SinglePrecision{});
-      case Precision::mixed:
-        return make(kernels::MixedPrecision{});
-      default:
-        return make(kernels::DoublePrecision{});
-    }
-  };
   switch (select_backend(backend, nullptr, options.device)) {
     case Backend::reference:
       return make_reference_stepper(specimen, network, laws, inertia, given);
-#ifdef MACADAM_CUDA
     case Backend::cuda:
       given.device = chosen_device(report_backends(), options.device).number;
-      return in_precision([&](auto p) {
-        return kernels::make_cuda_in<decltype(p), Law>(specimen, network, laws, inertia, given, std::move(used));
-      });
-#endif
+      return cuda_code()->make_stepper(specimen, network, laws, inertia, given, std::move(used));
     default:
-      return in_precision([&](auto p) {
-        return kernels::make_cpu_in<decltype(p), Law>(specimen, network, laws, inertia, given, std::move(used));
-      });
+      return processor_code().make_stepper(specimen, network, laws, inertia, given, std::move(used));
   }
 }
 

@@ -35,12 +35,12 @@ if TYPE_CHECKING:
     from ._calibration import Calibration, calibrate
     from ._core import (Boundary, Cells, Contacts, ContactState, DivergenceError, Drive, Error, HarmonicSolver,
                         InputError, InterruptedError, Observation, ParticleState, RunError, Section, Specimen,
-                        StartState, SteadyState, Step, Stepper, __version__, critical_step, info, pair_names,
-                        steady_start)
+                        StartState, SteadyState, Step, Stepper, critical_step, info, pair_names, steady_start)
     from ._fit import Fit, fit
     from ._scene import Scene
     from ._simulation import Result, creep, harmonic, monotonic, relaxation, run, sweep
     from ._specimen import specimen
+    __version__: str
 
 __all__ = [name for name in _HOME_OF if not name.startswith("_")] + list(_MODULES)
 

@@ -33,7 +33,7 @@ class Calibration:
 
     @cached_property
     def parameters(self) -> pandas.DataFrame:
-        """A row a parameter: name, unit, value, start, deviation, bounds."""
+        """A row a parameter: name, unit, value, standard_deviation, start, low, high, at_bound."""
         import pandas
         return pandas.DataFrame(self.json["parameters"])
 

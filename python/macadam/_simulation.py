@@ -2,6 +2,7 @@
 """Tests of a specimen: stepped, or solved without steps; each leaves the folder that the command leaves."""
 from __future__ import annotations
 
+import importlib
 import json
 import shutil
 import tempfile
@@ -122,8 +123,7 @@ class Result:
 
     def report(self, file: str | PathLike[str]) -> Path:
         """Writes a report of the folder, one HTML file: `macadam report`."""
-        from .report import write_report
-        write_report([self.folder], Path(file))
+        importlib.import_module("macadam.report").report(self.folder, file)
         return Path(file)
 
     def save(self, folder: str | PathLike[str]) -> Path:

@@ -18,7 +18,7 @@ Path = str | PathLike[str]
 
 
 def _require_ct() -> None:
-    if not _core.has_ct:
+    if not _core.info()["ct"]:
         raise _core.InputError("macadam ct: images of computed tomography: found a package built without ITK, expected one "
                                "built with it: install libinsighttoolkit5-dev and build again, with MACADAM_CT=ON")
 

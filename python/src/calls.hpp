@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "macadam/error.hpp"
@@ -56,23 +57,44 @@ class LongCall {
     return [this](const std::string& stage, double share) { progress(stage, share); };
   }
 
-  /// Does the work without the interpreter's lock, and raises what ended it.
+  /// Does the work without the interpreter's lock, and raises what a callback raised, or Ctrl-C, however the work
+  /// ended.
   template <class F>
   auto operator()(F&& work) {
     try {
-      const nb::gil_scoped_release release;
-      return work();
-    } catch (const InterruptedError& error) {
-      if (!raised_) throw;
-      if (!raised_->matches(PyExc_KeyboardInterrupt)) throw std::move(*raised_);
-      raised_.reset();
-      PyErr_SetString(PyExc_KeyboardInterrupt, error.what());
-      throw nb::python_error();
+      if constexpr (std::is_void_v<decltype(work())>) {
+        released(work);
+        raise("interrupted");
+      } else {
+        auto result = released(work);
+        raise("interrupted");
+        return result;
+      }
+    } catch (const Error& error) {
+      raise(error.what());
+      throw;
     }
   }
 
  private:
   using Clock = std::chrono::steady_clock;
+
+  template <class F>
+  static auto released(F&& work) {
+    const nb::gil_scoped_release release;
+    return work();
+  }
+
+  /// Raises what Python raised meanwhile, Ctrl-C with what the work says of its end.
+  void raise(const char* text) {
+    if (!raised_) return;
+    nb::python_error error = std::move(*raised_);
+    raised_.reset();
+    if (!error.matches(PyExc_KeyboardInterrupt)) throw error;
+    PyErr_SetString(PyExc_KeyboardInterrupt, text);
+    throw nb::python_error();
+  }
+
   nb::object progress_;
   Clock::time_point looked_ = Clock::now();
   std::optional<nb::python_error> raised_;

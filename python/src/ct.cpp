@@ -25,7 +25,7 @@
 namespace macadam::python {
 
 #ifndef MACADAM_CT
-void bind_ct(nb::module_& m) { m.attr("has_ct") = false; }
+void bind_ct(nb::module_&) {}
 #else
 namespace {
 
@@ -201,7 +201,6 @@ void bind_segmentation(nb::module_& m) {
 }  // namespace
 
 void bind_ct(nb::module_& m) {
-  m.attr("has_ct") = true;
   bind_segmentation(m);
   nb::class_<PhantomNumbers>(m, "Phantom", "What a synthetic scan holds; shares are of its volume.")
       .def_ro("size", &PhantomNumbers::size, "Voxels along x, y, z.")

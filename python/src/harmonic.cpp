@@ -41,7 +41,11 @@ class Solver {
   std::vector<HarmonicResult> solve(const std::vector<double>& hz, double scaling, double damping) {
     std::vector<HarmonicLoad> loads;
     for (const double f : hz) loads.push_back({f, scaling, damping});
-    const std::scoped_lock one_at_a_time(busy_);
+    std::unique_lock one_at_a_time(busy_, std::defer_lock);
+    {
+      const nb::gil_scoped_release release;  // whoever solves may ask for it
+      one_at_a_time.lock();
+    }
     LongCall call;
     call_ = &call;
     try {

@@ -3,6 +3,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
+#include "host/stepping/processor_code.hpp"
 #include "macadam/macadam.hpp"
 #include "python/src/bindings.hpp"
 
@@ -10,6 +11,12 @@ namespace macadam::python {
 namespace {
 
 namespace nb = nanobind;
+
+#ifdef MACADAM_CT
+constexpr bool has_ct = true;
+#else
+constexpr bool has_ct = false;
+#endif
 
 nb::list list_of(const std::vector<DeviceInfo>& devices) {
   nb::list out;
@@ -38,9 +45,11 @@ void bind_machine(nb::module_& m) {
         nb::dict out;
         out["version"] = version();
         out["threads"] = report.threads;
+        out["processor"] = processor_code().name;
         out["cuda"] = report.cuda_status;
         out["devices"] = list_of(report.devices);
         out["devices_without_code"] = list_of(report.devices_without_code);
+        out["ct"] = has_ct;
         out["auto"] = to_string(chosen);
         out["auto_reason"] = reason;
         return out;

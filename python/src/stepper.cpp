@@ -24,7 +24,14 @@ struct Steps {
   PreparedPointer prepared;
   std::unique_ptr<Stepper> stepper;
   double dt = 0;
-  std::mutex busy = {};
+  mutable std::mutex busy = {};
+
+  /// Keeps others out as long as it lives. \throws RunError where another thread is at it.
+  std::unique_lock<std::mutex> hold() const {
+    std::unique_lock held(busy, std::try_to_lock);
+    if (!held) throw RunError("stepper: found another thread at it, expected one at a time");
+    return held;
+  }
 };
 
 /// The step of the drives, which must have one and the same; none: there is no drive.
@@ -47,8 +54,7 @@ CriticalStep critical(const Prepared& p, const StepperOptions& options) {
 void advance(Steps& s, std::int64_t steps) {
   if (steps < 0) throw InputError("advance: found " + std::to_string(steps) + " steps, expected none or more");
   LongCall call;
-  const std::unique_lock one_at_a_time(s.busy, std::try_to_lock);
-  if (!one_at_a_time) throw RunError("stepper: another thread is stepping it");
+  const auto held = s.hold();
   call([&] {
     using Clock = std::chrono::steady_clock;
     for (std::int64_t piece = 16; steps > 0;) {
@@ -69,6 +75,7 @@ nb::object array_of(StateArray::Values values) {
 }
 
 nb::dict state_of(const Steps& s) {
+  const auto held = s.hold();
   nb::dict out;
   for (StateArray& array : s.stepper->state()) out[array.name.c_str()] = array_of(std::move(array.values));
   return out;
@@ -91,6 +98,7 @@ void set_state(Steps& s, const nb::dict& arrays) {
     if (!values) throw InputError("state: " + text + ": expected a flat array of float32, float64 or int64");
     state.push_back({text, "", std::move(*values)});
   }
+  const auto held = s.hold();
   s.stepper->set_state(state);
 }
 
@@ -98,6 +106,7 @@ using OnDevice = nb::ndarray<nb::ro, nb::shape<-1, 8>, nb::device::cuda>;
 
 /// Where the bodies' motion lies on the device, without a copy.
 nb::object device_motion(const Steps& s) {
+  const auto held = s.hold();
   const DeviceMotion d = s.stepper->device_motion();
   if (!d.velocity) return nb::none();
   const std::size_t shape[] = {d.particle.size() + wall_count, 8};
@@ -157,17 +166,32 @@ void bind_stepper(nb::module_& m) {
            "damping.")
       .def("advance", &advance, nb::arg("steps"), "Takes steps. Other threads of Python run meanwhile; Ctrl-C ends it.")
       .def(
-          "observe", [](const Steps& s) { return s.stepper->observe(); }, "Walls now.")
+          "observe",
+          [](const Steps& s) {
+            const auto held = s.hold();
+            return s.stepper->observe();
+          },
+          "Walls now.")
       .def(
-          "particles", [](const Steps& s) { return s.stepper->particles(); }, "Motion of all particles now.")
+          "particles",
+          [](const Steps& s) {
+            const auto held = s.hold();
+            return s.stepper->particles();
+          },
+          "Motion of all particles now.")
       .def(
-          "contacts", [](const Steps& s) { return s.stepper->contacts(s.prepared->made.network); },
+          "contacts",
+          [](const Steps& s) {
+            const auto held = s.hold();
+            return s.stepper->contacts(s.prepared->made.network);
+          },
           "Forces and deformation of all contacts now.")
       .def(
           "set_velocities",
           [](Steps& s, const Vectors& v, const Vectors& spin) {
             if (v.shape(0) != s.prepared->made.specimen.size() || spin.shape(0) != v.shape(0))
               throw InputError("set_velocities: expected as many velocities and spins as particles");
+            const auto held = s.hold();
             s.stepper->set_velocities(copy(v), copy(spin));
           },
           nb::arg("velocity"), nb::arg("spin"), "At the half step, specimen order [m/s], [rad/s], (n, 3).")
@@ -181,7 +205,11 @@ void bind_stepper(nb::module_& m) {
           "dt", [](const Steps& s) { return s.dt; }, "[s]")
       .def_prop_ro("specimen", [](const Steps& s) { return s.prepared; })
       .def_prop_ro(
-          "first_divergent", [](const Steps& s) { return s.stepper->first_divergent(); },
+          "first_divergent",
+          [](const Steps& s) {
+            const auto held = s.hold();
+            return s.stepper->first_divergent();
+          },
           "First particle whose motion is not finite or exceeds its radius in a step; -1 if none.")
       .def_prop_ro(
           "description", [](const Steps& s) { return s.stepper->description(); }, "What runs, in words.")

@@ -96,10 +96,25 @@ def test_a_stepper_serves_one_thread_at_a_time(specimen):
     try:
         stepper.advance(1)
     except mc.RunError as error:
-        assert "another thread" in str(error)
+        assert "another thread" in str(error)  # said of observe() and the like too
     other.join()
     assert stepper.observe().step in (3000, 3001)
     assert np.isfinite(stepper.particles().velocity).all()
+
+
+def test_a_solver_serves_threads_in_turn(specimen):
+    solver = mc.HarmonicSolver(specimen)
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda f: solver.solve([f])[0].e_star_pa, [5.0, 10.0, 5.0, 10.0]))
+    assert found[:2] == found[2:] and found[0] < found[1]
+
+
+def test_what_the_last_callback_raises_is_raised(specimen):
+    def fail(stage, share):
+        if stage == "contact network":  # the last of all
+            raise LookupError("too late to stop")
+    with pytest.raises(LookupError, match="too late"):
+        mc.specimen(specimen.scene, progress=fail)
 
 
 def test_a_run_in_another_thread_may_raise_there(specimen):
