@@ -34,3 +34,12 @@ endfunction()
 # precompiled headers
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess -Wno-restrict
   -Wno-stringop-overflow -Wno-array-bounds -Wno-maybe-uninitialized>)
+
+# A packet wider than a register (in mixed precision without AVX-512, in double without AVX) is a tuple to gcc, and its
+# many small functions end up as calls, up to four times slower, unless inlining has no limit in the step.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT MACADAM_SANITIZE AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
+  foreach(limit large-function-growth large-function-insns large-stack-frame-growth inline-unit-growth
+                max-inline-insns-single max-inline-insns-auto)
+    list(APPEND MACADAM_INLINE_STEP --param=${limit}=100000)
+  endforeach()
+endif()

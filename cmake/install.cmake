@@ -2,6 +2,9 @@
 # `find_package(macadam)`: the library hides its own dependencies, so a user needs none of them.
 install(TARGETS macadam EXPORT macadamTargets)
 install(TARGETS macadam_cli)
+if(MACADAM_HAS_CUDA)
+  install(TARGETS macadam_cuda)
+endif()
 install(DIRECTORY include/macadam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 # The kernels as templates, for laws of a user's own
 install(DIRECTORY kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macadam-kernels FILES_MATCHING PATTERN "*.hpp")

@@ -242,6 +242,28 @@ TEST_F(SceneFile, WindowsLineEndsAndByteOrderMarkAreRead) {
   EXPECT_EQ(read(text).specimen.seed, 7u);
 }
 
+TEST_F(SceneFile, ATextStandsForAFile) {
+  const Scene scene = read_scene(file(), text_of());
+  EXPECT_FALSE(fs::exists(file()));
+  EXPECT_EQ(scene.file, file());
+  EXPECT_EQ(scene.text, text_of());
+  EXPECT_EQ(scene.specimen.seed, read(text_of()).specimen.seed);
+  for (const int line : {3, 8, 23, 31, 50}) {  // keys of sections of every kind, and entries of arrays
+    const Edits wrong{{line, line == 31 ? "frequencies = [2, -5]" : "wrong = 1"}};
+    const std::string expected = message(text_of(wrong));
+    const std::string place = file().string() + ":" + std::to_string(line);
+    ASSERT_TRUE(expected.starts_with(place)) << expected;
+    for (const bool lines : {true, false}) {
+      try {
+        read_scene(file(), text_of(wrong), lines);
+        ADD_FAILURE() << line;
+      } catch (const InputError& error) {
+        EXPECT_EQ(error.what(), lines ? expected : file().string() + expected.substr(place.size()));
+      }
+    }
+  }
+}
+
 /// A scene that is wrong in one thing.
 struct Wrong {
   const char* name;

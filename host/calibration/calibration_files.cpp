@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/results/files.hpp"
+#include "macadam/error.hpp"
 #include "macadam/version.hpp"
 
 namespace macadam {
@@ -123,6 +125,43 @@ std::string calibration_text(const Calibration& c) {
       100 * c.errors.e_star_rms, 100 * c.errors.e_star_largest, c.errors.phase_rms_deg, c.errors.phase_largest_deg,
       c.solver, c.solutions, c.seconds_preparing, c.seconds_solving);
   return out;
+}
+
+void require_calibration_folder(const Scene& scene, const std::filesystem::path& out) {
+  std::error_code error;
+  if (std::filesystem::equivalent(scene.file, out / "scene.toml", error)) {
+    throw InputError("command line", 0, "--out", "the folder of the scene, whose scene.toml would be replaced",
+                     "another folder");
+  }
+  if (std::filesystem::exists(out / "scene.toml", error) && !std::filesystem::exists(out / "calibration.json", error)) {
+    throw InputError("command line", 0, "--out", "a folder with a scene.toml that no calibration wrote",
+                     "another folder: it would be replaced");
+  }
+}
+
+namespace {
+
+/// The calibrated scene must say what was found. \throws RunError where its text could not be made to.
+void write_scene(const Scene& scene, const Calibration& calibration, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "scene.toml";
+  write_whole(file, calibrated_scene(scene, calibration, folder));
+  try {
+    require_calibrated(read_scene(file), calibration);
+  } catch (const Error& error) {
+    std::filesystem::remove(file);
+    throw RunError(fmt::format("{}: the calibrated values do not go into the text of the scene ({}); they are in {}",
+                               file.string(), error.what(), (folder / "calibration.json").string()));
+  }
+}
+
+}  // namespace
+
+void write_calibration(const std::filesystem::path& out, const Scene& scene, const Calibration& calibration) {
+  std::error_code error;
+  std::filesystem::remove(out / "calibration.png", error);  // of an older calibration
+  write_whole(out / "calibration.json", calibration_json(calibration));
+  write_whole(out / "predicted.csv", predicted_csv(calibration));
+  write_scene(scene, calibration, out);
 }
 
 }  // namespace macadam

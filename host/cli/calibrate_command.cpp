@@ -13,7 +13,6 @@
 #include "host/cli/options.hpp"
 #include "host/cli/stop_signals.hpp"
 #include "host/cli/streams.hpp"
-#include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
 #include "macadam/calibration.hpp"
 #include "macadam/error.hpp"
@@ -73,19 +72,6 @@ void read_parameters(Arguments& arguments) {
   }
 }
 
-/// The calibrated scene must say what was found. \throws RunError where its text could not be made to.
-void write_scene(const Scene& scene, const Calibration& calibration, const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "scene.toml";
-  write_whole(file, calibrated_scene(scene, calibration, folder));
-  try {
-    require_calibrated(read_scene(file), calibration);
-  } catch (const Error& error) {
-    std::filesystem::remove(file);
-    throw RunError(fmt::format("{}: the calibrated values do not go into the text of the scene ({}); they are in {}",
-                               file.string(), error.what(), (folder / "calibration.json").string()));
-  }
-}
-
 void calibrate_command(Arguments arguments) {
   read_parameters(arguments);
   arguments.options.e_star_deviation = arguments.e_star_deviation / 100;
@@ -97,15 +83,7 @@ void calibrate_command(Arguments arguments) {
     if (scene.solver.backend == Backend::cpu) scene.solver.device.reset();
   }
   const std::filesystem::path out = arguments.job.out;
-  std::error_code error;
-  if (std::filesystem::equivalent(scene.file, out / "scene.toml", error)) {
-    throw InputError("command line", 0, "--out", "the folder of the scene, whose scene.toml would be replaced",
-                     "another folder");
-  }
-  if (std::filesystem::exists(out / "scene.toml", error) && !std::filesystem::exists(out / "calibration.json", error)) {
-    throw InputError("command line", 0, "--out", "a folder with a scene.toml that no calibration wrote",
-                     "another folder: it would be replaced");
-  }
+  require_calibration_folder(scene, out);
   const ResultFolder folder(out);
   ProgressLine line;
   Watcher watcher;
@@ -114,10 +92,7 @@ void calibrate_command(Arguments arguments) {
   listen_to_stop_signals();
   const Calibration calibration = calibrate(scene, data, arguments.options, watcher);
   line.clear();
-  std::filesystem::remove(out / "calibration.png", error);  // of an older calibration
-  write_whole(out / "calibration.json", calibration_json(calibration));
-  write_whole(out / "predicted.csv", predicted_csv(calibration));
-  write_scene(scene, calibration, out);
+  write_calibration(out, scene, calibration);
   say("{}", calibration_text(calibration));
   for (const std::string& warning : calibration.warnings) say("warning: {}\n", warning);
   say("files in {}: scene.toml calibration.json predicted.csv\n", arguments.job.out);

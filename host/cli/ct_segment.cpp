@@ -6,18 +6,13 @@
 
 #include <memory>
 
-#include "host/cli/ct_region.hpp"
+#include "host/ct/segment_texts.hpp"
 #include "host/cli/job.hpp"
-#include "host/cli/lengths.hpp"
+#include "host/scene/lengths.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
 #include "host/ct/gradation.hpp"
-#include "host/ct/overlay.hpp"
 #include "host/ct/segment_files.hpp"
-#include "host/in_quotes.hpp"
-#include "host/results/files.hpp"
-#include "host/results/result_folder.hpp"
-#include "host/scene/units.hpp"
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"
 
@@ -34,36 +29,6 @@ struct Arguments {
   SegmentOptions segment;
 };
 
-/// The edges of a voxel: of the command line, or of the file. \throws InputError where there are none, and where the
-/// file says others by more than 1 %: it is of another scan.
-Vec3d spacing_of(const ImageHeader& header, const Arguments& arguments) {
-  const Vec3d& own = header.spacing;
-  if (arguments.voxel.empty() && own.x > 0) return own;
-  if (arguments.voxel.empty())
-    throw InputError(arguments.images, 0, "edge of a voxel", "none in the file", "--voxel with one: \"25 um\"");
-  const Vec3d given = lengths_of(arguments.voxel, "--voxel");
-  const double in_file[3] = {own.x, own.y, own.z}, asked[3] = {given.x, given.y, given.z};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (own.x > 0 && std::abs(in_file[axis] / asked[axis] - 1) > 0.01) {
-      throw InputError(arguments.images, 0, fmt::format("edge of a voxel along {}", "xyz"[axis]),
-                       fmt::format("{:.6g} mm", 1e3 * in_file[axis]),
-                       fmt::format("{:.6g} mm, as --voxel says", 1e3 * asked[axis]));
-    }
-  }
-  return given;
-}
-
-/// Bytes that may be taken: four fifths of what is free, for the system and others take some too.
-double memory_of(const Arguments& arguments) {
-  if (arguments.memory.empty()) return 0.8 * memory_available();
-  constexpr scene::Unit units[] = {{"GB", 9}, {"MB", 6}};
-  const scene::Quantity memory{"memory", units};
-  const std::optional<double> bytes = scene::parse(arguments.memory, memory);
-  if (!bytes || !(*bytes > 0))
-    throw InputError("command line", 0, "--memory", in_quotes(arguments.memory), "an amount: \"3 GB\", \"800 MB\"");
-  return *bytes;
-}
-
 void segment(Arguments arguments) {
   SegmentOptions& options = arguments.segment;
   options.slices = !arguments.no_slices, options.rings = !arguments.no_rings,
@@ -72,32 +37,20 @@ void segment(Arguments arguments) {
   if (!arguments.cuts.empty()) options.cuts = ct::read_cuts(arguments.cuts);
   if (!arguments.gradation.empty()) options.gradation = ct::read_gradation(arguments.gradation);
   if (arguments.threads) omp_set_num_threads(*arguments.threads);
-  if (!arguments.region.empty()) read_region(arguments.region, options);
-  const Vec3d voxel = spacing_of(read_image_header(arguments.images, arguments.dataset), arguments);
+  if (!arguments.region.empty()) ct::read_region(arguments.region, options);
+  std::optional<Vec3d> given;
+  if (!arguments.voxel.empty()) given = lengths_of(arguments.voxel, "--voxel");
+  const Vec3d voxel = ct::spacing_of({arguments.images, arguments.dataset}, given);
   ProgressLine line;
   options.progress = [&](const std::string& stage, double share) { show_or_stop(line, stage, share); };
   options.progress("reading", 0);
-  const Segmentation out = segment_file({arguments.images, arguments.dataset, voxel}, options, memory_of(arguments));
+  const Segmentation out =
+      segment_file({arguments.images, arguments.dataset, voxel}, options, ct::memory_of(arguments.memory));
   options.progress("writing", 0);
   const fs::path folder = arguments.out;
-  const ResultFolder held(folder);
-  for (const char* below : {"library", "border"}) {
-    fs::remove_all(folder / below);
-    fs::create_directories(folder / below);
-  }
-  std::size_t border = 0;
-  for (const ScannedGrain& grain : out.grains) {
-    border += grain.border;
-    write_surface(folder / (grain.border ? "border" : "library") / (grain.surface.name + ".off"), grain.surface);
-  }
-  write_whole(folder / "grains.csv", ct::grains_csv(out.grains));
-  write_whole(folder / "gradation.csv", ct::gradation_csv(out.grains, options.gradation, options.smallest));
-  write_whole(folder / "cuts.csv", ct::cuts_csv(out.cuts));
-  write_image(folder / "labels.mha", out.labels);
-  write_image(folder / "phases.mha", out.phases);
-  write_image(folder / "confidence.mha", out.confidence);
-  ct::write_overlay(folder / "planes.png", out);
-  ct::write_view(folder / "grains.png", out);
+  ct::write_segmentation(folder, out, options);
+  const auto border =
+      std::count_if(out.grains.begin(), out.grains.end(), [](const auto& grain) { return grain.border; });
   line.clear();
   const ScanCorrections& c = out.corrections;
   say("taken out, in shares of the contrast: slices {:.1f} %, rings {:.1f} %, hardening {:.1f} %\n", 100 * c.slices,

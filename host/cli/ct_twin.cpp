@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "host/cli/job.hpp"
-#include "host/cli/lengths.hpp"
+#include "host/scene/lengths.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/stop_signals.hpp"
 #include "macadam/error.hpp"

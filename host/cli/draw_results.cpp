@@ -2,14 +2,9 @@
 // draw_results.cpp  Finds a script of share/macadam and a Python that can run it.
 #include "host/cli/draw_results.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 
-#include <cerrno>
-
-extern char** environ;
+#include "host/cli/programs.hpp"
 
 namespace macadam {
 namespace {
@@ -19,32 +14,12 @@ namespace fs = std::filesystem;
 /// Beside an installed program, or where it was built from; empty where it is in neither place.
 fs::path find(const std::string& script) {
   std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  const fs::path program = own_program();
   for (const fs::path& file : {program.parent_path().parent_path() / "share/macadam" / script,
                                fs::path(MACADAM_SOURCE) / "scripts" / script}) {
     if (fs::is_regular_file(file, error)) return file;
   }
   return {};
-}
-
-/// Runs a program of the search path, or of a path, with its output thrown away. Whether it ended with 0.
-bool runs(std::vector<std::string> words) {
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  const int failed = ::posix_spawnp(&child, arguments.front(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) return false;
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return false;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 }  // namespace

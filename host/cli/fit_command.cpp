@@ -4,14 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 
 #include "host/cli/draw_results.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
 #include "host/fit/fit_files.hpp"
-#include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
 #include "macadam/error.hpp"
 #include "macadam/fit.hpp"
@@ -27,32 +25,14 @@ struct Arguments {
   FitOptions fit;
 };
 
-/// A range that was given, or the whole of the data.
-std::pair<double, double> range_of(const Arguments& arguments, std::optional<std::pair<double, double>> data) {
-  if (!data && !(arguments.from && arguments.to)) {
-    throw InputError("command line", 0, "range of the Kelvin chain", "not both of --from and --to",
-                     "both: a model alone has no range");
-  }
-  return {arguments.from.value_or(data ? data->first : 0), arguments.to.value_or(data ? data->second : 0)};
-}
-
-void say_conversion(const KelvinConversion& conversion, double low, double high) {
-  say("Kelvin chain of {} units for it from {:.4g} to {:.4g} Hz: largest error {:.2g} % of |E*|\n",
-      conversion.law.units(), low, high, 100 * conversion.largest_error);
-}
-
 /// No data: a model that somebody else has fitted becomes a chain.
 void convert(const Arguments& arguments) {
   const ShiftedAnalogue analogue = read_analogue(arguments.parameters);
-  const auto [low, high] = range_of(arguments, {});
-  const KelvinConversion conversion = to_kelvin(analogue.model, low, high, arguments.error);
+  const auto range = chain_range(arguments.from, arguments.to, {});
+  const KelvinConversion conversion = to_kelvin(analogue.model, range.first, range.second, arguments.error);
   const ResultFolder folder(arguments.out);
-  write_whole(std::filesystem::path(arguments.out) / "law.toml",
-              law_toml(conversion.law, analogue.shift,
-                       fmt::format("macadam fit: stands for {} from {} to {} Hz, largest error {:.2g} of |E*|",
-                                   std::isfinite(analogue.model.beta) ? "2S2P1D" : "Huet-Sayegh", low, high,
-                                   conversion.largest_error)));
-  say_conversion(conversion, low, high);
+  write_files(arguments.out, conversion_files(analogue, conversion, range));
+  say("{}", conversion_text(conversion, range));
   say("files in {}: law.toml\n", arguments.out);
 }
 
@@ -66,23 +46,15 @@ void fit_command(Arguments arguments) {
   if (arguments.flow || arguments.no_flow) arguments.fit.flow = arguments.flow;
   const Fit fit = fit_modulus(read_modulus_data(arguments.data, arguments.poisson), arguments.fit);
   std::optional<KelvinConversion> conversion;
-  const auto [low, high] = range_of(arguments, fit.reduced_range());
+  const auto range = chain_range(arguments.from, arguments.to, fit.reduced_range());
   if (const auto* analogue = std::get_if<AnalogueModel>(&fit.model))
-    conversion = to_kelvin(*analogue, low, high, arguments.error);
-  const laws::GeneralisedKelvin& law = conversion ? conversion->law : std::get<laws::GeneralisedKelvin>(fit.model);
-  const FitErrors& e = fit.errors;
-  const std::string origin =
-      fmt::format("macadam fit: |E*| of {} measurements within {:.3g} % (rms), phase {:.3g} degrees", fit.points.size(),
-                  100 * e.e_star_rms, e.phase_rms_deg);
+    conversion = to_kelvin(*analogue, range.first, range.second, arguments.error);
   const std::filesystem::path out = arguments.out;
-  const std::string json = fit_json(fit, conversion ? &*conversion : nullptr), curve = curve_csv(fit);
+  const FitFiles files = fit_files(fit, conversion ? &*conversion : nullptr);
   const ResultFolder folder(out);
-  write_whole(out / "law.toml", law_toml(law, fit.shift, origin));
-  write_whole(out / "fit.json", json);
-  write_whole(out / "fit.csv", fit_csv(fit));
-  write_whole(out / "curve.csv", curve);
+  write_files(out, files);
   say("{}", fit_text(fit));
-  if (conversion) say_conversion(*conversion, low, high);
+  if (conversion) say("{}", conversion_text(*conversion, range));
   for (const std::string& warning : fit.warnings) say("warning: {}\n", warning);
   say("files in {}: law.toml fit.json fit.csv curve.csv\n", arguments.out);
   if (!arguments.no_pictures) { say("{}", draw_results("draw-fit", out, "master-curve.png cole-cole.png black.png")); }

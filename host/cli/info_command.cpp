@@ -3,6 +3,7 @@
 #include "host/cli/info_command.hpp"
 
 #include "host/cli/streams.hpp"
+#include "host/stepping/processor_code.hpp"
 #include "macadam/macadam.hpp"
 
 namespace macadam {
@@ -11,7 +12,7 @@ namespace {
 void info_command() {
   const BackendReport report = report_backends();
   say("macadam {}\n", version());
-  say("cpu        yes, {} threads\n", report.threads);
+  say("cpu        yes, {} threads, compiled for {}\n", report.threads, processor_code().name);
   say("reference  yes, for checking: per point, double, one thread\n");
   say("cuda       {}: {}\n", report.devices.empty() ? "no" : "yes", report.cuda_status);
   const auto list = [](const std::vector<DeviceInfo>& devices, const char* remark) {

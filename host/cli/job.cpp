@@ -6,6 +6,7 @@
 
 #include "host/cli/options.hpp"
 #include "host/cli/stop_signals.hpp"
+#include "host/scene/overrides.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -19,11 +20,9 @@ void add_job_options(CLI::App& command, Job& job) {
 
 Scene scene_of(const Job& job) {
   Scene scene = read_scene(job.scene);
-  if (job.seed && scene.specimen.file) throw InputError("--seed: the scene takes its specimen from a file");
-  if (job.seed) {
-    scene.specimen.seed = *job.seed;
-    scene.text += fmt::format("\n# --seed {}\n", *job.seed);  // a checkpoint belongs to the text
-  }
+  Overrides instead;
+  instead.seed = job.seed;
+  apply(instead, scene);
   return scene;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// main.cpp  The command line: macadam run | specimen | shapes | fit | calibrate | ct | info. Exit code 0 done, 1 the
-// run failed, 2 the input is wrong.
+// main.cpp  The command line: macadam run | specimen | shapes | fit | calibrate | ct | info | report | study. Exit code
+// 0 done, 1 the run failed, 2 the input is wrong.
 #include <CLI/CLI.hpp>
 #include <new>
 
@@ -9,6 +9,7 @@
 #include "host/cli/fit_command.hpp"
 #include "host/cli/info_command.hpp"
 #include "host/cli/limited_memory.hpp"
+#include "host/cli/python_commands.hpp"
 #include "host/cli/run_command.hpp"
 #include "host/cli/shapes_command.hpp"
 #include "host/cli/specimen_command.hpp"
@@ -97,6 +98,7 @@ int main_function(int argc, char** argv) {
   add_calibrate_command(app);
   add_ct_command(app);
   add_info_command(app);
+  add_python_commands(app);
   const auto [code, ran] = run_program(app, argc, argv);
   // what a run or a specimen says is in its files as well
   const bool in_files = ran && (app.got_subcommand("run") || app.got_subcommand("specimen"));

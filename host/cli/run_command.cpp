@@ -7,6 +7,7 @@
 #include "host/cli/job.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/stop_signals.hpp"
+#include "host/scene/overrides.hpp"
 #include "macadam/macadam.hpp"
 
 namespace macadam {
@@ -14,26 +15,13 @@ namespace {
 
 struct Arguments {
   Job job;
-  std::optional<Backend> backend;
-  std::optional<Precision> precision;
-  std::optional<SolverMethod> method;
-  std::optional<LinearMethod> linear;
-  std::optional<int> threads, device;
+  Overrides instead;
   bool resume = false;
 };
 
 void run_command(const Arguments& arguments) {
   Scene scene = scene_of(arguments.job);
-  if (arguments.method) scene.solver.method = *arguments.method;
-  if (arguments.backend) {
-    scene.solver.backend = *arguments.backend;
-    const bool may = scene.solver.backend == Backend::cuda || scene.solver.backend == Backend::automatic;
-    if (!may) scene.solver.device.reset();  // the scene's: it belongs to the backend that is replaced
-  }
-  if (arguments.device) scene.solver.device = arguments.device;
-  if (arguments.precision) scene.solver.precision = *arguments.precision;
-  if (arguments.linear) scene.solver.linear = *arguments.linear;
-  if (arguments.threads) scene.solver.threads = *arguments.threads;
+  apply(arguments.instead, scene);
   ProgressLine line;
   Watcher watcher;
   bool started = false;
@@ -81,20 +69,21 @@ void add_run_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("run", "run a scene and write its results");
   const auto arguments = std::make_shared<Arguments>();
   add_job_options(command, arguments->job);
-  add_choice(command, "--backend", arguments->backend, "instead of the scene's",
+  add_choice(command, "--backend", arguments->instead.backend, "instead of the scene's",
              {{"auto", Backend::automatic},
               {"cuda", Backend::cuda},
               {"cpu", Backend::cpu},
               {"reference", Backend::reference}});
-  add_choice(command, "--precision", arguments->precision, "instead of the scene's",
+  add_choice(command, "--precision", arguments->instead.precision, "instead of the scene's",
              {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}});
-  add_choice(command, "--method", arguments->method, "instead of the scene's",
+  add_choice(command, "--method", arguments->instead.method, "instead of the scene's",
              {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}});
   add_choice(
-      command, "--linear", arguments->linear, "of the harmonic solutions, instead of the scene's",
+      command, "--linear", arguments->instead.linear, "of the harmonic solutions, instead of the scene's",
       {{"auto", LinearMethod::automatic}, {"iterative", LinearMethod::iterative}, {"direct", LinearMethod::direct}});
-  add_number(command, "--threads", arguments->threads, "cpu threads; results do not depend on it", 1, 1024);
-  add_number(command, "--device", arguments->device, "number of the CUDA device (macadam info lists them)", 0, 1023);
+  add_number(command, "--threads", arguments->instead.threads, "cpu threads; results do not depend on it", 1, 1024);
+  add_number(command, "--device", arguments->instead.device, "number of the CUDA device (macadam info lists them)", 0,
+             1023);
   command.add_flag("--resume", arguments->resume, "go on from the checkpoint that an interrupted run left in DIR");
   command.callback([arguments] { run_command(*arguments); });
 }

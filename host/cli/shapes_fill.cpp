@@ -8,7 +8,7 @@
 #include <limits>
 #include <memory>
 
-#include "host/cli/lengths.hpp"
+#include "host/scene/lengths.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
 #include "host/results/files.hpp"

@@ -5,7 +5,11 @@
 #include <charconv>
 #include <fstream>
 
+#include "host/ct/gradation.hpp"
+#include "host/ct/overlay.hpp"
 #include "host/in_quotes.hpp"
+#include "host/results/files.hpp"
+#include "host/results/result_folder.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::ct {
@@ -106,6 +110,42 @@ std::vector<GrainCut> read_cuts(const std::filesystem::path& file) {
                     values[9] == 1});
   }
   return cuts;
+}
+
+Vec3d spacing_of(const ScanFile& scan, const std::optional<Vec3d>& given) {
+  const Vec3d own = read_image_header(scan.path, scan.dataset).spacing;
+  if (!given && own.x > 0) return own;
+  if (!given)
+    throw InputError(scan.path.string(), 0, "edge of a voxel", "none in the file", "--voxel with one: \"25 um\"");
+  const double in_file[3] = {own.x, own.y, own.z}, asked[3] = {given->x, given->y, given->z};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (own.x > 0 && std::abs(in_file[axis] / asked[axis] - 1) > 0.01) {
+      throw InputError(scan.path.string(), 0, fmt::format("edge of a voxel along {}", "xyz"[axis]),
+                       fmt::format("{:.6g} mm", 1e3 * in_file[axis]),
+                       fmt::format("{:.6g} mm, as --voxel says", 1e3 * asked[axis]));
+    }
+  }
+  return *given;
+}
+
+void write_segmentation(const std::filesystem::path& folder, const Segmentation& out, const SegmentOptions& options) {
+  namespace fs = std::filesystem;
+  const ResultFolder held(folder);
+  for (const char* below : {"library", "border"}) {
+    fs::remove_all(folder / below);
+    fs::create_directories(folder / below);
+  }
+  for (const ScannedGrain& grain : out.grains) {
+    write_surface(folder / (grain.border ? "border" : "library") / (grain.surface.name + ".off"), grain.surface);
+  }
+  write_whole(folder / "grains.csv", grains_csv(out.grains));
+  write_whole(folder / "gradation.csv", gradation_csv(out.grains, options.gradation, options.smallest));
+  write_whole(folder / "cuts.csv", cuts_csv(out.cuts));
+  write_image(folder / "labels.mha", out.labels);
+  write_image(folder / "phases.mha", out.phases);
+  write_image(folder / "confidence.mha", out.confidence);
+  write_overlay(folder / "planes.png", out);
+  write_view(folder / "grains.png", out);
 }
 
 }  // namespace macadam::ct

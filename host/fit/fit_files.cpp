@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "host/results/files.hpp"
+#include "macadam/error.hpp"
 #include "macadam/version.hpp"
 
 namespace macadam {
@@ -185,6 +187,43 @@ std::string fit_text(const Fit& fit) {
       "\n|E*|: rms {:.3g} %, largest {:.3g} %; phase: rms {:.3g}, largest {:.3g} degrees ({} measurements)\n",
       100 * e.e_star_rms, 100 * e.e_star_largest, e.phase_rms_deg, e.phase_largest_deg, fit.points.size());
   return out;
+}
+
+std::string conversion_text(const KelvinConversion& conversion, std::pair<double, double> range_hz) {
+  return fmt::format("Kelvin chain of {} units for it from {:.4g} to {:.4g} Hz: largest error {:.2g} % of |E*|\n",
+                     conversion.law.units(), range_hz.first, range_hz.second, 100 * conversion.largest_error);
+}
+
+std::pair<double, double> chain_range(std::optional<double> from, std::optional<double> to,
+                                      std::optional<std::pair<double, double>> data) {
+  if (!data && !(from && to)) {
+    throw InputError("command line", 0, "range of the Kelvin chain", "not both of --from and --to",
+                     "both: a model alone has no range");
+  }
+  return {from.value_or(data ? data->first : 0), to.value_or(data ? data->second : 0)};
+}
+
+FitFiles fit_files(const Fit& fit, const KelvinConversion* conversion) {
+  const laws::GeneralisedKelvin& law = conversion ? conversion->law : std::get<laws::GeneralisedKelvin>(fit.model);
+  const std::string origin =
+      fmt::format("macadam fit: |E*| of {} measurements within {:.3g} % (rms), phase {:.3g} degrees", fit.points.size(),
+                  100 * fit.errors.e_star_rms, fit.errors.phase_rms_deg);
+  return {{"law.toml", law_toml(law, fit.shift, origin)},
+          {"fit.json", fit_json(fit, conversion)},
+          {"fit.csv", fit_csv(fit)},
+          {"curve.csv", curve_csv(fit)}};
+}
+
+FitFiles conversion_files(const ShiftedAnalogue& model, const KelvinConversion& conversion,
+                          std::pair<double, double> range_hz) {
+  const std::string origin = fmt::format("macadam fit: stands for {} from {} to {} Hz, largest error {:.2g} of |E*|",
+                                         std::isfinite(model.model.beta) ? "2S2P1D" : "Huet-Sayegh", range_hz.first,
+                                         range_hz.second, conversion.largest_error);
+  return {{"law.toml", law_toml(conversion.law, model.shift, origin)}};
+}
+
+void write_files(const std::filesystem::path& folder, const FitFiles& files) {
+  for (const auto& [name, text] : files) write_whole(folder / name, text);
 }
 
 }  // namespace macadam

@@ -2,7 +2,11 @@
 /// \file fit_files.hpp  What `macadam fit` writes.
 #pragma once
 
+#include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "macadam/fit.hpp"
 
@@ -22,5 +26,22 @@ std::string curve_csv(const Fit& fit);
 
 /// Parameters as people read them, and the errors.
 std::string fit_text(const Fit& fit);
+
+/// The chain that stands for a fitted model, in words.
+std::string conversion_text(const KelvinConversion& conversion, std::pair<double, double> range_hz);
+
+/// The range of that chain [Hz]: as given, or that of the data. \throws InputError where there is neither.
+std::pair<double, double> chain_range(std::optional<double> from, std::optional<double> to,
+                                      std::optional<std::pair<double, double>> data);
+
+/// What `macadam fit` leaves in its folder: names of files and their texts.
+using FitFiles = std::map<std::string, std::string>;
+/// law.toml, fit.json, fit.csv, curve.csv; `conversion`: of a model that is no chain.
+FitFiles fit_files(const Fit& fit, const KelvinConversion* conversion);
+/// law.toml of a model that somebody else has fitted.
+FitFiles conversion_files(const ShiftedAnalogue& model, const KelvinConversion& conversion,
+                          std::pair<double, double> range_hz);
+/// \throws RunError
+void write_files(const std::filesystem::path& folder, const FitFiles& files);
 
 }  // namespace macadam

@@ -125,6 +125,10 @@ void check_together(const Scene& scene, const Section& root) {
 
 toml::table read_toml(const std::filesystem::path& file, const std::string& what, std::string& text) {
   text = read_text(file, what);
+  return parse_toml(text, file, what);
+}
+
+toml::table parse_toml(const std::string& text, const std::filesystem::path& file, const std::string& what) {
   check_line_lengths(text, file.string(), what);
   try {
     return toml::parse(text, file.string());
@@ -134,13 +138,38 @@ toml::table read_toml(const std::filesystem::path& file, const std::string& what
   }
 }
 
-}  // namespace scene
+namespace {
 
-Scene read_scene(const std::filesystem::path& file) {
-  using namespace scene;
+toml::table without_lines(const toml::table& table);
+toml::array without_lines(const toml::array& array);
+
+/// f(a copy of what stands in a node); the copy does not know where it stood.
+template <class F>
+void copied(const toml::node& node, F&& f) {
+  node.visit([&](const auto& one) {
+    if constexpr (toml::is_table<decltype(one)> || toml::is_array<decltype(one)>)
+      f(without_lines(one));
+    else
+      f(one.get());
+  });
+}
+
+toml::array without_lines(const toml::array& array) {
+  toml::array out;
+  for (const toml::node& node : array) copied(node, [&](auto&& value) { out.push_back(value); });
+  return out;
+}
+
+toml::table without_lines(const toml::table& table) {
+  toml::table out;
+  for (const auto& [key, node] : table) copied(node, [&](auto&& value) { out.insert(key.str(), value); });
+  return out;
+}
+
+Scene read_tables(const std::filesystem::path& file, std::string text, const toml::table& table) {
   Scene out;
   out.file = file;
-  const toml::table table = read_toml(file, "scene", out.text);
+  out.text = std::move(text);
   const Section root(file.string(), 0, "", "", table);
   const std::filesystem::path folder = file.parent_path();
   const Need densities = table["specimen"]["recipe"] ? Need::optional : Need::required;
@@ -159,6 +188,21 @@ Scene read_scene(const std::filesystem::path& file) {
   check_together(out, root);
   apply_temperature(out, root);
   return out;
+}
+
+}  // namespace
+}  // namespace scene
+
+Scene read_scene(const std::filesystem::path& file) {
+  std::string text;
+  const toml::table table = scene::read_toml(file, "scene", text);
+  return scene::read_tables(file, std::move(text), table);
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::string& text, bool lines) {
+  const toml::table table = scene::parse_toml(text, file, "scene");
+  if (lines) return scene::read_tables(file, text, table);
+  return scene::read_tables(file, text, scene::without_lines(table));
 }
 
 }  // namespace macadam

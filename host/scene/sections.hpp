@@ -9,6 +9,8 @@ namespace macadam::scene {
 
 /// The text of a TOML file and its tables; `what` it is in messages. \throws InputError
 toml::table read_toml(const std::filesystem::path& file, const std::string& what, std::string& text);
+/// The tables of a text that stands for the file's. \throws InputError
+toml::table parse_toml(const std::string& text, const std::filesystem::path& file, const std::string& what);
 
 /// Reads `[specimen]`: a file or what the generator needs, whichever it is, that is not impossible; `recipe` is what
 /// its classes follow from, where there is one. Paths are taken from `folder`. \throws InputError

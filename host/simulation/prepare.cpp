@@ -33,6 +33,28 @@ void remove_older(const std::filesystem::path& file) {
   if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);
 }
 
+/// Cells and contacts of particles that are there.
+void divide(const Scene& scene, const Progress& progress, Preparation& out) {
+  if (progress) progress("tessellation", 0);
+  out.seconds_tessellation = timed([&] { out.tessellation = tessellate(out.specimen); });
+  if (progress) progress("contact network", 0);
+  out.seconds_network = timed([&] {
+    out.network = build_network(out.specimen, out.tessellation, scene.network);
+    require_laws(scene, out.specimen, out.network);
+    for (const Cluster& cluster : find_clusters(out.network, out.specimen.size())) {
+      if (cluster.spans()) {
+        ++out.spanning_clusters;
+      } else {
+        out.loose_particles += static_cast<std::int64_t>(cluster.particles.size());
+      }
+    }
+  });
+  if (out.spanning_clusters == 0) {
+    throw InputError(scene.file.string(), 0, "contact network", "no path of contacts from the bottom to the top wall",
+                     "one (check gap_max and area_min)");
+  }
+}
+
 }  // namespace
 
 Preparation prepare(const Scene& scene, const Progress& progress) {
@@ -52,24 +74,15 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
       out.relaxation_iterations = made.relaxation_iterations;
     }
   });
-  report("tessellation", 0);
-  out.seconds_tessellation = timed([&] { out.tessellation = tessellate(out.specimen); });
-  report("contact network", 0);
-  out.seconds_network = timed([&] {
-    out.network = build_network(out.specimen, out.tessellation, scene.network);
-    require_laws(scene, out.specimen, out.network);
-    for (const Cluster& cluster : find_clusters(out.network, out.specimen.size())) {
-      if (cluster.spans()) {
-        ++out.spanning_clusters;
-      } else {
-        out.loose_particles += static_cast<std::int64_t>(cluster.particles.size());
-      }
-    }
-  });
-  if (out.spanning_clusters == 0) {
-    throw InputError(scene.file.string(), 0, "contact network", "no path of contacts from the bottom to the top wall",
-                     "one (check gap_max and area_min)");
-  }
+  divide(scene, progress, out);
+  return out;
+}
+
+Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progress) {
+  Preparation out;
+  validate(specimen, specimen.source);
+  out.specimen = std::move(specimen);
+  divide(scene, progress, out);
   return out;
 }
 

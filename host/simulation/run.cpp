@@ -90,9 +90,9 @@ std::string status_of(const std::exception& error) {
   return std::string("failed: ") + error.what();
 }
 
-}  // namespace
-
-RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher, bool resume) {
+/// `given`: none, or what need not be made anew.
+RunResult run_of(const Scene& scene, const Preparation* given, const std::filesystem::path& out, const Watcher& watcher,
+                 bool resume) {
   require_backend_fits(scene);
   RunResult result;
   std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
@@ -107,7 +107,12 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
     resumed = Resumed{read_checkpoint_of(file, scene, result.backend), file};
   }
   starting.reset();
-  const Preparation prepared = prepare(scene, watcher.progress);
+  std::optional<Preparation> made;
+  if (given)
+    require_laws(scene, given->specimen, given->network);
+  else
+    made = prepare(scene, watcher.progress);
+  const Preparation& prepared = given ? *given : *made;
   if (resumed) require_same_specimen(resumed->file, resumed->checkpoint, prepared);
   if (watcher.prepared) watcher.prepared(prepared);
 
@@ -150,6 +155,17 @@ RunResult run(const Scene& scene, const std::filesystem::path& out, const Watche
   save("done");
   if (stepped) remove_own_checkpoint(out, scene, result.backend, solution->owns_checkpoint());
   return result;
+}
+
+}  // namespace
+
+RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher, bool resume) {
+  return run_of(scene, nullptr, out, watcher, resume);
+}
+
+RunResult run(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out, const Watcher& watcher,
+              bool resume) {
+  return run_of(scene, &prepared, out, watcher, resume);
 }
 
 }  // namespace macadam

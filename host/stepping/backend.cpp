@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "host/reference/reference_stepper.hpp"
-#include "kernels/make_stepper.hpp"
+#include "host/stepping/cuda_code.hpp"
+#include "host/stepping/processor_code.hpp"
 #include "kernels/stepper_input.hpp"
+#include "kernels/steppers.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -30,13 +32,9 @@ const DeviceInfo& chosen_device(const BackendReport& report, std::optional<int> 
 }
 
 /// Why a device that answers cannot be used after all; empty where it can.
-std::string refusal_of([[maybe_unused]] const DeviceInfo& device) {
-#ifdef MACADAM_CUDA
-  const std::string why = kernels::cuda_refusal(device.number);
+std::string refusal_of(const DeviceInfo& device) {
+  const std::string why = cuda_code()->refusal(device.number);
   return why.empty() ? "" : device.name + " cannot be used: " + why;
-#else
-  return "";
-#endif
 }
 
 }  // namespace
@@ -70,12 +68,10 @@ const char* to_string(Damping d) { return d == Damping::none ? "none" : d == Dam
 BackendReport report_backends() {
   BackendReport report;
   report.threads = omp_get_max_threads();
-#ifdef MACADAM_CUDA
-  report.cuda_compiled = true;
-  kernels::report_cuda_devices(report);
-#else
-  report.cuda_status = "this build has no CUDA backend (no CUDA toolkit was found when it was configured)";
-#endif
+  if (const kernels::CudaCode* code = cuda_code(&report.cuda_status)) {
+    report.cuda_compiled = true;
+    code->report(report);
+  }
   return report;
 }
 
@@ -125,15 +121,17 @@ Backend kernels::resolved(Backend asked, bool on_device, StepperOptions& options
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                       const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
                                       std::unique_ptr<Stepper> used) {
-#ifdef MACADAM_CUDA
-  constexpr bool on_device = true;
-#else
-  constexpr bool on_device = false;
-#endif
   kernels::require_input(specimen.size(), network, facts_of(laws), options);
-  if (select_backend(backend, nullptr, options.device) == Backend::reference)
-    return make_reference_stepper(specimen, network, laws, inertia, options);
-  return make_stepper_of<Law, on_device>(backend, specimen, network, laws, inertia, options, std::move(used));
+  StepperOptions given = options;
+  switch (select_backend(backend, nullptr, options.device)) {
+    case Backend::reference:
+      return make_reference_stepper(specimen, network, laws, inertia, given);
+    case Backend::cuda:
+      given.device = chosen_device(report_backends(), options.device).number;
+      return cuda_code()->make_stepper(specimen, network, laws, inertia, given, std::move(used));
+    default:
+      return processor_code().make_stepper(specimen, network, laws, inertia, given, std::move(used));
+  }
 }
 
 }  // namespace macadam

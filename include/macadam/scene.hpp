@@ -107,6 +107,9 @@ bool has_fields(const Scene& scene);
 /// one is named), wrong types, impossible values, missing sections, units ("12.5 mm", "35 GPa").
 /// \throws InputError with file, line, what was found, what was expected.
 Scene read_scene(const std::filesystem::path& file);
+/// The same of a text that stands for the file's: messages name `file`, and paths are relative to its folder. Without
+/// `lines`, nobody has seen the text, and messages name no line of it.
+Scene read_scene(const std::filesystem::path& file, const std::string& text, bool lines = true);
 
 /// A scene's laws at a temperature [°C]; NaN in viscosities where a shift law has no value there.
 LawTable laws_at(const Scene& scene, double temperature);

@@ -2,6 +2,7 @@
 /// \file simulation.hpp  The main job: scene in, results in a folder.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -16,6 +17,8 @@
 #include "macadam/tessellation.hpp"
 
 namespace macadam {
+
+class Stepper;
 
 /// Particles, cells and contacts of a scene, with what their making took.
 struct Preparation {
@@ -72,6 +75,8 @@ std::string results_table(const RunResult& result);
 
 /// Specimen (read or generated), tessellation, network; checks that every pair present has a law.
 Preparation prepare(const Scene& scene, const Progress& progress = {});
+/// The same of particles in place of the scene's own.
+Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progress = {});
 
 /// Prepares a scene and writes specimen.csv, aggregates.csv (of a generated specimen), gradation.csv (of a recipe by
 /// mass), contacts.csv (where the scene asks), section_*.csv of the planes and summary.json without results. Nothing is
@@ -91,6 +96,10 @@ struct Watcher {
   /// Asked before each sample and within a second between samples, and between iterations of the frequency domain: true
   /// ends the run, a stepped one with a checkpoint.
   std::function<bool()> stop;
+  /// Called after every `every` steps of a test that is stepped, with the frequency of a cyclic one, else with 0;
+  /// `every` = 0: never.
+  std::function<void(const Stepper&, double frequency_hz)> stepped;
+  std::int64_t every = 0;
 };
 
 /// The whole job: prepare, plan, step every frequency, write every file. The folder is as it was until preparing and
@@ -104,5 +113,8 @@ struct Watcher {
 /// version, backend or precision, and where another command is writing into the folder; InterruptedError; RunError
 /// (DivergenceError names particle and time), also for a tolerance whose result cannot be right.
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
+/// The same of what was prepared already, of this scene or of one with the same particles.
+RunResult run(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
+              const Watcher& watcher = {}, bool resume = false);
 
 }  // namespace macadam

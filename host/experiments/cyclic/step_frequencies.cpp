@@ -201,6 +201,7 @@ class Steps : public Solution {
     Course course;
     course.name = fmt::format("{} Hz", p.loading.frequency);
     course.dt = p.loading.dt();
+    course.frequency = p.loading.frequency;
     course.first = (stepper_->observe().step + stride - 1) / stride;
     course.last = p.cycles * per_cycle;
     course.step_of = [stride](std::int64_t k) { return k * stride; };

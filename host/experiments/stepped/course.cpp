@@ -56,6 +56,7 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
   const auto start = Clock::now();
   std::int64_t step = stepper.observe().step;
   const std::int64_t begun = step, end = course.step_of(course.last);
+  const std::int64_t every = watcher_.stepped ? watcher_.every : 0;
   bool told = !course.foretold;
   const auto speed = [&](std::int64_t now) { return static_cast<double>(now - begun) / seconds_since(start); };
   const auto look = [&](std::int64_t now) {
@@ -69,8 +70,12 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
   Pieces pieces;
   for (std::int64_t k = course.first; k <= course.last; ++k) {
     const std::int64_t to = course.step_of(k);
-    pieces.advance(stepper, step, to, look);
-    step = to;
+    do {  // stops on the way where the watcher wants to be told
+      const std::int64_t next = every > 0 ? std::min(to, (step / every + 1) * every) : to;
+      pieces.advance(stepper, step, next, look);
+      if (every > 0 && next > step && next % every == 0) watcher_.stepped(stepper, course.frequency);
+      step = next;
+    } while (step < to);
     const bool frame = fields_.wants(k);
     if (!frame && !course.taken(k)) continue;
     const Observation now = stepper.observe();

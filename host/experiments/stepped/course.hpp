@@ -24,6 +24,7 @@ inline double seconds_since(Clock::time_point start) {
 struct Course {
   std::string name;                                   ///< in messages: "20 Hz", "creep"
   double dt = 0;                                      ///< [s]
+  double frequency = 0;                               ///< [Hz], of a cyclic test
   std::int64_t first = 0, last = 0;                   ///< numbers of samples; sample 0 is that of step 0
   std::function<std::int64_t(std::int64_t)> step_of;  ///< of a sample, never falling
   std::function<bool(std::int64_t)> taken;            ///< whether anybody wants this sample

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 
-#include "host/harmonic/iterative/block_cocg.hpp"
 #include "host/harmonic/iterative/make_system.hpp"
+#include "host/stepping/cuda_code.hpp"
+#include "host/stepping/processor_code.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {
@@ -28,8 +29,9 @@ class CpuSolver : public LinearSolver {
       : layout_(std::move(layout)), system_(std::move(system)), inverse_(invert_particle_blocks(system_, layout_)) {}
 
   void solve(const std::vector<LinearTask*>& tasks, const std::function<bool()>& stop) override {
-    for_each_block(tasks,
-                   [&](const std::vector<LinearTask*>& some) { solve_block(system_, inverse_, layout_, some, stop); });
+    for_each_block(tasks, [&](const std::vector<LinearTask*>& some) {
+      processor_code().solve_block(system_, inverse_, layout_, some, stop);
+    });
   }
 
  private:
@@ -38,12 +40,11 @@ class CpuSolver : public LinearSolver {
   std::vector<double> inverse_;
 };
 
-#ifdef MACADAM_CUDA
 class CudaSolver : public LinearSolver {
  public:
   CudaSolver(kernels::Layout layout, const kernels::LinearSystem& system) : layout_(std::move(layout)) {
     std::int64_t loose = -1;
-    solver_ = kernels::make_device_solver(system, loose);
+    solver_ = cuda_code()->make_solver(system, loose);
     if (loose >= 0) refuse_loose_particle(loose, layout_);
   }
 
@@ -96,7 +97,6 @@ class CudaSolver : public LinearSolver {
   kernels::Layout layout_;
   std::unique_ptr<kernels::DeviceSolver> solver_;
 };
-#endif
 
 }  // namespace
 
@@ -114,9 +114,7 @@ std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, co
   kernels::Layout layout = kernels::make_order(specimen, boxes > 0 ? boxes : usual);
   kernels::LinearSystem system = make_system(network, specimen, layout, typical, inertia, free);
   if (boxes == 0) std::fill(system.coarse.begin(), system.coarse.end(), 0.0);
-#ifdef MACADAM_CUDA
   if (backend == Backend::cuda) return std::make_unique<CudaSolver>(std::move(layout), system);
-#endif
   return std::make_unique<CpuSolver>(std::move(layout), std::move(system));
 }
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ct_region.cpp  The name of a region, or its coordinates.
-#include "host/cli/ct_region.hpp"
+// segment_texts.cpp  The name of a region, or its coordinates; an amount of memory.
+#include "host/ct/segment_texts.hpp"
 
 #include <limits>
 #include <vector>
 
-#include "host/cli/lengths.hpp"
+#include "host/scene/lengths.hpp"
 #include "host/in_quotes.hpp"
+#include "host/scene/units.hpp"
 #include "macadam/error.hpp"
 
-namespace macadam {
+namespace macadam::ct {
 namespace {
 
 constexpr const char* option = "--region";
@@ -65,4 +66,14 @@ void read_region(const std::string& text, SegmentOptions& options) {
   options.given = given;
 }
 
-}  // namespace macadam
+double memory_of(const std::string& text) {
+  if (text.empty()) return 0.8 * memory_available();
+  constexpr scene::Unit units[] = {{"GB", 9}, {"MB", 6}};
+  const scene::Quantity memory{"memory", units};
+  const std::optional<double> bytes = scene::parse(text, memory);
+  if (!bytes || !(*bytes > 0))
+    throw InputError("command line", 0, "--memory", in_quotes(text), "an amount: \"3 GB\", \"800 MB\"");
+  return *bytes;
+}
+
+}  // namespace macadam::ct

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // lengths.cpp  Texts of the command line into metres.
-#include "host/cli/lengths.hpp"
+#include "host/scene/lengths.hpp"
 
 #include <charconv>
 

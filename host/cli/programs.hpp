@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file programs.hpp  Other programs that this one starts.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace macadam {
+
+/// This program's own file; empty where the system does not say it.
+std::filesystem::path own_program();
+
+/// Runs a program of the search path, or of a path, with its output thrown away. Whether it ended with 0.
+bool runs(std::vector<std::string> words);
+
+/// Becomes a program. Returns only where that could not be: why not.
+std::string become(std::vector<std::string> words);
+
+}  // namespace macadam

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// python_commands.cpp  Finds the Python package and a Python that can run it.
+#include "host/cli/python_commands.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "host/cli/programs.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder with the package: of the build that this program is of, of the package that it came with, or of the
+/// source tree; empty: none, and Python is to know it.
+fs::path package_folder() {
+  const fs::path program = own_program(), build = program.parent_path();
+  std::error_code error;
+  for (const fs::path& folder :
+       {build / "python", build.parent_path().parent_path(), fs::path(MACADAM_SOURCE) / "python"})
+    if (fs::is_regular_file(folder / "macadam/__main__.py", error)) return folder;
+  return {};
+}
+
+/// MACADAM_PYTHON of the environment, that of the source tree (scripts/python), or the first of the search path.
+std::string interpreter() {
+  if (const char* const named = std::getenv("MACADAM_PYTHON"); named && *named) return named;
+  const fs::path own = fs::path(MACADAM_SOURCE) / "build/python/bin/python3";
+  std::error_code error;
+  return fs::exists(own, error) ? own.string() : "python3";
+}
+
+[[noreturn]] void run_python(const std::string& command, const std::vector<std::string>& arguments) {
+  const std::string python = interpreter();
+  if (const fs::path folder = package_folder(); !folder.empty()) {
+    const char* const before = std::getenv("PYTHONPATH");
+    setenv("PYTHONPATH", (folder.string() + (before && *before ? ":" + std::string(before) : "")).c_str(), 1);
+  }
+  const std::string look =
+      fmt::format("import sys, importlib.util as u; sys.exit(u.find_spec('macadam.{}') is None)", command);
+  if (!runs({python, "-c", look})) {
+    throw InputError(
+        fmt::format("macadam {0}: found no Python package macadam.{0} by {1}, expected one: pip install it, or name "
+                    "a Python that has it in MACADAM_PYTHON",
+                    command, python));
+  }
+  std::vector<std::string> words{python, "-m", "macadam", command};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  throw RunError(python + ": cannot be run: " + become(words));
+}
+
+}  // namespace
+
+void add_python_commands(CLI::App& app) {
+  const auto add = [&](const std::string& name, const char* description) {
+    CLI::App* command = app.add_subcommand(name, description);
+    command->prefix_command();
+    command->set_help_flag();  // its own
+    command->callback([command, name] { run_python(name, command->remaining()); });
+  };
+  add("report", "one HTML file about folders of results (by the Python package)");
+  add("study", "many scenes, on this machine or several (by the Python package)");
+}
+
+}  // namespace macadam

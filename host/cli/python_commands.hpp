@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file python_commands.hpp  macadam report, macadam study: commands that are written in Python.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace macadam {
+
+/// Adds them to the program; they become `python3 -m macadam …` when the command line is parsed.
+void add_python_commands(CLI::App& app);
+
+}  // namespace macadam

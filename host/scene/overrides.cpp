@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// overrides.cpp  Options in place of a scene's own values.
+#include "host/scene/overrides.hpp"
+
+#include <fmt/format.h>
+
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+void apply(const Overrides& asked, Scene& scene) {
+  if (asked.seed && scene.specimen.file) throw InputError("--seed: the scene takes its specimen from a file");
+  if (asked.seed) {
+    scene.specimen.seed = *asked.seed;
+    scene.text += fmt::format("\n# --seed {}\n", *asked.seed);  // a checkpoint belongs to the text
+  }
+  SolverSpec& solver = scene.solver;
+  if (asked.method) solver.method = *asked.method;
+  if (asked.backend) {
+    solver.backend = *asked.backend;
+    const bool may = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
+    if (!may) solver.device.reset();  // the scene's: it belongs to the backend that is replaced
+  }
+  if (asked.device) solver.device = asked.device;
+  if (asked.precision) solver.precision = asked.precision;
+  if (asked.linear) solver.linear = *asked.linear;
+  if (asked.threads) solver.threads = *asked.threads;
+}
+
+}  // namespace macadam

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// processor_code.cpp  The entries of one generation's code; CMakeLists.txt compiles this file for each, under the name
+// of each.
+#include "host/stepping/processor_code.hpp"
+
+#include "host/harmonic/iterative/block_cocg.hpp"
+#include "kernels/precision.hpp"
+#include "kernels/steppers.hpp"
+
+#ifndef MACADAM_CODE
+#define MACADAM_CODE macadam_code_base
+#define MACADAM_CODE_NAME MACADAM_BASE_NAME  // of a build
+#endif
+
+namespace macadam {
+namespace {
+
+std::unique_ptr<Stepper> make(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
+                              const Inertia& inertia, const StepperOptions& options, std::unique_ptr<Stepper> used) {
+  const auto make_in = [&]<class P>(P) {
+    return kernels::make_cpu_in<P, Law>(specimen, network, laws, inertia, options, std::move(used));
+  };
+  switch (options.precision) {
+    case Precision::single:
+      return make_in(kernels::SinglePrecision{});
+    case Precision::mixed:
+      return make_in(kernels::MixedPrecision{});
+    default:
+      return make_in(kernels::DoublePrecision{});
+  }
+}
+
+}  // namespace
+
+extern "C" {
+extern const ProcessorCode MACADAM_CODE;
+const ProcessorCode MACADAM_CODE{MACADAM_CODE_NAME, make, harmonic::solve_block};
+}
+
+}  // namespace macadam

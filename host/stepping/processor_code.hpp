@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file processor_code.hpp  Code whose speed is that of the processor's registers, compiled once for each generation.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "host/harmonic/linear_solver.hpp"
+#include "kernels/harmonic/linear_system.hpp"
+#include "kernels/layout.hpp"
+#include "macadam/stepper.hpp"
+
+namespace macadam {
+
+/// The time step and the iteration of the frequency domain, of one generation.
+struct ProcessorCode {
+  const char* name;  ///< "native": compiled for this machine; "x86-64", "x86-64-v3" (AVX2), "x86-64-v4" (AVX-512)
+  std::unique_ptr<Stepper> (*make_stepper)(const Specimen& specimen, const ContactNetwork& network,
+                                           const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
+                                           std::unique_ptr<Stepper> used);
+  void (*solve_block)(const kernels::LinearSystem& system, const std::vector<double>& inverse,
+                      const kernels::Layout& layout, std::vector<harmonic::LinearTask*> tasks,
+                      const std::function<bool()>& stop);
+};
+
+/// The newest that this processor runs. A build for this machine alone (MACADAM_NATIVE) has one. MACADAM_PROCESSOR in
+/// the environment (x86-64, x86-64-v3, x86-64-v4) asks for an older one.
+const ProcessorCode& processor_code();
+
+}  // namespace macadam

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Macadam: discrete elements for bituminous mixtures and other bonded granular solids.
+
+    import macadam as mc
+    scene = mc.Scene("examples/demo/scene.toml", seed=3)
+    result = mc.harmonic(scene, hz=[2, 5, 10, 20])
+    print(result.table)
+
+All numbers are in SI units (m, kg, s, Pa), angles of results in degrees. docs/python.md shows everything.
+
+Names are loaded when they are first used, so that the parts in plain Python (macadam.report, macadam.study) work where the
+compiled library is not.
+"""
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+_HOMES = {
+    "_core": ("Error", "InputError", "RunError", "InterruptedError", "DivergenceError", "info", "pair_names",
+              "Specimen", "Contacts", "Cells", "Section", "Boundary", "Drive", "Stepper", "Step", "Observation",
+              "ParticleState", "ContactState", "HarmonicSolver", "SteadyState", "StartState", "steady_start",
+              "critical_step", "__version__"),
+    "_scene": ("Scene",),
+    "_specimen": ("specimen",),
+    "_simulation": ("run", "harmonic", "sweep", "relaxation", "creep", "monotonic", "Result"),
+    "_fit": ("fit", "Fit"),
+    "_calibration": ("calibrate", "Calibration"),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+_MODULES = ("ct", "drives", "shapes", "report", "study")
+
+if TYPE_CHECKING:
+    from . import ct, drives, shapes
+    from ._calibration import Calibration, calibrate
+    from ._core import (Boundary, Cells, Contacts, ContactState, DivergenceError, Drive, Error, HarmonicSolver,
+                        InputError, InterruptedError, Observation, ParticleState, RunError, Section, Specimen,
+                        StartState, SteadyState, Step, Stepper, critical_step, info, pair_names, steady_start)
+    from ._fit import Fit, fit
+    from ._scene import Scene
+    from ._simulation import Result, creep, harmonic, monotonic, relaxation, run, sweep
+    from ._specimen import specimen
+    __version__: str
+
+__all__ = [name for name in _HOME_OF if not name.startswith("_")] + list(_MODULES)
+
+
+def __getattr__(name: str) -> Any:
+    if name in _HOME_OF:
+        value = getattr(importlib.import_module(f"{__name__}.{_HOME_OF[name]}"), name)
+        globals()[name] = value
+        return value
+    if name in _MODULES:
+        return importlib.import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(set(globals()) | set(__all__))

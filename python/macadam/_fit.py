@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contact laws from measured moduli (docs/laws-from-data.md)."""
+from __future__ import annotations
+
+import io
+import json
+import tempfile
+import tomllib
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+
+if TYPE_CHECKING:
+    import pandas
+
+#: A CSV file, or columns of the same names: frequency_hz, e_star_pa or g_star_pa, phase_deg (or e_prime_pa,
+#: e_double_prime_pa), maybe temperature_c, e_star_std, phase_std.
+Data = str | PathLike[str] | Mapping[str, Sequence[float]] | Any
+
+
+def modulus_data(data: Data, poisson: float | None = None) -> _core.ModulusData:
+    """Measurements of a file, a DataFrame or a dictionary of columns; poisson: for a column g_star_pa."""
+    if isinstance(data, _core.ModulusData):
+        return data
+    if isinstance(data, (str, PathLike)):
+        return _core.ModulusData(fspath(data), poisson)
+    import pandas
+    with tempfile.TemporaryDirectory(prefix="macadam-") as folder:
+        file = Path(folder) / "data"
+        pandas.DataFrame(data).to_csv(file, index=False, float_format="%.17g")
+        try:
+            out = _core.ModulusData(fspath(file), poisson)
+        except _core.InputError as error:
+            raise _core.InputError(str(error).replace(fspath(file), "data")) from None
+    out.source = "data"
+    return out
+
+
+class Fit:
+    """A fitted law. `files` has the texts of what the command writes, by name: law.toml, fit.json, fit.csv, curve.csv."""
+
+    def __init__(self, found: dict[str, Any]) -> None:
+        self.files: dict[str, str] = found["files"]
+        self.warnings: list[str] = found["warnings"]
+        self._text: str = found["text"]
+
+    @cached_property
+    def law(self) -> dict[str, Any]:
+        """The entry of `contacts` in a scene, in SI units; its `pair` is M-M, to be changed where it is another's."""
+        return tomllib.loads(self.files["law.toml"])["contacts"][0]
+
+    @cached_property
+    def json(self) -> dict[str, Any]:
+        """Everything about the fit: parameters with deviations, covariance, candidates, errors."""
+        return json.loads(self.files["fit.json"])
+
+    def _csv(self, name: str) -> pandas.DataFrame:
+        import pandas
+        return pandas.read_csv(io.StringIO(self.files[name]), comment="#")
+
+    @cached_property
+    def table(self) -> pandas.DataFrame:
+        """A row a measurement: measured, fitted, difference."""
+        return self._csv("fit.csv")
+
+    @cached_property
+    def curve(self) -> pandas.DataFrame:
+        """The fitted curve at the reference temperature with its 95 % limits."""
+        return self._csv("curve.csv")
+
+    def __str__(self) -> str:
+        return self._text
+
+
+def fit(data: Data | None = None, *, parameters: str | PathLike[str] | None = None, model: str = "kelvin",
+        units: int | None = None, most_units: int = 12, criterion: str = "aicc", flow: bool | None = None,
+        shift: str = "none", reference_temperature: float | None = None, poisson: float | None = None,
+        from_hz: float | None = None, to_hz: float | None = None, error: float = 0.01,
+        out: str | PathLike[str] | None = None) -> Fit:
+    """A contact law from measured complex moduli: `macadam fit`.
+
+    data: a CSV file, a DataFrame or a dictionary of columns; or `parameters`, the TOML file of a 2S2P1D or Huet-Sayegh
+    model, which becomes a chain from `from_hz` to `to_hz` [Hz] with at most `error` (relative).
+    model: "kelvin", "2s2p1d" or "huet-sayegh". units: Kelvin units; without it the criterion ("aicc", "bic") chooses,
+    up to `most_units`. flow: a dashpot in series. shift: "none", "wlf", "arrhenius" or "free".
+    reference_temperature: [°C]. poisson: ratio, for a column g_star_pa. out: a folder for the files.
+    """
+    if (data is None) == (parameters is None):
+        raise _core.InputError(f"what to fit: found {'nothing' if data is None else 'both data and parameters'}, expected "
+                               "measurements, or parameters with a model's TOML file")
+    folder = None if out is None else fspath(out)
+    if parameters is not None:
+        return Fit(_core.convert(fspath(parameters), from_hz, to_hz, error, folder))
+    return Fit(_core.fit(modulus_data(data, poisson), model, units, most_units, criterion, flow, shift, reference_temperature,
+                         from_hz, to_hz, error, folder))

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scenes: files or dictionaries, with what is to be different."""
+from __future__ import annotations
+
+import copy
+import tomllib
+from collections.abc import Mapping
+from os import PathLike, fspath
+from typing import Any
+
+from . import _core, _toml
+
+#: What the command has options for; everything else of a scene goes by its keys.
+OPTIONS = ("seed", "backend", "precision", "method", "linear", "threads", "device")
+
+NO_FILE = "scene"  # what messages call a scene that is no file
+
+
+def _entry_of(entries: list[Any], name: str, place: str) -> Any:
+    """Of an array of tables: by its number from 0 on, or, of contacts, by its pair."""
+    for entry in entries:
+        if isinstance(entry, Mapping) and entry.get("pair") == name:
+            return entry
+    if name.isdecimal() and int(name) < len(entries):
+        return entries[int(name)]
+    pairs = [e["pair"] for e in entries if isinstance(e, Mapping) and "pair" in e]
+    raise _core.InputError(f"{place}: found {name!r}, expected a number below {len(entries)}"
+                           + (f" or one of {', '.join(pairs)}" if pairs else ""))
+
+
+def set_key(table: dict[str, Any], key: str, value: Any) -> None:
+    """Sets a dotted key of a scene's tables: `loading.strain_amplitude`, `contacts.M-A.delta`,
+    `specimen.aggregate.0.volume_fraction`. A dictionary is merged into a section; None takes a key away."""
+    names = key.split(".")
+    at: Any = table
+    for depth, name in enumerate(names[:-1]):
+        if isinstance(at, list):
+            at = _entry_of(at, name, ".".join(names[:depth]))
+        else:
+            at = at.setdefault(name, {})
+        if not isinstance(at, (dict, list)):
+            raise _core.InputError(f"{key}: found {at!r} at {'.'.join(names[:depth + 1])}, expected a section")
+    if isinstance(at, list):
+        at = _entry_of(at, names[-1], ".".join(names[:-1]))
+        if not isinstance(value, Mapping):
+            raise _core.InputError(f"{key}: found {value!r}, expected a dictionary of keys")
+        for name, entry in value.items():
+            set_key(at, name, entry)
+    elif isinstance(value, Mapping) and isinstance(at.get(names[-1]), dict):
+        for name, entry in value.items():
+            set_key(at[names[-1]], name, entry)
+    elif value is None:
+        at.pop(names[-1], None)
+    else:
+        at[names[-1]] = copy.deepcopy(value)
+
+
+def _tables_of(text: str, file: str) -> dict[str, Any]:
+    try:
+        return tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        _core.Scene(file, text)  # says it as the command does
+        raise _core.InputError(f"{file}: TOML syntax: found {error}, expected valid TOML") from error
+
+
+class Scene(_core.Scene):
+    """A scene: a mix, its laws and a test, read and checked completely.
+
+    source: a file (TOML, docs/scene.md), a dictionary of the same keys, or another Scene.
+    overrides: instead of the scene's own values. `seed`, `backend`, `precision`, `method`, `linear`, `threads` and
+    `device` are the command's options. Any other name is a key: a section with a dictionary of what is different in
+    it (`loading={"frequencies": [10]}`), or, in a dictionary, a dotted key (`**{"contacts.M-A.delta": 1.5}`).
+    file: what messages call a dictionary, and to whose folder paths in it are relative: "scene", in the working folder.
+
+    Raises InputError with the command's text. Messages name the line of a file as long as nothing but options is
+    overridden.
+    """
+
+    def __init__(self, source: str | PathLike[str] | Mapping[str, Any] | _core.Scene, *,
+                 file: str | PathLike[str] | None = None, **overrides: Any) -> None:
+        options = {k: v for k, v in overrides.items() if k in OPTIONS and v is not None}
+        keys = {k: v for k, v in overrides.items() if k not in OPTIONS}
+        if isinstance(source, _core.Scene) and not keys:
+            super().__init__(source)
+        elif isinstance(source, (str, PathLike)) and not keys:
+            super().__init__(fspath(source))
+        else:
+            if isinstance(source, _core.Scene):
+                name, tables = str(source.file), _tables_of(source.text, str(source.file))
+                options = {**source.options, **options}
+            elif isinstance(source, Mapping):
+                name, tables = fspath(file) if file else NO_FILE, copy.deepcopy(dict(source))
+            else:
+                name = fspath(source)
+                tables = _tables_of(_core.Scene.read_text(name), name)
+            for key, value in keys.items():
+                set_key(tables, key, value)
+            super().__init__(name, _toml.dumps(tables), False)
+        self.override(**options)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The scene's tables, without options that were overridden."""
+        return _tables_of(self.text, str(self.file))
+
+    def __repr__(self) -> str:
+        return f"<macadam.Scene {self.file}: {self.kind}, {self.method}>"

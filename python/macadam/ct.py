@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Images of computed tomography: `macadam ct …` (docs/ct.md, docs/ct-phantom.md, docs/ct-twin.md).
+
+Lengths are metres, or text with a unit: 25e-6, "25 um"."""
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike, fspath
+from typing import Any
+
+from . import _core
+from ._scene import Scene
+
+__all__ = ["phantom", "segment", "twin"]
+
+Length = float | str
+Path = str | PathLike[str]
+
+
+def _require_ct() -> None:
+    if not _core.info()["ct"]:
+        raise _core.InputError("macadam ct: images of computed tomography: found a package built without ITK, expected one "
+                               "built with it: install libinsighttoolkit5-dev and build again, with MACADAM_CT=ON")
+
+
+def _length(of: Length) -> str:
+    return of if isinstance(of, str) else repr(float(of))
+
+
+def _path(of: Path | None) -> str | None:
+    return None if of is None else fspath(of)
+
+
+def _scene(of: _core.Scene | Mapping[str, Any] | Path) -> _core.Scene:
+    return of if isinstance(of, _core.Scene) else Scene(of)
+
+
+def segment(images: Path, out: Path, *, voxel: Length | Sequence[Length] | None = None, dataset: str = "",
+            region: str = "found", slices: bool = True, rings: bool = True, hardening: bool = True,
+            denoise: str = "diffusion", air_voids: float | None = None, aggregate: float | None = None, memory: str = "",
+            smallest: Length | None = None, gradation: Path | None = None, cuts: Path | None = None, recipe: str = "own",
+            facets: int = 500, threads: int | None = None,
+            progress: Callable[[str, float], object] | None = None) -> _core.Segmentation:
+    """Grains and phases of a scan, whose files go into `out`: `macadam ct segment`, with its options and defaults.
+
+    images: .mha, .mhd, .nrrd, .tif, .h5 (with `dataset`), or a folder of .tif. voxel: its edge, or three, where the file has
+    none. region: what of the scan is the specimen. slices, rings, hardening: what is corrected. air_voids, aggregate: shares
+    of the volume, from the laboratory. memory: that may be taken, "3 GB". smallest: diameter of the smallest grain that
+    matters. gradation: the laboratory's, a CSV file. cuts: a cuts.csv that was changed by hand.
+    """
+    _require_ct()
+    edges = [] if voxel is None else [_length(voxel)] if isinstance(voxel, (str, float, int)) else [*map(_length, voxel)]
+    return _core.segment(fspath(images), fspath(out), edges, dataset, region, slices, rings, hardening, denoise, air_voids,
+                         aggregate, memory, None if smallest is None else _length(smallest), _path(gradation), _path(cuts),
+                         recipe, facets, threads, progress)
+
+
+def phantom(scene: _core.Scene | Mapping[str, Any] | Path, voxel: Length, out: Path, *, sawn: Length = 0,
+            air: Length = "1 mm", **spec: Any) -> _core.Phantom:
+    """A synthetic scan of a scene's specimen with its truth, in `out`: `macadam ct phantom`.
+
+    spec: seed, shape ("prism", "cylinder"), samples, blur [voxels], noise, cupping, rings, drift, grey_air, grey_mastic,
+    grey_aggregate, progress; as the command's options.
+    """
+    _require_ct()
+    return _core.phantom(_scene(scene), _length(voxel), fspath(out), sawn=_length(sawn), air=_length(air), **spec)
+
+
+def twin(folder: Path, scene: _core.Scene | Mapping[str, Any] | Path, out: Path, *, box: Sequence[Length] = (),
+         porosity: float | None = None, least_void: Length = 0, seed: int = 1,
+         progress: Callable[[str, float], object] | None = None) -> _core.Twin:
+    """The specimen in a segmented scan as a scene that runs, in `out`/scene.toml: `macadam ct twin`.
+
+    box: lower and upper corner in the scan, six lengths. porosity: of the mastic. least_void: radius below which a void is
+    left out; 0: two voxels.
+    """
+    _require_ct()
+    return _core.twin(fspath(folder), _scene(scene), fspath(out), box=[*map(_length, box)], porosity=porosity,
+                      least_void=_length(least_void), seed=seed, progress=progress)

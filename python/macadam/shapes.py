@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Shapes of aggregates: closed triangulated surfaces (docs/shapes.md, docs/filling.md). `macadam shapes …`"""
+from __future__ import annotations
+
+from collections.abc import Iterable
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from . import _core
+from ._core import FillReport, ShapeMeasure, Spheres, Surface, Verdict, measure_fill
+from ._core import shape_library as library
+from ._core import subdivided_icosahedron as icosahedron
+
+if TYPE_CHECKING:
+    import pandas
+
+__all__ = ["FillReport", "ShapeMeasure", "Spheres", "Surface", "Verdict", "check", "fill", "generate", "icosahedron",
+           "library", "measure", "measure_fill", "read", "repair", "table", "write"]
+
+SurfaceLike = Surface | str | PathLike[str]
+_COLUMNS = ("d_long", "d_intermediate", "d_short", "volume", "area", "shape_index", "flatness", "elongation", "flakiness",
+            "sphericity_true", "sphericity_working")
+
+
+def read(file: str | PathLike[str], scale: float = 1) -> Surface:
+    """Reads STL, OFF, PLY or OBJ. scale: metres a unit of the file, 1e-3 for millimetres."""
+    return _core.read_surface(fspath(file), scale)
+
+
+def write(file: str | PathLike[str], surface: Surface, scale: float = 1) -> None:
+    """Writes .off, .stl (binary), .ply or .obj, coordinates divided by `scale`."""
+    _core.write_surface(fspath(file), surface, scale)
+
+
+def _surface(of: SurfaceLike) -> Surface:
+    return of if isinstance(of, Surface) else read(of)
+
+
+def check(surface: SurfaceLike) -> Verdict:
+    """What is wrong with a surface and where; str() says it in words, and it is true where the surface is good."""
+    return _core.check_surface(_surface(surface))
+
+
+def repair(surface: SurfaceLike) -> tuple[Surface, str]:
+    """The surface made fit for measuring and filling, and in words what was done. RunError where nothing helped."""
+    return _core.repair_surface(_surface(surface))
+
+
+def measure(surface: SurfaceLike) -> ShapeMeasure:
+    """Dimensions [m], volume, area and shape indices of a closed surface."""
+    return _core.measure_shape(_surface(surface))
+
+
+def table(surfaces: Iterable[SurfaceLike]) -> pandas.DataFrame:
+    """measure() of several, a row each [SI units]."""
+    import pandas
+    rows = []
+    for one in surfaces:
+        surface = _surface(one)
+        of = measure(surface)
+        rows.append({"name": surface.name, **{c: getattr(of, c) for c in _COLUMNS}})
+    return pandas.DataFrame(rows)
+
+
+def fill(surface: SurfaceLike, radius: float | tuple[float, float], *, porosity: float = 0.12, least: int = 8,
+         single: str = "intermediate", seed: int = 1) -> Spheres:
+    """Fills a shape with spheres.
+
+    radius: of the spheres [m], or the least and the greatest.
+    porosity: 1 - sum of the spheres' volumes / volume of the shape.
+    least: fewer spheres than this: a single one, of the radius that `single` says: "intermediate" (D^I/2),
+    "circumscribed" or "volume".
+    """
+    low, high = (radius, radius) if isinstance(radius, (int, float)) else radius
+    return _core.fill_shape(_surface(surface), low, high, porosity, least, single, seed)
+
+
+def generate(out: str | PathLike[str] | None = None, *, seed: int = 1, count: int = 82) -> list[Surface]:
+    """Crushed aggregates with the statistics of the library that ships, written as OFF files where `out` is given."""
+    shapes = _core.generate_shape_library(seed, count)
+    if out is not None:
+        Path(out).mkdir(parents=True, exist_ok=True)
+        for shape in shapes:
+            write(Path(out) / f"{shape.name}.off", shape)
+    return shapes

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file arrays.hpp  Vectors of the library as NumPy arrays, and back.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "macadam/error.hpp"
+#include "macadam/numeric.hpp"
+
+namespace macadam::python {
+
+namespace nb = nanobind;
+
+/// Numbers that are seen from Python where they are, and cannot be changed there. Bound with reference_internal, the
+/// default of properties, the array keeps their owner alive.
+template <class T>
+using View = nb::ndarray<nb::numpy, const T>;
+
+template <class T>
+View<T> view(const T* data, std::initializer_list<std::size_t> shape,
+             std::initializer_list<std::int64_t> strides = {}) {
+  return View<T>(data, shape.size(), shape.begin(), nb::handle(), strides.size() > 0 ? strides.begin() : nullptr);
+}
+
+template <class T>
+View<T> view(const std::vector<T>& values) {
+  return view(values.data(), {values.size()});
+}
+
+inline View<double> view(const std::vector<Vec3d>& values) {
+  static_assert(sizeof(Vec3d) == 3 * sizeof(double));
+  return view(reinterpret_cast<const double*>(values.data()), {values.size(), 3});
+}
+
+/// Member `T Owner::*` of each entry.
+template <class T, class Owner, class Entry>
+View<T> member(const std::vector<Owner>& entries, const Entry& entry) {
+  static_assert(sizeof(Owner) % sizeof(T) == 0);
+  static const Owner none{};
+  const T* first = entry(entries.empty() ? none : entries.front());
+  return view(first, {entries.size()}, {static_cast<std::int64_t>(sizeof(Owner) / sizeof(T))});
+}
+/// Three numbers of each entry.
+template <class Owner, class Entry>
+View<double> member3(const std::vector<Owner>& entries, const Entry& entry) {
+  static_assert(sizeof(Owner) % sizeof(double) == 0);
+  static const Owner none{};
+  const double* first = &entry(entries.empty() ? none : entries.front()).x;
+  return view(first, {entries.size(), 3}, {static_cast<std::int64_t>(sizeof(Owner) / sizeof(double)), 1});
+}
+
+/// A vector that becomes the array's own.
+template <class T>
+nb::ndarray<nb::numpy, T> owned(std::vector<T> values, std::vector<std::size_t> shape = {}) {
+  auto* kept = new std::vector<T>(std::move(values));
+  const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+  if (shape.empty()) shape = {kept->size()};
+  return nb::ndarray<nb::numpy, T>(kept->data(), shape.size(), shape.data(), owner);
+}
+
+/// Arrays that Python hands over: converted where they are of another type.
+using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Vectors = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using Whole = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+inline std::vector<double> copy(const Numbers& a) { return {a.data(), a.data() + a.size()}; }
+inline std::vector<std::int32_t> copy(const Whole& a) { return {a.data(), a.data() + a.size()}; }
+inline std::vector<Vec3d> copy(const Vectors& a) {
+  std::vector<Vec3d> out(a.shape(0));
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {a.data()[3 * i], a.data()[3 * i + 1], a.data()[3 * i + 2]};
+  return out;
+}
+
+inline nb::tuple triple(const Vec3d& v) { return nb::make_tuple(v.x, v.y, v.z); }
+
+}  // namespace macadam::python

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// calibration.cpp  Parameters of a scene from measured moduli of the mixture: `macadam calibrate`.
+#include "macadam/calibration.hpp"
+
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "host/calibration/calibration_files.hpp"
+#include "host/results/result_folder.hpp"
+#include "python/src/bindings.hpp"
+#include "python/src/calls.hpp"
+#include "python/src/choices.hpp"
+
+namespace macadam::python {
+namespace {
+
+using Pairs = std::map<std::string, std::pair<double, double>>;
+
+/// The free parameters with what is known of each. \throws InputError for bounds or priors of one that is not free.
+std::vector<FreeParameter> free_of(const std::vector<std::string>& names, const Pairs& bounds, const Pairs& priors) {
+  std::vector<FreeParameter> out;
+  for (const std::string& name : names) out.push_back({name, {}, {}, {}, 0});
+  const auto find = [&](const char* option, const std::string& name) -> FreeParameter& {
+    for (FreeParameter& p : out)
+      if (p.name == name) return p;
+    throw InputError(std::string(option) + ": found \"" + name + "\", expected a parameter that free names");
+  };
+  for (const auto& [name, range] : bounds) {
+    FreeParameter& p = find("bounds", name);
+    p.low = range.first, p.high = range.second;
+  }
+  for (const auto& [name, known] : priors) {
+    FreeParameter& p = find("priors", name);
+    p.prior = known.first, p.prior_deviation = known.second;
+  }
+  return out;
+}
+
+nb::dict run_calibration(const GivenScene& scene, const ModulusData& data, const std::vector<std::string>& free,
+                         const Pairs& bounds, const Pairs& priors, int seeds, const std::string& misfit,
+                         double e_star_deviation, double phase_deviation, bool nearest,
+                         const std::filesystem::path& out, nb::object progress) {
+  CalibrationOptions options;
+  options.free = free_of(free, bounds, priors);
+  options.seeds = in_range("seeds", seeds, 1, 1000);
+  options.misfit = choice<Misfit>("misfit", misfit,
+                                  {{"modulus-and-phase", Misfit::modulus_and_phase},
+                                   {"modulus", Misfit::modulus},
+                                   {"phase", Misfit::phase},
+                                   {"parts", Misfit::parts}});
+  options.e_star_deviation = in_range("e_star_deviation", e_star_deviation, 1e-6, 100.0) / 100;
+  options.phase_deviation = in_range("phase_deviation", phase_deviation, 1e-6, 90.0);
+  options.nearest = nearest;
+  LongCall call(std::move(progress));
+  Watcher watcher;
+  watcher.progress = call.progress_function();
+  watcher.stop = [&] { return call.stop(); };
+  const GivenScene own = scene;
+  const Calibration found = call([&] {
+    require_calibration_folder(own, out);
+    const ResultFolder folder(out);
+    Calibration made = calibrate(own, data, options, watcher);
+    write_calibration(out, own, made);
+    return made;
+  });
+  nb::dict result;
+  result["text"] = calibration_text(found);
+  result["warnings"] = nb::cast(found.warnings);
+  return result;
+}
+
+}  // namespace
+
+void bind_calibration(nb::module_& m) {
+  m.def("calibrate", &run_calibration, nb::arg("scene"), nb::arg("data"), nb::arg("free"), nb::arg("bounds"),
+        nb::arg("priors"), nb::arg("seeds"), nb::arg("misfit"), nb::arg("e_star_deviation"), nb::arg("phase_deviation"),
+        nb::arg("nearest"), nb::arg("out"), nb::arg("progress").none());
+}
+
+}  // namespace macadam::python

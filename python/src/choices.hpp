@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file choices.hpp  Choices by the names that the command has for them.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "macadam/macadam.hpp"
+
+namespace macadam::python {
+
+/// One of several names. \throws InputError
+template <class T>
+T choice(const char* name, const std::string& text, const std::vector<std::pair<const char*, T>>& choices) {
+  std::string names;
+  for (const auto& [known, value] : choices) {
+    if (text == known) return value;
+    names += (names.empty() ? "" : "|") + std::string(known);
+  }
+  throw InputError(std::string(name) + ": found \"" + text + "\", expected one of " + names);
+}
+template <class T>
+std::optional<T> choice(const char* name, const std::optional<std::string>& text,
+                        const std::vector<std::pair<const char*, T>>& choices) {
+  if (!text) return {};
+  return choice(name, *text, choices);
+}
+
+/// A number of a range, as an option of the command. \throws InputError
+template <class T>
+std::optional<T> in_range(const char* name, const std::optional<T>& value, T low, T high) {
+  if (value && !(*value >= low && *value <= high)) {
+    constexpr bool whole = std::is_integral_v<T>;
+    throw InputError(
+        fmt::format("{}: found {}, expected a {}number from {} to {}", name, *value, whole ? "whole " : "", low, high));
+  }
+  return value;
+}
+template <class T>
+T in_range(const char* name, T value, T low, T high) {
+  return *in_range(name, std::optional<T>(value), low, high);
+}
+
+inline const std::vector<std::pair<const char*, Backend>> backends{
+    {"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}, {"reference", Backend::reference}};
+inline const std::vector<std::pair<const char*, Precision>> precisions{
+    {"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}};
+inline const std::vector<std::pair<const char*, SolverMethod>> methods{{"explicit", SolverMethod::explicit_},
+                                                                       {"harmonic", SolverMethod::harmonic}};
+inline const std::vector<std::pair<const char*, LinearMethod>> linear_methods{
+    {"auto", LinearMethod::automatic}, {"iterative", LinearMethod::iterative}, {"direct", LinearMethod::direct}};
+inline const std::vector<std::pair<const char*, ContactForm>> forms{{"condensed", ContactForm::condensed},
+                                                                    {"points", ContactForm::points}};
+inline const std::vector<std::pair<const char*, Geometry>> geometries{{"updated", Geometry::updated},
+                                                                      {"fixed", Geometry::fixed}};
+inline const std::vector<std::pair<const char*, Damping>> dampings{
+    {"none", Damping::none}, {"local", Damping::local}, {"viscous", Damping::viscous}};
+inline const std::vector<std::pair<const char*, Wall>> walls{{"-x", wall_x_lo}, {"+x", wall_x_hi}, {"-y", wall_y_lo},
+                                                             {"+y", wall_y_hi}, {"-z", wall_z_lo}, {"+z", wall_z_hi}};
+inline const std::vector<std::pair<const char*, int>> axes{{"x", 0}, {"y", 1}, {"z", 2}};
+
+}  // namespace macadam::python

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// contacts.cpp  The contact network, seen where it is.
+#include "macadam/contact_network.hpp"
+
+#include <nanobind/stl/string.h>
+
+#include "python/src/arrays.hpp"
+#include "python/src/bindings.hpp"
+
+namespace macadam::python {
+
+void bind_contacts(nb::module_& m) {
+  const auto moments = [](const ContactNetwork& n) {
+    static_assert(sizeof(AreaMoments) == 6 * sizeof(double));
+    const auto stride = static_cast<std::int64_t>(sizeof(Contact) / sizeof(double));
+    return view(n.contacts.empty() ? nullptr : &n.contacts.front().moments.a, {n.contacts.size(), 6}, {stride, 1});
+  };
+  nb::class_<ContactNetwork>(m, "Contacts", "The contacts of a specimen, in order of (a, b). Arrays are views.")
+      .def("__len__", [](const ContactNetwork& n) { return n.contacts.size(); })
+      .def_prop_ro(
+          "a",
+          [](const ContactNetwork& n) {
+            return member<std::int32_t>(n.contacts, [](const Contact& c) { return &c.a; });
+          },
+          "Number of a particle.")
+      .def_prop_ro(
+          "b",
+          [](const ContactNetwork& n) {
+            return member<std::int32_t>(n.contacts, [](const Contact& c) { return &c.b; });
+          },
+          "Of another, or a wall: -1 to -6 for -x +x -y +y -z +z.")
+      .def_prop_ro(
+          "pair",
+          [](const ContactNetwork& n) {
+            return member<std::uint8_t>(
+                n.contacts, [](const Contact& c) { return reinterpret_cast<const std::uint8_t*>(&c.pair); });
+          },
+          "Index into `pair_names`.")
+      .def_prop_ro(
+          "area",
+          [](const ContactNetwork& n) { return member<double>(n.contacts, [](const Contact& c) { return &c.area; }); },
+          "[m²]")
+      .def_prop_ro(
+          "distance",
+          [](const ContactNetwork& n) {
+            return member<double>(n.contacts, [](const Contact& c) { return &c.distance; });
+          },
+          "Between the centres, or from a centre to the wall [m].")
+      .def_prop_ro(
+          "normal",
+          [](const ContactNetwork& n) {
+            return member3(n.contacts, [](const Contact& c) -> const Vec3d& { return c.n; });
+          },
+          "Unit vector from a to b, (n, 3).")
+      .def_prop_ro(
+          "s",
+          [](const ContactNetwork& n) {
+            return member3(n.contacts, [](const Contact& c) -> const Vec3d& { return c.s; });
+          },
+          "First unit vector in the facet, (n, 3).")
+      .def_prop_ro(
+          "t",
+          [](const ContactNetwork& n) {
+            return member3(n.contacts, [](const Contact& c) -> const Vec3d& { return c.t; });
+          },
+          "Second unit vector in the facet, s × t = normal, (n, 3).")
+      .def_prop_ro(
+          "arm_a",
+          [](const ContactNetwork& n) { return member<double>(n.contacts, [](const Contact& c) { return &c.arm_a; }); },
+          "From the centre of a along the normal to the facet [m].")
+      .def_prop_ro(
+          "arm_b",
+          [](const ContactNetwork& n) { return member<double>(n.contacts, [](const Contact& c) { return &c.arm_b; }); },
+          "From the facet along the normal to the centre of b [m].")
+      .def_prop_ro("moments", moments, "Σ A, A·s, A·t, A·s², A·s·t, A·t² over the facet [m² … m⁴], (n, 6).")
+      .def_prop_ro(
+          "point_begin",
+          [](const ContactNetwork& n) {
+            return member<std::uint32_t>(n.contacts, [](const Contact& c) { return &c.point_begin; });
+          },
+          "Its first contact point.")
+      .def_prop_ro(
+          "point_end",
+          [](const ContactNetwork& n) {
+            return member<std::uint32_t>(n.contacts, [](const Contact& c) { return &c.point_end; });
+          },
+          "The one behind its last.")
+      .def_prop_ro(
+          "point_s", [](const ContactNetwork& n) { return view(n.point_s); },
+          "Of each contact point, in its facet [m].")
+      .def_prop_ro(
+          "point_t", [](const ContactNetwork& n) { return view(n.point_t); },
+          "Of each contact point, in its facet [m].")
+      .def_prop_ro(
+          "point_area", [](const ContactNetwork& n) { return view(n.point_area); }, "Of each contact point [m²].")
+      .def_prop_ro(
+          "dropped", [](const ContactNetwork& n) { return nb::make_tuple(n.dropped_gap, n.dropped_area); },
+          "Facets that gap_max and area_min dropped.")
+      .def_prop_ro(
+          "count",
+          [](const ContactNetwork& n) {
+            nb::dict out;
+            for (int pair = 0; pair < pair_types; ++pair) {
+              const auto i = static_cast<std::size_t>(pair);
+              if (n.count[i] > 0) out[to_string(static_cast<PairType>(pair))] = n.count[i];
+            }
+            return out;
+          },
+          "Contacts by pair.");
+  nb::list names;
+  for (int pair = 0; pair < pair_types; ++pair) names.append(to_string(static_cast<PairType>(pair)));
+  m.attr("pair_names") = nb::tuple(names);
+}
+
+}  // namespace macadam::python

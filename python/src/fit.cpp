@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fit.cpp  Contact laws from measured moduli: `macadam fit`. Results are the texts of its files.
+#include "macadam/fit.hpp"
+
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "host/fit/fit_files.hpp"
+#include "host/results/result_folder.hpp"
+#include "python/src/arrays.hpp"
+#include "python/src/bindings.hpp"
+#include "python/src/choices.hpp"
+
+namespace macadam::python {
+namespace {
+
+using Folder = std::optional<std::filesystem::path>;
+
+void write(const Folder& out, const FitFiles& files) {
+  if (!out) return;
+  const ResultFolder folder(*out);
+  write_files(*out, files);
+}
+
+nb::dict result_of(const FitFiles& files, const std::string& text, const std::vector<std::string>& warnings) {
+  nb::dict out;
+  out["files"] = nb::cast(files);
+  out["text"] = text;
+  out["warnings"] = nb::cast(warnings);
+  return out;
+}
+
+nb::dict fit(const ModulusData& data, const std::string& model, std::optional<int> units, int most_units,
+             const std::string& criterion, std::optional<bool> flow, const std::string& shift,
+             std::optional<double> reference_temperature, std::optional<double> from, std::optional<double> to,
+             double error, const Folder& out) {
+  constexpr int most = laws::GeneralisedKelvin::max_units;
+  FitOptions options;
+  options.model = choice<FitModel>(
+      "model", model,
+      {{"kelvin", FitModel::kelvin}, {"2s2p1d", FitModel::two_s2p1d}, {"huet-sayegh", FitModel::huet_sayegh}});
+  options.units = in_range("units", units, 0, most);
+  options.most_units = in_range("most_units", most_units, 0, most);
+  options.criterion = choice<Criterion>("criterion", criterion, {{"aicc", Criterion::aicc}, {"bic", Criterion::bic}});
+  options.flow = flow;
+  options.shift = choice<ShiftKind>("shift", shift,
+                                    {{"none", ShiftKind::none},
+                                     {"wlf", ShiftKind::wlf},
+                                     {"arrhenius", ShiftKind::arrhenius},
+                                     {"free", ShiftKind::free}});
+  options.reference_temperature = in_range("reference_temperature", reference_temperature, -273.0, 1000.0);
+  in_range("error", error, 1e-6, 0.5);
+  FitFiles files;
+  std::string text;
+  std::vector<std::string> warnings;
+  {
+    const nb::gil_scoped_release release;
+    const Fit found = fit_modulus(data, options);
+    const auto range = chain_range(from, to, found.reduced_range());
+    std::optional<KelvinConversion> conversion;
+    if (const auto* analogue = std::get_if<AnalogueModel>(&found.model))
+      conversion = to_kelvin(*analogue, range.first, range.second, error);
+    files = fit_files(found, conversion ? &*conversion : nullptr);
+    text = fit_text(found) + (conversion ? conversion_text(*conversion, range) : "");
+    warnings = found.warnings;
+    write(out, files);
+  }
+  return result_of(files, text, warnings);
+}
+
+/// A model that somebody else has fitted, as a chain.
+nb::dict convert(const std::filesystem::path& parameters, std::optional<double> from, std::optional<double> to,
+                 double error, const Folder& out) {
+  const ShiftedAnalogue analogue = read_analogue(parameters);
+  const auto range = chain_range(from, to, {});
+  const KelvinConversion conversion =
+      to_kelvin(analogue.model, range.first, range.second, in_range("error", error, 1e-6, 0.5));
+  const FitFiles files = conversion_files(analogue, conversion, range);
+  write(out, files);
+  return result_of(files, conversion_text(conversion, range), {});
+}
+
+}  // namespace
+
+void bind_fit(nb::module_& m) {
+  nb::class_<ModulusData>(m, "ModulusData", "Measured complex moduli.")
+      .def(
+          "__init__",
+          [](ModulusData* self, const std::filesystem::path& file, std::optional<double> poisson) {
+            new (self) ModulusData(read_modulus_data(file, in_range("poisson", poisson, -0.99, 0.5)));
+          },
+          nb::arg("file"), nb::arg("poisson") = nb::none())
+      .def_rw("source", &ModulusData::source, "In messages.")
+      .def("__len__", [](const ModulusData& d) { return d.points.size(); })
+      .def_prop_ro("frequency_hz",
+                   [](const ModulusData& d) {
+                     return member<double>(d.points, [](const ModulusPoint& p) { return &p.frequency_hz; });
+                   })
+      .def_prop_ro("e_star_pa",
+                   [](const ModulusData& d) {
+                     return member<double>(d.points, [](const ModulusPoint& p) { return &p.e_star_pa; });
+                   })
+      .def_prop_ro("phase_deg", [](const ModulusData& d) {
+        return member<double>(d.points, [](const ModulusPoint& p) { return &p.phase_deg; });
+      });
+  m.def("fit", &fit, nb::arg("data"), nb::arg("model"), nb::arg("units").none(), nb::arg("most_units"),
+        nb::arg("criterion"), nb::arg("flow").none(), nb::arg("shift"), nb::arg("reference_temperature").none(),
+        nb::arg("from_hz").none(), nb::arg("to_hz").none(), nb::arg("error"), nb::arg("out").none());
+  m.def("convert", &convert, nb::arg("parameters"), nb::arg("from_hz").none(), nb::arg("to_hz").none(),
+        nb::arg("error"), nb::arg("out").none());
+}
+
+}  // namespace macadam::python

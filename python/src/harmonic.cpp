@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// harmonic.cpp  Steady states of the frequency domain, one by one, with the motion of every particle.
+#include "macadam/harmonic.hpp"
+
+#include <nanobind/stl/complex.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "python/src/arrays.hpp"
+#include "python/src/bindings.hpp"
+#include "python/src/calls.hpp"
+#include "python/src/choices.hpp"
+
+namespace macadam::python {
+namespace {
+
+/// A solver with what it refers to.
+class Solver {
+ public:
+  Solver(PreparedPointer prepared, double typical, Backend backend, LinearMethod linear, std::optional<int> device,
+         double tolerance)
+      : prepared_(std::move(prepared)) {
+    const Scene& scene = *prepared_->scene;
+    HarmonicOptions options;
+    options.tolerance = tolerance;
+    options.linear = linear;
+    options.backend = backend;
+    options.device = device;
+    options.stop = [this] { return call_ && call_->stop(); };
+    const Inertia inertia = make_inertia(prepared_->made.specimen, scene.materials.aggregate, scene.materials.mastic);
+    LongCall call;
+    call_ = &call;
+    call([&] {
+      harmonic_.emplace(prepared_->made.specimen, prepared_->made.network, scene.laws, inertia, options, typical);
+    });
+    call_ = nullptr;
+  }
+
+  std::vector<HarmonicResult> solve(const std::vector<double>& hz, double scaling, double damping) {
+    std::vector<HarmonicLoad> loads;
+    for (const double f : hz) loads.push_back({f, scaling, damping});
+    std::unique_lock one_at_a_time(busy_, std::defer_lock);
+    {
+      const nb::gil_scoped_release release;  // whoever solves may ask for it
+      one_at_a_time.lock();
+    }
+    LongCall call;
+    call_ = &call;
+    try {
+      auto out = call([&] { return harmonic_->solve(loads); });
+      call_ = nullptr;
+      return out;
+    } catch (...) {
+      call_ = nullptr;
+      throw;
+    }
+  }
+
+  const Prepared& prepared() const { return *prepared_; }
+
+ private:
+  PreparedPointer prepared_;
+  std::optional<Harmonic> harmonic_;
+  LongCall* call_ = nullptr;
+  std::mutex busy_;
+};
+
+nb::list sensitivities_of(const HarmonicResult& r, const Prepared& p) {
+  nb::list out;
+  for (const Sensitivity& s : sensitivities(r.parts, p.scene->laws, HarmonicLoad{r.frequency_hz}.s())) {
+    nb::dict one;
+    one["parameter"] = s.parameter;
+    one["d_e_star_pa"] = s.d_e_star_pa;
+    one["d_phase_deg"] = s.d_phase_deg;
+    out.append(one);
+  }
+  return out;
+}
+
+}  // namespace
+
+void bind_harmonic(nb::module_& m) {
+  nb::class_<HarmonicResult>(m, "SteadyState", "One frequency's steady state.")
+      .def_ro("frequency_hz", &HarmonicResult::frequency_hz)
+      .def_prop_ro(
+          "e_star_pa", [](const HarmonicResult& r) { return r.top.e_star_pa; }, "|E*| [Pa], by the top wall.")
+      .def_prop_ro(
+          "phase_deg", [](const HarmonicResult& r) { return r.top.phase_deg; }, "φ [degrees].")
+      .def_prop_ro(
+          "modulus", [](const HarmonicResult& r) { return r.parts.modulus(); }, "E* [Pa], complex.")
+      .def_ro("residual", &HarmonicResult::residual, "Relative, of the linear system.")
+      .def_ro("iterations", &HarmonicResult::iterations)
+      .def_ro("seconds", &HarmonicResult::seconds)
+      .def_prop_ro(
+          "motion",
+          [](const HarmonicResult& r) {
+            return view(r.motion.data(), {r.motion.size() / 6, 6});
+          },
+          "Complex displacement and rotation (ux uy uz θx θy θz) of each particle per unit displacement of the top "
+          "wall, (n, 6).")
+      .def("sensitivities", &sensitivities_of, nb::arg("specimen"),
+           "Change of |E*| [Pa] and φ [degrees] per unit of each parameter's natural logarithm, without inertia.");
+  nb::class_<Solver>(m, "HarmonicSolver", "Steady states of one specimen at any number of frequencies.")
+      .def(
+          "__init__",
+          [](Solver* self, PreparedPointer specimen, double typical_hz, const std::string& backend,
+             const std::string& linear, std::optional<int> device, double tolerance) {
+            new (self) Solver(std::move(specimen), typical_hz, choice("backend", backend, backends),
+                              choice("linear", linear, linear_methods), device, tolerance);
+          },
+          nb::arg("specimen"), nb::arg("typical_hz") = 10.0, nb::arg("backend") = "cpu", nb::arg("linear") = "auto",
+          nb::arg("device") = nb::none(), nb::arg("tolerance") = HarmonicOptions{}.tolerance)
+      .def("solve", &Solver::solve, nb::arg("hz"), nb::arg("density_scaling") = 0.0, nb::arg("viscous_damping") = 0.0,
+           "Steady states at frequencies [Hz]; without inertia where density_scaling is 0. viscous_damping [1/s].");
+  nb::class_<StartState>(m, "StartState", "A state of motion to start from.");
+  m.def(
+      "steady_start",
+      [](const Prepared& p, const HarmonicResult& r, const drives::Cyclic& drive) {
+        return steady_start(p.made.network, p.scene->laws, r.motion, drive);
+      },
+      nb::arg("specimen"), nb::arg("solution"), nb::arg("drive"),
+      "The state from which a stepped run is periodic at once; solved with the density scaling and damping of the "
+      "run.");
+}
+
+}  // namespace macadam::python

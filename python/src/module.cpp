@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// module.cpp  macadam._core: the library, thinly; macadam/*.py makes it comfortable.
+#include "python/src/bindings.hpp"
+
+NB_MODULE(_core, m) {
+  using namespace macadam::python;
+  m.doc() = "The library of Macadam. Use the package macadam, which wraps it. SI units.";
+  bind_errors(m);
+  bind_machine(m);
+  bind_scene(m);
+  bind_shapes(m);
+  bind_cells(m);
+  bind_contacts(m);
+  bind_specimen(m);
+  bind_drives(m);
+  bind_harmonic(m);
+  bind_states(m);
+  bind_stepper(m);
+  bind_simulation(m);
+  bind_fit(m);
+  bind_calibration(m);
+  bind_ct(m);
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// scene.cpp  Scenes: read from a file or a text, and changed as the command's options change them.
+#include "macadam/scene.hpp"
+
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "host/scene/sections.hpp"
+#include "python/src/bindings.hpp"
+#include "python/src/arrays.hpp"
+#include "python/src/choices.hpp"
+
+namespace macadam::python {
+namespace {
+
+using Text = std::optional<std::string>;
+
+/// What was given, by the names of the command's options.
+nb::dict options_of(const Overrides& given) {
+  nb::dict out;
+  if (given.seed) out["seed"] = *given.seed;
+  const auto name = [&](const char* key, const auto& value, const auto& choices) {
+    for (const auto& [text, meaning] : choices)
+      if (value == meaning) out[key] = text;
+  };
+  name("backend", given.backend, backends);
+  name("precision", given.precision, precisions);
+  name("method", given.method, methods);
+  name("linear", given.linear, linear_methods);
+  if (given.threads) out["threads"] = *given.threads;
+  if (given.device) out["device"] = *given.device;
+  return out;
+}
+
+void override_options(GivenScene& scene, std::optional<std::uint64_t> seed, const Text& backend, const Text& precision,
+                      const Text& method, const Text& linear, std::optional<int> threads, std::optional<int> device) {
+  const Overrides now{seed,
+                      choice("backend", backend, backends),
+                      choice("precision", precision, precisions),
+                      choice("method", method, methods),
+                      choice("linear", linear, linear_methods),
+                      in_range("threads", threads, 1, 1024),
+                      in_range("device", device, 0, 1023)};
+  apply(now, scene);
+  Overrides& all = scene.instead;
+  const auto take = [](auto& to, const auto& from) {
+    if (from) to = from;
+  };
+  take(all.seed, now.seed), take(all.backend, now.backend), take(all.precision, now.precision);
+  take(all.method, now.method), take(all.linear, now.linear), take(all.threads, now.threads);
+  take(all.device, now.device);
+}
+
+}  // namespace
+
+void bind_scene(nb::module_& m) {
+  nb::class_<GivenScene>(m, "Scene", "A scene that was read and checked.")
+      .def(
+          "__init__",
+          [](GivenScene* self, const std::filesystem::path& file, const Text& text, bool lines) {
+            new (self) GivenScene{text ? read_scene(file, *text, lines) : read_scene(file)};
+          },
+          nb::arg("file"), nb::arg("text") = nb::none(), nb::arg("lines") = true)
+      .def("__init__", [](GivenScene* self, const GivenScene& other) { new (self) GivenScene(other); })
+      .def_static(
+          "read_text",
+          [](const std::filesystem::path& file) {
+            std::string text;
+            scene::read_toml(file, "scene", text);
+            return text;
+          },
+          nb::arg("file"), "The text of a file that is TOML.")
+      .def("override", &override_options, nb::kw_only(), nb::arg("seed") = nb::none(), nb::arg("backend") = nb::none(),
+           nb::arg("precision") = nb::none(), nb::arg("method") = nb::none(), nb::arg("linear") = nb::none(),
+           nb::arg("threads") = nb::none(), nb::arg("device") = nb::none(), "As the command's options of these names.")
+      .def_prop_ro(
+          "options", [](const GivenScene& s) { return options_of(s.instead); }, "That were given beside it.")
+      .def_prop_ro(
+          "file", [](const GivenScene& s) { return s.file; }, "Where it came from.")
+      .def_prop_ro(
+          "text", [](const GivenScene& s) { return s.text; }, "TOML.")
+      .def_prop_ro(
+          "kind", [](const GivenScene& s) { return kind_of(s.experiment); }, "Of the test in `[loading]`.")
+      .def_prop_ro(
+          "method",
+          [](const GivenScene& s) { return s.solver.method == SolverMethod::harmonic ? "harmonic" : "explicit"; },
+          "explicit or harmonic.")
+      .def_prop_ro(
+          "backend", [](const GivenScene& s) { return to_string(s.solver.backend); }, "That is asked for.")
+      .def_prop_ro(
+          "seed", [](const GivenScene& s) { return s.specimen.seed; }, "Of a generated specimen.")
+      .def_prop_ro(
+          "box", [](const GivenScene& s) { return triple(s.specimen.box.size); }, "Edge lengths [m].")
+      .def_prop_ro(
+          "frequencies", [](const GivenScene& s) { return frequencies_of(s.experiment); }, "Of the test [Hz].")
+      .def_prop_ro(
+          "temperatures", [](const GivenScene& s) { return temperatures_of(s.experiment); }, "Of the test [°C].");
+}
+
+}  // namespace macadam::python

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// shapes.cpp  Surfaces of aggregates: read, checked, repaired, measured, filled, made.
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "macadam/shape.hpp"
+#include "python/src/arrays.hpp"
+#include "python/src/bindings.hpp"
+#include "python/src/calls.hpp"
+#include "python/src/choices.hpp"
+
+namespace macadam::python {
+namespace {
+
+using Facets = nb::ndarray<const std::int32_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+
+Surface surface_of(const std::string& name, const Vectors& points, const Facets& facets) {
+  Surface out{name, copy(points), {}};
+  const auto n = static_cast<std::int64_t>(out.points.size());
+  for (std::size_t i = 0; i < facets.shape(0); ++i) {
+    const std::int32_t* f = facets.data() + 3 * i;
+    for (int k = 0; k < 3; ++k) {
+      if (f[k] < 0 || f[k] >= n)
+        throw InputError(fmt::format("{}: facet {}: found point {}, expected one of 0 to {}", name, i, f[k], n - 1));
+    }
+    out.facets.push_back({f[0], f[1], f[2]});
+  }
+  return out;
+}
+
+template <class F>
+auto released(F&& f) {
+  const nb::gil_scoped_release release;
+  return f();
+}
+
+void bind_surface(nb::module_& m) {
+  nb::class_<Surface>(m, "Surface", "A triangulated surface [m].")
+      .def(
+          "__init__",
+          [](Surface* self, const Vectors& points, const Facets& facets, const std::string& name) {
+            new (self) Surface(surface_of(name, points, facets));
+          },
+          nb::arg("points"), nb::arg("facets"), nb::arg("name") = "surface")
+      .def_ro("name", &Surface::name)
+      .def_prop_ro(
+          "points", [](const Surface& s) { return view(s.points); }, "[m], (n, 3).")
+      .def_prop_ro(
+          "facets",
+          [](const Surface& s) {
+            return view(s.facets.empty() ? nullptr : s.facets.front().data(), {s.facets.size(), 3});
+          },
+          "Point numbers, counter-clockwise seen from outside, (n, 3).")
+      .def("__repr__", [](const Surface& s) {
+        return fmt::format("<macadam Surface {}: {} points, {} facets>", s.name, s.points.size(), s.facets.size());
+      });
+  nb::class_<SurfaceVerdict>(m, "Verdict", "What is wrong with a surface: numbers of facets, or of points (`stray`).")
+      .def_prop_ro("good", &SurfaceVerdict::good, "Fit for measuring and filling.")
+      .def_ro("stray", &SurfaceVerdict::stray)
+      .def_ro("degenerate", &SurfaceVerdict::degenerate)
+      .def_ro("non_manifold", &SurfaceVerdict::non_manifold)
+      .def_ro("open", &SurfaceVerdict::open)
+      .def_ro("misoriented", &SurfaceVerdict::misoriented)
+      .def_ro("self_intersecting", &SurfaceVerdict::self_intersecting)
+      .def_ro("pieces", &SurfaceVerdict::pieces)
+      .def_ro("inside_out", &SurfaceVerdict::inside_out)
+      .def("__bool__", &SurfaceVerdict::good)
+      .def("__str__", &SurfaceVerdict::text);
+  m.def("read_surface", &read_surface, nb::arg("file"), nb::arg("scale") = 1.0,
+        "Reads STL, OFF, PLY or OBJ; `scale`: metres a unit of the file, 1e-3 for millimetres.");
+  m.def("write_surface", &write_surface, nb::arg("file"), nb::arg("surface"), nb::arg("scale") = 1.0,
+        "Writes .off, .stl, .ply or .obj.");
+  m.def(
+      "check_surface", [](const Surface& s) { return released([&] { return check_surface(s); }); }, nb::arg("surface"),
+      "Looks for every fault that a Verdict knows.");
+  m.def(
+      "repair_surface",
+      [](const Surface& s) {
+        std::string what;
+        Surface out = released([&] { return repair_surface(s, &what); });
+        return nb::make_tuple(nb::cast(std::move(out)), what);
+      },
+      nb::arg("surface"), "The surface made fit for measuring and filling, and in words what was done.");
+}
+
+void bind_measures(nb::module_& m) {
+  nb::class_<ShapeMeasure>(m, "ShapeMeasure", "Dimensions and indices of a shape (docs/shapes.md). Lengths in m.")
+      .def_ro("points", &ShapeMeasure::points)
+      .def_ro("facets", &ShapeMeasure::facets)
+      .def_ro("d_long", &ShapeMeasure::d_long, "D^L [m]")
+      .def_ro("d_intermediate", &ShapeMeasure::d_intermediate, "D^I [m]: what sieves part by.")
+      .def_ro("d_short", &ShapeMeasure::d_short, "D^S [m]")
+      .def_prop_ro("axis_long", [](const ShapeMeasure& s) { return triple(s.axis_long); })
+      .def_prop_ro("axis_intermediate", [](const ShapeMeasure& s) { return triple(s.axis_intermediate); })
+      .def_prop_ro("axis_short", [](const ShapeMeasure& s) { return triple(s.axis_short); })
+      .def_ro("volume", &ShapeMeasure::volume, "[m³]")
+      .def_ro("area", &ShapeMeasure::area, "[m²]")
+      .def_prop_ro(
+          "centroid", [](const ShapeMeasure& s) { return triple(s.centroid); }, "Of the volume [m].")
+      .def_ro("radius_bounding", &ShapeMeasure::radius_bounding, "Of the smallest enclosing sphere [m].")
+      .def_ro("sphericity_true", &ShapeMeasure::sphericity_true)
+      .def_prop_ro("sphericity_working", &ShapeMeasure::sphericity_working)
+      .def_prop_ro("shape_index", &ShapeMeasure::shape_index)
+      .def_prop_ro("flatness", &ShapeMeasure::flatness)
+      .def_prop_ro("elongation", &ShapeMeasure::elongation)
+      .def_prop_ro("flakiness", &ShapeMeasure::flakiness);
+  m.def(
+      "measure_shape", [](const Surface& s) { return released([&] { return measure_shape(s); }); }, nb::arg("surface"));
+}
+
+MultiSphere fill(const Surface& surface, double radius_min, double radius_max, double porosity, std::int64_t least,
+                 const std::string& single, std::uint64_t seed) {
+  FillSpec spec{radius_min,
+                radius_max,
+                in_range("porosity", porosity, -0.5, 1.0),
+                in_range<std::int64_t>("least", least, 1, 1'000'000),
+                SingleSphere::intermediate,
+                seed};
+  spec.single = choice<SingleSphere>("single", single,
+                                     {{"intermediate", SingleSphere::intermediate},
+                                      {"circumscribed", SingleSphere::circumscribed},
+                                      {"volume", SingleSphere::volume}});
+  return released([&] { return fill_shape(surface, spec); });
+}
+
+void bind_filling(nb::module_& m) {
+  const FillSpec usual;
+  nb::class_<MultiSphere>(m, "Spheres", "One aggregate as spheres.")
+      .def("__len__", &MultiSphere::size)
+      .def_prop_ro(
+          "centre", [](const MultiSphere& s) { return view(s.centre); }, "[m], (n, 3).")
+      .def_prop_ro(
+          "radius", [](const MultiSphere& s) { return view(s.radius); }, "[m]");
+  nb::class_<FillReport>(m, "FillReport", "How well spheres stand for a shape.")
+      .def_ro("sphere_volume", &FillReport::sphere_volume, "Sum of the spheres' volumes [m³].")
+      .def_ro("covered", &FillReport::covered, "Share of the shape's volume inside a sphere.")
+      .def_ro("outside", &FillReport::outside, "Volume of the spheres outside the shape, over the shape's.")
+      .def_ro("largest_overlap", &FillReport::largest_overlap, "Of two spheres, over the sum of their radii.")
+      .def_ro("deviation_mean", &FillReport::deviation_mean, "Of the surfaces [m].")
+      .def_ro("deviation_largest", &FillReport::deviation_largest, "Of the surfaces [m].")
+      .def_ro("d_long", &FillReport::d_long, "Of the spheres [m].")
+      .def_ro("d_intermediate", &FillReport::d_intermediate, "Of the spheres [m].")
+      .def_ro("d_short", &FillReport::d_short, "Of the spheres [m].");
+  m.def("fill_shape", &fill, nb::arg("surface"), nb::arg("radius_min"), nb::arg("radius_max"),
+        nb::arg("porosity") = usual.porosity, nb::arg("least") = usual.least, nb::arg("single") = "intermediate",
+        nb::arg("seed") = usual.seed);
+  m.def(
+      "measure_fill",
+      [](const Surface& s, const MultiSphere& c) { return released([&] { return measure_fill(s, c); }); },
+      nb::arg("surface"), nb::arg("spheres"), "Measures spheres against their shape.");
+  m.def("shape_library", &shape_library, "The 82 aggregates that ship with the program.");
+  m.def(
+      "generate_shape_library",
+      [](std::uint64_t seed, int count) { return released([&] { return generate_shape_library(seed, count); }); },
+      nb::arg("seed") = 1, nb::arg("count") = 82, "Crushed aggregates of the same statistics.");
+  m.def("subdivided_icosahedron", &subdivided_icosahedron, nb::arg("radius") = 1.0,
+        "42 points, 80 facets; radius [m].");
+}
+
+}  // namespace
+
+void bind_shapes(nb::module_& m) {
+  bind_surface(m);
+  bind_measures(m);
+  bind_filling(m);
+}
+
+}  // namespace macadam::python

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// simulation.cpp  The whole job: a scene's test, into a folder.
+#include "macadam/simulation.hpp"
+
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "macadam/macadam.hpp"
+#include "python/src/arrays.hpp"
+#include "python/src/bindings.hpp"
+#include "python/src/calls.hpp"
+
+namespace macadam::python {
+namespace {
+
+/// What a callback sees of a run that is under way; of no use when it has returned.
+class StepView {
+ public:
+  StepView(const Stepper& stepper, const Preparation& made, double frequency_hz)
+      : stepper_(&stepper), made_(&made), frequency_hz(frequency_hz), now(stepper.observe()) {}
+  void end() { stepper_ = nullptr; }
+
+  const Stepper& stepper() const {
+    if (!stepper_) throw RunError("step: found a use after its callback has returned, expected none");
+    return *stepper_;
+  }
+  double strain() const { return now.top_displacement() / height_; }
+  double stress() const { return -now.top_force() / area_; }
+  ContactState contacts() const { return stepper().contacts(made_->network); }
+
+ private:
+  const Stepper* stepper_;
+  const Preparation* made_;
+  double height_ = made_->specimen.box.size.z;
+  double area_ = made_->specimen.box.size.x * made_->specimen.box.size.y;
+
+ public:
+  double frequency_hz;
+  Observation now;
+};
+
+/// Asks Python as the work goes on.
+Watcher watcher_of(LongCall& call, bool& started, const Preparation*& made, const nb::object& on_step,
+                   std::int64_t every, const nb::object& on_plan, const nb::object& on_warning) {
+  Watcher w;
+  w.progress = [&](const std::string& stage, double share) {
+    if (started) {
+      call.show(stage, share);
+    } else {
+      call.progress(stage, share);
+    }
+  };
+  w.prepared = [&](const Preparation& p) { made = &p; };
+  w.planned = [&](const RunResult& planned) {
+    started = true;
+    if (!on_plan.is_none()) call.tell([&] { on_plan(planned.decisions); });
+  };
+  if (!on_warning.is_none()) w.warn = [&](const std::string& text) { call.tell([&] { on_warning(text); }); };
+  w.stop = [&] { return call.stop(); };
+  if (on_step.is_none()) return w;
+  w.every = every;
+  w.stepped = [&](const Stepper& stepper, double hz) {
+    const auto seen = std::make_shared<StepView>(stepper, *made, hz);
+    call.tell([&] {
+      const nb::object object = nb::cast(seen);
+      try {
+        on_step(object);
+      } catch (...) {
+        seen->end();
+        throw;
+      }
+    });
+    seen->end();
+  };
+  return w;
+}
+
+std::shared_ptr<RunResult> run_scene(const GivenScene& scene, const std::filesystem::path& out,
+                                     const PreparedPointer& specimen, bool resume, const nb::object& on_step,
+                                     std::int64_t every, const nb::object& progress, const nb::object& on_plan,
+                                     const nb::object& on_warning) {
+  if (every < 1)
+    throw InputError("every: found " + std::to_string(every) + ", expected a whole number of steps from 1 on");
+  LongCall call(progress);
+  bool started = false;
+  const Preparation* made = nullptr;
+  const Watcher watcher = watcher_of(call, started, made, on_step, every, on_plan, on_warning);
+  const GivenScene own = scene;  // another thread may change the caller's
+  return call([&] {
+    return std::make_shared<RunResult>(specimen ? run(own, specimen->made, out, watcher, resume)
+                                                : run(own, out, watcher, resume));
+  });
+}
+
+nb::list skips_of(const RunResult& result) {
+  nb::list out;
+  for (const Skip& skip : result.skips) {
+    nb::dict one;
+    one["what"] = skip.what;
+    one["why"] = skip.why;
+    one["effect"] = skip.effect;
+    out.append(one);
+  }
+  return out;
+}
+
+}  // namespace
+
+void bind_simulation(nb::module_& m) {
+  nb::class_<StepView>(m, "Step", "A run that is under way, as a callback sees it.")
+      .def_ro("frequency_hz", &StepView::frequency_hz)
+      .def_prop_ro("step", [](const StepView& s) { return s.now.step; })
+      .def_prop_ro(
+          "time", [](const StepView& s) { return s.now.time; }, "[s]")
+      .def_prop_ro("strain", &StepView::strain, "Of the specimen, tension positive.")
+      .def_prop_ro("stress_pa", &StepView::stress, "At the top wall [Pa], tension positive.")
+      .def_ro("observation", &StepView::now, "Of all walls.")
+      .def(
+          "particles", [](const StepView& s) { return s.stepper().particles(); }, "Motion of all particles now.")
+      .def("contacts", &StepView::contacts, "Forces and deformation of all contacts now.");
+  nb::class_<RunResult>(m, "Outcome", "A finished run; its numbers are in the folder's summary.json.")
+      .def_prop_ro("text", &results_table, "As the command says it.")
+      .def_prop_ro("decisions", [](const RunResult& o) { return o.decisions; })
+      .def_prop_ro("skips", [](const RunResult& o) { return skips_of(o); })
+      .def_prop_ro("warnings", [](const RunResult& o) { return o.warnings; })
+      .def_prop_ro("solver", [](const RunResult& o) { return o.solver; })
+      .def_prop_ro("backend", [](const RunResult& o) { return to_string(o.backend); });
+  m.def("run", &run_scene, nb::arg("scene"), nb::arg("out"), nb::arg("specimen").none() = nb::none(),
+        nb::arg("resume") = false, nb::arg("on_step") = nb::none(), nb::arg("every") = 1000,
+        nb::arg("progress") = nb::none(), nb::arg("on_plan") = nb::none(), nb::arg("on_warning") = nb::none());
+}
+
+}  // namespace macadam::python

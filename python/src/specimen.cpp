@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// specimen.cpp  A scene's particles, seen where they are.
+#include "macadam/specimen.hpp"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/function.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "host/results/files.hpp"
+#include "macadam/macadam.hpp"
+#include "python/src/arrays.hpp"
+#include "python/src/bindings.hpp"
+#include "python/src/calls.hpp"
+#include "python/src/choices.hpp"
+
+namespace macadam::python {
+namespace {
+
+/// Particles from arrays. \throws InputError where their lengths differ.
+Specimen particles_of(const std::array<double, 3>& box, const Vectors& centre, const Numbers& radius,
+                      const Whole& phase, const Whole& body) {
+  Specimen out;
+  out.box.size = {box[0], box[1], box[2]};
+  out.centre = copy(centre);
+  out.radius = copy(radius);
+  out.body = copy(body);
+  if (radius.size() != out.size() || phase.size() != out.size() || body.size() != out.size()) {
+    throw InputError(
+        fmt::format("specimen: found {} centres, {} radii, {} phases and {} bodies, expected as many of each",
+                    out.size(), radius.size(), phase.size(), body.size()));
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (phase.data()[i] != 0 && phase.data()[i] != 1) {
+      throw InputError(fmt::format("specimen: particle {}: phase: found {}, expected 0 (aggregate) or 1 (mastic)", i,
+                                   phase.data()[i]));
+    }
+    out.phase.push_back(static_cast<Phase>(phase.data()[i]));
+  }
+  return out;
+}
+
+PreparedPointer prepare_scene(const GivenScene& scene, nb::object progress) {
+  LongCall call(std::move(progress));
+  return call([&] {
+    auto kept = std::make_shared<const GivenScene>(scene);
+    Preparation made = prepare(*kept, call.progress_function());
+    return std::make_shared<Prepared>(Prepared{std::move(kept), std::move(made)});
+  });
+}
+
+PreparedPointer prepare_particles(const GivenScene& scene, const std::array<double, 3>& box, const Vectors& centre,
+                                  const Numbers& radius, const Whole& phase, const Whole& body) {
+  Specimen specimen = particles_of(box, centre, radius, phase, body);
+  LongCall call;
+  return call([&] {
+    auto kept = std::make_shared<const GivenScene>(scene);
+    Preparation made = prepare(*kept, std::move(specimen), call.progress_function());
+    return std::make_shared<Prepared>(Prepared{std::move(kept), std::move(made)});
+  });
+}
+
+PreparedPointer prepare_to_folder(const GivenScene& scene, const std::filesystem::path& out,
+                                  const std::vector<std::string>& sections, nb::object progress) {
+  LongCall call(std::move(progress));
+  return call([&] {
+    auto kept = std::make_shared<const GivenScene>(scene);
+    std::vector<SectionPlane> planes;
+    for (const std::string& text : sections) planes.push_back(read_section_plane(text, scene.specimen.box));
+    Preparation made = prepare_into(out, *kept, planes, call.progress_function());
+    return std::make_shared<Prepared>(Prepared{std::move(kept), std::move(made)});
+  });
+}
+
+nb::dict fractions_of(const Preparation& p) {
+  nb::dict out;
+  for (const CompositionRow& row : p.composition) {
+    nb::dict one;
+    one["count_asked"] = row.count_asked;
+    one["count"] = row.count;
+    one["fraction_asked"] = row.fraction_asked;
+    one["fraction"] = row.fraction;
+    out[row.name.c_str()] = one;
+  }
+  return out;
+}
+
+nb::list aggregates_of(const Preparation& p) {
+  nb::list out;
+  for (const Aggregate& a : p.aggregates) {
+    nb::dict one;
+    one["body"] = a.body;
+    one["class"] = p.composition[static_cast<std::size_t>(a.size_class)].name;
+    one["shape"] = a.shape;
+    one["size"] = a.size;
+    one["d_long"] = a.d_long;
+    one["d_short"] = a.d_short;
+    one["volume"] = a.volume;
+    one["spheres"] = a.spheres;
+    one["x"] = a.centre.x;
+    one["y"] = a.centre.y;
+    one["z"] = a.centre.z;
+    out.append(one);
+  }
+  return out;
+}
+
+nb::list gradation_rows(const Prepared& p) {
+  nb::list out;
+  if (!p.scene->recipe) return out;
+  for (const GradationRow& row : gradation_of(*p.scene->recipe, p.made.composition)) {
+    nb::dict one;
+    one["sieve"] = row.size;
+    one["asked"] = row.asked;
+    one["reached"] = row.reached;
+    out.append(one);
+  }
+  return out;
+}
+
+void write_specimen(const Prepared& p, const std::filesystem::path& file, const std::string& what) {
+  const std::filesystem::path ending = file.extension();
+  const Preparation& made = p.made;
+  if (ending == ".csv" && what == "particles") return write_specimen_csv(file, made.specimen);
+  if (ending == ".csv" && what == "contacts") return write_contacts_csv(file, made.network);
+  if (ending != ".vtkhdf" && ending != ".vtp") {
+    throw InputError(file.string(), 0, "ending of the file", ending.string(),
+                     ".vtkhdf, .vtp or, of particles and contacts, .csv");
+  }
+  const FieldFormat format = ending == ".vtkhdf" ? FieldFormat::vtkhdf : FieldFormat::vtp;
+  const std::filesystem::path stem = file.parent_path() / file.stem();
+  const nb::gil_scoped_release release;
+  if (what == "particles") {
+    write_fields(stem, format, particle_mesh(made.specimen, made.aggregates));
+  } else if (what == "contacts") {
+    write_fields(stem, format, contact_mesh(made.specimen, made.network));
+  } else if (what == "cells") {
+    write_fields(stem, format, cell_mesh(made.specimen, made.tessellation, made.aggregates));
+  } else {
+    throw InputError("what: found \"" + what + "\", expected particles, contacts or cells");
+  }
+}
+
+void bind_particles(nb::class_<Prepared>& c) {
+  c.def("__len__", [](const Prepared& p) { return p.made.specimen.size(); })
+      .def_prop_ro(
+          "box", [](const Prepared& p) { return triple(p.made.specimen.box.size); }, "Edge lengths [m].")
+      .def_prop_ro(
+          "centre", [](const Prepared& p) { return view(p.made.specimen.centre); }, "Of each particle [m], (n, 3).")
+      .def_prop_ro(
+          "radius", [](const Prepared& p) { return view(p.made.specimen.radius); }, "Of each particle [m].")
+      .def_prop_ro(
+          "phase",
+          [](const Prepared& p) {
+            const auto& phase = p.made.specimen.phase;
+            return view(reinterpret_cast<const std::uint8_t*>(phase.data()), {phase.size()});
+          },
+          "Of each particle: 0 aggregate, 1 mastic.")
+      .def_prop_ro(
+          "body", [](const Prepared& p) { return view(p.made.specimen.body); },
+          "Number of the aggregate that each particle belongs to, -1 for mastic.")
+      .def_prop_ro(
+          "void_centre",
+          [](const Prepared& p) {
+            return member3(p.made.specimen.voids, [](const VoidSphere& v) -> const Vec3d& { return v.centre; });
+          },
+          "Of each void [m], (n, 3). Voids are no particles.")
+      .def_prop_ro(
+          "void_radius",
+          [](const Prepared& p) {
+            return member<double>(p.made.specimen.voids, [](const VoidSphere& v) { return &v.radius; });
+          },
+          "Of each void [m].");
+}
+
+}  // namespace
+
+void bind_specimen(nb::module_& m) {
+  nb::class_<Prepared> c(m, "Specimen",
+                         "Particles, cells and contacts of a scene. Arrays are views of the library's own memory: they "
+                         "cannot be written to, and keep the specimen alive.");
+  bind_particles(c);
+  c.def_prop_ro("scene", [](const Prepared& p) { return *p.scene; })
+      .def_prop_ro(
+          "cells", [](const Prepared& p) -> const Tessellation& { return p.made.tessellation; },
+          nb::rv_policy::reference_internal, "The Laguerre cells.")
+      .def_prop_ro(
+          "contacts", [](const Prepared& p) -> const ContactNetwork& { return p.made.network; },
+          nb::rv_policy::reference_internal, "The contact network.")
+      .def_prop_ro(
+          "composition", [](const Prepared& p) { return fractions_of(p.made); },
+          "By class: counts, and volumes over that of the box, asked and reached; of a generated specimen.")
+      .def_prop_ro(
+          "aggregates", [](const Prepared& p) { return aggregates_of(p.made); }, "Of a generated specimen; SI units.")
+      .def_prop_ro("gradation", &gradation_rows,
+                   "Of a recipe by mass: sieves [m] with shares of the aggregate's mass that pass.")
+      .def_prop_ro(
+          "loose_particles", [](const Prepared& p) { return p.made.loose_particles; },
+          "Not joined to both walls: they carry nothing.")
+      .def_prop_ro(
+          "seconds",
+          [](const Prepared& p) {
+            return nb::make_tuple(p.made.seconds_specimen, p.made.seconds_tessellation, p.made.seconds_network);
+          },
+          "What the making of particles, cells and contacts took [s].")
+      .def("write", &write_specimen, nb::arg("file"), nb::arg("what") = "particles",
+           "Writes particles, contacts or cells for viewers (.vtkhdf, .vtp), or the first two as .csv.")
+      .def(
+          "section",
+          [](const Prepared& p, const std::string& plane) {
+            return cut(p.made.specimen, p.made.tessellation, read_section_plane(plane, p.made.specimen.box));
+          },
+          nb::arg("plane"), "The cells cut by a plane: \"x=0.025\" (metres), \"z=40 mm\".")
+      .def(
+          "inertia",
+          [](const Prepared& p) {
+            Inertia i = make_inertia(p.made.specimen, p.scene->materials.aggregate, p.scene->materials.mastic);
+            return nb::make_tuple(owned(std::move(i.mass)), owned(std::move(i.inertia)));
+          },
+          "Masses [kg] and moments of inertia [kg m²] of the particles.");
+  m.def("prepare", &prepare_scene, nb::arg("scene"), nb::arg("progress") = nb::none());
+  m.def("prepare_particles", &prepare_particles, nb::arg("scene"), nb::arg("box"), nb::arg("centre"), nb::arg("radius"),
+        nb::arg("phase"), nb::arg("body"));
+  m.def("prepare_into", &prepare_to_folder, nb::arg("scene"), nb::arg("out"), nb::arg("sections"),
+        nb::arg("progress") = nb::none());
+}
+
+}  // namespace macadam::python

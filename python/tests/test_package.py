@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The package itself: lazy, typed, and one with the program."""
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from conftest import ROOT
+
+import macadam as mc
+
+SOURCE = ROOT / "python"
+
+
+def test_every_name_is_there_and_documented():
+    for name in mc.__all__:
+        if name in ("report", "study") and not (SOURCE / "macadam" / name).exists():
+            continue
+        assert getattr(mc, name) is not None
+        assert getattr(mc, name).__doc__, name
+    assert mc.__version__ in (ROOT / "CMakeLists.txt").read_text()
+    assert set(mc.__all__) <= set(dir(mc))
+    with pytest.raises(AttributeError, match="harmonics"):
+        mc.harmonics  # noqa: B018
+
+
+def test_the_package_is_imported_where_the_library_is_not(tmp_path):
+    code = "import macadam, sys; assert 'macadam._core' not in sys.modules; print(macadam.__doc__.split(':')[0])"
+    said = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": str(SOURCE)}, text=True, check=True,
+                          capture_output=True, cwd=tmp_path)
+    assert said.stdout.strip() == "Macadam"
+
+
+def test_types_are_right():
+    pytest.importorskip("mypy")
+    here = Path(mc.__file__).parent
+    said = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--allow-any-generics", "--no-warn-return-any",
+                           "--disable-error-code", "import-untyped", "--no-error-summary", "--cache-dir", os.devnull, "-p",
+                           "macadam", "--exclude", "report|study"], cwd=here.parent, capture_output=True, text=True)
+    own = [line for line in said.stdout.splitlines() if "macadam/report" not in line and "macadam/study" not in line]
+    assert not own, "\n".join(own)
+
+
+def fake(tmp_path, name):
+    """A package macadam whose command says what it was told."""
+    folder = tmp_path / "fake" / "macadam" / name
+    folder.mkdir(parents=True)
+    (folder.parent / "__init__.py").touch()
+    (folder.parent / "__main__.py").write_text("import sys; print('told', sys.argv[1:])")
+    (folder / "__init__.py").touch()
+    return folder.parents[1]
+
+
+@pytest.mark.parametrize("name", ["report", "study"])
+def test_the_program_hands_on_what_is_python(name, tmp_path, program):
+    """A program that lies alone asks the Python that is named, and hands all words on."""
+    alone = tmp_path / "bin" / "macadam"
+    alone.parent.mkdir()
+    alone.symlink_to(program)  # /proc/self/exe is the true one: it finds its own package
+    python = tmp_path / "python"
+    python.write_text(f"#!/bin/sh\nPYTHONPATH={fake(tmp_path, name)} exec {sys.executable} \"$@\"\n")
+    python.chmod(0o755)
+    said = subprocess.run([alone, name, "DIR", "--out", "a b", "--help"], env={**os.environ, "MACADAM_PYTHON": str(python)},
+                          capture_output=True, text=True)
+    assert (said.returncode, said.stdout) == (0, f"told ['{name}', 'DIR', '--out', 'a b', '--help']\n"), said.stderr
+    python.write_text(f"#!/bin/sh\nPYTHONPATH={tmp_path} exec {sys.executable} -S \"$@\"\n")
+    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": str(python)}, capture_output=True, text=True)
+    assert said.returncode == 2 and f"macadam {name}: found no Python package" in said.stderr
+    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": "/no/python"}, capture_output=True, text=True)
+    assert said.returncode == 2 and "/no/python" in said.stderr and "MACADAM_PYTHON" in said.stderr
+
+
+def test_the_package_hands_on_what_is_the_programs(program):
+    said = subprocess.run([sys.executable, "-m", "macadam", "info"], capture_output=True, text=True, check=True)
+    assert said.stdout == subprocess.run([program, "info"], capture_output=True, text=True, check=True).stdout
+    said = subprocess.run([sys.executable, "-m", "macadam", "runs"], capture_output=True, text=True)
+    assert said.returncode == 2 and 'found "runs"' in said.stderr
+
+
+@pytest.mark.parametrize("level", ["x86-64", "x86-64-v3", "x86-64-v4"])
+def test_code_of_every_generation_finds_the_same(level, small_file, specimen):
+    """A build for this machine alone has one, which ignores the wish."""
+    code = (f"import macadam as mc; s = {str(small_file)!r}; print(mc.info()['processor'], mc.harmonic(s, hz=[10]).table.e_star_pa[0],"
+            "mc.run(s, loading={'frequencies': [20.0]}).table.e_star_pa[0])")
+    said = subprocess.run([sys.executable, "-c", code], env={**os.environ, "MACADAM_PROCESSOR": level}, capture_output=True,
+                          text=True, check=True)
+    name, solved, stepped = said.stdout.split()
+    own = mc.info()["processor"]
+    assert name == own == "native" or name == min(level, own)
+    assert float(solved) == pytest.approx(mc.harmonic(specimen, hz=[10]).table.e_star_pa[0], rel=1e-9)  # the solver's tolerance
+    # single precision, as the scene's tolerance chooses it: what the run itself estimates of that is below 1e-5
+    assert float(stepped) == pytest.approx(mc.run(specimen, loading={"frequencies": [20.0]}).table.e_star_pa[0], rel=1e-5)

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surfaces of aggregates: as the commands have them."""
+import subprocess
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import macadam as mc
+
+CUBE = (np.array([[x, y, z] for x in (0.0, 1) for y in (0.0, 1) for z in (0.0, 1)]) * 0.01,
+        np.array([[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6],
+                  [0, 6, 4], [1, 5, 7], [1, 7, 3]], dtype=np.int32))
+
+
+@pytest.fixture(scope="module")
+def cube():
+    return mc.shapes.Surface(*CUBE, "cube")
+
+
+def test_a_cube_is_measured(cube):
+    assert mc.shapes.check(cube) and str(mc.shapes.check(cube)) == "closed"
+    measured = mc.shapes.measure(cube)
+    assert measured.volume == pytest.approx(1e-6) and measured.area == pytest.approx(6e-4)
+    assert measured.d_long == pytest.approx(0.01 * 3**0.5) and measured.centroid == pytest.approx((0.005,) * 3)
+    assert np.array_equal(cube.points, CUBE[0]) and np.array_equal(cube.facets, CUBE[1])
+
+
+def test_what_is_wrong_is_said_and_repaired(cube, tmp_path, program):
+    open_cube = mc.shapes.Surface(CUBE[0], CUBE[1][:-1], "open")
+    verdict = mc.shapes.check(open_cube)
+    assert not verdict and len(verdict.open) == 3 and verdict.pieces == 1
+    with pytest.raises(mc.InputError, match="open"):
+        mc.shapes.measure(open_cube)
+    repaired, what = mc.shapes.repair(open_cube)
+    assert mc.shapes.check(repaired).good and "hole" in what
+    mc.shapes.write(tmp_path / "open.off", open_cube)
+    said = subprocess.run([program, "shapes", "check", tmp_path / "open.off"], capture_output=True, text=True)
+    assert said.returncode == 2 and str(verdict) in said.stdout
+    with pytest.raises(mc.InputError, match="facet 0: found point 9"):
+        mc.shapes.Surface(CUBE[0], np.array([[0, 1, 9]], dtype=np.int32))
+
+
+def test_tables_are_those_of_the_command(cube, tmp_path, program):
+    for format in ("off", "stl", "ply", "obj"):
+        mc.shapes.write(tmp_path / f"cube.{format}", cube, scale=1e-3)
+    subprocess.run([program, "shapes", "measure", tmp_path / "cube.off", "--out", tmp_path, "--scale", "1e-3"], check=True,
+                   capture_output=True)
+    written = pd.read_csv(tmp_path / "shapes.csv", comment="#")
+    table = mc.shapes.table([mc.shapes.read(tmp_path / "cube.off", scale=1e-3)])
+    assert len(written) == len(table) == 1
+    assert table.volume[0] == pytest.approx(1e-6, rel=1e-12)
+    assert mc.shapes.measure(mc.shapes.read(tmp_path / "cube.stl", 1e-3)).volume == pytest.approx(1e-6, rel=1e-5)  # floats
+    with pytest.raises(mc.InputError, match="none.off"):
+        mc.shapes.read(tmp_path / "none.off")
+
+
+def test_filling(cube):
+    spheres = mc.shapes.fill(cube, (0.9e-3, 1.1e-3), seed=2)
+    report = mc.shapes.measure_fill(cube, spheres)
+    assert len(spheres) > 50 and 0.9e-3 <= spheres.radius.min() and spheres.radius.max() <= 1.1e-3
+    assert report.sphere_volume == pytest.approx(0.88e-6, rel=0.02)  # porosity 0.12, to a sphere
+    assert np.array_equal(mc.shapes.fill(cube, (0.9e-3, 1.1e-3), seed=2).centre, spheres.centre)
+    assert len(mc.shapes.fill(cube, 5e-3, single="volume")) == 1
+    with pytest.raises(mc.InputError, match=r"single: .*intermediate\|circumscribed\|volume"):
+        mc.shapes.fill(cube, 1e-3, single="x")
+
+
+def test_the_library(tmp_path):
+    assert len(mc.shapes.library()) == 82
+    made = mc.shapes.generate(tmp_path, seed=5, count=3)
+    assert [mc.shapes.read(tmp_path / f"{s.name}.off").points.shape for s in made] == [s.points.shape for s in made]
+    assert mc.shapes.icosahedron(0.5).facets.shape == (80, 3)

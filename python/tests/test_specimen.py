@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Specimens: views of the library's arrays that stay valid, and files."""
+import csv
+import gc
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import macadam as mc
+
+
+def test_views_are_what_the_command_writes(scene, small_file, specimen, tmp_path, program):
+    subprocess.run([program, "specimen", small_file, "--out", tmp_path], check=True, capture_output=True)
+    with (tmp_path / "specimen.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(specimen) == len(rows)
+    assert np.array_equal(specimen.centre, [[float(r[k]) for k in "xyz"] for r in rows])
+    assert np.array_equal(specimen.radius, [float(r["radius"]) for r in rows])
+    assert np.array_equal(specimen.phase, [["aggregate", "mastic"].index(r["phase"]) for r in rows])
+    assert np.array_equal(specimen.body, [int(r["body"]) for r in rows])
+    specimen.write(tmp_path / "own.csv")
+    assert (tmp_path / "own.csv").read_bytes() == (tmp_path / "specimen.csv").read_bytes()
+
+
+def every_array(of):
+    return {name: value for name in dir(of) if not name.startswith("_")
+            for value in [getattr(of, name)] if isinstance(value, np.ndarray)}
+
+
+@pytest.mark.parametrize("part", [lambda s: s, lambda s: s.contacts, lambda s: s.cells, lambda s: s.section("x=6 mm")],
+                         ids=["specimen", "contacts", "cells", "section"])
+def test_views_share_memory_and_cannot_be_written(part, specimen):
+    arrays = every_array(part(specimen))
+    assert len(arrays) >= 2
+    again = every_array(part(specimen))
+    for name, array in arrays.items():
+        assert not array.flags.writeable, name
+        assert not array.flags.owndata, name
+        assert array.size == 0 or name in ("particle", "area") or np.shares_memory(array, again[name]), name
+        if array.size:
+            with pytest.raises(ValueError, match="read-only"):
+                array.flat[0] = array.flat[0]
+
+
+def test_views_do_not_dangle(scene):
+    made = mc.specimen(scene)
+    views = [*every_array(made).values(), *every_array(made.contacts).values(), *every_array(made.cells).values(),
+             made.cells.polygon(3), made.section("z=5 mm").polygon(0)]
+    copies = [v.copy() for v in views]
+    del made
+    gc.collect()
+    others = [np.full(100_000, float(i)) for i in range(50)]  # what would be written over them
+    for view, copy in zip(views, copies, strict=True):
+        assert np.array_equal(view, copy)
+    del others
+
+
+def test_a_specimen_goes_when_nobody_looks(scene):
+    made = mc.specimen(scene)
+    contacts = made.contacts
+    area = contacts.area
+    before = sys.getrefcount(made)
+    del contacts, area
+    gc.collect()
+    assert sys.getrefcount(made) < before
+
+
+def test_contacts_and_cells_hang_together(specimen):
+    contacts, cells = specimen.contacts, specimen.cells
+    assert sum(contacts.count.values()) == len(contacts)
+    names = np.array(mc.pair_names)
+    assert {str(n): int(c) for n, c in zip(*np.unique(names[contacts.pair], return_counts=True))} == contacts.count
+    assert np.allclose(np.linalg.norm(contacts.normal, axis=1), 1)
+    assert np.allclose(np.cross(contacts.s, contacts.t), contacts.normal)
+    assert np.allclose(contacts.moments[:, 0], contacts.area)
+    both = contacts.b >= 0
+    apart = specimen.centre[contacts.b[both]] - specimen.centre[contacts.a[both]]
+    assert np.allclose(np.linalg.norm(apart, axis=1), contacts.distance[both])
+    assert cells.volume.sum() == pytest.approx(np.prod(specimen.box), rel=1e-12)  # rounding of some thousand terms
+    assert len(cells) == len(cells.area) and cells.polygon(0).shape[1] == 3
+    section = specimen.section("z=7 mm")
+    assert section.area.sum() == pytest.approx(specimen.box[0] * specimen.box[1], rel=1e-12)
+    for wrong in (-1, len(section)):
+        with pytest.raises(IndexError):
+            section.polygon(wrong)
+
+
+def test_particles_of_ones_own(scene):
+    side = np.arange(4) * 1e-3 + 0.5e-3
+    centre = np.stack(np.meshgrid(side, side, side, indexing="ij"), axis=-1).reshape(-1, 3)
+    made = mc.specimen(scene, particles={"box": [4e-3] * 3, "centre": centre, "radius": np.full(64, 0.5e-3)})
+    assert len(made) == 64 and made.contacts.count == {"M-M": 144, "M-W": 32}
+    assert np.allclose(made.cells.volume, 1e-9)
+    assert len(mc.harmonic(made, hz=[10]).table) == 1
+    with pytest.raises(mc.InputError, match="64 centres, 63 radii"):
+        mc.specimen(scene, particles={"centre": centre, "radius": np.full(63, 0.5e-3)})
+    with pytest.raises(mc.InputError, match="particle 0: phase: found 7"):
+        mc.specimen(scene, particles={"centre": centre, "radius": np.full(64, 5e-4), "phase": np.full(64, 7)})
+    with pytest.raises(mc.InputError, match="particle 5"):
+        twice = centre.copy()
+        twice[5] = twice[4]
+        mc.specimen(scene, particles={"box": [4e-3] * 3, "centre": twice, "radius": np.full(64, 0.5e-3)})
+
+
+def test_files_for_viewers(specimen, tmp_path):
+    for what in ("particles", "contacts", "cells"):
+        for ending in ("vtkhdf", "vtp"):
+            specimen.write(tmp_path / f"{what}.{ending}", what)
+            assert (tmp_path / f"{what}.{ending}").stat().st_size > 1000
+    for file, what, message in (("a.txt", "particles", "ending"), ("a.csv", "cells", "ending"), ("a.vtp", "x", "what")):
+        with pytest.raises(mc.InputError, match=message):
+            specimen.write(tmp_path / file, what)
+    with pytest.raises(mc.RunError, match="no_folder"):
+        specimen.write(tmp_path / "no_folder" / "a.csv")
+
+
+def test_a_folder_as_the_command_leaves_it(scene, tmp_path):
+    told = []
+    made = mc.specimen(scene, out=tmp_path, sections=["x=6 mm"], progress=lambda stage, share: told.append((stage, share)))
+    assert {"specimen.csv", "aggregates.csv", "summary.json", "section_x_0.006.csv"} <= {p.name for p in tmp_path.iterdir()}
+    assert all(0 <= share <= 1 for _, share in told) and len({stage for stage, _ in told}) >= 3
+    assert made.aggregates and made.composition["mastic"]["count"] == int((made.phase == 1).sum())
+    with pytest.raises(mc.InputError, match="plane"):
+        mc.specimen(scene, sections=["x=6"], out=tmp_path)
+
