@@ -85,7 +85,7 @@ def _time(folder: Folder, name: str) -> str:
 
 def _facts(folder: Folder) -> list[tuple[str, Any]]:
     s = folder.summary
-    solver, machine = s.get("solver") or {}, s.get("machine")
+    solver, machine = s.get("solver") or {}, s.get("machine") or folder.of_study.get("machine")
     rows: list[tuple[str, Any]] = [("status", s["status"]), ("macadam", s.get("macadam", "not recorded"))]
     if s.get("scene"):
         rows.append(("scene", s["scene"]))

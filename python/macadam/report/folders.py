@@ -75,6 +75,11 @@ class Folder:
             return None
         return self.table("aggregates.csv", ["body", "size_class", "class", "size", "volume"])
 
+    @cached_property
+    def of_study(self) -> dict[str, Any]:
+        """What a study wrote beside the result: values of its factors, machine; empty where none did."""
+        return _json(self.path / "study.json") if self.has("study.json") else {}
+
     @property
     def results(self) -> list[dict[str, Any]]:
         return self.summary.get("results") or []
@@ -102,6 +107,10 @@ def read(path: str | Path) -> Folder:
     if not path.is_dir():
         raise ReportError(f"{path}: found a file, expected the folder that it is in")
     kind = next((kind for name, kind in KINDS.items() if (path / name).is_file()), None)
+    if kind is None and (path / "study.toml").is_file():
+        raise ReportError(
+            f"{path}: found a study; its own report is {path / 'report.html'}, its results are in {path / 'results'}"
+        )
     if kind is None:
         raise ReportError(f"{path}: no result folder of macadam: found none of {', '.join(KINDS)}")
     folder = Folder(path, kind)
