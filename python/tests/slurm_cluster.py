@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A Slurm cluster of this one machine, of Debian's slurmctld, slurmd, slurm-client and munge, in a folder of its own."""
+"""A Slurm cluster of this one machine, of Debian's slurmctld, slurmd and munge, in a folder of its own."""
 
 from __future__ import annotations
 
@@ -65,15 +65,30 @@ def cluster(folder: Path) -> Iterator[dict[str, str]]:
     (folder / "state").mkdir(parents=True)
     (folder / "spool").mkdir()
     configuration = folder / "slurm.conf"
-    configuration.write_text(_CONFIGURATION.format(folder=folder, host=host, user="root", control=_free_port(), node=_free_port(),
-                                                   cores=os.cpu_count()))
+    configuration.write_text(
+        _CONFIGURATION.format(
+            folder=folder, host=host, user="root", control=_free_port(), node=_free_port(), cores=os.cpu_count()
+        )
+    )
     key = folder / "munge.key"
     key.write_bytes(os.urandom(1024))
     key.chmod(0o400)
-    environment = {**os.environ, "SLURM_CONF": str(configuration), "PATH": f"{os.environ.get('PATH', '')}:/usr/sbin:/sbin"}
+    environment = {
+        **os.environ,
+        "SLURM_CONF": str(configuration),
+        "PATH": f"{os.environ.get('PATH', '')}:/usr/sbin:/sbin",
+    }
     daemons = [
-        ["munged", "--foreground", "--force", f"--key-file={key}", f"--socket={folder}/munge.socket", f"--pid-file={folder}/munged.pid",
-         f"--log-file={folder}/munged.log", f"--seed-file={folder}/munge.seed"],
+        [
+            "munged",
+            "--foreground",
+            "--force",
+            f"--key-file={key}",
+            f"--socket={folder}/munge.socket",
+            f"--pid-file={folder}/munged.pid",
+            f"--log-file={folder}/munged.log",
+            f"--seed-file={folder}/munge.seed",
+        ],
         ["slurmctld", "-D", "-f", str(configuration)],
         ["slurmd", "-D", "-f", str(configuration)],
     ]
@@ -103,5 +118,8 @@ def _wait_for_node(environment: dict[str, str], folder: Path, running: list[subp
         if "idle" in said.stdout:
             return
         time.sleep(0.5)
-    logs = "\n".join(f"== {f.name}\n{f.read_text(errors='replace')[-1500:]}" for f in sorted(folder.glob("*.log")) + sorted(folder.glob("*.out")))
+    logs = "\n".join(
+        f"== {f.name}\n{f.read_text(errors='replace')[-1500:]}"
+        for f in sorted(folder.glob("*.log")) + sorted(folder.glob("*.out"))
+    )
     raise RuntimeError(f"Slurm does not come up in this machine:\n{logs}")

@@ -11,7 +11,8 @@ import report_folders
 # |E*| is delta in GPa, the phase angle ten degrees; each start and each end is a line of LOG
 _PROGRAM = """#!/bin/sh
 case $1 in --version) echo "macadam stand-in VERSION"; exit ;; esac
-value=$(sed -n 's/^delta = //p' "$2")
+value=$(sed -n 's/^delta = //p' "$2" | head -n 1)
+value=${value:-1.0}
 echo "begin $value" >> "LOG"
 REAL
 case $value in
@@ -19,8 +20,8 @@ case $value in
   17.0) kill -9 $$ ;;
 esac
 sleep PAUSE
-printf '{"status": "done", "macadam": "stand-in", "particles": 7, "warnings": [], "results": [{"frequency_hz": 10.0, ' > "$4/summary.json"
-printf '"e_star_pa": %se9, "phase_deg": 10.0, "method": "harmonic"}]}' "$value" >> "$4/summary.json"
+printf '{"status": "done", "macadam": "stand-in", "particles": 7, "warnings": [], ' > "$4/summary.json"
+printf '"results": [{"frequency_hz": 10.0, "e_star_pa": %se9, "phase_deg": 10.0}]}' "$value" >> "$4/summary.json"
 echo "end $value" >> "LOG"
 """
 _REAL = 'case $value in *REAL) PROGRAM "$@" && echo "end $value" >> "LOG"; exit ;; esac'

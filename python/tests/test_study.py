@@ -238,6 +238,26 @@ def test_effects_and_scatter_are_what_the_numbers_say(program: Path, tmp_path: P
     assert np.isclose(deviation, 0.1 * 2**0.5) and (points, seeds) == (6, 2)
 
 
+def test_a_factor_of_a_hypercube_does_not_count_as_another(program: Path) -> None:
+    """Two factors that go together by chance, of which one does nothing."""
+    draw = np.random.default_rng(3)
+    a = draw.random(30)
+    b = a + 0.2 * draw.random(30)
+    rows = pd.DataFrame({"a": a, "b": b, "frequency (Hz)": 10.0, "E* (MPa)": 5 + 2 * a})
+    design = read_design(asked(list=[{"a": x, "b": y} for x, y in zip(a, b, strict=True)]), "1")
+    (quantity,) = quantities(rows, design)
+    first, second = effects(quantity)
+    assert first.factor == "a" and np.isclose(first.share, 1) and np.isclose(np.diff(first.means), 2 * np.ptp(a))
+    assert second.share < 1e-20
+
+
+def test_columns_of_a_hypercube_do_not_go_together(program: Path) -> None:
+    keys = ["contacts.M-M.delta", "contacts.M-A.delta", "contacts.A-A.E"]
+    design = read_design(asked(latin_hypercube={"points": 24, **{k: [1.0, 2.0] for k in keys}}), "1")
+    table = np.array([[job.values[k] for k in keys] for job in design.jobs])
+    assert abs(np.corrcoef(table.T) - np.eye(3)).max() < 0.2  # of 24 independent points 0.2 is one standard deviation
+
+
 def test_wrong_arguments_of_the_command(program: Path, tmp_path: Path, capsys) -> None:
     assert command.main(["none.toml", "--out", str(tmp_path / "out")]) == 2
     assert "none.toml: No such file" in capsys.readouterr().err

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+
 from report_folders import ENVIRONMENT, PROGRAM
 from study_faults import lines, scene, stand_in
 

@@ -9,8 +9,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from report_folders import ENVIRONMENT, PROGRAM
 from slurm_cluster import cluster, why_not
+
+from report_folders import ENVIRONMENT, PROGRAM
 from study_faults import lines, scene, stand_in
 
 pytest.importorskip("parsl")
@@ -37,9 +38,14 @@ def test_the_same_file_runs_on_slurm(tmp_path: Path) -> None:
     (tmp_path / "study.toml").write_text(STUDY)
     out = tmp_path / "out"
     with cluster(tmp_path / "slurm") as environment:
-        done = subprocess.run([sys.executable, "-m", "macadam.study", "study.toml", "--out", str(out), "--on", "slurm"], cwd=tmp_path,
-                              env={**ENVIRONMENT, **environment, "PYTHONPATH": ENVIRONMENT["PYTHONPATH"], "MACADAM_PROGRAM": program},
-                              capture_output=True, text=True, timeout=280)
+        done = subprocess.run(
+            [sys.executable, "-m", "macadam.study", "study.toml", "--out", str(out), "--on", "slurm"],
+            cwd=tmp_path,
+            env={**ENVIRONMENT, **environment, "PYTHONPATH": ENVIRONMENT["PYTHONPATH"], "MACADAM_PROGRAM": program},
+            capture_output=True,
+            text=True,
+            timeout=280,
+        )
     assert done.returncode == 1, done.stderr  # 13 fails
     assert "expected better luck" in done.stderr and "5 results, 1 failed" in done.stdout
     assert sorted(lines(log, "begin")) == [11.0, 12.0, 13.0, 14.0, 15.0, 16.0]

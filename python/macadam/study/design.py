@@ -158,7 +158,13 @@ def _hypercube(block: Table) -> list[dict[str, Any]]:
     except ImportError:
         raise StudyError("latin_hypercube: it takes the Python package SciPy, which is not installed") from None
     ranges = {key: _range(key, value) for key, value in block.items()}
-    unit = qmc.LatinHypercube(d=len(ranges), seed=seed).random(number)
+    # random-cd: exchanged until no two factors go together by chance
+    asked = {"d": len(ranges), "optimization": "random-cd"}
+    try:
+        sampler = qmc.LatinHypercube(**asked, rng=seed)
+    except TypeError:  # before SciPy 1.15
+        sampler = qmc.LatinHypercube(**asked, seed=seed)
+    unit = sampler.random(number)
     points = []
     for row in unit:
         point = {}

@@ -113,18 +113,40 @@ class Effect:
         return min(self.means), max(self.means)
 
 
+def continuous(points: pd.DataFrame, factor: str) -> bool:
+    return numeric(points, factor) and points[factor].nunique() > FEW
+
+
+def _lines(points: pd.DataFrame, factors: list[str]) -> tuple[dict[str, float], float]:
+    """Slope of each continuous factor, and the standard deviation of what is left: least squares of all factors at
+    once, since values of a hypercube are not quite independent, and one factor's effect must not count as another's."""
+    smooth = [f for f in factors if continuous(points, f)]
+    if not smooth:
+        return {}, 0.0
+    columns = [points[f].to_numpy(float) for f in smooth]
+    scales = [c.std() for c in columns]
+    matrix = [(c - c.mean()) / s for c, s in zip(columns, scales, strict=True)]
+    for factor in (f for f in factors if f not in smooth):
+        codes = pd.factorize(points[factor])[0]
+        matrix += [(codes == k).astype(float) for k in range(1, codes.max() + 1)]
+    matrix = np.column_stack([*matrix, np.ones(len(points))])
+    y = points["value"].to_numpy(float)
+    found = np.linalg.lstsq(matrix, y, rcond=None)[0]
+    return {f: float(v / s) for f, v, s in zip(smooth, found, scales, strict=False)}, float(np.std(y - matrix @ found))
+
+
 def effects(quantity: Quantity) -> list[Effect]:
-    """One a factor, the largest share of the variance first. A continuous factor has its fitted line's ends as levels."""
+    """One a factor, the largest share of the variance first. The levels of a continuous one are its line's ends."""
     points, out = quantity.points, []
     total = float(((points["value"] - points["value"].mean()) ** 2).sum())
+    lines, rest = _lines(points, quantity.factors)
     for factor in quantity.factors:
-        if numeric(points, factor) and points[factor].nunique() > FEW:
-            x, y = points[factor].to_numpy(float), points["value"].to_numpy(float)
-            slope, start = np.polyfit(x, y, 1)
+        if factor in lines:
+            x, slope = points[factor].to_numpy(float), lines[factor]
             ends = [float(x.min()), float(x.max())]
-            rest = float(np.std(y - slope * x - start))
+            means = [float(points["value"].mean() + slope * (e - x.mean())) for e in ends]
             share = float(((slope * (x - x.mean())) ** 2).sum()) / total if total else 0.0
-            out.append(Effect(factor, ends, [slope * e + start for e in ends], [rest, rest], share))
+            out.append(Effect(factor, ends, means, [rest, rest], share))
             continue
         groups = points.groupby(factor, sort=numeric(points, factor), dropna=False)["value"]
         mean, spread, number = groups.mean(), groups.std(ddof=1).fillna(0.0), groups.size()

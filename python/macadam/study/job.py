@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One result, made by a worker: the program runs in a folder of its own, which takes its place when it is done.
 
-The folder of a study says all: `results/KEY` is there or not. A worker may be killed at any moment; then `running/KEY` is
-left, from which a stepped run goes on, and nothing else. The program dies with its worker."""
+The folder of a study says all: `results/KEY` is there or not. A worker may be killed at any moment; then `running/KEY`
+is left, from which a stepped run goes on, and nothing else. The program dies with its worker."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ _LIBC = ctypes.CDLL(None)  # before any fork
 
 
 def compute(job: dict[str, Any]) -> dict[str, Any]:
-    """Makes the result of a job unless it is there. `job`: key, scene (TOML), command, threads, values, experiment, program,
-    folder (of the study). Returns what is known of it; a failure of the program is no exception but has a "message"."""
+    """Makes the result of a job unless it is there. `job`: key, scene (TOML), command, threads, values, experiment,
+    program, folder (of the study). Returns its key and status; a failure of the program is no exception."""
     folder, key = Path(job["folder"]), job["key"]
     done, failed, work = (folder / name / key for name in ("results", "failures", "running"))
     failed = failed.with_suffix(".json")
@@ -50,7 +50,7 @@ def compute(job: dict[str, Any]) -> dict[str, Any]:
             (work / "checkpoint.h5").unlink(missing_ok=True)
             work.rename(done)
             return {"key": key, "status": "done"}
-        _write(failed, record | {"exit_code": code, "message": _message(code, said)})
+        _write(failed, record | {"exit_code": code, "message": _message(code, said).replace(f"{work}/", "")})
         shutil.rmtree(work, ignore_errors=True)
         return {"key": key, "status": "failed"}
 
@@ -65,7 +65,7 @@ def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
         (work / "scene.toml").write_text(job["scene"], encoding="utf-8")
     line = [job["program"], command, str(work / "scene.toml"), "--out", str(work), *arguments, *resume]
     try:
-        # also what the option does not reach: threads that wait for a core which others have would cost more than they give
+        # also what the option does not reach: threads that wait for a core which others have cost more than they give
         environment = {"OMP_NUM_THREADS": str(job["threads"]), "OMP_WAIT_POLICY": "passive", **os.environ}
         done = subprocess.run(
             line,

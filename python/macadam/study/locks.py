@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Locks of a file that end with their process, however it ends. POSIX locks: children do not inherit them, and shared file
-systems know them."""
+"""Locks of a file that end with their process, however it ends. POSIX locks: children do not inherit them, and shared
+file systems know them."""
 
 from __future__ import annotations
 

@@ -66,8 +66,8 @@ def _index(entries: list[Any], part: str, key: str) -> int:
 
 
 def merged(scene: Table, more: Table) -> Table:
-    """The scene with another file's sections over it: what `macadam fit` writes, for instance. Contacts of a pair replace
-    those of the same pair; of other sections single keys are replaced."""
+    """The scene with another file's sections over it: what `macadam fit` writes, for instance. Contacts of a pair
+    replace those of the same pair; of other sections single keys are replaced."""
     out = copy.deepcopy(scene)
     for key, value in more.items():
         if key == "contacts" and isinstance(value, list):

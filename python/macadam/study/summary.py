@@ -13,8 +13,8 @@ from macadam.report import look
 from macadam.report.document import write
 from macadam.report.page import Page
 from macadam.study import table
-from macadam.study.design import Design
-from macadam.study.effects import FEW, Effect, Quantity, effects, numeric, quantities, scatter, short
+from macadam.study.design import Design, number_and_unit
+from macadam.study.effects import FEW, Effect, Quantity, continuous, effects, numeric, quantities, scatter, short
 
 MOST = 4  # factors in one picture
 
@@ -52,8 +52,8 @@ def _fill(
         words = f"{q.title}: {_value(q, q.jobs['value'].min())} to {_value(q, q.jobs['value'].max())}"
         if strongest:
             words += (
-                f"; it depends most on {short(strongest[0].factor)}, {look.percent(strongest[0].share, 2)} of the variance between "
-                "points"
+                f"; it depends most on {short(strongest[0].factor)}, {look.percent(strongest[0].share, 2)} of "
+                "the variance between points"
             )
         page.text(words[:1].upper() + words[1:] + ".")
     page.table(["factor", "values", "number"], _factors(design), "What differs between the points.", words=2)
@@ -106,9 +106,12 @@ def _factors(design: Design) -> list[list[Any]]:
     rows = []
     for factor in design.factors:
         values = list(dict.fromkeys(str(job.values[factor]) for job in design.jobs if factor in job.values))
-        shown = ", ".join(v if len(v) < 40 else v[:37] + "…" for v in values[:FEW]) + (
-            " …" if len(values) > FEW else ""
-        )
+        parts = [number_and_unit(v) for v in values]
+        if len(values) > FEW and all(number is not None for number, _ in parts):
+            ends = [pick(parts) for pick in (min, max)]
+            shown = f"{_level(ends[0][0])} … {_level(ends[1][0])} {ends[1][1]}"
+        else:
+            shown = ", ".join(v if len(v) < 40 else v[:37] + "…" for v in values[:FEW]) + " …" * (len(values) > FEW)
         rows.append([factor, shown, len(values)])
     return rows
 
@@ -146,7 +149,10 @@ def _main_effects(page: Page, q: Quantity) -> None:
 
 
 def _level(value: Any) -> str:
-    return f"{value:.5g}".replace("-", "−") if isinstance(value, (int, float)) else str(value)
+    if not isinstance(value, (int, float)):
+        return str(value)
+    text = f"{value:.4g}"
+    return look.number(float(value), 3) if "e" in text else text.replace("-", "−")
 
 
 def _change(q: Quantity, effect: Effect) -> str:
@@ -166,7 +172,7 @@ def _panel(axis: Any, effect: Effect, points: pd.DataFrame) -> None:
         axis.margins(x=0.2)
         return
     axis.plot(x, y, "o", color="#c3c7cc", ms=2.5)
-    if x.nunique() > FEW:
+    if continuous(points, effect.factor):
         axis.plot(effect.levels, effect.means, "-", color=look.COLOURS[0])
     else:
         axis.errorbar(effect.levels, effect.means, effect.spreads, fmt="o-", color=look.COLOURS[0])
@@ -210,7 +216,8 @@ def _map(page: Page, q: Quantity) -> None:
     best, worst = mean.loc[mean["value"].idxmax()], mean.loc[mean["value"].idxmin()]
     page.figure(
         figure,
-        f"Map of {q.title} over {short(two[0])} and {short(two[1])}, the mean over seeds and other factors. It is largest, "
+        f"Map of {q.title} over {short(two[0])} and {short(two[1])}, the mean over seeds and other factors. "
+        f"It is largest, "
         f"{_value(q, best['value'])}, at {_level(float(best[two[0]]))} and {_level(float(best[two[1]]))}, and "
         f"smallest, {_value(q, worst['value'])}, at {_level(float(worst[two[0]]))} and "
         f"{_level(float(worst[two[1]]))}. {how}",
@@ -230,8 +237,8 @@ def _seeds(page: Page, values: list[Quantity]) -> None:
             ["quantity", "standard deviation", "of the mean over seeds", "points", "seeds of each"],
             rows,
             "How much another "
-            "specimen of the same mix differs, relative to the mean of its point, pooled over the points. Differences between "
-            "points that are smaller than this are chance.",
+            "specimen of the same mix differs, relative to the mean of its point, pooled over the points. Differences "
+            "between points that are smaller than this are chance.",
             words=1,
         )
 
