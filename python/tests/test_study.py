@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+import macadam.report
 import macadam.study.__main__ as command
 from macadam.study import StudyError, study
 from macadam.study.design import read_design
@@ -283,3 +284,12 @@ def test_the_program_itself(program: Path, tmp_path: Path, monkeypatch) -> None:
     assert (found.table[found.table["time (s)"] == 1.0]["relaxation modulus (MPa)"] > 0).all()
     page = (tmp_path / "out/report.html").read_text("utf-8")
     assert "|E*| at 10 Hz (fast)" in page and "relaxation modulus at 1 s (slow)" in page.lower()
+
+
+def test_workers_import_little_and_the_modules_can_be_called(program: Path, tmp_path: Path) -> None:
+    line = "import macadam.study.job, macadam.report, sys; print({'pandas', 'matplotlib', 'scipy'} & set(sys.modules))"
+    done = subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, env=ENVIRONMENT)
+    assert done.stdout.strip() == "set()", done.stderr
+    assert len(macadam.study(asked(grid={KEY: [1.0]}), tmp_path / "out").table) == 1
+    page = macadam.report(next((tmp_path / "out/results").iterdir()), tmp_path / "r.html")
+    assert "7 particles" in page.read_text("utf-8")

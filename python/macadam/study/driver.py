@@ -6,6 +6,7 @@ from __future__ import annotations
 import concurrent.futures
 import contextlib
 import shutil
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +18,7 @@ from macadam.study import executors, summary, table
 from macadam.study.design import Design, Job, read_design
 from macadam.study.errors import StudyError
 from macadam.study.job import compute
-from macadam.study.locks import Taken, locked
+from macadam.study.locks import Taken, locked, taken
 from macadam.study.program import find_program, version_of
 
 _IDLE_ROUNDS = 3  # in which workers died and nothing was computed: then it is of no use to go on
@@ -100,6 +101,7 @@ def _compute_all(
 ) -> None:
     """In rounds: what a dead worker left is asked for again in the next one, with new workers."""
     idle = 0
+    limits = None if design.run.get("on") == "threads" else executors.patience(design.run)
     while idle < _IDLE_ROUNDS:
         left = [job for job in design.jobs if not _settled(folder, job)]
         _say(design, folder, progress)
@@ -108,24 +110,39 @@ def _compute_all(
         jobs = [_handed(job, folder, program, design.run) for job in left]
         try:
             if given is not None:
-                _round(given, jobs, lambda: _say(design, folder, progress))
+                _round(given, jobs, lambda: _say(design, folder, progress), None)
             else:
                 with executors.executor(design.run, folder) as pool:
-                    _round(pool, jobs, lambda: _say(design, folder, progress))
+                    _round(pool, jobs, lambda: _say(design, folder, progress), limits)
         except (concurrent.futures.BrokenExecutor, RuntimeError):  # an executor of its own that takes no more jobs
             if given is not None:
                 return
         idle = idle + 1 if all(not _settled(folder, job) for job in left) else 0
 
 
-def _round(pool: concurrent.futures.Executor, jobs: list[dict[str, Any]], said: Callable[[], None]) -> None:
+def _round(
+    pool: concurrent.futures.Executor,
+    jobs: list[dict[str, Any]],
+    said: Callable[[], None],
+    patience: tuple[float, float] | None,
+) -> None:
+    """Until every job has ended, or nobody has worked at any for longer than is patient."""
     waiting = {pool.submit(compute, job) for job in jobs}
+    locks = [Path(job["folder"]) / "running" / f"{job['key']}.lock" for job in jobs]
+    quiet, begun = time.monotonic(), False
     try:
-        for future in concurrent.futures.as_completed(waiting):
-            # what the program says is in the folder; an exception is of a worker that died, or that never came to life
-            if future.exception() is not None and isinstance(future.exception(), (StudyError, OSError)):
-                raise future.exception()
-            said()
+        while waiting:
+            done, waiting = concurrent.futures.wait(waiting, 2.0, concurrent.futures.FIRST_COMPLETED)
+            for future in done:
+                # what the program says is in the folder; an exception is of a worker that died or never came to life
+                if isinstance(future.exception(), (StudyError, OSError)):
+                    raise future.exception()
+            if done:
+                said()
+            if done or patience and any(map(taken, locks)):
+                quiet, begun = time.monotonic(), True
+            elif patience and time.monotonic() - quiet > patience[begun]:
+                return
     except BaseException:  # Ctrl-C too: what waits is not begun
         for future in waiting:
             future.cancel()

@@ -15,7 +15,7 @@ from typing import Any
 from macadam.study.errors import StudyError
 
 PLACES = ("local", "slurm", "threads")
-KEYS = {"on", "workers", "threads", "gpus", "slurm"}
+KEYS = {"on", "workers", "threads", "gpus", "patience", "slurm"}
 SLURM = {
     "partition",
     "account",
@@ -31,6 +31,9 @@ SLURM = {
     "mem_per_node",
     "gpus_per_node",
 }
+# begins a program that is killed when this process ends in any way: Parsl's interchange would wait for ever for a study
+# that was killed, and its workers for it
+_WITH_ME = "import ctypes, os, sys; ctypes.CDLL(None).prctl(1, 9); os.execvp(sys.argv[1], sys.argv[1:])"
 _BEAT = 5  # s between signs of life of workers; after six missing ones a worker is lost
 
 
@@ -50,16 +53,23 @@ def executor(run: dict[str, Any], folder: Path) -> Iterator[concurrent.futures.E
             'on = "threads" runs on this machine without it'
         ) from None
     # Parsl starts its own programs by their names: they are beside this Python
-    with (
-        _environment(
-            {
-                "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}",
-                "PYTHONPATH": _python_path(),
-            }
-        ),
-        ParslPoolExecutor(_config(run, place, folder)) as pool,
-    ):
-        yield pool
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
+    with _environment({"PATH": path, "PYTHONPATH": _python_path()}):
+        pool = ParslPoolExecutor(_config(run, place, folder))
+        try:
+            yield pool.__enter__()
+        finally:
+            pool.shutdown(
+                wait=False
+            )  # what is not done is not waited for: its workers are of no use, or Ctrl-C ended it
+
+
+def patience(run: dict[str, Any]) -> tuple[float, float]:
+    """Seconds for which no worker may be at work while there is something to do: before the first one is, and later.
+    Then all are replaced. A worker of Parsl that is killed while it waits can take the queue of all others with it."""
+    slurm = run.get("on", "local") == "slurm"
+    later = float(run.get("patience", 600 if slurm else 60))
+    return (float("inf") if slurm else 5 * later), later  # a cluster may let jobs wait for days
 
 
 def threads(run: dict[str, Any]) -> int:
@@ -81,7 +91,7 @@ def check(run: dict[str, Any]) -> None:
                 raise StudyError(f"{name}: found the unknown key {key}, expected {', '.join(sorted(known))}")
     if run.get("on", "local") not in PLACES:
         raise StudyError(f"run.on: found {run['on']!r}, expected {', '.join(PLACES)}")
-    for key in ("workers", "threads"):
+    for key in ("workers", "threads", "patience"):
         value = run.get(key, 1)
         if isinstance(value, bool) or not isinstance(value, int) or value < 1:
             raise StudyError(f"run.{key}: found {value!r}, expected a whole number above 0")
@@ -121,6 +131,7 @@ def _config(run: dict[str, Any], place: str, folder: Path) -> Any:
     gpus = _gpus(run)
     pool = HighThroughputExecutor(
         label="macadam",
+        interchange_launch_cmd=[sys.executable, "-c", _WITH_ME, "interchange.py"],
         provider=provider,
         cores_per_worker=0.01 if gpus else threads(run),
         available_accelerators=gpus or [],

@@ -44,3 +44,18 @@ def locked(file: Path, wait: bool) -> Iterator[None]:
         with _change:
             _own.discard(name)
             _change.notify_all()
+
+
+def taken(file: Path) -> bool:
+    """Whether another process has the lock of this file."""
+    try:
+        handle = os.open(file, os.O_RDWR)
+    except FileNotFoundError:
+        return False
+    try:
+        fcntl.lockf(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)  # for a moment; who wants it then waits for it
+        return False
+    except (BlockingIOError, PermissionError):
+        return True
+    finally:
+        os.close(handle)
