@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reports: one self-contained HTML file from any result folders of macadam.
+
+The module can be called as its function `report`. matplotlib is imported when a report is asked for."""
+
+from __future__ import annotations
+
+import sys
+import types
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from macadam.report.document import report
+    from macadam.report.folders import ReportError
+
+__all__ = ["ReportError", "report"]
+
+
+class _Callable(types.ModuleType):
+    def __call__(self, *arguments: Any, **more: Any) -> Path:
+        from macadam.report.document import report
+
+        return report(*arguments, **more)
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in __all__:
+            raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
+        from macadam.report import document, folders
+
+        return getattr(folders if name == "ReportError" else document, name)
+
+
+sys.modules[__name__].__class__ = _Callable

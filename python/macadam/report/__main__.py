@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""python -m macadam.report DIR [DIR…] --out report.html"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+
+from macadam.report import ReportError, report
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """The command; its exit code: 0 written, 1 it could not be written, 2 the input is wrong."""
+    parser = argparse.ArgumentParser(
+        prog="macadam report",
+        description="One HTML file of what is in result folders: mix, "
+        "specimen, |E*| and phase angle, contacts, decisions, times. It needs no network and "
+        "prints on A4.",
+        epilog="example: macadam report results/demo results/paper --out report.html",
+    )
+    parser.add_argument("dirs", nargs="+", metavar="DIR", help="folder that macadam wrote; several stand side by side")
+    parser.add_argument("--out", default="report.html", metavar="FILE", help="the file to write (report.html)")
+    parser.add_argument("--title", help="of the page; else the names of the folders")
+    options = parser.parse_args(arguments)
+    try:
+        print(report(options.dirs, options.out, options.title))
+    except ReportError as error:
+        print(f"macadam report: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"macadam report: {error.filename or options.out}: {error.strerror or error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contacts by type, the share of the stiffness that each carries, and what |E*| and the phase angle depend on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from macadam.report import look
+from macadam.report.folders import Folder
+from macadam.report.page import Page
+
+NAMES = {
+    "M-M": "mastic – mastic",
+    "M-A": "mastic – aggregate",
+    "A-A": "aggregate – aggregate",
+    "inner": "inside aggregates",
+    "A-W": "aggregate – wall",
+    "M-W": "mastic – wall",
+}
+MOST = 10  # parameters shown
+
+
+def add(page: Page, folders: list[Folder]) -> None:
+    runs = [f for f in folders if f.kind == "run" and f.summary.get("contacts")]
+    if runs:
+        page.section("Contacts by type")
+        page.figure(_numbers(runs), _numbers_caption(runs), "number of contacts of each type")
+    for folder in runs:
+        if folder.has("contacts.csv"):
+            _areas(page, folder)
+        else:
+            page.leave_out(
+                folder.label,
+                "areas of the contacts",
+                "no contacts.csv: the scene does not say contacts = true in [output]",
+            )
+    sensitive = [f for f in runs if any(r.get("sensitivities") for r in f.by_frequency)]
+    for folder in (f for f in runs if f.by_frequency and f not in sensitive):
+        page.leave_out(
+            folder.label, "sensitivities", "not asked for: sensitivities = true in [output], method harmonic"
+        )
+    if sensitive:
+        page.section("What the result depends on")
+    for folder in sensitive:
+        if len(sensitive) > 1:
+            page.heading(folder.label)
+        _shares(page, folder)
+        _sensitivities(page, folder)
+
+
+def _numbers(folders: list[Folder]) -> Any:
+    pairs = [p for p in NAMES if any(f.summary["contacts"].get(p) for f in folders)]
+    figure, axes = look.figure(look.WIDE, 0.6 + 0.2 * len(pairs) * (1 + 0.5 * len(folders)))
+    height = 0.8 / len(folders)
+    for k, f in enumerate(folders):
+        values = [f.summary["contacts"].get(p) or 0 for p in pairs]
+        at = np.arange(len(pairs)) + (k - (len(folders) - 1) / 2) * height
+        bars = axes.barh(at, values, height * 0.92, color=f.colour, label=f.label)
+        axes.bar_label(bars, [look.number(v) for v in values], padding=2, fontsize=6.5)
+    axes.set_yticks(range(len(pairs)), [NAMES[p] for p in pairs])
+    axes.invert_yaxis()
+    axes.grid(False)
+    axes.margins(x=0.12)
+    axes.set_xlabel("number of contacts")
+    if len(folders) > 1:
+        axes.legend(loc="lower right")
+    return figure
+
+
+def _numbers_caption(folders: list[Folder]) -> str:
+    words = []
+    for f in folders:
+        contacts, dropped = f.summary["contacts"], f.summary.get("dropped") or {}
+        total = sum(v or 0 for v in contacts.values())
+        text = f"{f.label}: {look.number(total)} contacts"
+        if contacts.get("A-A"):
+            text += f", {look.percent(contacts['A-A'] / total, 2)} of them between aggregates"
+        if f.summary.get("contact_points"):
+            text += f"; {look.number(f.summary['contact_points'])} contact points in all"
+        gone = [
+            f"{look.number(dropped[k])} {why}"
+            for k, why in (("gap", "because the spheres are too far apart"), ("area", "because the facet is too small"))
+            if dropped.get(k)
+        ]
+        if gone:
+            text += "; left out were " + " and ".join(gone)
+        if f.summary.get("loose_particles"):
+            text += f"; {look.number(f.summary['loose_particles'])} particles have none"
+        words.append(text + ".")
+    return " ".join(words)
+
+
+def _areas(page: Page, folder: Folder) -> None:
+    table = folder.table("contacts.csv", ["pair", "area", "distance"])
+    rows = []
+    total = float(table["area"].sum())
+    for pair, name in NAMES.items():
+        area = table.loc[table["pair"] == pair, "area"]
+        if len(area):
+            rows.append(
+                [
+                    name,
+                    len(area),
+                    look.percent(float(area.sum()) / total),
+                    look.number(1e6 * float(area.mean()), 3),
+                    look.number(1e6 * float(area.median()), 3),
+                ]
+            )
+    page.table(
+        ["contact", "number", "of all facets' area", "mean area (mm²)", "median area (mm²)"],
+        rows,
+        f"{folder.label}: the facets across which the contacts act.",
+    )
+
+
+def _shares(page: Page, folder: Folder) -> None:
+    rows = [r for r in folder.by_frequency if r.get("shares")]
+    if not rows:
+        return
+    first = rows[0].get("temperature_c")
+    rows = sorted((r for r in rows if r.get("temperature_c") == first), key=lambda r: r["frequency_hz"])[:12]
+    figure, axes = look.figure(look.WIDE, 0.75 + 0.2 * len(rows))
+    base = np.zeros(len(rows))
+    for pair in NAMES:
+        share = np.array([100 * (r["shares"].get(pair) or 0) for r in rows])
+        if share.any():
+            axes.barh(range(len(rows)), share, 0.7, left=base, color=look.PAIRS[pair], label=NAMES[pair])
+            base += share
+    axes.set_yticks(range(len(rows)), [look.hertz(r["frequency_hz"]) for r in rows])
+    axes.invert_yaxis()
+    axes.set(xlabel="share of E* (%)", xlim=(0, 100))
+    axes.grid(axis="y", visible=False)
+    figure.legend(loc="outside lower center", ncols=6)
+    top = max(NAMES, key=lambda p: rows[-1]["shares"].get(p) or 0)
+    page.figure(
+        figure,
+        f"Share of E* that each type of contact carries. At {look.hertz(rows[-1]['frequency_hz'])} the largest is "
+        f"{NAMES[top]}, {look.percent(rows[-1]['shares'][top], 2)}.",
+        "shares of E* by type of contact",
+    )
+
+
+def _sensitivities(page: Page, folder: Folder) -> None:
+    rows = sorted((r for r in folder.by_frequency if r.get("sensitivities")), key=lambda r: r["frequency_hz"])
+    ends = [rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]
+    effects = [
+        {
+            s["parameter"]: (100 * s["d_e_star_pa"] / r["e_star_pa"] * 0.1, 0.1 * s["d_phase_deg"])
+            for s in r["sensitivities"]
+        }
+        for r in ends
+    ]
+    # delta of a pair is all its moduli together and would repeat them
+    names = [n for n in effects[0] if not n.endswith(".delta")]
+    names.sort(key=lambda n: -max(abs(e.get(n, (0, 0))[0]) for e in effects))
+    names = names[:MOST]
+    figure, (left, right) = look.figure(look.WIDE, 0.8 + 0.21 * len(names), 1, 2, sharey=True)
+    height = 0.8 / len(ends)
+    for k, (r, effect) in enumerate(zip(ends, effects)):
+        at = np.arange(len(names)) + (k - (len(ends) - 1) / 2) * height
+        colour = look.COLOURS[(0, 1)[k]]
+        left.barh(at, [effect.get(n, (0, 0))[0] for n in names], height * 0.9, color=colour, label=_at(r))
+        right.barh(at, [effect.get(n, (0, 0))[1] for n in names], height * 0.9, color=colour)
+    left.set_yticks(range(len(names)), names)
+    left.invert_yaxis()
+    left.set_xlabel("change of |E*| (%)")
+    right.set_xlabel("change of φ (°)")
+    for axes in (left, right):
+        axes.axvline(0, color="#5a5f68", lw=0.6)
+        axes.grid(axis="y", visible=False)
+    figure.legend(loc="outside lower center", ncols=2)
+    first = names[0]
+    page.figure(
+        figure,
+        f"What 10 % more of a parameter changes, to first order, for the {len(names)} that matter most to |E*| "
+        f"({' and '.join(look.hertz(r['frequency_hz']) for r in ends)}). "
+        f"Most depends on {first}: {look.number(float(effects[-1].get(first, (0, 0))[0]), 2)} % of |E*| at "
+        f"{look.hertz(ends[-1]['frequency_hz'])}.",
+        "sensitivities of |E*| and phase angle",
+    )
+
+
+def _at(result: dict[str, Any]) -> str:
+    t = result.get("temperature_c")
+    return look.hertz(result["frequency_hz"]) + ("" if t is None else f", {t:g} °C")

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report: reads folders, adds every section, writes one file."""
+
+from __future__ import annotations
+
+import datetime
+import os
+import platform
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from macadam.report import contacts, decisions, fits, histories, look, loops, mixture, modulus, scans, specimen
+from macadam.report.folders import Folder, ReportError, read_all
+from macadam.report.page import Page
+
+_KINDS = {
+    "run": "run",
+    "calibration": "calibration",
+    "fit": "contact law",
+    "scan": "segmented scan",
+    "phantom": "synthetic scan",
+    "twin": "specimen of a scan",
+    "shapes": "library of shapes",
+}
+
+
+def report(dirs: str | Path | Iterable[str | Path], out: str | Path, title: str | None = None) -> Path:
+    """Writes one self-contained HTML file of what is in the result folders.
+
+    dirs: one folder or several, which then stand side by side. out: the file; its folder is made. title: of the page.
+    Returns the file. Raises ReportError where a folder is not one of results, or a file in it cannot be read."""
+    folders = read_all([dirs] if isinstance(dirs, (str, Path)) else list(dirs))
+    with look.style():
+        page = _page(folders)
+    return write(page, out, title or _title(folders), _subtitle(folders))
+
+
+def _page(folders: list[Folder]) -> Page:
+    page = Page(len(folders) > 1)
+    _overview(page, folders)
+    mixture.add(page, folders)
+    specimen.add(page, folders)
+    modulus.add(page, folders)
+    loops.add(page, folders)
+    histories.add(page, folders)
+    contacts.add(page, folders)
+    fits.add(page, folders)
+    scans.add(page, folders)
+    decisions.add_decisions(page, folders)
+    decisions.add_run(page, folders)
+    if page.left_out:
+        page.section("Left out of this report")
+        page.table(["folder", "what", "why"], page.left_out, words=3)
+    return page
+
+
+def write(page: Page, out: str | Path, title: str, subtitle: str) -> Path:
+    """The page as a file, whole or not at all."""
+    out = Path(out)
+    if out.is_dir():
+        raise ReportError(f"{out}: found a folder, expected the name of a file to write")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    import matplotlib
+
+    now = datetime.datetime.now().astimezone()
+    foot = (
+        f"Written {now:%Y-%m-%d %H:%M %Z} on {platform.node()}, {platform.system()} {platform.machine()}, "
+        f"Python {platform.python_version()}, matplotlib {matplotlib.__version__}. This file is complete in itself."
+    )
+    part = out.with_name(f".{out.name}.{os.getpid()}.part")
+    try:
+        part.write_text(page.html(title, subtitle, foot), encoding="utf-8")
+        part.replace(out)
+    finally:
+        part.unlink(missing_ok=True)
+    return out
+
+
+def _title(folders: list[Folder]) -> str:
+    return (
+        folders[0].label
+        if len(folders) == 1
+        else " · ".join(f.label for f in folders[:4]) + (" …" if len(folders) > 4 else "")
+    )
+
+
+def _subtitle(folders: list[Folder]) -> str:
+    versions = sorted({str(f.summary["macadam"]) for f in folders if f.summary.get("macadam")})
+    by = f", macadam {', '.join(versions)}" if versions else ""
+    return (
+        f"Report of {len(folders)} result folders side by side{by}."
+        if len(folders) > 1
+        else f"Report of a {_KINDS[folders[0].kind]}{by}."
+    )
+
+
+def _overview(page: Page, folders: list[Folder]) -> None:
+    page.section("In short")
+    decisions.add_warnings(page, folders)
+    if len(folders) == 1:
+        for words in _words(folders[0]):
+            page.text(words, "lead")
+        return
+    page.table(
+        ["folder", "what", "status", "found"],
+        [[f.label, _what(f), f.summary.get("status", "done"), _found(f)] for f in folders],
+        words=4,
+    )
+
+
+def _what(f: Folder) -> str:
+    if f.kind != "run":
+        return _KINDS[f.kind]
+    if f.summary["status"] == "prepared":
+        return "specimen alone"
+    return f.in_time["kind"] if f.in_time else f"|E*| by method {(f.summary.get('solver') or {}).get('method', '–')}"
+
+
+def _found(f: Folder) -> str:
+    if f.by_frequency:
+        rows = sorted(f.by_frequency, key=lambda r: (r.get("temperature_c") or 0, r["frequency_hz"]))
+        return "; ".join(_point(r) for r in ([rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]))
+    if f.in_time:
+        points = f.in_time.get("points") or []
+        key = {"relaxation": "modulus_pa", "monotonic": "secant_pa"}.get(f.in_time["kind"])
+        if points and key:
+            return "; ".join(f"{look.modulus(p[key])} at {look.seconds(p['time_s'])}" for p in (points[0], points[-1]))
+        return (
+            f"strain of {look.number(1e6 * max((p['strain'] for p in points), key=abs), 3)} µm/m at most"
+            if points
+            else "–"
+        )
+    if f.kind == "run" and f.summary.get("particles"):
+        return f"{look.number(f.summary['particles'])} particles"
+    return "–"
+
+
+def _point(r: dict[str, Any]) -> str:
+    t = r.get("temperature_c")
+    return (
+        f"{look.modulus(r['e_star_pa'])}, {look.number(float(r['phase_deg']), 3)}° at {look.hertz(r['frequency_hz'])}"
+        + ("" if t is None else f", {t:g} °C")
+    )
+
+
+def _words(f: Folder) -> list[str]:
+    s, words = f.summary, []
+    if f.kind == "run":
+        edges = " × ".join(map(look.length, s.get("box_m") or []))
+        contacts_of = sum(v or 0 for v in (s.get("contacts") or {}).values())
+        words.append(
+            f"A specimen of {edges} mm with {look.number(s.get('particles'))} particles and "
+            f"{look.number(contacts_of)} contacts."
+        )
+    if f.by_frequency:
+        rows = sorted(f.by_frequency, key=lambda r: (r.get("temperature_c") or 0, r["frequency_hz"]))
+        ends = [rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]
+        words.append(f"Its |E*| and phase angle are {' and '.join(_point(r) for r in ends)}.")
+    elif f.in_time:
+        words.append(f"Test: {f.in_time['kind']}. Found: {_found(f)}.")
+    elif f.kind == "run":
+        words.append("The folder holds the specimen and its contacts; no test was run in it.")
+    else:
+        words.append(f"The folder holds a {_KINDS[f.kind]}.")
+    return words

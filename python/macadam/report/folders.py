@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Result folders as the program leaves them: what kind they are, and their tables, read when they are asked for."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from macadam.report import look
+
+# which file says what a folder is; the first that is there counts
+KINDS = {
+    "summary.json": "run",
+    "calibration.json": "calibration",
+    "fit.json": "fit",
+    "grains.csv": "scan",
+    "phantom.json": "phantom",
+    "twin.json": "twin",
+    "statistics.csv": "shapes",
+}
+
+
+class ReportError(ValueError):
+    """The folder or the request is wrong: the message names it, what was found and what was expected."""
+
+
+@dataclass
+class Folder:
+    """One result folder. `label` tells it from the others of a report, `colour` is that of its curves."""
+
+    path: Path
+    kind: str
+    label: str = ""
+    colour: str = look.COLOURS[0]
+    summary: dict[str, Any] = field(default_factory=dict)
+
+    def has(self, name: str) -> bool:
+        return (self.path / name).is_file()
+
+    def table(self, name: str, columns: list[str]) -> pd.DataFrame:
+        """A CSV file of the folder, lines with # left out; an error where it has not the columns, or no row."""
+        file = self.path / name
+        try:
+            table = pd.read_csv(file, comment="#")
+        except (OSError, ValueError) as error:  # pandas' parser errors are ValueErrors
+            raise ReportError(f"{file}: {_one_line(error)}") from None
+        missing = [c for c in columns if c not in table.columns]
+        if missing:
+            raise ReportError(
+                f"{file}: found the columns {', '.join(map(str, table.columns))}; expected also {', '.join(missing)}"
+            )
+        if table.empty:
+            raise ReportError(f"{file}: found no rows below the header")
+        return table
+
+    @cached_property
+    def specimen(self) -> pd.DataFrame | None:
+        """Particles (x, y, z, radius [m], phase, body), or nothing where the folder has none."""
+        return (
+            self.table("specimen.csv", ["x", "y", "z", "radius", "phase", "body"]) if self.has("specimen.csv") else None
+        )
+
+    @cached_property
+    def aggregates(self) -> pd.DataFrame | None:
+        """Aggregates as generated (body, size_class, class, size [m], volume [m3]), or nothing."""
+        if not self.has("aggregates.csv"):
+            return None
+        file = self.path / "aggregates.csv"
+        if file.read_text(encoding="utf-8").count("\n") < 2:  # mastic alone: a header
+            return None
+        return self.table("aggregates.csv", ["body", "size_class", "class", "size", "volume"])
+
+    @cached_property
+    def of_study(self) -> dict[str, Any]:
+        """What a study wrote beside the result: values of its factors, machine; empty where none did."""
+        return _json(self.path / "study.json") if self.has("study.json") else {}
+
+    @property
+    def results(self) -> list[dict[str, Any]]:
+        return self.summary.get("results") or []
+
+    @property
+    def by_frequency(self) -> list[dict[str, Any]]:
+        """Results at one frequency each; |E*| [Pa] and phase angle [degrees] are there."""
+        return [
+            r
+            for r in self.results
+            if r.get("e_star_pa") is not None and r.get("phase_deg") is not None and r.get("frequency_hz") is not None
+        ]
+
+    @property
+    def in_time(self) -> dict[str, Any] | None:
+        """The result of relaxation, creep or a monotonic test, or nothing."""
+        return next((r for r in self.results if r.get("kind") in ("relaxation", "creep", "monotonic")), None)
+
+
+def read(path: str | Path) -> Folder:
+    """The folder of results at `path`; a ReportError where it is none."""
+    path = Path(path)
+    if not path.exists():
+        raise ReportError(f"{path}: no such folder")
+    if not path.is_dir():
+        raise ReportError(f"{path}: found a file, expected the folder that it is in")
+    kind = next((kind for name, kind in KINDS.items() if (path / name).is_file()), None)
+    if kind is None and (path / "study.toml").is_file():
+        raise ReportError(
+            f"{path}: found a study; its own report is {path / 'report.html'}, its results are in {path / 'results'}"
+        )
+    if kind is None:
+        raise ReportError(f"{path}: no result folder of macadam: found none of {', '.join(KINDS)}")
+    folder = Folder(path, kind)
+    name = next(name for name, of in KINDS.items() if of == kind)
+    if name.endswith(".json"):
+        folder.summary = _json(path / name)
+    if kind == "run" and "status" not in folder.summary:
+        raise ReportError(f"{path / name}: found no status, expected a summary.json of macadam")
+    return folder
+
+
+def read_all(paths: list[str | Path]) -> list[Folder]:
+    """The folders with labels that differ, as short as they can be, and a colour each."""
+    if not paths:
+        raise ReportError("no result folder given")
+    folders = [read(path) for path in paths]
+    parts = [f.path.resolve().parts for f in folders]
+    if len(set(parts)) < len(parts):
+        twice = next(f.path for f, p in zip(folders, parts) if parts.count(p) > 1)
+        raise ReportError(f"{twice}: the folder is given twice")
+    tails = 1
+    while len({p[-tails:] for p in parts}) < len(parts):
+        tails += 1
+    for k, folder in enumerate(folders):
+        folder.label = "/".join(parts[k][-tails:])
+        folder.colour = look.COLOURS[k % len(look.COLOURS)]
+    return folders
+
+
+def _json(file: Path) -> dict[str, Any]:
+    try:
+        value = json.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise ReportError(f"{file}: {_one_line(error)}") from None
+    if not isinstance(value, dict):
+        raise ReportError(f"{file}: found a {type(value).__name__}, expected an object")
+    return value
+
+
+def _one_line(error: Exception) -> str:
+    return " ".join(str(error).split()) or type(error).__name__

@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Loops of stress over strain, and the master curve of a sweep over temperatures."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from macadam.report import look
+from macadam.report.folders import Folder
+from macadam.report.modulus import decades
+from macadam.report.page import Page
+
+MOST = 6  # loops of one folder
+
+
+def add(page: Page, folders: list[Folder]) -> None:
+    runs = [f for f in folders if f.kind == "run" and f.by_frequency]
+    for folder in runs:
+        several = len(runs) > 1
+        if folder.has("response.csv"):
+            figure, words = _stepped(folder)
+        else:
+            figure, words = _from_moduli(folder)
+        page.figure(figure, (f"{folder.label}: " if several else "") + words, "loops of stress over strain", third=True)
+    page.section("Master curve")
+    for folder in runs:
+        _master(page, folder)
+
+
+def _stepped(folder: Folder) -> tuple[Any, str]:
+    """The last cycle of each frequency as it was observed."""
+    table = folder.table("response.csv", ["frequency_hz", "time_s", "strain", "stress_pa"])
+    figure, axes = look.figure(look.THIRD, 2.2)
+    groups = list(table.groupby("frequency_hz"))
+    peak = 1e-6
+    for k, (f, rows) in enumerate(_choice(groups)):
+        last = rows[rows["time_s"] >= rows["time_s"].iloc[-1] - (1 + 1e-6) / float(f)]
+        axes.plot(
+            1e6 * last["strain"],
+            1e-3 * last["stress_pa"],
+            color=look.steps(k, min(len(groups), MOST)),
+            label=look.hertz(f),
+        )
+        peak = max(peak, float(last["stress_pa"].abs().max()))
+    axes.set(xlabel="strain (µm/m)", ylabel="stress (kPa)")
+    axes.legend(fontsize=6, handlelength=1, labelspacing=0.2)
+    return figure, (
+        f"Stress over strain in the last cycle of each frequency, as it was stepped, tension positive. Stress "
+        f"reaches {look.modulus(peak)}. The area within a loop is the energy that a cycle takes; "
+        "the slope is the stiffness."
+    )
+
+
+def _from_moduli(folder: Folder) -> tuple[Any, str]:
+    """The ellipses that |E*| and the phase angle make, with a strain of amplitude one."""
+    warm = sorted({r.get("temperature_c") for r in folder.by_frequency}, key=lambda t: -1e9 if t is None else t)
+    shown = warm[len(warm) // 2]
+    rows = sorted((r for r in folder.by_frequency if r.get("temperature_c") == shown), key=lambda r: r["frequency_hz"])
+    figure, axes = look.figure(look.THIRD, 2.2)
+    factor, unit = look.modulus_unit(r["e_star_pa"] for r in rows)
+    turn = np.linspace(0, 2 * np.pi, 181)
+    chosen = _choice([(r["frequency_hz"], r) for r in rows])
+    for k, (f, r) in enumerate(chosen):
+        axes.plot(
+            np.sin(turn),
+            factor * r["e_star_pa"] * np.sin(turn + np.radians(r["phase_deg"])),
+            color=look.steps(k, len(chosen)),
+            label=look.hertz(f),
+        )
+    axes.set(xlabel="strain over its amplitude", ylabel=f"stress over\nthe strain's amplitude ({unit})")
+    axes.legend(fontsize=6, handlelength=1, labelspacing=0.2)
+    at = "" if shown is None else f" at {shown:g} °C"
+    return figure, (
+        f"Loops of the steady state{at}, drawn from |E*| and φ: the method is harmonic, nothing was stepped. A "
+        "wide loop takes much energy in a cycle, a thin one is nearly elastic."
+    )
+
+
+def _choice(groups: list[tuple[Any, Any]]) -> list[tuple[Any, Any]]:
+    """All, or some evenly among many."""
+    if len(groups) <= MOST:
+        return groups
+    return [groups[round(k)] for k in np.linspace(0, len(groups) - 1, MOST)]
+
+
+def _master(page: Page, folder: Folder) -> None:
+    rows = folder.by_frequency
+    temperatures = sorted({r["temperature_c"] for r in rows if r.get("temperature_c") is not None})
+    if len(temperatures) < 2:
+        if len(rows) > 6:
+            page.leave_out(
+                folder.label,
+                "master curve",
+                "the frequencies are of one temperature; the curve over them is the picture of |E*|",
+            )
+        return
+    if any(r.get("reduced_frequency_hz") is None for r in rows):
+        page.leave_out(folder.label, "master curve", "no reduced frequencies: the laws do not all have the same shift")
+        return
+    factor, unit = look.modulus_unit(r["e_star_pa"] for r in rows)
+    figure, (left, middle, right) = look.figure(look.WIDE, 2.7, 1, 3, width_ratios=[3, 3, 2])
+    shifts = []
+    for k, t in enumerate(temperatures):
+        of = sorted((r for r in rows if r.get("temperature_c") == t), key=lambda r: r["reduced_frequency_hz"])
+        colour = look.warmth(k, len(temperatures))
+        f = [r["reduced_frequency_hz"] for r in of]
+        left.plot(f, [factor * r["e_star_pa"] for r in of], "o", color=colour, ms=3.2, label=f"{t:g} °C")
+        middle.plot(f, [r["phase_deg"] for r in of], "o", color=colour, ms=3.2)
+        shifts.append(of[0]["log10_a_T"])
+    right.plot(temperatures, shifts, "o-", color=look.INK, ms=3.2)
+    left.set(xscale="log", yscale="log", ylabel=f"|E*| ({unit})")
+    middle.set(xscale="log", ylabel="phase angle φ (°)")
+    right.set(xlabel="temperature (°C)", ylabel="log₁₀ of the shift a$_T$")
+    for axes in (left, middle):
+        axes.set_xlabel("reduced frequency (Hz)")
+        decades(axes.xaxis, 5)
+    decades(left.yaxis)
+    figure.legend(loc="outside lower center", ncols=len(temperatures))
+    low, high = (pick(r["e_star_pa"] for r in rows) for pick in (min, max))
+    ends = [pick(r["reduced_frequency_hz"] for r in rows) for pick in (min, max)]
+    page.figure(
+        figure,
+        f"Master curve of {folder.label}: the frequencies of each temperature multiplied by its shift a_T. "
+        f"Over {look.number(float(np.log10(ends[1] / ends[0])), 2)} decades |E*| goes from {look.modulus(low)} to "
+        f"{look.modulus(high)}. Dots of neighbouring "
+        "temperatures lie on one curve where the shift holds for the whole specimen.",
+        "master curve",
+    )

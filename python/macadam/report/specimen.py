@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pictures of the specimen: the block as if sawn, its aggregates, and a section. Cells are Laguerre cells."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.colors import to_rgb
+from matplotlib.patches import Patch
+from matplotlib.transforms import Affine2D
+
+from macadam.report import look
+from macadam.report.folders import Folder
+from macadam.report.page import Page
+from macadam.report.spheres import frame, outline, spheres
+
+MOST = 8  # folders whose specimens are drawn
+HEIGHT = 3.0  # inches of each of the three pictures
+SAWN = 0.22  # of each edge, taken off in the picture of the block
+PIXELS = 420  # along the longest edge of the box
+Paint = Callable[[np.ndarray], np.ndarray]  # rows of specimen.csv to colours
+
+
+def add(page: Page, folders: list[Folder]) -> None:
+    runs = [f for f in folders if f.kind in ("run", "twin")]
+    drawn = []
+    for folder in runs:
+        if folder.specimen is None:
+            page.leave_out(folder.label, "pictures of the specimen", "no specimen.csv in the folder")
+        elif len(drawn) == MOST:
+            page.leave_out(folder.label, "pictures of the specimen", f"those of {MOST} folders are shown")
+        else:
+            drawn.append(folder)
+    if not drawn:
+        return
+    page.section("The specimen")
+    for folder in drawn:
+        if len(drawn) > 1:
+            page.heading(folder.label)
+        box, paint = _box(folder), _colours(folder)
+        section, words = _section(page, folder, box, paint)
+        block = _block(page, folder, box, paint)
+        if block is not None:
+            page.figure(
+                block,
+                f"The specimen, {look.percent(SAWN, 2)} sawn off the front, the right and the top. "
+                + _legend_words(folder),
+                "the specimen as a block",
+                third=True,
+                raster=True,
+            )
+        if section is not None:
+            page.figure(section, words, "a section of the specimen", third=True, raster=True)
+        if (folder.specimen["phase"] == "aggregate").any():
+            grains, words = spheres(folder.specimen, box, paint, _view(), HEIGHT)
+            page.figure(grains, words, "the aggregates in the specimen", third=True, raster=True)
+
+
+def _box(folder: Folder) -> np.ndarray:
+    edges = folder.summary.get("box_m")
+    s = folder.specimen
+    return np.array(edges, float) if edges else np.array([(s[a] + s["radius"]).max() for a in "xyz"])
+
+
+def _colours(folder: Folder) -> Paint:
+    """Colour of each particle: mastic dark, air white, aggregates by size class, each a little lighter or darker."""
+    s = folder.specimen
+    body = s["body"].to_numpy(int)
+    colour = np.tile(to_rgb(look.MASTIC), (len(s), 1))
+    colour[(s["phase"] == "void").to_numpy()] = to_rgb(look.VOID)
+    grain = (s["phase"] == "aggregate").to_numpy()
+    table = folder.aggregates
+    classes = dict(zip(table["body"], table["size_class"])) if table is not None else {}
+    base = np.array([to_rgb(c) for c in look.CLASSES])
+    of = np.array([classes.get(b, 0) for b in body[grain]], int) % len(base)
+    shade = 1 + 0.22 * ((body[grain] * 0.6180339887) % 1 - 0.5)  # the golden ratio keeps neighbours in number apart
+    colour[grain] = np.clip(base[of] * shade[:, None], 0, 1)
+    return lambda rows: colour[rows]
+
+
+def _names(folder: Folder) -> dict[int, str]:
+    table = folder.aggregates
+    if table is None:
+        return {}
+    return {int(k): str(n).replace("-", "–") for k, n in sorted(set(zip(table["size_class"], table["class"])))}
+
+
+def _legend_words(folder: Folder) -> str:
+    void = " Air voids are white." if (folder.specimen["phase"] == "void").any() else ""
+    classes = "Each aggregate has the colour of its size class" if _names(folder) else "Aggregates are light"
+    return f"{classes}, the mastic is dark.{void}"
+
+
+class _Cells:
+    """Which cell a point is in: the sphere of least power distance |x − c|² − r² has it. With √(R² − r²) as a fourth
+    coordinate that is the nearest centre, R the largest radius."""
+
+    def __init__(self, specimen: pd.DataFrame) -> None:
+        from scipy.spatial import cKDTree  # late: pictures of cells are all that asks for it
+
+        radius = specimen["radius"].to_numpy(float)
+        fourth = np.sqrt(radius.max() ** 2 - radius**2)
+        self._tree = cKDTree(np.column_stack([specimen[["x", "y", "z"]].to_numpy(float), fourth]))
+
+    def at(self, points: np.ndarray) -> np.ndarray:
+        return self._tree.query(np.column_stack([points, np.zeros(len(points))]))[1]
+
+
+def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Paint) -> np.ndarray:
+    """Picture of the cells in a plane: rows from low to high of the second other axis."""
+    u, v = [k for k in range(3) if k != axis]
+    step = box.max() / PIXELS
+    nu, nv = max(1, round(box[u] / step)), max(1, round(box[v] / step))
+    points = np.empty((nv, nu, 3))
+    points[..., axis] = value
+    points[..., u] = (np.arange(nu) + 0.5) * box[u] / nu
+    points[..., v] = (np.arange(nv)[:, None] + 0.5) * box[v] / nv
+    cell = _Cells(folder.specimen).at(points.reshape(-1, 3)).reshape(nv, nu)
+    body = folder.specimen["body"].to_numpy(int)[cell]
+    picture = paint(cell)
+    rim = np.zeros(body.shape, bool)  # a dark line where two aggregates meet
+    for a, b in (((slice(1, None),), (slice(-1),)), ((slice(None), slice(1, None)), (slice(None), slice(-1)))):
+        rim[a] |= (body[a] != body[b]) & (body[a] >= 0) & (body[b] >= 0)
+    picture[rim] *= 0.45
+    return picture
+
+
+def _section(page: Page, folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
+    """A section through the middle, or the first that the program wrote."""
+    written = sorted(folder.path.glob("section_*.csv"))
+    figure, axes = look.figure(look.THIRD, HEIGHT)
+    axes.grid(False)
+    axes.set_aspect("equal")
+    if written:
+        from matplotlib.collections import PolyCollection
+
+        table = folder.table(written[0].name, ["particle", *"xyz"])
+        cells = [(int(k), 1e3 * g[list("xyz")].to_numpy(float)) for k, g in table.groupby("particle", sort=False)]
+        corners = np.concatenate([c for _, c in cells])
+        axis = int(np.argmin(np.ptp(corners, axis=0)))
+        u, v = [k for k in range(3) if k != axis]
+        void = np.array(to_rgb(look.VOID))
+        face = [paint(np.array([k]))[0] if k < len(folder.specimen) else void for k, _ in cells]
+        axes.add_collection(
+            PolyCollection([c[:, [u, v]] for _, c in cells], facecolors=face, edgecolors=(0, 0, 0, 0.5), linewidths=0.2)
+        )
+        where, source = corners[0, axis], f"Cells as the program cut them ({written[0].name})."
+    else:
+        axis, (u, v) = 1, (0, 2)
+        try:
+            picture = _plane(folder, box, axis, box[axis] / 2, paint)
+        except ImportError:
+            page.leave_out(folder.label, "section and block", "SciPy is not installed")
+            return None, ""
+        axes.imshow(picture, origin="lower", extent=(0, 1e3 * box[u], 0, 1e3 * box[v]), interpolation="antialiased")
+        where, source = 1e3 * box[axis] / 2, "The cells of the particles fill it."
+    axes.set(xlim=(0, 1e3 * box[u]), ylim=(0, 1e3 * box[v]), xlabel=f"{'xyz'[u]} (mm)", ylabel=f"{'xyz'[v]} (mm)")
+    names = _names(folder)
+    if names:
+        handles = [
+            Patch(fc=look.CLASSES[k % len(look.CLASSES)], ec="#5a5f68", lw=0.4, label=n) for k, n in names.items()
+        ]
+        handles.append(Patch(fc=look.MASTIC, label="mastic"))
+        figure.legend(
+            handles=handles,
+            loc="outside lower center",
+            ncols=3,
+            handlelength=1,
+            handleheight=1,
+            columnspacing=1,
+            handletextpad=0.4,
+            fontsize=6.5,
+        )
+    return figure, f"Section at {'xyz'[axis]} = {look.number(float(where), 3)} mm. {source}"
+
+
+def _view() -> np.ndarray:
+    """Rows: right, up, towards the eye."""
+    a, e = np.radians([-60, 24])
+    towards = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+    right = np.array([-np.sin(a), np.cos(a), 0])
+    return np.array([right, np.cross(towards, right), towards])
+
+
+def _block(page: Page, folder: Folder, box: np.ndarray, paint: Paint) -> Any:
+    """What is left when a share of the box is sawn off the three sides that are seen: three pictures, each sheared into
+    its place, in the outline of the box."""
+    turn = _view()
+    corners = np.array(list(product(*([0, e] for e in box)))) @ turn.T
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    figure, axes = look.figure(look.THIRD, HEIGHT)
+    outline(axes, corners, "#c3c7cc")
+    first = np.array([0.0, SAWN * box[1], 0.0])
+    last = np.array([(1 - SAWN) * box[0], box[1], (1 - SAWN) * box[2]])
+    for axis, value, light in ((1, first[1], 0.95), (0, last[0], 0.74), (2, last[2], 1.12)):
+        u, v = [k for k in range(3) if k != axis]
+        try:
+            picture = _plane(folder, box, axis, value, paint)
+        except ImportError:  # said where the section is left out
+            return None
+        rows, columns = picture.shape[:2]
+        at = [
+            round(x * n / e)
+            for x, n, e in (
+                (first[u], columns, box[u]),
+                (last[u], columns, box[u]),
+                (first[v], rows, box[v]),
+                (last[v], rows, box[v]),
+            )
+        ]
+        corner = first.copy()
+        corner[axis] = value
+        origin, a, b = turn[:2] @ corner, turn[:2, u] * (last - first)[u], turn[:2, v] * (last - first)[v]
+        shear = Affine2D(np.array([[a[0], b[0], origin[0]], [a[1], b[1], origin[1]], [0, 0, 1]]))
+        shown = axes.imshow(
+            np.clip(picture[at[2] : at[3], at[0] : at[1]] * light, 0, 1),
+            origin="lower",
+            extent=(0, 1, 0, 1),
+            aspect="auto",
+            interpolation="antialiased",
+            zorder=2,
+        )
+        shown.set_transform(shear + axes.transData)
+        axes.plot(*np.array([origin, origin + a, origin + a + b, origin + b, origin]).T, color=look.INK, lw=0.5)
+    frame(axes, low, high)
+    return figure

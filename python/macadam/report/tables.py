@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of |E*| and phase angle: of one folder, of several beside one another, of frequencies by temperatures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from macadam.report import look
+from macadam.report.folders import Folder
+from macadam.report.page import Page
+
+ROWS = 40  # of one table; a longer one is cut
+ABREAST = 3  # folders that one table has beside one another
+
+Error = Callable[[dict[str, Any]], tuple[float, float]]
+
+
+def add(page: Page, folders: list[Folder], error: Error) -> None:
+    """Tables of folders that all have results over frequencies."""
+    if 1 < len(folders) <= ABREAST and not any(_temperatures(f)[1:] for f in folders):
+        _abreast(page, folders)
+        return
+    for folder in folders:
+        if _temperatures(folder)[1:]:
+            _by_temperature(page, folder)
+        else:
+            _one(page, folder, error)
+
+
+def _temperatures(folder: Folder) -> list[float]:
+    return sorted({r["temperature_c"] for r in folder.by_frequency if r.get("temperature_c") is not None})
+
+
+def _of(folder: Folder) -> str:
+    rows, s = folder.by_frequency, folder.summary
+    warm = _temperatures(folder)
+    words = f"{folder.label}: method {rows[0].get('method', '–')}" + (f", {warm[0]:g} °C" if len(warm) == 1 else "")
+    confined = any(r.get("modulus") == "confined" for r in rows) or any(
+        "confined" in w for w in s.get("warnings") or []
+    )
+    return words + (". The sides are held: this is a confined modulus" if confined else "")
+
+
+def _cut(page: Page, label: str, rows: list[Any]) -> list[Any]:
+    if len(rows) > ROWS:
+        page.leave_out(
+            label,
+            f"{len(rows) - ROWS} rows of the table of |E*|",
+            f"it is cut after {ROWS} rows; summary.json has all, and the pictures show all",
+        )
+    return rows[:ROWS]
+
+
+def _one(page: Page, folder: Folder, error: Error) -> None:
+    factor, unit = look.modulus_unit(r["e_star_pa"] for r in folder.by_frequency)
+    body = []
+    for r in _cut(page, folder.label, folder.by_frequency):
+        e, phase, wrong = r["e_star_pa"], np.radians(r["phase_deg"]), error(r)
+        body.append(
+            [
+                f"{r['frequency_hz']:.4g}",
+                look.number(factor * e),
+                look.number(r["phase_deg"]),
+                look.number(float(factor * e * np.cos(phase))),
+                look.number(float(factor * e * np.sin(phase))),
+                look.bound(100 * wrong[0]),
+                look.bound(wrong[1]),
+            ]
+        )
+    page.table(
+        ["f (Hz)", f"|E*| ({unit})", "φ (°)", f"E′ ({unit})", f"E″ ({unit})", "error of |E*| (%)", "error of φ (°)"],
+        body,
+        f"{_of(folder)}.",
+        words=0,
+    )
+
+
+def _abreast(page: Page, folders: list[Folder]) -> None:
+    factor, unit = look.modulus_unit(r["e_star_pa"] for f in folders for r in f.by_frequency)
+    of = [{r["frequency_hz"]: r for r in f.by_frequency} for f in folders]
+    first = folders[0].label
+    head = ["f (Hz)"]
+    for k, f in enumerate(folders):
+        head += [f"{f.label}: |E*| ({unit})", "φ (°)"] + [f"|E*| to {first} (%)"] * (k > 0)
+    rows = []
+    for frequency in _cut(page, first, sorted(set().union(*of))):
+        row = [f"{frequency:.4g}"]
+        for k, results in enumerate(of):
+            r, base = results.get(frequency), of[0].get(frequency)
+            row += ["–", "–"] if r is None else [look.number(factor * r["e_star_pa"]), look.number(r["phase_deg"])]
+            if k:
+                row.append(
+                    "–"
+                    if r is None or base is None
+                    else f"{100 * (r['e_star_pa'] / base['e_star_pa'] - 1):+.2f}".replace("-", "−")
+                )
+        rows.append(row)
+    page.table(head, rows, "; ".join(map(_of, folders)) + ".", words=0)
+
+
+def _by_temperature(page: Page, folder: Folder) -> None:
+    warm = _temperatures(folder)
+    at = {(r["frequency_hz"], r.get("temperature_c")): r for r in folder.by_frequency}
+    factor, unit = look.modulus_unit(r["e_star_pa"] for r in folder.by_frequency)
+    frequencies = _cut(page, folder.label, sorted({f for f, _ in at}))
+    for head, key, digits, scale in (
+        (f"|E*| in {unit}", "e_star_pa", 4, factor),
+        ("φ in degrees", "phase_deg", 3, 1.0),
+    ):
+        rows = [
+            [f"{f:.4g}"] + [look.number(scale * at[f, t][key], digits) if (f, t) in at else "–" for t in warm]
+            for f in frequencies
+        ]
+        page.table(
+            ["f (Hz)"] + [f"{t:g} °C" for t in warm],
+            rows,
+            f"{_of(folder)}: {head} at {len(warm)} temperatures.",
+            words=0,
+        )

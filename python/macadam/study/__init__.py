@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Studies: scenes varied over grids, Latin hypercubes and lists, computed on this machine or a cluster.
+
+The module can be called as its function `study`. What that takes is imported when asked for: workers need little."""
+
+from __future__ import annotations
+
+import sys
+import types
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from macadam.study.driver import Study, study
+    from macadam.study.errors import StudyError
+
+__all__ = ["Study", "StudyError", "study"]
+
+
+class _Callable(types.ModuleType):
+    def __call__(self, *arguments: Any, **more: Any) -> Study:
+        from macadam.study.driver import study
+
+        return study(*arguments, **more)
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in __all__:
+            raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
+        from macadam.study import driver, errors
+
+        return getattr(errors if name == "StudyError" else driver, name)
+
+
+sys.modules[__name__].__class__ = _Callable

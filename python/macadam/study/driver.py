@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A study from its file to its table: what is not there yet is computed, whatever ended earlier ones."""
+
+from __future__ import annotations
+
+import concurrent.futures
+import contextlib
+import shutil
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from macadam.study import executors, summary, table
+from macadam.study.design import Design, Job, read_design
+from macadam.study.errors import StudyError
+from macadam.study.job import compute
+from macadam.study.locks import Taken, locked, taken
+from macadam.study.program import find_program, version_of
+
+_IDLE_ROUNDS = 3  # in which workers died and nothing was computed: then it is of no use to go on
+
+
+@dataclass
+class Study:
+    """What a study found. `table`: a row a result; `failures`: key, experiment, values and message of each."""
+
+    folder: Path
+    table: pd.DataFrame
+    failures: list[dict[str, Any]]
+    missing: int  # jobs that no worker computed
+
+
+def study(
+    source: str | Path | dict[str, Any],
+    out: str | Path,
+    *,
+    executor: concurrent.futures.Executor | None = None,
+    on: str | None = None,
+    workers: int | None = None,
+    program: str | None = None,
+    retry_failed: bool = False,
+    progress: Callable[[int, int, int], None] | None = None,
+) -> Study:
+    """Computes what a study asks for and is not in its folder yet; then writes its tables and its report.
+
+    source: STUDY.toml, or its content as a dictionary. out: the study's folder. executor: any of concurrent.futures, in
+    place of what [run] says; on, workers: in place of [run]'s. program: in place of the macadam that is found.
+    retry_failed: failures are tried again. progress: called with the numbers done, failed and asked.
+    Raises StudyError where something is asked wrongly, or another study runs in the folder."""
+    folder = Path(out).resolve()
+    program = program or find_program()
+    version = version_of(program)
+    design = read_design(source, version)
+    design.run = {**design.run, **({"on": on} if on else {}), **({"workers": workers} if workers else {})}
+    executors.check(design.run)
+    table.check(design.report)
+    if not design.jobs:
+        raise StudyError("the study has no points")
+    if folder.exists() and not folder.is_dir():
+        raise StudyError(f"{folder}: found a file, expected a folder")
+    for name in ("results", "failures", "running"):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+    with contextlib.ExitStack() as stack:
+        try:
+            stack.enter_context(locked(folder / "study.lock", wait=False))
+        except Taken:
+            raise StudyError(f"{folder}: another study runs in this folder") from None
+        if isinstance(source, (str, Path)):
+            shutil.copyfile(source, folder / "study.toml")
+        if retry_failed:
+            for job in design.jobs:
+                (folder / "failures" / f"{job.key}.json").unlink(missing_ok=True)
+        _compute_all(design, folder, program, executor, progress or (lambda *_: None))
+        found = Study(
+            folder,
+            table.read(design, folder),
+            table.failures(design, folder),
+            sum(not _settled(folder, job) for job in design.jobs),
+        )
+        if not found.missing:
+            shutil.rmtree(folder / "running", ignore_errors=True)
+        table.write(found.table, found.failures, folder)
+        summary.write_report(design, found.table, found.failures, found.missing, folder)
+    return found
+
+
+def _settled(folder: Path, job: Job) -> bool:
+    return (folder / "results" / job.key).is_dir() or (folder / "failures" / f"{job.key}.json").is_file()
+
+
+def _compute_all(
+    design: Design,
+    folder: Path,
+    program: str,
+    given: concurrent.futures.Executor | None,
+    progress: Callable[[int, int, int], None],
+) -> None:
+    """In rounds: what a dead worker left is asked for again in the next one, with new workers."""
+    idle = 0
+    limits = None if design.run.get("on") == "threads" else executors.patience(design.run)
+    while idle < _IDLE_ROUNDS:
+        left = [job for job in design.jobs if not _settled(folder, job)]
+        _say(design, folder, progress)
+        if not left:
+            return
+        jobs = [_handed(job, folder, program, design.run) for job in left]
+        try:
+            if given is not None:
+                _round(given, jobs, lambda: _say(design, folder, progress), None)
+            else:
+                with executors.executor(design.run, folder) as pool:
+                    _round(pool, jobs, lambda: _say(design, folder, progress), limits)
+        except (concurrent.futures.BrokenExecutor, RuntimeError):  # an executor of its own that takes no more jobs
+            if given is not None:
+                return
+        idle = idle + 1 if all(not _settled(folder, job) for job in left) else 0
+
+
+def _round(
+    pool: concurrent.futures.Executor,
+    jobs: list[dict[str, Any]],
+    said: Callable[[], None],
+    patience: tuple[float, float] | None,
+) -> None:
+    """Until every job has ended, or nobody has worked at any for longer than is patient."""
+    waiting = {pool.submit(compute, job) for job in jobs}
+    locks = [Path(job["folder"]) / "running" / f"{job['key']}.lock" for job in jobs]
+    quiet, begun = time.monotonic(), False
+    try:
+        while waiting:
+            done, waiting = concurrent.futures.wait(waiting, 2.0, concurrent.futures.FIRST_COMPLETED)
+            for future in done:
+                # what the program says is in the folder; an exception is of a worker that died or never came to life
+                if isinstance(future.exception(), (StudyError, OSError)):
+                    raise future.exception()
+            if done:
+                said()
+            if done or patience and any(map(taken, locks)):
+                quiet, begun = time.monotonic(), True
+            elif patience and time.monotonic() - quiet > patience[begun]:
+                return
+    except BaseException:  # Ctrl-C too: what waits is not begun
+        for future in waiting:
+            future.cancel()
+        raise
+
+
+def _handed(job: Job, folder: Path, program: str, run: dict[str, Any]) -> dict[str, Any]:
+    command = [*job.command]
+    if job.command[0] == "run" and "--threads" not in command:
+        command += ["--threads", str(executors.threads(run))]
+    return {
+        "key": job.key,
+        "scene": job.scene,
+        "command": command,
+        "values": job.values,
+        "experiment": job.experiment,
+        "threads": executors.threads(run),
+        "program": program,
+        "folder": str(folder),
+    }
+
+
+def _say(design: Design, folder: Path, progress: Callable[[int, int, int], None]) -> None:
+    done = sum((folder / "results" / job.key).is_dir() for job in design.jobs)
+    failed = sum((folder / "failures" / f"{job.key}.json").is_file() for job in design.jobs)
+    progress(done, failed, len(design.jobs))

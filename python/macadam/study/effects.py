@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers of a study: one value a job of each quantity, main effects of factors, scatter over seeds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from macadam.study import table
+from macadam.study.design import Design
+
+FEW = 8  # different values up to which a factor has levels; one with more is continuous
+
+
+@dataclass
+class Quantity:
+    """One number a job. `jobs`: a row a job, the factors' columns and `value`; `seeds`: names of the factors that draw
+    another specimen of the same mix; `factors`: the others that differ at all."""
+
+    name: str
+    unit: str
+    at: str  # such as "10 Hz, 20 °C"
+    experiment: str
+    jobs: pd.DataFrame
+    factors: list[str] = field(default_factory=list)
+    seeds: list[str] = field(default_factory=list)
+
+    @property
+    def title(self) -> str:
+        where = f"{self.name} at {self.at}" if self.at else self.name
+        return f"{where} ({self.experiment})" if self.experiment else where
+
+    @property
+    def points(self) -> pd.DataFrame:
+        """Means over the seeds: a row a point."""
+        if not self.factors:
+            return pd.DataFrame({"value": [self.jobs["value"].mean()]})
+        return self.jobs.groupby(self.factors, sort=False, dropna=False)["value"].mean().reset_index()
+
+
+def quantities(found: pd.DataFrame, design: Design) -> list[Quantity]:
+    """|E*| and phase angle at the frequency (and temperature) that [report] names, else next to 10 Hz (20 °C); of tests
+    in time what there is at the last time."""
+    names = list(table.columns(design).values())
+    experiments = found["experiment"].unique() if "experiment" in found else [None]
+    out = []
+    for experiment in experiments:
+        rows = found if experiment is None else found[found["experiment"] == experiment]
+        at = []
+        for column, wanted, unit in (
+            ("frequency (Hz)", design.report.get("frequency", 10.0), "Hz"),
+            ("temperature (degC)", design.report.get("temperature", 20.0), "°C"),
+            ("time (s)", np.inf, "s"),
+        ):
+            if column in rows and rows[column].notna().any():
+                rows = rows[rows[column].notna()]
+                values = rows[column].unique()
+                nearest = values.max() if wanted == np.inf else values[np.argmin(np.abs(values - wanted))]
+                rows = rows[rows[column] == nearest]
+                at.append(f"{nearest:.4g} {unit}")
+        for column in table.QUANTITIES:
+            if column in rows and rows[column].notna().any():
+                jobs = rows[[n for n in names if n in rows] + [column]].rename(columns={column: "value"})
+                name, unit = column[:-1].split(" (")
+                if unit == "MPa" and jobs["value"].abs().max() >= 1e3:
+                    jobs["value"], unit = 1e-3 * jobs["value"], "GPa"
+                differ = [n for n in names if n in jobs and jobs[n].nunique(dropna=False) > 1]
+                seeds = [n for n in differ if n.split(".")[-1] == "seed"]
+                out.append(
+                    Quantity(
+                        "|E*|" if name == "E*" else name,
+                        unit.replace("deg", "°"),
+                        ", ".join(at),
+                        experiment or "",
+                        jobs.reset_index(drop=True),
+                        [n for n in differ if n not in seeds],
+                        seeds,
+                    )
+                )
+    return out
+
+
+def short(factor: str) -> str:
+    """The end of a factor's key, enough to know it by: `air voids (%)`, `M-A.delta`."""
+    key, _, unit = factor.partition(" (")
+    parts = key.split(".")
+    name = ".".join(parts[-2:]) if parts[0] == "contacts" else parts[-1].replace("_", " ")
+    return f"{name} ({unit}" if unit else name
+
+
+def numeric(points: pd.DataFrame, factor: str) -> bool:
+    return pd.api.types.is_numeric_dtype(points[factor])
+
+
+@dataclass
+class Effect:
+    """What a factor does to a quantity, the others averaged. `share`: of the variance between points (0 to 1)."""
+
+    factor: str
+    levels: list[Any]  # from where to where
+    means: list[float]
+    spreads: list[float]  # standard deviation of the points at that level
+    share: float
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Means at the first level and the last; of names the lowest and the highest."""
+        if isinstance(self.levels[0], (int, float)):
+            return self.means[0], self.means[-1]
+        return min(self.means), max(self.means)
+
+
+def continuous(points: pd.DataFrame, factor: str) -> bool:
+    return numeric(points, factor) and points[factor].nunique() > FEW
+
+
+def _lines(points: pd.DataFrame, factors: list[str]) -> tuple[dict[str, float], float]:
+    """Slope of each continuous factor, and the standard deviation of what is left: least squares of all factors at
+    once, since values of a hypercube are not quite independent, and one factor's effect must not count as another's."""
+    smooth = [f for f in factors if continuous(points, f)]
+    if not smooth:
+        return {}, 0.0
+    columns = [points[f].to_numpy(float) for f in smooth]
+    scales = [c.std() for c in columns]
+    matrix = [(c - c.mean()) / s for c, s in zip(columns, scales, strict=True)]
+    for factor in (f for f in factors if f not in smooth):
+        codes = pd.factorize(points[factor])[0]
+        matrix += [(codes == k).astype(float) for k in range(1, codes.max() + 1)]
+    matrix = np.column_stack([*matrix, np.ones(len(points))])
+    y = points["value"].to_numpy(float)
+    found = np.linalg.lstsq(matrix, y, rcond=None)[0]
+    return {f: float(v / s) for f, v, s in zip(smooth, found, scales, strict=False)}, float(np.std(y - matrix @ found))
+
+
+def effects(quantity: Quantity) -> list[Effect]:
+    """One a factor, the largest share of the variance first. The levels of a continuous one are its line's ends."""
+    points, out = quantity.points, []
+    total = float(((points["value"] - points["value"].mean()) ** 2).sum())
+    lines, rest = _lines(points, quantity.factors)
+    for factor in quantity.factors:
+        if factor in lines:
+            x, slope = points[factor].to_numpy(float), lines[factor]
+            ends = [float(x.min()), float(x.max())]
+            means = [float(points["value"].mean() + slope * (e - x.mean())) for e in ends]
+            share = float(((slope * (x - x.mean())) ** 2).sum()) / total if total else 0.0
+            out.append(Effect(factor, ends, means, [rest, rest], share))
+            continue
+        groups = points.groupby(factor, sort=numeric(points, factor), dropna=False)["value"]
+        mean, spread, number = groups.mean(), groups.std(ddof=1).fillna(0.0), groups.size()
+        between = float((number * (mean - points["value"].mean()) ** 2).sum())
+        levels = [v.item() if isinstance(v, np.generic) else v for v in mean.index]
+        out.append(
+            Effect(factor, levels, list(map(float, mean)), list(map(float, spread)), between / total if total else 0.0)
+        )
+    return sorted(out, key=lambda e: -e.share)
+
+
+def scatter(quantity: Quantity) -> tuple[float, int, int] | None:
+    """Standard deviation between seeds of one point, pooled over the points, relative to each point's mean; with the
+    number of points that have several seeds, and the fewest seeds of these. Nothing where seeds do not differ."""
+    if not quantity.seeds:
+        return None
+    groups = quantity.jobs.groupby(quantity.factors, dropna=False)["value"] if quantity.factors else None
+    values = [g.to_numpy(float) for _, g in groups] if groups is not None else [quantity.jobs["value"].to_numpy(float)]
+    values = [v for v in values if len(v) > 1]
+    if not values:
+        return None
+    freedom = sum(len(v) - 1 for v in values)
+    squares = sum(float((((v - v.mean()) / v.mean()) ** 2).sum()) for v in values)
+    return (squares / freedom) ** 0.5, len(values), min(map(len, values))

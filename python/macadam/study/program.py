@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program that computes: where it is, and its version."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+from macadam.study.errors import StudyError
+
+_BUILDS = ("demo", "cuda-release", "cpu-release", "release", "test")
+
+
+def find_program() -> str:
+    """MACADAM_PROGRAM, else macadam of the search path, else that of the source tree around this package."""
+    asked = os.environ.get("MACADAM_PROGRAM")
+    if asked:
+        if not os.access(asked, os.X_OK) or Path(asked).is_dir():
+            raise StudyError(f"MACADAM_PROGRAM: found {asked}, expected a program that can be run")
+        return str(Path(asked).resolve())
+    found = shutil.which("macadam")
+    if found:
+        return str(Path(found).resolve())
+    tree = Path(__file__).resolve().parents[3]
+    for build in _BUILDS:
+        if os.access(tree / "build" / build / "macadam", os.X_OK):
+            return str(tree / "build" / build / "macadam")
+    raise StudyError(
+        "no program macadam: neither MACADAM_PROGRAM nor the search path has it, nor has a build of this "
+        f"source tree ({tree / 'build'})"
+    )
+
+
+def version_of(program: str) -> str:
+    """What `macadam --version` says."""
+    try:
+        done = subprocess.run([program, "--version"], capture_output=True, text=True, timeout=60)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise StudyError(f"{program}: {error}") from None
+    if done.returncode != 0 or not done.stdout.strip():
+        raise StudyError(f"{program} --version: exit code {done.returncode}; {done.stderr.strip()}")
+    return done.stdout.strip()

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scenes of points: values put at dotted keys, files found, and the key of a result."""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import json
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from macadam.study.errors import StudyError
+
+# keys whose values name a file or folder, and what is no file there
+_FILES = {
+    ("specimen", "file"): (),
+    ("specimen", "shapes", "library"): ("aggregates", "icosahedron", "aggregates and icosahedron"),
+}
+
+Table = dict[str, Any]
+
+
+def read_toml(file: Path) -> Table:
+    """A TOML file, or a StudyError with its name."""
+    try:
+        return tomllib.loads(file.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise StudyError(f"{file}: {getattr(error, 'strerror', None) or error}") from None
+
+
+def with_value(scene: Table, key: str, value: Any) -> Table:
+    """The scene with a value at a dotted key. A table replaces the whole section; `contacts.M-A.delta` means the entry
+    of that pair, `specimen.aggregate.0.volume_fraction` the first class. Sections that are not there are made."""
+    changed = copy.deepcopy(scene)
+    parts, at = key.split("."), changed
+    if not all(parts):
+        raise StudyError(f"key {key!r}: found an empty name between dots")
+    for k, part in enumerate(parts[:-1]):
+        at = _step(at, part, ".".join(parts[: k + 1]))
+    if isinstance(at, list):
+        at[_index(at, parts[-1], key)] = value
+    else:
+        at[parts[-1]] = value
+    return changed
+
+
+def _step(at: Any, part: str, key: str) -> Any:
+    if isinstance(at, list):
+        return at[_index(at, part, key)]
+    following = at.setdefault(part, {})
+    if not isinstance(following, (dict, list)):
+        raise StudyError(f"key {key}: found the value {following!r} in the scene, expected a section")
+    return following
+
+
+def _index(entries: list[Any], part: str, key: str) -> int:
+    pairs = [e.get("pair") if isinstance(e, dict) else None for e in entries]
+    if part in pairs:
+        return pairs.index(part)
+    if part.isdigit() and int(part) < len(entries):
+        return int(part)
+    named = [p for p in pairs if p]
+    have = f"the pairs {', '.join(named)}" if named else f"{len(entries)} entries, numbered from 0"
+    raise StudyError(f"key {key}: found no {part!r} in the scene; it has {have}")
+
+
+def merged(scene: Table, more: Table) -> Table:
+    """The scene with another file's sections over it: what `macadam fit` writes, for instance. Contacts of a pair
+    replace those of the same pair; of other sections single keys are replaced."""
+    out = copy.deepcopy(scene)
+    for key, value in more.items():
+        if key == "contacts" and isinstance(value, list):
+            kept = [c for c in out.get("contacts", []) if c.get("pair") not in {v.get("pair") for v in value}]
+            out["contacts"] = kept + copy.deepcopy(value)
+        elif isinstance(value, dict) and isinstance(out.get(key), dict):
+            out[key] = merged(out[key], value)
+        else:
+            out[key] = copy.deepcopy(value)
+    return out
+
+
+def located(scene: Table, folder: Path) -> tuple[Table, dict[str, str]]:
+    """The scene with whole paths in place of those relative to `folder`, and a digest of every file that it names."""
+    scene, digests = copy.deepcopy(scene), {}
+    for keys, names in _FILES.items():
+        at: Any = scene
+        for part in keys[:-1]:
+            at = at.get(part, {}) if isinstance(at, dict) else {}
+        value = at.get(keys[-1]) if isinstance(at, dict) else None
+        if isinstance(value, str) and value not in names:
+            path = (folder / value).resolve()
+            if not path.exists():
+                raise StudyError(f"{'.'.join(keys)}: found {value!r}, but there is no {path}")
+            at[keys[-1]] = str(path)
+            digests[".".join(keys)] = _digest(path)
+    return scene, digests
+
+
+def _digest(path: Path) -> str:
+    sha = hashlib.sha256()
+    for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
+        if file.is_file():
+            sha.update(str(file.relative_to(path)).encode())
+            sha.update(file.read_bytes())
+    return sha.hexdigest()
+
+
+def key_of(scene: Table, digests: dict[str, str], command: list[str], version: str) -> str:
+    """Name of the result: the same for the same scene, files by their content, command and version of macadam."""
+    plain = copy.deepcopy(scene)
+    for dotted, digest in digests.items():
+        plain = with_value(plain, dotted, f"sha256:{digest}")
+    text = json.dumps([plain, command, version], sort_keys=True, ensure_ascii=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()[:20]
+
+
+def text_of(scene: Table) -> str:
+    """The scene as TOML."""
+    try:
+        import tomli_w
+    except ImportError:
+        raise StudyError("studies write scenes with the Python package tomli-w, which is not installed") from None
+    return tomli_w.dumps(scene)

@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report of a study: main effects, scatter over seeds, a map over two factors, failures."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from macadam.report import look
+from macadam.report.document import write
+from macadam.report.page import Page
+from macadam.study import table
+from macadam.study.design import Design, number_and_unit
+from macadam.study.effects import FEW, Effect, Quantity, continuous, effects, numeric, quantities, scatter, short
+
+MOST = 4  # factors in one picture
+
+
+def write_report(design: Design, found: pd.DataFrame, failed: list[dict[str, Any]], missing: int, folder: Path) -> Path:
+    """report.html in the study's folder."""
+    page = Page()
+    with look.style():
+        _fill(page, design, found, failed, missing, folder)
+    versions = ", ".join(sorted(set(found["macadam"].dropna()))) if "macadam" in found else ""
+    return write(
+        page,
+        folder / "report.html",
+        f"Study {folder.name}",
+        f"Report of a study{', macadam ' + versions if versions else ''}.",
+    )
+
+
+def _fill(
+    page: Page, design: Design, found: pd.DataFrame, failed: list[dict[str, Any]], missing: int, folder: Path
+) -> None:
+    done = found["key"].nunique() if len(found) else 0
+    page.section("In short")
+    if missing:
+        page.text(
+            f"{missing} of {len(design.jobs)} results are missing: their workers died. The same command goes on.",
+            "failure",
+        )
+    if failed:
+        page.text(f"{len(failed)} of {len(design.jobs)} failed; they are listed below.", "warning")
+    page.text(f"{done} results at {_count(design)}.", "lead")
+    values = quantities(found, design) if len(found) else []
+    for q in values:
+        strongest = effects(q)[:1]
+        words = f"{q.title}: {_value(q, q.jobs['value'].min())} to {_value(q, q.jobs['value'].max())}"
+        if strongest:
+            words += (
+                f"; it depends most on {short(strongest[0].factor)}, {look.percent(strongest[0].share, 2)} of "
+                "the variance between points"
+            )
+        page.text(words[:1].upper() + words[1:] + ".")
+    page.table(["factor", "values", "number"], _factors(design), "What differs between the points.", words=2)
+    page.section("Main effects")
+    for q in values:
+        _main_effects(page, q)
+    page.section("Maps")
+    for q in values:
+        _map(page, q)
+    page.section("Scatter over seeds")
+    _seeds(page, values)
+    page.section("Failures")
+    if failed:
+        page.table(
+            ["experiment", "at", "message"],
+            [
+                [
+                    f["experiment"] or "–",
+                    "; ".join(f"{k} = {v}" for k, v in f["values"].items()),
+                    f["message"].splitlines()[-1],
+                ]
+                for f in failed
+            ],
+            words=3,
+        )
+    page.section("Where it was computed")
+    _machines(page, design, folder)
+
+
+def _count(design: Design) -> str:
+    seeds: dict[str, set[str]] = {}
+    for job in design.jobs:
+        others = str([(k, v) for k, v in job.values.items() if k.split(".")[-1] != "seed"])
+        seeds.setdefault(others, set()).add(str(job.values))
+    numbers = {len(s) for s in seeds.values()}
+    experiments = sorted({job.experiment for job in design.jobs if job.experiment})
+    each = (
+        "" if numbers == {1} else f", each with {numbers.pop()} seeds" if len(numbers) == 1 else ", with several seeds"
+    )
+    return f"{len(seeds)} points{each}" + (
+        f" by {len(experiments)} experiments ({', '.join(experiments)})" if len(experiments) > 1 else ""
+    )
+
+
+def _value(q: Quantity, value: float) -> str:
+    return f"{look.number(float(value))}{'' if q.unit == '°' else ' '}{q.unit}"
+
+
+def _factors(design: Design) -> list[list[Any]]:
+    rows = []
+    for factor in design.factors:
+        values = list(dict.fromkeys(str(job.values[factor]) for job in design.jobs if factor in job.values))
+        parts = [number_and_unit(v) for v in values]
+        if len(values) > FEW and all(number is not None for number, _ in parts):
+            ends = [pick(parts) for pick in (min, max)]
+            shown = f"{_level(ends[0][0])} … {_level(ends[1][0])} {ends[1][1]}"
+        else:
+            shown = ", ".join(v if len(v) < 40 else v[:37] + "…" for v in values[:FEW]) + " …" * (len(values) > FEW)
+        rows.append([factor, shown, len(values)])
+    return rows
+
+
+def _main_effects(page: Page, q: Quantity) -> None:
+    found = effects(q)
+    if not found:
+        return
+    points = q.points
+    for first in range(0, len(found), MOST):
+        shown = found[first : first + MOST]
+        figure, axes = look.figure(
+            look.WIDE if len(shown) > 1 else look.WIDE / 2, 2.4, 1, len(shown), sharey=True, squeeze=False
+        )
+        for axis, effect in zip(axes[0], shown, strict=True):
+            _panel(axis, effect, points)
+        axes[0, 0].set_ylabel(f"{q.name} ({q.unit})")
+        words = "; ".join(f"{short(e.factor)}: {_change(q, e)}" for e in shown)
+        page.figure(
+            figure,
+            f"Main effects on {q.title}. Dots with bars: mean over all points at that value, and their standard "
+            f"deviation. Changes from one end to the other: {words}.",
+            f"main effects on {q.title}",
+        )
+    rows = [
+        [e.factor, f"{_level(e.levels[0])} … {_level(e.levels[-1])}", _change(q, e), look.percent(e.share)]
+        for e in found
+    ]
+    page.table(
+        ["factor", "from … to", f"change of {q.name}", "share of the variance"],
+        rows,
+        f"{q.title}. Shares that do not add up to 100 % leave room for what factors do together, and for scatter.",
+        words=2,
+    )
+
+
+def _level(value: Any) -> str:
+    if not isinstance(value, (int, float)):
+        return str(value)
+    text = f"{value:.4g}"
+    return look.number(float(value), 3) if "e" in text else text.replace("-", "−")
+
+
+def _change(q: Quantity, effect: Effect) -> str:
+    """Of angles in degrees, else relative."""
+    first, last = effect.ends
+    text = f"{last - first:+.2g}°" if q.unit == "°" else f"{100 * (last / first - 1):+.3g} %" if first else "–"
+    return text.replace("-", "−")
+
+
+def _panel(axis: Any, effect: Effect, points: pd.DataFrame) -> None:
+    axis.set_xlabel(short(effect.factor))
+    x, y = points[effect.factor], points["value"]
+    if not numeric(points, effect.factor):
+        axis.plot([effect.levels.index(v) for v in x], y, "o", color="#c3c7cc", ms=2.5)
+        axis.errorbar(range(len(effect.levels)), effect.means, effect.spreads, fmt="o", color=look.COLOURS[0])
+        axis.set_xticks(range(len(effect.levels)), [str(v)[:14] for v in effect.levels])
+        axis.margins(x=0.2)
+        return
+    axis.plot(x, y, "o", color="#c3c7cc", ms=2.5)
+    if continuous(points, effect.factor):
+        axis.plot(effect.levels, effect.means, "-", color=look.COLOURS[0])
+    else:
+        axis.errorbar(effect.levels, effect.means, effect.spreads, fmt="o-", color=look.COLOURS[0])
+        axis.set_xticks(effect.levels)
+    axis.margins(x=0.08)
+
+
+def _map(page: Page, q: Quantity) -> None:
+    """Over the two numeric factors that matter most, the others averaged."""
+    points = q.points
+    two = sorted([e.factor for e in effects(q) if numeric(points, e.factor)][:2])
+    if len(two) < 2:
+        return
+    figure, axis = look.figure(look.WIDE * 0.72, 3.3)
+    mean = points.groupby(two)["value"].mean().reset_index()
+    grid = mean.pivot(index=two[1], columns=two[0], values="value")
+    x, y = grid.columns.to_numpy(float), grid.index.to_numpy(float)
+    if grid.notna().all().all() and min(grid.shape) > 1 and max(grid.shape) <= 4 * FEW:
+        drawn = axis.contourf(x, y, grid.to_numpy(), levels=12, cmap="viridis")
+        for i, j in np.ndindex(grid.shape) if grid.size <= 60 else ():
+            value = grid.to_numpy()[i, j]
+            axis.annotate(
+                look.number(float(value), 3),
+                (x[j], y[i]),
+                ha="center",
+                va="center",
+                fontsize=6.5,
+                bbox={"boxstyle": "round,pad=0.2", "fc": "white", "alpha": 0.8, "lw": 0},
+            )
+        axis.grid(False)
+        axis.set_xticks(x)
+        axis.set_yticks(y)
+        for ends, reach in ((x, axis.set_xlim), (y, axis.set_ylim)):  # room for the numbers at the rim
+            reach(ends[0] - 0.09 * np.ptp(ends), ends[-1] + 0.09 * np.ptp(ends))
+        how = "The numbers are those of the points; colours lie between them."
+    else:
+        drawn = axis.scatter(mean[two[0]], mean[two[1]], c=mean["value"], cmap="viridis", s=28)
+        how = "Each dot is a point."
+    figure.colorbar(drawn, ax=axis, label=f"{q.name} ({q.unit})")
+    axis.set(xlabel=short(two[0]), ylabel=short(two[1]))
+    best, worst = mean.loc[mean["value"].idxmax()], mean.loc[mean["value"].idxmin()]
+    page.figure(
+        figure,
+        f"Map of {q.title} over {short(two[0])} and {short(two[1])}, the mean over seeds and other factors. "
+        f"It is largest, "
+        f"{_value(q, best['value'])}, at {_level(float(best[two[0]]))} and {_level(float(best[two[1]]))}, and "
+        f"smallest, {_value(q, worst['value'])}, at {_level(float(worst[two[0]]))} and "
+        f"{_level(float(worst[two[1]]))}. {how}",
+        f"map of {q.title}",
+    )
+
+
+def _seeds(page: Page, values: list[Quantity]) -> None:
+    rows = []
+    for q in values:
+        known = scatter(q)
+        if known:
+            deviation, points, fewest = known
+            rows.append([q.title, look.percent(deviation), look.percent(deviation / fewest**0.5), points, fewest])
+    if rows:
+        page.table(
+            ["quantity", "standard deviation", "of the mean over seeds", "points", "seeds of each"],
+            rows,
+            "How much another "
+            "specimen of the same mix differs, relative to the mean of its point, pooled over the points. Differences "
+            "between points that are smaller than this are chance.",
+            words=1,
+        )
+
+
+def _machines(page: Page, design: Design, folder: Path) -> None:
+    rows: dict[tuple[str, str], list[float]] = {}
+    for job in design.jobs:
+        file = folder / "results" / job.key / "study.json"
+        if file.is_file():
+            record = table.read_json(file)
+            rows.setdefault((record["machine"]["name"], record["machine"]["processor"]), []).append(record["wall_s"])
+    page.table(
+        ["machine", "processor", "results", "median time", "together"],
+        [
+            [name, processor, len(times), look.seconds(float(np.median(times))), look.seconds(sum(times))]
+            for (name, processor), times in rows.items()
+        ],
+        words=2,
+    )

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the tests of studies share: a program in place of macadam, quick and countable, and the scene that it reads."""
+
+from __future__ import annotations
+
+import stat
+from pathlib import Path
+
+import report_folders
+
+# |E*| is delta in GPa, the phase angle ten degrees; each start and each end is a line of LOG
+_PROGRAM = """#!/bin/sh
+case $1 in --version) echo "macadam stand-in VERSION"; exit ;; esac
+value=$(sed -n 's/^delta = //p' "$2" | head -n 1)
+value=${value:-1.0}
+echo "begin $value" >> "LOG"
+REAL
+case $value in
+  13.0) echo "macadam: $2: found 13, expected better luck" >&2; exit 1 ;;
+  17.0) kill -9 $$ ;;
+esac
+sleep PAUSE
+printf '{"status": "done", "macadam": "stand-in", "particles": 7, "warnings": [], ' > "$4/summary.json"
+printf '"results": [{"frequency_hz": 10.0, "e_star_pa": %se9, "phase_deg": 10.0}]}' "$value" >> "$4/summary.json"
+echo "end $value" >> "LOG"
+"""
+_REAL = 'case $value in *REAL) PROGRAM "$@" && echo "end $value" >> "LOG"; exit ;; esac'
+
+
+def stand_in(folder: Path, pause: float = 0.0, version: str = "1", real: str = "") -> tuple[str, Path]:
+    """The program and its log. real: values that end so are computed by macadam itself."""
+    log = folder / "log"
+    lines = _REAL.replace("REAL", real).replace("PROGRAM", str(report_folders.PROGRAM)) if real else ""
+    text = (
+        _PROGRAM.replace("REAL", lines)
+        .replace("LOG", str(log))
+        .replace("PAUSE", str(pause))
+        .replace("VERSION", version)
+    )
+    file = folder / f"macadam-{version}"
+    file.write_text(text, encoding="utf-8")
+    file.chmod(file.stat().st_mode | stat.S_IXUSR)
+    log.touch()
+    return str(file), log
+
+
+def lines(log: Path, of: str) -> list[float]:
+    """The values of all begins or ends."""
+    return [float(line.split()[1]) for line in log.read_text().splitlines() if line.startswith(of)]
+
+
+def scene(folder: Path) -> Path:
+    """The scene of eight millimetres with one `delta`, that of M-A."""
+    text = report_folders.scene("file").replace('pair = "M-A"\n', 'pair = "M-A"\ndelta = 1.0\n')
+    file = folder / "scene.toml"
+    file.write_text(text, encoding="utf-8")
+    return file

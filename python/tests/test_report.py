@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reports: a page of every kind of result folder says what is in it; a wrong folder is an error that names it."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import macadam.report.__main__ as command
+from macadam.report import ReportError, report, specimen
+from report_folders import ENVIRONMENT, PROGRAM, ROOT, make
+
+pytestmark = pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
+
+CASES = {
+    "stepped": [
+        "The specimen",
+        "Decided by the program",
+        "as it was stepped",
+        "Error bars",
+        "geometry update",
+        "stepping",
+    ],
+    "harmonic": [
+        "Cole–Cole",
+        "Black diagram",
+        "Loops of the steady state",
+        "What the result depends on",
+        "median area",
+    ],
+    "temperatures": ["Master curve of", "shift a_T", "φ in degrees at 3 temperatures"],
+    "relaxation": ["Relaxation", "the modulus falls from", "Prony series", "prony_abaqus.inp"],
+    "creep": ["Creep", "is left at", "a step of stress (right)"],
+    "monotonic": ["Constant rate of strain", "compression at", "secant modulus"],
+    "confined": ["The sides are held", "confined"],
+    "recipe": [
+        "Gradation of",
+        "voids in the mineral aggregate",
+        "no test was run",
+        "Cells as the program cut them",
+        "The curve leaves the envelope at 2.00 mm",
+    ],
+    "voids": ["Air voids are white", "air voids with cells"],
+    "file": ["the specimen comes from a file"],
+    "calibration": ["Measured (dots) and predicted (lines)", "M-A.delta"],
+    "fit": ["Measured (dots) and fitted (lines)", "Kelvin 1"],
+    "shapes": ["Statistics over all shapes"],
+}
+
+
+@pytest.fixture
+def no_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Specimens are not drawn: most of the time of a report."""
+    monkeypatch.setattr(specimen, "MOST", 0)
+
+
+@pytest.mark.parametrize("kind", CASES)
+def test_every_kind_of_folder(kind: str, tmp_path: Path) -> None:
+    out = report(make(kind), tmp_path / "report.html")
+    page = out.read_text(encoding="utf-8")
+    plain = re.sub(r"data:[^\"]*", "", page)
+    for words in CASES[kind]:
+        assert words in re.sub(r"<[^>]*>", "", plain) or words in plain, words
+    assert "<script" not in plain and "http" not in plain.replace("http-equiv", "")  # nothing to load, nothing to run
+    assert not re.search(r">[^<]*\b(nan|None|inf)\b", plain), "a value that is none shows as one"
+    assert list(tmp_path.iterdir()) == [out]
+
+
+def test_folders_side_by_side_have_names_and_a_table_of_differences(tmp_path: Path, no_pictures) -> None:
+    folders = [make(kind) for kind in ("stepped", "harmonic", "confined")]
+    plain = re.sub(r"<[^>]*>|data:[^\"]*", "", report(folders, tmp_path / "r.html").read_text(encoding="utf-8"))
+    for name in ("stepped", "harmonic", "confined"):
+        assert name in plain
+    assert "|E*| to stepped (%)" in plain
+
+
+def test_seeds_of_one_scene_have_a_mean_and_a_scatter(tmp_path: Path, no_pictures) -> None:
+    folders = [make("harmonic", seed) for seed in (1, 2)]
+    plain = report(folders, tmp_path / "r.html").read_text(encoding="utf-8")
+    values = [json.loads((f / "summary.json").read_text())["results"][0]["e_star_pa"] for f in folders]
+    scatter = abs(values[0] - values[1]) / 2**0.5 / (sum(values) / 2)
+    assert "mean of 2 seeds" in plain
+    said = re.search(r"standard deviation as bars; it is ([\d.]+) % of", plain)
+    assert said and float(said[1]) >= 0.98 * 100 * scatter  # the largest of all frequencies
+
+
+def test_folders_of_one_name_are_told_apart(tmp_path: Path, no_pictures) -> None:
+    for parent in "ab":
+        shutil.copytree(make("harmonic"), tmp_path / parent / "same")
+    plain = report([tmp_path / "a/same", tmp_path / "b/same"], tmp_path / "r.html").read_text(encoding="utf-8")
+    assert "a/same" in plain and "b/same" in plain
+
+
+def test_what_is_missing_is_left_out_and_said(tmp_path: Path) -> None:
+    folder = tmp_path / "part"
+    shutil.copytree(make("harmonic"), folder)
+    for name in ("specimen.csv", "aggregates.csv", "contacts.csv"):
+        (folder / name).unlink()
+    plain = report(folder, tmp_path / "r.html").read_text(encoding="utf-8")
+    for words in ("no specimen.csv in the folder", "no contacts.csv", "no aggregates.csv"):
+        assert words in plain
+
+
+def test_text_of_files_is_text_of_the_page(tmp_path: Path, no_pictures) -> None:
+    folder = tmp_path / "<b>x & y"
+    shutil.copytree(make("file"), folder)
+    summary = json.loads((folder / "summary.json").read_text())
+    summary.update(status="failed: <script>alert(1)</script>", warnings=["a < b & c"])
+    (folder / "summary.json").write_text(json.dumps(summary))
+    page = report(folder, tmp_path / "r.html").read_text(encoding="utf-8")
+    assert "<script>" not in page and "&lt;script&gt;" in page and "a &lt; b &amp; c" in page and "<b>x" not in page
+    assert "This run is not complete".lower() in page.lower()
+
+
+def _empty(folder: Path) -> None:
+    pass
+
+
+def _no_json(folder: Path) -> None:
+    (folder / "summary.json").write_text("{")
+
+
+def _other_json(folder: Path) -> None:
+    (folder / "summary.json").write_text("[1]")
+
+
+def _no_status(folder: Path) -> None:
+    (folder / "summary.json").write_text("{}")
+
+
+def _columns(folder: Path) -> None:
+    (folder / "summary.json").write_text('{"status": "done", "results": []}')
+    (folder / "specimen.csv").write_text("a,b\n1,2\n")
+
+
+@pytest.mark.parametrize(
+    "spoil, says",
+    [
+        (_empty, "no result folder of macadam"),
+        (_no_json, "summary.json: "),
+        (_other_json, "found a list, expected an object"),
+        (_no_status, "found no status"),
+        (_columns, "specimen.csv: found the columns a, b; expected also x"),
+    ],
+)
+def test_a_wrong_folder_is_an_error_of_exit_code_2(spoil, says: str, tmp_path: Path, capsys) -> None:
+    folder = tmp_path / "wrong"
+    folder.mkdir()
+    spoil(folder)
+    out = tmp_path / "r.html"
+    assert command.main([str(folder), "--out", str(out)]) == 2
+    error = capsys.readouterr().err
+    assert str(folder) in error and says in error and "Traceback" not in error
+    assert not out.exists() and not list(tmp_path.glob(".*"))
+
+
+def test_other_wrong_requests(tmp_path: Path, capsys) -> None:
+    folder = make("file")
+    with pytest.raises(ReportError, match="no such folder"):
+        report(tmp_path / "nowhere", tmp_path / "r.html")
+    with pytest.raises(ReportError, match="found a file"):
+        report(folder / "summary.json", tmp_path / "r.html")
+    with pytest.raises(ReportError, match="given twice"):
+        report([folder, folder], tmp_path / "r.html")
+    with pytest.raises(ReportError, match="no result folder given"):
+        report([], tmp_path / "r.html")
+    with pytest.raises(ReportError, match="found a folder"):
+        report(folder, tmp_path)
+    (tmp_path / "file").write_text("")
+    assert command.main([str(folder), "--out", str(tmp_path / "file/r.html")]) == 1  # cannot be written
+    assert "file" in capsys.readouterr().err
+
+
+def test_commands_of_the_page(tmp_path: Path, no_pictures) -> None:
+    """Every command and every line of Python of docs/report.md, in a folder with results of its names."""
+    page = (ROOT / "docs/report.md").read_text(encoding="utf-8")
+    shutil.copytree(make("stepped"), tmp_path / "results/demo")
+    shutil.copytree(make("harmonic"), tmp_path / "results/harmonic")
+    code = [line[4:] for line in page.splitlines() if line.startswith("    ")]
+    commands = [line for line in code if line.startswith("python -m ")]
+    assert len(commands) == 2 and len(code) == 4
+    for line in commands:
+        words = shlex.split(line)
+        subprocess.run([sys.executable, *words[1:]], cwd=tmp_path, check=True, env=ENVIRONMENT)
+    (tmp_path / "report.html").unlink()
+    program = "\n".join(line for line in code if line not in commands)
+    subprocess.run([sys.executable, "-c", program], cwd=tmp_path, check=True, env=ENVIRONMENT)
+    assert (tmp_path / "report.html").is_file() and "Stepped and harmonic" in (tmp_path / "both.html").read_text(
+        "utf-8"
+    )

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Studies whose driver or workers are killed at random moments: all results come to be, and none is computed twice."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from report_folders import ENVIRONMENT, PROGRAM
+from study_faults import lines, scene, stand_in
+
+psutil = pytest.importorskip("psutil")
+pytest.importorskip("parsl")
+
+POINTS, KILLS, WORKERS = 200, 10, 2
+STUDY = f"""
+scene = "scene.toml"
+[grid]
+"contacts.M-A.delta" = {[100.0 + k for k in range(POINTS)]}
+[run]
+workers = {WORKERS}
+"""
+
+
+def processes(driver: subprocess.Popen, folder: Path) -> list[psutil.Process]:
+    """The driver, and all that it began, directly or not; of drivers before it too."""
+    found = {driver.pid: psutil.Process(driver.pid)} if driver.poll() is None else {}
+    for process in psutil.process_iter():
+        try:
+            if str(folder) in " ".join(process.cmdline()):
+                for one in (process, *process.children(recursive=True)):
+                    found[one.pid] = one
+        except psutil.Error:
+            continue
+    found.pop(os.getpid(), None)
+    return list(found.values())
+
+
+def is_worker(process: psutil.Process) -> bool:
+    """Or the program that it runs; not Parsl's manager of the workers."""
+    try:
+        line, above = " ".join(process.cmdline()), process.parent()
+        return "macadam-1" in line or (above is not None and "process_worker_pool.py" in " ".join(above.cmdline()[:2]))
+    except psutil.Error:
+        return False
+
+
+def killed(process: psutil.Process) -> bool:
+    """Whether it was alive, and is dead now."""
+    try:
+        process.kill()
+    except psutil.Error:
+        return False
+    return True
+
+
+def published(out: Path) -> dict[str, tuple[int, int]]:
+    """The results that are there; a folder made anew would be another one."""
+    there = {}
+    for result in (out / "results").glob("*"):
+        state = (result / "study.json").stat()
+        there[result.name] = (state.st_ino, state.st_mtime_ns)
+    return there
+
+
+@pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
+def test_ten_kills_of_drivers_and_workers(tmp_path: Path) -> None:
+    program, log = stand_in(tmp_path, pause=0.15, real="5.0")  # every tenth is computed by macadam
+    scene(tmp_path)
+    (tmp_path / "study.toml").write_text(STUDY)
+    out = tmp_path / "out"
+    chance = random.Random(7)
+    moments = sorted(chance.sample(range(2, POINTS - 5), KILLS))  # numbers of results after which somebody is killed
+    line = [sys.executable, "-m", "macadam.study", "study.toml", "--out", str(out)]
+    environment = {**ENVIRONMENT, "MACADAM_PROGRAM": program}
+    kept: dict[str, tuple[int, int]] = {}
+    driver, drivers, workers, moved = None, 0, 0, time.monotonic()
+    seen: set[psutil.Process] = set()
+    try:
+        while driver is None or driver.poll() is None or driver.returncode != 0:
+            assert time.monotonic() < moved + 400, f"no result more than {len(kept)} for 400 s"
+            if driver is None or driver.poll() is not None:
+                assert driver is None or driver.returncode == -signal.SIGKILL, driver.stderr.read()
+                driver = subprocess.Popen(line, cwd=tmp_path, env=environment, stderr=subprocess.PIPE, text=True)
+            there = published(out)
+            assert {key: there.get(key) for key in kept} == kept, "a result was made anew"
+            moved = time.monotonic() if len(there) > len(kept) else moved
+            kept = there
+            if moments and len(there) >= moments[0]:
+                all_of_them = processes(driver, out)
+                seen |= set(all_of_them)
+                busy = [p for p in all_of_them if p.pid != driver.pid and is_worker(p)]
+                if len(moments) % 3:
+                    if busy and killed(chance.choice(busy)):
+                        workers += 1
+                        moments.pop(0)
+                else:
+                    driver.kill()
+                    driver.wait()
+                    drivers += 1
+                    moments.pop(0)
+            time.sleep(0.02)
+        _, left = psutil.wait_procs(seen, timeout=90)  # what a killed driver leaves behind ends by itself
+        assert not left, left
+    finally:
+        for process in {*processes(driver, out), *seen}:
+            killed(process)
+    assert not moments and drivers >= 3 and workers >= 3
+    assert len(published(out)) == POINTS
+    table = pd.read_csv(out / "table.csv", encoding="utf-8-sig")
+    assert set(table["contacts.M-A.delta"]) == {100.0 + k for k in range(POINTS)} and table["key"].nunique() == POINTS
+    assert len(table) == POINTS + 2 * (POINTS // 10)  # those of macadam have three frequencies
+    # what was begun again was under way when somebody was killed: at most what all workers had
+    assert len(lines(log, "begin")) <= POINTS + KILLS * WORKERS
+    assert set(lines(log, "end")) == {100.0 + k for k in range(POINTS)}
+    assert not (out / "failures.csv").exists() and not (out / "running").exists()
+    before = len(lines(log, "begin"))
+    again = subprocess.run(line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120)
+    assert again.returncode == 0 and len(lines(log, "begin")) == before, "a finished study computes nothing"

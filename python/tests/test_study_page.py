@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What docs/studies.md and examples/study say runs."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from macadam.study import executors, study
+from macadam.study.design import read_design
+from report_folders import ENVIRONMENT, PROGRAM, ROOT
+from study_faults import stand_in
+
+
+def blocks(page: str) -> list[str]:
+    """Indented blocks of a page."""
+    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
+    return [re.sub(r"(?m)^    ", "", b) for b in re.findall(r"(?m)(?:^    .*\n|^\n(?=    ))+", text)]
+
+
+def test_commands_of_the_page(tmp_path: Path) -> None:
+    """Every command, study file and line of Python of docs/studies.md; a stand-in computes."""
+    shutil.copytree(ROOT / "examples", tmp_path / "examples", ignore=shutil.ignore_patterns("shapes", "ct"))
+    environment = {**ENVIRONMENT, "MACADAM_PROGRAM": stand_in(tmp_path)[0]}
+    shutil.copy(tmp_path / "examples/study/scene.toml", tmp_path)
+    commands, studies, programs = 0, 0, 0
+    for block in blocks("studies.md"):
+        if block.lstrip().startswith("python -m"):
+            commands += 1
+            words = shlex.split(block.strip())
+            subprocess.run([sys.executable, *words[1:]], cwd=tmp_path, check=True, env=environment, timeout=300)
+        elif "import study" in block:
+            programs += 1
+            subprocess.run([sys.executable, "-c", block], cwd=tmp_path, check=True, env=environment, timeout=300)
+        elif block.lstrip().startswith("scene ="):
+            studies += 1
+            (tmp_path / "study.toml").write_text(block)
+            assert len(read_design(tmp_path / "study.toml", "1").jobs) == (18, 240)[studies - 1]
+        else:
+            executors.check(tomllib.loads(block)["run"])
+    assert (commands, studies, programs) == (3, 2, 1)
+    key = next((tmp_path / "results/study/results").iterdir()).name
+    assert f"python -m macadam.report results/study/results/{'KEY'} --out one.html" in (
+        ROOT / "docs/studies.md"
+    ).read_text("utf-8")
+    line = [sys.executable, "-m", "macadam.report", f"results/study/results/{key}", "--out", "one.html"]
+    subprocess.run(line, cwd=tmp_path, check=True, env=environment, timeout=300)
+
+
+@pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
+def test_the_example(tmp_path: Path, monkeypatch) -> None:
+    """Its file has 48 points; the two corners with the most aggregate and the most holes are computed."""
+    monkeypatch.setenv("MACADAM_PROGRAM", PROGRAM)
+    example = ROOT / "examples/study/study.toml"
+    assert len(read_design(example, "1").jobs) == 48
+    asked_for = tomllib.loads(example.read_text("utf-8"))
+    asked_for["scene"] = str(ROOT / "examples/study/scene.toml")
+    asked_for["grid"] = {"specimen.seed": [1]}
+    asked_for["list"] = [
+        {"specimen.recipe.air_voids": a, "specimen.recipe.binder": b} for a, b in (("2 %", "5 %"), ("8 %", "8 %"))
+    ]
+    found = study(asked_for, tmp_path / "out", on="threads")
+    stiff, soft = found.table["E* (MPa)"]
+    assert not found.failures and stiff > 1.3 * soft > 0
