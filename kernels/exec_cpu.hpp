@@ -18,7 +18,9 @@
 namespace macadam::kernels {
 
 /// Owns the arrays of a scene in precision P and runs bodies and contacts over them. `width`: contacts of a packet, 4
-/// or 8; the numbers do not depend on it.
+/// or 8; the numbers do not depend on it. What runs in the loops over bodies and contacts is inlined whole (`flatten`):
+/// a packet wider than a register (in mixed precision without AVX-512, in double without AVX) is a tuple to gcc, whose
+/// many small functions otherwise end up as calls, up to four times slower.
 template <class P, class Laws, std::size_t width = packet_width<P>>
 class ExecCpu {
  public:
@@ -124,7 +126,7 @@ class ExecCpu {
     Barrier& barrier;
 
     /// Moves all bodies with the forces of the last contacts(); k: the row of the walls' table.
-    void bodies(const ParticleMotion<P>& motion, std::int64_t k) const {
+    [[gnu::flatten]] void bodies(const ParticleMotion<P>& motion, std::int64_t k) const {
       for_own_tiles([&](std::size_t tile) {
         std::uint32_t own = exec.accumulators_.tile_begin[tile];
         for (auto i = exec.layout_.tile_body[tile]; i < exec.layout_.tile_body[tile + 1]; ++i) {
@@ -262,7 +264,7 @@ class ExecCpu {
   struct GroupOf final : Group {
     Forces forces{};
 
-    void run(ExecCpu& exec, std::size_t tile, const MotionView<P>& motion) override {
+    [[gnu::flatten]] void run(ExecCpu& exec, std::size_t tile, const MotionView<P>& motion) override {
       const auto& packets = exec.layout_.groups[this->number].tile_packet;
       const std::uint32_t* end_a = exec.accumulators_.end_a[this->number].data();
       const std::uint32_t* end_b = exec.accumulators_.end_b[this->number].data();

@@ -18,12 +18,10 @@ ROOT = Path(__file__).resolve().parent.parent
 
 def program(given):
     """The program to run: the one given, else the one built."""
-    candidates = [given] if given else [ROOT / "build" / folder / "macadam" for folder in ("test", "demo")]
-    for file in candidates:
-        if file.is_file():
-            return file.resolve()
-    raise SystemExit(f"no program {' or '.join(map(str, candidates))}: scripts/test or scripts/demo builds it, "
-                     "--program names another")
+    file = given or ROOT / "build" / "local" / "macadam"
+    if file.is_file():
+        return file.resolve()
+    raise SystemExit(f"no program {file}: scripts/test or scripts/demo builds it, --program names another")
 
 
 def rows(file):

@@ -7,17 +7,13 @@
 #include <algorithm>
 
 #include "host/fields/open_hdf5.hpp"
+#include "host/hdf5_type.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
 namespace {
 
 using Row = std::vector<hsize_t>;  ///< of an array: empty for one number, else how many
-
-const H5::PredType& type_of(float) { return H5::PredType::NATIVE_FLOAT; }
-const H5::PredType& type_of(double) { return H5::PredType::NATIVE_DOUBLE; }
-const H5::PredType& type_of(std::int32_t) { return H5::PredType::NATIVE_INT32; }
-const H5::PredType& type_of(std::int64_t) { return H5::PredType::NATIVE_INT64; }
 
 /// Makes an array without rows that can grow; `piece` rows stand together in the file. `packed`: compressed.
 H5::DataSet make_growing(const H5::Group& group, const std::string& name, const H5::DataType& type, const Row& row,

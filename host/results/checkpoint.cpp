@@ -10,6 +10,7 @@
 #include <fstream>
 #include <new>
 
+#include "host/hdf5_type.hpp"
 #include "host/quiet_hdf5.hpp"
 #include "host/results/files.hpp"
 #include "macadam/error.hpp"
@@ -18,10 +19,6 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t user_block = 512;  ///< HDF5's smallest
-
-const H5::PredType& type_of(float) { return H5::PredType::NATIVE_FLOAT; }
-const H5::PredType& type_of(double) { return H5::PredType::NATIVE_DOUBLE; }
-const H5::PredType& type_of(std::int64_t) { return H5::PredType::NATIVE_INT64; }
 
 template <class T>
 StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {

@@ -10,8 +10,7 @@
 namespace macadam::scene {
 namespace {
 
-/// The design's own checks say what a number must be, beside the sum that it spoils.
-constexpr Rule any{[](double) { return true; }, "a number"};
+// Where `any` number may stand, the design's own checks say what it must be, beside the sum that it spoils.
 constexpr Rule share{[](double v) { return v >= 0 && v <= 1; },
                      "a share from 0 to 1, or text from \"0 %\" to \"100 %\""};
 

@@ -13,7 +13,6 @@ const std::vector<std::string> kinds{"wlf", "arrhenius", "table"};
 const std::vector<std::vector<std::string>> taken{{"C1", "C2", "reference_temperature"},
                                                   {"activation_energy", "reference_temperature"},
                                                   {"temperatures", "log10_a_T"}};
-constexpr Rule any{[](double) { return true; }, "a number"};
 
 }  // namespace
 

@@ -22,6 +22,7 @@ struct Rule {
   bool (*holds)(double);
   const char* words;
 };
+inline constexpr Rule any{[](double) { return true; }, "a number"};
 inline constexpr Rule positive{[](double v) { return v > 0; }, "a positive number"};
 inline constexpr Rule non_negative{[](double v) { return v >= 0; }, "a number that is not negative"};
 

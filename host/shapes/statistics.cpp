@@ -24,7 +24,7 @@ std::vector<ShapeProperty> correlated_properties() {
   return out;
 }
 
-std::string shown(double x, int decimals) { return std::isfinite(x) ? fmt::format("{:.{}f}", x, decimals) : "-"; }
+std::string to_decimals(double x, int decimals) { return std::isfinite(x) ? fmt::format("{:.{}f}", x, decimals) : "-"; }
 
 /// For CSV files: nothing where there is no number.
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; }
@@ -149,7 +149,8 @@ std::string statistics_text(const std::vector<ShapeMeasure>& shapes) {
   for (const ShapeProperty& p : shape_properties()) {
     const Spread s = spread_of(p, shapes);
     text += fmt::format("{:<8} {:<3} {:>6}", p.name, p.unit, s.shapes);
-    for (const double x : {s.min, s.average, s.max}) text += fmt::format(" {:>9}", shown(x * p.per_unit, p.decimals));
+    for (const double x : {s.min, s.average, s.max})
+      text += fmt::format(" {:>9}", to_decimals(x * p.per_unit, p.decimals));
     text += "         ";
     for (const double x : p.paper) text += fmt::format(" {:>8.{}f}", x, p.decimals);
     text += "\n";
@@ -169,7 +170,7 @@ std::string statistics_text(const std::vector<ShapeMeasure>& shapes) {
   for (const ShapeProperty& p : properties) text += fmt::format(" {:>5}", p.name);
   for (std::size_t i = 0; i < matrix.size(); ++i) {
     text += fmt::format("\n{:<5}", properties[i].name);
-    for (std::size_t j = 0; j <= i; ++j) text += fmt::format(" {:>5}", shown(matrix[i][j], 2));
+    for (std::size_t j = 0; j <= i; ++j) text += fmt::format(" {:>5}", to_decimals(matrix[i][j], 2));
   }
   return text + "\n";
 }

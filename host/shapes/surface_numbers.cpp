@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-constexpr double largest = 1e50;  // [m]; volumes stay far from overflow
+constexpr double largest_coordinate = 1e50;  // [m]; volumes stay far from overflow
 
 }  // namespace
 
@@ -20,9 +20,10 @@ void require_sound_numbers(const Surface& surface) {
   if (surface.facets.empty()) throw InputError(surface.name, 0, "surface", "no facet", "a closed surface");
   for (std::size_t p = 0; p < surface.points.size(); ++p) {
     const Vec3d& x = surface.points[p];
-    if (std::abs(x.x) < largest && std::abs(x.y) < largest && std::abs(x.z) < largest) continue;
+    if (std::abs(x.x) < largest_coordinate && std::abs(x.y) < largest_coordinate && std::abs(x.z) < largest_coordinate)
+      continue;
     throw InputError(surface.name, 0, fmt::format("point {}", p), fmt::format("({}, {}, {})", x.x, x.y, x.z),
-                     fmt::format("finite coordinates below {} m", largest));
+                     fmt::format("finite coordinates below {} m", largest_coordinate));
   }
   for (std::size_t f = 0; f < surface.facets.size(); ++f) {
     for (const std::int32_t p : surface.facets[f]) {

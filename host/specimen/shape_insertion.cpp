@@ -9,8 +9,8 @@
 namespace macadam {
 namespace {
 
-constexpr std::int64_t plain_attempts = 2'000;  // a listing of open cells costs about as much
-constexpr std::int64_t tries_at_once = 4;       // of one thread
+constexpr std::int64_t plain_shape_attempts = 2'000;  // a listing of open cells costs about as much
+constexpr std::int64_t shape_tries_at_once = 4;       // of one thread
 
 double smallest_radius(const std::vector<ShapeBody>& bodies) {
   double r = bodies.empty() ? 1 : bodies.front().radius();
@@ -38,7 +38,7 @@ ShapeInsertion::ShapeInsertion(const Box& box, const std::vector<ShapeBody>& bod
 }
 
 bool ShapeInsertion::place(std::size_t k, ShapeBody& body) {
-  const std::int64_t plain = std::min(attempts_, plain_attempts);
+  const std::int64_t plain = std::min(attempts_, plain_shape_attempts);
   const auto anywhere = [&](Draws draws, ShapeBody& b) {
     b.set_turn(random_turn(draws));
     const Extent e = extent(b);
@@ -68,7 +68,7 @@ bool ShapeInsertion::place(std::size_t k, ShapeBody& body) {
 
 template <class Attempt>
 bool ShapeInsertion::find(std::int64_t most, std::size_t draws, const Attempt& attempt, ShapeBody& body) {
-  const auto found = random_.first_good(most, draws, tries_at_once, [&](Draws next) {
+  const auto found = random_.first_good(most, draws, shape_tries_at_once, [&](Draws next) {
     ShapeBody tried = body;
     return attempt(next, tried);
   });

@@ -50,11 +50,11 @@ Vec3d back(const Pose& pose, const Vec3d& point) {
 }
 
 /// The shapes in their places, single spheres left out.
-class Placed {
+class PlacedShapes {
  public:
   /// `reach`: of the largest sphere that is to be held out [m].
-  Placed(const Box& box, std::vector<std::shared_ptr<const Shape>> shapes, std::vector<PlacedAggregate> placed,
-         double reach)
+  PlacedShapes(const Box& box, std::vector<std::shared_ptr<const Shape>> shapes, std::vector<PlacedAggregate> placed,
+               double reach)
       : shapes_(std::move(shapes)), placed_(std::move(placed)), grid_(box, smallest_edge(box) / 20) {
     for (std::size_t k = 0; k < placed_.size(); ++k) {
       const PlacedAggregate& a = placed_[k];
@@ -181,8 +181,8 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
     out.aggregate[k].spheres = static_cast<std::int64_t>(out.spheres[k].size());
   }
   for (const auto& shape : shapes) out.surfaces.push_back(shape->placed.surface);
-  const auto all = std::make_shared<const Placed>(spec.box, std::move(shapes), std::move(placed.aggregate),
-                                                  spec.mastic ? spec.mastic->radius_max : 0);
+  const auto all = std::make_shared<const PlacedShapes>(spec.box, std::move(shapes), std::move(placed.aggregate),
+                                                        spec.mastic ? spec.mastic->radius_max : 0);
   out.inside = [all](const Vec3d& point) { return all->hold(point); };
   if (how.hold_out > 0) {
     out.outside.depth = [all](const Vec3d& point, double reach) { return all->outside(point, reach); };

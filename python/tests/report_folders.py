@@ -15,8 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def _program() -> str | None:
     for candidate in (
         os.environ.get("MACADAM_PROGRAM"),
-        ROOT / "build/test/macadam",
-        ROOT / "build/demo/macadam",
+        ROOT / "build/local/macadam",
         ROOT / "build/cpu-release/macadam",
     ):
         if candidate and Path(candidate).is_file():

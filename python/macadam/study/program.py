@@ -10,7 +10,7 @@ from pathlib import Path
 
 from macadam.study.errors import StudyError
 
-_BUILDS = ("demo", "cuda-release", "cpu-release", "release", "test")
+_BUILDS = ("local", "cuda-release", "cpu-release", "release")
 
 
 def find_program() -> str:
