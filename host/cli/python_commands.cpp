@@ -39,6 +39,7 @@ std::string interpreter() {
     const char* const before = std::getenv("PYTHONPATH");
     setenv("PYTHONPATH", (folder.string() + (before && *before ? ":" + std::string(before) : "")).c_str(), 1);
   }
+  setenv("MACADAM_PROGRAM", own_program().c_str(), 0);  // studies run this program, unless another one is named
   const std::string look =
       fmt::format("import sys, importlib.util as u; sys.exit(u.find_spec('macadam.{}') is None)", command);
   if (!runs({python, "-c", look})) {

@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from ._scene import Scene
     from ._simulation import Result, creep, harmonic, monotonic, relaxation, run, sweep
     from ._specimen import specimen
+    from .report.document import report
+    from .study.driver import study
     __version__: str
 
 __all__ = [name for name in _HOME_OF if not name.startswith("_")] + list(_MODULES)

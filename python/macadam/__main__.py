@@ -7,31 +7,37 @@ import importlib.util
 import os
 import runpy
 import sys
-from pathlib import Path
+
+from ._program import own_program
 
 #: Commands that are packages of their own.
 _HERE = ("report", "study")
+_NEEDED = ("numpy", "pandas", "matplotlib")
 
 
-def _program() -> str | None:
-    """The C++ program: of this package, or, where the package runs from a build, that of the build."""
-    here = Path(__file__).parent
-    for file in (here / "bin" / "macadam", here.parent.parent / "macadam"):
-        if file.is_file() and os.access(file, os.X_OK):
-            return str(file)
-    return None
+def _check(command: str) -> None:
+    """Ends with a message where this Python is too old or lacks a package that the command cannot be without."""
+    missing = [name for name in _NEEDED if importlib.util.find_spec(name) is None]
+    if sys.version_info < (3, 11):
+        found, expected = "Python " + ".".join(map(str, sys.version_info[:2])), "3.11 or later"
+    elif missing:
+        found, expected = "no Python package " + ", ".join(missing), f"{'it' if len(missing) == 1 else 'them'}"
+    else:
+        return
+    print(f"macadam {command}: {sys.executable}: found {found}, expected {expected}: `scripts/python report` in the source tree "
+          f"or `pip install 'macadam[{command}]'` installs it; MACADAM_PYTHON names another Python", file=sys.stderr)
+    sys.exit(2)
 
 
 def main() -> None:
     """Runs the command line."""
     command = sys.argv[1] if len(sys.argv) > 1 else ""
     if command in _HERE:
-        if importlib.util.find_spec(f"macadam.{command}") is None:
-            sys.exit(f"macadam: {command}: found a package without macadam.{command}, expected one that has it")
+        _check(command)
         del sys.argv[1]
         runpy.run_module(f"macadam.{command}", run_name="__main__", alter_sys=True)
         return
-    program = _program()
+    program = own_program()
     if program is None:
         sys.exit("macadam: found no program macadam/bin/macadam, expected it in an installed package")
     os.execv(program, ["macadam", *sys.argv[1:]])

@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import os
+import shlex
 import shutil
 import subprocess
+import sys
 import tempfile
 from pathlib import Path
 
@@ -29,7 +31,17 @@ ENVIRONMENT = {
     **os.environ,
     "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT / "python"), os.environ.get("PYTHONPATH")])),
     "OMP_NUM_THREADS": "1",
+    "MACADAM_PYTHON": sys.executable,
 }
+
+
+
+def command(line: str) -> list[str]:
+    """A line of the documents, `macadam report …`, as it is run here: by the program, which hands it to this Python."""
+    words = shlex.split(line)
+    assert words[0] == "macadam"
+    return [str(PROGRAM), *words[1:]]
+
 
 LAWS = """
 [[contacts]]
@@ -105,6 +117,7 @@ density = 2630
 density = 2110
 """
 HARMONIC = '[solver]\nmethod = "harmonic"\n'
+STEPPED = '[solver]\nmethod = "explicit"\ndensity_scaling = 100\n'
 CYCLIC = '[loading]\nkind = "cyclic"\nfrequencies = [2, 5, 20]\n'
 TESTS = {
     "stepped": CYCLIC + "[solver]\ntolerance = 1e-2\n",
@@ -114,6 +127,10 @@ TESTS = {
     "creep": '[loading]\nkind = "creep"\nstress = 1e5\nrelease = 1\ntimes = [0.01, 10]\npoints_per_decade = 3\n'
     + HARMONIC,
     "monotonic": '[loading]\nkind = "monotonic"\nrate = -1e-5\ntimes = [0.1, 10]\npoints_per_decade = 3\n' + HARMONIC,
+    "stepped_relaxation": '[loading]\nkind = "relaxation"\nstrain = 1e-4\ntimes = ["1 ms", "4 ms"]\npoints = 7\n' + STEPPED,
+    "stepped_creep": '[loading]\nkind = "creep"\nstress = 1e5\nrelease = "3 ms"\ntimes = ["1 ms", "6 ms"]\npoints = 11\n'
+    + STEPPED,
+    "stepped_monotonic": '[loading]\nkind = "monotonic"\nrate = -1e-2\ntimes = ["1 ms", "4 ms"]\npoints = 7\n' + STEPPED,
     "confined": "[network]\nlateral_walls = true\n" + CYCLIC + HARMONIC,
     "voids": CYCLIC + HARMONIC,
     "file": CYCLIC + HARMONIC,

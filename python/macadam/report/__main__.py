@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""python -m macadam.report DIR [DIR…] --out report.html"""
+"""macadam report DIR [DIR…] --out report.html"""
 
 from __future__ import annotations
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.ticker import FuncFormatter
 
 from macadam.report import look
 from macadam.report.folders import Folder
@@ -36,13 +37,36 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def _points(folder: Folder, *keys: str) -> list[np.ndarray]:
-    return [np.array([float(p[k]) for p in folder.in_time["points"]]) for k in keys]
+    """Columns of the test's points; what a point has not (a compliance after the release) is no number."""
+    return [
+        np.array([float("nan") if p[k] is None else float(p[k]) for p in folder.in_time["points"]]) for k in keys
+    ]
+
+
+def _errors(folder: Folder) -> np.ndarray:
+    """Relative error of each point: its own of a stepped test, that of the test otherwise."""
+    whole = folder.in_time.get("error") or 0
+    return np.array([float(p.get("error") or whole) for p in folder.in_time["points"]])
+
+
+def _is_stepped(folder: Folder) -> bool:
+    return folder.in_time.get("method") == "explicit"
+
+
+def _bars(folder: Folder) -> np.ndarray:
+    """Of a stepped test; of the others they would be smaller than the line."""
+    return _errors(folder) if _is_stepped(folder) else np.full(len(folder.in_time["points"]), np.nan)
 
 
 def _known(found: list[Folder]) -> str:
-    worst = max(float(f.in_time.get("error") or 0) for f in found)
+    words = ""
+    for stepped, what in (
+        (False, "The curves are known to"),
+        (True, "Error bars of what was stepped: the stresses of load and walls, one stress in equilibrium, differ by at most"),
+    ):
+        worst = max((_errors(f).max() for f in found if _is_stepped(f) == stepped), default=0)
+        words += f" {what} {look.percent(float(worst), 2)}." if worst else ""
     held = [f.label for f in found if f.in_time.get("sides") == "held"]
-    words = f" The curves are known to {look.percent(worst, 2)}." if worst else ""
     return words + (f" The sides of {', '.join(held)} are held: the modulus is a confined one." if held else "")
 
 
@@ -50,7 +74,26 @@ def _axes(found: list[Folder], columns: int = 2) -> tuple[Any, Any]:
     return look.figure(look.WIDE, 2.7, 1, columns)
 
 
-def _finish(figure: Any, first: Any, found: list[Folder]) -> None:
+def _finish(figure: Any, first: Any, found: list[Folder], along: list[Any], up: list[Any]) -> None:
+    """Logarithmic axes where the numbers take them: times (`along`) over a decade and a half, moduli (`up`) over a factor
+    of four. And who is who."""
+    times = np.concatenate([_points(f, "time_s")[0] for f in found])
+    if times.min() > 0 and times.max() > 30 * times.min():
+        for axes in along:
+            axes.set_xscale("log")
+            decades(axes.xaxis)
+    elif times.max() < 0.1:
+        for axes in along:
+            axes.xaxis.set_major_formatter(FuncFormatter(lambda t, _: f"{1e3 * t:g}"))
+            axes.set_xlabel("time (ms)")
+    for axes in up:
+        values = np.concatenate([line.get_ydata() for line in axes.lines])
+        values = values[np.isfinite(values)]
+        if len(values) and values.min() > 0 and values.max() > 4 * values.min():
+            axes.set_yscale("log")
+            decades(axes.yaxis)
+        elif len(values) and values.min() > 0:
+            axes.set_ylim(bottom=0)
     if len(found) > 1:
         figure.legend(*first.get_legend_handles_labels(), loc="outside lower center", ncols=min(4, len(found)))
 
@@ -61,17 +104,16 @@ def _relaxation(found: list[Folder]) -> tuple[Any, str]:
     words = []
     for f in found:
         t, stress, e = _points(f, "time_s", "stress_pa", "modulus_pa")
-        left.plot(t, factor * e, "o-", color=f.colour, ms=2.5, label=f.label)
-        right.plot(t, 1e-3 * stress, "o-", color=f.colour, ms=2.5)
+        bars = _bars(f)
+        left.errorbar(t, factor * e, factor * e * bars, fmt="o-", color=f.colour, ms=2.5, label=f.label)
+        right.errorbar(t, 1e-3 * stress, 1e-3 * np.abs(stress) * bars, fmt="o-", color=f.colour, ms=2.5)
         words.append(
             f"{f.label}: the modulus falls from {look.modulus(e[0])} at {look.seconds(t[0])} to {look.modulus(e[-1])} "
             f"at {look.seconds(t[-1])}."
         )
-    left.set(xscale="log", yscale="log", xlabel="time (s)", ylabel=f"relaxation modulus E(t) ({unit})")
-    right.set(xscale="log", xlabel="time (s)", ylabel="stress (kPa)")
-    for axis in (left.xaxis, left.yaxis, right.xaxis):
-        decades(axis)
-    _finish(figure, left, found)
+    left.set(xlabel="time (s)", ylabel=f"relaxation modulus E(t) ({unit})")
+    right.set(xlabel="time (s)", ylabel="stress (kPa)")
+    _finish(figure, left, found, [left, right], [left])
     strain = found[0].in_time.get("strain")
     return figure, (
         f"A strain{'' if strain is None else f' of {look.number(1e6 * strain, 3)} µm/m'} is put on and held: the "
@@ -84,24 +126,23 @@ def _creep(found: list[Folder]) -> tuple[Any, str]:
     words = []
     for f in found:
         t, strain, j = _points(f, "time_s", "strain", "compliance_1_pa")
-        left.plot(t, 1e6 * strain, "o-", color=f.colour, ms=2.5, label=f.label)
-        right.plot(t, 1e9 * j, "o-", color=f.colour, ms=2.5)
+        bars = _bars(f)
+        largest = float(np.abs(strain).max())
+        left.errorbar(t, 1e6 * strain, 1e6 * largest * bars, fmt="o-", color=f.colour, ms=2.5, label=f.label)
+        right.errorbar(t, 1e9 * j, 1e9 * j * bars, fmt="o-", color=f.colour, ms=2.5)
         release, stress = f.in_time.get("release_s"), f.in_time.get("stress_pa")
         text = f"{f.label}: a stress of {look.modulus(stress)} is held" if stress else f"{f.label}: a stress is held"
         if release:
             left.axvline(release, color=f.colour, lw=0.7, ls=":")
-            peak = float(strain[t <= release].max()) if (t <= release).any() else float(strain.max())
             text += f" until {look.seconds(release)} (dotted)"
-            if (t > release).any() and peak:
-                left_over = look.percent(float(strain[-1]) / peak)
-                text += f"; of the largest strain, {look.number(1e6 * peak, 3)} µm/m, {left_over} is left at "
+            if (t > release).any() and largest:
+                left_over = look.percent(abs(float(strain[-1])) / largest)
+                text += f"; of the largest strain, {look.number(1e6 * largest, 3)} µm/m, {left_over} is left at "
                 text += look.seconds(t[-1])
         words.append(text + ".")
-    left.set(xscale="log", xlabel="time (s)", ylabel="strain (µm/m)")
-    right.set(xscale="log", yscale="log", xlabel="time (s)", ylabel="creep compliance J(t) (1/GPa)")
-    for axis in (left.xaxis, right.xaxis, right.yaxis):
-        decades(axis)
-    _finish(figure, left, found)
+    left.set(xlabel="time (s)", ylabel="strain (µm/m)")
+    right.set(xlabel="time (s)", ylabel="creep compliance J(t) (1/GPa)")
+    _finish(figure, left, found, [left, right], [right])
     return figure, "The strain under this load (left), and the compliance after a step of stress (right). " + " ".join(
         words
     )
@@ -113,8 +154,11 @@ def _monotonic(found: list[Folder]) -> tuple[Any, str]:
     words = []
     for f in found:
         t, strain, stress, secant = _points(f, "time_s", "strain", "stress_pa", "secant_pa")
-        left.plot(1e6 * strain, 1e-3 * stress, "o-", color=f.colour, ms=2.5, label=f.label)
-        right.plot(t, factor * secant, "o-", color=f.colour, ms=2.5)
+        bars = _bars(f)
+        left.errorbar(
+            1e6 * strain, 1e-3 * stress, 1e-3 * np.abs(stress) * bars, fmt="o-", color=f.colour, ms=2.5, label=f.label
+        )
+        right.errorbar(t, factor * secant, factor * secant * bars, fmt="o-", color=f.colour, ms=2.5)
         rate = f.in_time.get("rate_1_s")
         way = (
             ""
@@ -122,13 +166,11 @@ def _monotonic(found: list[Folder]) -> tuple[Any, str]:
             else f"{'compression' if rate < 0 else 'tension'} at {look.number(1e6 * abs(rate), 3)} µm/m a second, "
         )
         words.append(
-            f"{f.label}: {way}the secant modulus falls from {look.modulus(secant[0])} to {look.modulus(secant[-1])}."
+            f"{f.label}: {way}the secant modulus goes from {look.modulus(secant[0])} to {look.modulus(secant[-1])}."
         )
     left.set(xlabel="strain (µm/m)", ylabel="stress (kPa)")
-    right.set(xscale="log", yscale="log", xlabel="time (s)", ylabel=f"stress over strain ({unit})")
-    decades(right.xaxis)
-    decades(right.yaxis)
-    _finish(figure, left, found)
+    right.set(xlabel="time (s)", ylabel=f"stress over strain ({unit})")
+    _finish(figure, left, found, [right], [right])
     return (
         figure,
         "Stress over strain (left), and the secant modulus over time (right); tension is positive. " + " ".join(words),

@@ -8,7 +8,6 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Patch
 from matplotlib.transforms import Affine2D
@@ -42,19 +41,15 @@ def add(page: Page, folders: list[Folder]) -> None:
         if len(drawn) > 1:
             page.heading(folder.label)
         box, paint = _box(folder), _colours(folder)
-        section, words = _section(page, folder, box, paint)
-        block = _block(page, folder, box, paint)
-        if block is not None:
-            page.figure(
-                block,
-                f"The specimen, {look.percent(SAWN, 2)} sawn off the front, the right and the top. "
-                + _legend_words(folder),
-                "the specimen as a block",
-                third=True,
-                raster=True,
-            )
-        if section is not None:
-            page.figure(section, words, "a section of the specimen", third=True, raster=True)
+        page.figure(
+            _block(folder, box, paint),
+            f"The specimen, {look.percent(SAWN, 2)} sawn off the front, the right and the top. " + _legend_words(folder),
+            "the specimen as a block",
+            third=True,
+            raster=True,
+        )
+        section, words = _section(folder, box, paint)
+        page.figure(section, words, "a section of the specimen", third=True, raster=True)
         if (folder.specimen["phase"] == "aggregate").any():
             grains, words = spheres(folder.specimen, box, paint, _view(), HEIGHT)
             page.figure(grains, words, "the aggregates in the specimen", third=True, raster=True)
@@ -95,19 +90,29 @@ def _legend_words(folder: Folder) -> str:
     return f"{classes}, the mastic is dark.{void}"
 
 
-class _Cells:
-    """Which cell a point is in: the sphere of least power distance |x − c|² − r² has it. With √(R² − r²) as a fourth
-    coordinate that is the nearest centre, R the largest radius."""
+def cells_at(u: np.ndarray, v: np.ndarray, centre: np.ndarray, radius: np.ndarray) -> np.ndarray:
+    """Which particle's Laguerre cell holds each point (u, v) of a grid in the plane, rows of v: that of least power
+    distance |x − c|² − r². `centre`: (n, 3), the third coordinate from the plane; metres.
 
-    def __init__(self, specimen: pd.DataFrame) -> None:
-        from scipy.spatial import cKDTree  # late: pictures of cells are all that asks for it
-
-        radius = specimen["radius"].to_numpy(float)
-        fourth = np.sqrt(radius.max() ** 2 - radius**2)
-        self._tree = cKDTree(np.column_stack([specimen[["x", "y", "z"]].to_numpy(float), fourth]))
-
-    def at(self, points: np.ndarray) -> np.ndarray:
-        return self._tree.query(np.column_stack([points, np.zeros(len(points))]))[1]
+    A sphere's power distance is below a bound only within √(bound + r²) of its centre. So each sphere is held against
+    the points that near, and where a point found none below the bound, all is done again with a larger one."""
+    own = radius**2 - centre[:, 2] ** 2
+    bound = 0.25 * float(np.median(radius)) ** 2
+    while True:
+        least = np.full((len(v), len(u)), np.inf)
+        cell = np.zeros(least.shape, int)
+        near = np.flatnonzero(own + bound > 0)
+        reach = np.sqrt(own[near] + bound)
+        first_u, last_u = (np.searchsorted(u, centre[near, 0] + side * reach) for side in (-1, 1))
+        first_v, last_v = (np.searchsorted(v, centre[near, 1] + side * reach) for side in (-1, 1))
+        for k, a, b, c, d in zip(near, first_v, last_v, first_u, last_u, strict=True):
+            power = (v[a:b, None] - centre[k, 1]) ** 2 + ((u[c:d] - centre[k, 0]) ** 2 - own[k])
+            closer = power < least[a:b, c:d]
+            least[a:b, c:d][closer] = power[closer]
+            cell[a:b, c:d][closer] = k
+        if (least <= bound).all():
+            return cell
+        bound *= 4
 
 
 def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Paint) -> np.ndarray:
@@ -115,11 +120,9 @@ def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Pain
     u, v = [k for k in range(3) if k != axis]
     step = box.max() / PIXELS
     nu, nv = max(1, round(box[u] / step)), max(1, round(box[v] / step))
-    points = np.empty((nv, nu, 3))
-    points[..., axis] = value
-    points[..., u] = (np.arange(nu) + 0.5) * box[u] / nu
-    points[..., v] = (np.arange(nv)[:, None] + 0.5) * box[v] / nv
-    cell = _Cells(folder.specimen).at(points.reshape(-1, 3)).reshape(nv, nu)
+    centre = folder.specimen[["x", "y", "z"]].to_numpy(float)[:, [u, v, axis]] - [0, 0, value]
+    along = [(np.arange(n) + 0.5) * box[k] / n for n, k in ((nu, u), (nv, v))]
+    cell = cells_at(*along, centre, folder.specimen["radius"].to_numpy(float))
     body = folder.specimen["body"].to_numpy(int)[cell]
     picture = paint(cell)
     rim = np.zeros(body.shape, bool)  # a dark line where two aggregates meet
@@ -129,7 +132,7 @@ def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Pain
     return picture
 
 
-def _section(page: Page, folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
+def _section(folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
     """A section through the middle, or the first that the program wrote."""
     written = sorted(folder.path.glob("section_*.csv"))
     figure, axes = look.figure(look.THIRD, HEIGHT)
@@ -151,11 +154,7 @@ def _section(page: Page, folder: Folder, box: np.ndarray, paint: Paint) -> tuple
         where, source = corners[0, axis], f"Cells as the program cut them ({written[0].name})."
     else:
         axis, (u, v) = 1, (0, 2)
-        try:
-            picture = _plane(folder, box, axis, box[axis] / 2, paint)
-        except ImportError:
-            page.leave_out(folder.label, "section and block", "SciPy is not installed")
-            return None, ""
+        picture = _plane(folder, box, axis, box[axis] / 2, paint)
         axes.imshow(picture, origin="lower", extent=(0, 1e3 * box[u], 0, 1e3 * box[v]), interpolation="antialiased")
         where, source = 1e3 * box[axis] / 2, "The cells of the particles fill it."
     axes.set(xlim=(0, 1e3 * box[u]), ylim=(0, 1e3 * box[v]), xlabel=f"{'xyz'[u]} (mm)", ylabel=f"{'xyz'[v]} (mm)")
@@ -186,7 +185,7 @@ def _view() -> np.ndarray:
     return np.array([right, np.cross(towards, right), towards])
 
 
-def _block(page: Page, folder: Folder, box: np.ndarray, paint: Paint) -> Any:
+def _block(folder: Folder, box: np.ndarray, paint: Paint) -> Any:
     """What is left when a share of the box is sawn off the three sides that are seen: three pictures, each sheared into
     its place, in the outline of the box."""
     turn = _view()
@@ -198,10 +197,7 @@ def _block(page: Page, folder: Folder, box: np.ndarray, paint: Paint) -> Any:
     last = np.array([(1 - SAWN) * box[0], box[1], (1 - SAWN) * box[2]])
     for axis, value, light in ((1, first[1], 0.95), (0, last[0], 0.74), (2, last[2], 1.12)):
         u, v = [k for k in range(3) if k != axis]
-        try:
-            picture = _plane(folder, box, axis, value, paint)
-        except ImportError:  # said where the section is left out
-            return None
+        picture = _plane(folder, box, axis, value, paint)
         rows, columns = picture.shape[:2]
         at = [
             round(x * n / e)

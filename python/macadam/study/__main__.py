@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""python -m macadam.study STUDY.toml --out DIR"""
+"""macadam study STUDY.toml --out DIR"""
 
 from __future__ import annotations
 

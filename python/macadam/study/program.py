@@ -8,19 +8,21 @@ import shutil
 import subprocess
 from pathlib import Path
 
+from macadam._program import own_program
 from macadam.study.errors import StudyError
 
 _BUILDS = ("local", "cuda-release", "cpu-release", "release")
 
 
 def find_program() -> str:
-    """MACADAM_PROGRAM, else macadam of the search path, else that of the source tree around this package."""
+    """MACADAM_PROGRAM, else the one that came with this package, else macadam of the search path, else that of the source
+    tree around this package."""
     asked = os.environ.get("MACADAM_PROGRAM")
     if asked:
         if not os.access(asked, os.X_OK) or Path(asked).is_dir():
             raise StudyError(f"MACADAM_PROGRAM: found {asked}, expected a program that can be run")
         return str(Path(asked).resolve())
-    found = shutil.which("macadam")
+    found = own_program() or shutil.which("macadam")
     if found:
         return str(Path(found).resolve())
     tree = Path(__file__).resolve().parents[3]

@@ -10,6 +10,7 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+from macadam import _toml
 from macadam.study.errors import StudyError
 
 # keys whose values name a file or folder, and what is no file there
@@ -118,7 +119,6 @@ def key_of(scene: Table, digests: dict[str, str], command: list[str], version: s
 def text_of(scene: Table) -> str:
     """The scene as TOML."""
     try:
-        import tomli_w
-    except ImportError:
-        raise StudyError("studies write scenes with the Python package tomli-w, which is not installed") from None
-    return tomli_w.dumps(scene)
+        return _toml.dumps(scene)
+    except TypeError as error:
+        raise StudyError(str(error)) from None

@@ -62,7 +62,9 @@ def _fill(
         _main_effects(page, q)
     page.section("Maps")
     for q in values:
-        _map(page, q)
+        drawn = design_map(q)
+        if drawn:
+            page.figure(*drawn, f"map of {q.title}")
     page.section("Scatter over seeds")
     _seeds(page, values)
     page.section("Failures")
@@ -180,12 +182,13 @@ def _panel(axis: Any, effect: Effect, points: pd.DataFrame) -> None:
     axis.margins(x=0.08)
 
 
-def _map(page: Page, q: Quantity) -> None:
-    """Over the two numeric factors that matter most, the others averaged."""
+def design_map(q: Quantity) -> tuple[Any, str] | None:
+    """A quantity over the two numeric factors that matter most, the others averaged, and what it shows; none where there
+    are not two."""
     points = q.points
     two = sorted([e.factor for e in effects(q) if numeric(points, e.factor)][:2])
     if len(two) < 2:
-        return
+        return None
     figure, axis = look.figure(look.WIDE * 0.72, 3.3)
     mean = points.groupby(two)["value"].mean().reset_index()
     grid = mean.pivot(index=two[1], columns=two[0], values="value")
@@ -214,14 +217,12 @@ def _map(page: Page, q: Quantity) -> None:
     figure.colorbar(drawn, ax=axis, label=f"{q.name} ({q.unit})")
     axis.set(xlabel=short(two[0]), ylabel=short(two[1]))
     best, worst = mean.loc[mean["value"].idxmax()], mean.loc[mean["value"].idxmin()]
-    page.figure(
-        figure,
+    return figure, (
         f"Map of {q.title} over {short(two[0])} and {short(two[1])}, the mean over seeds and other factors. "
         f"It is largest, "
         f"{_value(q, best['value'])}, at {_level(float(best[two[0]]))} and {_level(float(best[two[1]]))}, and "
         f"smallest, {_value(q, worst['value'])}, at {_level(float(worst[two[0]]))} and "
-        f"{_level(float(worst[two[1]]))}. {how}",
-        f"map of {q.title}",
+        f"{_level(float(worst[two[1]]))}. {how}"
     )
 
 
