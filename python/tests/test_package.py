@@ -62,12 +62,14 @@ def test_the_program_hands_on_what_is_python(name, tmp_path, program):
     python.write_text(f"#!/bin/sh\nPYTHONPATH={fake(tmp_path, name)} exec {sys.executable} \"$@\"\n")
     python.chmod(0o755)
     said = subprocess.run([alone, name, "DIR", "--out", "a b", "--help"], env={**os.environ, "MACADAM_PYTHON": str(python)},
-                          capture_output=True, text=True)
+                          capture_output=True, text=True, cwd=tmp_path)
     assert (said.returncode, said.stdout) == (0, f"told ['{name}', 'DIR', '--out', 'a b', '--help']\n"), said.stderr
     python.write_text(f"#!/bin/sh\nPYTHONPATH={tmp_path} exec {sys.executable} -S \"$@\"\n")
-    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": str(python)}, capture_output=True, text=True)
+    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": str(python)}, capture_output=True, text=True,
+                          cwd=tmp_path)
     assert said.returncode == 2 and f"macadam {name}: found no Python package" in said.stderr
-    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": "/no/python"}, capture_output=True, text=True)
+    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": "/no/python"}, capture_output=True, text=True,
+                          cwd=tmp_path)
     assert said.returncode == 2 and "/no/python" in said.stderr and "MACADAM_PYTHON" in said.stderr
 
 
