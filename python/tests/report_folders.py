@@ -133,6 +133,7 @@ TESTS = {
     "stepped_monotonic": '[loading]\nkind = "monotonic"\nrate = -1e-2\ntimes = ["1 ms", "4 ms"]\npoints = 7\n' + STEPPED,
     "confined": "[network]\nlateral_walls = true\n" + CYCLIC + HARMONIC,
     "voids": CYCLIC + HARMONIC,
+    "fields": CYCLIC + HARMONIC + '[output]\nfields = ["particles", "contacts"]\n',
     "file": CYCLIC + HARMONIC,
 }
 

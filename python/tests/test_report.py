@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import re
 import shutil
@@ -88,6 +89,26 @@ def test_cells_of_a_plane_are_those_of_least_power_distance() -> None:
         at = np.stack(np.broadcast_arrays(u[None, :], v[:, None], 0.0), axis=-1)
         power = ((at[:, :, None] - centre) ** 2).sum(axis=-1) - radius**2
         assert np.array_equal(specimen.cells_at(u, v, centre, radius), power.argmin(axis=-1))
+
+
+def test_fields_are_drawn_by_pyvista(tmp_path: Path, no_pictures) -> None:
+    pytest.importorskip("pyvista")
+    folder = make("fields")
+    plain = report(folder, tmp_path / "r.html").read_text(encoding="utf-8")
+    assert "Displacement (µm), particles_2Hz.vtkhdf; what lies in front" in plain  # of the lowest frequency
+    assert "Normal force (N), contacts_2Hz.vtkhdf; those with at least" in plain
+    copy = tmp_path / "cut"
+    shutil.copytree(folder, copy)
+    file = copy / "fields" / "contacts_2Hz.vtkhdf"
+    file.write_bytes(file.read_bytes()[:1000])
+    with pytest.raises(ReportError, match="contacts_2Hz.vtkhdf"):
+        report(copy, tmp_path / "cut.html")
+
+
+def test_fields_without_pyvista_are_left_out_and_that_is_said(tmp_path: Path, no_pictures, monkeypatch) -> None:
+    find = importlib.util.find_spec
+    monkeypatch.setattr(importlib.util, "find_spec", lambda name, *a: None if name == "pyvista" else find(name, *a))
+    assert "the Python package PyVista is not installed" in report(make("fields"), tmp_path / "r.html").read_text("utf-8")
 
 
 def test_folders_side_by_side_have_names_and_a_table_of_differences(tmp_path: Path, no_pictures) -> None:

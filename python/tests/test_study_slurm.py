@@ -30,6 +30,7 @@ walltime = "00:05:00"
 """
 
 
+@pytest.mark.long
 @pytest.mark.skipif(bool(why_not()), reason=why_not() or "-")
 @pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
 def test_the_same_file_runs_on_slurm(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from macadam.report import contacts, decisions, fits, histories, look, loops, mixture, modulus, scans, specimen
+from macadam.report import contacts, decisions, fields, fits, histories, look, loops, mixture, modulus, scans, specimen
 from macadam.report.folders import Folder, ReportError, read_all
 from macadam.report.page import Page
 
@@ -44,6 +44,7 @@ def _page(folders: list[Folder]) -> Page:
     modulus.add(page, folders)
     loops.add(page, folders)
     histories.add(page, folders)
+    fields.add(page, folders)
     contacts.add(page, folders)
     fits.add(page, folders)
     scans.add(page, folders)
