@@ -8,12 +8,10 @@
 #include "host/parallel.hpp"
 #include "host/shapes/convex_hull.hpp"
 #include "macadam/error.hpp"
+#include "host/ct/voxel_phases.hpp"
 
 namespace macadam::ct {
 namespace {
-
-constexpr auto aggregate = static_cast<std::uint8_t>(VoxelPhase::aggregate),
-               outside = static_cast<std::uint8_t>(VoxelPhase::outside);
 
 /// Share of grey from mastic to aggregate, less the threshold's, averaged over blocks of `edge` voxels; and not more
 /// than what labels say of whose the place is. Surfaces of [1] know labels alone.

@@ -3,16 +3,9 @@
 #include "host/ct/labels.hpp"
 
 #include "host/parallel.hpp"
+#include "host/ct/voxel_phases.hpp"
 
 namespace macadam::ct {
-namespace {
-
-constexpr auto air = static_cast<std::uint8_t>(VoxelPhase::air_void),
-               aggregate = static_cast<std::uint8_t>(VoxelPhase::aggregate),
-               outside = static_cast<std::uint8_t>(VoxelPhase::outside);
-
-}  // namespace
-
 Image<std::uint32_t> spread(const Image<std::uint8_t>& phases, const Image<std::uint32_t>& coarse, std::int64_t edge) {
   Image<std::uint32_t> labels = Image<std::uint32_t>::like(phases);
   const auto [nx, ny, nz] = labels.size;

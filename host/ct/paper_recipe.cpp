@@ -9,14 +9,10 @@
 #include "host/ct/scan_checks.hpp"
 #include "host/ct/smoothing.hpp"
 #include "macadam/error.hpp"
+#include "host/ct/voxel_phases.hpp"
 
 namespace macadam::ct {
 namespace {
-
-constexpr auto air = static_cast<std::uint8_t>(VoxelPhase::air_void),
-               mastic = static_cast<std::uint8_t>(VoxelPhase::mastic),
-               aggregate = static_cast<std::uint8_t>(VoxelPhase::aggregate),
-               outside = static_cast<std::uint8_t>(VoxelPhase::outside);
 
 /// Shifts the voxels of every part by `to` less the part's mean; `part(at)` numbers a voxel's.
 template <class Part>

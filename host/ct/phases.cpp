@@ -3,14 +3,10 @@
 #include "host/ct/phases.hpp"
 
 #include "host/parallel.hpp"
+#include "host/ct/voxel_phases.hpp"
 
 namespace macadam::ct {
 namespace {
-
-constexpr auto air = static_cast<std::uint8_t>(VoxelPhase::air_void),
-               mastic = static_cast<std::uint8_t>(VoxelPhase::mastic),
-               aggregate = static_cast<std::uint8_t>(VoxelPhase::aggregate),
-               outside = static_cast<std::uint8_t>(VoxelPhase::outside);
 
 /// The grey value below which this share of a histogram lies.
 double quantile(const Histogram& h, double share) {

@@ -4,6 +4,7 @@
 
 #include "host/ct/correction.hpp"
 #include "macadam/error.hpp"
+#include "host/ct/voxel_phases.hpp"
 
 namespace macadam::ct {
 namespace {
@@ -124,7 +125,6 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
 }
 
 double trust_in_axes(const Image<std::uint8_t>& phases, std::vector<std::string>& warnings) {
-  constexpr auto aggregate = static_cast<std::uint8_t>(VoxelPhase::aggregate);
   const std::int64_t steps[3] = {1, phases.size[0], phases.size[0] * phases.size[1]};
   const double edges[3] = {phases.spacing.x, phases.spacing.y, phases.spacing.z};
   double voxels = 0, ends[3] = {};

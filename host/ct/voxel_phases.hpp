@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file voxel_phases.hpp  The phases of voxels, as images hold them.
+#pragma once
+
+#include <cstdint>
+
+#include "macadam/ct.hpp"
+
+namespace macadam::ct {
+
+inline constexpr auto air = static_cast<std::uint8_t>(VoxelPhase::air_void),
+                      mastic = static_cast<std::uint8_t>(VoxelPhase::mastic),
+                      aggregate = static_cast<std::uint8_t>(VoxelPhase::aggregate),
+                      outside = static_cast<std::uint8_t>(VoxelPhase::outside);
+
+}  // namespace macadam::ct
