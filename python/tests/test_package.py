@@ -47,7 +47,7 @@ def fake(tmp_path, name):
     folder = tmp_path / "fake" / "macadam" / name
     folder.mkdir(parents=True)
     (folder.parent / "__init__.py").touch()
-    (folder.parent / "__main__.py").write_text("import sys; print('told', sys.argv[1:])")
+    (folder.parent / "__main__.py").write_text("import os, sys; print('told', sys.argv[1:], os.environ['MACADAM_PROGRAM'])")
     (folder / "__init__.py").touch()
     return folder.parents[1]
 
@@ -61,16 +61,28 @@ def test_the_program_hands_on_what_is_python(name, tmp_path, program):
     python = tmp_path / "python"
     python.write_text(f"#!/bin/sh\nPYTHONPATH={fake(tmp_path, name)} exec {sys.executable} \"$@\"\n")
     python.chmod(0o755)
-    said = subprocess.run([alone, name, "DIR", "--out", "a b", "--help"], env={**os.environ, "MACADAM_PYTHON": str(python)},
-                          capture_output=True, text=True, cwd=tmp_path)
-    assert (said.returncode, said.stdout) == (0, f"told ['{name}', 'DIR', '--out', 'a b', '--help']\n"), said.stderr
+    environment = {**os.environ, "MACADAM_PYTHON": str(python)}
+    environment.pop("MACADAM_PROGRAM", None)
+    said = subprocess.run([alone, name, "DIR", "--out", "a b", "--help"], env=environment, capture_output=True, text=True)
+    told = f"told ['{name}', 'DIR', '--out', 'a b', '--help'] {Path(program).resolve()}\n"  # a study runs who was called
+    assert (said.returncode, said.stdout) == (0, told), said.stderr
     python.write_text(f"#!/bin/sh\nPYTHONPATH={tmp_path} exec {sys.executable} -S \"$@\"\n")
-    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": str(python)}, capture_output=True, text=True,
-                          cwd=tmp_path)
+    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": str(python)}, capture_output=True, text=True)
     assert said.returncode == 2 and f"macadam {name}: found no Python package" in said.stderr
-    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": "/no/python"}, capture_output=True, text=True,
-                          cwd=tmp_path)
+    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": "/no/python"}, capture_output=True, text=True)
     assert said.returncode == 2 and "/no/python" in said.stderr and "MACADAM_PYTHON" in said.stderr
+
+
+@pytest.mark.parametrize("name", ["report", "study"])
+def test_a_python_without_the_packages_is_told_apart(name, tmp_path, program):
+    """No traceback: what is missing, of which Python, and how it is put there."""
+    python = tmp_path / "python"
+    python.write_text(f"#!/bin/sh\nexec {sys.executable} -S \"$@\"\n")  # without its site-packages
+    python.chmod(0o755)
+    said = subprocess.run([program, name, "DIR"], env={**os.environ, "MACADAM_PYTHON": str(python)}, capture_output=True, text=True)
+    assert said.returncode == 2 and "Traceback" not in said.stderr
+    assert f"macadam {name}: " in said.stderr and "numpy, pandas, matplotlib" in said.stderr
+    assert "scripts/python report" in said.stderr and "MACADAM_PYTHON" in said.stderr
 
 
 def test_the_package_hands_on_what_is_the_programs(program):

@@ -101,3 +101,21 @@ def test_every_picture_is_shown(tmp_path: Path) -> None:
     widths = re.search(r"<title>([\d,]+)</title>", done.stdout)
     assert widths and all(int(w) > 100 for w in widths[1].split(","))
     assert len(widths[1].split(",")) == text.count("<img ") >= 8
+
+
+def test_wide_tables_stay_on_the_page(tmp_path: Path) -> None:
+    """The statistics of shapes have eight columns: none runs over the side of A4, where nobody can scroll."""
+    page = report(make("shapes"), tmp_path / "report.html")
+    probe = tmp_path / "probe.html"
+    probe.write_text(
+        re.sub(r'<meta http-equiv="Content-Security-Policy"[^>]*>', "", page.read_text(encoding="utf-8")).replace(
+            "</body>",
+            "<script>onload = () => document.title = [...document.querySelectorAll('.scroll')]"
+            ".map(s => s.scrollWidth - s.clientWidth).join()</script>",
+        ),
+        encoding="utf-8",
+    )
+    options = ["--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path}/user", "--window-size=794,1000"]
+    done = subprocess.run([CHROMIUM, *options, "--dump-dom", probe.as_uri()], capture_output=True, text=True, timeout=120)
+    over = re.search(r"<title>([\d,]+)</title>", done.stdout)  # 794 pixels are 210 mm
+    assert over and not any(map(int, over[1].split(","))), over

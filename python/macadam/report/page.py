@@ -74,6 +74,7 @@ class Page:
 
         rows = list(rows)
         keep = " keep" if len(rows) < 16 else ""  # a short one is not parted by the end of a page
+        keep += " many" if len(head) > 7 else ""  # columns: smaller, so that the page holds them
         body = "".join(f"<tr>{cells(row, 'td')}</tr>" for row in rows)
         title = f'<p class="title">{escape(caption)}</p>' if caption else ""
         self._add(

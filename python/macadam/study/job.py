@@ -10,6 +10,7 @@ import ctypes
 import json
 import os
 import platform
+import resource
 import shutil
 import signal
 import subprocess
@@ -37,14 +38,15 @@ def compute(job: dict[str, Any]) -> dict[str, Any]:
             return {"key": key, "status": "done"}
         if failed.is_file():
             return {"key": key, "status": "failed"}
-        began = time.time()
+        began, spent = time.time(), _processor_time()
         code, said = _run(job, work)
         kills = 0
         while code < 0 and kills < KILLS:
             kills += 1
             code, said = _run(job, work)
         record = {name: job[name] for name in ("key", "experiment", "values", "command")}
-        record |= {"wall_s": round(time.time() - began, 3), "machine": machine()}
+        record |= {"wall_s": round(time.time() - began, 3), "processor_s": round(_processor_time() - spent, 3)}
+        record |= {"machine": machine()}
         if code == 0:
             _write(work / "study.json", record)
             (work / "checkpoint.h5").unlink(missing_ok=True)
@@ -53,6 +55,12 @@ def compute(job: dict[str, Any]) -> dict[str, Any]:
         _write(failed, record | {"exit_code": code, "message": _message(code, said).replace(f"{work}/", "")})
         shutil.rmtree(work, ignore_errors=True)
         return {"key": key, "status": "failed"}
+
+
+def _processor_time() -> float:
+    """Seconds for which programs of this process have computed; of workers that are threads of one, those of all."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:

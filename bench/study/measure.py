@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs examples/study and writes what it finds and takes: measure.py WORKERS DIR"""
+import csv
+import json
+import sys
+import time
+from pathlib import Path
+
+import macadam as mc
+from macadam.study.job import machine
+
+RESULTS = Path(__file__).resolve().parents[1] / "results"
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "study" / "study.toml"
+# of the study's table; in the file without spaces, as the other results have it
+COLUMNS = {"air_voids_percent": "specimen.recipe.air_voids (%)", "binder_percent": "specimen.recipe.binder (%)",
+           "seed": "specimen.seed", "e_star_mpa": "E* (MPa)", "phase_deg": "phase angle (deg)", "particles": "particles"}
+
+
+def main():
+    workers, out = int(sys.argv[1]), Path(sys.argv[2])
+    if out.exists():
+        sys.exit(f"bench/study/run: {out}: found it, expected a folder that is not there")
+    began = time.monotonic()
+    found = mc.study(EXAMPLE, out, workers=workers)
+    wall = time.monotonic() - began
+    if found.failures or found.missing:
+        sys.exit(f"bench/study/run: {len(found.failures)} failed, {found.missing} missing")
+    records = {key: json.loads((out / "results" / key / "study.json").read_text()) for key in found.table["key"]}
+    cpu = sum(r["processor_s"] for r in records.values())
+    with open(RESULTS / "study.csv", "w", newline="") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow([*COLUMNS, "processor_s"])
+        for _, row in found.table.iterrows():
+            rows.writerow([*(f"{row[c]:.8g}" for c in COLUMNS.values()), f"{records[row['key']]['processor_s']:.2f}"])
+    with open(RESULTS / "study-time.csv", "w", newline="") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(["processor", "workers", "results", "wall_s", "processor_s"])
+        rows.writerow([machine()["processor"], workers, len(found.table), f"{wall:.1f}", f"{cpu:.1f}"])
+
+
+main()
