@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The package itself: lazy, typed, and one with the program."""
 import os
+import pydoc
 import subprocess
 import sys
 from pathlib import Path
@@ -40,6 +41,28 @@ def test_types_are_right():
                            "macadam", "--exclude", "report|study"], cwd=here.parent, capture_output=True, text=True)
     own = [line for line in said.stdout.splitlines() if "macadam/report" not in line and "macadam/study" not in line]
     assert not own, "\n".join(own)
+
+
+def test_a_users_script_is_checked(tmp_path):
+    pytest.importorskip("mypy")
+    script = (SOURCE / "tests" / "user_script.py").read_text()
+    wrong = script.replace("stepper.advance(10)", 'stepper.advance("ten")')
+    said = {}
+    for name, text in (("right", script), ("wrong", wrong)):
+        (tmp_path / f"{name}.py").write_text(text)
+        said[name] = subprocess.run([sys.executable, "-m", "mypy", "--disable-error-code", "import-untyped", "--cache-dir",
+                                     os.devnull, f"{name}.py"], cwd=tmp_path, capture_output=True, text=True,
+                                    env={**os.environ, "MYPYPATH": str(Path(mc.__file__).parent.parent)})
+    here = [line for line in said["right"].stdout.splitlines() if line.startswith("right.py")]
+    assert not here, "\n".join(here)
+    assert 'wrong.py' in said["wrong"].stdout and '"advance"' in said["wrong"].stdout
+
+
+def test_help_has_units():
+    for function, units in ((mc.run, ("[s]", "[Pa]")), (mc.harmonic, ("[Hz]", "[°C]")), (mc.creep, ("[Pa]", "[s]", "[kg]")),
+                            (mc.monotonic, ("[1/s]",)), (mc.specimen, ("[m]",)), (mc.Stepper, ("[s]", "[1/s]"))):
+        text = pydoc.render_doc(function)
+        assert all(unit in text for unit in units), function
 
 
 def fake(tmp_path, name):
