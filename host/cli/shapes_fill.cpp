@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "host/scene/lengths.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
-#include "host/results/files.hpp"
-#include "host/results/result_folder.hpp"
+#include "host/results/shape_files.hpp"
 #include "macadam/macadam.hpp"
 #include "macadam/shape.hpp"
 
@@ -25,27 +25,6 @@ struct Arguments {
   double scale = 1;
   FillSpec spec;
 };
-
-std::string spheres_csv(const MultiSphere& cluster) {
-  std::string text = "x,y,z,radius\n";
-  for (std::size_t i = 0; i < cluster.size(); ++i) {
-    const Vec3d& c = cluster.centre[i];
-    text += fmt::format("{},{},{},{}\n", c.x, c.y, c.z, cluster.radius[i]);
-  }
-  return text;
-}
-
-/// Every sphere as a subdivided icosahedron, in one surface: any viewer of meshes shows it.
-Surface drawn(const MultiSphere& cluster) {
-  Surface all{"spheres", {}, {}};
-  for (std::size_t i = 0; i < cluster.size(); ++i) {
-    const Surface ball = subdivided_icosahedron(cluster.radius[i]);
-    const auto first = static_cast<std::int32_t>(all.points.size());
-    for (const Vec3d& p : ball.points) all.points.push_back(cluster.centre[i] + p);
-    for (const auto& f : ball.facets) all.facets.push_back({first + f[0], first + f[1], first + f[2]});
-  }
-  return all;
-}
 
 void print_report(const Surface& surface, const MultiSphere& cluster, const FillReport& r) {
   const ShapeMeasure m = measure_shape(surface);
@@ -75,15 +54,10 @@ void fill_command(Arguments arguments) {
     if (!(radius > 0))
       throw InputError("command line", 0, "--circumscribed", "\"" + arguments.circumscribed + "\"",
                        "a positive length");
-    const double factor = 2 * radius / measure_shape(surface).d_intermediate;
-    for (Vec3d& p : surface.points) p = factor * p;
+    surface = scaled_to(std::move(surface), radius);
   }
   const MultiSphere cluster = fill_shape(surface, spec);
-  const std::filesystem::path out = arguments.out;
-  const ResultFolder folder(out);
-  write_whole(out / "spheres.csv", spheres_csv(cluster));
-  write_surface(out / "spheres.obj", drawn(cluster));
-  write_surface(out / "shape.obj", surface);
+  write_filling(arguments.out, surface, cluster);
   print_report(surface, cluster, measure_fill(surface, cluster));
   say("files in {}: spheres.csv spheres.obj shape.obj (metres)\n", arguments.out);
 }

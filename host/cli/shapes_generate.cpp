@@ -4,16 +4,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 #include <memory>
 #include <optional>
 
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
-#include "host/results/result_folder.hpp"
-#include "host/shapes/surface_files.hpp"
-#include "macadam/error.hpp"
+#include "host/results/shape_files.hpp"
 #include "macadam/shape.hpp"
 
 namespace macadam {
@@ -26,25 +23,11 @@ struct Arguments {
   std::optional<double> icosahedron;  ///< radius [m]
 };
 
-/// A folder is a library: shapes of another one in it would be taken for its own.
-void refuse_others(const std::filesystem::path& folder, const std::vector<Surface>& shapes) {
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string file = entry.path().filename().string();
-    const auto written = [&](const Surface& shape) { return file == shape.name + ".off"; };
-    if (is_surface_file(entry.path()) && std::none_of(shapes.begin(), shapes.end(), written))
-      throw InputError(folder.string(), 0, "folder", file, "no shapes but those that are written now");
-  }
-}
-
 void generate(const Arguments& arguments) {
   const std::vector<Surface> shapes = arguments.icosahedron
                                           ? std::vector<Surface>{subdivided_icosahedron(*arguments.icosahedron)}
                                           : generate_shape_library(arguments.seed, arguments.count);
-  const ResultFolder folder(arguments.out);
-  refuse_others(arguments.out, shapes);
-  for (const Surface& shape : shapes) {
-    write_surface(std::filesystem::path(arguments.out) / (shape.name + ".off"), shape);
-  }
+  write_shape_library(arguments.out, shapes);
   say("{} shapes in {}: {}.off{}\n", shapes.size(), arguments.out, shapes.front().name,
       shapes.size() > 1 ? fmt::format(" … {}.off", shapes.back().name) : "");
 }

@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING, Any
 
 _HOMES = {
     "_core": ("Error", "InputError", "RunError", "InterruptedError", "DivergenceError", "info", "pair_names",
-              "Specimen", "Contacts", "Cells", "Section", "Boundary", "Drive", "Stepper", "Step", "Observation",
+              "Specimen", "Contacts", "Cells", "Section", "Boundary", "Drive", "FieldSeries", "Stepper", "Step", "Observation",
               "ParticleState", "ContactState", "HarmonicSolver", "SteadyState", "StartState", "steady_start",
-              "critical_step", "__version__"),
+              "Spectrum", "PronySeries", "CreepSeries", "spectrum", "evaluate_cyclic", "critical_step", "__version__"),
     "_scene": ("Scene",),
     "_specimen": ("specimen",),
     "_simulation": ("run", "harmonic", "sweep", "relaxation", "creep", "monotonic", "Result"),
@@ -33,9 +33,10 @@ _MODULES = ("ct", "drives", "shapes", "report", "study")
 if TYPE_CHECKING:
     from . import ct, drives, shapes
     from ._calibration import Calibration, calibrate
-    from ._core import (Boundary, Cells, Contacts, ContactState, DivergenceError, Drive, Error, HarmonicSolver,
-                        InputError, InterruptedError, Observation, ParticleState, RunError, Section, Specimen,
-                        StartState, SteadyState, Step, Stepper, critical_step, info, pair_names, steady_start)
+    from ._core import (Boundary, Cells, Contacts, ContactState, CreepSeries, DivergenceError, Drive, Error,
+                        FieldSeries, HarmonicSolver, InputError, InterruptedError, Observation, ParticleState,
+                        PronySeries, RunError, Section, Specimen, Spectrum, StartState, SteadyState, Step, Stepper,
+                        critical_step, evaluate_cyclic, info, pair_names, spectrum, steady_start)
     from ._fit import Fit, fit
     from ._scene import Scene
     from ._simulation import Result, creep, harmonic, monotonic, relaxation, run, sweep

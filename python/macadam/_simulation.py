@@ -23,7 +23,9 @@ SceneLike = _core.Scene | _core.Specimen | Mapping[str, Any] | str | PathLike[st
 Number = float | int | str  # of a scene: SI units, or text with its unit
 
 #: Of [solver], what belongs to the test that is replaced.
-_OF_THE_TEST = ("method", "density_scaling", "time_step")
+_OF_THE_TEST = ("method", "density_scaling", "time_step", "safety", "inertia")
+#: Of run(), what the calls of single tests pass on.
+_OF_RUN = ("resume", "on_step", "every", "on_plan", "on_warning")
 
 
 def result_folder(out: str | PathLike[str] | None, owner: Any) -> Path:
@@ -72,12 +74,12 @@ class Result:
 
     @cached_property
     def response(self) -> pandas.DataFrame:
-        """Of a stepped test: frequency_hz, time_s, strain, stress_pa."""
+        """Of a stepped cyclic test: frequency_hz, time_s, strain, stress_pa. Of the others, table has all there is."""
         return self.csv("response.csv")
 
     @cached_property
     def prony(self) -> pandas.DataFrame:
-        """Of relaxation, creep and monotonic tests: the specimen's relaxation modulus as Maxwell units."""
+        """Of relaxation, creep and monotonic tests without steps: the relaxation modulus as Maxwell units."""
         return self.csv("prony.csv")
 
     def csv(self, name: str) -> pandas.DataFrame:
@@ -154,10 +156,10 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: _
     out: the folder of the results; a temporary one where it is not given.
     specimen: particles of the same scene, made before.
     resume: go on from the checkpoint that an interrupted run left in `out`.
-    on_step: called after every `every` steps of a stepped test with a Step.
+    on_step: called after every `every` steps of a stepped test with a Step: its time [s], strain, stress_pa [Pa] …
     progress: called with what is being done and the share of it that is done, 0 to 1.
     on_plan: called with the decisions before the first step; on_warning: with each warning at once.
-    overrides: as Scene has them: `backend="cuda"`, `method="harmonic"`, `threads=4`, `loading={"cycles": 3}` …
+    overrides: as Scene has them, in SI units or text with a unit: `backend="cuda"`, `method="harmonic"`, `threads=4`, `loading={"cycles": 3}` …
 
     Ctrl-C ends a stepped test with a checkpoint in `out`, and raises KeyboardInterrupt that says so. What a callback
     raises ends the test likewise.
@@ -165,23 +167,31 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: _
     given, made = _scene_and_specimen(scene, specimen)
     if overrides:
         given = Scene(given, **overrides)
-    if resume and out is None:
-        raise _core.InputError("resume: found no out, expected the folder of the interrupted run")
-    return Result(given, made, out, resume=resume, on_step=on_step, every=every, progress=progress, on_plan=on_plan,
-                  on_warning=on_warning)
+    return Result(given, made, **_checked({"out": out, "resume": resume, "on_step": on_step, "every": every,
+                                           "progress": progress, "on_plan": on_plan, "on_warning": on_warning}))
 
 
 def _test(scene: SceneLike, specimen: _core.Specimen | None, loading: dict[str, Any], overrides: dict[str, Any],
-          **call: Any) -> Result:
-    """Another test of a scene, without steps."""
+          method: str = "harmonic", **call: Any) -> Result:
+    """Another test of a scene. Calls have what run() has; `overrides` may too."""
     given, made = _scene_and_specimen(scene, specimen)
     tables = given.as_dict()
     tables["loading"] = {name: value for name, value in loading.items() if value is not None}
     solver = {k: v for k, v in tables.get("solver", {}).items() if k not in _OF_THE_TEST}
-    tables["solver"] = {**solver, "method": "harmonic"}
+    if method != "harmonic":
+        solver.pop("tolerance", None)  # of the scene's own test: refused here, where nothing predicts the error
+    tables["solver"] = {**solver, "method": method}
     options = {**given.options, "method": None}
-    other = Scene(tables, file=given.file, **{**options, **overrides})
-    return Result(other, made, **call)
+    call |= {name: overrides[name] for name in _OF_RUN if name in overrides}
+    other = Scene(tables, file=given.file,
+                  **{**options, **{name: value for name, value in overrides.items() if name not in _OF_RUN}})
+    return Result(other, made, **_checked(call))
+
+
+def _checked(call: dict[str, Any]) -> dict[str, Any]:
+    if call.get("resume") and call.get("out") is None:
+        raise _core.InputError("resume: found no out, expected the folder of the interrupted run")
+    return call
 
 
 def harmonic(scene: SceneLike, hz: Sequence[Number] | Number | None = None, *, specimen: _core.Specimen | None = None,
@@ -215,53 +225,62 @@ def harmonic(scene: SceneLike, hz: Sequence[Number] | Number | None = None, *, s
 
 
 def sweep(scene: SceneLike, *, frequencies: Sequence[Number], points_per_decade: int | None = None,
-          temperatures: Sequence[Number] | None = None, specimen: _core.Specimen | None = None, out: str | PathLike[str] | None = None,
+          points: int | None = None, temperatures: Sequence[Number] | None = None,
+          specimen: _core.Specimen | None = None, out: str | PathLike[str] | None = None,
           progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
     """The complex modulus over frequencies [Hz] and temperatures [°C]: `kind = "sweep"` (docs/relaxation.md).
 
-    frequencies: a list, or, with points_per_decade, the two ends of a range.
+    frequencies: a list, or, with points_per_decade or points, the two ends of a range.
     """
-    loading = {"kind": "sweep", "frequencies": frequencies, "points_per_decade": points_per_decade,
+    loading = {"kind": "sweep", "frequencies": frequencies, "points_per_decade": points_per_decade, "points": points,
                "temperatures": temperatures}
     return _test(scene, specimen, loading, overrides, out=out, progress=progress)
 
 
-def relaxation(scene: SceneLike, *, times: Sequence[Number], points_per_decade: int | None = None, strain: Number | None = None,
-               ramp: Number | None = None, poisson_ratio: float | None = None, specimen: _core.Specimen | None = None,
+def relaxation(scene: SceneLike, *, times: Sequence[Number], points_per_decade: int | None = None,
+               points: int | None = None, strain: Number | None = None, ramp: Number | None = None,
+               poisson_ratio: float | None = None, method: str = "harmonic", specimen: _core.Specimen | None = None,
                out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
                **overrides: Any) -> Result:
-    """Stress under a strain that is held, without a time step: `kind = "relaxation"` (docs/relaxation.md).
+    """Stress under a strain that is held: `kind = "relaxation"` (docs/relaxation.md).
 
-    times: [s] from the beginning of the ramp, or, with points_per_decade, the two ends of a range.
+    times: [s] from the beginning of the ramp, or, with points_per_decade or points, the two ends of a range.
     strain: that is held; ramp: over which it grows [s], 0: at once.
     poisson_ratio: for the tables of finite-element programs.
+    method: "harmonic", without a time step, or "explicit", stepped; then on_step, every, resume and so on too.
+    overrides: as run() has them: `**{"solver.density_scaling": 100}` …
     """
-    loading = {"kind": "relaxation", "times": times, "points_per_decade": points_per_decade,
-               "strain": strain, "ramp": ramp,
-               "poisson_ratio": poisson_ratio}
-    return _test(scene, specimen, loading, overrides, out=out, progress=progress)
+    loading = {"kind": "relaxation", "times": times, "points_per_decade": points_per_decade, "points": points,
+               "strain": strain, "ramp": ramp, "poisson_ratio": poisson_ratio}
+    return _test(scene, specimen, loading, overrides, method, out=out, progress=progress)
 
 
 def creep(scene: SceneLike, *, stress: Number, times: Sequence[Number], points_per_decade: int | None = None,
-          ramp: Number | None = None,
-          release: Number | None = None, poisson_ratio: float | None = None, specimen: _core.Specimen | None = None,
-          out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
-          **overrides: Any) -> Result:
-    """Strain under a stress [Pa] that is held, and taken off at `release` [s]: `kind = "creep"` (docs/relaxation.md).
+          points: int | None = None, ramp: Number | None = None, release: Number | None = None,
+          platen_mass: Number | None = None, poisson_ratio: float | None = None, method: str = "harmonic",
+          specimen: _core.Specimen | None = None, out: str | PathLike[str] | None = None,
+          progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
+    """Strain under a stress [Pa] that is held, and taken off from `release` [s] on: `kind = "creep"` (docs/relaxation.md).
 
-    times, points_per_decade, ramp, poisson_ratio: as relaxation() has them.
+    platen_mass: of the loaded top wall [kg], of method "explicit".
+    times, points_per_decade, points, ramp, poisson_ratio, method, overrides: as relaxation() has them.
     """
     loading = {"kind": "creep", "stress": stress, "times": times, "points_per_decade": points_per_decade,
-               "ramp": ramp,
-               "release": release, "poisson_ratio": poisson_ratio}
-    return _test(scene, specimen, loading, overrides, out=out, progress=progress)
-
-
-def monotonic(scene: SceneLike, *, rate: Number, times: Sequence[Number], points_per_decade: int | None = None,
-              poisson_ratio: float | None = None,
-              specimen: _core.Specimen | None = None, out: str | PathLike[str] | None = None,
-              progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
-    """Stress under a constant rate of strain [1/s], tension positive: `kind = "monotonic"` (docs/relaxation.md)."""
-    loading = {"kind": "monotonic", "rate": rate, "times": times, "points_per_decade": points_per_decade,
+               "points": points, "ramp": ramp, "release": release, "platen_mass": platen_mass,
                "poisson_ratio": poisson_ratio}
-    return _test(scene, specimen, loading, overrides, out=out, progress=progress)
+    return _test(scene, specimen, loading, overrides, method, out=out, progress=progress)
+
+
+def monotonic(scene: SceneLike, *, rate: Number, times: Sequence[Number] | None = None,
+              points_per_decade: int | None = None, points: int | None = None, strain: Number | None = None,
+              poisson_ratio: float | None = None, method: str = "harmonic", specimen: _core.Specimen | None = None,
+              out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
+              **overrides: Any) -> Result:
+    """Stress under a constant rate of strain [1/s], tension positive: `kind = "monotonic"` (docs/relaxation.md).
+
+    strain: at which the test ends, in place of times. points: even distances of time.
+    times, points_per_decade, poisson_ratio, method, overrides: as relaxation() has them.
+    """
+    loading = {"kind": "monotonic", "rate": rate, "times": times, "points_per_decade": points_per_decade,
+               "points": points, "strain": strain, "poisson_ratio": poisson_ratio}
+    return _test(scene, specimen, loading, overrides, method, out=out, progress=progress)

@@ -56,14 +56,17 @@ def segment(images: Path, out: Path, *, voxel: Length | Sequence[Length] | None 
 
 
 def phantom(scene: _core.Scene | Mapping[str, Any] | Path, voxel: Length, out: Path, *, sawn: Length = 0,
-            air: Length = "1 mm", **spec: Any) -> _core.Phantom:
+            air: Length = "1 mm", specimen_seed: int | None = None, **spec: Any) -> _core.Phantom:
     """A synthetic scan of a scene's specimen with its truth, in `out`: `macadam ct phantom`.
 
+    voxel: its edge. sawn: taken off each side of the box before it is scanned; air: around the specimen.
+    specimen_seed: instead of the scene's.
     spec: seed, shape ("prism", "cylinder"), samples, blur [voxels], noise, cupping, rings, drift, grey_air, grey_mastic,
     grey_aggregate, progress; as the command's options.
     """
     _require_ct()
-    return _core.phantom(_scene(scene), _length(voxel), fspath(out), sawn=_length(sawn), air=_length(air), **spec)
+    given = _scene(scene) if specimen_seed is None else Scene(scene, seed=specimen_seed)
+    return _core.phantom(given, _length(voxel), fspath(out), sawn=_length(sawn), air=_length(air), **spec)
 
 
 def twin(folder: Path, scene: _core.Scene | Mapping[str, Any] | Path, out: Path, *, box: Sequence[Length] = (),

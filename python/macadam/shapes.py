@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from os import PathLike, fspath
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import _core
@@ -15,7 +14,7 @@ from ._core import subdivided_icosahedron as icosahedron
 if TYPE_CHECKING:
     import pandas
 
-__all__ = ["FillReport", "ShapeMeasure", "Spheres", "Surface", "Verdict", "check", "fill", "generate", "icosahedron",
+__all__ = ["FillReport", "ShapeMeasure", "Spheres", "Surface", "Verdict", "check", "files_in", "fill", "generate", "icosahedron",
            "library", "measure", "measure_fill", "read", "repair", "table", "write"]
 
 SurfaceLike = Surface | str | PathLike[str]
@@ -52,35 +51,55 @@ def measure(surface: SurfaceLike) -> ShapeMeasure:
     return _core.measure_shape(_surface(surface))
 
 
-def table(surfaces: Iterable[SurfaceLike]) -> pandas.DataFrame:
-    """measure() of several, a row each [SI units]."""
+def table(surfaces: Iterable[SurfaceLike], *, repair: bool = False,
+          out: str | PathLike[str] | None = None) -> pandas.DataFrame:
+    """measure() of several, a row each [SI units]: `macadam shapes measure`.
+
+    repair: faulty surfaces, before they are measured. out: a folder for shapes.csv, statistics.csv and correlation.csv.
+    """
     import pandas
-    rows = []
-    for one in surfaces:
-        surface = _surface(one)
-        of = measure(surface)
-        rows.append({"name": surface.name, **{c: getattr(of, c) for c in _COLUMNS}})
-    return pandas.DataFrame(rows)
+    shapes = [_surface(one) for one in surfaces]
+    if repair:
+        shapes = [shape if check(shape) else _core.repair_surface(shape)[0] for shape in shapes]
+    measures = [measure(shape) for shape in shapes]
+    if out is not None:
+        _core.write_shape_tables(fspath(out), [shape.name for shape in shapes], measures)
+    return pandas.DataFrame([{"name": shape.name, **{c: getattr(of, c) for c in _COLUMNS}}
+                             for shape, of in zip(shapes, measures, strict=True)])
+
+
+def files_in(folder: str | PathLike[str], scale: float = 1) -> list[Surface]:
+    """All shapes of a folder, in the order of their names."""
+    return [read(file, scale) for file in _core.surface_files_in(fspath(folder))]
 
 
 def fill(surface: SurfaceLike, radius: float | tuple[float, float], *, porosity: float = 0.12, least: int = 8,
-         single: str = "intermediate", seed: int = 1) -> Spheres:
+         single: str = "intermediate", seed: int = 1, circumscribed: float | None = None,
+         out: str | PathLike[str] | None = None) -> Spheres:
     """Fills a shape with spheres.
 
     radius: of the spheres [m], or the least and the greatest.
     porosity: 1 - sum of the spheres' volumes / volume of the shape.
     least: fewer spheres than this: a single one, of the radius that `single` says: "intermediate" (D^I/2),
     "circumscribed" or "volume".
+    circumscribed: scale the shape first, to D^I/2 of this [m].
+    out: a folder for spheres.csv, spheres.obj and shape.obj, as the command writes them.
     """
     low, high = (radius, radius) if isinstance(radius, (int, float)) else radius
-    return _core.fill_shape(_surface(surface), low, high, porosity, least, single, seed)
-
-
-def generate(out: str | PathLike[str] | None = None, *, seed: int = 1, count: int = 82) -> list[Surface]:
-    """Crushed aggregates with the statistics of the library that ships, written as OFF files where `out` is given."""
-    shapes = _core.generate_shape_library(seed, count)
+    shape = _surface(surface)
+    if circumscribed is not None:
+        shape = _core.scale_shape(shape, circumscribed)
+    spheres = _core.fill_shape(shape, low, high, porosity, least, single, seed)
     if out is not None:
-        Path(out).mkdir(parents=True, exist_ok=True)
-        for shape in shapes:
-            write(Path(out) / f"{shape.name}.off", shape)
+        _core.write_filling(fspath(out), shape, spheres)
+    return spheres
+
+
+def generate(out: str | PathLike[str] | None = None, *, seed: int = 1, count: int = 82,
+             icosahedron: float | None = None) -> list[Surface]:
+    """Crushed aggregates with the statistics of the library that ships, or the subdivided icosahedron of a radius [m];
+    written as OFF files where a folder `out` is given, in which there may be no other shapes."""
+    shapes = _core.generate_shape_library(seed, count) if icosahedron is None else [_core.subdivided_icosahedron(icosahedron)]
+    if out is not None:
+        _core.write_shape_library(fspath(out), shapes)
     return shapes

@@ -77,6 +77,11 @@ inline std::vector<Vec3d> copy(const Vectors& a) {
   return out;
 }
 
+/// Numbers of an array, a list, a column of a table.
+inline std::vector<double> numbers_of(nb::handle values) {
+  return copy(nb::cast<Numbers>(nb::module_::import_("numpy").attr("asarray")(values, "float64")));
+}
+
 inline nb::tuple triple(const Vec3d& v) { return nb::make_tuple(v.x, v.y, v.z); }
 
 }  // namespace macadam::python

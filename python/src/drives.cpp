@@ -6,6 +6,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
+
 #include "macadam/boundary.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
@@ -18,6 +20,17 @@ std::vector<double> values_of(const Drive& drive, std::int64_t first, std::int64
   std::vector<double> out;
   for (std::int64_t k = first; k < first + count; ++k) out.push_back(drive.value(k));
   return out;
+}
+
+constexpr std::int64_t most_steps = std::int64_t{1} << 60;  // two of them may be added
+
+std::int64_t steps(const char* name, std::int64_t value, std::int64_t least) {
+  return in_range(name, value, least, most_steps);
+}
+
+void require_positive(const char* name, double value, const char* unit) {
+  if (!(value > 0 && std::isfinite(value)))
+    throw InputError(fmt::format("{}: found {}, expected a number above 0 {}", name, value, unit));
 }
 
 void bind_boundary(nb::module_& m) {
@@ -66,19 +79,57 @@ void bind_drives(nb::module_& m) {
       .def(
           "values",
           [](const Drive& d, std::int64_t first, std::int64_t count) { return owned(values_of(d, first, count)); },
-          nb::arg("first"), nb::arg("count"), "At `count` steps from `first` on.");
+          nb::arg("first"), nb::arg("count"), "At `count` steps from `first` on.")
+      .def("rate", &Drive::rate, nb::arg("step"), "Mean rate from this step to the next [m/s] or [N/s].")
+      .def_prop_ro("shortest_time", &Drive::shortest_time, "In which it changes much [s]: a period, a ramp.")
+      .def_prop_ro("fastest", &Drive::fastest, "Largest absolute rate [m/s] or [N/s].");
   nb::class_<drives::Cyclic, Drive>(m, "Cyclic", "-amplitude·sin(2πft), with a smooth start over `ramp_steps`.")
-      .def(nb::init<double, double, std::int64_t, std::int64_t>(), nb::arg("amplitude"), nb::arg("frequency"),
-           nb::arg("steps_per_period"), nb::arg("ramp_steps") = 0);
+      .def(
+          "__init__",
+          [](drives::Cyclic* self, double amplitude, double frequency, std::int64_t steps_per_period,
+             std::int64_t ramp_steps) {
+            require_positive("frequency", frequency, "Hz");
+            new (self) drives::Cyclic(amplitude, frequency, steps("steps_per_period", steps_per_period, 1),
+                                      steps("ramp_steps", ramp_steps, 0));
+          },
+          nb::arg("amplitude"), nb::arg("frequency"), nb::arg("steps_per_period"), nb::arg("ramp_steps") = 0);
   nb::class_<drives::ConstantRate, Drive>(m, "ConstantRate", "speed·t, of a test that takes `duration` [s].")
-      .def(nb::init<double, double, double>(), nb::arg("speed"), nb::arg("dt"), nb::arg("duration"));
+      .def(
+          "__init__",
+          [](drives::ConstantRate* self, double speed, double dt, double duration) {
+            require_positive("dt", dt, "s");
+            new (self) drives::ConstantRate(speed, dt, duration);
+          },
+          nb::arg("speed"), nb::arg("dt"), nb::arg("duration"));
   nb::class_<drives::Ramp, Drive>(m, "Ramp", "From 0 to `height` within `ramp_steps`, held for `hold_steps`, and back.")
-      .def(nb::init<double, double, std::int64_t, std::int64_t, bool>(), nb::arg("height"), nb::arg("dt"),
-           nb::arg("ramp_steps") = 1, nb::arg("hold_steps") = forever, nb::arg("smooth") = false);
+      .def(
+          "__init__",
+          [](drives::Ramp* self, double height, double dt, std::int64_t ramp_steps, std::int64_t hold_steps,
+             bool smooth) {
+            require_positive("dt", dt, "s");
+            new (self) drives::Ramp(height, dt, steps("ramp_steps", ramp_steps, 1),
+                                    hold_steps == forever ? forever : steps("hold_steps", hold_steps, 0), smooth);
+          },
+          nb::arg("height"), nb::arg("dt"), nb::arg("ramp_steps") = 1, nb::arg("hold_steps") = forever,
+          nb::arg("smooth") = false);
+  nb::class_<drives::Haversine, Drive>(
+      m, "Haversine", "Pulses height·sin²(πt/pulse) of `pulse_steps`, with `rest_steps` of 0 behind each.")
+      .def(
+          "__init__",
+          [](drives::Haversine* self, double height, double dt, std::int64_t pulse_steps, std::int64_t rest_steps,
+             std::int64_t pulses) {
+            require_positive("dt", dt, "s");
+            new (self)
+                drives::Haversine(height, dt, steps("pulse_steps", pulse_steps, 1), steps("rest_steps", rest_steps, 0),
+                                  in_range<std::int64_t>("pulses", pulses, 0, forever));
+          },
+          nb::arg("height"), nb::arg("dt"), nb::arg("pulse_steps"), nb::arg("rest_steps") = 0,
+          nb::arg("pulses") = forever);
   nb::class_<drives::Table, Drive>(m, "Table", "Values at times [s] that ascend, straight lines between them.")
       .def(
           "__init__",
           [](drives::Table* self, double dt, const std::vector<double>& times, const std::vector<double>& values) {
+            require_positive("dt", dt, "s");
             new (self) drives::Table(dt, times, values);
           },
           nb::arg("dt"), nb::arg("times"), nb::arg("values"));

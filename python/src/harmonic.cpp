@@ -67,6 +67,15 @@ class Solver {
   std::mutex busy_;
 };
 
+nb::dict shares_of(const HarmonicResult& r) {
+  nb::dict out;
+  const auto all = shares(r.parts);
+  for (std::size_t pair = 0; pair < all.size(); ++pair)
+    if (r.parts.normal[pair] != 0.0 || r.parts.shear[pair] != 0.0)
+      out[to_string(static_cast<PairType>(pair))] = all[pair];
+  return out;
+}
+
 nb::list sensitivities_of(const HarmonicResult& r, const Prepared& p) {
   nb::list out;
   for (const Sensitivity& s : sensitivities(r.parts, p.scene->laws, HarmonicLoad{r.frequency_hz}.s())) {
@@ -90,6 +99,19 @@ void bind_harmonic(nb::module_& m) {
           "phase_deg", [](const HarmonicResult& r) { return r.top.phase_deg; }, "φ [degrees].")
       .def_prop_ro(
           "modulus", [](const HarmonicResult& r) { return r.parts.modulus(); }, "E* [Pa], complex.")
+      .def_prop_ro(
+          "bottom_e_star_pa", [](const HarmonicResult& r) { return r.bottom.e_star_pa; },
+          "|E*| [Pa], by the bottom wall; the same without inertia.")
+      .def_prop_ro(
+          "bottom_phase_deg", [](const HarmonicResult& r) { return r.bottom.phase_deg; },
+          "φ [degrees], by the bottom wall.")
+      .def_prop_ro("shares", &shares_of, "The part of E* that each pair carries; without inertia they add up to 1.")
+      .def_prop_ro(
+          "linear", [](const HarmonicResult& r) { return r.linear == LinearMethod::direct ? "direct" : "iterative"; },
+          "How it was solved: iterative or direct.")
+      .def_ro("why_factors", &HarmonicResult::why_factors, "Why factors were taken, where they were not asked for.")
+      .def_ro("held_force", &HarmonicResult::held_force,
+              "Force that holds free rigid motions, over the reaction: rounding, where nothing is wrong.")
       .def_ro("residual", &HarmonicResult::residual, "Relative, of the linear system.")
       .def_ro("iterations", &HarmonicResult::iterations)
       .def_ro("seconds", &HarmonicResult::seconds)

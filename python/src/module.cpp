@@ -12,8 +12,10 @@ NB_MODULE(_core, m) {
   bind_cells(m);
   bind_contacts(m);
   bind_specimen(m);
+  bind_fields(m);
   bind_drives(m);
   bind_harmonic(m);
+  bind_spectrum(m);
   bind_states(m);
   bind_stepper(m);
   bind_simulation(m);

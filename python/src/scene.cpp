@@ -54,6 +54,35 @@ void override_options(GivenScene& scene, std::optional<std::uint64_t> seed, cons
   take(all.device, now.device);
 }
 
+nb::object recipe_of(const GivenScene& scene) {
+  if (!scene.recipe) return nb::none();
+  const MixVolumes v = volumes_of(*scene.recipe);
+  nb::dict out;
+  for (const auto& [name, value] :
+       std::initializer_list<std::pair<const char*, double>>{{"maximum_density", v.maximum_density},
+                                                             {"bulk_density", v.bulk_density},
+                                                             {"air_voids", v.air_voids},
+                                                             {"vma", v.vma},
+                                                             {"vfb", v.vfb},
+                                                             {"binder", v.binder},
+                                                             {"effective_binder", v.effective_binder},
+                                                             {"absorbed_binder", v.absorbed_binder},
+                                                             {"aggregate_mass", v.aggregate_mass},
+                                                             {"aggregate_volume", v.aggregate_volume},
+                                                             {"aggregate_density", v.aggregate_density},
+                                                             {"mastic_mass", v.mastic_mass},
+                                                             {"mastic_volume", v.mastic_volume},
+                                                             {"mastic_density", v.mastic_density},
+                                                             {"mastic_fine_mass", v.mastic_fine_mass},
+                                                             {"mastic_filler_mass", v.mastic_filler_mass},
+                                                             {"mastic_binder_mass", v.mastic_binder_mass}})
+    out[name] = value;
+  nb::list outside;
+  for (const SievePassing& s : outside_of_envelope(*scene.recipe)) outside.append(nb::make_tuple(s.size, s.passing));
+  out["outside_of_envelope"] = outside;
+  return out;
+}
+
 }  // namespace
 
 void bind_scene(nb::module_& m) {
@@ -94,6 +123,10 @@ void bind_scene(nb::module_& m) {
           "seed", [](const GivenScene& s) { return s.specimen.seed; }, "Of a generated specimen.")
       .def_prop_ro(
           "box", [](const GivenScene& s) { return triple(s.specimen.box.size); }, "Edge lengths [m].")
+      .def_prop_ro(
+          "recipe", &recipe_of,
+          "Of a recipe by mass, else None: densities [kg/m³], air voids, VMA, VFB, binder contents, and shares of "
+          "aggregate and mastic by mass and volume, all 0 to 1.")
       .def_prop_ro(
           "frequencies", [](const GivenScene& s) { return frequencies_of(s.experiment); }, "Of the test [Hz].")
       .def_prop_ro(

@@ -6,6 +6,11 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "host/results/files.hpp"
+#include "host/results/result_folder.hpp"
+#include "host/results/shape_files.hpp"
+#include "host/shapes/statistics.hpp"
+#include "host/shapes/surface_files.hpp"
 #include "macadam/shape.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
@@ -86,6 +91,14 @@ void bind_surface(nb::module_& m) {
       nb::arg("surface"), "The surface made fit for measuring and filling, and in words what was done.");
 }
 
+void write_tables(const std::filesystem::path& out, const std::vector<std::string>& names,
+                  const std::vector<ShapeMeasure>& shapes) {
+  const ResultFolder folder(out);
+  write_whole(out / "shapes.csv", shapes_csv(names, shapes));
+  write_whole(out / "statistics.csv", statistics_csv(shapes));
+  write_whole(out / "correlation.csv", correlation_csv(shapes));
+}
+
 void bind_measures(nb::module_& m) {
   nb::class_<ShapeMeasure>(m, "ShapeMeasure", "Dimensions and indices of a shape (docs/shapes.md). Lengths in m.")
       .def_ro("points", &ShapeMeasure::points)
@@ -107,6 +120,7 @@ void bind_measures(nb::module_& m) {
       .def_prop_ro("flatness", &ShapeMeasure::flatness)
       .def_prop_ro("elongation", &ShapeMeasure::elongation)
       .def_prop_ro("flakiness", &ShapeMeasure::flakiness);
+  m.def("write_shape_tables", &write_tables, nb::arg("out"), nb::arg("names"), nb::arg("measures"));
   m.def(
       "measure_shape", [](const Surface& s) { return released([&] { return measure_shape(s); }); }, nb::arg("surface"));
 }
@@ -151,6 +165,10 @@ void bind_filling(nb::module_& m) {
       "measure_fill",
       [](const Surface& s, const MultiSphere& c) { return released([&] { return measure_fill(s, c); }); },
       nb::arg("surface"), nb::arg("spheres"), "Measures spheres against their shape.");
+  m.def("scale_shape", &scaled_to, nb::arg("surface"), nb::arg("circumscribed"));
+  m.def("write_filling", &write_filling, nb::arg("out"), nb::arg("surface"), nb::arg("spheres"));
+  m.def("write_shape_library", &write_shape_library, nb::arg("out"), nb::arg("shapes"));
+  m.def("surface_files_in", &surface_files_in, nb::arg("folder"));
   m.def("shape_library", &shape_library, "The 82 aggregates that ship with the program.");
   m.def(
       "generate_shape_library",

@@ -12,6 +12,7 @@
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
+#include "python/src/fields.hpp"
 
 namespace macadam::python {
 namespace {
@@ -30,6 +31,7 @@ class StepView {
   double strain() const { return now.top_displacement() / height_; }
   double stress() const { return -now.top_force() / area_; }
   ContactState contacts() const { return stepper().contacts(made_->network); }
+  nb::ndarray<nb::numpy, float> cell_stress() const { return stress_of(*made_, contacts()); }
 
  private:
   const Stepper* stepper_;
@@ -111,7 +113,7 @@ nb::list skips_of(const RunResult& result) {
 
 void bind_simulation(nb::module_& m) {
   nb::class_<StepView>(m, "Step", "A run that is under way, as a callback sees it.")
-      .def_ro("frequency_hz", &StepView::frequency_hz)
+      .def_ro("frequency_hz", &StepView::frequency_hz, "Of a cyclic test, else 0.")
       .def_prop_ro("step", [](const StepView& s) { return s.now.step; })
       .def_prop_ro(
           "time", [](const StepView& s) { return s.now.time; }, "[s]")
@@ -120,7 +122,9 @@ void bind_simulation(nb::module_& m) {
       .def_ro("observation", &StepView::now, "Of all walls.")
       .def(
           "particles", [](const StepView& s) { return s.stepper().particles(); }, "Motion of all particles now.")
-      .def("contacts", &StepView::contacts, "Forces and deformation of all contacts now.");
+      .def("contacts", &StepView::contacts, "Forces and deformation of all contacts now.")
+      .def("stress", &StepView::cell_stress,
+           "Mean stress in each particle's cell [Pa], (n, 6): xx yy zz xy yz xz, tension positive.");
   nb::class_<RunResult>(m, "Outcome", "A finished run; its numbers are in the folder's summary.json.")
       .def_prop_ro("text", &results_table, "As the command says it.")
       .def_prop_ro("decisions", [](const RunResult& o) { return o.decisions; })

@@ -10,12 +10,12 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "host/results/files.hpp"
 #include "macadam/macadam.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
 #include "python/src/choices.hpp"
+#include "python/src/fields.hpp"
 
 namespace macadam::python {
 namespace {
@@ -121,29 +121,6 @@ nb::list gradation_rows(const Prepared& p) {
   return out;
 }
 
-void write_specimen(const Prepared& p, const std::filesystem::path& file, const std::string& what) {
-  const std::filesystem::path ending = file.extension();
-  const Preparation& made = p.made;
-  if (ending == ".csv" && what == "particles") return write_specimen_csv(file, made.specimen);
-  if (ending == ".csv" && what == "contacts") return write_contacts_csv(file, made.network);
-  if (ending != ".vtkhdf" && ending != ".vtp") {
-    throw InputError(file.string(), 0, "ending of the file", ending.string(),
-                     ".vtkhdf, .vtp or, of particles and contacts, .csv");
-  }
-  const FieldFormat format = ending == ".vtkhdf" ? FieldFormat::vtkhdf : FieldFormat::vtp;
-  const std::filesystem::path stem = file.parent_path() / file.stem();
-  const nb::gil_scoped_release release;
-  if (what == "particles") {
-    write_fields(stem, format, particle_mesh(made.specimen, made.aggregates));
-  } else if (what == "contacts") {
-    write_fields(stem, format, contact_mesh(made.specimen, made.network));
-  } else if (what == "cells") {
-    write_fields(stem, format, cell_mesh(made.specimen, made.tessellation, made.aggregates));
-  } else {
-    throw InputError("what: found \"" + what + "\", expected particles, contacts or cells");
-  }
-}
-
 void bind_particles(nb::class_<Prepared>& c) {
   c.def("__len__", [](const Prepared& p) { return p.made.specimen.size(); })
       .def_prop_ro(
@@ -201,13 +178,21 @@ void bind_specimen(nb::module_& m) {
           "loose_particles", [](const Prepared& p) { return p.made.loose_particles; },
           "Not joined to both walls: they carry nothing.")
       .def_prop_ro(
+          "spanning_clusters", [](const Prepared& p) { return p.made.spanning_clusters; },
+          "Clusters of particles that touch both walls; one, usually.")
+      .def_prop_ro(
+          "relaxation_iterations", [](const Prepared& p) { return p.made.relaxation_iterations; },
+          "Of a generated specimen.")
+      .def_prop_ro(
           "seconds",
           [](const Prepared& p) {
             return nb::make_tuple(p.made.seconds_specimen, p.made.seconds_tessellation, p.made.seconds_network);
           },
           "What the making of particles, cells and contacts took [s].")
-      .def("write", &write_specimen, nb::arg("file"), nb::arg("what") = "particles",
-           "Writes particles, contacts or cells for viewers (.vtkhdf, .vtp), or the first two as .csv.")
+      .def(
+          "write", &write_specimen, nb::arg("file"), nb::arg("what") = "particles", nb::arg("arrays") = nb::dict(),
+          "Writes particles, contacts or cells for viewers (.vtkhdf, .vtp), or the first two as .csv. arrays: more for "
+          "viewers, by name, a row a particle, a contact or a polygon.")
       .def(
           "section",
           [](const Prepared& p, const std::string& plane) {

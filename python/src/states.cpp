@@ -21,6 +21,9 @@ void bind_states(nb::module_& m) {
           "wall_displacement", [](const Observation& o) { return of_walls(o.wall_displacement); },
           "Of -x +x -y +y -z +z [m], (6, 3).")
       .def_prop_ro(
+          "wall_velocity", [](const Observation& o) { return of_walls(o.wall_velocity); },
+          "Likewise, at the last half step [m/s], (6, 3).")
+      .def_prop_ro(
           "wall_force", [](const Observation& o) { return of_walls(o.wall_force); },
           "On the walls by the particles [N], (6, 3).")
       .def_prop_ro("top_displacement", &Observation::top_displacement, "Of the top wall along z [m].")

@@ -15,6 +15,7 @@
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
 #include "python/src/choices.hpp"
+#include "python/src/fields.hpp"
 
 namespace macadam::python {
 namespace {
@@ -122,12 +123,26 @@ nb::object device_motion(const Steps& s) {
   return out;
 }
 
+nb::list kernels_of(const Steps& s) {
+  nb::list out;
+  for (const KernelUse& kernel : s.stepper->kernels()) {
+    nb::dict one;
+    one["name"] = kernel.name;
+    one["registers"] = kernel.registers;
+    one["shared_bytes"] = kernel.shared_bytes;
+    one["occupancy"] = kernel.occupancy;
+    out.append(one);
+  }
+  return out;
+}
+
 using Text = std::string;
 
 void make(Steps* self, PreparedPointer specimen, const Boundary& boundary, std::optional<double> dt,
           const Text& backend, const Text& precision, const Text& form, const Text& geometry, const Text& damping_kind,
-          double damping, double density_scaling, double safety, int threads, std::optional<int> device,
-          const StartState* start, std::int64_t observed_every) {
+          double damping, double density_scaling, double safety, bool skip_shear, bool skip_rotations, int threads,
+          std::optional<int> device, int multiprocessors, const StartState* start, double blocks,
+          std::int64_t observed_every) {
   StepperOptions options;
   options.form = choice("form", form, forms);
   options.geometry = choice("geometry", geometry, geometries);
@@ -135,6 +150,10 @@ void make(Steps* self, PreparedPointer specimen, const Boundary& boundary, std::
   options.damping_kind = choice("damping_kind", damping_kind, dampings);
   options.damping = damping;
   options.density_scaling = density_scaling;
+  options.skip_shear = skip_shear;
+  options.skip_rotations = skip_rotations;
+  options.multiprocessors = in_range("multiprocessors", multiprocessors, 0, 4096);
+  options.blocks = in_range("blocks", blocks, 1.0, 1e18);
   options.threads = in_range("threads", threads, 0, 1024);
   options.device = in_range("device", device, 0, 1023);
   options.boundary = boundary;
@@ -157,13 +176,18 @@ void make(Steps* self, PreparedPointer specimen, const Boundary& boundary, std::
 
 void bind_stepper(nb::module_& m) {
   nb::class_<Steps>(m, "Stepper", "Steps a specimen in time: velocities at half steps, displacements at whole steps.")
-      .def("__init__", &make, nb::arg("specimen"), nb::arg("boundary"), nb::kw_only(), nb::arg("dt") = nb::none(),
-           nb::arg("backend") = "auto", nb::arg("precision") = "double", nb::arg("form") = "condensed",
-           nb::arg("geometry") = "updated", nb::arg("damping_kind") = "none", nb::arg("damping") = 0.0,
-           nb::arg("density_scaling") = 1.0, nb::arg("safety") = 0.8, nb::arg("threads") = 0,
-           nb::arg("device") = nb::none(), nb::arg("start") = nb::none(), nb::arg("observed_every") = 0,
-           "dt [s]: that of the drives, else `safety` times the critical step. damping: χ, or β [1/s] of viscous "
-           "damping.")
+      .def(
+          "__init__", &make, nb::arg("specimen"), nb::arg("boundary"), nb::kw_only(), nb::arg("dt") = nb::none(),
+          nb::arg("backend") = "auto", nb::arg("precision") = "double", nb::arg("form") = "condensed",
+          nb::arg("geometry") = "updated", nb::arg("damping_kind") = "none", nb::arg("damping") = 0.0,
+          nb::arg("density_scaling") = 1.0, nb::arg("safety") = 0.8, nb::arg("skip_shear") = true,
+          nb::arg("skip_rotations") = true, nb::arg("threads") = 0, nb::arg("device") = nb::none(),
+          nb::arg("multiprocessors") = 0, nb::arg("start") = nb::none(), nb::arg("blocks") = StepperOptions{}.blocks,
+          nb::arg("observed_every") = 0,
+          "dt [s]: that of the drives, else `safety` times the critical step. damping: χ, or β [1/s] of viscous "
+          "damping. skip_shear, skip_rotations: leave out what is 0. start: a state of motion (steady_start). Of cuda: "
+          "multiprocessors: plan for so many, 0: all; blocks: so many of them at least in the shortest time of drives "
+          "and laws; observed_every: steps from one observe() to the next, 0: not known.")
       .def("advance", &advance, nb::arg("steps"), "Takes steps. Other threads of Python run meanwhile; Ctrl-C ends it.")
       .def(
           "observe",
@@ -187,6 +211,13 @@ void bind_stepper(nb::module_& m) {
           },
           "Forces and deformation of all contacts now.")
       .def(
+          "stress",
+          [](const Steps& s) {
+            const auto held = s.hold();
+            return stress_of(s.prepared->made, s.stepper->contacts(s.prepared->made.network));
+          },
+          "Mean stress in each particle's cell [Pa], (n, 6): xx yy zz xy yz xz, tension positive.")
+      .def(
           "set_velocities",
           [](Steps& s, const Vectors& v, const Vectors& spin) {
             if (v.shape(0) != s.prepared->made.specimen.size() || spin.shape(0) != v.shape(0))
@@ -201,6 +232,8 @@ void bind_stepper(nb::module_& m) {
            "Of backend cuda, arrays on the device by DLPack, without a copy, valid until the next call: velocity "
            "[body][8] v, -, ω, - [m/s, rad/s], displacement [body][8] u, -, θ, - [m, rad]; `particle`: of each body, "
            "walls behind. Else None.")
+      .def_prop_ro("kernels", &kernels_of,
+                   "Of backend cuda, what a step launches: name, registers, shared_bytes, occupancy.")
       .def_prop_ro(
           "dt", [](const Steps& s) { return s.dt; }, "[s]")
       .def_prop_ro("specimen", [](const Steps& s) { return s.prepared; })

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The package itself: lazy, typed, and one with the program."""
 import os
+import pydoc
 import subprocess
 import sys
 from pathlib import Path
@@ -42,6 +43,28 @@ def test_types_are_right():
     assert not own, "\n".join(own)
 
 
+def test_a_users_script_is_checked(tmp_path):
+    pytest.importorskip("mypy")
+    script = (SOURCE / "tests" / "user_script.py").read_text()
+    wrong = script.replace("stepper.advance(10)", 'stepper.advance("ten")')
+    said = {}
+    for name, text in (("right", script), ("wrong", wrong)):
+        (tmp_path / f"{name}.py").write_text(text)
+        said[name] = subprocess.run([sys.executable, "-m", "mypy", "--disable-error-code", "import-untyped", "--cache-dir",
+                                     os.devnull, f"{name}.py"], cwd=tmp_path, capture_output=True, text=True,
+                                    env={**os.environ, "MYPYPATH": str(Path(mc.__file__).parent.parent)})
+    here = [line for line in said["right"].stdout.splitlines() if line.startswith("right.py")]
+    assert not here, "\n".join(here)
+    assert 'wrong.py' in said["wrong"].stdout and '"advance"' in said["wrong"].stdout
+
+
+def test_help_has_units():
+    for function, units in ((mc.run, ("[s]", "[Pa]")), (mc.harmonic, ("[Hz]", "[°C]")), (mc.creep, ("[Pa]", "[s]", "[kg]")),
+                            (mc.monotonic, ("[1/s]",)), (mc.specimen, ("[m]",)), (mc.Stepper, ("[s]", "[1/s]"))):
+        text = pydoc.render_doc(function)
+        assert all(unit in text for unit in units), function
+
+
 def fake(tmp_path, name):
     """A package macadam whose command says what it was told."""
     folder = tmp_path / "fake" / "macadam" / name
@@ -63,13 +86,16 @@ def test_the_program_hands_on_what_is_python(name, tmp_path, program):
     python.chmod(0o755)
     environment = {**os.environ, "MACADAM_PYTHON": str(python)}
     environment.pop("MACADAM_PROGRAM", None)
-    said = subprocess.run([alone, name, "DIR", "--out", "a b", "--help"], env=environment, capture_output=True, text=True)
+    said = subprocess.run([alone, name, "DIR", "--out", "a b", "--help"], env=environment, capture_output=True, text=True,
+                          cwd=tmp_path)
     told = f"told ['{name}', 'DIR', '--out', 'a b', '--help'] {Path(program).resolve()}\n"  # a study runs who was called
     assert (said.returncode, said.stdout) == (0, told), said.stderr
     python.write_text(f"#!/bin/sh\nPYTHONPATH={tmp_path} exec {sys.executable} -S \"$@\"\n")
-    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": str(python)}, capture_output=True, text=True)
+    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": str(python)}, capture_output=True, text=True,
+                          cwd=tmp_path)
     assert said.returncode == 2 and f"macadam {name}: found no Python package" in said.stderr
-    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": "/no/python"}, capture_output=True, text=True)
+    said = subprocess.run([alone, name], env={**os.environ, "MACADAM_PYTHON": "/no/python"}, capture_output=True, text=True,
+                          cwd=tmp_path)
     assert said.returncode == 2 and "/no/python" in said.stderr and "MACADAM_PYTHON" in said.stderr
 
 

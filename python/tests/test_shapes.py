@@ -66,6 +66,35 @@ def test_filling(cube):
         mc.shapes.fill(cube, 1e-3, single="x")
 
 
+def test_files_are_those_of_the_commands(cube, tmp_path, program):
+    mc.shapes.write(tmp_path / "cube.off", cube)
+
+    def command(*words):
+        subprocess.run([program, "shapes", *words], check=True, capture_output=True)
+    command("fill", tmp_path / "cube.off", "--radius", "1 mm", "--circumscribed", "4 mm", "--out", tmp_path / "command")
+    spheres = mc.shapes.fill(tmp_path / "cube.off", 1e-3, circumscribed=4e-3, out=tmp_path / "own")
+    command("measure", tmp_path / "cube.off", "--out", tmp_path / "command")
+    mc.shapes.table([tmp_path / "cube.off"], out=tmp_path / "own")
+    command("generate", "--out", tmp_path / "command" / "ball", "--icosahedron", "0.5")
+    mc.shapes.generate(tmp_path / "own" / "ball", icosahedron=0.5)
+    files = {p.relative_to(tmp_path / "command") for p in (tmp_path / "command").rglob("*.*") if p.is_file()}
+    assert len(files) == 7 and len(spheres) > 5
+    for file in files:
+        assert (tmp_path / "own" / file).read_bytes() == (tmp_path / "command" / file).read_bytes(), file
+    with pytest.raises(mc.InputError, match="no shapes but those"):
+        mc.shapes.generate(tmp_path / "own" / "ball", count=1)
+    with pytest.raises(mc.InputError, match="circumscribed: found 0"):
+        mc.shapes.fill(cube, 1e-3, circumscribed=0)
+    assert [s.name for s in mc.shapes.files_in(tmp_path / "own" / "ball")] == [mc.shapes.icosahedron().name]
+
+
+def test_a_faulty_surface_is_repaired_for_a_table(cube):
+    holed = mc.shapes.Surface(cube.points, cube.facets[:-1], "holed")
+    with pytest.raises(mc.Error):
+        mc.shapes.table([holed])
+    assert mc.shapes.table([holed], repair=True).volume[0] == pytest.approx(1e-6, rel=1e-3)  # a hole is closed by triangles
+
+
 def test_the_library(tmp_path):
     assert len(mc.shapes.library()) == 82
     made = mc.shapes.generate(tmp_path, seed=5, count=3)

@@ -141,8 +141,13 @@ def test_tests_without_steps_hang_together(specimen):
     assert isinstance(relaxed.csv("relaxation.csv"), pd.DataFrame)
     with pytest.raises(mc.InputError, match=r"nothing\.csv.*relaxation\.csv"):
         relaxed.csv("nothing.csv")
-    with pytest.raises(mc.InputError, match="explicit.*not stepped in time"):
-        mc.run(relaxed.scene, method="explicit")
+    with pytest.raises(mc.InputError, match="sweep.*not stepped in time|not stepped in time"):
+        mc.run(swept.scene, method="explicit")
+    spectrum = mc.spectrum(specimen, shortest=0.01, longest=1.0)
+    assert np.allclose(relaxed.table.modulus_pa, spectrum.relaxation.modulus(times), rtol=1e-4)  # tolerance of the first: 1e-5
+    assert spectrum.error < 1e-6 and spectrum.relaxation.units.shape[1] == 2
+    assert spectrum.relaxation.instantaneous * spectrum.creep.instantaneous == pytest.approx(1, rel=1e-9)
+    assert abs(spectrum.relaxation.stiffness(2j * np.pi)) == pytest.approx(swept.table.e_star_pa[0], rel=1e-3)
 
 
 def test_temporary_folders_go_with_their_results(specimen, tmp_path):

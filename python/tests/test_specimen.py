@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+from conftest import ROOT
 
 import macadam as mc
 
@@ -114,6 +115,32 @@ def test_files_for_viewers(specimen, tmp_path):
             specimen.write(tmp_path / file, what)
     with pytest.raises(mc.RunError, match="no_folder"):
         specimen.write(tmp_path / "no_folder" / "a.csv")
+
+
+def test_arrays_of_ones_own_for_viewers(specimen, tmp_path):
+    n = len(specimen)
+    height = specimen.centre[:, 2]
+    for ending in ("vtkhdf", "vtp"):
+        specimen.write(tmp_path / f"plain.{ending}")
+        specimen.write(tmp_path / f"more.{ending}", arrays={"height": height, "number": np.arange(n), "pair": np.ones((n, 2))})
+        plain, more = ((tmp_path / f"{name}.{ending}").read_bytes() for name in ("plain", "more"))
+        assert b"height" in more and b"number" in more and b"height" not in plain and len(more) > len(plain)
+        series = mc.FieldSeries(specimen, tmp_path / f"series.{ending}", "contacts")
+        for k in range(3):
+            series.add(0.1 * k, {"k": np.full(len(specimen.contacts), k, dtype=float)})
+        assert len(series) == 3
+    for arrays in ({"x": np.ones(n - 1)}, {"x": 1.0}, {"x": np.ones((n, 2, 2))}):
+        with pytest.raises(mc.InputError, match=rf"arrays: x: found an array of shape .*expected {n} rows"):
+            specimen.write(tmp_path / "a.vtp", arrays=arrays)
+    with pytest.raises(mc.InputError, match="ending"):
+        specimen.write(tmp_path / "a.csv", arrays={"height": height})
+
+
+def test_a_recipe_tells_its_volumes(scene):
+    assert scene.recipe is None
+    recipe = mc.Scene(ROOT / "examples" / "ac14_recipe" / "scene.toml").recipe
+    assert 0 < recipe["vfb"] < 1 and recipe["bulk_density"] < recipe["maximum_density"]
+    assert recipe["aggregate_mass"] + recipe["mastic_mass"] == pytest.approx(1)
 
 
 def test_a_folder_as_the_command_leaves_it(scene, tmp_path):

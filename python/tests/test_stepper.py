@@ -40,6 +40,22 @@ def test_steady_start_gives_the_harmonic_modulus(specimen, dt):
     assert np.degrees(np.angle(e_star)) == pytest.approx(solved.phase_deg, abs=0.05)
     assert solved.motion.shape == (len(specimen), 6) and solved.motion.dtype == complex
     assert abs(solved.modulus) == pytest.approx(solved.e_star_pa, rel=1e-9)
+    without = mc.HarmonicSolver(specimen).solve([HZ])[0]
+    assert sum(without.shares.values()) == pytest.approx(1) and without.linear == "iterative"
+    assert without.bottom_e_star_pa == pytest.approx(without.e_star_pa, rel=1e-6)
+
+
+def test_samples_of_ones_own_are_evaluated():
+    time = np.linspace(0, 2 / HZ, 401)
+    angle = 2 * np.pi * HZ * time
+    found = mc.evaluate_cyclic(time, 1e-4 * np.sin(angle), 1e6 * np.sin(angle + np.radians(20)), HZ, fit_cycles=2)
+    assert found["e_star_pa"] == pytest.approx(1e10) and found["phase_deg"] == pytest.approx(20)
+    # parabolas through three samples of two hundred a period
+    assert found["e_star_peaks_pa"] == pytest.approx(1e10, rel=1e-3) and found["fit_rms"] < 1e-9
+    with pytest.raises(mc.InputError, match="2 strains"):
+        mc.evaluate_cyclic([0.0, 1.0, 2.0], [0.0, 1.0], [0.0, 1.0], HZ)
+    with pytest.raises(mc.InputError, match="1 cycle|at least 1"):
+        mc.evaluate_cyclic(list(time[:50]), list(time[:50]), list(time[:50]), HZ)
 
 
 def test_a_table_of_the_same_values_is_the_same_drive(specimen, dt):
@@ -86,6 +102,32 @@ def test_forces_balance(specimen, dt):
     assert state.chain_begin.shape == (len(contacts) + 1,) and state.relative.shape == (len(contacts), 6)
 
 
+def test_pulses_and_what_drives_say_of_themselves(specimen, dt):
+    pulses = mc.drives.Haversine(height=-1e-6, dt=dt, pulse_steps=40, rest_steps=60, pulses=2)
+    k = np.arange(250)
+    expected = np.where((k % 100 < 40) & (k < 200), -1e-6 * np.sin(np.pi * (k % 100) / 40) ** 2, 0)
+    assert np.allclose(pulses.values(0, 250), expected, rtol=0, atol=1e-20)
+    assert pulses.rate(3) == pytest.approx((expected[4] - expected[3]) / dt) and pulses.shortest_time == 40 * dt
+    assert pulses.fastest == pytest.approx(np.pi * 1e-6 / (40 * dt))
+    stepping = stepper(specimen, pulses)
+    stepping.advance(20)
+    now = stepping.observe()
+    assert now.wall_displacement[5, 2] == pytest.approx(-1e-6) and now.wall_velocity.shape == (6, 3)
+    assert now.wall_velocity[5, 2] == pytest.approx(pulses.rate(19)) and stepping.kernels == []
+
+
+def test_stresses_of_cells_are_those_of_the_whole(specimen, dt):
+    """Volumes times stresses sum up to what the walls bear: exactly so in equilibrium, where no momentum is left."""
+    ramp = mc.drives.Ramp(height=1e-6, dt=dt, ramp_steps=200)
+    stepping = stepper(specimen, ramp, damping_kind="viscous", damping=0.05 / dt)
+    stepping.advance(3000)
+    box = specimen.box
+    mean = (stepping.stress() * specimen.cells.volume[:, None]).sum(axis=0) / (box[0] * box[1] * box[2])
+    wall = -stepping.observe().top_force / (box[0] * box[1])
+    assert stepping.stress().shape == (len(specimen), 6)
+    assert mean[2] == pytest.approx(wall, rel=0.05)  # what flows on, and waves that are left
+
+
 def test_boundaries(specimen, dt):
     n = len(specimen)
     held = np.flatnonzero(specimen.centre[:, 2] < 2e-3)
@@ -124,6 +166,12 @@ def test_wrong_drives_and_walls(specimen, dt):
                           (lambda: mc.Boundary().move("+z", "w", ramp), "axis"),
                           (lambda: mc.drives.Table(dt, [0.0, 1.0, 0.5], [0.0, 1.0, 2.0]), "row 3"),
                           (lambda: mc.drives.Table(dt, [0.0], [0.0]), "two at least"),
+                          (lambda: mc.drives.Table(0, [0.0, 1.0], [0.0, 1.0]), "dt: found 0"),
+                          (lambda: mc.drives.Cyclic(1e-6, 10, 0), "steps_per_period: found 0"),
+                          (lambda: mc.drives.Cyclic(1e-6, 0, 10), "frequency: found 0"),
+                          (lambda: mc.drives.Ramp(1e-6, -dt), "dt: found -"),
+                          (lambda: mc.drives.Haversine(1e-6, dt, 0), "pulse_steps: found 0"),
+                          (lambda: stepper(specimen, ramp, blocks=0.0), "blocks: found 0"),
                           (lambda: stepper(specimen, ramp).advance(-1), "-1 steps"),
                           (lambda: stepper(specimen, ramp).set_velocities(np.zeros((3, 3)), np.zeros((3, 3))), "as many")):
         with pytest.raises(mc.InputError, match=message):

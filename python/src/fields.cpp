@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// fields.cpp  Files for viewers, with arrays of one's own, and series of them in time.
+#include "python/src/fields.hpp"
+
+#include <fmt/format.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+
+#include <mutex>
+
+#include "host/results/files.hpp"
+
+namespace macadam::python {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// What is drawn, and how many rows its arrays have.
+struct Drawn {
+  FieldMesh mesh;
+  std::size_t rows = 0;
+};
+
+Drawn drawn(const Prepared& p, const std::string& what) {
+  const Preparation& made = p.made;
+  if (what == "particles") return {particle_mesh(made.specimen, made.aggregates), made.specimen.size()};
+  if (what == "contacts") return {contact_mesh(made.specimen, made.network), made.network.contacts.size()};
+  if (what == "cells") {
+    FieldMesh mesh = cell_mesh(made.specimen, made.tessellation, made.aggregates);
+    const std::size_t polygons = mesh.cell_count();
+    return {std::move(mesh), polygons};
+  }
+  throw InputError("what: found \"" + what + "\", expected particles, contacts or cells");
+}
+
+FieldFormat format_of(const Path& file) {
+  const Path ending = file.extension();
+  if (ending == ".vtkhdf") return FieldFormat::vtkhdf;
+  if (ending == ".vtp") return FieldFormat::vtp;
+  throw InputError(file.string(), 0, "ending of the file", ending.string(),
+                   ".vtkhdf, .vtp or, of particles and contacts, .csv");
+}
+Path stem_of(const Path& file) { return file.parent_path() / file.stem(); }
+
+/// Arrays by name, a row each: numbers, or tuples of numbers. The unit is none's: viewers show the name.
+std::vector<FieldArray> arrays_of(const nb::dict& given, std::size_t rows) {
+  std::vector<FieldArray> out;
+  for (const auto& [key, value] : given) {
+    const std::string name = nb::cast<std::string>(key);
+    const nb::object array = nb::module_::import_("numpy").attr("asarray")(value);
+    const bool whole = nb::cast<std::string>(array.attr("dtype").attr("kind")) != "f";
+    const auto fill = [&]<class T>(T) {
+      nb::ndarray<const T, nb::c_contig, nb::device::cpu> in;
+      const auto numbers = array.attr("astype")(whole ? "int32" : "float32", "C", whole ? "same_kind" : "unsafe");
+      if (!nb::try_cast(numbers, in) || in.ndim() < 1 || in.ndim() > 2 || in.shape(0) != rows) {
+        throw InputError(
+            fmt::format("arrays: {}: found an array of shape {}, expected {} rows of a number or of several", name,
+                        nb::repr(array.attr("shape")).c_str(), rows));
+      }
+      const int components = in.ndim() == 2 ? static_cast<int>(in.shape(1)) : 1;
+      out.push_back({name, "", components, std::vector<T>(in.data(), in.data() + in.size())});
+    };
+    if (whole) {
+      fill(std::int32_t{});
+    } else {
+      fill(float{});
+    }
+  }
+  return out;
+}
+
+/// A file to which frames are added.
+class Series {
+ public:
+  Series(const Prepared& p, const Path& file, const std::string& what) {
+    Drawn of = drawn(p, what);
+    rows_ = of.rows;
+    file_ = begin_fields(stem_of(file), format_of(file), std::move(of.mesh));
+  }
+  void add(double time, const nb::dict& arrays) {
+    const auto values = arrays_of(arrays, rows_);
+    const nb::gil_scoped_release release;
+    const std::scoped_lock one_at_a_time(busy_);
+    file_->add(time, values);
+  }
+  std::size_t size() const { return file_->size(); }
+
+ private:
+  std::unique_ptr<FieldSeries> file_;
+  std::size_t rows_ = 0;
+  std::mutex busy_;
+};
+
+}  // namespace
+
+nb::ndarray<nb::numpy, float> stress_of(const Preparation& made, const ContactState& state) {
+  FieldArray stress = stress_array(made.tessellation, made.network, state);
+  return owned(std::move(std::get<std::vector<float>>(stress.values)), {made.specimen.size(), 6});
+}
+
+void write_specimen(const Prepared& p, const Path& file, const std::string& what, const nb::dict& arrays) {
+  if (file.extension() == ".csv" && arrays.size() == 0) {
+    const nb::gil_scoped_release release;
+    if (what == "particles") return write_specimen_csv(file, p.made.specimen);
+    if (what == "contacts") return write_contacts_csv(file, p.made.network);
+  }
+  const FieldFormat format = format_of(file);
+  Drawn of = drawn(p, what);
+  auto values = arrays_of(arrays, of.rows);
+  const nb::gil_scoped_release release;
+  write_fields(stem_of(file), format, std::move(of.mesh), std::move(values));
+}
+
+void bind_fields(nb::module_& m) {
+  nb::class_<Series>(m, "FieldSeries", "A file for viewers that grows by frames in time; after each it is whole.")
+      .def(
+          "__init__",
+          [](Series* self, const PreparedPointer& specimen, const Path& file, const std::string& what) {
+            new (self) Series(*specimen, file, what);
+          },
+          nb::arg("specimen"), nb::arg("file"), nb::arg("what") = "particles",
+          "file: .vtkhdf, or .vtp, a file a frame and a list of them. what: particles, contacts or cells.")
+      .def("add", &Series::add, nb::arg("time"), nb::arg("arrays"),
+           "A frame at a time [s]: arrays by name, a row a particle, a contact or a polygon; those of the first frame "
+           "in all frames.")
+      .def("__len__", &Series::size, "Frames in the file.");
+}
+
+}  // namespace macadam::python
