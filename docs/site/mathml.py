@@ -8,14 +8,15 @@ from docutils.utils.math import MathError, latex2mathml
 from sphinx.util import logging
 
 TAG = re.compile(r"\\tag\{([^}]*)\}")
-ACCENT = re.compile(r"\\(?:dot|ddot|hat|tilde|bar|overline)\s*(?:\{(?:[^{}]|\{[^{}]*\})*\}|[A-Za-z]|\\[A-Za-z]+)")
+ACCENTED = re.compile(r"""<munderover>\s*(<(\w+)[^>]*>(?:(?!<munderover>).)*?</\2>)\s*(<(\w+)[^>]*>(?:(?!<munderover>).)*?</\4>)
+                          \s*(<mo[^>]*>[˙ˆ¨˜¯‾→]</mo>)\s*</munderover>""", re.X | re.S)
 log = logging.getLogger(__name__)
 
 
 def made(node, text, block):
     try:
-        text = ACCENT.sub(r"{\g<0>}", text)  # else docutils puts an index below what has an accent, as below a sum
-        return latex2mathml.tex2mathml(text.strip(), as_block=block)
+        # an index of what has an accent stands beside it; docutils puts it below, as below a sum
+        return ACCENTED.sub(r"<msub><mover>\1\5</mover>\3</msub>", latex2mathml.tex2mathml(text.strip(), as_block=block))
     except MathError as error:
         log.warning("an equation cannot be made into MathML: %s: %s", error, text.strip(), location=node)
         return html.escape(text)
