@@ -107,7 +107,7 @@ class FieldSeries {
 std::unique_ptr<FieldSeries> begin_fields(const std::filesystem::path& stem, FieldFormat format, FieldMesh mesh,
                                           std::optional<double> until = {});
 
-/// Writes a mesh without time, with these arrays beside its own. \throws RunError.
+/// Writes a mesh without time, with these arrays beside its own. \throws RunError naming the file.
 void write_fields(const std::filesystem::path& stem, FieldFormat format, FieldMesh mesh,
                   std::vector<FieldArray> arrays = {});
 

@@ -73,7 +73,7 @@ Phantom make_phantom(const Scene& scene, const PhantomSpec& spec,
                      const std::function<void(const std::string& stage, double share)>& progress = {});
 
 /// Writes scan.mha, phantom.json, and truth/ with labels.mha, phases.mha, grains.csv, contacts.csv, specimen.csv and
-/// library/*.off and border/*.off. \throws RunError.
+/// library/*.off and border/*.off. \throws RunError naming the file.
 void write_phantom(const std::filesystem::path& out, const Phantom& phantom, const Scene& scene,
                    const PhantomSpec& spec);
 

@@ -109,7 +109,7 @@ struct Watcher {
 /// leaves `checkpoint.h5` as it goes (OutputSpec::checkpoint), replaced by a rename; one that cannot be written is a
 /// warning. When all is done the run removes its own and one of the same scene, no other; but its first one replaces
 /// whatever checkpoint is there. Backend reference keeps none. `resume` goes on from it to the same bits as a run that
-/// was never interrupted. \throws InputError, also for a checkpoint that is not there, damaged, or of another scene,
+/// was never interrupted. \throws InputError also for a checkpoint that is not there, damaged, or of another scene,
 /// version, backend or precision, and where another command is writing into the folder; InterruptedError; RunError
 /// (DivergenceError names particle and time), also for a tolerance whose result cannot be right.
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);

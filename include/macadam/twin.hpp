@@ -45,7 +45,7 @@ Twin make_twin(const std::filesystem::path& folder, const Scene& scene, const Tw
                const std::function<void(const std::string& stage, double share)>& progress = {});
 
 /// Writes scene.toml, which is the scene with this specimen in place of its own, specimen.csv and twin.json.
-/// \throws RunError.
+/// \throws RunError naming the file.
 void write_twin(const std::filesystem::path& out, const Twin& twin, const Scene& scene);
 
 }  // namespace macadam
