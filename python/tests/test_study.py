@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-import importlib.util
 import concurrent.futures
+import importlib.util
 import re
 import subprocess
 import sys
