@@ -10,6 +10,13 @@ install(DIRECTORY include/macadam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macadam-kernels FILES_MATCHING PATTERN "*.hpp")
 install(PROGRAMS scripts/draw-fit scripts/draw-calibration scripts/draw-relaxation DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam)
 install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam/examples)
+# What shells and man know of the command line
+install(FILES ${PROJECT_BINARY_DIR}/macadam.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${PROJECT_BINARY_DIR}/completion/macadam.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+        RENAME macadam)
+install(FILES ${PROJECT_BINARY_DIR}/completion/macadam.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
+        RENAME _macadam)
+install(FILES ${PROJECT_BINARY_DIR}/completion/macadam.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 install(EXPORT macadamTargets NAMESPACE macadam:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam)
 configure_package_config_file(cmake/macadamConfig.cmake.in ${PROJECT_BINARY_DIR}/macadamConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam PATH_VARS CMAKE_INSTALL_INCLUDEDIR)

@@ -57,8 +57,8 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
            {"run " + path("scene.toml") + " -o out", "found \"-o\", expected --out (the nearest of "},
            {"run " + path("scene.toml") + " --out ''", "--out: found \"\""},
            {"runn " + job,
-            "found \"runn\", expected run (the nearest of run, specimen, shapes, fit, calibrate, ct, info, report, "
-            "study)"},
+            "found \"runn\", expected run (the nearest of run, specimen, shapes, fit, calibrate, ct, info, "
+            "new, check, report, study, completion, man)"},
            {"shapes fil", "found \"fil\", expected fill (the nearest of "},
            {"run " + job + " more", "found \"more\", expected nothing more"},
            {"", "found no command, expected one of run, specimen, shapes, fit, calibrate, ct, info"},

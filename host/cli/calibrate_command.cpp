@@ -9,6 +9,7 @@
 
 #include "host/calibration/calibration_files.hpp"
 #include "host/cli/draw_results.hpp"
+#include "host/cli/help.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/stop_signals.hpp"
@@ -113,28 +114,38 @@ void add_calibrate_command(CLI::App& app) {
   command
       .add_option("--free", arguments->free, "parameters to be found, with commas: M-A.delta,M-M.E_1,inner.E,A-A.alpha")
       ->delimiter(',')
-      ->required();
-  command.add_option("--bounds", arguments->bounds, "NAME=LOW:HIGH, with commas (four decades to either side)")
-      ->delimiter(',');
-  command.add_option("--prior", arguments->priors, "NAME=VALUE:RELATIVE_DEVIATION, with commas: known beforehand")
-      ->delimiter(',');
+      ->required()
+      ->type_name("NAME");
+  command.add_option("--bounds", arguments->bounds, "of a parameter, with commas; else four decades to either side")
+      ->delimiter(',')
+      ->type_name("NAME=LOW:HIGH");
+  command.add_option("--prior", arguments->priors, "known beforehand, with commas; the deviation is relative")
+      ->delimiter(',')
+      ->type_name("NAME=VALUE:DEVIATION");
   add_number(command, "--seeds", options.seeds,
              "specimens of the scene's seed and those after it, whose E* is averaged", 1, 1000);
-  add_choice(command, "--misfit", options.misfit, "what counts (modulus-and-phase); parts: E' and E''",
+  add_choice(command, "--misfit", options.misfit, "what counts; parts: E' and E''",
              {{"modulus-and-phase", Misfit::modulus_and_phase},
               {"modulus", Misfit::modulus},
               {"phase", Misfit::phase},
               {"parts", Misfit::parts}});
-  add_number(command, "--e-star-deviation", arguments->e_star_deviation, "%: of |E*| where the file has no e_star_std",
-             1e-6, 100.0);
-  add_number(command, "--phase-deviation", options.phase_deviation, "degrees: of phase where the file has no phase_std",
-             1e-6, 90.0);
+  add_number(command, "--e-star-deviation", arguments->e_star_deviation,
+             "standard deviation of |E*| in %, where the file has no e_star_std", 1e-6, 100.0);
+  add_number(command, "--phase-deviation", options.phase_deviation,
+             "the same of the phase angle in degrees, where the file has no phase_std", 1e-6, 90.0);
   command.add_flag("--nearest", options.nearest,
                    "where the targets cannot be reached, the nearest values with a warning");
-  add_choice(command, "--backend", arguments->backend, "instead of the scene's",
-             {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}});
-  add_number(command, "--threads", arguments->threads, "cpu threads; results do not depend on it", 1, 1024);
+  add_choice(command, "--backend", arguments->backend, "what computes: auto is a CUDA device if there is one",
+             {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}})
+      ->group(instead_of_scene);
+  add_number(command, "--threads", arguments->threads, "of the CPU; results do not depend on it", 1, 1024)
+      ->group(instead_of_scene);
   command.add_flag("--no-pictures", arguments->no_pictures, "do not draw");
+  for (const char* name : {"--misfit", "--e-star-deviation", "--phase-deviation", "--seeds", "--nearest"})
+    command.get_option(name)->group("What is fitted");
+  add_examples(command,
+               {"macadam calibrate examples/aggregate_cube/scene.toml --target examples/aggregate_cube/rock.csv "
+                "--free inner.E --out results/inner"});
   command.callback([arguments] { calibrate_command(*arguments); });
 }
 

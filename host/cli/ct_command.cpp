@@ -2,6 +2,7 @@
 // ct_command.cpp  macadam ct segment | …: what the program can do with images of computed tomography, if it has ITK.
 #include "host/cli/ct_command.hpp"
 
+#include "host/cli/help.hpp"
 #include "macadam/error.hpp"
 #ifdef MACADAM_CT
 #include "host/cli/ct_phantom.hpp"
@@ -13,6 +14,9 @@ namespace macadam {
 
 void add_ct_command(CLI::App& app) {
   CLI::App& ct = *app.add_subcommand("ct", "grains, phases and specimens from images of computed tomography");
+  add_examples(ct, {"macadam ct phantom examples/ct/scene.toml --voxel \"200 um\" --out results/phantom",
+                    "macadam ct segment results/phantom/scan.mha --out results/segmented",
+                    "macadam ct twin results/segmented --scene examples/ct/scene.toml --out results/twin"});
 #ifdef MACADAM_CT
   ct.require_subcommand(1);
   // Commands with files of their own add themselves here, a line each.

@@ -7,6 +7,7 @@
 
 #include "host/cli/job.hpp"
 #include "host/scene/lengths.hpp"
+#include "host/cli/help.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/stop_signals.hpp"
 #include "macadam/phantom.hpp"
@@ -47,24 +48,29 @@ void add_ct_phantom(CLI::App& ct) {
   PhantomSpec& spec = arguments->spec;
   CLI::App& command = *ct.add_subcommand("phantom", "a synthetic scan of a scene's specimen, with its truth");
   add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();
-  add_text(command, "--voxel", arguments->voxel, "edge of a voxel, as \"100 um\"")->required();
-  add_text(command, "--out", arguments->out, "folder of the results; made if it is not there")->required();
+  add_text(command, "--voxel", arguments->voxel, "edge of a voxel, as \"100 um\"", "LENGTH")->required();
+  add_out(command, arguments->out);
   constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
   add_number(command, "--specimen-seed", arguments->specimen_seed, "instead of the scene's", 0, most);
   add_number(command, "--seed", spec.seed, "of the faults of the scan", 0, most);
   add_choice(command, "--shape", spec.shape, "outline of what is scanned",
              {{"prism", CoreShape::prism}, {"cylinder", CoreShape::cylinder}});
-  add_text(command, "--sawn", arguments->sawn, "taken off each side of the box before it is scanned");
-  add_text(command, "--air", arguments->air, "around the specimen");
+  add_text(command, "--sawn", arguments->sawn, "taken off each side of the box before it is scanned", "LENGTH");
+  add_text(command, "--air", arguments->air, "around the specimen", "LENGTH");
   add_number(command, "--samples", spec.samples, "columns along each edge of a voxel", 1, 16);
   add_number(command, "--blur", spec.blur, "standard deviation in voxels", 0.0, 10.0);
   add_number(command, "--noise", spec.noise, "standard deviation, share of aggregate - air", 0.0, 1.0);
   add_number(command, "--cupping", spec.cupping, "loss of grey value on the axis, share", 0.0, 1.0);
   add_number(command, "--rings", spec.rings, "offsets of the rings, share of aggregate - air", 0.0, 1.0);
   add_number(command, "--drift", spec.drift, "brightness of the slices, share", 0.0, 1.0);
-  add_number(command, "--grey-air", spec.grey_air, "grey value", 0.0, 65535.0);
-  add_number(command, "--grey-mastic", spec.grey_mastic, "grey value", 0.0, 65535.0);
-  add_number(command, "--grey-aggregate", spec.grey_aggregate, "grey value", 0.0, 65535.0);
+  add_number(command, "--grey-air", spec.grey_air, "of air", 0.0, 65535.0);
+  add_number(command, "--grey-mastic", spec.grey_mastic, "of mastic", 0.0, 65535.0);
+  add_number(command, "--grey-aggregate", spec.grey_aggregate, "of aggregate", 0.0, 65535.0);
+  for (const char* name : {"--seed", "--blur", "--noise", "--cupping", "--rings", "--drift"})
+    command.get_option(name)->group("Faults of the scan");
+  for (const char* name : {"--grey-air", "--grey-mastic", "--grey-aggregate"})
+    command.get_option(name)->group("Grey levels");
+  add_examples(command, {"macadam ct phantom examples/ct/scene.toml --voxel \"200 um\" --out results/phantom"});
   command.callback([arguments] { phantom_command(*arguments); });
 }
 

@@ -9,6 +9,7 @@
 #include "host/ct/segment_texts.hpp"
 #include "host/cli/job.hpp"
 #include "host/scene/lengths.hpp"
+#include "host/cli/help.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
 #include "host/ct/gradation.hpp"
@@ -75,37 +76,49 @@ void add_ct_segment(CLI::App& ct) {
   SegmentOptions& options = arguments->segment;
   CLI::App& command = *ct.add_subcommand("segment", "grains and phases from a scan");
   command.add_option("images", arguments->images, "scan: .mha, .mhd, .nrrd, .tif, .h5, or a folder of .tif")
-      ->required();
-  add_text(command, "--dataset", arguments->dataset, "of an HDF5 file: the dataset; z, y, x");
+      ->required()
+      ->type_name("FILE");
+  add_text(command, "--dataset", arguments->dataset, "of an HDF5 file: the dataset; z, y, x", "NAME");
   command
       .add_option("--voxel", arguments->voxel,
                   "edges of a voxel: \"25 um\", or three: \"25 um,25 um,50 um\"; where the file has none")
       ->delimiter(',')
-      ->expected(1, 3);
-  add_text(command, "--out", arguments->out, "folder of the results; made if it is not there")->required();
+      ->expected(1, 3)
+      ->type_name("LENGTH");
+  add_out(command, arguments->out);
   add_text(command, "--region", arguments->region,
-           "what of the scan is the specimen: found|whole|cylinder|prism, cylinder:x,y,diameter[,z0,z1] or "
-           "prism:x0,y0,z0,x1,y1,z1 (found)");
+           "what of the scan is the specimen: found, whole, cylinder, prism, cylinder:x,y,diameter[,z0,z1] or "
+           "prism:x0,y0,z0,x1,y1,z1; else it is found",
+           "REGION");
   command.add_flag("--no-slices", arguments->no_slices, "slices keep their grey levels");
   command.add_flag("--no-rings", arguments->no_rings, "rings are left in the scan");
   command.add_flag("--no-hardening", arguments->no_hardening,
                    "grey levels over radius and height are left as they are");
-  add_choice(command, "--denoise", options.denoising, "(diffusion, which keeps edges)",
+  add_choice(command, "--denoise", options.denoising, "how noise is taken out; diffusion keeps edges",
              {{"diffusion", Denoising::diffusion}, {"median", Denoising::median}, {"none", Denoising::none}});
   add_number(command, "--air-voids", options.air_voids, "share of the specimen's volume, from the laboratory", 0.0,
              0.5);
   add_number(command, "--aggregate", options.aggregate, "share of the specimen's volume, from the laboratory", 0.05,
              0.95);
   add_text(command, "--memory", arguments->memory,
-           "that may be taken (\"3 GB\"; four fifths of what is free): a larger scan is decided on block means");
-  add_text(command, "--smallest", arguments->smallest, "diameter of the smallest grain that matters (\"4 mm\")");
+           "that may be taken (\"3 GB\"; four fifths of what is free): a larger scan is decided on block means",
+           "BYTES");
+  add_text(command, "--smallest", arguments->smallest, "diameter of the smallest grain that matters (\"4 mm\")",
+           "LENGTH");
   add_text(command, "--gradation", arguments->gradation,
            "the laboratory's: a CSV file, sieve_mm,passing_percent or sieve_m,passing");
   add_text(command, "--cuts", arguments->cuts, "a cuts.csv of the same scan, in which `cut` was changed by hand");
-  add_choice(command, "--recipe", options.recipe, "steps of the segmentation (own)",
+  add_choice(command, "--recipe", options.recipe, "steps of the segmentation",
              {{"own", SegmentRecipe::own}, {"paper", SegmentRecipe::paper}});
   add_number(command, "--facets", options.facets, "of a grain's surface; up to 800 where it needs them", 100, 10'000);
-  add_number(command, "--threads", arguments->threads, "cpu threads; results do not depend on it", 1, 1024);
+  add_number(command, "--threads", arguments->threads, "of the CPU; results do not depend on it", 1, 1024);
+  for (const char* name : {"--no-slices", "--no-rings", "--no-hardening", "--denoise"})
+    command.get_option(name)->group("Faults of the scan");
+  for (const char* name : {"--air-voids", "--aggregate", "--gradation"})
+    command.get_option(name)->group("Known from the laboratory");
+  for (const char* name : {"--smallest", "--cuts", "--recipe", "--facets"}) command.get_option(name)->group("Grains");
+  add_examples(command, {"macadam ct phantom examples/ct/scene.toml --voxel \"200 um\" --out results/phantom",
+                         "macadam ct segment results/phantom/scan.mha --out results/segmented"});
   command.callback([arguments] { segment(*arguments); });
 }
 

@@ -7,6 +7,7 @@
 
 #include "host/cli/job.hpp"
 #include "host/scene/lengths.hpp"
+#include "host/cli/help.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/stop_signals.hpp"
 #include "macadam/error.hpp"
@@ -54,17 +55,22 @@ void twin_command(Arguments arguments) {
 void add_ct_twin(CLI::App& ct) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App& command = *ct.add_subcommand("twin", "the specimen in a scan as a scene that runs");
-  add_text(command, "folder", arguments->folder, "what ct segment wrote, or the truth of a phantom")->required();
+  add_text(command, "folder", arguments->folder, "what ct segment wrote, or the truth of a phantom", "FOLDER")
+      ->required();
   add_text(command, "--scene", arguments->scene, "scene with materials, contacts, loading, radii of the spheres")
       ->required();
-  add_text(command, "--out", arguments->out, "folder of the scene; made if it is not there")->required();
+  add_out(command, arguments->out, "of the scene");
   command.add_option("--box", arguments->box, "lower and upper corner in the scan: \"1 mm,1 mm,0,21 mm,21 mm,30 mm\"")
       ->delimiter(',')
-      ->expected(6);
+      ->expected(6)
+      ->type_name("LENGTH");
   add_number(command, "--porosity", arguments->spec.porosity, "of the mastic, in place of the scene's", -1.0, 1.0);
-  add_text(command, "--least-void", arguments->least_void, "radius below which a void is left out; 0: two voxels");
+  add_text(command, "--least-void", arguments->least_void, "radius below which a void is left out; 0: two voxels",
+           "LENGTH");
   add_number(command, "--seed", arguments->spec.seed, "of the mastic and of the fillings", 0,
              std::numeric_limits<std::uint64_t>::max());
+  add_examples(command, {"macadam ct segment results/phantom/scan.mha --out results/segmented",
+                         "macadam ct twin results/segmented --scene examples/ct/scene.toml --out results/twin"});
   command.callback([arguments] { twin_command(*arguments); });
 }
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "host/cli/draw_results.hpp"
+#include "host/cli/help.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
 #include "host/fit/fit_files.hpp"
@@ -66,35 +67,43 @@ void add_fit_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("fit", "a contact law from measured complex moduli");
   const auto arguments = std::make_shared<Arguments>();
   FitOptions& fit = arguments->fit;
-  command.add_option(
-      "data", arguments->data,
-      "CSV file: frequency_hz, e_star_pa or g_star_pa, phase_deg, maybe temperature_c, e_star_std, phase_std");
-  add_text(command, "--out", arguments->out, "folder of the results; made if it is not there")->required();
-  add_choice(command, "--model", fit.model, "what is fitted (kelvin)",
+  command
+      .add_option(
+          "data", arguments->data,
+          "CSV file: frequency_hz, e_star_pa or g_star_pa, phase_deg, maybe temperature_c, e_star_std, phase_std")
+      ->type_name("FILE");
+  add_out(command, arguments->out);
+  command.add_flag("--no-pictures", arguments->no_pictures, "do not draw");
+  add_choice(command, "--model", fit.model, "what is fitted",
              {{"kelvin", FitModel::kelvin}, {"2s2p1d", FitModel::two_s2p1d}, {"huet-sayegh", FitModel::huet_sayegh}});
   add_number(command, "--units", fit.units, "Kelvin units; without it the criterion chooses", 0,
              laws::GeneralisedKelvin::max_units);
   add_number(command, "--most-units", fit.most_units, "that the criterion may choose", 0,
              laws::GeneralisedKelvin::max_units);
-  add_choice(command, "--criterion", fit.criterion, "that weighs misfit against parameters (aicc)",
+  add_choice(command, "--criterion", fit.criterion, "that weighs misfit against parameters",
              {{"aicc", Criterion::aicc}, {"bic", Criterion::bic}});
   auto* flow = command.add_flag("--flow", arguments->flow, "a dashpot in series, whatever the criterion says");
   command.add_flag("--no-flow", arguments->no_flow, "no dashpot in series")->excludes(flow);
-  add_choice(command, "--shift", fit.shift, "how temperature shifts the curves (none)",
+  add_choice(command, "--shift", fit.shift, "how temperature shifts the curves",
              {{"none", ShiftKind::none},
               {"wlf", ShiftKind::wlf},
               {"arrhenius", ShiftKind::arrhenius},
               {"free", ShiftKind::free}});
   add_number(command, "--reference-temperature", fit.reference_temperature,
-             "degrees Celsius (the measured one in the middle)", -273.0, 1000.0);
+             "degrees Celsius; else the measured one in the middle", -273.0, 1000.0);
   add_number(command, "--poisson", arguments->poisson, "ratio, for |E*| from a column g_star_pa", -0.99, 0.5);
   add_text(command, "--parameters", arguments->parameters,
            "in place of data: TOML file of a 2S2P1D or Huet-Sayegh model");
-  add_number(command, "--from", arguments->from, "Hz: range of the Kelvin chain for such a model (that of the data)",
-             1e-15, 1e15);
+  add_number(command, "--from", arguments->from, "Hz: range of the chain; else that of the data", 1e-15, 1e15);
   add_number(command, "--to", arguments->to, "Hz: its end", 1e-15, 1e15);
   add_number(command, "--error", arguments->error, "largest relative error of that chain", 1e-6, 0.5);
-  command.add_flag("--no-pictures", arguments->no_pictures, "do not draw");
+  const std::string model = "The model", temperatures = "Temperatures", chain = "The Kelvin chain of another model";
+  for (const char* name : {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson"})
+    command.get_option(name)->group(model);
+  for (const char* name : {"--shift", "--reference-temperature"}) command.get_option(name)->group(temperatures);
+  for (const char* name : {"--parameters", "--from", "--to", "--error"}) command.get_option(name)->group(chain);
+  add_examples(command, {"macadam fit examples/laws/mastic.csv --out results/law",
+                         "macadam fit examples/laws/mastic.csv --out results/law --model 2s2p1d --shift wlf"});
   command.callback([arguments] { fit_command(*arguments); });
 }
 

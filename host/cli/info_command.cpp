@@ -2,12 +2,19 @@
 // info_command.cpp  macadam info: version, backends, devices.
 #include "host/cli/info_command.hpp"
 
+#include <memory>
+
+#include "host/cli/help.hpp"
+#include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
+#include "host/scene/keys_page.hpp"
 #include "host/stepping/processor_code.hpp"
 #include "macadam/macadam.hpp"
 
 namespace macadam {
 namespace {
+
+enum class Keys : std::uint8_t { markdown, json };
 
 void info_command() {
   const BackendReport report = report_backends();
@@ -32,7 +39,17 @@ void info_command() {
 }  // namespace
 
 void add_info_command(CLI::App& app) {
-  app.add_subcommand("info", "version, backends and devices")->callback(info_command);
+  CLI::App& command = *app.add_subcommand("info", "version, backends and devices, or every key of a scene");
+  const auto keys = std::make_shared<std::optional<Keys>>();
+  add_choice(command, "--keys", *keys, "every key that a scene may have, in place of all else",
+             {{"markdown", Keys::markdown}, {"json", Keys::json}});
+  add_examples(command, {"macadam info", "macadam info --keys markdown"});
+  command.callback([keys] {
+    if (!*keys)
+      info_command();
+    else
+      say_text(**keys == Keys::json ? scene::keys_json() : scene::keys_page());
+  });
 }
 
 }  // namespace macadam

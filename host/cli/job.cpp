@@ -13,9 +13,31 @@ namespace macadam {
 
 void add_job_options(CLI::App& command, Job& job) {
   add_text(command, "scene", job.scene, "scene file (TOML)")->required();
-  add_text(command, "--out", job.out, "folder of the results; made if it is not there")->required();
-  add_number(command, "--seed", job.seed, "instead of the scene's: another specimen of the same mixture", 0,
-             std::numeric_limits<std::uint64_t>::max());
+  add_out(command, job.out);
+  add_number(command, "--seed", job.seed, "another specimen of the same mixture, instead of the scene's", 0,
+             std::numeric_limits<std::uint64_t>::max())
+      ->group(instead_of_scene);
+}
+
+void add_overrides(CLI::App& command, Overrides& instead) {
+  add_choice(
+      command, "--backend", instead.backend, "what computes: auto is a CUDA device if there is one",
+      {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}, {"reference", Backend::reference}})
+      ->group(instead_of_scene);
+  add_choice(command, "--precision", instead.precision, "of the steps",
+             {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}})
+      ->group(instead_of_scene);
+  add_choice(command, "--method", instead.method, "stepped in time, or solved in the frequency domain",
+             {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}})
+      ->group(instead_of_scene);
+  add_choice(
+      command, "--linear", instead.linear, "how harmonic solutions are found: without factors, or with them",
+      {{"auto", LinearMethod::automatic}, {"iterative", LinearMethod::iterative}, {"direct", LinearMethod::direct}})
+      ->group(instead_of_scene);
+  add_number(command, "--threads", instead.threads, "of the CPU; results do not depend on it", 1, 1024)
+      ->group(instead_of_scene);
+  add_number(command, "--device", instead.device, "number of the CUDA device; macadam info lists them", 0, 1023)
+      ->group(instead_of_scene);
 }
 
 Scene scene_of(const Job& job) {

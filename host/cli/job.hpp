@@ -8,6 +8,7 @@
 #include <string>
 
 #include "host/cli/progress_line.hpp"
+#include "host/scene/overrides.hpp"
 #include "macadam/simulation.hpp"
 
 namespace macadam {
@@ -18,8 +19,14 @@ struct Job {
   std::optional<std::uint64_t> seed;
 };
 
+/// Options that stand for keys of the scene, in the help.
+inline constexpr const char* instead_of_scene = "Instead of the scene's own";
+
 /// SCENE, --out and --seed.
 void add_job_options(CLI::App& command, Job& job);
+
+/// --backend, --precision, --method, --linear, --threads and --device.
+void add_overrides(CLI::App& command, Overrides& instead);
 
 /// Reads the scene. \throws InputError.
 Scene scene_of(const Job& job);

@@ -4,19 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <new>
 
-#include "host/cli/calibrate_command.hpp"
-#include "host/cli/ct_command.hpp"
-#include "host/cli/fit_command.hpp"
-#include "host/cli/info_command.hpp"
+#include "host/cli/commands.hpp"
 #include "host/cli/limited_memory.hpp"
-#include "host/cli/python_commands.hpp"
-#include "host/cli/run_command.hpp"
-#include "host/cli/shapes_command.hpp"
-#include "host/cli/specimen_command.hpp"
 #include "host/cli/streams.hpp"
 #include "host/nearest.hpp"
 #include "macadam/error.hpp"
-#include "macadam/version.hpp"
 
 namespace macadam {
 namespace {
@@ -88,17 +80,8 @@ End run_program(CLI::App& app, int argc, char** argv) {
 int main_function(int argc, char** argv) {
   restart_with_one_blas_thread_where_memory_is_limited(argv);
   hold_standard_streams();
-  CLI::App app("Macadam: discrete elements for bituminous mixtures and other bonded granular solids");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", version());
-  add_run_command(app);
-  add_specimen_command(app);
-  add_shapes_command(app);
-  add_fit_command(app);
-  add_calibrate_command(app);
-  add_ct_command(app);
-  add_info_command(app);
-  add_python_commands(app);
+  CLI::App app;
+  make_command_line(app);
   const auto [code, ran] = run_program(app, argc, argv);
   // what a run or a specimen says is in its files as well
   const bool in_files = ran && (app.got_subcommand("run") || app.got_subcommand("specimen"));

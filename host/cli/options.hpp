@@ -84,17 +84,26 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, T& target, const
     }
     options::refuse(name, text, "one of " + names);
   };
-  return options::add(app, name, description, read)->type_name(names);
+  CLI::Option* option = options::add(app, name, description, read)->type_name(names);
+  if constexpr (std::is_same_v<T, options::value_t<T>>)
+    for (const auto& [known, value] : choices)
+      if (value == target) option->default_str(known);
+  return option;
 }
 
-/// Text that is not empty: a path, mostly.
+/// Text that is not empty: `value` says what it is, FILE and FOLDER to completion in a shell too.
 inline CLI::Option* add_text(CLI::App& app, const std::string& name, std::string& target,
-                             const std::string& description) {
+                             const std::string& description, const std::string& value = "FILE") {
   const auto read = [&target, name](const std::string& text) {
     if (text.empty()) options::refuse(name, text, "a text that is not empty");
     target = text;
   };
-  return options::add(app, name, description, read)->type_name("TEXT");
+  return options::add(app, name, description, read)->type_name(value);
+}
+
+/// The folder of what a command writes.
+inline CLI::Option* add_out(CLI::App& app, std::string& target, const std::string& what = "of the results") {
+  return add_text(app, "--out", target, "folder " + what + "; made if it is not there", "FOLDER")->required();
 }
 
 /// Metres a unit of surface files.

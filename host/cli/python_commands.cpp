@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 
+#include "host/cli/help.hpp"
 #include "host/cli/programs.hpp"
 #include "macadam/error.hpp"
 
@@ -56,14 +57,17 @@ std::string interpreter() {
 }  // namespace
 
 void add_python_commands(CLI::App& app) {
-  const auto add = [&](const std::string& name, const char* description) {
+  const auto add = [&](const std::string& name, const char* description, const std::vector<std::string>& examples) {
     CLI::App* command = app.add_subcommand(name, description);
     command->prefix_command();
     command->set_help_flag();  // its own
+    add_examples(*command, examples);
     command->callback([command, name] { run_python(name, command->remaining()); });
   };
-  add("report", "one HTML file about folders of results (by the Python package)");
-  add("study", "many scenes, on this machine or several (by the Python package)");
+  add("report", "one HTML file about folders of results (by the Python package)",
+      {"macadam report results --out report.html", "macadam report --help"});
+  add("study", "many scenes, on this machine or several (by the Python package)",
+      {"macadam study examples/study/study.toml --out results/study", "macadam study --help"});
 }
 
 }  // namespace macadam

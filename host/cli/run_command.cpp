@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "host/cli/help.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/stop_signals.hpp"
@@ -69,22 +70,11 @@ void add_run_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("run", "run a scene and write its results");
   const auto arguments = std::make_shared<Arguments>();
   add_job_options(command, arguments->job);
-  add_choice(command, "--backend", arguments->instead.backend, "instead of the scene's",
-             {{"auto", Backend::automatic},
-              {"cuda", Backend::cuda},
-              {"cpu", Backend::cpu},
-              {"reference", Backend::reference}});
-  add_choice(command, "--precision", arguments->instead.precision, "instead of the scene's",
-             {{"double", Precision::double_}, {"mixed", Precision::mixed}, {"single", Precision::single}});
-  add_choice(command, "--method", arguments->instead.method, "instead of the scene's",
-             {{"explicit", SolverMethod::explicit_}, {"harmonic", SolverMethod::harmonic}});
-  add_choice(
-      command, "--linear", arguments->instead.linear, "of the harmonic solutions, instead of the scene's",
-      {{"auto", LinearMethod::automatic}, {"iterative", LinearMethod::iterative}, {"direct", LinearMethod::direct}});
-  add_number(command, "--threads", arguments->instead.threads, "cpu threads; results do not depend on it", 1, 1024);
-  add_number(command, "--device", arguments->instead.device, "number of the CUDA device (macadam info lists them)", 0,
-             1023);
-  command.add_flag("--resume", arguments->resume, "go on from the checkpoint that an interrupted run left in DIR");
+  command.add_flag("--resume", arguments->resume,
+                   "go on from the checkpoint that an interrupted run left in the folder");
+  add_overrides(command, arguments->instead);
+  add_examples(command, {"macadam run examples/demo/scene.toml --out results",
+                         "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2"});
   command.callback([arguments] { run_command(*arguments); });
 }
 

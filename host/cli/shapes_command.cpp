@@ -8,6 +8,7 @@
 #include <exception>
 #include <memory>
 
+#include "host/cli/help.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/shapes_fill.hpp"
 #include "host/cli/shapes_generate.hpp"
@@ -150,12 +151,14 @@ void add_shapes_command(CLI::App& app) {
   shapes.require_subcommand(1);
   const auto arguments = std::make_shared<Arguments>();
   const auto add_paths = [&](CLI::App& command) {
-    command.add_option("paths", arguments->paths, "STL, OFF, PLY or OBJ files, or folders of them")->required();
+    command.add_option("paths", arguments->paths, "STL, OFF, PLY or OBJ files, or folders of them")
+        ->required()
+        ->type_name("FILE");
   };
 
   CLI::App& measure_app = *shapes.add_subcommand("measure", "dimensions, volume, area and shape indices of each");
   add_paths(measure_app);
-  add_text(measure_app, "--out", arguments->out, "folder of the tables; made if it is not there")->required();
+  add_out(measure_app, arguments->out, "of the tables");
   add_scale(measure_app, arguments->scale);
   measure_app.add_flag("--repair", arguments->repair, "repair faulty surfaces before measuring them");
   measure_app.callback([arguments] { measure(*arguments); });
@@ -165,9 +168,18 @@ void add_shapes_command(CLI::App& app) {
   check_app.callback([arguments] { check(*arguments); });
 
   CLI::App& repair_app = *shapes.add_subcommand("repair", "make one fit for measuring and filling");
-  repair_app.add_option("file", arguments->paths, "STL, OFF, PLY or OBJ file")->required()->expected(1);
+  repair_app.add_option("file", arguments->paths, "STL, OFF, PLY or OBJ file")
+      ->required()
+      ->expected(1)
+      ->type_name("FILE");
   add_text(repair_app, "--out", arguments->out, "file to write; its ending is the format")->required();
   repair_app.callback([arguments] { repair(*arguments); });
+
+  add_examples(shapes, {"macadam shapes measure examples/shapes --out results/measured", "macadam shapes fill --help"});
+  add_examples(measure_app, {"macadam shapes measure examples/shapes --out results/measured"});
+  add_examples(check_app,
+               {"macadam shapes check examples/shapes", "macadam shapes check examples/icosahedron/icosahedron.off"});
+  add_examples(repair_app, {"macadam shapes repair examples/shapes/aggregate_01.off --out aggregate_01.stl"});
 
   // Commands with files of their own add themselves here, a line each.
   add_shapes_fill(shapes);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host/scene/lengths.hpp"
+#include "host/cli/help.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
 #include "host/results/shape_files.hpp"
@@ -68,11 +69,12 @@ void add_shapes_fill(CLI::App& shapes) {
   const auto arguments = std::make_shared<Arguments>();
   FillSpec& spec = arguments->spec;
   CLI::App* fill = shapes.add_subcommand("fill", "fill a shape with spheres");
-  fill->add_option("file", arguments->file, "closed surface (STL, OFF, PLY or OBJ)")->required();
+  fill->add_option("file", arguments->file, "closed surface (STL, OFF, PLY or OBJ)")->required()->type_name("FILE");
   fill->add_option("--radius", arguments->radius, "of the spheres, or the least and the greatest: \"0.75 mm,1 mm\"")
       ->required()
       ->delimiter(',')
-      ->expected(1, 2);
+      ->expected(1, 2)
+      ->type_name("LENGTH");
   add_number(*fill, "--porosity", spec.porosity, "1 - sum of the spheres' volumes / volume of the shape", -0.5, 1.0);
   add_number(*fill, "--least", spec.least, "fewer spheres than this: a single one", 1, 1'000'000);
   add_choice(*fill, "--single", spec.single,
@@ -81,9 +83,12 @@ void add_shapes_fill(CLI::App& shapes) {
               {"circumscribed", SingleSphere::circumscribed},
               {"volume", SingleSphere::volume}});
   add_number(*fill, "--seed", spec.seed, "another number, other spheres", 0, std::numeric_limits<std::uint64_t>::max());
-  add_text(*fill, "--circumscribed", arguments->circumscribed, "scale the shape to D^I/2 of this: \"6.295 mm\"");
+  add_text(*fill, "--circumscribed", arguments->circumscribed, "scale the shape to D^I/2 of this: \"6.295 mm\"",
+           "LENGTH");
   add_scale(*fill, arguments->scale);
-  add_text(*fill, "--out", arguments->out, "folder of the results; made if it is not there")->required();
+  add_out(*fill, arguments->out);
+  add_examples(*fill, {"macadam shapes fill examples/shapes/aggregate_07.off --circumscribed \"6.3 mm\" --radius "
+                       "\"0.75 mm,1 mm\" --out results/filled"});
   fill->callback([arguments] { fill_command(*arguments); });
 }
 

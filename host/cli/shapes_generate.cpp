@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "host/cli/help.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
 #include "host/results/shape_files.hpp"
@@ -37,14 +38,16 @@ void generate(const Arguments& arguments) {
 void add_shapes_generate(CLI::App& shapes) {
   CLI::App& command = *shapes.add_subcommand("generate", "make the library of crushed aggregates, in metres");
   const auto arguments = std::make_shared<Arguments>();
-  add_text(command, "--out", arguments->out, "folder of the OFF files; made if it is not there")->required();
+  add_out(command, arguments->out, "of the OFF files");
   auto* seed = add_number(command, "--seed", arguments->seed, "another library with the same statistics", 0,
                           std::numeric_limits<std::uint64_t>::max());
   auto* count = add_number(command, "--count", arguments->count, "how many shapes", 1, 10'000);
-  add_number(command, "--icosahedron", arguments->icosahedron, "instead: the subdivided icosahedron of this radius (m)",
+  add_number(command, "--icosahedron", arguments->icosahedron, "instead: the subdivided icosahedron of this radius [m]",
              1e-9, 1e9)
       ->excludes(seed)
       ->excludes(count);
+  add_examples(command, {"macadam shapes generate --out results/library --seed 2 --count 20",
+                         "macadam shapes generate --out results/ball --icosahedron 0.005"});
   command.callback([arguments] { generate(*arguments); });
 }
 

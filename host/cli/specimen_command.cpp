@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "host/cli/help.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/stop_signals.hpp"
 #include "macadam/macadam.hpp"
@@ -55,8 +56,11 @@ void add_specimen_command(CLI::App& app) {
   add_job_options(command, arguments->job);
   command
       .add_option("--section", arguments->sections,
-                  "cut the cells by a plane, such as x=0.025 or \"z=40 mm\"; may be given several times")
-      ->allow_extra_args(false);  // what follows is the scene
+                  "cut the cells by a plane, as x=0.025 or \"z=40 mm\"; may be given several times")
+      ->allow_extra_args(false)  // what follows is the scene
+      ->type_name("PLANE");
+  add_examples(command, {"macadam specimen examples/ac14_recipe/scene.toml --out results/specimen",
+                         "macadam specimen examples/demo/scene.toml --out results/cut --section \"z=15 mm\""});
   command.callback([arguments] { specimen_command(*arguments); });
 }
 

@@ -137,7 +137,8 @@ scene::Key poisson_key(double& target) {
   using namespace scene;
   constexpr Rule rule{[](double v) { return v > -1 && v < 0.5; }, "a ratio above -1 and below 0.5"};
   target = 0.35;
-  return {"poisson_ratio", Need::optional, into(target, ratio, rule)};
+  return {"poisson_ratio", Need::optional, into(target, ratio, rule),
+          "for the tables of finite-element programs; the specimen does not give it"};
 }
 
 std::unique_ptr<Solution> plan_material(const Scene& scene, const Preparation& prepared, const Watcher& watcher,

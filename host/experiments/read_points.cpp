@@ -21,9 +21,12 @@ void require_once(const Section& section, const std::string& key, std::vector<do
 
 std::vector<Key> Points::keys(const std::string& key, const Quantity& quantity, Need need) {
   constexpr std::int64_t most = 1000, most_evenly = 1'000'000;
-  return {{key, need, into(given, quantity, positive)},
-          {"points_per_decade", Need::optional, into(per_decade, 1, most)},
-          {"points", Need::optional, into(evenly, 2, most_evenly)}};
+  const std::string ends = key + ": a list, or the two ends of a range beside points_per_decade or points";
+  return {{key, need, into(given, quantity, positive), ends, need == Need::required ? "" : "strain"},
+          {"points_per_decade", Need::optional, into(per_decade, 1, most),
+           "of a range: at least so many, evenly in the logarithm, both ends among them", "a list"},
+          {"points", Need::optional, into(evenly, 2, most_evenly), "of a range: so many, evenly, both ends among them",
+           need == Need::required ? "a list" : "a list; with strain 100"}};
 }
 
 std::vector<double> Points::all(const Section& section, const std::string& key, const char* unit,

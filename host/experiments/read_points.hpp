@@ -12,7 +12,7 @@ namespace macadam::scene {
 
 /// Skips `kind`, which is known when a test reads its section.
 inline Key kind_key() {
-  return {"kind", Need::required, [](const Value&) {}};
+  return {"kind", Need::required, {[](const Value&) {}, {"one of"}}, "the test; it decides which keys follow"};
 }
 
 /// \throws InputError where a key that is there has no entry, or the same one twice.

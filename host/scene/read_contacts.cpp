@@ -2,6 +2,7 @@
 /// \file read_contacts.cpp  `[[contacts]]`: one law for each pair type.
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -15,6 +16,21 @@ namespace {
 using laws::ValueKind;
 using laws::ValueNeed;
 
+/// What a value of a law is; of a law that is not here, nothing.
+std::string text_of(const std::string& law, const std::string& key) {
+  static const std::map<std::string, std::string> kelvin{{"E_m", "spring of the Maxwell unit"},
+                                                         {"C_m", "dashpot of the Maxwell unit; inf: no dashpot"},
+                                                         {"E", "springs of the Kelvin units, up to 16"},
+                                                         {"C", "dashpots of the Kelvin units, as many"}};
+  static const std::map<std::string, std::string> others{
+      {"E", "modulus"},
+      {"tensile_strength", "tensile stress beyond which a contact point is broken for good"},
+      {"shear_strength", "shear stress beyond which a contact point is broken for good; inf: none"}};
+  const auto& texts = law == "generalised_kelvin" ? kelvin : others;
+  const auto found = texts.find(key);
+  return found == texts.end() ? "" : found->second;
+}
+
 /// The keys of one law, besides `pair`, `law`, `alpha` and `delta`, which all have.
 template <class L>
 std::vector<Key> keys_of(L& law) {
@@ -24,12 +40,16 @@ std::vector<Key> keys_of(L& law) {
     Reader read = into(member, unit, positive);
     if constexpr (std::is_same_v<std::decay_t<decltype(member)>, double>) {
       if (need == ValueNeed::may_be_infinite) {  // written `inf`
-        read = [&member, &unit](const Value& value) {
+        read.words.rule = "a positive number, or inf";
+        read.words.usual = "inf";
+        read.read = [&member, &unit](const Value& value) {
           member = value.is_infinite() ? std::numeric_limits<double>::infinity() : value.number(unit, positive);
         };
       }
     }
-    out.push_back({key, need == ValueNeed::required ? Need::required : Need::optional, std::move(read)});
+    const bool required = need == ValueNeed::required;
+    const std::string usual = required || !read.words.usual.empty() ? "" : "none";
+    out.push_back({key, required ? Need::required : Need::optional, std::move(read), text_of(L::name, key), usual});
   });
   return out;
 }
@@ -67,8 +87,11 @@ Law law_named_in(const Section& section) {
 std::vector<Key> keys_of(FacetLimits& limits) {
   // d − R_a − R_b over the mean radius is d/mean − 2.
   constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, where centres coincide"};
-  return {{"gap_max", Need::optional, into(limits.gap_max, ratio, gap)},
-          {"area_min", Need::optional, into(limits.area_min, ratio, non_negative)}};
+  return {
+      {"gap_max", Need::optional, into(limits.gap_max, ratio, gap),
+       "largest gap between two particles that are joined, in units of the mean of their radii", "every facet joins"},
+      {"area_min", Need::optional, into(limits.area_min, ratio, non_negative),
+       "smallest facet that joins two particles, in units of the mean facet", "every facet joins"}};
 }
 
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network) {
@@ -84,10 +107,18 @@ LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, 
     Law read_law = law_named_in(section);
     std::visit(
         [&](auto& law) {
-          std::vector<Key> keys{{"pair", Need::required, [&](const Value& v) { pair = v.choice(pairs); }},
-                                {"law", Need::required, [](const Value&) {}},
-                                {"alpha", Need::optional, into(law.alpha, ratio, non_negative)},
-                                {"delta", Need::optional, into(delta, ratio, positive)}};
+          std::vector<Key> keys{
+              {"pair",
+               Need::required,
+               {[&](const Value& v) { pair = v.choice(pairs); }, {"one of", nullptr, "", "", pairs}},
+               "what meets: M mastic, A aggregate, W wall; inner: spheres of one aggregate"},
+              {"law",
+               Need::required,
+               {[](const Value&) {}, {"one of"}},
+               "the contact law; it decides which keys follow"},
+              {"alpha", Need::optional, into(law.alpha, ratio, non_negative), "shear over normal stiffness"},
+              {"delta", Need::optional, into(delta, ratio, positive),
+               "factor on all moduli and viscosities of the pair, not on strengths"}};
           for (Key& key : keys_of(law)) keys.push_back(std::move(key));
           for (Key& key : keys_of(limits)) keys.push_back(std::move(key));
           const bool flows = laws::flows(law);

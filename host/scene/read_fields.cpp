@@ -18,10 +18,16 @@ std::vector<Key> keys_of(FieldSpec& spec) {
       one = true;
     }
   };
-  return {{"fields", Need::optional, read_list},
-          {"every", Need::optional, into(spec.every, 1, most_samples)},
+  return {{"fields",
+           Need::optional,
+           {read_list, {"list", nullptr, "", "", {"particles", "contacts", "cells"}}},
+           "what is written for ParaView",
+           "none"},
+          {"every", Need::optional, into(spec.every, 1, most_samples),
+           "samples from one frame of a stepped run to the next", "a twentieth of them"},
           {"format", Need::optional,
-           into<FieldFormat>(spec.format, {{"vtkhdf", FieldFormat::vtkhdf}, {"vtp", FieldFormat::vtp}})}};
+           into<FieldFormat>(spec.format, {{"vtkhdf", FieldFormat::vtkhdf}, {"vtp", FieldFormat::vtp}}),
+           "of the fields: one HDF5 file a series, or one XML file a frame"}};
 }
 
 void check_fields(const Section& section, const FieldSpec& spec) {

@@ -46,19 +46,35 @@ MixDesign read_recipe(const Section& section) {
         value.is_array() ? value.numbers(density, any) : std::vector<double>{value.number(density, any)};
   };
   const std::vector<Key> keys = {
-      {"gradation", Need::required, [&](const Value& v) { read_gradation(v, out.gradation); }},
-      {"cut", Need::optional, into(out.cut, length, positive)},
-      {"binder", Need::required, into(out.binder, ratio, any)},
+      {"gradation",
+       Need::required,
+       {[&](const Value& v) { read_gradation(v, out.gradation); }, {"list of [sieve, share]", &length}},
+       "share of the aggregate's mass that passes each sieve, coarsest first, which all pass"},
+      {"cut", Need::optional, into(out.cut, length, positive),
+       "sieve of the curve: what it retains becomes particles, what passes is mastic, with the binder"},
+      {"binder", Need::required, into(out.binder, ratio, any), "binder content by mass, absorbed binder included"},
       {"binder_of", Need::required,
-       into<BinderOf>(out.binder_of, {{"mix", BinderOf::mix}, {"aggregate", BinderOf::aggregate}})},
-      {"aggregate_density", Need::required, read_densities},
-      {"filler_density", Need::optional, into(out.filler_density, density, any)},
-      {"binder_density", Need::required, into(out.binder_density, density, any)},
-      {"absorbed_binder", Need::optional, into(out.absorbed_binder, ratio, any)},
-      {"maximum_density", Need::optional, into(out.maximum_density, density, any)},
-      {"air_voids", Need::optional, into(out.air_voids, ratio, any)},
-      {"bulk_density", Need::optional, into(out.bulk_density, density, any)},
-      {"envelope", Need::optional, [&](const Value& v) { read_envelope(v, out.envelope); }}};
+       into<BinderOf>(out.binder_of, {{"mix", BinderOf::mix}, {"aggregate", BinderOf::aggregate}}),
+       "the mass that binder is a share of"},
+      {"aggregate_density",
+       Need::required,
+       {read_densities, {"number or list of numbers", &density}},
+       "particle density with the pores: one, or one for what lies between every two sieves, coarsest first"},
+      {"filler_density", Need::optional, into(out.filler_density, density, any), "of what passes the finest sieve",
+       "the last of aggregate_density"},
+      {"binder_density", Need::required, into(out.binder_density, density, any), "density of the binder"},
+      {"absorbed_binder", Need::optional, into(out.absorbed_binder, ratio, any),
+       "binder in the pores of the aggregate, share of the aggregate's mass", "0"},
+      {"maximum_density", Need::optional, into(out.maximum_density, density, any),
+       "in place of absorbed_binder: as measured; the absorbed binder follows", "none"},
+      {"air_voids", Need::optional, into(out.air_voids, ratio, any), "share of the bulk volume", "by bulk_density"},
+      {"bulk_density", Need::optional, into(out.bulk_density, density, any),
+       "in place of air_voids: as measured; the air voids follow", "none"},
+      {"envelope",
+       Need::optional,
+       {[&](const Value& v) { read_envelope(v, out.envelope); }, {"list of [sieve, least, most]", &length}},
+       "what a specification lets pass; it is drawn and compared, leaving it is no error",
+       "none"}};
   section.read(keys);
   for (const Key& key : keys) {
     if (const auto value = section.find(key.name)) out.lines[key.name] = value->line();

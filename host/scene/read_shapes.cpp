@@ -32,22 +32,33 @@ ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folde
     }
   };
   section.read(
-      {{"library", Need::optional, read_library},
-       {"radius", Need::required, range_into(out.fill.radius_min, out.fill.radius_max)},
-       {"porosity", Need::optional, into(out.fill.porosity, ratio, porosity)},
-       {"least", Need::optional, into(out.fill.least, 1, 1000)},
+      {{"library",
+        Need::optional,
+        {read_library, {"text", nullptr, "", "\"aggregates\""}},
+        "\"aggregates\" (82 shapes), \"icosahedron\", \"aggregates and icosahedron\", or a folder of closed surfaces"},
+       {"radius", Need::required, range_into(out.fill.radius_min, out.fill.radius_max),
+        "of the spheres inside an aggregate"},
+       {"porosity", Need::optional, into(out.fill.porosity, ratio, porosity),
+        "inside an aggregate: 1 - sum of the spheres' volumes / volume of the shape"},
+       {"least", Need::optional, into(out.fill.least, 1, 1000),
+        "where fewer spheres would do, a single one stands for the aggregate"},
        {"single", Need::optional,
         into<SingleSphere>(out.fill.single, {{"intermediate", SingleSphere::intermediate},
                                              {"circumscribed", SingleSphere::circumscribed},
-                                             {"volume", SingleSphere::volume}})},
+                                             {"volume", SingleSphere::volume}}),
+        "radius of the single sphere: half of D^I, of the smallest sphere around, of equal volume"},
        {"placement", Need::optional,
         into<PlacementMethod>(out.placement,
-                              {{"packing", PlacementMethod::packing}, {"insertion", PlacementMethod::insertion}})},
-       {"allow_short", Need::optional, into(out.allow_short)},
+                              {{"packing", PlacementMethod::packing}, {"insertion", PlacementMethod::insertion}}),
+        "all at once, grown while overlaps push them apart, or one by one at random"},
+       {"allow_short", Need::optional, into(out.allow_short), "insertion: what finds no room is left out"},
        {"test", Need::optional,
-        into<PlacementTest>(out.test, {{"surfaces", PlacementTest::surfaces}, {"spheres", PlacementTest::spheres}})},
-       {"hold_out", Need::optional, into(out.hold_out, ratio, hold_out)},
-       {"gap", Need::optional, into(out.gap, ratio, gap)}});
+        into<PlacementTest>(out.test, {{"surfaces", PlacementTest::surfaces}, {"spheres", PlacementTest::spheres}}),
+        "insertion: what must not touch, surfaces of the shapes or the spheres that fill them"},
+       {"hold_out", Need::optional, into(out.hold_out, ratio, hold_out),
+        "stiffness of the surfaces against mastic while it relaxes, over that of a mastic pair"},
+       {"gap", Need::optional, into(out.gap, ratio, gap),
+        "packing: distance asked of two surfaces, over the smaller one's D^I"}});
   if (out.placement == PlacementMethod::packing && out.allow_short)
     section.refuse("allow_short", "true with placement = \"packing\"", "placement = \"insertion\"");
   if (out.placement == PlacementMethod::packing && out.test == PlacementTest::spheres)

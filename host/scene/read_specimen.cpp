@@ -15,7 +15,7 @@ namespace macadam::scene {
 namespace {
 
 Reader box_into(Box& box) {
-  return [&box](const Value& value) {
+  const auto read = [&box](const Value& value) {
     const std::vector<double> edges = value.numbers(length, positive);
     if (edges.size() != 3) value.refuse(fmt::format("{} entries", edges.size()), "three, [x, y, z]");
     box.size = {edges[0], edges[1], edges[2]};
@@ -23,6 +23,7 @@ Reader box_into(Box& box) {
       value.refuse(fmt::format("a volume of {} m3", box.volume()), "a volume within the range of a double");
     }
   };
+  return {read, {"list of three numbers", &length, positive.words}};
 }
 
 /// Refuses a section in which both keys stand, or neither.
@@ -45,9 +46,12 @@ AggregateClass read_aggregate(const Section& section, const Box& box) {
   constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a fraction above 0 and at most 1"};
   AggregateClass out;
   out.line = section.line();
-  section.read({{"sieve", Need::required, range_into(out.sieve_min, out.sieve_max)},
-                {"volume_fraction", Need::optional, into(out.volume_fraction, ratio, share)},
-                {"count", Need::optional, into(out.count, 1, most_particles)}});
+  section.read(
+      {{"sieve", Need::required, range_into(out.sieve_min, out.sieve_max),
+        "least and greatest diameter (D^I of shapes)"},
+       {"volume_fraction", Need::optional, into(out.volume_fraction, ratio, share),
+        "share of the solid volume, aggregates and mastic", "count"},
+       {"count", Need::optional, into(out.count, 1, most_particles), "in place of volume_fraction: so many", "none"}});
   need_one_of(section, "volume_fraction", "count");
   need_to_fit(section, "sieve", out.sieve_max, box);
   return out;
@@ -57,9 +61,12 @@ MasticSpec read_mastic(const Section& section, const Box& box, bool by_mass) {
   constexpr Rule porosity{[](double v) { return v > -1 && v < 1; }, "a porosity between -1 and 1"};
   MasticSpec out;
   out.line = section.line();
-  section.read({{"radius", Need::required, range_into(out.radius_min, out.radius_max)},
-                {"porosity", Need::optional, into(out.porosity, ratio, porosity)},
-                {"count", Need::optional, into(out.count, 1, most_particles)}});
+  section.read(
+      {{"radius", Need::required, range_into(out.radius_min, out.radius_max),
+        "least and greatest radius of the spheres"},
+       {"porosity", Need::optional, into(out.porosity, ratio, porosity),
+        "1 - sum of the solid spheres' volumes / (box - voids)", "count, or the recipe"},
+       {"count", Need::optional, into(out.count, 1, most_particles), "in place of porosity: so many", "none"}});
   for (const char* key : {"porosity", "count"}) {
     if (by_mass && section.has(key))
       section.refuse(key, "this key beside [specimen.recipe]", "the recipe alone: its air voids are the porosity");
@@ -73,9 +80,11 @@ VoidSpec read_voids(const Section& section, const Box& box, bool by_mass) {
   constexpr Rule share{[](double v) { return v >= 0 && v < 1; }, "a fraction from 0 to below 1"};
   VoidSpec out;
   out.line = section.line();
-  section.read({{"radius", Need::required, range_into(out.radius_min, out.radius_max)},
-                {"fraction", Need::optional, into(out.fraction, ratio, share)},
-                {"count", Need::optional, into(out.count, 0, most_particles)}});
+  section.read(
+      {{"radius", Need::required, range_into(out.radius_min, out.radius_max), "least and greatest radius of the voids"},
+       {"fraction", Need::optional, into(out.fraction, ratio, share), "share of the box",
+        "count, or the recipe's air voids"},
+       {"count", Need::optional, into(out.count, 0, most_particles), "in place of fraction: so many", "none"}});
   if (!by_mass || section.has("count")) need_one_of(section, "fraction", "count");
   need_to_fit(section, "radius", 2 * out.radius_max, box);
   return out;
@@ -158,12 +167,13 @@ void follow_recipe(const Section& section, const MixDesign& recipe, SpecimenSpec
 }  // namespace
 
 Reader range_into(double& low, double& high) {
-  return [&low, &high](const Value& value) {
+  const auto read = [&low, &high](const Value& value) {
     const std::vector<double> range = value.numbers(length, positive);
     if (range.size() != 2) value.refuse(fmt::format("{} entries", range.size()), "two, [min, max]");
     if (range[0] > range[1]) value.refuse(fmt::format("[{}, {}] m", range[0], range[1]), "min not above max");
     low = range[0], high = range[1];
   };
+  return {read, {"list of two numbers", &length, positive.words}};
 }
 
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
@@ -183,22 +193,33 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
   const auto read_the_mastic = [&](const Value& v) {
     spec.mastic = read_mastic(v.section(), spec.box, section.has("recipe"));
   };
-  section.read({{"box", Need::required, box_into(spec.box)},
-                {"file", Need::optional, read_file},
-                {"seed", Need::optional, into(spec.seed, 0)},
-                {"size_law", Need::optional,
-                 into<SizeLaw>(spec.size_law, {{"log_uniform", SizeLaw::log_uniform},
-                                               {"uniform", SizeLaw::uniform},
-                                               {"volume_uniform", SizeLaw::volume_uniform}})},
-                {"spacing", Need::optional, into(spec.spacing, length, non_negative)},
-                {"fix_aggregates", Need::optional, into(spec.fix_aggregates)},
-                {"attempts", Need::optional, into(spec.attempts, 1)},
-                {"aggregate", Need::optional, read_classes},
-                {"shapes", Need::optional, [&](const Value& v) { spec.shapes = read_shapes(v.section(), folder); }},
-                {"recipe", Need::optional, [&](const Value& v) { recipe = read_recipe(v.section()); }},
-                {"mastic", Need::optional, read_the_mastic},
-                {"voids", Need::optional,
-                 [&](const Value& v) { spec.voids = read_voids(v.section(), spec.box, section.has("recipe")); }}});
+  section.read(
+      {{"box", Need::required, box_into(spec.box), "edges x, y, z; one corner is the origin, z is vertical"},
+       {"file",
+        Need::optional,
+        {read_file, {"text"}},
+        "a specimen that is there: CSV id,x,y,z,radius,phase,body, relative to the scene's folder",
+        "a mixture that is generated"},
+       {"seed", Need::optional, into(spec.seed, 0), "another seed is another specimen of the same mixture"},
+       {"size_law", Need::optional,
+        into<SizeLaw>(spec.size_law, {{"log_uniform", SizeLaw::log_uniform},
+                                      {"uniform", SizeLaw::uniform},
+                                      {"volume_uniform", SizeLaw::volume_uniform}}),
+        "how diameters lie between two sieves"},
+       {"spacing", Need::optional, into(spec.spacing, length, non_negative),
+        "least distance of an aggregate from those inserted before it"},
+       {"fix_aggregates", Need::optional, into(spec.fix_aggregates), "hold the aggregates while the mastic relaxes"},
+       {"attempts", Need::optional, into(spec.attempts, 1),
+        "positions tried for one aggregate before its class is given up"},
+       {"aggregate", Need::optional, sections_by(read_classes), "a class of aggregates, between two sieves", "none"},
+       {"shapes", Need::optional, section_by([&](const Value& v) { spec.shapes = read_shapes(v.section(), folder); }),
+        "aggregates of real shape, filled with spheres", "an aggregate is a sphere"},
+       {"recipe", Need::optional, section_by([&](const Value& v) { recipe = read_recipe(v.section()); }),
+        "a mix design by mass, in place of [[specimen.aggregate]] and of the mastic's content", "none"},
+       {"mastic", Need::optional, section_by(read_the_mastic), "the mastic: spheres that fill the rest", "none"},
+       {"voids", Need::optional,
+        section_by([&](const Value& v) { spec.voids = read_voids(v.section(), spec.box, section.has("recipe")); }),
+        "air voids with cells of their own", "none"}});
   if (spec.file) {
     for (const char* key : {"recipe", "aggregate", "shapes", "mastic", "voids", "seed", "size_law", "spacing",
                             "fix_aggregates", "attempts"}) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/known_keys.hpp"
 #include "host/scene/sections.hpp"
 #include "host/scene/shift_keys.hpp"
 #include "macadam/error.hpp"
@@ -55,13 +56,15 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
 Materials read_materials(const Section& section, Need need) {
   Materials materials;
   const auto phase = [need](double& target) {
-    return [&target, need](const Value& value) {
-      value.section().read({{"density", need, into(target, density, positive)}});
-    };
+    return section_by([&target, need](const Value& value) {
+      value.section().read({{"density", need, into(target, density, positive), "of the spheres",
+                             "from [specimen.recipe], where that is"}});
+    });
   };
-  section.read({{"aggregate", Need::optional, phase(materials.aggregate)},
-                {"mastic", Need::optional, phase(materials.mastic)},
-                {"temperature", Need::optional, into(materials.temperature, temperature, celsius)}});
+  section.read({{"aggregate", Need::optional, phase(materials.aggregate), "what aggregates are of", "none"},
+                {"mastic", Need::optional, phase(materials.mastic), "what mastic is of", "none"},
+                {"temperature", Need::optional, into(materials.temperature, temperature, celsius),
+                 "of the whole specimen; laws with a shift follow it", "the laws' reference temperatures"}});
   return materials;
 }
 
@@ -70,17 +73,21 @@ void read_network(const Section& section, NetworkSpec& spec) {
   keys.push_back({"quadrature", Need::optional,
                   into<Quadrature>(spec.quadrature, {{"lumped", Quadrature::lumped},
                                                      {"exact", Quadrature::exact},
-                                                     {"one_point", Quadrature::one_point}})});
-  keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls)});
+                                                     {"one_point", Quadrature::one_point}}),
+                  "area moments of a contact: of its points, of the polygon, of one point at the centroid"});
+  keys.push_back({"lateral_walls", Need::optional, into(spec.lateral_walls),
+                  "the four sides are walls too: |E*| is a confined modulus"});
   section.read(keys);
 }
 
 void read_output(const Section& section, OutputSpec& spec) {
   std::vector<Key> keys = keys_of(spec.fields);
-  keys.push_back({"contacts", Need::optional, into(spec.contacts)});
-  keys.push_back({"response", Need::optional, into(spec.response)});
-  keys.push_back({"sensitivities", Need::optional, into(spec.sensitivities)});
-  keys.push_back({"checkpoint", Need::optional, into(spec.checkpoint, duration, non_negative)});
+  keys.push_back({"contacts", Need::optional, into(spec.contacts), "write contacts.csv"});
+  keys.push_back({"response", Need::optional, into(spec.response), "write response.csv"});
+  keys.push_back({"sensitivities", Need::optional, into(spec.sensitivities),
+                  "method \"harmonic\": derivatives of |E*| and phi by every parameter, in summary.json"});
+  keys.push_back({"checkpoint", Need::optional, into(spec.checkpoint, duration, non_negative),
+                  "wall time between two checkpoints of a stepped run; 0: only when it is interrupted", "\"10 min\""});
   section.read(keys);
   check_fields(section, spec.fields);
 }
@@ -166,23 +173,31 @@ toml::table without_lines(const toml::table& table) {
   return out;
 }
 
-Scene read_tables(const std::filesystem::path& file, std::string text, const toml::table& table) {
+/// `densities`: whether the scene must have those of its materials.
+Scene read_root(const std::filesystem::path& file, const Section& root, Need densities) {
   Scene out;
   out.file = file;
-  out.text = std::move(text);
-  const Section root(file.string(), 0, "", "", table);
   const std::filesystem::path folder = file.parent_path();
-  const Need densities = table["specimen"]["recipe"] ? Need::optional : Need::required;
   const auto read_the_specimen = [&](const Value& v) { out.specimen = read_specimen(v.section(), folder, out.recipe); };
   std::optional<SolverSpec> solver;
-  root.read({{"specimen", Need::required, read_the_specimen},
-             {"materials", densities, [&](const Value& v) { out.materials = read_materials(v.section(), densities); }},
-             {"contacts", Need::required,
-              [&](const Value& v) { out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network); }},
-             {"network", Need::optional, [&](const Value& v) { read_network(v.section(), out.network); }},
-             {"loading", Need::required, [&](const Value& v) { out.experiment = read_experiment(v.section()); }},
-             {"solver", Need::optional, [&](const Value& v) { solver = read_solver(v.section(), out.experiment); }},
-             {"output", Need::optional, [&](const Value& v) { read_output(v.section(), out.output); }}});
+  root.read({{"specimen", Need::required, section_by(read_the_specimen),
+              "what is tested: a file, or a mixture that is generated"},
+             {"materials", densities,
+              section_by([&](const Value& v) { out.materials = read_materials(v.section(), densities); }),
+              "densities, and the temperature", "from [specimen.recipe], where that is"},
+             {"contacts", Need::required, sections_by([&](const Value& v) {
+                out.laws = read_contacts(v.sections(), out.shifts, out.deltas, out.network);
+              }),
+              "one for each pair of materials that meets"},
+             {"network", Need::optional, section_by([&](const Value& v) { read_network(v.section(), out.network); }),
+              "which facets of the tessellation are contacts", "every facet"},
+             {"loading", Need::required,
+              section_by([&](const Value& v) { out.experiment = read_experiment(v.section()); }), "the test"},
+             {"solver", Need::optional,
+              section_by([&](const Value& v) { solver = read_solver(v.section(), out.experiment); }),
+              "how the test is stepped or solved", "as each key says"},
+             {"output", Need::optional, section_by([&](const Value& v) { read_output(v.section(), out.output); }),
+              "what is written besides the results", "as each key says"}});
   out.solver = solver.value_or(usual_solver(out.experiment));
   if (out.recipe) take_densities(*out.recipe, root, out.materials);
   check_together(out, root);
@@ -190,7 +205,24 @@ Scene read_tables(const std::filesystem::path& file, std::string text, const tom
   return out;
 }
 
+Scene read_tables(const std::filesystem::path& file, std::string text, const toml::table& table) {
+  const Need densities = table["specimen"]["recipe"] ? Need::optional : Need::required;
+  Scene out = read_root(file, Section(file.string(), 0, "", "", table), densities);
+  out.text = std::move(text);
+  return out;
+}
+
 }  // namespace
+
+std::vector<KnownKey> known_keys() {
+  const toml::table nothing;
+  Collector collector;
+  try {
+    read_root({}, Section("", 0, "", "", nothing, &collector), Need::required);
+  } catch (const Collector::Done&) {}
+  return collector.keys();
+}
+
 }  // namespace scene
 
 Scene read_scene(const std::filesystem::path& file) {

@@ -17,13 +17,22 @@ const std::vector<std::vector<std::string>> taken{{"C1", "C2", "reference_temper
 }  // namespace
 
 std::vector<Key> ShiftKeys::keys() {
-  return {{"shift", Need::optional, [this](const Value& value) { kind_ = value.choice(kinds); }},
-          {"C1", Need::optional, into(wlf_.C1, ratio, positive)},
-          {"C2", Need::optional, into(wlf_.C2, temperature_difference, positive)},
-          {"activation_energy", Need::optional, into(arrhenius_.activation_energy, molar_energy, positive)},
-          {"reference_temperature", Need::optional, into(reference_, temperature, celsius)},
-          {"temperatures", Need::optional, into(table_.temperatures, temperature, celsius)},
-          {"log10_a_T", Need::optional, into(table_.log10_a_T, ratio, any)}};
+  return {{"shift",
+           Need::optional,
+           {[this](const Value& value) { kind_ = value.choice(kinds); }, {"one of", nullptr, "", "", kinds}},
+           "how temperature multiplies every viscosity by a_T",
+           "none"},
+          {"C1", Need::optional, into(wlf_.C1, ratio, positive), "of shift \"wlf\": its first constant", "none"},
+          {"C2", Need::optional, into(wlf_.C2, temperature_difference, positive),
+           "of shift \"wlf\": its second constant", "none"},
+          {"activation_energy", Need::optional, into(arrhenius_.activation_energy, molar_energy, positive),
+           "of shift \"arrhenius\": activation energy", "none"},
+          {"reference_temperature", Need::optional, into(reference_, temperature, celsius),
+           "temperature at which the law holds as it is written", "none"},
+          {"temperatures", Need::optional, into(table_.temperatures, temperature, celsius),
+           "of shift \"table\": rising temperatures", "none"},
+          {"log10_a_T", Need::optional, into(table_.log10_a_T, ratio, any),
+           "of shift \"table\": log10 of a_T at each of them, linear in between", "none"}};
 }
 
 laws::Shift ShiftKeys::shift(const Section& section) const {

@@ -9,6 +9,7 @@
 
 #include "host/in_quotes.hpp"
 #include "host/nearest.hpp"
+#include "host/scene/known_keys.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::scene {
@@ -111,6 +112,7 @@ std::string Value::text() const {
 }
 
 std::size_t Value::choice(const std::vector<std::string>& names) const {
+  if (collector_) return collector_->choose(name_, names);
   const auto* text = node_->as_string();
   const auto found = text ? std::find(names.begin(), names.end(), text->get()) : names.end();
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
@@ -122,12 +124,13 @@ std::size_t Value::choice(const std::vector<std::string>& names) const {
 Section Value::section() const {
   const auto* table = node_->as_table();
   if (!table) refuse(shown(), "a section [" + path_ + "]");
-  return Section(file_, line_, "[" + path_ + "]", path_, *table);
+  return Section(file_, line_, "[" + path_ + "]", path_, *table, collector_);
 }
 
 std::vector<Section> Value::sections() const {
   const std::string expected = "sections [[" + path_ + "]], with double brackets";
   std::vector<Section> out;
+  if (collector_) return {Section(file_, line_, "[[" + path_ + "]]", path_, *node_->as_table(), collector_)};
   for (const toml::node& node : array(expected)) {
     const auto* table = node.as_table();
     const Value entry(file_, line_of(node.source()), name_, path_, node);
@@ -143,10 +146,11 @@ std::string Section::name(const std::string& key) const {
 }
 
 std::optional<Value> Section::find(const std::string& key) const {
+  const auto path_of_key = [&] { return path_.empty() ? key : path_ + "." + key; };
+  if (collector_) return Value(file_, 0, name(key), path_of_key(), *table_, collector_);
   const auto found = table_->find(key);
   if (found == table_->end()) return {};
-  return Value(file_, line_of(found->first.source()), name(key), path_.empty() ? key : path_ + "." + key,
-               found->second);
+  return Value(file_, line_of(found->first.source()), name(key), path_of_key(), found->second);
 }
 
 void Section::refuse(const std::string& key, const std::string& found, const std::string& expected) const {
@@ -155,6 +159,12 @@ void Section::refuse(const std::string& key, const std::string& found, const std
 }
 
 void Section::read(const std::vector<Key>& keys) const {
+  if (collector_) {
+    for (const Key& key : keys) {
+      collector_->add(title_, name(key.name), key, [&] { key.read.read(*find(key.name)); });
+    }
+    throw Collector::Done();
+  }
   const std::string kind = title_.empty() ? "section" : "key";
   std::vector<std::string> known;
   for (const Key& key : keys) known.push_back(key.name);
@@ -166,7 +176,7 @@ void Section::read(const std::vector<Key>& keys) const {
   }
   for (const Key& key : keys) {
     if (const auto value = find(key.name)) {
-      key.read(*value);
+      key.read.read(*value);
     } else if (key.need == Need::required) {
       refuse(key.name, "nothing", "this " + kind + ", which is required");
     }

@@ -3,9 +3,12 @@
 /// are known and the keys that are read cannot differ. Every error names file, line, key, what was found and expected.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,13 +30,20 @@ inline constexpr Rule positive{[](double v) { return v > 0; }, "a positive numbe
 inline constexpr Rule non_negative{[](double v) { return v >= 0; }, "a number that is not negative"};
 
 class Section;
+class Collector;
 
 /// One value of a scene and where it stands.
 class Value {
  public:
   /// A node of `file`, called `name` in messages; `path` is its dotted key.
-  Value(std::string file, int line, std::string name, std::string path, const toml::node& node)
-      : file_(std::move(file)), line_(line), name_(std::move(name)), path_(std::move(path)), node_(&node) {}
+  Value(std::string file, int line, std::string name, std::string path, const toml::node& node,
+        Collector* collector = nullptr)
+      : file_(std::move(file)),
+        line_(line),
+        name_(std::move(name)),
+        path_(std::move(path)),
+        node_(&node),
+        collector_(collector) {}
 
   /// A finite number that satisfies the rule, in SI units; text must carry a unit of the quantity.
   double number(const Quantity& quantity, const Rule& rule) const;
@@ -71,25 +81,55 @@ class Value {
   int line_;
   std::string name_, path_;
   const toml::node* node_;
+  Collector* collector_;
 };
 
 enum class Need : std::uint8_t { optional, required };
+
+/// What a value is, for people; what is empty is not so.
+struct Words {
+  std::string type = {};                  ///< "number", "list of numbers", "text", "section", …
+  const Quantity* quantity = nullptr;     ///< of a number
+  std::string rule = {};                  ///< what it must satisfy
+  std::string usual = {};                 ///< where the scene gives none, as a scene would write it
+  std::vector<std::string> choices = {};  ///< texts that it may be
+  bool operator==(const Words&) const = default;
+};
+
+/// What reads the value of a key, and the words for it.
+struct Reader {
+  template <class F>
+  requires std::is_invocable_v<F, const Value&> Reader(F f, Words in_words = {})
+      : read(std::move(f)), words(std::move(in_words)) {}
+
+  std::function<void(const Value&)> read;
+  Words words;
+};
 
 /// A key of a section, and what to do with its value.
 struct Key {
   std::string name;
   Need need;
-  std::function<void(const Value&)> read;
+  Reader read;
+  std::string text = {};   ///< what it is, for people
+  std::string usual = {};  ///< what holds without it, in words, where that is no fixed value
 };
 
 /// A TOML table of which every key has to be known.
 class Section {
  public:
   /// The table `title` (as messages show it; empty for the whole file), its dotted key and its line (0: none).
-  Section(std::string file, int line, std::string title, std::string path, const toml::table& table)
-      : file_(std::move(file)), line_(line), title_(std::move(title)), path_(std::move(path)), table_(&table) {}
+  Section(std::string file, int line, std::string title, std::string path, const toml::table& table,
+          Collector* collector = nullptr)
+      : file_(std::move(file)),
+        line_(line),
+        title_(std::move(title)),
+        path_(std::move(path)),
+        table_(&table),
+        collector_(collector) {}
 
-  /// Refuses unknown keys (naming the nearest known one), then reads the given keys in this order.
+  /// Refuses unknown keys (naming the nearest known one), then reads the given keys in this order. Where keys are
+  /// collected, in place of it: hands the keys over, and those of the sections among them, and leaves the reader.
   /// \throws InputError for an unknown, missing or wrong key.
   void read(const std::vector<Key>& keys) const;
 
@@ -109,46 +149,83 @@ class Section {
   int line_;
   std::string title_, path_;
   const toml::table* table_;
+  Collector* collector_;
 };
 
-/// Readers for the keys of a section: each stores the checked value in `target`, which must outlive Section::read.
+/// A default as a scene would write it.
 /// @{
-using Reader = std::function<void(const Value&)>;
+inline std::string written(double value) { return fmt::format("{}", value); }
+inline std::string written(const std::optional<double>&) { return ""; }
+inline std::string written(const std::vector<double>&) { return ""; }
+/// @}
+
+/// Readers for the keys of a section: each stores the checked value in `target`, which must outlive Section::read and
+/// holds the default.
+/// @{
 inline Reader into(double& target, const Quantity& quantity, const Rule& rule) {
-  return [&target, &quantity, rule](const Value& value) { target = value.number(quantity, rule); };
+  return {[&target, &quantity, rule](const Value& value) { target = value.number(quantity, rule); },
+          {"number", &quantity, rule.words, written(target)}};
 }
 inline Reader into(std::optional<double>& target, const Quantity& quantity, const Rule& rule) {
-  return [&target, &quantity, rule](const Value& value) { target = value.number(quantity, rule); };
+  return {[&target, &quantity, rule](const Value& value) { target = value.number(quantity, rule); },
+          {"number", &quantity, rule.words}};
 }
 inline Reader into(std::vector<double>& target, const Quantity& quantity, const Rule& rule) {
-  return [&target, &quantity, rule](const Value& value) { target = value.numbers(quantity, rule); };
+  return {[&target, &quantity, rule](const Value& value) { target = value.numbers(quantity, rule); },
+          {"list of numbers", &quantity, rule.words}};
+}
+/// The words for whole numbers of a range.
+inline Words whole(std::int64_t min, std::int64_t max, std::string usual = "") {
+  return {"whole number", nullptr,
+          max == std::numeric_limits<std::int64_t>::max() ? fmt::format("at least {}", min)
+                                                          : fmt::format("from {} to {}", min, max),
+          std::move(usual)};
 }
 template <class Integer>
 Reader into(Integer& target, std::int64_t min, std::int64_t max = std::numeric_limits<std::int64_t>::max()) {
-  return [&target, min, max](const Value& value) { target = static_cast<Integer>(value.integer(min, max)); };
+  return {[&target, min, max](const Value& value) { target = static_cast<Integer>(value.integer(min, max)); },
+          whole(min, max, fmt::format("{}", target))};
 }
 inline Reader into(bool& target) {
-  return [&target](const Value& value) { target = value.boolean(); };
+  return {[&target](const Value& value) { target = value.boolean(); },
+          {"true or false", nullptr, "", target ? "true" : "false"}};
 }
 template <class Enum>
 Reader into(Enum& target, std::vector<std::pair<std::string, Enum>> names) {
-  return [&target, names = std::move(names)](const Value& value) {
-    std::vector<std::string> words;
-    for (const auto& [word, meaning] : names) words.push_back(word);
-    target = names[value.choice(words)].second;
-  };
+  Words words{"one of", nullptr, "", "", {}};
+  for (const auto& [word, meaning] : names) {
+    words.choices.push_back(word);
+    if (meaning == target) words.usual = '"' + word + '"';
+  }
+  return {[&target, names = std::move(names), choices = words.choices](const Value& value) {
+            target = names[value.choice(choices)].second;
+          },
+          words};
 }
 template <class Integer>
 Reader into(std::optional<Integer>& target, std::int64_t min, std::int64_t max) {
-  return [&target, min, max](const Value& value) { target = static_cast<Integer>(value.integer(min, max)); };
+  return {[&target, min, max](const Value& value) { target = static_cast<Integer>(value.integer(min, max)); },
+          whole(min, max)};
 }
 template <class Enum>
 Reader into(std::optional<Enum>& target, std::vector<std::pair<std::string, Enum>> names) {
-  return [&target, names = std::move(names)](const Value& value) {
-    Enum found{};
-    into<Enum>(found, names)(value);
-    target = found;
-  };
+  Words words{"one of", nullptr, "", "", {}};
+  for (const auto& [word, meaning] : names) words.choices.push_back(word);
+  return {[&target, names = std::move(names)](const Value& value) {
+            Enum found{};
+            into<Enum>(found, names).read(value);
+            target = found;
+          },
+          words};
+}
+/// A section of its own, or several.
+template <class F>
+Reader section_by(F read) {
+  return {std::move(read), {"section"}};
+}
+template <class F>
+Reader sections_by(F read) {
+  return {std::move(read), {"sections"}};
 }
 /// @}
 

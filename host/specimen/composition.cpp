@@ -194,9 +194,11 @@ Composition compose(const SpecimenSpec& spec) {
   return result;
 }
 
-std::vector<Population> compose_mastic(const SpecimenSpec& spec, double aggregate_volume) {
-  if (!spec.mastic) return {};
-  SpecimenSpec rest;  // the same mastic where the aggregates are nothing but less room
+namespace {
+
+/// The same mastic where the aggregates are nothing but less room.
+SpecimenSpec mastic_alone(const SpecimenSpec& spec, double aggregate_volume) {
+  SpecimenSpec rest;
   rest.box = spec.box;
   rest.seed = spec.seed;
   rest.source = spec.source, rest.line = spec.line;
@@ -209,7 +211,22 @@ std::vector<Population> compose_mastic(const SpecimenSpec& spec, double aggregat
           "at most the solid volume that the porosity leaves, " + percent(solid / spec.box.volume()) + " of the box");
     rest.mastic->porosity = 1 - mastic / spec.box.volume();
   }
-  return compose(rest).mastic;
+  return rest;
+}
+
+}  // namespace
+
+std::vector<Population> compose_mastic(const SpecimenSpec& spec, double aggregate_volume) {
+  if (!spec.mastic) return {};
+  return compose(mastic_alone(spec, aggregate_volume)).mastic;
+}
+
+std::int64_t mastic_number(const SpecimenSpec& spec, double aggregate_volume) {
+  return solve_recipe(mastic_alone(spec, aggregate_volume)).mastic->number(spec.box.volume());
+}
+
+std::int64_t void_number(const SpecimenSpec& spec) {
+  return spec.voids ? request_of(*spec.voids, spec).number(spec.box.volume()) : 0;
 }
 
 std::vector<Population> compose_voids(const SpecimenSpec& spec) {

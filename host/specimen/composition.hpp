@@ -76,6 +76,12 @@ Composition compose(const SpecimenSpec& spec);
 /// \throws InputError as compose().
 std::vector<Population> compose_mastic(const SpecimenSpec& spec, double aggregate_volume);
 
+/// The number of its spheres alone, and of voids. \throws InputError as compose().
+/// @{
+std::int64_t mastic_number(const SpecimenSpec& spec, double aggregate_volume);
+std::int64_t void_number(const SpecimenSpec& spec);
+/// @}
+
 /// The voids of a recipe: one entry, or none.
 /// \throws InputError as compose().
 std::vector<Population> compose_voids(const SpecimenSpec& spec);

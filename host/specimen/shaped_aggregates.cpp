@@ -43,6 +43,31 @@ struct Shape {
   const ShapeMeasure& measure() const { return filler.measure(); }
 };
 
+/// The shapes of a recipe, and the aggregates that are drawn of them.
+struct Drawn {
+  std::vector<std::shared_ptr<const Shape>> shapes;
+  std::vector<ShapeTemplate> templates;
+  ShapeComposition composition;
+
+  explicit Drawn(const SpecimenSpec& spec) {
+    const ShapeSpec& how = spec.shapes.value();
+    const std::vector<Surface> surfaces = surfaces_of(how);
+    shapes.resize(surfaces.size());
+    for_each_in_parallel(surfaces.size(), [&](std::size_t k) {
+      shapes[k] = std::make_shared<const Shape>(surfaces[k], how.fill.single);
+    });
+    for (const auto& shape : shapes) templates.push_back(shape->placed);
+    composition = compose_shapes(
+        spec, templates, [&](int shape, double size) { return spheres(shape, size, how.fill) < how.fill.least; });
+  }
+
+  /// Of a shape of this size.
+  std::int64_t spheres(int shape, double size, const FillSpec& fill) const {
+    const Shape& s = *shapes[static_cast<std::size_t>(shape)];
+    return s.filler.spheres(size / s.measure().d_intermediate, fill);
+  }
+};
+
 /// The inverse of a motion.
 Vec3d back(const Pose& pose, const Vec3d& point) {
   const auto& q = pose.turn;
@@ -128,20 +153,23 @@ double ShapedAggregates::smallest_radius() const {
   return out;
 }
 
+ShapeCensus count_shapes(const SpecimenSpec& spec) {
+  const Drawn drawn(spec);
+  ShapeCensus out;
+  out.templates = std::ssize(drawn.templates);
+  for (const AggregateRequest& r : drawn.composition.aggregate) {
+    ++out.aggregates;
+    out.spheres += r.sphere ? 1 : drawn.spheres(r.shape, r.size, spec.shapes->fill);
+    out.volume += aggregate_volume(drawn.templates[static_cast<std::size_t>(r.shape)], r.size, r.sphere);
+  }
+  return out;
+}
+
 ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
                                         const std::function<void(const char* stage, double share)>& progress) {
   const ShapeSpec& how = spec.shapes.value();
-  const std::vector<Surface> surfaces = surfaces_of(how);
-  std::vector<std::shared_ptr<const Shape>> shapes(surfaces.size());
-  for_each_in_parallel(shapes.size(),
-                       [&](std::size_t k) { shapes[k] = std::make_shared<const Shape>(surfaces[k], how.fill.single); });
-
-  std::vector<ShapeTemplate> templates;
-  for (const auto& shape : shapes) templates.push_back(shape->placed);
-  const auto is_sphere = [&](int shape, double size) {
-    const Shape& s = *shapes[static_cast<std::size_t>(shape)];
-    return s.filler.spheres(size / s.measure().d_intermediate, how.fill) < how.fill.least;
-  };
+  const Drawn drawn(spec);
+  const auto& [shapes, templates, composition] = drawn;
   ShapePlacementSpec search;
   search.method = how.placement;
   search.attempts = spec.attempts;
@@ -150,7 +178,6 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
   search.spacing = spec.spacing;
   search.seed = spec.seed;
   search.origin = Origin(spec).text();
-  const ShapeComposition composition = compose_shapes(spec, templates, is_sphere);
   const auto filled = [&](std::size_t k) {
     const AggregateRequest& r = composition.aggregate[k];
     const Shape& shape = *shapes[static_cast<std::size_t>(r.shape)];
@@ -181,7 +208,7 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
     out.aggregate[k].spheres = static_cast<std::int64_t>(out.spheres[k].size());
   }
   for (const auto& shape : shapes) out.surfaces.push_back(shape->placed.surface);
-  const auto all = std::make_shared<const PlacedShapes>(spec.box, std::move(shapes), std::move(placed.aggregate),
+  const auto all = std::make_shared<const PlacedShapes>(spec.box, shapes, std::move(placed.aggregate),
                                                         spec.mastic ? spec.mastic->radius_max : 0);
   out.inside = [all](const Vec3d& point) { return all->hold(point); };
   if (how.hold_out > 0) {

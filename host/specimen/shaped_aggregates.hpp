@@ -24,6 +24,14 @@ struct ShapedAggregates {
   double smallest_radius() const;
 };
 
+/// The aggregates of a recipe with shapes, drawn as they will be, but in no place.
+struct ShapeCensus {
+  std::int64_t aggregates = 0, spheres = 0, templates = 0;
+  double volume = 0;  ///< of all [m³]
+};
+/// \throws InputError for an impossible recipe or a faulty surface.
+ShapeCensus count_shapes(const SpecimenSpec& spec);
+
 /// Follows `spec.shapes`, which must be there. The same spec gives the same bits, for any number of threads.
 /// \throws InputError for an impossible recipe or a faulty surface; RunError where aggregates find no room.
 ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,

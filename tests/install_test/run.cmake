@@ -39,7 +39,9 @@ foreach(example own_law own_loading)  # laws and loads of a user's own; they fai
 endforeach()
 run(${WORK}/prefix/bin/macadam info)
 run(${WORK}/prefix/bin/macadam fit ${examples}/laws/mastic.csv --shift wlf --units 3 --out ${WORK}/law)
-foreach(file prefix/share/macadam/draw-fit prefix/share/macadam/draw-calibration law/law.toml)
+foreach(file prefix/share/macadam/draw-fit prefix/share/macadam/draw-calibration law/law.toml
+             prefix/share/man/man1/macadam.1 prefix/share/bash-completion/completions/macadam
+             prefix/share/zsh/site-functions/_macadam prefix/share/fish/vendor_completions.d/macadam.fish)
   if(NOT EXISTS ${WORK}/${file})
     message(FATAL_ERROR "${file} is not there")
   endif()

@@ -19,15 +19,22 @@ experiments::Cyclic ExperimentOf<experiments::Cyclic>::read(const Section& secti
   constexpr std::int64_t most = 1'000'000;
   constexpr Rule ramp{[](double v) { return v >= 0 && v <= most; }, "0 to 1,000,000 cycles"};
   experiments::Cyclic spec;
-  section.read({kind_key(),
-                {"frequencies", Need::required, into(spec.frequencies, frequency, positive)},
-                {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius)},
-                {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain)},
-                {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}})},
-                {"cycles", Need::optional, into(spec.cycles, 1, most)},
-                {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp)},
-                {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most)},
-                {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most)}});
+  section.read(
+      {kind_key(),
+       {"frequencies", Need::required, into(spec.frequencies, frequency, positive), "one test each"},
+       {"temperatures", Need::optional, into(spec.temperatures, temperature, celsius),
+        "every frequency at each of them; in place of temperature in [materials]", "none"},
+       {"strain_amplitude", Need::optional, into(spec.strain_amplitude, ratio, strain), "amplitude over the height"},
+       {"start", Need::optional, into<Start>(spec.start, {{"rest", Start::rest}, {"steady", Start::steady}}),
+        "from zero displacement, or in the steady state of the harmonic solution",
+        "\"rest\"; with tolerance \"steady\""},
+       {"cycles", Need::optional, into(spec.cycles, 1, most), "periods of each test",
+        "5; from a steady start 1; with tolerance, from rest, 4 or more"},
+       {"ramp_cycles", Need::optional, into(spec.ramp_cycles, ratio, ramp), "smooth start over so many periods",
+        "0; with tolerance, from rest, 1"},
+       {"fit_cycles", Need::optional, into(spec.fit_cycles, 1, most), "last periods that are fitted",
+        "2 of four cycles or more, else 1"},
+       {"samples_per_cycle", Need::optional, into(spec.samples_per_cycle, 8, most), "lines of response.csv a period"}});
   require_once(section, "frequencies", spec.frequencies, "Hz", "frequency");
   require_once(section, "temperatures", spec.temperatures, "degrees C", "temperature");
   if (spec.start == Start::steady && spec.ramp_cycles.value_or(0) > 0) {

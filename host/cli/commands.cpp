@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// commands.cpp  The commands, a line each.
+#include "host/cli/commands.hpp"
+
+#include "host/cli/calibrate_command.hpp"
+#include "host/cli/check_command.hpp"
+#include "host/cli/ct_command.hpp"
+#include "host/cli/fit_command.hpp"
+#include "host/cli/help.hpp"
+#include "host/cli/info_command.hpp"
+#include "host/cli/new_command.hpp"
+#include "host/cli/python_commands.hpp"
+#include "host/cli/run_command.hpp"
+#include "host/cli/shapes_command.hpp"
+#include "host/cli/shell_command.hpp"
+#include "host/cli/specimen_command.hpp"
+#include "macadam/version.hpp"
+
+namespace macadam {
+
+void make_command_line(CLI::App& app) {
+  app.description("Macadam: discrete elements for bituminous mixtures and other bonded granular solids");
+  app.name("macadam");
+  app.formatter(std::make_shared<HelpFormatter>());  // commands take it when they are added
+  app.require_subcommand(1);
+  app.set_help_flag("-h,--help", "print this and end; behind a command, what that takes");
+  app.set_version_flag("--version", version(), "print the version and end");
+  add_examples(app, {"macadam run examples/demo/scene.toml --out results", "macadam run --help"});
+  add_run_command(app);
+  add_specimen_command(app);
+  add_shapes_command(app);
+  add_fit_command(app);
+  add_calibrate_command(app);
+  add_ct_command(app);
+  add_info_command(app);
+  add_new_command(app);
+  add_check_command(app);
+  add_python_commands(app);
+  add_shell_commands(app);
+}
+
+}  // namespace macadam

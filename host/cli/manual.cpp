@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// manual.cpp  The command line as a manual page, in the macros of man(7).
+#include <fmt/format.h>
+
+#include "host/cli/help.hpp"
+#include "host/cli/shell_command.hpp"
+#include "macadam/version.hpp"
+
+namespace macadam {
+namespace {
+
+/// Text that troff prints as it is.
+std::string plain(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else if ((c == '.' || c == '\'') && (out.empty() || out.back() == '\n'))
+      out += std::string("\\&") + c;
+    else if (c == '\'')
+      out += "\\(aq";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string bold(const std::string& text) { return "\\fB" + plain(text) + "\\fR"; }
+
+std::string option_entry(const CLI::Option& option) {
+  const bool positional = option.get_positional();
+  std::string out = ".TP\n" + bold(option.get_name(positional, !positional));
+  if (const std::string value = value_of(option); !value.empty() && !positional) out += " \\fI" + plain(value) + "\\fR";
+  return out + "\n" + plain(words_of(option)) + "\n";
+}
+
+std::string command_entry(const CLI::App& command, const std::string& name) {
+  std::string out = fmt::format(".SS \"{}\"\n{}\n", plain(name), plain(command.get_description()));
+  for (const CLI::Option* option : command.get_options())
+    if (option != command.get_help_ptr()) out += option_entry(*option);
+  const auto examples = examples_of(command);
+  if (!examples.empty()) out += ".PP\nExamples:\n.PP\n.nf\n.RS\n";
+  for (const std::string& example : examples) out += plain(example) + "\n";
+  if (!examples.empty()) out += ".RE\n.fi\n";
+  for (const CLI::App* below : command.get_subcommands(nullptr))
+    out += command_entry(*below, name + " " + below->get_name());
+  return out;
+}
+
+}  // namespace
+
+std::string manual_page(const CLI::App& app) {
+  std::string out = fmt::format(
+      ".\\\" made by macadam man\n.TH MACADAM 1 \"\" \"Macadam {}\" \"User Commands\"\n.SH NAME\nmacadam \\- discrete "
+      "elements for bituminous mixtures and other bonded granular solids\n.SH SYNOPSIS\n{} \\fICOMMAND\\fR "
+      "[\\fIOPTIONS\\fR]\n.SH DESCRIPTION\n{}\n",
+      plain(version()), bold("macadam"),
+      plain(
+          "Macadam makes a specimen of a mixture, tests it, and gives its complex modulus, its relaxation, its creep "
+          "or "
+          "its curve of stress and strain. A scene, a text file, says what is made and tested: \"macadam new\" writes "
+          "one to begin with, \"macadam run\" runs it."));
+  out += ".SH OPTIONS\n";
+  for (const CLI::Option* option : app.get_options()) out += option_entry(*option);
+  out += ".SH COMMANDS\n";
+  for (const CLI::App* command : app.get_subcommands(nullptr))
+    out += command_entry(*command, "macadam " + command->get_name());
+  out += ".SH EXIT STATUS\n.TP\n0\ndone\n.TP\n1\nthe run failed, or was interrupted\n.TP\n2\nthe input is wrong\n";
+  out += ".SH ENVIRONMENT\n";
+  for (const auto& [name, text] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"OMP_NUM_THREADS", "threads of the CPU, where neither the scene nor an option says"},
+           {"MACADAM_PYTHON", "a Python that has the package macadam, for report and study"},
+           {"MACADAM_PLUGIN_PATH", "folder of the CUDA backend's library"}})
+    out += fmt::format(".TP\n{}\n{}\n", bold(name), plain(text));
+  return out;
+}
+
+}  // namespace macadam

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// keys_page.cpp  The reference of all keys, as Markdown and as JSON.
+#include "host/scene/keys_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "host/scene/known_keys.hpp"
+
+namespace macadam::scene {
+namespace {
+
+using json = nlohmann::ordered_json;
+
+bool is_section(const KnownKey& key) { return key.words.type.starts_with("section"); }
+
+/// "[specimen.mastic]" of the key mastic of [specimen].
+std::string title_of(const KnownKey& key) {
+  const std::string outer = key.section.empty() ? "" : key.section.substr(1, key.section.size() - 2) + ".";
+  return key.words.type == "sections" ? "[[" + outer + key.name + "]]" : "[" + outer + key.name + "]";
+}
+
+/// The unit of a bare number; empty: it has none.
+std::string unit_of(const KnownKey& key) {
+  if (!key.words.quantity || key.words.quantity == &ratio) return "";
+  return std::string(key.words.quantity->units.front().name);
+}
+
+std::string code(const std::string& text) { return "`" + text + "`"; }
+
+/// In a cell of a table a bar is the cell's end.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+  for (std::size_t at = 0; (at = text.find('*', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+  return text;
+}
+
+std::string kind_of_value(const KnownKey& key) {
+  if (key.words.choices.empty()) {
+    const std::string unit = unit_of(key);
+    return key.words.type + (unit.empty() ? "" : " [" + unit + "]");
+  }
+  std::string choices;
+  for (const std::string& choice : key.words.choices)
+    choices += (choices.empty() ? "" : ", ") + code('"' + choice + '"');
+  return key.words.type == "list" ? "list of " + choices : choices;
+}
+
+std::string usual_of(const KnownKey& key) {
+  if (key.need == Need::required) return "**required**";
+  if (!key.usual.empty()) return cell(key.usual);
+  return key.words.usual.empty() ? "" : code(key.words.usual);
+}
+
+std::string row(const KnownKey& key) {
+  std::string text = key.text;
+  if (!key.chosen.empty()) text += fmt::format(" ({} {})", key.chooser, fmt::join(key.chosen, ", "));
+  if (!key.words.rule.empty()) text += "; " + key.words.rule;
+  return fmt::format("| {} | {} | {} | {} |\n", code(key.name), cell(kind_of_value(key)), usual_of(key), cell(text));
+}
+
+}  // namespace
+
+std::string keys_page() {
+  const std::vector<KnownKey> keys = known_keys();
+  std::string out =
+      "# Every key of a scene\n\n"
+      "This page is what the reader of scenes itself knows, printed by `macadam info --keys markdown`. [Scene "
+      "files](scene.md)\n"
+      "explains the keys and how they act together. A number has the SI unit that stands here, or is text with a unit "
+      "of its\n"
+      "own, as `\"12.5 mm\"`. A number without a unit may be text in %.\n";
+  for (const KnownKey& section : keys) {
+    if (!is_section(section)) continue;
+    const std::string title = title_of(section);
+    out += fmt::format("\n## `{}`\n\n{}{}", title, static_cast<char>(std::toupper(section.text.front())),
+                       cell(section.text.substr(1)));
+    out += section.need == Need::required ? ". Required." : fmt::format(". Without it: {}.", section.usual);
+    out +=
+        "\n\n<!-- by hand: printed by the program -->\n\n| key | value | without it | what it is "
+        "|\n|---|---|---|---|\n";
+    for (const KnownKey& key : keys)
+      if (key.section == title && !is_section(key)) out += row(key);
+  }
+  return out;
+}
+
+std::string keys_json() {
+  json out = json::array();
+  for (const KnownKey& key : known_keys()) {
+    json one{{"section", key.section},
+             {"key", key.name},
+             {"required", key.need == Need::required},
+             {"type", key.words.type},
+             {"unit", unit_of(key)},
+             {"allowed", key.words.rule},
+             {"choices", key.words.choices},
+             {"default", key.words.usual},
+             {"without_it", key.usual},
+             {"text", key.text}};
+    if (!key.chosen.empty()) one["only_with"] = {{key.chooser, key.chosen}};
+    out.push_back(one);
+  }
+  return out.dump(1) + "\n";
+}
+
+}  // namespace macadam::scene

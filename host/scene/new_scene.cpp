@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// new_scene.cpp  Values of a scene to begin with, and the comments around them.
+#include "host/scene/new_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "host/scene/known_keys.hpp"
+
+namespace macadam::scene {
+namespace {
+
+constexpr std::size_t width = 118, comment_column = 36;
+
+/// A key with its value.
+struct Given {
+  std::string key, value;
+};
+
+/// A section with the values that it is given.
+struct Part {
+  std::string title;
+  std::vector<Given> given;
+  std::string remark = {};                  ///< above it
+  bool others = true;                       ///< the keys that are left follow as comments …
+  std::vector<std::string> not_these = {};  ///< … but for these
+};
+
+std::string wrapped(const std::string& text, const std::string& before) {
+  std::string out, line = before;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (line.size() > before.size() && line.size() + 1 + word.size() > width) out += line + '\n', line = before;
+    line += (line.size() > before.size() ? " " : "") + word;
+  }
+  return out + line + '\n';
+}
+
+/// A line of the scene, with its comment behind it where both fit into the width.
+std::string line_of(const std::string& line, const std::string& comment) {
+  const std::size_t column = std::max(comment_column, line.size() + 2);
+  if (column + 2 + comment.size() > width) return wrapped(comment, "# ") + line + '\n';
+  return fmt::format("{:<{}}# {}\n", line, column, comment);
+}
+
+std::string comment_of(const KnownKey& key, bool with_usual) {
+  std::string text = key.text;
+  if (!key.words.choices.empty()) {
+    text += ": ";
+    for (const std::string& choice : key.words.choices)
+      text += (choice == key.words.choices.front() ? "\"" : ", \"") + choice + '"';
+  }
+  if (key.words.quantity && key.words.quantity != &ratio)
+    text += fmt::format(" [{}]", key.words.quantity->units.front().name);
+  if (with_usual && !key.usual.empty()) text += "; without it: " + key.usual;
+  return text;
+}
+
+std::string written(const std::vector<KnownKey>& keys, const Part& part) {
+  std::string chosen;
+  for (const Given& given : part.given)
+    if (given.key == "kind" || given.key == "law") chosen = given.value.substr(1, given.value.size() - 2);
+  std::string out = "\n" + (part.remark.empty() ? "" : wrapped(part.remark, "# ")) + part.title + "\n";
+  const auto may = [&](const KnownKey& key) {
+    const bool fits = key.chosen.empty() || std::count(key.chosen.begin(), key.chosen.end(), chosen);
+    return key.section == part.title && fits && !key.words.type.starts_with("section");
+  };
+  for (const Given& given : part.given) {
+    const auto known =
+        std::find_if(keys.begin(), keys.end(), [&](const KnownKey& key) { return may(key) && key.name == given.key; });
+    const std::string line = given.key + " = " + given.value;
+    out += known == keys.end() || !part.others ? line + '\n' : line_of(line, comment_of(*known, false));
+  }
+  if (!part.others) return out;
+  for (const KnownKey& key : keys) {
+    const auto is_given = [&](const Given& given) { return given.key == key.name; };
+    if (!may(key) || std::any_of(part.given.begin(), part.given.end(), is_given) ||
+        std::count(part.not_these.begin(), part.not_these.end(), key.name))
+      continue;
+    const bool fixed = key.usual.empty() && !key.words.usual.empty();
+    out += line_of(fmt::format("# {} = {}", key.name, fixed ? key.words.usual : "..."), comment_of(key, true));
+  }
+  return out;
+}
+
+const std::vector<std::string> of_generator = {"file"};
+const std::vector<Given> box = {{"box", R"(["20 mm", "20 mm", "30 mm"])"}, {"seed", "1"}};
+
+std::vector<Part> specimen_by_volume(bool shapes) {
+  std::vector<Part> out{{"[specimen]", box, "", true, of_generator}};
+  if (shapes)
+    out.push_back({"[specimen.shapes]",
+                   {{"library", R"("aggregates")"}, {"radius", R"(["0.75 mm", "1 mm"])"}, {"porosity", "0.12"}},
+                   "Without this section an aggregate is one sphere."});
+  out.push_back(
+      {"[[specimen.aggregate]]",
+       {{"sieve", R"(["4.75 mm", "9.5 mm"])"}, {"volume_fraction", "0.24"}},
+       "Classes of aggregates, one [[specimen.aggregate]] between every two sieves. The mastic (binder, filler, "
+       "fine sand) takes the rest of the solid volume.",
+       true,
+       {"count"}});
+  out.push_back(
+      {"[[specimen.aggregate]]", {{"sieve", R"(["2 mm", "4.75 mm"])"}, {"volume_fraction", "0.19"}}, "", false});
+  out.push_back({"[specimen.mastic]",
+                 {{"radius", R"(["0.75 mm", "1 mm"])"}, {"porosity", "0.05"}},
+                 "The smaller these spheres, the more of them, and the longer a run.",
+                 true,
+                 {"count"}});
+  return out;
+}
+
+std::vector<Part> specimen_by_mass() {
+  return {{"[specimen]", {{"box", R"(["30 mm", "30 mm", "40 mm"])"}, {"seed", "1"}}, "", true, of_generator},
+          {"[specimen.recipe]",
+           {{"gradation",
+             R"([["19 mm", "100 %"], ["12.5 mm", "83.7 %"], ["9.5 mm", "71.2 %"], ["4.75 mm", "47.8 %"],
+             ["2 mm", "32.5 %"], ["0.425 mm", "16.9 %"], ["0.18 mm", "9.4 %"], ["0.075 mm", "5.3 %"]])"},
+            {"cut", R"("2 mm")"},
+            {"binder", R"("5.2 %")"},
+            {"binder_of", R"("mix")"},
+            {"aggregate_density", R"("2.63 g/cm3")"},
+            {"binder_density", R"("1.03 g/cm3")"},
+            {"air_voids", R"("5 %")"}},
+           "The laboratory's sheet. Densities and volumes of the specimen follow from it."},
+          {"[specimen.mastic]", {{"radius", R"(["0.75 mm", "1 mm"])"}}, "", true, {"porosity", "count"}}};
+}
+
+std::vector<Part> specimen_of(NewKind kind) {
+  if (kind == NewKind::recipe) return specimen_by_mass();
+  if (kind != NewKind::file) return specimen_by_volume(kind == NewKind::shapes);
+  return {{"[specimen]",
+           {{"file", R"("specimen.csv")"}, {"box", R"(["20 mm", "20 mm", "30 mm"])"}},
+           "macadam specimen writes such files.",
+           false}};
+}
+
+Given chain(const char* key, const char* value) { return {key, value}; }
+
+std::vector<Part> contacts_of(NewKind kind) {
+  const std::string kelvin = R"("generalised_kelvin")", elastic = R"("elastic")";
+  std::vector<Part> out{{"[[contacts]]",
+                         {{"pair", R"("M-M")"},
+                          {"law", kelvin},
+                          chain("E_m", "1.115e10"),
+                          chain("C_m", "2.515e9"),
+                          chain("E", "[3.799e8, 1.600e9, 4.308e10]"),
+                          chain("C", "[8.950e9, 5.695e9, 1.114e9]"),
+                          {"alpha", "0.1"}},
+                         "Contact laws, one for each pair that meets. The values are published ones of an AC 14 "
+                         "mixture; macadam fit makes "
+                         "those of your own mastic from measured moduli, macadam calibrate those of your own mixture."},
+                        {"[[contacts]]",
+                         {{"pair", R"("M-A")"},
+                          {"law", kelvin},
+                          chain("E_m", "3.511e10"),
+                          chain("C_m", "7.921e9"),
+                          chain("E", "[1.197e9, 5.039e9, 1.357e11]"),
+                          chain("C", "[2.819e10, 1.794e10, 3.510e9]"),
+                          {"alpha", "0.1"}},
+                         "",
+                         false}};
+  const auto add = [&](const char* pair, const char* modulus, const char* alpha, const char* remark) {
+    out.push_back({"[[contacts]]",
+                   {{"pair", '"' + std::string(pair) + '"'}, {"law", elastic}, {"E", modulus}, {"alpha", alpha}},
+                   remark,
+                   false});
+  };
+  add("A-A", "1.151e11", "0.05", "");
+  if (kind == NewKind::shapes || kind == NewKind::file) add("inner", "1.116e11", "0.05", "Spheres of one aggregate.");
+  add("A-W", "1.151e11", "0.0", "Walls, which do not hold the specimen sideways.");
+  add("M-W", "3.511e10", "0.0", "");
+  return out;
+}
+
+Part loading_of(const std::string& test) {
+  Part out{"[loading]", {{"kind", '"' + test + '"'}}};
+  const auto give = [&](const char* key, const char* value) { out.given.push_back({key, value}); };
+  if (test == "cyclic") give("frequencies", "[2.0, 5.0, 10.0, 20.0]"), give("strain_amplitude", "1e-4");
+  if (test == "sweep") give("frequencies", "[0.01, 100.0]"), give("points_per_decade", "4");
+  if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
+  if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
+  if (test == "monotonic") give("rate", "1e-4"), give("strain", "1e-3"), give("points", "100");
+  // what cannot stand beside these, and what only method "explicit" takes
+  out.not_these = {"temperatures", "points", "platen_mass"};
+  if (test == "monotonic") out.not_these = {"times", "points_per_decade"};
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> tests_of_new_scenes() {
+  for (const KnownKey& key : known_keys())
+    if (key.section == "[loading]" && key.name == "kind") return key.words.choices;
+  return {};
+}
+
+std::string new_scene(NewKind kind, const std::string& test) {
+  std::vector<Part> parts = specimen_of(kind);
+  const auto append = [&](std::vector<Part> more) { parts.insert(parts.end(), more.begin(), more.end()); };
+  if (kind == NewKind::recipe)
+    append({{"[materials]", {}}});
+  else
+    append({{"[materials]", {}},
+            {"[materials.aggregate]", {{"density", R"("2.63 g/cm3")"}}, "", false},
+            {"[materials.mastic]", {{"density", R"("2.11 g/cm3")"}}, "", false}});
+  append(contacts_of(kind));
+  append({{"[network]", {}},
+          loading_of(test),
+          {"[solver]",
+           {{"method", R"("harmonic")"}},
+           "A line that begins with # is a key that is left as it is: take the # away and change it.",
+           true,
+           {"tolerance", "density_scaling", "safety", "time_step", "damping", "damping_kind", "form", "geometry",
+            "precision"}},
+          {"[output]", {}, "", true, {"every", "format"}}});
+  std::string out =
+      "# A scene of Macadam. Numbers are in SI units, or text with a unit, as \"12.5 mm\". docs/scene.md explains "
+      "scenes,\n"
+      "# docs/keys.md lists every key that there is.\n";
+  const std::vector<KnownKey> keys = known_keys();
+  for (const Part& part : parts) out += written(keys, part);
+  return out;
+}
+
+}  // namespace macadam::scene

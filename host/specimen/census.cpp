@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// census.cpp  Bodies of a specimen, counted.
+#include "host/specimen/census.hpp"
+
+#include <algorithm>
+
+#include "host/specimen/composition.hpp"
+#include "host/specimen/shaped_aggregates.hpp"
+
+namespace macadam {
+namespace {
+
+Census of_file(const SpecimenSpec& spec) {
+  const Specimen specimen = read_specimen_csv(*spec.file, spec.box);
+  Census out;
+  std::int32_t last = -1;
+  for (const std::int32_t body : specimen.body) last = std::max(last, body);
+  out.aggregates = last + 1;
+  out.mastic = std::count(specimen.phase.begin(), specimen.phase.end(), Phase::mastic);
+  out.in_aggregates = static_cast<std::int64_t>(specimen.size()) - out.mastic;
+  out.voids = static_cast<std::int64_t>(specimen.voids.size());
+  return out;
+}
+
+}  // namespace
+
+Census count_specimen(const SpecimenSpec& spec) {
+  if (spec.file) return of_file(spec);
+  Census out;
+  const double box = spec.box.volume();
+  if (spec.shapes) {
+    const ShapeCensus shapes = count_shapes(spec);
+    out.aggregates = shapes.aggregates, out.in_aggregates = shapes.spheres, out.templates = shapes.templates;
+    if (spec.mastic) out.mastic = mastic_number(spec, shapes.volume);
+  } else {
+    const Recipe recipe = solve_recipe(spec);
+    for (const ClassRequest& request : recipe.aggregate) out.aggregates += request.number(box);
+    out.in_aggregates = out.aggregates;
+    if (recipe.mastic) out.mastic = recipe.mastic->number(box);
+  }
+  out.voids = void_number(spec);
+  return out;
+}
+
+}  // namespace macadam

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/forecast.md: what macadam check foretells, from bench/forecast/run's forecast.csv."""
+from pages.data import rows, table, thousands
+from pages.marks import mark
+
+DOCUMENT = "docs/forecast.md"
+
+
+def cases():
+    return rows("forecast.csv")
+
+
+def ratio(foretold, found):
+    return f"{foretold / found:.2f}" if found else ""
+
+
+@mark
+def foretold():
+    lines = [(r["scene"], r["method"], thousands(r["particles"]), ratio(r["particles_foretold"], r["particles"]),
+              ratio(r["contacts_foretold"], r["contacts"]), ratio(r["steps_foretold"], r["steps"]),
+              f"{r['memory_mb']:.0f}", ratio(r["memory_foretold_mb"], r["memory_mb"]), f"{r['processor_s'] / r['threads']:.1f}",
+              ratio(r["time_foretold_s"], r["processor_s"] / r["threads"]), f"{r['check_s']:.2f}") for r in cases()]
+    return table(["scene", "method", "particles", "their number", "contacts", "steps", "memory (MB)", "memory",
+                  "time (s)", "time", "check (s)"], lines, range(2, 11))
+
+
+@mark
+def where_measured():
+    first = cases()[0]
+    return f"{first['machine']}, {first['threads']:.0f} threads, {first['date']}"

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// command_help_test.cpp  The help of every command: for people, with examples that the command line takes.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/help.hpp"
+
+namespace macadam::test {
+namespace {
+
+/// f(a command) for the program and all below it.
+template <class F>
+void for_each_command(CLI::App& command, F&& f) {
+  f(command);
+  for (CLI::App* below : command.get_subcommands(nullptr)) for_each_command(*below, f);
+}
+
+std::string name_of(const CLI::App& command) {
+  const CLI::App* parent = command.get_parent();
+  return parent ? name_of(*parent) + " " + command.get_name() : command.get_name();
+}
+
+/// As --help prints it.
+std::string help_of(const CLI::App& command) {
+  return command.help(command.get_parent() ? name_of(*command.get_parent()) : "");
+}
+
+struct CommandHelp : testing::Test {
+  void SetUp() override { make_command_line(app_); }
+  CLI::App app_;
+};
+
+TEST_F(CommandHelp, WalksAllCommands) {
+  std::size_t commands = 0;
+  for_each_command(app_, [&](const CLI::App&) { ++commands; });
+  EXPECT_GE(commands, 15u);
+}
+
+// A type that CLI11 prints by itself is a table of numbers, `ENUM:value in {auto->1} OR {1}`.
+TEST_F(CommandHelp, IsForPeople) {
+  for_each_command(app_, [](CLI::App& command) {
+    const std::string help = help_of(command);
+    for (const char* word : {"ENUM", "->", "=TEXT", "FLOAT", "UINT"})
+      EXPECT_EQ(help.find(word), std::string::npos) << name_of(command) << ": " << word << "\n" << help;
+    std::istringstream lines(help);
+    bool examples = false;  // these are one line each, whatever their length
+    for (std::string line; std::getline(lines, line);) {
+      examples = examples || line == "Examples:";
+      EXPECT_TRUE(examples || line.size() <= 100) << name_of(command) << ": " << line;
+    }
+    EXPECT_FALSE(command.get_description().empty()) << name_of(command);
+    for (const CLI::Option* option : command.get_options()) {
+      EXPECT_FALSE(option->get_description().empty()) << name_of(command) << " " << option->get_name();
+      EXPECT_NE(help.find(option->get_name(option->get_positional())), std::string::npos) << option->get_name();
+    }
+  });
+}
+
+TEST_F(CommandHelp, SaysChoicesDefaultsAndWhatIsRequired) {
+  const std::string run = help_of(*app_.get_subcommand("run"));
+  for (const char* words : {"Usage: macadam run scene --out FOLDER [OPTIONS]", "--backend auto|cuda|cpu|reference",
+                            "Instead of the scene's own:", "(required)"})
+    EXPECT_NE(run.find(words), std::string::npos) << words << "\n" << run;
+  const std::string fill = help_of(*app_.get_subcommand("shapes")->get_subcommand("fill"));
+  for (const char* words : {"--single intermediate|circumscribed|volume", "[intermediate]", "[8]"})
+    EXPECT_NE(fill.find(words), std::string::npos) << words << "\n" << fill;
+}
+
+TEST_F(CommandHelp, EveryCommandHasExamplesThatParse) {
+  const std::filesystem::path top = std::filesystem::path(MACADAM_EXAMPLES).parent_path();
+  for_each_command(app_, [&](const CLI::App& command) {
+    const std::vector<std::string> examples = examples_of(command);
+    EXPECT_FALSE(examples.empty()) << name_of(command);
+    bool own = false;
+    for (const std::string& example : examples) {
+      own = own || example.starts_with(name_of(command));
+      std::vector<std::string> words = CLI::detail::split_up(example);
+      for (std::string& word : words) {
+        CLI::detail::remove_quotes(word);
+        EXPECT_TRUE(!word.starts_with("examples/") || std::filesystem::exists(top / word)) << example;
+      }
+      CLI::App fresh;
+      make_command_line(fresh);
+      for_each_command(fresh, [](CLI::App& each) { each.callback({}); });
+      std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
+      words.pop_back();                          // macadam
+      try {
+        fresh.parse(words);
+      } catch (const CLI::ParseError& error) { EXPECT_EQ(error.get_exit_code(), 0) << example << ": " << error.what(); }
+    }
+    EXPECT_TRUE(own) << name_of(command);
+  });
+}
+
+}  // namespace
+}  // namespace macadam::test

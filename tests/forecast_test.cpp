@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// forecast_test.cpp  What macadam check foretells, beside what is then made.
+#include "host/simulation/forecast.hpp"
+
+#include <chrono>
+
+#include "macadam/macadam.hpp"
+#include "program.hpp"
+
+namespace macadam::test {
+namespace {
+
+struct Check : Program {
+  Scene example(const std::string& name) const { return read_scene(fs::path(MACADAM_EXAMPLES) / name / "scene.toml"); }
+};
+
+// Counts are drawn as the run draws them; contacts are those of a mixture's cells, whose number varies by some percent.
+TEST_F(Check, CountsWhatIsMade) {
+  for (const char* name : {"demo", "mastic", "stepped_creep", "aggregate_cube", "study", "ct"}) {
+    Scene scene = example(name);
+    scene.solver.backend = Backend::cpu;
+    const Forecast foretold = forecast(scene);
+    const Preparation made = prepare(scene);
+    const double particles = static_cast<double>(made.specimen.size());
+    // packed shapes are drawn anew where a class misses its volume, and mastic fills what they leave
+    EXPECT_NEAR(static_cast<double>(foretold.census.particles()), particles,
+                scene.specimen.shapes ? 0.01 * particles : 0)
+        << name;
+    EXPECT_EQ(foretold.census.voids, std::ssize(made.specimen.voids)) << name;
+    const double contacts = static_cast<double>(made.network.contacts.size());
+    EXPECT_NEAR(foretold.contacts, contacts, 0.2 * contacts) << name;
+  }
+}
+
+TEST_F(Check, TakesNoTimeForAMillionParticles) {
+  std::string text = read(fs::path(MACADAM_EXAMPLES) / "demo/scene.toml");
+  const std::string box = "[\"20 mm\", \"20 mm\", \"30 mm\"]";
+  ASSERT_TRUE(contains(text, box));
+  text.replace(text.find(box), box.size(), "[\"160 mm\", \"160 mm\", \"200 mm\"]");
+  write(folder_ / "large.toml", text);
+  const auto begin = std::chrono::steady_clock::now();
+  const Outcome outcome = macadam("check " + path("large.toml") + " --backend cpu --json");
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const auto found = nlohmann::json::parse(outcome.out);
+  EXPECT_GT(found["particles"], 900'000);
+  EXPECT_GT(found["host_bytes"], 1e9);
+  EXPECT_LT(seconds.count(), 5);  // one second on a machine that does nothing else
+}
+
+TEST_F(Check, SaysWhatARunWouldDoAndWritesNothing) {
+  write_scene();
+  const Outcome outcome = macadam("check " + path("scene.toml") + " --backend cpu");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  for (const char* words :
+       {"175 particles", "method explicit", "cpu", "20 Hz: about", "memory", "summary.json", "response.csv"})
+    EXPECT_TRUE(contains(outcome.out, words)) << words << "\n" << outcome.out;
+  EXPECT_FALSE(fs::exists(folder_ / "summary.json"));
+}
+
+TEST_F(Check, RefusesWhatARunRefuses) {
+  write(folder_ / "wrong.toml", "[specimen]\nbox = [1, 1, 1]\nsede = 3\n");
+  const Outcome outcome = macadam("check " + path("wrong.toml"));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_TRUE(contains(outcome.err, "seed (the nearest of")) << outcome.err;
+  EXPECT_EQ(macadam("check " + path("nowhere.toml")).code, 2);
+  write_scene();
+  write(folder_ / "t8.csv", "id,x,y,z,radius,phase,body\n0,0.5,0,0,0.1,mastic,-1\n");  // outside of the box
+  EXPECT_EQ(macadam("check " + path("scene.toml")).code, 2);
+}
+
+}  // namespace
+}  // namespace macadam::test
