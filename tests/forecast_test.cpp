@@ -16,7 +16,7 @@ struct Check : Program {
 
 // Counts are drawn as the run draws them; contacts are those of a mixture's cells, whose number varies by some percent.
 TEST_F(Check, CountsWhatIsMade) {
-  for (const char* name : {"demo", "mastic", "stepped_creep", "aggregate_cube", "study", "ct"}) {
+  for (const char* name : {"demo", "mastic", "stepped_creep", "aggregate_cube", "study"}) {
     Scene scene = example(name);
     scene.solver.backend = Backend::cpu;
     const Forecast foretold = forecast(scene);
