@@ -28,7 +28,8 @@ struct Arguments {
 std::string about(double value) {
   if (!(value > 0)) return "0";
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
-  return fmt::format("{}", unit * std::round(value / unit));
+  const double rounded = unit * std::round(value / unit);
+  return value >= 1 ? fmt::format("{:.{}f}", rounded, value < 10 ? 1 : 0) : fmt::format("{:.2g}", rounded);
 }
 
 std::string bytes_in_words(double bytes) {
