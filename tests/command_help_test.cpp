@@ -69,7 +69,22 @@ TEST_F(CommandHelp, SaysChoicesDefaultsAndWhatIsRequired) {
     EXPECT_NE(fill.find(words), std::string::npos) << words << "\n" << fill;
 }
 
+/// Why the program does not take these words; empty where it does. Nothing is run.
+std::string fault_of(std::vector<std::string> words) {
+  CLI::App app;
+  make_command_line(app);
+  app.parse_complete_callback([] { throw CLI::Success(); });  // before any command's own callback
+  std::reverse(words.begin(), words.end());                   // CLI11 takes them from the end
+  words.pop_back();                                           // macadam
+  try {
+    app.parse(words);
+  } catch (const CLI::ParseError& error) { return error.get_exit_code() == 0 ? "" : error.what(); }
+  return "nothing was parsed";
+}
+
 TEST_F(CommandHelp, EveryCommandHasExamplesThatParse) {
+  EXPECT_NE(fault_of({"macadam", "run", "scene.toml", "--out", "results", "--sed", "2"}), "");
+  EXPECT_NE(fault_of({"macadam", "run", "scene.toml"}), "");
   const std::filesystem::path top = std::filesystem::path(MACADAM_EXAMPLES).parent_path();
   for_each_command(app_, [&](const CLI::App& command) {
     const std::vector<std::string> examples = examples_of(command);
@@ -82,14 +97,7 @@ TEST_F(CommandHelp, EveryCommandHasExamplesThatParse) {
         CLI::detail::remove_quotes(word);
         EXPECT_TRUE(!word.starts_with("examples/") || std::filesystem::exists(top / word)) << example;
       }
-      CLI::App fresh;
-      make_command_line(fresh);
-      for_each_command(fresh, [](CLI::App& each) { each.callback({}); });
-      std::reverse(words.begin(), words.end());  // CLI11 takes them from the end
-      words.pop_back();                          // macadam
-      try {
-        fresh.parse(words);
-      } catch (const CLI::ParseError& error) { EXPECT_EQ(error.get_exit_code(), 0) << example << ": " << error.what(); }
+      EXPECT_EQ(fault_of(words), "") << example;
     }
     EXPECT_TRUE(own) << name_of(command);
   });

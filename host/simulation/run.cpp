@@ -125,7 +125,7 @@ RunResult run_of(const Scene& scene, const Preparation* given, const std::filesy
   try {
     solution = plan_experiment(scene, prepared, watcher, std::move(resumed), result);
   } catch (const InterruptedError&) {
-    throw InterruptedError("interrupted while planning: the folder is as it was");
+    throw InterruptedError("interrupted while planning; nothing was written, what the folder held is as it was");
   } catch (const RunError&) {
     if (std::filesystem::exists(out / "summary.json")) throw;
     unsolvable = std::current_exception();  // whoever has nothing yet wants to look at the specimen
