@@ -21,7 +21,7 @@
 namespace macadam {
 namespace {
 
-struct Arguments {
+struct CalibrateArguments {
   Job job;
   std::string target;
   std::vector<std::string> free, bounds, priors;
@@ -58,7 +58,7 @@ Pair pair_of(const std::string& option, const std::string& text, std::vector<Fre
   return out;
 }
 
-void read_parameters(Arguments& arguments) {
+void read_parameters(CalibrateArguments& arguments) {
   std::vector<FreeParameter>& free = arguments.options.free;
   for (const std::string& name : arguments.free) free.push_back({name, {}, {}, {}, 0});
   for (const std::string& text : arguments.bounds) {
@@ -73,7 +73,7 @@ void read_parameters(Arguments& arguments) {
   }
 }
 
-void calibrate_command(Arguments arguments) {
+void calibrate_command(CalibrateArguments arguments) {
   read_parameters(arguments);
   arguments.options.e_star_deviation = arguments.e_star_deviation / 100;
   Scene scene = scene_of(arguments.job);
@@ -104,7 +104,7 @@ void calibrate_command(Arguments arguments) {
 
 void add_calibrate_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("calibrate", "parameters of a scene from measured moduli of the mixture");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CalibrateArguments>();
   CalibrationOptions& options = arguments->options;
   add_job_options(command, arguments->job);
   add_text(command, "--target", arguments->target,

@@ -18,7 +18,7 @@
 namespace macadam {
 namespace {
 
-struct Arguments {
+struct CheckArguments {
   std::string scene;
   Overrides instead;
   bool json = false;
@@ -100,7 +100,7 @@ void say_forecast(const std::string& file, const Scene& scene, const Forecast& f
   row("files", fmt::format("{}", fmt::join(f.files, " ")));
 }
 
-void check_command(const Arguments& arguments) {
+void check_command(const CheckArguments& arguments) {
   Scene scene = read_scene(arguments.scene);
   apply(arguments.instead, scene);
   const Forecast f = forecast(scene);
@@ -114,7 +114,7 @@ void check_command(const Arguments& arguments) {
 
 void add_check_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("check", "what a run would make, take and write, without running");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CheckArguments>();
   add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();
   command.add_flag("--json", arguments->json, "print it for programs");
   add_overrides(command, arguments->instead);

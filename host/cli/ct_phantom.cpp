@@ -15,13 +15,13 @@
 namespace macadam {
 namespace {
 
-struct Arguments {
+struct CtPhantomArguments {
   std::string scene, out, voxel, sawn = "0", air = "1 mm";
   std::optional<std::uint64_t> specimen_seed;
   PhantomSpec spec;
 };
 
-void phantom_command(Arguments arguments) {
+void phantom_command(CtPhantomArguments arguments) {
   PhantomSpec& spec = arguments.spec;
   spec.voxel = length_of(arguments.voxel, "--voxel");
   spec.sawn = length_of(arguments.sawn, "--sawn");
@@ -44,7 +44,7 @@ void phantom_command(Arguments arguments) {
 }  // namespace
 
 void add_ct_phantom(CLI::App& ct) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CtPhantomArguments>();
   PhantomSpec& spec = arguments->spec;
   CLI::App& command = *ct.add_subcommand("phantom", "a synthetic scan of a scene's specimen, with its truth");
   add_text(command, "scene", arguments->scene, "scene file (TOML)")->required();

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct CtSegmentArguments {
   std::string images, dataset, out, region, memory, cuts, smallest, gradation;
   std::vector<std::string> voxel;
   bool no_slices = false, no_rings = false, no_hardening = false;
@@ -30,7 +30,7 @@ struct Arguments {
   SegmentOptions segment;
 };
 
-void segment(Arguments arguments) {
+void segment(CtSegmentArguments arguments) {
   SegmentOptions& options = arguments.segment;
   options.slices = !arguments.no_slices, options.rings = !arguments.no_rings,
   options.hardening = !arguments.no_hardening;
@@ -72,7 +72,7 @@ void segment(Arguments arguments) {
 }  // namespace
 
 void add_ct_segment(CLI::App& ct) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CtSegmentArguments>();
   SegmentOptions& options = arguments->segment;
   CLI::App& command = *ct.add_subcommand("segment", "grains and phases from a scan");
   command.add_option("images", arguments->images, "scan: .mha, .mhd, .nrrd, .tif, .h5, or a folder of .tif")

@@ -16,7 +16,7 @@
 namespace macadam {
 namespace {
 
-struct Arguments {
+struct CtTwinArguments {
   std::string folder, scene, out, least_void = "0";
   std::vector<std::string> box;
   TwinSpec spec;
@@ -29,7 +29,7 @@ std::array<Vec3d, 2> box_of(const std::vector<std::string>& texts) {
   return {Vec3d{at[0], at[1], at[2]}, Vec3d{at[3], at[4], at[5]}};
 }
 
-void twin_command(Arguments arguments) {
+void twin_command(CtTwinArguments arguments) {
   TwinSpec& spec = arguments.spec;
   if (!arguments.box.empty()) spec.box = box_of(arguments.box);
   spec.least_void = length_of(arguments.least_void, "--least-void");
@@ -53,7 +53,7 @@ void twin_command(Arguments arguments) {
 }  // namespace
 
 void add_ct_twin(CLI::App& ct) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CtTwinArguments>();
   CLI::App& command = *ct.add_subcommand("twin", "the specimen in a scan as a scene that runs");
   add_text(command, "folder", arguments->folder, "what ct segment wrote, or the truth of a phantom", "FOLDER")
       ->required();

@@ -18,7 +18,7 @@
 namespace macadam {
 namespace {
 
-struct Arguments {
+struct FitArguments {
   std::string data, parameters, out;
   std::optional<double> poisson, from, to;
   double error = 0.01;
@@ -27,7 +27,7 @@ struct Arguments {
 };
 
 /// No data: a model that somebody else has fitted becomes a chain.
-void convert(const Arguments& arguments) {
+void convert(const FitArguments& arguments) {
   const ShiftedAnalogue analogue = read_analogue(arguments.parameters);
   const auto range = chain_range(arguments.from, arguments.to, {});
   const KelvinConversion conversion = to_kelvin(analogue.model, range.first, range.second, arguments.error);
@@ -37,7 +37,7 @@ void convert(const Arguments& arguments) {
   say("files in {}: law.toml\n", arguments.out);
 }
 
-void fit_command(Arguments arguments) {
+void fit_command(FitArguments arguments) {
   if (arguments.data.empty() == arguments.parameters.empty()) {
     throw InputError("command line", 0, "what to fit",
                      arguments.data.empty() ? "nothing" : "both data and --parameters",
@@ -65,7 +65,7 @@ void fit_command(Arguments arguments) {
 
 void add_fit_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("fit", "a contact law from measured complex moduli");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<FitArguments>();
   FitOptions& fit = arguments->fit;
   command
       .add_option(

@@ -19,7 +19,7 @@
 namespace macadam {
 namespace {
 
-struct Arguments {
+struct NewArguments {
   std::string file = "scene.toml", test = "cyclic";
   scene::NewKind kind = scene::NewKind::recipe;
 };
@@ -44,7 +44,7 @@ void write_new(const std::string& file, const std::string& text) {
   if (::close(out) != 0) fail();
 }
 
-void new_command(const Arguments& arguments) {
+void new_command(const NewArguments& arguments) {
   write_new(arguments.file, scene::new_scene(arguments.kind, arguments.test));
   say("{} is written; change it, then:\n\n", arguments.file);
   if (arguments.kind == scene::NewKind::file)
@@ -56,7 +56,7 @@ void new_command(const Arguments& arguments) {
 
 void add_new_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("new", "write a commented scene of a mix, to begin with");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<NewArguments>();
   add_text(command, "file", arguments->file, "scene to write; one that is there is never replaced")
       ->default_str(arguments->file);
   add_choice(command, "--kind", arguments->kind,

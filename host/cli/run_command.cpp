@@ -14,13 +14,13 @@
 namespace macadam {
 namespace {
 
-struct Arguments {
+struct RunArguments {
   Job job;
   Overrides instead;
   bool resume = false;
 };
 
-void run_command(const Arguments& arguments) {
+void run_command(const RunArguments& arguments) {
   Scene scene = scene_of(arguments.job);
   apply(arguments.instead, scene);
   ProgressLine line;
@@ -68,7 +68,7 @@ void run_command(const Arguments& arguments) {
 
 void add_run_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("run", "run a scene and write its results");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RunArguments>();
   add_job_options(command, arguments->job);
   command.add_flag("--resume", arguments->resume,
                    "go on from the checkpoint that an interrupted run left in the folder");

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ShapesArguments {
   std::vector<std::string> paths;
   std::string out;
   double scale = 1;
@@ -85,7 +85,7 @@ void throw_errors(const std::vector<Outcome<T>>& outcomes) {
   throw InputError(fmt::format("{} of {} files are no good shapes:{}", faulty, outcomes.size(), messages));
 }
 
-void measure(const Arguments& arguments) {
+void measure(const ShapesArguments& arguments) {
   const std::vector<fs::path> files = files_of(arguments.paths);
   const auto outcomes = for_each_file<ShapeMeasure>(files, [&](const fs::path& file, Outcome<ShapeMeasure>& outcome) {
     Surface surface = read_surface(file, arguments.scale);
@@ -115,7 +115,7 @@ void measure(const Arguments& arguments) {
   say("\nfiles in {}: shapes.csv statistics.csv correlation.csv\n", arguments.out);
 }
 
-void check(const Arguments& arguments) {
+void check(const ShapesArguments& arguments) {
   const std::vector<fs::path> files = files_of(arguments.paths);
   const auto outcomes = for_each_file<bool>(files, [&](const fs::path& file, Outcome<bool>& outcome) {
     const SurfaceVerdict verdict = check_surface(read_surface(file));
@@ -133,7 +133,7 @@ void check(const Arguments& arguments) {
   }
 }
 
-void repair(const Arguments& arguments) {
+void repair(const ShapesArguments& arguments) {
   const fs::path file = arguments.paths.front();
   Surface surface = read_surface(file);
   surface.name = file.string();  // in messages
@@ -149,7 +149,7 @@ void repair(const Arguments& arguments) {
 void add_shapes_command(CLI::App& app) {
   CLI::App& shapes = *app.add_subcommand("shapes", "shapes of aggregates: closed triangulated surfaces");
   shapes.require_subcommand(1);
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ShapesArguments>();
   const auto add_paths = [&](CLI::App& command) {
     command.add_option("paths", arguments->paths, "STL, OFF, PLY or OBJ files, or folders of them")
         ->required()

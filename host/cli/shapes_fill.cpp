@@ -20,7 +20,7 @@
 namespace macadam {
 namespace {
 
-struct Arguments {
+struct ShapesFillArguments {
   std::string file, out, circumscribed;
   std::vector<std::string> radius;
   double scale = 1;
@@ -45,7 +45,7 @@ void print_report(const Surface& surface, const MultiSphere& cluster, const Fill
   say("surface deviation {:.4g} mm on average, {:.4g} mm at most\n", 1e3 * r.deviation_mean, 1e3 * r.deviation_largest);
 }
 
-void fill_command(Arguments arguments) {
+void fill_command(ShapesFillArguments arguments) {
   FillSpec& spec = arguments.spec;
   spec.radius_min = length_of(arguments.radius.front(), "--radius");
   spec.radius_max = length_of(arguments.radius.back(), "--radius");
@@ -66,7 +66,7 @@ void fill_command(Arguments arguments) {
 }  // namespace
 
 void add_shapes_fill(CLI::App& shapes) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ShapesFillArguments>();
   FillSpec& spec = arguments->spec;
   CLI::App* fill = shapes.add_subcommand("fill", "fill a shape with spheres");
   fill->add_option("file", arguments->file, "closed surface (STL, OFF, PLY or OBJ)")->required()->type_name("FILE");

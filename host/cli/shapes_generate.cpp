@@ -17,14 +17,14 @@
 namespace macadam {
 namespace {
 
-struct Arguments {
+struct ShapesGenerateArguments {
   std::string out;
   std::uint64_t seed = 1;
   int count = 82;
   std::optional<double> icosahedron;  ///< radius [m]
 };
 
-void generate(const Arguments& arguments) {
+void generate(const ShapesGenerateArguments& arguments) {
   const std::vector<Surface> shapes = arguments.icosahedron
                                           ? std::vector<Surface>{subdivided_icosahedron(*arguments.icosahedron)}
                                           : generate_shape_library(arguments.seed, arguments.count);
@@ -37,7 +37,7 @@ void generate(const Arguments& arguments) {
 
 void add_shapes_generate(CLI::App& shapes) {
   CLI::App& command = *shapes.add_subcommand("generate", "make the library of crushed aggregates, in metres");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ShapesGenerateArguments>();
   add_out(command, arguments->out, "of the OFF files");
   auto* seed = add_number(command, "--seed", arguments->seed, "another library with the same statistics", 0,
                           std::numeric_limits<std::uint64_t>::max());

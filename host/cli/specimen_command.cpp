@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-struct Arguments {
+struct SpecimenArguments {
   Job job;
   std::vector<std::string> sections;
 };
@@ -29,7 +29,7 @@ void say_section(const Preparation& prepared, const SectionPlane& plane) {
       section.cells.size(), 100 * aggregate / all);
 }
 
-void specimen_command(const Arguments& arguments) {
+void specimen_command(const SpecimenArguments& arguments) {
   const Scene scene = scene_of(arguments.job);
   std::vector<SectionPlane> planes;  // a wrong one is refused before the work
   for (const std::string& text : arguments.sections) planes.push_back(read_section_plane(text, scene.specimen.box));
@@ -52,7 +52,7 @@ void specimen_command(const Arguments& arguments) {
 
 void add_specimen_command(CLI::App& app) {
   CLI::App& command = *app.add_subcommand("specimen", "build the specimen and its contact network only");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SpecimenArguments>();
   add_job_options(command, arguments->job);
   command
       .add_option("--section", arguments->sections,
