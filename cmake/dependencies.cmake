@@ -77,7 +77,9 @@ if(NOT MACADAM_CUDA STREQUAL "OFF")
   if(CMAKE_CUDA_COMPILER)
     if(MACADAM_CUDA_RELEASE)
       macadam_release_architectures(CMAKE_CUDA_ARCHITECTURES)
-    elseif(NOT DEFINED CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
+    elseif(NOT CMAKE_CUDA_ARCHITECTURES AND DEFINED ENV{CUDAARCHS})  # CMake asks for it only when it meets the compiler first
+      set(CMAKE_CUDA_ARCHITECTURES "$ENV{CUDAARCHS}")
+    elseif(NOT CMAKE_CUDA_ARCHITECTURES)
       set(CMAKE_CUDA_ARCHITECTURES "75-virtual;90-real")  # made for sm_90; the driver compiles for any other from 7.5 on
     endif()
     enable_language(CUDA)
