@@ -7,7 +7,8 @@ find_package(nlohmann_json 3.10 REQUIRED)
 find_package(tomlplusplus 3.2 REQUIRED)
 find_package(CLI11 2.1 REQUIRED)
 find_package(ZLIB REQUIRED)
-find_package(HDF5 REQUIRED COMPONENTS CXX)
+find_package(HDF5 REQUIRED COMPONENTS C CXX)
+target_link_libraries(hdf5::hdf5_cpp INTERFACE hdf5::hdf5)  # which CMake leaves out: static libraries are taken in order
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL 5.5 REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers: distributions of Math
