@@ -42,7 +42,6 @@ function(macadam_find_itk)
 endfunction()
 set(MACADAM_HAS_CT OFF)
 if(NOT MACADAM_CT STREQUAL "OFF")
-  enable_language(C)  # ITK's configuration asks HDF5's compiler of C
   macadam_find_itk()
   if(ITK_FOUND)
     set(MACADAM_HAS_CT ON)
