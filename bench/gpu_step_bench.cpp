@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // gpu_step_bench.cpp  The time of a step on a CUDA device, by device events; a table, and CSV with --csv FILE.
 //
-//   gpu_step_bench [--large] [--huge] [--csv FILE] [FILTER]
+//   gpu_step_bench [--large] [--huge] [--specimen NAME=FILE] [--csv FILE] [FILTER]
 //
-// Rows whose name contains FILTER, or all. --large adds a million particles, --huge ten million. Every time is the
-// median of seven runs of at least 50 ms of steps at 20 Hz and true mass, everything in motion. `copy` is the bandwidth
-// of a copy within the device's memory in the same run, bytes read plus written.
+// Rows whose name contains FILTER, or all. --large adds a million particles, --huge ten million, --specimen the
+// particles of a specimen.csv in the paper's box: `macadam specimen` makes it of a scene of examples/. Every time is
+// the median of seven runs of at least 50 ms of steps at 20 Hz and true mass, everything in motion. `copy` is the
+// bandwidth of a copy within the device's memory in the same run, bytes read plus written.
 #include <cuda_runtime.h>
 #include <fmt/format.h>
 
@@ -152,12 +153,13 @@ test::Laws laws_of_units(int units) {
   return laws;
 }
 
-void run_all(Table& table, bool large, bool huge) {
+void run_all(Table& table, bool large, bool huge, const std::string& given) {
   constexpr auto condensed = ContactForm::condensed, points = ContactForm::points;
   constexpr auto fixed = Geometry::fixed, updated = Geometry::updated;
   constexpr auto single = Precision::single, mixed = Precision::mixed, full = Precision::double_;
-  const auto specimen = [](const test::Laws& laws) {
-    return test::make_scene(read_specimen_csv(MACADAM_TEST_DATA "/ss_full.csv.gz", {{0.05, 0.05, 0.08}}), {}, laws);
+  const Box box{{0.05, 0.05, 0.08}};  // of the paper's specimens
+  const auto specimen = [&](const test::Laws& laws) {
+    return test::make_scene(read_specimen_csv(MACADAM_TEST_DATA "/ss_full.csv.gz", box), {}, laws);
   };
   std::optional<test::TestScene> scene;
   const auto keep = [&](const std::function<test::TestScene()>& make) {
@@ -186,6 +188,12 @@ void run_all(Table& table, bool large, bool huge) {
               {condensed, full, fixed});
     scene.reset();
   }
+  if (const auto sign = given.find('='); sign != std::string::npos) {
+    const auto of_file = keep([&] { return test::make_scene(read_specimen_csv(given.substr(sign + 1), box)); });
+    for (const Precision p : {single, mixed, full}) table.run(given.substr(0, sign), of_file, {condensed, p, fixed});
+    table.run(given.substr(0, sign), of_file, {condensed, mixed, updated});
+    scene.reset();
+  }
   const auto fcc = [&](std::size_t n) { return keep([n] { return fcc_scene(n); }); };
   table.run("fcc 62,500", fcc(62500), {condensed, mixed, fixed});
   table.run("fcc 62,500", fcc(62500), {condensed, full, fixed});
@@ -204,20 +212,22 @@ void run_all(Table& table, bool large, bool huge) {
 }
 
 int run_main(int argc, char** argv) {
-  std::string filter, csv;
+  std::string filter, csv, given;
   bool large = false, huge = false;
   for (int i = 1; i < argc; ++i) {
     if (!std::strcmp(argv[i], "--large"))
       large = true;
     else if (!std::strcmp(argv[i], "--huge"))
       huge = true;
+    else if (!std::strcmp(argv[i], "--specimen") && i + 1 < argc)
+      given = argv[++i];
     else if (!std::strcmp(argv[i], "--csv") && i + 1 < argc)
       csv = argv[++i];
     else
       filter = argv[i];
   }
   Table table(filter, csv);
-  run_all(table, large, huge);
+  run_all(table, large, huge, given);
   return 0;
 }
 

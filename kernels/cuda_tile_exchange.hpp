@@ -48,28 +48,21 @@ __device__ __forceinline__ float4 numbers_of(const ulonglong2& word) {
 }
 
 /// Calls take(h, numbers) for the words h = first, first + stride, … < count at from(h) as they come to bear the tag. A
-/// word's way from the second-level cache is long: a thread asks for two at once, and calls meanwhile() once before it
-/// looks at the first answer.
-template <class From, class Meanwhile, class Take>
+/// word's way from the second-level cache is long: a thread asks for two at once.
+template <class From, class Take>
 __device__ __forceinline__ void wait_for_words(std::uint32_t first, std::uint32_t stride, std::uint32_t count,
-                                               std::uint32_t tag, From&& from, Meanwhile&& meanwhile, Take&& take) {
-  bool called = false;
-  for (std::uint32_t h = first; h < count || !called; h += 2 * stride) {
-    bool wait_a = h < count, wait_b = h + stride < count;
-    const ulonglong2 *at_a = wait_a ? from(h) : nullptr, *at_b = wait_b ? from(h + stride) : nullptr;
+                                               std::uint32_t tag, From&& from, Take&& take) {
+  for (std::uint32_t h = first; h < count; h += 2 * stride) {
+    bool wait_a = true, wait_b = h + stride < count;
+    const ulonglong2 *at_a = from(h), *at_b = wait_b ? from(h + stride) : nullptr;
     ulonglong2 a{}, b{};
-    if (wait_a) a = get_word(at_a);
-    if (wait_b) b = get_word(at_b);
-    if (!called) meanwhile();
-    called = true;
-    while (true) {
-      wait_a = wait_a && !bears(a, tag);
-      wait_b = wait_b && !bears(b, tag);
-      if (!wait_a && !wait_b) break;
+    while (wait_a || wait_b) {
       if (wait_a) a = get_word(at_a);
       if (wait_b) b = get_word(at_b);
+      wait_a = wait_a && !bears(a, tag);
+      wait_b = wait_b && !bears(b, tag);
     }
-    if (at_a) take(h, numbers_of(a));
+    take(h, numbers_of(a));
     if (at_b) take(h + stride, numbers_of(b));
   }
 }

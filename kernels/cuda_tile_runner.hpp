@@ -251,30 +251,32 @@ class TileRunner {
 
   template <bool carried>
   bool try_resident() {
-    constexpr int Resident = 4, Threads = 512;  // all registers: a contact's state takes twelve
-    const auto kernel = run_resident<P, Resident, Threads, carried>;
+    constexpr int Threads = 512;  // all registers: a contact's state takes twelve
+    const auto kernel = run_resident<P, Threads, carried>;
     const auto limit = static_cast<std::uint32_t>(limits_.shared);
-    bool roomy = true;
-    const auto needed = [&](std::uint32_t cached) {
+    const auto memory = [&](std::uint32_t cached) {
       return ResidentMemory<P>(plan_.most_bodies, plan_.most_halo, plan_.most_locals, plan_.most_slots, cached, carried,
-                               roomy)
-          .total;
+                               scene_.where);
     };
-    roomy = needed(0) <= limit;
+    for (const TileRest where : {TileRest::all_away, TileRest::away, TileRest::here}) {
+      const TileRest before = std::exchange(scene_.where, where);
+      if (memory(0).total > limit) scene_.where = before;
+    }
     std::uint32_t cached = 0;
-    while (cached < plan_.most_packets && needed(cached + 1) <= limit) ++cached;
-    const std::uint32_t shared = needed(cached);
+    while (cached < plan_.most_packets && memory(cached + 1).total <= limit) ++cached;
+    const ResidentMemory<P> places = memory(cached);
+    const std::uint32_t shared = places.total;
     if (!fits_resident(limits_, kernel, plan_.tile.size(), Threads, shared)) return false;
     scene_.cached_packets = cached;
     resident_ = true;
-    if (!roomy) {
-      const std::size_t bytes = plan_.tile.size() * ResidentMemory<P>::rest_bytes(plan_.most_bodies);
+    if (scene_.where != TileRest::here) {
+      const std::size_t bytes = plan_.tile.size() * ResidentMemory<P>::rest_bytes(plan_.most_bodies, scene_.where);
       scene_.rest = store_.template zeros<unsigned char>(bytes);
     }
     use_ = kernel_use("tiles on the chip", kernel, Threads, shared);
     const auto blocks = static_cast<unsigned>(plan_.tile.size());
-    run_ = [this, kernel, shared, blocks](std::uint32_t steps) {
-      launch_together("time steps", kernel, blocks, Threads, shared, stream_, scene_, steps, tag_);
+    run_ = [this, kernel, places, blocks](std::uint32_t steps) {
+      launch_together("time steps", kernel, blocks, Threads, places.total, stream_, scene_, places, steps, tag_);
     };
     return true;
   }

@@ -53,6 +53,41 @@ struct GroupAndRow {
 
 __host__ __device__ constexpr int tile_constants(bool carried) { return carried ? tile_tangent + 1 : tile_tangent; }
 
+/// What of its bodies a tile on the chip has in shared memory, but for the velocities that contacts see.
+enum class TileRest {
+  here,      ///< all
+  away,      ///< velocities in full precision; the rest is in memory
+  all_away,  ///< nothing
+};
+
+/// The packets of a tile that one warp takes: groups, and then single ones, so many that all warps have about as much
+/// to do.
+struct WarpPackets {
+  std::uint32_t first_group, groups, stride;  ///< groups first_group, + stride, …
+  std::uint32_t first_one = 0, ones = 0;
+
+  /// Of the groups from `group` on and the single packets from `one` on. All warps but the first `free` have another
+  /// group to do besides.
+  __device__ __forceinline__ static WarpPackets of(const Tile& tile, std::uint32_t group, std::uint32_t one,
+                                                   std::uint32_t warp, std::uint32_t warps, std::uint32_t free) {
+    const std::uint32_t all = tile.groups - group, low = all / warps, with_more = all % warps;
+    const std::uint32_t fair = (TilePlan::run * (all + warps - free) + tile.packets - one + warps - 1) / warps;
+    WarpPackets out{group + warp, low + (warp < with_more), warps};
+    for (std::uint32_t k = 0; k <= warp; ++k) {
+      const std::uint32_t busy = TilePlan::run * (low + (k < with_more) + (k >= free));
+      out.first_one = one;
+      out.ones = min(fair - min(fair, busy), tile.packets - one);
+      one += out.ones;
+    }
+    return out;
+  }
+  __device__ __forceinline__ std::uint32_t count() const { return TilePlan::run * groups + ones; }
+  __device__ __forceinline__ std::uint32_t operator[](std::uint32_t k) const {
+    constexpr std::uint32_t run = TilePlan::run;
+    return k < run * groups ? run * (first_group + k / run * stride) + k % run : first_one + (k - run * groups);
+  }
+};
+
 /// Everything that a kernel over tiles gets.
 template <class P>
 struct TileScene {
@@ -71,32 +106,55 @@ struct TileScene {
                              ///< last, for streamed tiles
   ParticleMotion<P> motion;  ///< its table of the walls begins with the launch's first step
   float4 law[pair_types];    ///< rate·Δt, relax, α, follow
-  unsigned char* rest;       ///< [tile] what has no room in shared memory; null where all has
+  unsigned char* rest;       ///< [tile] what has no room in shared memory
+  TileRest where;
   std::uint32_t most_bodies, most_halo, most_locals, most_slots, cached_packets;
   std::uint32_t bodies;
 };
 
-/// Steps one contact; `v` and `w` are the tables of velocities and spins. Returns the change of its loads.
+/// What a step reads of a contact besides its state.
 template <bool carried>
-__device__ __forceinline__ ContactLoad<float> step_in_block(const float4* constant, const float4* law, const float4* v,
-                                                            const float4* w, float (&change)[6], float (&sum)[6],
-                                                            EndPair& slots, GroupAndRow& of) {
-  const float4 c0 = constant[tile_normal * 32], c1 = constant[tile_moment_a * 32], c2 = constant[tile_moment_b * 32];
-  const float4 c3 = constant[tile_drift_a * 32], c4 = constant[tile_drift_b * 32];
+struct ContactConstants {
+  float4 word[tile_constants(carried)];
+  __device__ __forceinline__ void load(const float4* from) {
+#pragma unroll
+    for (int k = 0; k < tile_constants(carried); ++k) word[k] = from[k * 32];
+  }
+};
+
+/// A run of contacts, as a thread steps it: the motion of the end A that they share, and the sum of their loads on it.
+struct ContactRun {
+  Vec3<float> linear, angular, force{0, 0, 0}, moment{0, 0, 0};
+  bool goes_on = false;
+};
+
+/// Steps one contact of a run; `v` and `w` are the tables of velocities and spins. Returns the change of its loads.
+template <bool carried>
+__device__ __forceinline__ ContactLoad<float> step_in_block(const ContactConstants<carried>& constant,
+                                                            const float4* law, const float4* v, const float4* w,
+                                                            float (&change)[6], float (&sum)[6], EndPair& slots,
+                                                            GroupAndRow& of, ContactRun& run) {
+  const float4 c0 = constant.word[tile_normal], c1 = constant.word[tile_moment_a], c2 = constant.word[tile_moment_b];
+  const float4 c3 = constant.word[tile_drift_a], c4 = constant.word[tile_drift_b];
   const EndPair end{__float_as_uint(c2.w)};
   slots.word = __float_as_uint(c4.z), of.word = __float_as_uint(c4.w);
-  const float4 va = v[end.a()], wa = w[end.a()], vb = v[end.b()], wb = w[end.b()];
+  if (!run.goes_on) {
+    const float4 va = v[end.a()], wa = w[end.a()];
+    run.linear = {va.x, va.y, va.z};
+    run.angular = {wa.x, wa.y, wa.z};
+  }
+  run.goes_on = slots.a() == TilePlan::more_of_run;
+  const float4 vb = v[end.b()], wb = w[end.b()];
   const Vec3<float> n{c0.x, c0.y, c0.z};
   Placement<float> f;
   if constexpr (carried) {
-    const float4 c5 = constant[tile_tangent * 32];
+    const float4 c5 = constant.word[tile_tangent];
     f = {n, {c5.x, c5.y, c5.z}, cross(n, Vec3<float>{c5.x, c5.y, c5.z}), c0.w, c1.x};
   } else {
     f = canonical_placement(n, copysignf(1.0f, n.z), c0.w, c1.x);
   }
   float u[6];
-  relative_rates(f, Twist<float>{{va.x, va.y, va.z}, {wa.x, wa.y, wa.z}},
-                 Twist<float>{{vb.x, vb.y, vb.z}, {wb.x, wb.y, wb.z}}, u);
+  relative_rates(f, Twist<float>{run.linear, run.angular}, Twist<float>{{vb.x, vb.y, vb.z}, {wb.x, wb.y, wb.z}}, u);
   const float4 l = law[of.group()];
   const float drift[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
 #pragma unroll
@@ -124,8 +182,14 @@ struct TileSlots {
     const float2 a = plane[slot], b = plane[size + slot], c = plane[2 * size + slot];
     f[0] += a.x, f[1] += a.y, f[2] += b.x, f[3] += b.y, f[4] += c.x, f[5] += c.y;
   }
-  __device__ __forceinline__ void put(EndPair slots, const ContactLoad<float>& load) const {
-    put(slots.a(), load.force_a, load.moment_a);
+  /// Loads on end A are put when the run ends.
+  __device__ __forceinline__ void put(EndPair slots, const ContactLoad<float>& load, ContactRun& run) const {
+    run.force += load.force_a;
+    run.moment += load.moment_a;
+    if (!run.goes_on) {
+      put(slots.a(), run.force, run.moment);
+      run.force = run.moment = {0, 0, 0};
+    }
     put(slots.b(), -load.force_a, load.moment_b);
   }
 };

@@ -94,16 +94,21 @@ __global__ void __launch_bounds__(Threads, Blocks)
     wall.move(s, k + 1, k + 2);
     wall_velocity_of(s, k + 1, axis) = static_cast<float>(wall.v);
   }
-  for (std::uint32_t packet = warp; packet < tile.packets; packet += warps) {
-    const std::size_t at = tile.first_packet + packet;
+  const auto mine = WarpPackets::of(tile, 0, TilePlan::run * tile.groups, warp, warps, warps);
+  ContactRun run;
+#pragma unroll 4
+  for (std::uint32_t packet = 0; packet < mine.count(); ++packet) {
+    const std::size_t at = tile.first_packet + mine[packet];
     float4* state = s.state + at * tile_states * 32 + lane;
     float change[6], sum[6];
     load_state(state, change, sum);
     EndPair places;
     GroupAndRow of;
-    const auto load = step_in_block<carried>(s.constant + at * words * 32 + lane, s.law, v, w, change, sum, places, of);
+    ContactConstants<carried> constant;
+    constant.load(s.constant + at * words * 32 + lane);
+    const auto load = step_in_block(constant, s.law, v, w, change, sum, places, of, run);
     store_state(state, change, sum);
-    slots.put(places, load);
+    slots.put(places, load, run);
     if (last) store_wall_load(s.wall_load, of, load);
   }
   __syncthreads();

@@ -20,15 +20,14 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   using R = typename P::Particle;
   static constexpr bool room_for_five = true;
 
-  /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that several tiles share
-  /// one. A contact takes some 75 bytes of shared memory there: two slots of loads and its share of the bodies.
+  /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that two tiles share one.
   static std::size_t tile_contacts(const ContactNetwork& network, const StepperOptions& options) {
     check_cuda(cudaSetDevice(options.device.value()), "device");
     const DeviceLimits limits = DeviceLimits::query(options.multiprocessors);
     const auto chips = static_cast<std::size_t>(limits.multiprocessors),
                shared = static_cast<std::size_t>(limits.shared);
     const std::size_t contacts = network.contacts.size();
-    if (contacts > shared / 75 * chips) return std::min<std::size_t>(1000, shared / 100);
+    if (expected_resident_bytes<P>(network, chips) > shared) return std::min<std::size_t>(1500, shared / 100);
     return std::max<std::size_t>(128, contacts / (chips + 1) + 1);
   }
 

@@ -3,8 +3,10 @@
 #include "kernels/tile_plan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace macadam::kernels {
 namespace {
@@ -13,6 +15,38 @@ namespace {
 struct Touch {
   std::int32_t a, b;  ///< bodies
   std::uint32_t group, group_slot, wall_row;
+  bool ends_run;  ///< of contacts whose end A is the same body
+};
+
+using Run = std::vector<std::uint32_t>;
+
+/// Runs of contacts in columns, which a thread takes from one end to the other, and what is left of runs of one.
+struct Columns {
+  using Column = std::array<std::uint32_t, TilePlan::run>;
+  static constexpr std::uint32_t nobody = UINT32_MAX;
+  std::vector<Column> column;
+  Run ones;
+
+  /// `runs`: each of TilePlan::run contacts at the most. Ones that are neighbours come into neighbouring columns.
+  explicit Columns(const std::vector<Run>& runs) {
+    std::array<std::vector<const Run*>, TilePlan::run + 1> of_length;
+    for (const Run& run : runs) of_length[run.size()].push_back(&run);
+    for (std::size_t n = TilePlan::run; n > 1; --n) {
+      const std::size_t together = TilePlan::run / n;
+      for (std::size_t k = 0; k < of_length[n].size(); ++k) {
+        if (k % together == 0) column.emplace_back().fill(nobody);
+        std::copy(of_length[n][k]->begin(), of_length[n][k]->end(),
+                  column.back().begin() + static_cast<std::ptrdiff_t>(k % together * n));
+      }
+    }
+    auto next = of_length[1].begin();
+    for (std::size_t place = 0; place < TilePlan::run; ++place) {
+      for (Column& c : column) {
+        if (next != of_length[1].end() && c[place] == nobody) c[place] = (*next++)->front();
+      }
+    }
+    for (; next != of_length[1].end(); ++next) ones.push_back((*next)->front());
+  }
 };
 
 class Planner {
@@ -38,6 +72,9 @@ class Planner {
  private:
   static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
   bool is_wall(std::int32_t body) const { return at(body) >= layout_.particles(); }
+  static bool is_halo(const Tile& tile, std::uint32_t local) {
+    return local >= tile.bodies && local < tile.bodies + tile.halo;
+  }
   bool owns(int tile, std::int32_t body) const { return !is_wall(body) && tile_of_[at(body)] == tile; }
 
   /// Contacts in order of their numbers.
@@ -59,10 +96,17 @@ class Planner {
         if (slots[s] != inert) slot_of[slots[s]] = {g, s};
       }
     }
+    std::vector<std::uint32_t> of_end_a(layout_.particles(), 0), met(of_end_a.size(), 0);
+    for (const Contact& c : network_.contacts) ++of_end_a[at(c.a)];
     for (std::size_t number = 0; number < slot_of.size(); ++number) {
       const Contact& c = network_.contacts[number];
-      const Touch touch{layout_.body_of(c.a), layout_.body_of(c.b), slot_of[number].group, slot_of[number].slot,
-                        c.b < 0 ? next_row[at(-c.b) - 1]++ : UINT32_MAX};
+      const std::uint32_t k = met[at(c.a)]++;
+      const Touch touch{layout_.body_of(c.a),
+                        layout_.body_of(c.b),
+                        slot_of[number].group,
+                        slot_of[number].slot,
+                        c.b < 0 ? next_row[at(-c.b) - 1]++ : UINT32_MAX,
+                        (k + 1) % TilePlan::run == 0 || k + 1 == of_end_a[at(c.a)]};
       const int tile = tile_of_[at(touch.a)];
       touches_[static_cast<std::size_t>(tile)].push_back(touch);
       if (!is_wall(touch.b) && !owns(tile, touch.b)) touches_[at(tile_of_[at(touch.b)])].push_back(touch);
@@ -73,16 +117,22 @@ class Planner {
     auto& touches = touches_[static_cast<std::size_t>(t)];
     const auto first = static_cast<std::uint32_t>(layout_.tile_body[static_cast<std::size_t>(t)]);
     const auto bodies = static_cast<std::uint32_t>(layout_.tile_body[static_cast<std::size_t>(t) + 1]) - first;
-    Tile tile{
-        first, bodies, static_cast<std::uint32_t>(out_.halo.size()), 0, static_cast<std::uint32_t>(out_.packets()), 0,
-        0,     0};
+    Tile tile{first,
+              bodies,
+              static_cast<std::uint32_t>(out_.halo.size()),
+              0,
+              static_cast<std::uint32_t>(out_.packets()),
+              0,
+              0,
+              0,
+              0};
 
     std::vector<std::uint32_t> length(bodies, 0), rank(bodies), order(bodies);
     std::vector<std::int32_t> halo;
     for (const Touch& touch : touches) {
       for (const std::int32_t body : {touch.a, touch.b}) {
         if (owns(t, body))
-          ++length[at(body) - first];
+          length[at(body) - first] += body == touch.b || touch.ends_run;
         else if (!is_wall(body))
           halo.push_back(body);
       }
@@ -121,20 +171,15 @@ class Planner {
     out_.most_locals = std::max(out_.most_locals, bodies + tile.halo + walls);
     out_.most_slots = std::max(out_.most_slots, tile.slots);
     out_.most_packets = std::max(out_.most_packets, tile.packets);
-    out_.fits = out_.fits && bodies + tile.halo + walls < UINT16_MAX && tile.slots < UINT16_MAX;
+    out_.fits = out_.fits && bodies + tile.halo + walls < UINT16_MAX && tile.slots < TilePlan::more_of_run;
     out_.tile.push_back(tile);
     touches = {};
   }
 
-  /// Contacts are sorted by the slot of one of their own ends, so that the lanes of a warp touch neighbouring words of
-  /// shared memory: entry e of consecutive ranks.
+  /// Runs are sorted by their slot, so that the lanes of a warp touch neighbouring words of shared memory: entry e of
+  /// consecutive ranks.
   void add_contacts(int t, Tile& tile, const std::vector<Touch>& touches, const std::vector<std::int32_t>& halo,
                     const std::vector<std::uint32_t>& rank, const std::vector<std::uint32_t>& diagonal) {
-    struct Entry {
-      bool shared;
-      std::uint32_t entry, rank;
-      TileContact contact;
-    };
     std::vector<std::uint32_t> filled(tile.bodies, 0);
     const auto local = [&](std::int32_t body) -> std::uint32_t {
       if (is_wall(body)) {
@@ -149,33 +194,56 @@ class Planner {
                                                            : diagonal[e] + r);
       return e;
     };
+    using Entry = std::tuple<std::uint32_t, std::uint32_t, Run>;  // entry, rank, contacts
     std::vector<Entry> entries;
+    std::vector<TileContact> contacts;
+    std::vector<Run> begun(tile.bodies);
     for (const Touch& touch : touches) {
-      const bool own_a = owns(t, touch.a), own_b = owns(t, touch.b);
-      TileContact c{touch.group_slot,
-                    static_cast<std::uint16_t>(local(touch.a)),
-                    static_cast<std::uint16_t>(local(touch.b)),
-                    TilePlan::no_slot,
-                    TilePlan::no_slot,
-                    touch.group,
-                    touch.wall_row};
-      entries.push_back({!(own_a && own_b) && !is_wall(touch.b), 0, own_a ? c.local_a : c.local_b, c});
-      if (own_a) entries.back().entry = fill(c.local_a, entries.back().contact.slot_a);
+      const auto number = static_cast<std::uint32_t>(contacts.size());
+      TileContact& c = contacts.emplace_back(TileContact{touch.group_slot, static_cast<std::uint16_t>(local(touch.a)),
+                                                         static_cast<std::uint16_t>(local(touch.b)), TilePlan::no_slot,
+                                                         TilePlan::no_slot, touch.group, touch.wall_row});
+      if (!owns(t, touch.a)) continue;
+      auto& run = begun[c.local_a];
+      run.push_back(number);
+      c.slot_a = TilePlan::more_of_run;
+      if (touch.ends_run) entries.emplace_back(fill(c.local_a, c.slot_a), c.local_a, std::exchange(run, {}));
     }
-    for (std::size_t i = 0; i < entries.size(); ++i) {
+    for (std::uint32_t i = 0; i < contacts.size(); ++i) {
+      TileContact& c = contacts[i];
       if (!owns(t, touches[i].b)) continue;
-      const std::uint32_t entry = fill(entries[i].contact.local_b, entries[i].contact.slot_b);
-      if (!owns(t, touches[i].a)) entries[i].entry = entry;
+      const std::uint32_t entry = fill(c.local_b, c.slot_b);
+      if (!owns(t, touches[i].a)) entries.emplace_back(entry, c.local_b, std::vector{i});
     }
-    std::stable_sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
-      return std::tie(x.shared, x.entry, x.rank) < std::tie(y.shared, y.entry, y.rank);
-    });
-    for (const Entry& e : entries) out_.contact.push_back(e.contact);
-    while (out_.contact.size() % 32 != 0) {
-      TileContact none;
-      none.slot_a = none.slot_b = TilePlan::no_slot;
-      out_.contact.push_back(none);
+    std::sort(entries.begin(), entries.end());
+    std::vector<Run> inner, outer;
+    for (auto& [entry, r, run] : entries) {
+      const bool waits = std::any_of(run.begin(), run.end(), [&](std::uint32_t number) {
+        const TileContact& c = contacts[number];
+        return is_halo(tile, c.local_a) || is_halo(tile, c.local_b);
+      });
+      (waits ? outer : inner).push_back(std::move(run));
     }
+    Columns columns(inner);
+    tile.inner = static_cast<std::uint32_t>(columns.column.size() / 32);
+    for (const std::uint32_t number : columns.ones) outer.push_back({number});
+    const Columns others(outer);
+    columns.column.insert(columns.column.end(), others.column.begin(), others.column.end());
+    tile.groups = static_cast<std::uint32_t>((columns.column.size() + 31) / 32);
+    TileContact none;
+    none.slot_a = none.slot_b = TilePlan::no_slot;
+    const auto add = [&](std::uint32_t number) {
+      out_.contact.push_back(number == Columns::nobody ? none : contacts[number]);
+    };
+    columns.column.resize(std::size_t{32} * tile.groups,
+                          {Columns::nobody, Columns::nobody, Columns::nobody, Columns::nobody});
+    for (std::size_t first = 0; first < columns.column.size(); first += 32) {
+      for (std::size_t place = 0; place < TilePlan::run; ++place) {
+        for (std::size_t lane = 0; lane < 32; ++lane) add(columns.column[first + lane][place]);
+      }
+    }
+    for (const std::uint32_t number : others.ones) add(number);
+    while (out_.contact.size() % 32 != 0) add(Columns::nobody);
     tile.packets = static_cast<std::uint32_t>(out_.packets()) - tile.first_packet;
   }
 

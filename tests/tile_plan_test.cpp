@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// tile_plan_test.cpp  The plan of tiles, carried out here in plain loops: every load arrives, in one order for any
+// tiles.
+#include "kernels/tile_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/test_scenes.hpp"
+
+namespace macadam::kernels {
+namespace {
+
+/// A load of each contact; its end B gets the negative.
+std::vector<float> some_loads(const ContactNetwork& network) {
+  std::mt19937 random(5);
+  std::vector<float> out;
+  for (std::size_t k = 0; k < network.contacts.size(); ++k)
+    out.push_back(static_cast<float>(random()) / 4294967296.0f - 0.5f);
+  return out;
+}
+
+/// The number in the network of a contact of the plan.
+std::uint32_t number_of(const Layout& layout, const TileContact& c) {
+  for (const auto& group : layout.groups) {
+    if (static_cast<std::uint32_t>(&group - layout.groups.data()) == c.group) return group.contact[c.group_slot];
+  }
+  return inert;
+}
+
+/// What the threads of a tile leave in its slots; a slot that is written twice is a fault of the plan.
+std::vector<float> fill_slots(const TilePlan& plan, const Layout& layout, const Tile& tile,
+                              const std::vector<float>& load) {
+  std::vector<float> slots(tile.slots, 0);
+  std::vector<int> written(tile.slots, 0);
+  const auto put = [&](std::uint16_t slot, float x) {
+    if (slot == TilePlan::no_slot) return;
+    ASSERT_LT(slot, tile.slots);
+    slots[slot] = x;
+    EXPECT_EQ(++written[slot], 1);
+  };
+  const auto take = [&](std::uint32_t first, std::uint32_t packets) {
+    for (std::uint32_t lane = 0; lane < 32; ++lane) {
+      float run = 0;
+      for (std::uint32_t j = 0; j < packets; ++j) {
+        const TileContact& c = plan.contact[(tile.first_packet + first + j) * 32 + lane];
+        const float x = c.group_slot == UINT32_MAX ? 0 : load[number_of(layout, c)];
+        run += x;
+        if (c.slot_a != TilePlan::more_of_run) {
+          put(c.slot_a, run);
+          run = 0;
+        }
+        put(c.slot_b, -x);
+      }
+      EXPECT_EQ(run, 0) << "a run goes on beyond its packets";
+    }
+  };
+  const std::uint32_t ones = TilePlan::run * tile.groups;
+  for (std::uint32_t first = 0; first < ones; first += TilePlan::run) take(first, TilePlan::run);
+  for (std::uint32_t packet = ones; packet < tile.packets; ++packet) take(packet, 1);
+  EXPECT_EQ(std::count(written.begin(), written.end(), 1), static_cast<std::ptrdiff_t>(tile.slots));
+  return slots;
+}
+
+/// [particle] sums of loads as tiles make them.
+std::vector<float> sums_by_tiles(const test::TestScene& scene, std::size_t tile_contacts,
+                                 const std::vector<float>& load) {
+  const Layout layout = make_layout(scene.specimen, scene.network, 32, tile_contacts);
+  const TilePlan plan = plan_tiles(scene.network, layout);
+  EXPECT_TRUE(plan.fits);
+  EXPECT_EQ(plan.tile.size(), layout.tiles());
+  std::vector<float> out(scene.specimen.size());
+  for (std::size_t t = 0; t < plan.tile.size(); ++t) {
+    const Tile& tile = plan.tile[t];
+    const std::vector<float> slots = fill_slots(plan, layout, tile, load);
+    for (std::uint32_t r = 0; r < tile.bodies; ++r) {
+      const std::uint32_t place = tile.first_body + r, n = plan.row[2 * place];
+      float sum = 0;
+      for (std::uint32_t e = 0; e < n; ++e) {
+        sum += slots[r < tile.long_rows ? plan.row[2 * place + 1] + e
+                                        : plan.diagonal[t * TilePlan::longest_short_row + e] + r];
+      }
+      out[static_cast<std::size_t>(layout.particle[static_cast<std::size_t>(plan.body[place])])] = sum;
+    }
+  }
+  return out;
+}
+
+TEST(TilePlan, EveryLoadArrivesAndInOneOrderForAnyTiles) {
+  const test::TestScene scene = test::make_scene(test::random_specimen(3, 7, 6, 8));
+  const std::vector<float> load = some_loads(scene.network);
+  std::vector<double> expected(scene.specimen.size(), 0.0);
+  std::vector<double> largest(scene.specimen.size(), 0.0);
+  for (std::size_t k = 0; k < load.size(); ++k) {
+    const Contact& c = scene.network.contacts[k];
+    for (const auto& [body, sign] : {std::pair{c.a, 1.0}, std::pair{c.b, -1.0}}) {
+      if (body < 0) continue;
+      expected[static_cast<std::size_t>(body)] += sign * load[k];
+      largest[static_cast<std::size_t>(body)] += std::abs(load[k]);
+    }
+  }
+  const std::vector<float> whole = sums_by_tiles(scene, load.size(), load);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const double rounding =
+        static_cast<double>(scene.network.row(i).size()) * 0x1p-24 * largest[i];  // a sum's of n terms
+    EXPECT_NEAR(whole[i], expected[i], rounding) << "particle " << i;
+  }
+  for (const std::size_t contacts : {700u, 300u, 120u}) EXPECT_EQ(sums_by_tiles(scene, contacts, load), whole);
+}
+
+TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
+  const test::TestScene scene = test::make_scene(test::random_specimen(4, 12, 12, 14));
+  const Layout layout = make_layout(scene.specimen, scene.network, 32, 2000);
+  const TilePlan plan = plan_tiles(scene.network, layout);
+  std::size_t slots = 0, real = 0;
+  for (const Tile& tile : plan.tile) slots += tile.slots;
+  for (const TileContact& c : plan.contact) real += c.group_slot != UINT32_MAX;
+  // each contact has a slot at end B, and a quarter of one at end A but for the last run of each particle
+  EXPECT_LT(slots, 1.45 * static_cast<double>(scene.network.contacts.size()));
+  // at most a warp's last group of each tile, and its last packet
+  EXPECT_LE(plan.contact.size(), real + plan.tile.size() * 32 * (TilePlan::run + 1));
+}
+
+}  // namespace
+}  // namespace macadam::kernels
