@@ -71,7 +71,7 @@ struct Row {
 
 class Table {
  public:
-  Table(std::string filter, const std::string& csv) : filter_(std::move(filter)), copy_(copy_bandwidth()) {
+  Table(std::string filter, const std::string& csv, const DeviceList& devices) : devices_(devices), filter_(std::move(filter)), copy_(copy_bandwidth()) {
     cudaDeviceProp p{};
     int driver = 0, clock = 0;
     check(cudaGetDeviceProperties(&p, 0));
@@ -98,6 +98,7 @@ class Table {
     options.form = row.form;
     options.precision = row.precision;
     options.geometry = row.geometry;
+    options.devices = devices_;
     const double dt = 0.8 * critical_step(scene.network, scene.laws, scene.inertia, options).dt;
     drives::Cyclic loading{1e-4 * scene.specimen.box.size.z, frequency, 1, 0};
     loading.steps_per_period = std::llround(std::ceil(1 / (frequency * dt)));
@@ -136,6 +137,7 @@ class Table {
   }
 
  private:
+  DeviceList devices_;
   std::string filter_;
   double copy_;
   std::ofstream csv_;
@@ -153,7 +155,7 @@ test::Laws laws_of_units(int units) {
   return laws;
 }
 
-void run_all(Table& table, bool large, bool huge, const std::string& given) {
+void run_all(Table& table, bool large, bool huge, const std::string& given, const std::vector<std::size_t>& sizes) {
   constexpr auto condensed = ContactForm::condensed, points = ContactForm::points;
   constexpr auto fixed = Geometry::fixed, updated = Geometry::updated;
   constexpr auto single = Precision::single, mixed = Precision::mixed, full = Precision::double_;
@@ -209,11 +211,17 @@ void run_all(Table& table, bool large, bool huge, const std::string& given) {
     scene.reset();
   }
   if (huge) table.run("fcc 1e7", fcc(10000000), {condensed, single, fixed});
+  for (const std::size_t n : sizes) {
+    table.run(fmt::format("fcc {}", n), fcc(n), {condensed, single, fixed});
+    scene.reset();
+  }
 }
 
 int run_main(int argc, char** argv) {
   std::string filter, csv, given;
   bool large = false, huge = false;
+  DeviceList devices;
+  std::vector<std::size_t> sizes;
   for (int i = 1; i < argc; ++i) {
     if (!std::strcmp(argv[i], "--large"))
       large = true;
@@ -223,11 +231,15 @@ int run_main(int argc, char** argv) {
       given = argv[++i];
     else if (!std::strcmp(argv[i], "--csv") && i + 1 < argc)
       csv = argv[++i];
+    else if (!std::strcmp(argv[i], "--fcc") && i + 1 < argc)
+      sizes.push_back(static_cast<std::size_t>(std::atof(argv[++i])));
+    else if (!std::strcmp(argv[i], "--all-devices"))
+      devices = {every_device};
     else
       filter = argv[i];
   }
-  Table table(filter, csv);
-  run_all(table, large, huge, given);
+  Table table(filter, csv, devices);
+  run_all(table, large, huge, given, sizes);
   return 0;
 }
 

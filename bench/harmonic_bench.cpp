@@ -33,6 +33,7 @@ struct Options {
   double tolerance = 1e-8;
   int runs = 3;
   bool digits = false;
+  DeviceList devices;
 };
 
 /// Largest differences from solutions with factors: of |E*|, relative, and of φ [°].
@@ -54,7 +55,8 @@ void time_solver(const std::string& name, const test::TestScene& scene, const Op
     for (int run = 0; run < options.runs; ++run) {
       const auto start = Clock::now();
       Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia,
-                        {.tolerance = options.tolerance, .linear = LinearMethod::iterative, .backend = backend}, 6);
+                        {.tolerance = options.tolerance, .linear = LinearMethod::iterative, .backend = backend,
+                         .devices = backend == Backend::cuda ? options.devices : DeviceList{}}, 6);
       setup.push_back(since(start));
       std::vector<HarmonicLoad> loads;
       for (const double f : options.frequencies) loads.push_back({f});
@@ -86,6 +88,8 @@ int bench(int argc, char** argv) {
   Options options;
   std::vector<std::string> backends{"cpu"}, scenes;
   std::vector<double> lattices;
+  bool every = false;
+  app.add_flag("--all-devices", every);
   app.add_option("--backend", backends)->check(CLI::IsMember({"cpu", "cuda"}));
   app.add_option("--fcc", lattices);
   app.add_option("--frequencies", options.frequencies)->delimiter(',');
@@ -94,6 +98,7 @@ int bench(int argc, char** argv) {
   app.add_flag("--digits", options.digits);
   app.add_option("scenes", scenes);
   CLI11_PARSE(app, argc, argv);
+  if (every) options.devices = {every_device};
   for (const std::string& b : backends) options.backends.push_back(b == "cuda" ? Backend::cuda : Backend::cpu);
   std::printf(
       "network,particles,contacts,frequencies,backend,threads,setup_s,solve_s,first_s,iterations,residual,"

@@ -154,23 +154,40 @@ template <class P, class... L, Geometry geometry>
 struct SettleGroups<P, std::variant<L...>, geometry> {
   using Functors = decltype(std::tuple_cat(settle_functors<P, L, geometry>()...));
   struct Group {
-    std::uint32_t first_block = UINT32_MAX, first_slot = 0, slots = 0;
+    std::uint32_t first_slot = 0;  ///< of all groups
     typename AnyFunctorOf<Functors>::type functor;
   };
   Group group[pair_types];
   const uint2* place;  ///< [slot of all groups] among the tiles' contacts
 };
 
+/// The slots of the groups that one launch settles.
+struct SettleRanges {
+  struct Range {
+    std::uint32_t first_block = UINT32_MAX, begin = 0, end = 0;
+  };
+  Range of[pair_types];
+  std::uint32_t blocks = 0;
+
+  /// Behind the groups before.
+  void add(int group, std::size_t begin, std::size_t end) {
+    of[group] = {blocks, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+    blocks += static_cast<std::uint32_t>((end - begin + contact_threads - 1) / contact_threads);
+  }
+};
+
 template <class P, class AnyLaw, Geometry geometry>
 __global__ void __launch_bounds__(contact_threads)
-    settle_contacts(const __grid_constant__ SettleGroups<P, AnyLaw, geometry> groups, float4* constant, float4* state,
+    settle_contacts(const __grid_constant__ SettleGroups<P, AnyLaw, geometry> groups,
+                    const __grid_constant__ SettleRanges ranges, float4* constant, float4* state,
                     const double* now, const double* before, int steps,
                     const LoadRecords<typename P::Particle> records) {
   int number = 0;
-  while (number + 1 < pair_types && groups.group[number + 1].first_block <= blockIdx.x) ++number;
+  while (number + 1 < pair_types && ranges.of[number + 1].first_block <= blockIdx.x) ++number;
   const auto& group = groups.group[number];
-  const std::uint32_t slot = (blockIdx.x - group.first_block) * contact_threads + threadIdx.x;
-  if (slot >= group.slots) return;
+  const auto& range = ranges.of[number];
+  const std::uint32_t slot = range.begin + (blockIdx.x - range.first_block) * contact_threads + threadIdx.x;
+  if (slot >= range.end) return;
   const std::uint32_t record = group.first_slot + slot;
   group.functor.visit([&](const auto& functor) {
     functor(slot, groups.place[record], constant, state, now, before, steps, records, record);
@@ -185,12 +202,12 @@ __global__ void begin_with_weight(const R* weight, std::uint32_t particles, R* f
   for (unsigned w = 0; w < 3; ++w) force[body * std::size_t{velocity_words} + w] = weight[body * std::size_t{4} + w];
 }
 
-/// Sums the base loads of all bodies, walls included, body forces with them, and keeps where the block begins. Long
-/// rows as in step_bodies().
+/// Sums the base loads of the bodies first … end − 1, walls included, body forces with them, and keeps where the block
+/// begins. Long rows as in step_bodies().
 template <class P>
 __global__ void __launch_bounds__(body_threads)
     sum_base(const LoadRecords<typename P::Particle> records, const std::uint32_t* long_body, std::uint32_t long_rows,
-             std::uint32_t bodies, const typename P::Particle* weight, std::uint32_t particles,
+             std::uint32_t first, std::uint32_t end, const typename P::Particle* weight, std::uint32_t particles,
              typename P::Particle* base, const double* now, double* before) {
   using R = typename P::Particle;
   const unsigned w = threadIdx.x % velocity_words;
@@ -205,10 +222,10 @@ __global__ void __launch_bounds__(body_threads)
     if (threadIdx.x < velocity_words) keep(body, sum);
     return;
   }
-  const std::uint32_t body = (blockIdx.x - long_rows) * bodies_a_block + threadIdx.x / velocity_words;
-  if (body >= bodies) return;
-  const std::uint32_t begin = records.row_begin[body], end = records.row_begin[body + 1];
-  if (end - begin <= long_row) keep(body, sum_words<R>(records, begin, end, 1, w));
+  const std::uint32_t body = first + (blockIdx.x - long_rows) * bodies_a_block + threadIdx.x / velocity_words;
+  if (body >= end) return;
+  const std::uint32_t row = records.row_begin[body], row_end = records.row_begin[body + 1];
+  if (row_end - row <= long_row) keep(body, sum_words<R>(records, row, row_end, 1, w));
 }
 
 }  // namespace macadam::kernels

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_body_arrays.hpp  What both executors of a device have: its stream, the bodies, the walls' table, and the
+/// \file cuda_body_arrays.hpp  What both executors of devices have: their team, the bodies, the walls' table, and the
 /// arrays of the groups.
 #pragma once
 
@@ -9,6 +9,7 @@
 #include "kernels/contact_reading.hpp"
 #include "kernels/cuda_divergence.hpp"
 #include "kernels/cuda_record_rows.hpp"
+#include "kernels/cuda_team.hpp"
 #include "kernels/cuda_tile_limits.hpp"
 #include "kernels/cuda_wall_table.hpp"
 #include "kernels/executor.hpp"
@@ -24,28 +25,32 @@ class CudaBodyArrays {
   static constexpr int lanes = 32;
 
   CudaBodyArrays(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, RecordOrder order)
-      : device_(options.device.value()),
+      : team_(options.devices),
         layout_(layout),
-        rows_(network, layout, order),
+        cuts_(team_, layout),
+        rows_(network, layout, cuts_, order),
         views_(layout.groups.size()),
-        master_(bodies() * velocity_words),
-        displacement_(bodies() * displacement_words),
-        velocity_(std::is_same_v<G, R> ? 0 : bodies() * velocity_words) {
-    check_cuda(cudaStreamCreate(&stream_), "stream");
-  }
+        master_(cuts_.bodies(), velocity_words),
+        displacement_(cuts_.bodies(), displacement_words),
+        velocity_(cuts_.bodies(), std::is_same_v<G, R> ? 0 : velocity_words) {}
   CudaBodyArrays(const CudaBodyArrays&) = delete;
-  ~CudaBodyArrays() { cudaStreamDestroy(stream_); }
 
-  /// That it answers is known by then.
-  void use_device() const { cudaSetDevice(device_); }
+  void use_device() const { team_.use(0); }
 
   const R* wall_table(std::size_t most_values) { return wall_rows_.prepare(most_values); }
-  void set_wall_rows(const std::vector<R>& rows) { wall_rows_.put(rows, stream_); }
+  /// All wait for them.
+  void set_wall_rows(const std::vector<R>& rows) {
+    team_.meet();
+    wall_rows_.put(rows, team_.stream());
+    team_.meet();
+  }
 
   BodyView<P> set_bodies(const std::vector<R>& inverse, const std::vector<R>& weight) {
-    if (inverse_.size() == 0) inverse_ = DeviceArray<R>(inverse.size());
+    if (inverse_.size() == 0) inverse_ = DeviceArray<R>(cuts_.bodies(), 2);
     inverse_.upload(inverse.data());
-    weight_ = DeviceArray<R>::of(weight);
+    Shares particles = cuts_.bodies();
+    particles.back().end -= walls;
+    weight_ = DeviceArray<R>::of(weight, particles);
     return {gathered(),
             master_.data(),
             displacement_.data(),
@@ -55,7 +60,7 @@ class CudaBodyArrays {
   }
 
   /// A failing kernel is reported here.
-  void wait() const { check_cuda(cudaStreamSynchronize(stream_), "time steps"); }
+  void wait() const { team_.wait("time steps"); }
 
   std::vector<R> velocities() const { return master_.download(); }
   std::vector<double> displacements() const { return displacement_.download(); }
@@ -72,7 +77,7 @@ class CudaBodyArrays {
 
   std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
     if (!divergence_) divergence_ = std::make_unique<DivergenceSearch<P>>(layout_, radius);
-    return divergence_->first(master_.data(), dt, stream_);
+    return divergence_->first(master_.data(), dt, team_.stream());
   }
 
   GroupState<P> group_state(std::size_t number, std::size_t chain, std::size_t frame) const {
@@ -88,7 +93,7 @@ class CudaBodyArrays {
 
   /// What stays on the device where a stepper does.
   DeviceMotion device_motion() const {
-    return {device_, sizeof(R) == 8, master_.data(), displacement_.data(), layout_.particle};
+    return {team_.device(0), sizeof(R) == 8, master_.data(), displacement_.data(), layout_.particle};
   }
 
  private:
@@ -118,7 +123,7 @@ class CudaBodyArrays {
       constexpr bool state = !std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>;
       const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
       if (first) {
-        pointer = store_.keep(array);
+        pointer = store_.keep(array, array_shares(array.size(), layout_.groups[number]));
         group_bytes_ += size;
         if (state) state_bytes_ += size;
       }
@@ -146,19 +151,25 @@ class CudaBodyArrays {
   }
 
   void require_memory(std::size_t needed) const {
-    std::size_t free = 0, total = 0;
-    check_cuda(cudaMemGetInfo(&free, &total), "memory");
-    if (needed <= free) return;
-    const auto mib = [](std::size_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; };
-    throw RunError("CUDA: the scene of " + std::to_string(layout_.particles()) + " particles and " +
-                   std::to_string(rows_.records / 2) + " contacts needs another " + mib(needed) +
-                   " on the device: found " + mib(free) + " free of " + mib(total));
+    needed = needed / team_.size() * static_cast<std::size_t>(team_.shares_of(0));
+    team_.each([&](std::size_t m) {
+      std::size_t free = 0, total = 0;
+      check_cuda(cudaMemGetInfo(&free, &total), "memory");
+      if (needed <= free) return;
+      const auto mib = [](std::size_t bytes) { return std::to_string((bytes >> 20) + 1) + " MiB"; };
+      throw RunError("CUDA: the scene of " + std::to_string(layout_.particles()) + " particles and " +
+                     std::to_string(rows_.records / 2) + " contacts needs another " + mib(needed) + " on device " +
+                     std::to_string(team_.device(m)) + ": found " + mib(free) + " free of " + mib(total));
+    });
   }
 
   std::string described(const std::string& way) const {
     cudaDeviceProp properties{};
-    check_cuda(cudaGetDeviceProperties(&properties, device_), "device properties");
-    return "cuda" + (device_ > 0 ? " device " + std::to_string(device_) : "") + ", " + properties.name + ", " + way;
+    check_cuda(cudaGetDeviceProperties(&properties, team_.device(0)), "device properties");
+    DeviceList devices;
+    for (std::size_t m = 0; m < team_.size(); ++m) devices.push_back(team_.device(m));
+    const char* named = devices.size() > 1 ? " devices " : " device ";
+    return "cuda" + (devices == DeviceList{0} ? "" : named + to_string(devices)) + ", " + properties.name + ", " + way;
   }
 
   /// Of the bodies, what a step reads and writes; and all bytes held but those of the loads.
@@ -187,11 +198,20 @@ class CudaBodyArrays {
       return velocity_.data();
   }
 
-  int device_;
+  /// By slots, or, of points, about so.
+  Shares array_shares(std::size_t words, const GroupLayout& group) const {
+    if (words % group.contact.size() == 0) return cuts_.slots(group);
+    return cuts_.of([&](std::size_t m) {
+      const std::size_t packet = group.tile_packet[cuts_.tile(m)], row = group.packet_row[packet];
+      return m == team_.size() ? words : std::min<std::size_t>(words, row * (words / std::max(group.packet_row.back(), 1u)));
+    });
+  }
+
+  DeviceTeam team_;
   const Layout& layout_;
+  TeamCuts cuts_;
   RecordRows rows_;
   std::vector<ContactView<P>> views_;  // of the groups
-  cudaStream_t stream_ = nullptr;
   DeviceArray<R> master_, inverse_, weight_;
   DeviceArray<double> displacement_;
   DeviceArray<G> velocity_;

@@ -78,8 +78,8 @@ struct ContactGroups;
 template <class P, class... L, ContactForm form, Geometry geometry, int Units>
 struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
   struct Group {
-    std::uint32_t first_block = UINT32_MAX;  ///< of this group
-    std::uint32_t first_slot = 0, slots = 0;
+    std::uint32_t first_block = UINT32_MAX;        ///< of this group
+    std::uint32_t first_slot = 0, begin = 0, end = 0;  ///< of all groups; of this one, those of the launch
     AnyFunctor<typename StepFunctor<P, L, form, geometry, Units>::type...> functor;
   };
   Group group[pair_types];
@@ -88,11 +88,11 @@ struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
 
   /// Adds a group behind the ones before.
   template <class Forces>
-  void add(std::uint32_t first_slot, std::uint32_t slots, const Forces& forces) {
+  void add(std::uint32_t first_slot, std::uint32_t begin, std::uint32_t end, const Forces& forces) {
     Group& g = group[groups++];
-    g.first_block = blocks, g.first_slot = first_slot, g.slots = slots;
+    g.first_block = blocks, g.first_slot = first_slot, g.begin = begin, g.end = end;
     g.functor.put(forces);
-    blocks += (slots + contact_threads - 1) / contact_threads;
+    blocks += (end - begin + contact_threads - 1) / contact_threads;
   }
 };
 
@@ -132,31 +132,31 @@ __global__ void __launch_bounds__(contact_threads, contact_blocks)
   int number = 0;
   while (number + 1 < groups.groups && groups.group[number + 1].first_block <= block) ++number;
   const auto& group = groups.group[number];
-  const std::uint32_t slot = (block - group.first_block) * contact_threads + threadIdx.x;
-  if (slot >= group.slots) return;  // a whole warp
+  const std::uint32_t slot = group.begin + (block - group.first_block) * contact_threads + threadIdx.x;
+  if (slot >= group.end) return;  // a whole warp
   group.functor.visit([&](const auto& forces) {
     records.store_by_warp(group.first_slot + slot, forces(LaneItem{slot % 32}, slot / 32, motion));
   });
 }
 
-/// The launches of a step over all contacts: one for each number of Kelvin units that has code of its own.
+/// The launches of a step over all contacts of a device: one for each number of Kelvin units that has code of its own.
 template <class P, class AnyLaw>
 class ContactLaunches {
  public:
   using Records = LoadRecords<typename P::Geometry>;
   using Clock = WallClock<typename P::Particle>;
 
-  /// Adds a group whose first contact is `first_slot` of all.
+  /// Adds the slots begin … end − 1 of a group whose first contact is `first_slot` of all.
   template <class LawStep, int Units, ContactForm form, Geometry geometry>
   void add(const ContactForces<P, LawStep, Units, form, geometry>& forces, std::uint32_t first_slot,
-           std::uint32_t slots) {
+           std::uint32_t begin, std::uint32_t end) {
     constexpr int units = LawStep::memoryless ? 3 : Units;  // most scenes then have one launch
     using Groups = ContactGroups<P, AnyLaw, form, geometry, units>;
     const auto kernel = step_contacts<P, AnyLaw, form, geometry, units>;
     Launch& to = launches_[units];
     if (!to.groups) to.groups = std::make_shared<Groups>();
     auto groups = std::static_pointer_cast<Groups>(to.groups);
-    groups->add(first_slot, slots, forces);
+    groups->add(first_slot, begin, end, forces);
     to.run = [groups, kernel](cudaStream_t stream, const MotionView<P>& motion, const Records& records,
                               const Clock& clock) {
       launch("contacts", kernel, groups->blocks + (clock.step ? 1 : 0), contact_threads, 0, stream, *groups, motion,

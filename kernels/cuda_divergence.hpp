@@ -8,7 +8,7 @@
 #include <thrust/iterator/counting_iterator.h>
 
 #include "kernels/contact_forces.hpp"
-#include "kernels/cuda_launch.hpp"
+#include "kernels/cuda_array.hpp"
 #include "kernels/layout.hpp"
 
 namespace macadam::kernels {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_launch.hpp  Errors of the CUDA runtime, and arrays that live on the device.
+/// \file cuda_launch.hpp  Errors of the CUDA runtime, and launches of kernels.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -10,9 +10,7 @@
 #include <cstdlib>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "kernels/state_list.hpp"
 #include "macadam/error.hpp"
 #include "macadam/stepper.hpp"
 
@@ -51,13 +49,14 @@ void launch(const char* name, void (*kernel)(Parameters...), std::size_t blocks,
   kernel<<<static_cast<unsigned>(blocks), threads, shared, stream>>>(std::forward<Arguments>(arguments)...);
   check_launch(name, stream);
 }
-/// The same for blocks that wait for one another: all are on the device at once, or the launch fails.
+/// The same for blocks that wait for one another, and maybe for those of another device: all are on the device at once,
+/// or the launch fails. check_launch() is the caller's, once all launches are there.
 template <class... Parameters>
 void launch_together(const char* name, void (*kernel)(Parameters...), std::size_t blocks, unsigned threads,
                      std::size_t shared, cudaStream_t stream, Parameters... parameters) {
   void* list[] = {&parameters...};
+  if (blocks == 0) return;
   check_cuda(cudaLaunchCooperativeKernel(kernel, static_cast<unsigned>(blocks), threads, list, shared, stream), name);
-  check_launch(name, stream);
 }
 
 /// What a launch of a kernel takes of a multiprocessor. `shared`: dynamic shared memory [bytes].
@@ -72,75 +71,6 @@ KernelUse kernel_use(const char* name, void (*kernel)(Parameters...), unsigned t
   check_cuda(cudaDeviceGetAttribute(&most_threads, cudaDevAttrMaxThreadsPerMultiProcessor, device), name);
   return {name, attributes.numRegs, static_cast<std::int64_t>(attributes.sharedSizeBytes + shared),
           static_cast<double>(blocks) * threads / most_threads};
-}
-
-/// An array on the device, zero at first, from its making to its end.
-template <class T>
-class DeviceArray {
- public:
-  DeviceArray() = default;
-  explicit DeviceArray(std::size_t size) : size_(size) {
-    if (size == 0) return;
-    if (const cudaError_t status = cudaMalloc(&data_, bytes()); status != cudaSuccess) {
-      cudaGetLastError();
-      std::size_t free = 0, total = 0;
-      cudaMemGetInfo(&free, &total);
-      throw RunError("CUDA: the device has " + std::to_string(free >> 20) + " of " + std::to_string(total >> 20) +
-                     " MiB left, and the next array needs " + std::to_string(bytes() >> 20) +
-                     " MiB: " + cudaGetErrorString(status));
-    }
-    clear();
-  }
-  template <class Array>
-  static DeviceArray of(const Array& host) {
-    DeviceArray out(host.size());
-    out.upload(host.data());
-    return out;
-  }
-  DeviceArray(DeviceArray&& other) noexcept : data_(std::exchange(other.data_, nullptr)), size_(other.size_) {}
-  DeviceArray& operator=(DeviceArray&& other) noexcept {
-    std::swap(data_, other.data_);
-    std::swap(size_, other.size_);
-    return *this;
-  }
-  ~DeviceArray() { cudaFree(data_); }
-
-  void clear() {
-    if (size_ > 0) check_cuda(cudaMemset(data_, 0, bytes()), "clearing an array");
-  }
-  void upload(const T* host) {
-    if (size_ > 0) check_cuda(cudaMemcpy(data_, host, bytes(), cudaMemcpyHostToDevice), "copy to the device");
-  }
-  std::vector<T> download() const {
-    std::vector<T> out(size_);
-    if (size_ > 0) check_cuda(cudaMemcpy(out.data(), data_, bytes(), cudaMemcpyDeviceToHost), "copy from the device");
-    return out;
-  }
-  T* data() const { return data_; }
-  std::size_t size() const { return size_; }
-  std::size_t bytes() const { return size_ * sizeof(T); }
-
- private:
-  T* data_ = nullptr;
-  std::size_t size_ = 0;
-};
-
-/// Adds an array on the device, which must stay where it is, to what a checkpoint copies and replaces.
-template <class T>
-void add_device_state(StateList& states, const std::string& name, const std::string& unit, T* data, std::size_t size,
-                      StateList::Order order = {}) {
-  const std::size_t bytes = size * sizeof(T);
-  states.add<T>(
-      name, unit, size,
-      [=] {
-        std::vector<T> out(size);
-        check_cuda(cudaMemcpy(out.data(), data, bytes, cudaMemcpyDeviceToHost), "copy of the state");
-        return out;
-      },
-      [=](const std::vector<T>& values) {
-        check_cuda(cudaMemcpy(data, values.data(), bytes, cudaMemcpyHostToDevice), "setting the state");
-      },
-      std::move(order));
 }
 
 }  // namespace macadam::kernels

@@ -20,9 +20,10 @@ struct CudaCode {
   std::unique_ptr<Stepper> (*make_stepper)(const Specimen& specimen, const ContactNetwork& network,
                                            const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
                                            std::unique_ptr<Stepper> used);
-  /// Copies the system to the calling thread's device. `loose`: set to the first body whose own stiffness is singular,
-  /// else −1. \throws RunError where the device has too little memory.
-  std::unique_ptr<DeviceSolver> (*make_solver)(const LinearSystem& system, std::int64_t& loose);
+  /// Spreads the system over the devices, of known numbers. `loose`: set to the first body whose own stiffness is
+  /// singular, else −1. \throws RunError where a device has too little memory.
+  std::unique_ptr<DeviceSolver> (*make_solver)(const LinearSystem& system, const DeviceList& devices,
+                                               std::int64_t& loose);
 };
 
 /// What the plugin exports, under the C name `macadam_cuda_plugin`. The first two members stay what they are, so that
@@ -34,6 +35,6 @@ struct CudaPlugin {
 };
 
 /// Counted up with every change of CudaCode, or of what it is handed.
-inline constexpr int cuda_interface = 1;
+inline constexpr int cuda_interface = 2;
 
 }  // namespace macadam::kernels

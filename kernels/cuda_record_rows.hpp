@@ -2,10 +2,13 @@
 /// \file cuda_record_rows.hpp  Which record of loads each end of a contact has: those of a body follow one another.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "kernels/cuda_bodies.hpp"
+#include "kernels/cuda_team.hpp"
 #include "kernels/layout.hpp"
 
 namespace macadam::kernels {
@@ -19,10 +22,12 @@ struct RecordRows {
   DeviceArray<std::uint32_t> begin;      ///< [body + 1]
   DeviceArray<std::uint32_t> place;      ///< [slot of all groups][2] records of the A and the B end
   DeviceArray<std::uint32_t> long_body;  ///< those of more than long_row records, walls last
-  std::uint32_t long_particles = 0;      ///< of them
+  std::vector<std::uint32_t> long_cut;   ///< [member of the team + 1] first of its own of them
+  std::uint32_t long_particles = 0;      ///< of them, those that are no walls
   std::size_t records = 0;
+  Shares shares;  ///< of the records
 
-  RecordRows(const ContactNetwork& network, const Layout& layout, RecordOrder order) {
+  RecordRows(const ContactNetwork& network, const Layout& layout, const TeamCuts& cuts, RecordOrder order) {
     const std::size_t bodies = layout.particles() + walls, contacts = network.contacts.size();
     std::vector<std::uint32_t> next(bodies + 1, 0), longer;
     const auto body_of = [&](std::int32_t end) { return static_cast<std::size_t>(layout.body_of(end)); };
@@ -38,8 +43,16 @@ struct RecordRows {
       next[i + 1] += next[i];
     }
     records = next.back();
-    begin = DeviceArray<std::uint32_t>::of(next);
+    shares = cuts.of([&](std::size_t m) { return std::size_t{next[cuts.body(m)]}; });
+    Shares begins = cuts.bodies();
+    ++begins.back().end;
+    begin = DeviceArray<std::uint32_t>::of(next, begins);
     long_body = DeviceArray<std::uint32_t>::of(longer);
+    for (std::size_t m = 0; m <= begins.size(); ++m) {
+      const auto first = static_cast<std::uint32_t>(cuts.body(m));
+      long_cut.push_back(static_cast<std::uint32_t>(
+          std::lower_bound(longer.begin(), longer.end(), first) - longer.begin()));
+    }
     std::vector<std::uint32_t> of_a(contacts), of_b(contacts), places;
     const auto take = [&](std::vector<std::uint32_t>& record, std::uint32_t c, std::int32_t end) {
       record[c] = next[body_of(end)]++;
@@ -58,7 +71,14 @@ struct RecordRows {
         places.push_back(c == inert ? UINT32_MAX : of_b[c]);
       }
     }
-    place = DeviceArray<std::uint32_t>::of(places);
+    place = DeviceArray<std::uint32_t>::of(places, cuts.all_slots());
+  }
+
+  /// Bodies of member m of the team whose rows are long, and their number; those of walls too or not.
+  std::pair<const std::uint32_t*, std::uint32_t> long_rows(std::size_t m, bool with_walls) const {
+    const std::uint32_t most = with_walls ? static_cast<std::uint32_t>(long_body.size()) : long_particles;
+    const std::uint32_t first = std::min(long_cut[m], most);
+    return {long_body.data() + first, std::min(long_cut[m + 1], most) - first};
   }
 
   /// Of an array [record][record_words]: the rows in the order of the specimen.

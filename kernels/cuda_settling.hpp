@@ -8,6 +8,7 @@
 
 #include "kernels/block_length.hpp"
 #include "kernels/cuda_blocks.hpp"
+#include "kernels/cuda_team.hpp"
 
 namespace macadam::kernels {
 
@@ -23,19 +24,20 @@ struct SettledArrays {
 template <class P, class AnyLaw>
 class Settling {
  public:
+  Settling(const DeviceTeam& team, const TeamCuts& cuts, const Layout& layout) : team_(team), ranges_(team.size()) {
+    for (std::size_t m = 0; m < team.size(); ++m) {
+      for (std::size_t g = 0; g < layout.groups.size(); ++g)
+        ranges_[m].add(static_cast<int>(g), cuts.slot(layout.groups[g], m), cuts.slot(layout.groups[g], m + 1));
+    }
+  }
+
   /// Takes the law of group `number`, whose first slot of all groups is `first_slot`, for steps of `dt`.
   template <Geometry geometry, class L>
   void set_group(int number, std::size_t first_slot, const L& law, const ContactView<P>& view, double dt) {
     using Groups = SettleGroups<P, AnyLaw, geometry>;
     if (!groups_) groups_ = std::make_shared<Groups>();
     auto groups = std::static_pointer_cast<Groups>(groups_);
-    auto& g = groups->group[number];
-    if (g.first_block == UINT32_MAX) {
-      g.first_block = blocks_;
-      g.first_slot = static_cast<std::uint32_t>(first_slot);
-      g.slots = view.packets * 32;
-      blocks_ += (g.slots + contact_threads - 1) / contact_threads;
-    }
+    groups->group[number].first_slot = static_cast<std::uint32_t>(first_slot);
     fill_[number] = [groups, number, law, view, dt](int ended, int steps) {
       const auto block = block_after(law, dt, ended, steps);
       dispatch_units<false>(law, [&](auto units) {
@@ -43,15 +45,17 @@ class Settling {
       });
     };
     filled_ended_ = filled_steps_ = 0;  // for other laws and time steps
-    launch_ = [this, groups](int ended, const SettledArrays<P>& a, cudaStream_t stream) {
+    launch_ = [this, groups](int ended, const SettledArrays<P>& a) {
       groups->place = a.place;
-      launch("settling", settle_contacts<P, AnyLaw, geometry>, blocks_, contact_threads, 0, stream, *groups, a.constant,
-             a.state, a.now, a.before, ended, a.records);
+      team_.each([&](std::size_t m) {
+        launch("settling", settle_contacts<P, AnyLaw, geometry>, ranges_[m].blocks, contact_threads, 0, team_.stream(m),
+               *groups, ranges_[m], a.constant, a.state, a.now, a.before, ended, a.records);
+      });
     };
   }
 
   /// Queues the end of a block that had `ended` steps (0: none; settling_starts) and the beginning of one of `steps`.
-  void run(int ended, int steps, const SettledArrays<P>& arrays, cudaStream_t stream) {
+  void run(int ended, int steps, const SettledArrays<P>& arrays) {
     if (!launch_) return;
     const int known = ended > 0 ? ended : steps;
     if (filled_ended_ != known || filled_steps_ != steps) {
@@ -60,15 +64,16 @@ class Settling {
         if (fill) fill(known, steps);
       }
     }
-    launch_(ended, arrays, stream);
+    launch_(ended, arrays);
   }
 
  private:
+  const DeviceTeam& team_;
+  std::vector<SettleRanges> ranges_;  // [member]
   std::shared_ptr<void> groups_;
-  std::uint32_t blocks_ = 0;
   std::array<std::function<void(int, int)>, pair_types> fill_;  // for steps of the blocks that end and begin
   int filled_ended_ = 0, filled_steps_ = 0;
-  std::function<void(int, const SettledArrays<P>&, cudaStream_t)> launch_;
+  std::function<void(int, const SettledArrays<P>&)> launch_;
 };
 
 }  // namespace macadam::kernels

@@ -14,14 +14,14 @@ namespace macadam::kernels {
 
 __device__ __forceinline__ void put_word(ulonglong2* to, unsigned long long a, unsigned long long b) {
 #if __CUDA_ARCH__ >= 700
-  asm volatile("{ .reg .b128 r; mov.b128 r, {%1, %2}; st.relaxed.gpu.global.b128 [%0], r; }" ::"l"(to), "l"(a), "l"(b)
+  asm volatile("{ .reg .b128 r; mov.b128 r, {%1, %2}; st.relaxed.sys.global.b128 [%0], r; }" ::"l"(to), "l"(a), "l"(b)
                : "memory");
 #endif
 }
 __device__ __forceinline__ ulonglong2 get_word(const ulonglong2* from) {
   unsigned long long a = 0, b = 0;
 #if __CUDA_ARCH__ >= 700
-  asm volatile("{ .reg .b128 r; ld.relaxed.gpu.global.b128 r, [%2]; mov.b128 {%0, %1}, r; }"
+  asm volatile("{ .reg .b128 r; ld.relaxed.sys.global.b128 r, [%2]; mov.b128 {%0, %1}, r; }"
                : "=l"(a), "=l"(b)
                : "l"(from)
                : "memory");

@@ -16,8 +16,8 @@ struct DeviceLimits {
   bool cooperative = false;             ///< blocks of a launch may wait for one another
   bool whole_words = false;             ///< words of 16 bytes are written and read whole
 
-  /// `multiprocessors`: as StepperOptions has it.
-  static DeviceLimits query(int multiprocessors) {
+  /// `multiprocessors`: as StepperOptions has it. `shares`: in how many equal parts the device is used.
+  static DeviceLimits query(int multiprocessors, int shares = 1) {
     int device = 0, cooperative = 0, major = 0;
     DeviceLimits out;
     check_cuda(cudaGetDevice(&device), "device");
@@ -25,10 +25,16 @@ struct DeviceLimits {
     check_cuda(cudaDeviceGetAttribute(&out.shared, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), "device");
     check_cuda(cudaDeviceGetAttribute(&cooperative, cudaDevAttrCooperativeLaunch, device), "device");
     check_cuda(cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, device), "device");
+    out.multiprocessors = std::max(1, out.multiprocessors / shares);
     if (multiprocessors > 0) out.multiprocessors = std::min(out.multiprocessors, multiprocessors);
     out.cooperative = cooperative != 0;
     out.whole_words = major >= 7;
     return out;
+  }
+  /// What both have.
+  DeviceLimits least(const DeviceLimits& other) const {
+    return {std::min(multiprocessors, other.multiprocessors), std::min(shared, other.shared),
+            cooperative && other.cooperative, whole_words && other.whole_words};
   }
 };
 
@@ -56,9 +62,18 @@ class DeviceStore {
     using T = typename Array::value_type;
     return own(DeviceArray<T>::of(array));
   }
+  template <class Array>
+  auto keep(const Array& array, const Shares& shares) {
+    using T = typename Array::value_type;
+    return own(DeviceArray<T>::of(array, shares));
+  }
   template <class T>
   T* zeros(std::size_t n) {
     return own(DeviceArray<T>(n));
+  }
+  template <class T>
+  T* zeros(const Shares& shares, std::size_t words) {
+    return own(DeviceArray<T>(shares, words));
   }
   std::int64_t bytes() const { return bytes_; }
 

@@ -21,13 +21,17 @@ class TileRunner {
  public:
   using R = typename P::Particle;
 
-  TileRunner(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, cudaStream_t stream)
-      : plan_(plan_tiles(network, layout)),
+  TileRunner(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, const DeviceTeam& team,
+             const TeamCuts& cuts)
+      : team_(team),
+        cuts_(cuts),
+        plan_(plan_tiles(network, layout, begins_share())),
         carried_(options.geometry == Geometry::updated),
         layout_(layout),
         bodies_(layout.particles()),
-        stream_(stream),
-        constants_(plan_.contact.size() * static_cast<std::size_t>(tile_constants(carried_))) {
+        constants_(plan_.contact.size() * static_cast<std::size_t>(tile_constants(carried_))),
+        tables_(team.size()),
+        settling_(team, cuts, layout) {
     choose(options.multiprocessors);
     std::size_t slots = 0;
     for (const auto& group : layout.groups) {
@@ -86,20 +90,21 @@ class TileRunner {
     scene_.motion = motion;
     wall_table_ = motion.wall.table;
     const auto clear = [&](auto* data, std::size_t n) {
-      check_cuda(cudaMemsetAsync(data, 0, n * sizeof *data, stream_), "start");
+      check_cuda(cudaMemsetAsync(data, 0, n * sizeof *data, team_.stream()), "start");
     };
     const std::size_t loads = (bodies_ + walls) * velocity_words;
     clear(scene_.state, state_count_);
     clear(base_, loads);
     clear(scene_.force, loads);
     if (motion.body.weight) {
-      launch("weights", begin_with_weight<R>, (bodies_ + 127) / 128, 128, 0, stream_, motion.body.weight,
+      launch("weights", begin_with_weight<R>, (bodies_ + 127) / 128, 128, 0, team_.stream(), motion.body.weight,
              static_cast<std::uint32_t>(bodies_), scene_.force);
     }
     clear(scene_.wall_load, wall_load_count_);
     clear(before_, (bodies_ + walls) * displacement_words);
-    settling_.run(settling_starts, block_, settled(), stream_);
-    check_cuda(cudaStreamSynchronize(stream_), "start");
+    team_.meet();
+    settling_.run(settling_starts, block_, settled());
+    team_.wait("start");
   }
 
   /// Of all that prepare() will keep on the device, but for some bytes a tile.
@@ -107,7 +112,8 @@ class TileRunner {
     const std::size_t loads = 2 * velocity_words * sizeof(R) + displacement_words * sizeof(double);
     return constants_.size() * sizeof(float4) + plan_.contact.size() * tile_states * sizeof(float4) +
            (bodies_ + walls) * loads + records * record_words * sizeof(R) + (bodies_ + walls) * 4 * sizeof(ulonglong2) +
-           places_.size() * sizeof(uint2) + (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4;
+           places_.size() * sizeof(uint2) +
+           (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4 * team_.size();
   }
 
   /// Adds what a block in progress keeps besides the chains.
@@ -142,6 +148,7 @@ class TileRunner {
   /// Queues steps first … first + steps − 1, the first of which has the first row of the walls' table.
   void run(std::int64_t first, std::int64_t steps) {
     const Range range("time steps");
+    team_.meet();  // with what the start has put into memory
     scene_.motion.wall.table = wall_table_;
     for (std::int64_t done = 0; done < steps;) {
       if (in_block_ == length_ || !begun_) {
@@ -159,7 +166,7 @@ class TileRunner {
 
   /// Loads on all bodies now, [body][8]; walls are summed first.
   const R* forces() const {
-    launch("wall loads", add_wall_loads<R>, walls, body_threads, 0, stream_,
+    launch("wall loads", add_wall_loads<R>, walls, body_threads, 0, team_.stream(),
            reinterpret_cast<const float*>(scene_.wall_load), wall_begin_, base_ + bodies_ * velocity_words,
            scene_.force + bodies_ * velocity_words);
     return scene_.force;
@@ -234,12 +241,15 @@ class TileRunner {
   /// Chooses the kernel by what the device has.
   void choose(int multiprocessors) {
     if (!plan_.fits) return;
-    limits_ = DeviceLimits::query(multiprocessors);
+    team_.each([&](std::size_t m) {
+      const DeviceLimits limits = DeviceLimits::query(multiprocessors, team_.shares_of(m));
+      limits_ = m == 0 ? limits : limits_.least(limits);
+    });
     scene_.most_bodies = plan_.most_bodies;
     scene_.most_halo = plan_.most_halo;
     scene_.most_locals = plan_.most_locals;
     scene_.most_slots = plan_.most_slots;
-    scene_.bodies = static_cast<std::uint32_t>(bodies_);
+    scene_.places = static_cast<std::uint32_t>(plan_.body.size());
     const auto pick = [&](auto carried) {
       if (!try_resident<decltype(carried)::value>()) use_streamed<decltype(carried)::value>();
     };
@@ -266,17 +276,22 @@ class TileRunner {
     while (cached < plan_.most_packets && memory(cached + 1).total <= limit) ++cached;
     const ResidentMemory<P> places = memory(cached);
     const std::uint32_t shared = places.total;
-    if (!fits_resident(limits_, kernel, plan_.tile.size(), Threads, shared)) return false;
+    bool fits = true;
+    team_.each([&](std::size_t m) { fits = fits && fits_resident(limits_, kernel, tiles(m), Threads, shared); });
+    if (!fits) return false;
     scene_.cached_packets = cached;
     resident_ = true;
     if (scene_.where != TileRest::here) {
-      const std::size_t bytes = plan_.tile.size() * ResidentMemory<P>::rest_bytes(plan_.most_bodies, scene_.where);
-      scene_.rest = store_.template zeros<unsigned char>(bytes);
+      const std::size_t bytes = ResidentMemory<P>::rest_bytes(plan_.most_bodies, scene_.where);
+      team_.each([&](std::size_t m) { tables_[m].rest = store_.template zeros<unsigned char>(tiles(m) * bytes); });
     }
     use_ = kernel_use("tiles on the chip", kernel, Threads, shared);
-    const auto blocks = static_cast<unsigned>(plan_.tile.size());
-    run_ = [this, kernel, places, blocks](std::uint32_t steps) {
-      launch_together("time steps", kernel, blocks, Threads, places.total, stream_, scene_, places, steps, tag_);
+    run_ = [this, kernel, places](std::uint32_t steps) {
+      team_.each([&](std::size_t m) {
+        launch_together("time steps", kernel, tiles(m), Threads, places.total, team_.stream(m), scene_of(m), places,
+                        steps, tag_);
+      });
+      team_.each([&](std::size_t m) { check_launch("time steps", team_.stream(m)); });
     };
     return true;
   }
@@ -287,15 +302,52 @@ class TileRunner {
     const auto kernel = run_streamed<P, threads, per_multiprocessor, carried>;
     const std::uint32_t shared = StreamedMemory(plan_.most_locals, plan_.most_slots).total;
     if (shared > static_cast<std::uint32_t>(limits_.shared)) return;
-    check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared)),
-               "shared memory");
+    team_.each([&](std::size_t) {
+      check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared)),
+                 "shared memory");
+    });
     use_ = kernel_use("tiles streamed", kernel, threads, shared);
-    const std::size_t blocks = plan_.tile.size();
-    run_ = [this, kernel, shared, blocks](std::uint32_t steps) {
-      launch("time steps", begin_streamed<P>, (bodies_ + 127) / 128, 128, 0, stream_, scene_, 0u);
-      for (std::uint32_t k = 0; k < steps; ++k)
-        launch("time steps", kernel, blocks, threads, shared, stream_, scene_, k, k + 1 == steps);
+    run_ = [this, kernel, shared](std::uint32_t steps) {
+      team_.each([&](std::size_t m) {
+        const std::uint32_t first = first_place(m);
+        const auto end =
+            first + static_cast<std::uint32_t>(layout_.tile_body[cuts_.tile(m + 1)] - layout_.tile_body[cuts_.tile(m)]);
+        launch("time steps", begin_streamed<P>, (end - first + 127) / 128, 128, 0, team_.stream(m), scene_of(m), 0u,
+               first, end);
+      });
+      for (std::uint32_t k = 0; k < steps; ++k) {
+        team_.meet();
+        team_.each([&](std::size_t m) {
+          launch("time steps", kernel, tiles(m), threads, shared, team_.stream(m), scene_of(m), k, k + 1 == steps);
+        });
+      }
     };
+  }
+
+  /// Where the tiles of a team's members begin, but for the first.
+  std::vector<bool> begins_share() const {
+    std::vector<bool> out;
+    for (std::size_t m = 1; m < team_.size(); ++m) {
+      out.resize(cuts_.tile(team_.size()), false);
+      out[cuts_.tile(m)] = true;
+    }
+    return out;
+  }
+  std::size_t tiles(std::size_t m) const { return cuts_.tile(m + 1) - cuts_.tile(m); }
+  /// First place, or packet, of member m, or behind the last.
+  std::uint32_t first_place(std::size_t m) const { return m == team_.size() ? scene_.places : tables_[m].first_place; }
+  std::size_t first_packet(std::size_t m) const {
+    return m == team_.size() ? constants_.size() / static_cast<std::size_t>(tile_constants(carried_)) / 32
+                             : plan_.tile[cuts_.tile(m)].first_packet;
+  }
+  /// What the launches of member m get.
+  TileScene<P> scene_of(std::size_t m) const {
+    TileScene<P> out = scene_;
+    const Tables& own = tables_[m];
+    out.tile = own.tile, out.body = own.body, out.row = own.row, out.diagonal = own.diagonal, out.halo = own.halo;
+    out.rest = own.rest;
+    out.first_tile = static_cast<std::uint32_t>(cuts_.tile(m));
+    return out;
   }
 
   /// Takes to the device what no start changes.
@@ -305,27 +357,33 @@ class TileRunner {
       float4* out = &constants_[i / 32 * static_cast<std::size_t>(tile_constants(carried_)) * 32 + i % 32];
       out[tile_drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(GroupAndRow::of(0, GroupAndRow::no_row).word)};
     }
-    scene_.tile = store_.keep(plan_.tile);
-    scene_.body = store_.keep(plan_.body);
-    scene_.row = reinterpret_cast<const uint2*>(store_.keep(plan_.row));
-    scene_.diagonal = store_.keep(plan_.diagonal);
-    scene_.halo = store_.keep(plan_.halo);
-    constant_ = DeviceArray<float4>::of(constants_);
+    team_.each([&](std::size_t m) {  // each block of threads begins with them: every device has its own
+      tables_[m].tile = store_.keep(plan_.tile);
+      tables_[m].body = store_.keep(plan_.body);
+      tables_[m].row = reinterpret_cast<const uint2*>(store_.keep(plan_.row));
+      tables_[m].diagonal = store_.keep(plan_.diagonal);
+      tables_[m].halo = store_.keep(plan_.halo);
+      tables_[m].first_place = plan_.tile[cuts_.tile(m)].first_body;
+    });
+    const Shares by_body = cuts_.bodies(), packets = cuts_.of([&](std::size_t m) { return first_packet(m); });
+    const Shares places = cuts_.of(
+        [&](std::size_t m) -> std::size_t { return m == team_.size() ? scene_.places + walls : first_place(m); });
+    constant_ = DeviceArray<float4>::of(constants_, packets);
     scene_.constant = constant_.data();
     state_count_ = plan_.contact.size() * tile_states;
-    scene_.state = store_.template zeros<float4>(state_count_);
-    scene_.base = base_ = store_.template zeros<R>((bodies_ + walls) * velocity_words);
-    scene_.force = store_.template zeros<R>((bodies_ + walls) * velocity_words);
+    scene_.state = store_.template zeros<float4>(packets, tile_states * 32);
+    scene_.base = base_ = store_.template zeros<R>(by_body, velocity_words);
+    scene_.force = store_.template zeros<R>(by_body, velocity_words);
     wall_load_count_ = 2 * (plan_.wall_begin.back() + 1);
     scene_.wall_load = store_.template zeros<float4>(wall_load_count_);
-    scene_.exchange = store_.template zeros<ulonglong2>(4 * (bodies_ + walls));
-    before_ = store_.template zeros<double>((bodies_ + walls) * displacement_words);
+    scene_.even = store_.template zeros<ulonglong2>(places, 2);
+    scene_.odd = store_.template zeros<ulonglong2>(places, 2);
+    before_ = store_.template zeros<double>(by_body, displacement_words);
     wall_begin_ = store_.keep(plan_.wall_begin);
-    long_body_ = rows.long_body.data();
-    long_rows_ = static_cast<std::uint32_t>(rows.long_body.size());
-    records_ = {store_.template zeros<R>(rows.records * record_words), rows.begin.data(), rows.place.data()};
+    rows_ = &rows;
+    records_ = {store_.template zeros<R>(rows.shares, record_words), rows.begin.data(), rows.place.data()};
     slots_ = places_.size();
-    settle_place_ = store_.keep(places_);
+    settle_place_ = store_.keep(places_, cuts_.all_slots());
     constants_ = {};
     places_ = {};
     plan_.contact = {};
@@ -339,27 +397,45 @@ class TileRunner {
   void settle(int steps) {
     const Range range("settling");
     if (!begun_) {
-      check_cuda(
-          cudaMemcpyAsync(before_, scene_.motion.body.displacement,
-                          (bodies_ + walls) * displacement_words * sizeof(*before_), cudaMemcpyDeviceToDevice, stream_),
-          "first block");
+      check_cuda(cudaMemcpyAsync(before_, scene_.motion.body.displacement,
+                                 (bodies_ + walls) * displacement_words * sizeof(*before_), cudaMemcpyDeviceToDevice,
+                                 team_.stream()),
+                 "first block");
     }
-    settling_.run(begun_ ? in_block_ : 0, steps, settled(), stream_);
-    launch("base loads", sum_base<P>, long_rows_ + (bodies_ + walls + bodies_a_block - 1) / bodies_a_block,
-           body_threads, 0, stream_, records_, long_body_, long_rows_, static_cast<std::uint32_t>(bodies_ + walls),
-           scene_.motion.body.weight, static_cast<std::uint32_t>(bodies_), base_, scene_.motion.body.displacement,
-           before_);
+    team_.meet();
+    settling_.run(begun_ ? in_block_ : 0, steps, settled());
+    team_.meet();
+    team_.each([&](std::size_t m) {
+      const auto [long_body, long_rows] = rows_->long_rows(m, true);
+      const std::size_t first = cuts_.body(m), end = cuts_.body(m + 1);
+      launch("base loads", sum_base<P>, long_rows + (end - first + bodies_a_block - 1) / bodies_a_block, body_threads,
+             0, team_.stream(m), records_, long_body, long_rows, static_cast<std::uint32_t>(first),
+             static_cast<std::uint32_t>(end), scene_.motion.body.weight, static_cast<std::uint32_t>(bodies_), base_,
+             scene_.motion.body.displacement, before_);
+    });
+    team_.meet();
     begun_ = true;
     length_ = steps;
     in_block_ = 0;
   }
 
+  /// What each device has of its own.
+  struct Tables {
+    const Tile* tile = nullptr;
+    const std::int32_t *body = nullptr, *halo = nullptr;
+    const uint2* row = nullptr;
+    const std::uint32_t* diagonal = nullptr;
+    unsigned char* rest = nullptr;
+    std::uint32_t first_place = 0;
+  };
+
+  const DeviceTeam& team_;
+  const TeamCuts& cuts_;
   TilePlan plan_;
   bool carried_, resident_ = false, prepared_ = false, begun_ = false, to_observations_ = false;
   int block_ = 0, in_block_ = 0, length_ = 0;  // length_: of the block that runs, the first may be another
   const Layout& layout_;
   std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;
-  cudaStream_t stream_;
   DeviceLimits limits_;
   std::vector<float4> constants_;
   std::vector<uint2> places_;
@@ -370,10 +446,11 @@ class TileRunner {
   R* base_ = nullptr;
   double* before_ = nullptr;
   const R* wall_table_ = nullptr;
-  const std::uint32_t *wall_begin_ = nullptr, *long_body_ = nullptr;
+  const std::uint32_t* wall_begin_ = nullptr;
   const uint2* settle_place_ = nullptr;
   std::size_t slots_ = 0;  // of all groups
-  std::uint32_t long_rows_ = 0;
+  const RecordRows* rows_ = nullptr;
+  std::vector<Tables> tables_;  // [member]
   LoadRecords<R> records_{};
   Settling<P, AnyLaw> settling_;
   std::function<void(std::uint32_t)> run_;

@@ -93,8 +93,8 @@ template <class P>
 struct TileScene {
   using R = typename P::Particle;
   const Tile* tile;
-  const std::int32_t* body;       ///< [first_body + rank]
-  const uint2* row;               ///< [first_body + rank]
+  const std::int32_t* body;       ///< [place]
+  const uint2* row;               ///< [place]
   const std::uint32_t* diagonal;  ///< [tile][longest_short_row]
   const std::int32_t* halo;
   const float4* constant;
@@ -102,14 +102,20 @@ struct TileScene {
   const R* base;             ///< [body][8] loads at the block's beginning [N, N·m]
   R* force;                  ///< [body][8] loads now
   float4* wall_load;         ///< [wall row][2] change of the loads on the walls since the block's beginning
-  ulonglong2* exchange;      ///< [2][body] velocities of even and odd steps, 32 bytes a body in single precision; walls
-                             ///< last, for streamed tiles
+  ulonglong2 *even, *odd;    ///< [place][2] velocities of even and odd steps in single precision; walls last, for
+                             ///< streamed tiles
   ParticleMotion<P> motion;  ///< its table of the walls begins with the launch's first step
   float4 law[pair_types];    ///< rate·Δt, relax, α, follow
-  unsigned char* rest;       ///< [tile] what has no room in shared memory
+  unsigned char* rest;       ///< [block] what has no room in shared memory
   TileRest where;
   std::uint32_t most_bodies, most_halo, most_locals, most_slots, cached_packets;
-  std::uint32_t bodies;
+  std::uint32_t places;
+  std::uint32_t first_tile;  ///< of this device
+
+  /// The tile of this block of threads.
+  __device__ __forceinline__ std::uint32_t own_tile() const { return first_tile + blockIdx.x; }
+  /// Velocities of step k.
+  __device__ __forceinline__ ulonglong2* exchange(std::uint32_t k) const { return k & 1 ? odd : even; }
 };
 
 /// What a step reads of a contact besides its state.

@@ -71,7 +71,7 @@ class ResidentTile {
 
   __device__ __forceinline__ ResidentTile(const TileScene<P>& scene, unsigned char* shared, const ResidentMemory<P>& m)
       : s(scene),
-        tile(s.tile[blockIdx.x]),
+        tile(s.tile[s.own_tile()]),
         body(s.body + tile.first_body),
         v(reinterpret_cast<float4*>(shared + m.velocity)),
         w(reinterpret_cast<float4*>(shared + m.spin)),
@@ -132,7 +132,7 @@ class ResidentTile {
     }
     for (std::uint32_t h = threadIdx.x; h < tile.halo; h += Threads) halo[h] = s.halo[tile.first_halo + h];
     for (std::uint32_t e = threadIdx.x; e < TilePlan::longest_short_row; e += Threads)
-      diagonal[e] = s.diagonal[blockIdx.x * TilePlan::longest_short_row + e];
+      diagonal[e] = s.diagonal[s.own_tile() * TilePlan::longest_short_row + e];
     if (threadIdx.x < pair_types) law[threadIdx.x] = s.law[threadIdx.x];
     if (threadIdx.x < walls) v[first_wall + threadIdx.x] = w[first_wall + threadIdx.x] = {0, 0, 0, 0};
     for (std::uint32_t i = threadIdx.x; i < cached * words * 32; i += Threads) cache[i] = constants[i];
@@ -158,7 +158,7 @@ class ResidentTile {
 
   /// Waits for the velocities of the bodies of other tiles.
   __device__ __forceinline__ void receive(std::uint32_t tag) const {
-    const ulonglong2* from = s.exchange + 2 * static_cast<std::size_t>(tag & 1) * s.bodies;
+    const ulonglong2* from = s.exchange(tag);
     wait_for_words(
         threadIdx.x, Threads, 2 * tile.halo, tag,
         [&](std::uint32_t h) { return from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2; },
@@ -211,7 +211,7 @@ class ResidentTile {
       own[c * stride() + r] = x[c];
     }
     const float y[6] = {float(x[0]), float(x[1]), float(x[2]), float(x[3]), float(x[4]), float(x[5])};
-    put_velocity(s.exchange + 2 * (static_cast<std::size_t>(tag & 1) * s.bodies + tile.first_body + r), y, tag);
+    put_velocity(s.exchange(tag) + 2 * (static_cast<std::size_t>(tile.first_body) + r), y, tag);
     v[r] = {y[0], y[1], y[2], 0};
     w[r] = {y[3], y[4], y[5], 0};
   }
@@ -287,7 +287,7 @@ __global__ void __launch_bounds__(Threads, 1)
 
   each_resident([&](std::uint32_t packet, auto& df, auto& both) { store_state(tile.state(packet), df, both); });
   tile.store();
-  if (blockIdx.x == 0) {
+  if (s.own_tile() == 0) {
     WallAxisMotion<P> axis(s, static_cast<int>(threadIdx.x), 0);
     if (axis.moves) axis.move(s, 0, steps);
   }

@@ -10,14 +10,14 @@
 
 namespace macadam::kernels {
 
-/// Where the velocities of step k of all bodies are, by first_body + rank, and of the walls behind them.
+/// Where the velocities of step k of all bodies are, by place, and of the walls behind them.
 template <class P>
 __device__ __forceinline__ float4* velocities_of(const TileScene<P>& s, std::uint32_t k) {
-  return reinterpret_cast<float4*>(s.exchange) + 2 * static_cast<std::size_t>(k & 1) * (s.bodies + walls);
+  return reinterpret_cast<float4*>(s.exchange(k));
 }
 template <class P>
 __device__ __forceinline__ float& wall_velocity_of(const TileScene<P>& s, std::uint32_t k, int axis) {
-  return reinterpret_cast<float*>(velocities_of(s, k) + 2 * (s.bodies + axis / 3))[axis % 3];
+  return reinterpret_cast<float*>(velocities_of(s, k) + 2 * (s.places + axis / 3))[axis % 3];
 }
 
 /// Moves body number `i`, at place `place`, under `force` at step k of the launch's block.
@@ -35,11 +35,12 @@ __device__ __forceinline__ void move_body(const TileScene<P>& s, std::size_t i, 
   to[1] = {float(x[3]), float(x[4]), float(x[5]), 0};
 }
 
-/// Begins step k with the forces of now: the first of a launch sequence.
+/// Begins step k with the forces of now, at places first … end − 1: the first of a launch sequence.
 template <class P>
-__global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k) {
+__global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k, std::uint32_t first,
+                               std::uint32_t end) {
   using R = typename P::Particle;
-  const std::uint32_t place = blockIdx.x * blockDim.x + threadIdx.x;
+  const std::uint32_t place = first + blockIdx.x * blockDim.x + threadIdx.x;
   const int axis = static_cast<int>(place);
   WallAxisMotion<P> wall(s, axis, k);
   if (wall.moves) {
@@ -48,7 +49,7 @@ __global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint
   } else if (axis < wall_axes) {
     wall_velocity_of(s, k, axis) = wall_velocity_of(s, k + 1, axis) = 0;
   }
-  if (place >= s.bodies) return;
+  if (place >= end) return;
   const auto i = static_cast<std::size_t>(s.body[place]);
   R force[6];
   for (int c = 0; c < 6; ++c) force[c] = s.force[i * velocity_words + moving_word(c)];
@@ -74,10 +75,10 @@ __global__ void __launch_bounds__(Threads, Blocks)
   const unsigned tid = threadIdx.x, lane = tid % 32, warp = tid / 32;
   constexpr unsigned warps = Threads / 32;
   constexpr std::uint32_t words = tile_constants(carried);
-  const Tile tile = s.tile[blockIdx.x];
+  const Tile tile = s.tile[s.own_tile()];
   const float4* from = velocities_of(s, k);
   // the first tile moves the walls on, with its last warp
-  const int axis = !last && blockIdx.x == 0 ? static_cast<int>(tid) - (Threads - wall_axes) : -1;
+  const int axis = !last && s.own_tile() == 0 ? static_cast<int>(tid) - (Threads - wall_axes) : -1;
   WallAxisMotion<P> wall(s, axis, k + 1);
   for (std::uint32_t r = tid; r < 2 * tile.bodies; r += Threads)
     (r % 2 ? w : v)[r / 2] = from[2 * static_cast<std::size_t>(tile.first_body) + r];
@@ -87,7 +88,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
   if (tid < walls) {
     const std::uint32_t at = tile.bodies + tile.halo + tid;
     w[at] = {0, 0, 0, 0};
-    v[at] = from[2 * (s.bodies + tid)];
+    v[at] = from[2 * (s.places + tid)];
   }
   __syncthreads();
   if (wall.moves) {
@@ -112,7 +113,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
     if (last) store_wall_load(s.wall_load, of, load);
   }
   __syncthreads();
-  sum_rows(tile, s.row + tile.first_body, s.diagonal + blockIdx.x * TilePlan::longest_short_row, slots,
+  sum_rows(tile, s.row + tile.first_body, s.diagonal + s.own_tile() * TilePlan::longest_short_row, slots,
            [&](std::uint32_t r, const float(&extra)[6]) {
              const std::size_t place = tile.first_body + r;
              const auto i = static_cast<std::size_t>(s.body[place]);

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "kernels/cuda_launch.hpp"
+#include "kernels/cuda_array.hpp"
 
 namespace macadam::kernels {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cuda.hpp  Two kernels a step on a CUDA device, queued as graphs of many steps: for any form, law,
+/// \file exec_cuda.hpp  Two kernels a step on CUDA devices, queued as graphs of many steps: for any form, law,
 /// precision.
 ///
 /// Every contact writes its two ends' loads to records of its own, which lie in the order of the bodies; a body sums
@@ -34,19 +34,22 @@ class ExecCuda : public CudaBodyArrays<P> {
   void begin(const ExecStart& start) {
     forget_graphs();
     this->rest();
-    contacts_ = {};
+    contacts_ = std::vector<ContactLaunches<P, AnyLaw>>(this->team_.size());
     slots_ = 0;
     if (!start.first) return records_.clear();
     this->require_memory(start.group_bytes + this->rows_.records * record_words * sizeof(G));
-    records_ = DeviceArray<G>(this->rows_.records * record_words);
+    records_ = DeviceArray<G>(this->rows_.shares, record_words);
   }
 
   template <class L, class Forces>
   void set_group(std::size_t number, bool first, const L&, ContactArrays<P> arrays, Forces forces) {
     forces.view = this->take_group(number, first, arrays);
-    const auto slots = static_cast<std::uint32_t>(this->layout_.groups[number].contact.size());
-    contacts_.add(forces, slots_, slots);
-    slots_ += slots;
+    const GroupLayout& group = this->layout_.groups[number];
+    this->team_.each([&](std::size_t m) {
+      contacts_[m].add(forces, slots_, static_cast<std::uint32_t>(this->cuts_.slot(group, m)),
+                       static_cast<std::uint32_t>(this->cuts_.slot(group, m + 1)));
+    });
+    slots_ += static_cast<std::uint32_t>(group.contact.size());
   }
 
   void prepare(const ParticleMotion<P>& motion) {
@@ -63,13 +66,19 @@ class ExecCuda : public CudaBodyArrays<P> {
   /// Queues all steps.
   void run(std::int64_t, std::int64_t steps) {
     const Range range("time steps");
-    if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->stream_, clock_);
+    this->team_.meet();  // with what the start has put into memory
+    if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->team_.stream(), clock_);
+    this->team_.meet();
     if (waits_for_launches()) {  // which a graph cannot
       for (; steps > 0; --steps) step();
     }
     const auto queue = [&](cudaGraphExec_t& graph, std::int64_t n) {
-      if (!graph) graph = record(n);
-      check_cuda(cudaGraphLaunch(graph, this->stream_), "time steps");
+      if (!graph) {
+        graph = this->team_.record([&] {
+          for (std::int64_t k = 0; k < n; ++k) step();
+        });
+      }
+      check_cuda(cudaGraphLaunch(graph, this->team_.stream()), "time steps");
       steps -= n;
     };
     while (steps >= steps_a_graph) queue(many_, steps_a_graph);
@@ -78,16 +87,16 @@ class ExecCuda : public CudaBodyArrays<P> {
 
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
     DeviceArray<R> out(count * velocity_words);
-    launch("sums", sum_loads<R, G>, count, body_threads, 0, this->stream_, records(), out.data(),
+    launch("sums", sum_loads<R, G>, count, body_threads, 0, this->team_.stream(), records(), out.data(),
            static_cast<std::uint32_t>(first));
-    check_cuda(cudaStreamSynchronize(this->stream_), "sums");
+    check_cuda(cudaStreamSynchronize(this->team_.stream()), "sums");
     return Base::twists(out.download());
   }
   bool forces_with_weight() const { return false; }
 
   std::string description() const { return this->described("two kernels a step"); }
   std::vector<KernelUse> kernels() const {
-    std::vector<KernelUse> out = contacts_.kernels();
+    std::vector<KernelUse> out = contacts_.front().kernels();
     out.push_back(kernel_use("bodies", step_bodies<P, false>, body_threads, 0));
     return out;
   }
@@ -103,24 +112,22 @@ class ExecCuda : public CudaBodyArrays<P> {
   /// The step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void step() {
     const bool pushed = motion_.wall.by_force || motion_.body.weight;
-    const std::uint32_t long_rows =
-        pushed ? static_cast<std::uint32_t>(this->rows_.long_body.size()) : this->rows_.long_particles;
-    const std::size_t blocks = long_rows + (this->bodies() + bodies_a_block - 1) / bodies_a_block;
-    launch("bodies", pushed ? step_bodies<P, true> : step_bodies<P, false>, blocks, body_threads, 0, this->stream_,
-           motion_, records(), this->rows_.long_body.data(), long_rows);
-    contacts_.run(this->stream_, {this->gathered(), this->displacement_.data()}, records(), clock_);
+    const auto& team = this->team_;
+    team.each([&](std::size_t m) {
+      const auto [long_body, long_rows] = this->rows_.long_rows(m, pushed);
+      const std::size_t first = this->cuts_.body(m), end = this->cuts_.body(m + 1);
+      launch("bodies", pushed ? step_bodies<P, true> : step_bodies<P, false>,
+             long_rows + (end - first + bodies_a_block - 1) / bodies_a_block, body_threads, 0, team.stream(m), motion_,
+             records(), long_body, long_rows, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end));
+    });
+    team.meet();
+    team.each([&](std::size_t m) {
+      contacts_[m].run(team.stream(m), {this->gathered(), this->displacement_.data()}, records(),
+                       m == 0 ? clock_ : WallClock<R>{});
+    });
+    team.meet();
   }
 
-  cudaGraphExec_t record(std::int64_t steps) {
-    cudaGraph_t graph = nullptr;
-    cudaGraphExec_t out = nullptr;
-    check_cuda(cudaStreamBeginCapture(this->stream_, cudaStreamCaptureModeThreadLocal), "graph");
-    for (std::int64_t k = 0; k < steps; ++k) step();
-    check_cuda(cudaStreamEndCapture(this->stream_, &graph), "graph");
-    check_cuda(cudaGraphInstantiate(&out, graph, 0), "graph");
-    check_cuda(cudaGraphDestroy(graph), "graph");
-    return out;
-  }
   void forget_graphs() {
     for (auto* graph : {&many_, &one_}) {
       if (*graph) cudaGraphExecDestroy(*graph);
@@ -135,7 +142,7 @@ class ExecCuda : public CudaBodyArrays<P> {
   DeviceArray<std::int64_t> step_;
   DeviceArray<R> wall_row_;  // of the step
   WallClock<R> clock_;
-  ContactLaunches<P, AnyLaw> contacts_;
+  std::vector<ContactLaunches<P, AnyLaw>> contacts_;  // [member]
   std::uint32_t slots_ = 0;  // of the groups so far
 };
 

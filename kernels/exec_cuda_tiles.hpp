@@ -22,9 +22,13 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
 
   /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that two tiles share one.
   static std::size_t tile_contacts(const ContactNetwork& network, const StepperOptions& options) {
-    check_cuda(cudaSetDevice(options.device.value()), "device");
-    const DeviceLimits limits = DeviceLimits::query(options.multiprocessors);
-    const auto chips = static_cast<std::size_t>(limits.multiprocessors),
+    const DeviceTeam team(options.devices);
+    DeviceLimits limits;
+    team.each([&](std::size_t m) {
+      const DeviceLimits of_device = DeviceLimits::query(options.multiprocessors, team.shares_of(m));
+      limits = m == 0 ? of_device : limits.least(of_device);
+    });
+    const auto chips = static_cast<std::size_t>(limits.multiprocessors) * team.size(),
                shared = static_cast<std::size_t>(limits.shared);
     const std::size_t contacts = network.contacts.size();
     if (expected_resident_bytes<P>(network, chips) > shared) return std::min<std::size_t>(1500, shared / 100);
@@ -41,7 +45,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
 
   /// \throws Impossible
   ExecCudaTiles(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
-      : Base(network, layout, options, RecordOrder::by_number), tiles_(network, layout, options, this->stream_) {
+      : Base(network, layout, options, RecordOrder::by_number), tiles_(network, layout, options, this->team_, this->cuts_) {
     if (!tiles_.possible()) throw Impossible{};
   }
 
@@ -74,9 +78,9 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
     std::vector<R> out(count * velocity_words);
     check_cuda(cudaMemcpyAsync(out.data(), tiles_.forces() + static_cast<std::size_t>(first) * velocity_words,
-                               out.size() * sizeof(R), cudaMemcpyDeviceToHost, this->stream_),
+                               out.size() * sizeof(R), cudaMemcpyDeviceToHost, this->team_.stream()),
                "sums");
-    check_cuda(cudaStreamSynchronize(this->stream_), "sums");
+    check_cuda(cudaStreamSynchronize(this->team_.stream()), "sums");
     return Base::twists(out);
   }
   bool forces_with_weight() const { return true; }

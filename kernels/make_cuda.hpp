@@ -20,7 +20,7 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
                                       const StepperOptions& options, std::unique_ptr<Stepper> used) {
   require_steppable(std::type_identity<Any>{});
   StepperOptions given = options;
-  given.device = options.device.value_or(0);
+  if (given.devices.empty()) given.devices = {0};
   if constexpr (!std::is_same_v<P, DoublePrecision> && any_has_blocks(std::type_identity<Any>{})) {
     using Tiles = ExecCudaTiles<P, Any>;
     if (Tiles::block_of(given, facts_of(laws), specimen.box.size) > 0) {

@@ -57,7 +57,7 @@ class StepperImpl final : public Stepper {
     const FactsTable facts = facts_of(laws);
     const StepperOptions next = decided(options, network, facts);
     const auto kept = [](const StepperOptions& o) {
-      return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.device, o.multiprocessors);
+      return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.devices, o.multiprocessors);
     };
     if (kept(next) != kept(options_) || network.contacts.size() != contacts_ ||
         !exec_.suits({next, facts, size_, false, 0}))

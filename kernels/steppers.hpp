@@ -22,8 +22,8 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
                                       const StepperOptions& options, std::unique_ptr<Stepper> used);
 /// @}
 
-/// The backend that makes a stepper: cpu, or, where the program has kernels for devices, maybe cuda; `options.device`
-/// is then that device. \throws as select_backend(), RunError for a device that the program has no kernels for,
+/// The backend that makes a stepper: cpu, or, where the program has kernels for devices, maybe cuda; `options.devices`
+/// are then their numbers. \throws as select_backend(), RunError for a device that the program has no kernels for,
 /// InputError for the reference, which knows Macadam's own laws alone.
 Backend resolved(Backend asked, bool on_device, StepperOptions& options);
 

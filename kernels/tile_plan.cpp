@@ -51,7 +51,8 @@ struct Columns {
 
 class Planner {
  public:
-  Planner(const ContactNetwork& network, const Layout& layout) : network_(network), layout_(layout) {
+  Planner(const ContactNetwork& network, const Layout& layout, const std::vector<bool>& begins_share)
+      : network_(network), layout_(layout), begins_share_(begins_share) {
     tile_of_.resize(layout.particles());
     for (std::size_t t = 0; t < layout.tiles(); ++t) {
       for (auto b = layout.tile_body[t]; b < layout.tile_body[t + 1]; ++b) tile_of_[at(b)] = static_cast<int>(t);
@@ -60,17 +61,19 @@ class Planner {
 
   TilePlan plan() {
     find_touches();
-    out_.body.resize(layout_.particles());
-    out_.row.resize(2 * layout_.particles());
     for (std::size_t t = 0; t < layout_.tiles(); ++t) add_tile(static_cast<int>(t));
     std::vector<std::int32_t> place(layout_.particles());
-    for (std::size_t p = 0; p < place.size(); ++p) place[at(out_.body[p])] = static_cast<std::int32_t>(p);
+    for (std::size_t p = 0; p < out_.body.size(); ++p) {
+      if (out_.body[p] >= 0) place[at(out_.body[p])] = static_cast<std::int32_t>(p);
+    }
     for (auto& body : out_.halo) body = place[at(body)];
     return std::move(out_);
   }
 
  private:
   static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
+  /// The next multiple.
+  static std::size_t whole(std::size_t n, std::size_t of) { return (n + of - 1) / of * of; }
   bool is_wall(std::int32_t body) const { return at(body) >= layout_.particles(); }
   static bool is_halo(const Tile& tile, std::uint32_t local) {
     return local >= tile.bodies && local < tile.bodies + tile.halo;
@@ -114,14 +117,22 @@ class Planner {
   }
 
   void add_tile(int t) {
-    auto& touches = touches_[static_cast<std::size_t>(t)];
-    const auto first = static_cast<std::uint32_t>(layout_.tile_body[static_cast<std::size_t>(t)]);
-    const auto bodies = static_cast<std::uint32_t>(layout_.tile_body[static_cast<std::size_t>(t) + 1]) - first;
-    Tile tile{first,
+    auto& touches = touches_[at(t)];
+    const auto first = static_cast<std::uint32_t>(layout_.tile_body[at(t)]);
+    const auto bodies = static_cast<std::uint32_t>(layout_.tile_body[at(t) + 1]) - first;
+    if (!begins_share_.empty() && begins_share_[at(t)]) {
+      out_.contact.resize(whole(out_.packets(), TilePlan::share_packets) * 32);  // inert
+      out_.body.resize(whole(out_.body.size(), TilePlan::share_places), -1);
+    }
+    const std::size_t place = out_.body.size();
+    out_.body.resize(place + bodies);
+    out_.row.resize(2 * out_.body.size());
+    Tile tile{static_cast<std::uint32_t>(place),
               bodies,
               static_cast<std::uint32_t>(out_.halo.size()),
               0,
               static_cast<std::uint32_t>(out_.packets()),
+              0,
               0,
               0,
               0,
@@ -148,18 +159,18 @@ class Planner {
     for (std::uint32_t r = 0; r < bodies; ++r) {
       const std::uint32_t n = length[order[r]];
       rank[order[r]] = r;
-      out_.body[first + r] = static_cast<std::int32_t>(first + order[r]);
-      out_.row[2 * (first + r)] = n;
+      out_.body[place + r] = static_cast<std::int32_t>(first + order[r]);
+      out_.row[2 * (place + r)] = n;
       if (n > TilePlan::longest_short_row) {
         ++tile.long_rows;
-        out_.row[2 * (first + r) + 1] = tile.slots;
+        out_.row[2 * (place + r) + 1] = tile.slots;
         tile.slots += n;
       }
     }
     for (std::uint32_t e = 0; e < TilePlan::longest_short_row; ++e) {
       // short ranks r ≥ long_rows have row lengths that fall with r: slot e exists for a run of them
       std::uint32_t run = 0;
-      for (std::uint32_t r = tile.long_rows; r < bodies && out_.row[2 * (first + r)] > e; ++r) ++run;
+      for (std::uint32_t r = tile.long_rows; r < bodies && out_.row[2 * (place + r)] > e; ++r) ++run;
       diagonal[e] = tile.slots - tile.long_rows;
       tile.slots += run;
     }
@@ -185,7 +196,7 @@ class Planner {
       if (is_wall(body)) {
         return tile.bodies + tile.halo + static_cast<std::uint32_t>(at(body) - layout_.particles());
       }
-      if (owns(t, body)) return rank[at(body) - tile.first_body];
+      if (owns(t, body)) return rank[at(body - layout_.tile_body[at(t)])];
       return tile.bodies + static_cast<std::uint32_t>(std::lower_bound(halo.begin(), halo.end(), body) - halo.begin());
     };
     const auto fill = [&](std::uint32_t r, std::uint16_t& slot) {
@@ -249,6 +260,7 @@ class Planner {
 
   const ContactNetwork& network_;
   const Layout& layout_;
+  const std::vector<bool>& begins_share_;
   std::vector<int> tile_of_;
   std::vector<std::vector<Touch>> touches_;
   TilePlan out_;
@@ -256,6 +268,8 @@ class Planner {
 
 }  // namespace
 
-TilePlan plan_tiles(const ContactNetwork& network, const Layout& layout) { return Planner(network, layout).plan(); }
+TilePlan plan_tiles(const ContactNetwork& network, const Layout& layout, const std::vector<bool>& begins_share) {
+  return Planner(network, layout, begins_share).plan();
+}
 
 }  // namespace macadam::kernels

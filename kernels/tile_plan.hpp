@@ -19,7 +19,7 @@ namespace macadam::kernels {
 
 /// A tile. Its table of velocities holds its own particles by rank, then the halo, then the six walls.
 struct Tile {
-  std::uint32_t first_body, bodies;
+  std::uint32_t first_body, bodies;  ///< first place
   std::uint32_t first_halo, halo;
   std::uint32_t first_packet, packets;
   std::uint32_t groups;     ///< of TilePlan::run packets, which come first; in the others, every contact is a run
@@ -43,8 +43,10 @@ struct TilePlan {
   static constexpr std::uint32_t longest_short_row = 32;
   static constexpr std::uint16_t no_slot = UINT16_MAX, more_of_run = UINT16_MAX - 1;
   static constexpr std::uint32_t run = 4;  ///< contacts of a run at the most, and packets of a group
+  /// Where another device's tiles begin, packets and places begin at a multiple of these: at a page of memory, 2 MiB.
+  static constexpr std::size_t share_packets = 4096, share_places = 65536;
   std::vector<Tile> tile;
-  std::vector<std::int32_t> body;       ///< [first_body + rank] body
+  std::vector<std::int32_t> body;       ///< [first_body + rank = place] body; −1 where there is none
   std::vector<std::uint32_t> row;       ///< [first_body + rank][2] slots of the row, first slot of a long row
   std::vector<std::uint32_t> diagonal;  ///< [tile][longest_short_row]
   std::vector<std::int32_t> halo;       ///< [first_halo + …] first_body + rank in its own tile
@@ -56,7 +58,7 @@ struct TilePlan {
   bool fits = true;
 };
 
-/// Plans the tiles of a layout with 32 lanes.
-TilePlan plan_tiles(const ContactNetwork& network, const Layout& layout);
+/// Plans the tiles of a layout with 32 lanes. `begins_share`: [tile] true where another device's tiles begin.
+TilePlan plan_tiles(const ContactNetwork& network, const Layout& layout, const std::vector<bool>& begins_share = {});
 
 }  // namespace macadam::kernels

@@ -61,7 +61,7 @@ TEST(OwnLaws, AreResolvedAsMacadamsAre) {
   EXPECT_HAS(message_of([&] { make(Backend::reference); }), "backend: found reference, expected cpu, cuda or auto");
   EXPECT_THROW(make(Backend::reference), InputError);
   EXPECT_THROW(make(Backend::cuda), RunError);
-  options.device = 0;
+  options.devices = {0};
   EXPECT_THROW(make(Backend::automatic), RunError);
   EXPECT_THROW(make(Backend::cpu), InputError);
 }
@@ -123,8 +123,8 @@ INSTANTIATE_TEST_SUITE_P(All, Motion,
 
 TEST(DeviceChoice, BesideAnotherBackendIsRefused) {
   for (const Backend backend : {Backend::cpu, Backend::reference}) {
-    EXPECT_HAS(message_of([&] { select_backend(backend, nullptr, 0); }), "device: found 0 beside backend");
-    EXPECT_THROW(select_backend(backend, nullptr, 0), InputError);
+    EXPECT_HAS(message_of([&] { select_backend(backend, nullptr, {0}); }), "device: found 0 beside backend");
+    EXPECT_THROW(select_backend(backend, nullptr, {0}), InputError);
     EXPECT_EQ(select_backend(backend), backend);
   }
 }
@@ -133,7 +133,7 @@ TEST(DeviceChoice, WithoutACudaDeviceIsAnErrorThatSaysWhy) {
   const BackendReport report = report_backends();
   if (!report.devices.empty()) GTEST_SKIP() << report.cuda_status;
   for (const Backend backend : {Backend::automatic, Backend::cuda}) {
-    const auto choose = [&] { select_backend(backend, nullptr, 0); };
+    const auto choose = [&] { select_backend(backend, nullptr, {0}); };
     EXPECT_THROW(choose(), RunError);
     EXPECT_HAS(message_of(choose), report.cuda_status);
   }
@@ -142,8 +142,8 @@ TEST(DeviceChoice, WithoutACudaDeviceIsAnErrorThatSaysWhy) {
 TEST(DeviceChoice, OfACudaDeviceThatIsNotThereListsThoseThatAre) {
   const BackendReport report = report_backends();
   if (report.devices.empty()) GTEST_SKIP() << report.cuda_status;
-  for (const int number : {-1, 1023}) {
-    const auto choose = [&] { select_backend(Backend::automatic, nullptr, number); };
+  for (const int number : {-2, 1023}) {
+    const auto choose = [&] { select_backend(Backend::automatic, nullptr, {number}); };
     EXPECT_THROW(choose(), InputError);
     EXPECT_HAS(message_of(choose), "found " + std::to_string(number));
     EXPECT_HAS(message_of(choose), report.cuda_status);
@@ -162,9 +162,9 @@ TEST(DeviceChoice, EveryCudaDeviceTakesTheSameSteps) {
   options.precision = Precision::mixed;
   std::vector<std::unique_ptr<Stepper>> steppers;
   for (const DeviceInfo& d : report.devices) {
-    options.device = d.number;
+    options.devices = {d.number};
     std::string reason;
-    EXPECT_EQ(select_backend(Backend::automatic, &reason, d.number), Backend::cuda);
+    EXPECT_EQ(select_backend(Backend::automatic, &reason, {d.number}), Backend::cuda);
     EXPECT_EQ(reason, d.name);
     steppers.push_back(make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options));
     EXPECT_HAS(steppers.back()->description(), d.name);

@@ -217,7 +217,8 @@ TEST(CoarseSpace, SavesIterationsAndChangesNoSolution) {
   };
   const auto solved = [&](std::optional<std::size_t> boxes) {
     harmonic::LinearTask task = asked;
-    harmonic::make_iterative_solver(scene.specimen, scene.network, stiffness, scene.inertia, free, Backend::cpu, boxes)
+    harmonic::make_iterative_solver(scene.specimen, scene.network, stiffness, scene.inertia, free, Backend::cpu, {},
+                                    boxes)
         ->solve({&task}, {});
     EXPECT_TRUE(task.converged);
     return task;

@@ -46,6 +46,11 @@ std::vector<float> fill_slots(const TilePlan& plan, const Layout& layout, const 
       for (std::uint32_t j = 0; j < packets; ++j) {
         const TileContact& c = plan.contact[(tile.first_packet + first + j) * 32 + lane];
         const float x = c.group_slot == UINT32_MAX ? 0 : load[number_of(layout, c)];
+        if (first < TilePlan::run * tile.inner) {
+          for (const std::uint32_t local : {c.local_a, c.local_b})
+            EXPECT_TRUE(local < tile.bodies || local >= tile.bodies + tile.halo)
+                << "an inner group waits for another tile";
+        }
         run += x;
         if (c.slot_a != TilePlan::more_of_run) {
           put(c.slot_a, run);
@@ -70,6 +75,7 @@ std::vector<float> sums_by_tiles(const test::TestScene& scene, std::size_t tile_
   const TilePlan plan = plan_tiles(scene.network, layout);
   EXPECT_TRUE(plan.fits);
   EXPECT_EQ(plan.tile.size(), layout.tiles());
+  EXPECT_EQ(plan.tile.size() > 1, tile_contacts < load.size());
   std::vector<float> out(scene.specimen.size());
   for (std::size_t t = 0; t < plan.tile.size(); ++t) {
     const Tile& tile = plan.tile[t];
@@ -113,8 +119,9 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
   const test::TestScene scene = test::make_scene(test::random_specimen(4, 12, 12, 14));
   const Layout layout = make_layout(scene.specimen, scene.network, 32, 2000);
   const TilePlan plan = plan_tiles(scene.network, layout);
-  std::size_t slots = 0, real = 0;
-  for (const Tile& tile : plan.tile) slots += tile.slots;
+  std::size_t slots = 0, real = 0, inner = 0;
+  for (const Tile& tile : plan.tile) slots += tile.slots, inner += tile.inner;
+  EXPECT_GT(inner, 0u);
   for (const TileContact& c : plan.contact) real += c.group_slot != UINT32_MAX;
   // each contact has a slot at end B, and a quarter of one at end A but for the last run of each particle
   EXPECT_LT(slots, 1.45 * static_cast<double>(scene.network.contacts.size()));

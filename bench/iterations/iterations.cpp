@@ -63,7 +63,7 @@ class Case {
     for (const std::size_t boxes : {std::size_t{0}, usual, many_boxes}) {
       if (boxes == many_boxes && specimen_.size() < 40 * many_boxes) continue;  // boxes of a few particles
       const auto start = Clock::now();
-      const auto solver = make_iterative_solver(specimen_, network_, stiffness_, inertia_, free_, backend_, boxes);
+      const auto solver = make_iterative_solver(specimen_, network_, stiffness_, inertia_, free_, backend_, {}, boxes);
       const double made_s = seconds_since(start);
       LinearTask task;
       task.stiffness = stiffness_;

@@ -95,7 +95,7 @@ Specimens::Specimens(const Scene& scene, const ModulusData& data, int seeds, con
   const SolverSpec& solver = scene.solver;
   inertia_ = solver.inertia || solver.method == SolverMethod::explicit_;  // a stepped run has it always
   viscous_ = inertia_ && solver.damping_kind == Damping::viscous ? solver.damping : 0;
-  backend_ = select_backend(solver.backend, nullptr, solver.device);
+  backend_ = select_backend(solver.backend, nullptr, solver.devices);
   if (backend_ == Backend::reference || solver.linear == LinearMethod::direct) backend_ = Backend::cpu;
   solver_ = fmt::format("harmonic, {} inertia{}, {}", inertia_ ? "with" : "without",
                         viscous_ > 0 ? " and viscous damping" : "", to_string(backend_));

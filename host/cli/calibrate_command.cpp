@@ -81,7 +81,7 @@ void calibrate_command(CalibrateArguments arguments) {
   if (arguments.threads) scene.solver.threads = *arguments.threads;
   if (arguments.backend) {
     scene.solver.backend = *arguments.backend;
-    if (scene.solver.backend == Backend::cpu) scene.solver.device.reset();
+    if (scene.solver.backend == Backend::cpu) scene.solver.devices.clear();
   }
   const std::filesystem::path out = arguments.job.out;
   require_calibration_folder(scene, out);

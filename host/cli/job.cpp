@@ -2,6 +2,8 @@
 // job.cpp  Scene, seed and folder of a command, and the specimen in words.
 #include "host/cli/job.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <limits>
 
 #include "host/cli/options.hpp"
@@ -10,6 +12,27 @@
 #include "macadam/error.hpp"
 
 namespace macadam {
+
+namespace {
+
+/// "0", "0,1", "all".
+DeviceList devices_of(const std::string& text) {
+  if (text == "all") return {every_device};
+  DeviceList out;
+  for (const char *at = text.data(), *end = at + text.size();; ++at) {
+    constexpr int most = 1023;
+    int number = -1;
+    const auto [stop, error] = std::from_chars(at, end, number);
+    const bool known = error == std::errc{} && number >= 0 && number <= most;
+    if (!known || (stop != end && *stop != ',') || std::count(out.begin(), out.end(), number) > 0)
+      options::refuse("--device", text, fmt::format("all, or different whole numbers from 0 to {} with commas", most));
+    out.push_back(number);
+    if (stop == end) return out;
+    at = stop;
+  }
+}
+
+}  // namespace
 
 void add_job_options(CLI::App& command, Job& job) {
   add_text(command, "scene", job.scene, "scene file (TOML)")->required();
@@ -36,7 +59,11 @@ void add_overrides(CLI::App& command, Overrides& instead) {
       ->group(instead_of_scene);
   add_number(command, "--threads", instead.threads, "of the CPU; results do not depend on it", 1, 1024)
       ->group(instead_of_scene);
-  add_number(command, "--device", instead.device, "number of the CUDA device; macadam info lists them", 0, 1023)
+  options::add(
+      command, "--device,--devices",
+      "number of the CUDA device, as macadam info lists them, or 0,1,… or all: they share the specimen",
+      [&instead](const std::string& text) { instead.devices = devices_of(text); })
+      ->type_name("LIST")
       ->group(instead_of_scene);
 }
 

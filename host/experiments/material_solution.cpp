@@ -45,7 +45,7 @@ class MaterialSolution : public Solution {
     std::tie(options_.shortest, options_.longest) = history.range();
     options_.tolerance = solver.tolerance.value_or(usual_tolerance);
     options_.backend = result.backend == Backend::cuda ? Backend::cuda : Backend::cpu;
-    if (options_.backend == Backend::cuda) options_.device = solver.device;
+    if (options_.backend == Backend::cuda) options_.devices = solver.devices;
     options_.linear = solver.linear;
     options_.stop = watcher.stop;
     require_solvable(result);

@@ -66,14 +66,15 @@ class Harmonic::Implementation {
         contacts_(network, specimen.size()) {
     require_laws_of(network, laws);
     typical_ = pair_stiffness(laws, Complex(options.typical_growth, 2 * std::numbers::pi * typical_frequency));
-    options_.backend = select_backend(options.backend, nullptr, options.device);
+    options_.backend = select_backend(options.backend, nullptr, options.devices);
     free_ = find_free_motions(specimen, network, typical_, inertia);
     if (options.linear == LinearMethod::direct) {
       direct();
       return;
     }
     try {
-      iterative_ = make_iterative_solver(specimen, network, typical_, inertia_, free_, options_.backend);
+      iterative_ = make_iterative_solver(specimen, network, typical_, inertia_, free_, options_.backend,
+                                         options_.devices);
     } catch (const NotIterable& error) {
       if (options.linear == LinearMethod::iterative || specimen.size() > largest_direct) throw;
       why_factors_ = error.what();

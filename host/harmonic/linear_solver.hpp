@@ -58,13 +58,14 @@ class NotIterable : public RunError {
 std::size_t usual_boxes(std::size_t particles);
 
 /// Preconditioned by each particle itself and by the rigid motions of boxes of particles: no factors but of a small
-/// matrix. Up to four tasks are solved side by side. `backend`: cpu, or cuda on the calling thread's device, where all
-/// of the iteration runs. `boxes`: another number of them, about; 0: each particle alone. \throws NotIterable when
+/// matrix. Up to four tasks are solved side by side. `backend`: cpu, or cuda on `devices`, where all of the iteration
+/// runs. `boxes`: another number of them, about; 0: each particle alone. \throws NotIterable when
 /// a particle alone can move without force, or the whole in more than six ways; RunError when a device has too little
 /// memory.
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
                                                     const FreeMotions& free, Backend backend = Backend::cpu,
+                                                    const DeviceList& devices = {},
                                                     std::optional<std::size_t> boxes = {});
 
 }  // namespace macadam::harmonic

@@ -19,9 +19,9 @@ void apply(const Overrides& asked, Scene& scene) {
   if (asked.backend) {
     solver.backend = *asked.backend;
     const bool may = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
-    if (!may) solver.device.reset();  // the scene's: it belongs to the backend that is replaced
+    if (!may) solver.devices.clear();  // the scene's: it belongs to the backend that is replaced
   }
-  if (asked.device) solver.device = asked.device;
+  if (asked.devices) solver.devices = *asked.devices;
   if (asked.precision) solver.precision = asked.precision;
   if (asked.linear) solver.linear = *asked.linear;
   if (asked.threads) solver.threads = *asked.threads;

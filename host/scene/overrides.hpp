@@ -16,7 +16,8 @@ struct Overrides {
   std::optional<Precision> precision;
   std::optional<SolverMethod> method;
   std::optional<LinearMethod> linear;
-  std::optional<int> threads, device;
+  std::optional<int> threads;
+  std::optional<DeviceList> devices;
 };
 
 /// Changes the scene. \throws InputError for a seed of a scene that takes its specimen from a file.

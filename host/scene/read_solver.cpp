@@ -38,6 +38,20 @@ std::vector<double> read_density_scaling(const Value& value, std::size_t frequen
   return scaling;
 }
 
+/// A number, different numbers, or "all".
+DeviceList read_devices(const Value& value, int most) {
+  const auto number = [&](const Value& v) { return static_cast<int>(v.integer(0, most)); };
+  if (value.shown() == "\"all\"") return {every_device};
+  if (!value.is_array()) return {number(value)};
+  DeviceList out;
+  for (const Value& entry : value.entries("an array of numbers of devices")) {
+    out.push_back(number(entry));
+    if (std::count(out.begin(), out.end(), out.back()) > 1) entry.refuse(entry.shown(), "each device once");
+  }
+  if (out.empty()) value.refuse("no entry", "one device at least");
+  return out;
+}
+
 }  // namespace
 
 SolverSpec usual_solver(const Experiment& experiment) {
@@ -106,8 +120,11 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         "how harmonic solutions are found: without factors, or with factors on the CPU"},
        {"threads", Need::optional, into(spec.threads, 0, most_threads),
         "of the CPU; results do not depend on it; 0: all"},
-       {"device", Need::optional, into(spec.device, 0, most_devices),
-        "number of the CUDA device, as macadam info lists them", "the first that can run"},
+       {"device",
+        Need::optional,
+        {[&](const Value& v) { spec.devices = read_devices(v, most_devices); },
+         {"whole number, list of them or \"all\"", nullptr, fmt::format("from 0 to {}", most_devices)}},
+        "the CUDA device, as macadam info numbers them, or those that share the specimen", "the first that can run"},
        {"inertia", Need::optional, into(spec.inertia), "method \"harmonic\": with the inertia of the particles"}});
   read_damping(section, spec);
 
@@ -119,8 +136,8 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
     section.refuse("inertia", "true beside method \"explicit\", which always has inertia",
                    "false, or method = \"harmonic\"");
   }
-  if (spec.device && (spec.backend == Backend::cpu || spec.backend == Backend::reference)) {
-    section.refuse("device", std::to_string(*spec.device), "none beside a backend other than \"cuda\" or \"auto\"");
+  if (!spec.devices.empty() && (spec.backend == Backend::cpu || spec.backend == Backend::reference)) {
+    section.refuse("device", to_string(spec.devices), "none beside a backend other than \"cuda\" or \"auto\"");
   }
   // A fit of the fundamental with offset and trend is meaningless with fewer than eight samples a cycle, and a sample
   // takes a step.

@@ -206,7 +206,7 @@ void add_time(const Scene& scene, Forecast& f, const Cost& cost) {
 Forecast forecast(const Scene& scene) {
   const Cost cost;
   Forecast out;
-  out.backend = select_backend(scene.solver.backend, &out.reason, scene.solver.device);
+  out.backend = select_backend(scene.solver.backend, &out.reason, scene.solver.devices);
   out.threads = scene.solver.threads > 0 ? scene.solver.threads : report_backends().threads;
   out.census = count_specimen(scene.specimen);
   const double n = static_cast<double>(out.census.particles());

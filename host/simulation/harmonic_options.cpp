@@ -12,7 +12,7 @@ HarmonicOptions harmonic_options(const Scene& scene, Backend backend, const std:
   out.tolerance = residual;
   out.linear = scene.solver.linear;
   out.backend = backend == Backend::cuda ? Backend::cuda : Backend::cpu;
-  if (out.backend == Backend::cuda) out.device = scene.solver.device;
+  if (out.backend == Backend::cuda) out.devices = scene.solver.devices;
   out.stop = stop;
   return out;
 }

@@ -98,7 +98,7 @@ RunResult run_of(const Scene& scene, const Preparation* given, const std::filesy
   std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
   result.backend =
-      select_backend(scene.solver.backend, nullptr, scene.solver.device);  // before any work: it may not be there
+      select_backend(scene.solver.backend, nullptr, scene.solver.devices);  // before any work: it may not be there
   require_checkpoints(scene, result.backend, resume);
   const ResultFolder folder(out);
   std::optional<Resumed> resumed;

@@ -104,7 +104,7 @@ class Finder {
                       {.tolerance = residual_share * std::sqrt(options_.tolerance),
                        .linear = options_.linear,
                        .backend = options_.backend,
-                       .device = options_.device,
+                       .devices = options_.devices,
                        .stop = options_.stop,
                        .typical_growth = std::abs(load.s())},
                       0);

@@ -17,18 +17,27 @@ namespace macadam {
 
 namespace {
 
-/// The device of a number, or the first of the report, which has one at least. \throws InputError listing them.
-const DeviceInfo& chosen_device(const BackendReport& report, std::optional<int> number) {
+/// The device of a number. \throws InputError listing those of the report.
+const DeviceInfo& device_of(const BackendReport& report, int number) {
   std::string list;
   for (const DeviceInfo& d : report.devices) {
-    if (d.number == number.value_or(d.number)) return d;
+    if (d.number == number) return d;
     list += (list.empty() ? "" : ", ") + std::to_string(d.number) + " (" + d.name + ")";
   }
   for (const DeviceInfo& d : report.devices_without_code) {
     if (d.number == number) list += "; " + std::to_string(d.number) + " (" + d.name + ") has no code in this build";
   }
-  throw InputError("device: found " + std::to_string(*number) +
+  throw InputError("device: found " + std::to_string(number) +
                    ", expected the number of one that can run: " + report.cuda_status + ": " + list);
+}
+
+/// Those of the numbers, of all, or the first of the report, which has one at least. \throws InputError
+std::vector<DeviceInfo> chosen_devices(const BackendReport& report, const DeviceList& numbers) {
+  if (numbers.empty()) return {report.devices.front()};
+  if (numbers == DeviceList{every_device}) return report.devices;
+  std::vector<DeviceInfo> out;
+  for (const int number : numbers) out.push_back(device_of(report, number));
+  return out;
 }
 
 /// Why a device that answers cannot be used after all; empty where it can.
@@ -75,9 +84,23 @@ BackendReport report_backends() {
   return report;
 }
 
-Backend select_backend(Backend asked, std::string* reason, std::optional<int> device) {
-  if (device && (asked == Backend::cpu || asked == Backend::reference)) {
-    throw InputError("device: found " + std::to_string(*device) + " beside backend " + to_string(asked) +
+std::string to_string(const DeviceList& devices) {
+  if (devices == DeviceList{every_device}) return "all";
+  std::string out;
+  for (std::size_t i = 0; i < devices.size(); ++i)
+    out += (i == 0 ? "" : i + 1 < devices.size() ? ", " : " and ") + std::to_string(devices[i]);
+  return out;
+}
+
+DeviceList device_numbers(const DeviceList& asked) {
+  DeviceList out;
+  for (const DeviceInfo& d : chosen_devices(report_backends(), asked)) out.push_back(d.number);
+  return out;
+}
+
+Backend select_backend(Backend asked, std::string* reason, const DeviceList& devices) {
+  if (!devices.empty() && (asked == Backend::cpu || asked == Backend::reference)) {
+    throw InputError("device: found " + to_string(devices) + " beside backend " + to_string(asked) +
                      ", expected backend cuda or auto");
   }
   std::string why = "asked for";
@@ -87,17 +110,18 @@ Backend select_backend(Backend asked, std::string* reason, std::optional<int> de
     why = report.cuda_status;
     chosen = Backend::cpu;
     if (!report.devices.empty()) {
-      const DeviceInfo& taken = chosen_device(report, device);
-      why = refusal_of(taken);
+      const auto taken = chosen_devices(report, devices);
+      why.clear();
+      for (auto device = taken.rbegin(); device != taken.rend() && why.empty(); ++device) why = refusal_of(*device);
       if (why.empty()) {
-        why = taken.name;
+        why = taken.front().name + (taken.size() > 1 ? " and " + std::to_string(taken.size() - 1) + " more" : "");
         chosen = Backend::cuda;
       }
     }
-    if (chosen != Backend::cuda && (asked == Backend::cuda || device)) {
+    if (chosen != Backend::cuda && (asked == Backend::cuda || !devices.empty())) {
       throw RunError(std::string(asked == Backend::cuda ? "backend cuda" : "a CUDA device") +
                      " was asked for but cannot run: " + why + "; use --backend cpu or auto" +
-                     (device ? ", and no device" : ""));
+                     (devices.empty() ? "" : ", and no device"));
     }
   }
   if (reason) *reason = why;
@@ -108,13 +132,13 @@ Backend kernels::resolved(Backend asked, bool on_device, StepperOptions& options
   if (asked == Backend::reference) {
     throw InputError("backend: found reference, expected cpu, cuda or auto: it knows Macadam's own laws alone");
   }
-  if (asked == Backend::automatic && !options.device && !on_device) return Backend::cpu;
-  const Backend chosen = select_backend(asked, nullptr, options.device);
+  if (asked == Backend::automatic && options.devices.empty() && !on_device) return Backend::cpu;
+  const Backend chosen = select_backend(asked, nullptr, options.devices);
   if (chosen != Backend::cuda) return chosen;
   if (!on_device) {
     throw RunError("backend cuda was asked for, and this program has no kernels for devices compiled for its laws");
   }
-  options.device = chosen_device(report_backends(), options.device).number;
+  options.devices = device_numbers(options.devices);
   return chosen;
 }
 
@@ -123,11 +147,11 @@ std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen,
                                       std::unique_ptr<Stepper> used) {
   kernels::require_input(specimen.size(), network, facts_of(laws), options);
   StepperOptions given = options;
-  switch (select_backend(backend, nullptr, options.device)) {
+  switch (select_backend(backend, nullptr, options.devices)) {
     case Backend::reference:
       return make_reference_stepper(specimen, network, laws, inertia, given);
     case Backend::cuda:
-      given.device = chosen_device(report_backends(), options.device).number;
+      given.devices = device_numbers(options.devices);
       return cuda_code()->make_stepper(specimen, network, laws, inertia, given, std::move(used));
     default:
       return processor_code().make_stepper(specimen, network, laws, inertia, given, std::move(used));

@@ -12,4 +12,8 @@ namespace macadam {
 /// MACADAM_PLUGIN_PATH names, with colons between them, then beside the library itself.
 const kernels::CudaCode* cuda_code(std::string* why = nullptr);
 
+/// The numbers of the devices that are meant, where cuda is the backend: all, the first, or those that are named.
+/// \throws InputError for one that is not there.
+DeviceList device_numbers(const DeviceList& asked);
+
 }  // namespace macadam

@@ -48,11 +48,18 @@ struct BackendReport {
 /// Looks at the machine; makes no context on any device. Never throws.
 BackendReport report_backends();
 
+/// Numbers of CUDA devices: none for the first that can run; several share the work on one specimen, and results do not
+/// depend on how many they are. A number given twice takes two shares. `every_device` alone: all that can run.
+using DeviceList = std::vector<int>;
+inline constexpr int every_device = -1;
+/// "0, 1 and 3", "all"; empty for none.
+std::string to_string(const DeviceList& devices);
+
 /// Resolves `automatic` to cuda where the build has it and a device answers, else cpu; `reason` (optional) says why.
-/// `device` is the number of the CUDA device that is meant, where one is; `automatic` then is cuda. A context is made
-/// on that device or, without a number, the first usable one.
+/// `devices` are those that are meant, where some are; `automatic` then is cuda. A context is made on them or, without a
+/// number, on the first usable one.
 /// \throws RunError when cuda is asked for and is not there; InputError for a number that no usable device has, or
 /// beside another backend.
-Backend select_backend(Backend asked, std::string* reason = nullptr, std::optional<int> device = std::nullopt);
+Backend select_backend(Backend asked, std::string* reason = nullptr, const DeviceList& devices = {});
 
 }  // namespace macadam

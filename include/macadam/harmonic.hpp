@@ -36,7 +36,7 @@ struct HarmonicOptions {
   /// Where the iteration without factors runs, cpu or cuda (automatic: as select_backend() has it); all else is on the
   /// CPU.
   Backend backend = Backend::cpu;
-  std::optional<int> device = {};   ///< cuda: made the calling thread's; none: the first that can run
+  DeviceList devices = {};          ///< cuda: the first of them is made the calling thread's, and solves
   std::function<bool()> stop = {};  ///< asked between iterations: true ends a solution with InterruptedError
   double typical_growth = 0;  ///< of the loads [1/s], beside the typical frequency: the preconditioner is made for both
 };

@@ -56,7 +56,7 @@ struct SolverSpec {
   Backend backend = Backend::automatic;
   LinearMethod linear = LinearMethod::automatic;  ///< of the harmonic solutions
   int threads = 0;                                ///< 0: OpenMP's choice
-  std::optional<int> device;                      ///< number of the CUDA device; none: the first usable one
+  DeviceList devices;                             ///< CUDA devices; none: the first usable one
   bool inertia = false;                           ///< harmonic only: include −ω²M, times density_scaling
 };
 

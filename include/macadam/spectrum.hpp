@@ -71,7 +71,7 @@ struct SpectrumOptions {
   double tolerance = 1e-6;                ///< of E(t), relative, by both measures of Spectrum
   Backend backend = Backend::cpu;         ///< of the solutions
   LinearMethod linear = LinearMethod::automatic;
-  std::optional<int> device = {};
+  DeviceList devices = {};
   std::function<bool()> stop = {};                             ///< true ends with InterruptedError
   std::function<void(int solutions, double error)> told = {};  ///< after every round
 };

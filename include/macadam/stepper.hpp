@@ -45,7 +45,7 @@ struct StepperOptions {
   bool skip_shear = true;      ///< no shear chains where α = 0
   bool skip_rotations = true;  ///< no rotations where nothing_turns()
   int threads = 0;             ///< cpu: 0 is OpenMP's choice; results do not depend on it
-  std::optional<int> device;   ///< cuda: made the calling thread's; none: the first that can run
+  DeviceList devices;          ///< cuda: that share the specimen, the first made the calling thread's
   int multiprocessors = 0;     ///< cuda: plan for so many, as if it had no more; 0: all; results do not depend on it
   Boundary boundary;           ///< what drives the walls, fixes and loads particles; drives' dt() is dt
   const StartState* start = nullptr;  ///< read by make_stepper() only; a cyclic drive must have no ramp then

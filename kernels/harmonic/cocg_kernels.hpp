@@ -7,7 +7,7 @@
 ///   advance  x += α·p, r −= α·q, z = K_ii⁻¹·r;  Rᵀr of every box
 ///   coarse   (RᵀKR)⁻¹·Rᵀr;  where each load stands, and β
 ///
-/// A segment is a run of bodies of one box that one block of threads works on.
+/// A segment is a run of bodies of one box that one block of threads works on; `first_segment` is that of the launch.
 #pragma once
 
 #include "kernels/harmonic/cocg_sums.hpp"
@@ -56,6 +56,7 @@ struct CocgView {
   CocgScalars<F>* scalars;
   unsigned segments, boxes;
   int free;
+  bool several;  ///< devices work on it
 };
 
 /// Numbers whose lanes hold Σ re·re, Σ im·im (straight) and Σ re·im, Σ im·re (crossed).
@@ -78,7 +79,8 @@ __device__ inline unsigned largest_in_warp(unsigned value) {
 
 /// Eight threads a body: one a lane, and where there are fewer lanes several share its contacts.
 template <int F>
-__global__ void __launch_bounds__(cocg_threads) cocg_apply(CocgView<F> d, const double* from, bool first) {
+__global__ void __launch_bounds__(cocg_threads) cocg_apply(CocgView<F> d, unsigned first_segment,
+                                                         const double* from, bool first) {
   constexpr unsigned W = 2 * F, group = 8, slices = group / W;
   CocgScalars<F>& s = *d.scalars;
   if (!s.running) return;
@@ -93,7 +95,8 @@ __global__ void __launch_bounds__(cocg_threads) cocg_apply(CocgView<F> d, const 
   }
   const LaneFactor inertia = lane_factor(s.inertia[lane / 2], imaginary);
   __syncthreads();
-  const Segment segment = d.segment[blockIdx.x];
+  const unsigned number = first_segment + blockIdx.x;
+  const Segment segment = d.segment[number];
   double product[2] = {0, 0};
   for (int base = segment.first; base < segment.end; base += cocg_threads / group) {
     const int asked = base + static_cast<int>(threadIdx.x / group);
@@ -135,8 +138,8 @@ __global__ void __launch_bounds__(cocg_threads) cocg_apply(CocgView<F> d, const 
       }
     }
   }
-  block_sum<2, W>(product, &d.products[blockIdx.x * 2 * W]);
-  if (!comes_last(d.ticket, d.segments)) return;
+  block_sum<2, W>(product, &d.products[number * 2 * W]);
+  if (!comes_last(d.ticket, d.segments, d.several)) return;
   __shared__ double whole[2 * W];
   sum_rows<2, W>(d.products, d.segments, 2 * W, whole);
   if (threadIdx.x < F) {
@@ -149,13 +152,14 @@ __global__ void __launch_bounds__(cocg_threads) cocg_apply(CocgView<F> d, const 
 
 /// W threads a body.
 template <int F>
-__global__ void __launch_bounds__(cocg_threads) cocg_advance(CocgView<F> d) {
+__global__ void __launch_bounds__(cocg_threads) cocg_advance(CocgView<F> d, unsigned first_segment) {
   constexpr unsigned W = 2 * F;
   const CocgScalars<F>& s = *d.scalars;
   if (!s.running) return;
   const unsigned lane = threadIdx.x % W;
   const LaneFactor step = lane_factor(s.step[lane / 2], lane % 2);
-  const Segment segment = d.segment[blockIdx.x];
+  const unsigned number = first_segment + blockIdx.x;
+  const Segment segment = d.segment[number];
   double sums[box_sums] = {};
   for (int base = segment.first; base < segment.end; base += cocg_threads / W) {
     const int asked = base + static_cast<int>(threadIdx.x / W);
@@ -192,10 +196,10 @@ __global__ void __launch_bounds__(cocg_threads) cocg_advance(CocgView<F> d) {
     }
   }
   constexpr std::size_t row = box_sums * W;
-  block_sum<box_sums, W>(sums, &d.segment_sums[blockIdx.x * row]);
+  block_sum<box_sums, W>(sums, &d.segment_sums[number * row]);
   const auto box = static_cast<unsigned>(segment.box);
   const auto begin = static_cast<unsigned>(d.box_segment[box]), end = static_cast<unsigned>(d.box_segment[box + 1]);
-  if (!comes_last(&d.box_ticket[box], end - begin)) return;
+  if (!comes_last(&d.box_ticket[box], end - begin, d.several)) return;
   for (unsigned i = threadIdx.x; i < row; i += cocg_threads) {
     double sum = 0;
     for (unsigned b = begin; b < end; ++b) sum += __ldcg(&d.segment_sums[b * row + i]);
@@ -250,7 +254,7 @@ __global__ void __launch_bounds__(cocg_threads) cocg_coarse(CocgView<F> d) {
       if (lane == w) d.boxes_move[row * W + w] = sum[w];
     }
   }
-  if (!comes_last(d.ticket, gridDim.x)) return;
+  if (!comes_last(d.ticket, gridDim.x, false)) return;
   __shared__ double sums[sums_load * W], of_boxes[(2 + most_free_motions) * W];
   sum_rows<sums_load, W>(d.sums, d.boxes, box_sums * W, sums);
   double own[2 + most_free_motions] = {};
@@ -273,13 +277,14 @@ __global__ void __launch_bounds__(cocg_threads) cocg_coarse(CocgView<F> d) {
 
 /// W threads a body.
 template <int F>
-__global__ void __launch_bounds__(cocg_threads) cocg_turn(CocgView<F> d) {
+__global__ void __launch_bounds__(cocg_threads) cocg_turn(CocgView<F> d, unsigned first_segment) {
   constexpr unsigned W = 2 * F;
   const CocgScalars<F>& s = *d.scalars;
   if (!s.running) return;
   const unsigned lane = threadIdx.x % W;
   const LaneFactor turn = lane_factor(s.turn[lane / 2], lane % 2);
-  const Segment segment = d.segment[blockIdx.x];
+  const unsigned number = first_segment + blockIdx.x;
+  const Segment segment = d.segment[number];
   double y[6], drop[most_free_motions];
   for (int c = 0; c < 6; ++c) y[c] = d.boxes_move[(6 * segment.box + c) * W + lane];
   for (int m = 0; m < most_free_motions; ++m) drop[m] = m < d.free ? s.drop[m][lane] : 0;

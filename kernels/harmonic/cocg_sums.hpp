@@ -44,17 +44,24 @@ __device__ void block_sum(const double (&v)[N], double* out) {
   __syncthreads();
 }
 
-/// Whether this block is the last of `blocks` to come here: it then sees what the others wrote.
-__device__ inline bool comes_last(unsigned* counter, unsigned blocks) {
+/// Whether this block is the last of `blocks` to come here, maybe from several devices: it then sees what the others
+/// wrote.
+__device__ inline bool comes_last(unsigned* counter, unsigned blocks, bool several) {
   __shared__ bool last;
-  __threadfence();
+  const auto fence = [several] {
+    if (several)
+      __threadfence_system();
+    else
+      __threadfence();
+  };
+  fence();
   __syncthreads();
   if (threadIdx.x == 0) {
-    last = atomicAdd(counter, 1u) == blocks - 1;
+    last = (several ? atomicAdd_system(counter, 1u) : atomicAdd(counter, 1u)) == blocks - 1;
     if (last) *counter = 0;
   }
   __syncthreads();
-  if (last) __threadfence();
+  if (last) fence();
   return last;
 }
 

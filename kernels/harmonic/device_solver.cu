@@ -1,51 +1,61 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_solver.cu  Arrays of a system on the device, and the queue of iterations.
+// device_solver.cu  Arrays of a system on the devices, and the queue of iterations.
 #include <algorithm>
 #include <limits>
 
-#include "kernels/cuda_launch.hpp"
+#include "kernels/cuda_team.hpp"
 #include "kernels/harmonic/cocg_kernels.hpp"
 #include "kernels/harmonic/cocg_setup.hpp"
 
+#ifndef MACADAM_SEGMENTS
+#define MACADAM_SEGMENTS 8
+#endif
 namespace macadam::kernels {
 namespace {
 
 using Complex = std::complex<double>;
 
-/// The vectors of an iteration of F loads.
+/// The vectors of an iteration of F loads, and some iterations as a graph.
 template <int F>
 struct Vectors {
   static constexpr std::size_t lanes = 2 * F;
   DeviceArray<double> x, r, p, q, z, products, segment_sums, sums, boxes_move;
   DeviceArray<CocgScalars<F>> scalars;
+  cudaGraphExec_t batch = nullptr;
 
-  Vectors(std::size_t bodies, std::size_t segments, std::size_t boxes)
-      : x(6 * bodies * lanes),
-        r(x.size()),
-        p(x.size()),
-        q(x.size()),
-        z(x.size()),
+  Vectors(const Shares& bodies, std::size_t segments, std::size_t boxes)
+      : x(bodies, 6 * lanes),
+        r(bodies, 6 * lanes),
+        p(bodies, 6 * lanes),
+        q(bodies, 6 * lanes),
+        z(bodies, 6 * lanes),
         products(segments * 2 * lanes),
         segment_sums(segments * box_sums * lanes),
         sums(boxes * box_sums * lanes),
         boxes_move(6 * boxes * lanes),
         scalars(1) {}
+  Vectors(const Vectors&) = delete;
+  ~Vectors() {
+    if (batch) cudaGraphExecDestroy(batch);
+  }
 };
 
 class Solver : public DeviceSolver {
  public:
-  Solver(const LinearSystem& system, std::int64_t& loose) : free_(system.free) {
-    check_cuda(cudaGetDevice(&device_), "device");
-    bodies_ = system.bodies();
-    row_begin_ = DeviceArray<std::size_t>::of(system.row_begin);
-    ends_ = DeviceArray<ContactEnd>::of(system.ends);
-    mass_ = DeviceArray<double>::of(system.mass);
-    coarse_ = DeviceArray<double>::of(system.coarse);
-    motion_ = DeviceArray<double>::of(system.motion);
-    weight_ = DeviceArray<double>::of(system.weight);
-    lever_ = DeviceArray<Lever>::of(system.lever);
-    inverse_ = DeviceArray<double>(36 * bodies_);
+  Solver(const LinearSystem& system, const DeviceList& devices, std::int64_t& loose)
+      : team_(devices), free_(system.free), bodies_(system.bodies()) {
     make_segments(system);
+    const Shares rows = share([&](std::size_t body) { return body + (body == bodies_); }),
+                 ends = share([&](std::size_t body) { return system.row_begin[body]; });
+    by_body_ = share([](std::size_t body) { return body; });
+    row_begin_ = DeviceArray<std::size_t>::of(system.row_begin, rows);
+    ends_ = DeviceArray<ContactEnd>::of(system.ends, ends);
+    mass_ = DeviceArray<double>::of(system.mass, by_body_);
+    coarse_ = DeviceArray<double>::of(system.coarse);
+    motion_ = DeviceArray<double>::of(system.motion, by_body_);
+    weight_ = DeviceArray<double>::of(system.weight);
+    lever_ = DeviceArray<Lever>::of(system.lever, by_body_);
+    inverse_ = DeviceArray<double>(by_body_, 36);
     ticket_ = DeviceArray<unsigned>(1);
     box_ticket_ = DeviceArray<unsigned>(boxes_);
     loose = invert(system.typical);
@@ -53,18 +63,19 @@ class Solver : public DeviceSolver {
 
   std::vector<LinearState> solve(const std::vector<LinearLoad>& loads, const std::vector<const Complex*>& right,
                                  const std::vector<Complex*>& motion, const std::function<void()>& look) override {
-    check_cuda(cudaSetDevice(device_), "device");
+    team_.use(0);
     if (loads.size() == 1) return solve_with(one_, loads, right, motion, look);
     return solve_with(four_, loads, right, motion, look);
   }
 
  private:
-  /// About as many segments as the device has room for blocks, of some warps' bodies each.
+  /// About as many segments as the device has room for blocks, of some warps' bodies each; as many for a team as for
+  /// one device, and each member has a run of them.
   void make_segments(const LinearSystem& system) {
     boxes_ = system.boxes();
     int multiprocessors = 0;
-    check_cuda(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device_), "device");
-    const std::size_t wanted = bodies_ / (static_cast<std::size_t>(multiprocessors) * 8) + 1;
+    check_cuda(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, team_.device(0)), "device");
+    const std::size_t wanted = bodies_ / (static_cast<std::size_t>(multiprocessors) * segments_a_multiprocessor) + 1;
     const auto length = static_cast<std::int32_t>((wanted + 31) / 32 * 32);
     std::vector<Segment> segments;
     std::vector<std::int32_t> box_segment{0};
@@ -76,6 +87,19 @@ class Solver : public DeviceSolver {
     }
     segment_ = DeviceArray<Segment>::of(segments);
     box_segment_ = DeviceArray<std::int32_t>::of(box_segment);
+    for (std::size_t m = 0; m <= team_.size(); ++m) {
+      first_segment_.push_back(m * segments.size() / team_.size());
+      first_body_.push_back(m == team_.size() ? bodies_
+                                              : static_cast<std::size_t>(segments[first_segment_.back()].first));
+    }
+  }
+
+  /// Of items, the first of a member being first(its first body).
+  template <class First>
+  Shares share(First&& first) const {
+    Shares out;
+    for (std::size_t m = 0; m < team_.size(); ++m) out.push_back({first(first_body_[m + 1]), team_.device(m)});
+    return out;
   }
 
   std::int64_t invert(const RealStiffness& typical) {
@@ -83,7 +107,7 @@ class Solver : public DeviceSolver {
     DeviceArray<unsigned long long> loose(1);
     loose.upload(&none);
     constexpr unsigned threads = 128;
-    launch("particle blocks", invert_blocks, (bodies_ + threads - 1) / threads, threads, 0, nullptr, bodies_,
+    launch("particle blocks", invert_blocks, (bodies_ + threads - 1) / threads, threads, 0, team_.stream(), bodies_,
            row_begin_.data(), ends_.data(), typical, inverse_.data(), loose.data());
     const unsigned long long found = loose.download().front();
     return found == none ? -1 : static_cast<std::int64_t>(found);
@@ -115,7 +139,8 @@ class Solver : public DeviceSolver {
             v.scalars.data(),
             static_cast<unsigned>(segment_.size()),
             static_cast<unsigned>(boxes_),
-            free_};
+            free_,
+            team_.size() > 1};
   }
 
   template <int F>
@@ -145,7 +170,7 @@ class Solver : public DeviceSolver {
   std::vector<LinearState> solve_with(std::unique_ptr<Vectors<F>>& own, const std::vector<LinearLoad>& loads,
                                       const std::vector<const Complex*>& right, const std::vector<Complex*>& motion,
                                       const std::function<void()>& look) {
-    if (!own) own = std::make_unique<Vectors<F>>(bodies_, segment_.size(), boxes_);
+    if (!own) own = std::make_unique<Vectors<F>>(by_body_, segment_.size(), boxes_);
     Vectors<F>& v = *own;
     const CocgScalars<F> start = scalars_of<F>(loads);
     v.scalars.upload(&start);
@@ -154,14 +179,14 @@ class Solver : public DeviceSolver {
     for (auto* array : {&v.x, &v.r, &v.p}) check_cuda(cudaMemset(array->data(), 0, array->bytes()), "vectors");
     for (std::size_t f = 0; f < loads.size(); ++f) {
       staged.upload(reinterpret_cast<const double2*>(right[f]));
-      launch("loads", to_lanes<F>, blocks, cocg_threads, 0, nullptr, staged.data(), v.r.data(), size, int(f));
+      launch("loads", to_lanes<F>, blocks, cocg_threads, 0, team_.stream(), staged.data(), v.r.data(), size, int(f));
       staged.upload(reinterpret_cast<const double2*>(motion[f]));
-      launch("loads", to_lanes<F>, blocks, cocg_threads, 0, nullptr, staged.data(), v.x.data(), size, int(f));
+      launch("loads", to_lanes<F>, blocks, cocg_threads, 0, team_.stream(), staged.data(), v.x.data(), size, int(f));
     }
     const CocgScalars<F> end = iterate(v, look);
     std::vector<LinearState> out;
     for (std::size_t f = 0; f < loads.size(); ++f) {
-      launch("motions", from_lanes<F>, blocks, cocg_threads, 0, nullptr, v.x.data(), staged.data(), size, int(f));
+      launch("motions", from_lanes<F>, blocks, cocg_threads, 0, team_.stream(), v.x.data(), staged.data(), size, int(f));
       check_cuda(cudaMemcpy(motion[f], staged.data(), staged.bytes(), cudaMemcpyDeviceToHost), "motions");
       out.push_back(end.state[f]);
     }
@@ -172,20 +197,38 @@ class Solver : public DeviceSolver {
   template <int F>
   CocgScalars<F> iterate(Vectors<F>& v, const std::function<void()>& look) {
     const CocgView<F> d = view(v);
-    const std::size_t segments = segment_.size(), rows = (6 * boxes_ + cocg_threads / 32 - 1) / (cocg_threads / 32);
-    const auto improve = [&](const double* from, bool first) {
-      launch("apply", cocg_apply<F>, segments, cocg_threads, 0, nullptr, d, from, first);
-      launch("advance", cocg_advance<F>, segments, cocg_threads, 0, nullptr, d);
-      launch("coarse", cocg_coarse<F>, rows, cocg_threads, 0, nullptr, d);
+    // a kernel over all segments, of which each member has a run
+    const auto over_segments = [&](const char* name, auto kernel, auto... arguments) {
+      team_.each([&](std::size_t m) {
+        const std::size_t first = first_segment_[m];
+        launch(name, kernel, first_segment_[m + 1] - first, cocg_threads, 0, team_.stream(m), d,
+               static_cast<unsigned>(first), arguments...);
+      });
+      team_.meet();
     };
-    improve(v.x.data(), true);  // r = f − K·x: x does not move along p = 0
-    const PinnedScalars<F> looked;
-    for (int batch = 0;; ++batch) {
+    const auto improve = [&](const double* from, bool first) {
+      over_segments("apply", cocg_apply<F>, from, first);
+      over_segments("advance", cocg_advance<F>);
+      launch("coarse", cocg_coarse<F>, (6 * boxes_ + cocg_threads / 32 - 1) / (cocg_threads / 32), cocg_threads, 0,
+             team_.stream(), d);
+      team_.meet();
+    };
+    const auto queue_batch = [&] {
       for (int k = 0; k < batch_length; ++k) {
-        launch("turn", cocg_turn<F>, segments, cocg_threads, 0, nullptr, d);
+        over_segments("turn", cocg_turn<F>);
         improve(v.p.data(), false);
       }
-      looked.copy(v.scalars, batch % 2);
+    };
+    team_.meet();
+    improve(v.x.data(), true);  // r = f − K·x: x does not move along p = 0
+    if (!v.batch && !waits_for_launches()) v.batch = team_.record(queue_batch);
+    const PinnedScalars<F> looked;
+    for (int batch = 0;; ++batch) {
+      if (v.batch)
+        check_cuda(cudaGraphLaunch(v.batch, team_.stream()), "iterations");
+      else
+        queue_batch();
+      looked.copy(v.scalars, batch % 2, team_.stream());
       look();
       if (batch == 0) continue;
       const CocgScalars<F>& before = looked.wait((batch - 1) % 2);
@@ -207,9 +250,10 @@ class Solver : public DeviceSolver {
       cudaFreeHost(host_);
       for (cudaEvent_t e : copied_) cudaEventDestroy(e);
     }
-    void copy(const DeviceArray<CocgScalars<F>>& from, int slot) const {
-      check_cuda(cudaMemcpyAsync(&host_[slot], from.data(), from.bytes(), cudaMemcpyDeviceToHost), "iterations");
-      check_cuda(cudaEventRecord(copied_[slot]), "iterations");
+    void copy(const DeviceArray<CocgScalars<F>>& from, int slot, cudaStream_t stream) const {
+      check_cuda(cudaMemcpyAsync(&host_[slot], from.data(), from.bytes(), cudaMemcpyDeviceToHost, stream),
+                 "iterations");
+      check_cuda(cudaEventRecord(copied_[slot], stream), "iterations");
     }
     const CocgScalars<F>& wait(int slot) const {
       check_cuda(cudaEventSynchronize(copied_[slot]), "iterations");
@@ -222,9 +266,13 @@ class Solver : public DeviceSolver {
   };
 
   static constexpr int batch_length = 8;
+  static constexpr std::size_t segments_a_multiprocessor = MACADAM_SEGMENTS;
 
-  int device_ = 0, free_;
-  std::size_t bodies_ = 0, boxes_ = 0;
+  DeviceTeam team_;
+  int free_;
+  std::size_t bodies_, boxes_ = 0;
+  std::vector<std::size_t> first_segment_, first_body_;  // [member + 1]
+  Shares by_body_;
   DeviceArray<std::size_t> row_begin_;
   DeviceArray<ContactEnd> ends_;
   DeviceArray<double> mass_, inverse_, coarse_, motion_, weight_;
@@ -238,8 +286,9 @@ class Solver : public DeviceSolver {
 
 }  // namespace
 
-std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, std::int64_t& loose) {
-  return std::make_unique<Solver>(system, loose);
+std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, const DeviceList& devices,
+                                                 std::int64_t& loose) {
+  return std::make_unique<Solver>(system, devices, loose);
 }
 
 }  // namespace macadam::kernels

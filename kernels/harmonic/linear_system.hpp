@@ -12,6 +12,7 @@
 #include "kernels/aligned.hpp"
 #include "kernels/harmonic/box_motion.hpp"
 #include "kernels/harmonic/contact_end.hpp"
+#include "macadam/backend.hpp"
 #include "macadam/contact_network.hpp"
 
 namespace macadam::kernels {
@@ -66,8 +67,8 @@ inline constexpr int most_stagnant = 500;
 /// Loads that are solved side by side.
 inline constexpr int most_loads = 4;
 
-/// Conjugate gradients for complex symmetric matrices on one CUDA device: several loads side by side, all of it on the
-/// device. The same device gives the same bits every run.
+/// Conjugate gradients for complex symmetric matrices on CUDA devices: several loads side by side, all of it on the
+/// devices. The same kind of device gives the same bits every run, however many share the work.
 class DeviceSolver {
  public:
   virtual ~DeviceSolver() = default;
@@ -79,8 +80,8 @@ class DeviceSolver {
                                          const std::function<void()>& look) = 0;
 };
 
-/// Only in builds with CUDA. Copies the system to the calling thread's device. `loose`: set to the first body whose own
-/// stiffness is singular, else −1. \throws RunError where the device has too little memory.
-std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, std::int64_t& loose);
+/// Only in builds with CUDA: as CudaCode::make_solver.
+std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, const DeviceList& devices,
+                                                 std::int64_t& loose);
 
 }  // namespace macadam::kernels

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "macadam/macadam.hpp"
@@ -43,6 +45,26 @@ std::optional<T> in_range(const char* name, const std::optional<T>& value, T low
 template <class T>
 T in_range(const char* name, T value, T low, T high) {
   return *in_range(name, std::optional<T>(value), low, high);
+}
+
+/// A device, several, or "all", as the command's option has them.
+using Devices = std::optional<std::variant<int, std::vector<int>, std::string>>;
+/// \throws InputError
+inline std::optional<DeviceList> devices_of(const Devices& given) {
+  if (!given) return {};
+  if (const auto* word = std::get_if<std::string>(&*given)) {
+    if (*word != "all") throw InputError("device: found \"" + *word + "\", expected numbers or \"all\"");
+    return DeviceList{every_device};
+  }
+  const auto* one = std::get_if<int>(&*given);
+  const DeviceList out = one ? DeviceList{*one} : std::get<std::vector<int>>(*given);
+  if (out.empty()) throw InputError("device: found an empty list, expected one device at least");
+  for (const int number : out) {
+    if (out != DeviceList{every_device}) in_range("device", number, 0, 1023);
+    if (std::count(out.begin(), out.end(), number) > 1)
+      throw InputError(fmt::format("device: found {} twice, expected each device once", number));
+  }
+  return out;
 }
 
 inline const std::vector<std::pair<const char*, Backend>> backends{

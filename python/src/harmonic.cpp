@@ -6,6 +6,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include "python/src/arrays.hpp"
@@ -19,7 +20,7 @@ namespace {
 /// A solver with what it refers to.
 class Solver {
  public:
-  Solver(PreparedPointer prepared, double typical, Backend backend, LinearMethod linear, std::optional<int> device,
+  Solver(PreparedPointer prepared, double typical, Backend backend, LinearMethod linear, const Devices& device,
          double tolerance)
       : prepared_(std::move(prepared)) {
     const Scene& scene = *prepared_->scene;
@@ -27,7 +28,7 @@ class Solver {
     options.tolerance = tolerance;
     options.linear = linear;
     options.backend = backend;
-    options.device = device;
+    options.devices = devices_of(device).value_or(DeviceList{});
     options.stop = [this] { return call_ && call_->stop(); };
     const Inertia inertia = make_inertia(prepared_->made.specimen, scene.materials.aggregate, scene.materials.mastic);
     LongCall call;
@@ -128,7 +129,7 @@ void bind_harmonic(nb::module_& m) {
       .def(
           "__init__",
           [](Solver* self, PreparedPointer specimen, double typical_hz, const std::string& backend,
-             const std::string& linear, std::optional<int> device, double tolerance) {
+             const std::string& linear, const Devices& device, double tolerance) {
             new (self) Solver(std::move(specimen), typical_hz, choice("backend", backend, backends),
                               choice("linear", linear, linear_methods), device, tolerance);
           },

@@ -6,6 +6,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include "host/scene/sections.hpp"
@@ -31,19 +32,19 @@ nb::dict options_of(const Overrides& given) {
   name("method", given.method, methods);
   name("linear", given.linear, linear_methods);
   if (given.threads) out["threads"] = *given.threads;
-  if (given.device) out["device"] = *given.device;
+  if (given.devices) out["device"] = nb::cast(*given.devices);
   return out;
 }
 
 void override_options(GivenScene& scene, std::optional<std::uint64_t> seed, const Text& backend, const Text& precision,
-                      const Text& method, const Text& linear, std::optional<int> threads, std::optional<int> device) {
+                      const Text& method, const Text& linear, std::optional<int> threads, const Devices& device) {
   const Overrides now{seed,
                       choice("backend", backend, backends),
                       choice("precision", precision, precisions),
                       choice("method", method, methods),
                       choice("linear", linear, linear_methods),
                       in_range("threads", threads, 1, 1024),
-                      in_range("device", device, 0, 1023)};
+                      devices_of(device)};
   apply(now, scene);
   Overrides& all = scene.instead;
   const auto take = [](auto& to, const auto& from) {
@@ -51,7 +52,7 @@ void override_options(GivenScene& scene, std::optional<std::uint64_t> seed, cons
   };
   take(all.seed, now.seed), take(all.backend, now.backend), take(all.precision, now.precision);
   take(all.method, now.method), take(all.linear, now.linear), take(all.threads, now.threads);
-  take(all.device, now.device);
+  take(all.devices, now.devices);
 }
 
 nb::object recipe_of(const GivenScene& scene) {

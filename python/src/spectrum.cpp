@@ -6,6 +6,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include "macadam/results.hpp"
@@ -34,11 +35,11 @@ nb::ndarray<nb::numpy, double> pairs_of(const std::vector<Unit>& units, double U
 }
 
 Spectrum spectrum(const PreparedPointer& specimen, double shortest, double longest, double tolerance,
-                  const std::string& backend, const std::string& linear, std::optional<int> device) {
+                  const std::string& backend, const std::string& linear, const Devices& device) {
   LongCall call;
   SpectrumOptions options{shortest, longest, tolerance, choice("backend", backend, backends),
                           choice("linear", linear, linear_methods)};
-  options.device = in_range("device", device, 0, 1023);
+  options.devices = devices_of(device).value_or(DeviceList{});
   options.stop = [&] { return call.stop(); };
   return call(
       [&] { return spectrum_of(specimen->made.specimen, specimen->made.network, specimen->scene->laws, options); });

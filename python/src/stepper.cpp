@@ -6,6 +6,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
 #include <limits>
@@ -141,7 +142,7 @@ using Text = std::string;
 void make(Steps* self, PreparedPointer specimen, const Boundary& boundary, std::optional<double> dt,
           const Text& backend, const Text& precision, const Text& form, const Text& geometry, const Text& damping_kind,
           double damping, double density_scaling, double safety, bool skip_shear, bool skip_rotations, int threads,
-          std::optional<int> device, int multiprocessors, const StartState* start, double blocks,
+          const Devices& device, int multiprocessors, const StartState* start, double blocks,
           std::int64_t observed_every) {
   StepperOptions options;
   options.form = choice("form", form, forms);
@@ -155,7 +156,7 @@ void make(Steps* self, PreparedPointer specimen, const Boundary& boundary, std::
   options.multiprocessors = in_range("multiprocessors", multiprocessors, 0, 4096);
   options.blocks = in_range("blocks", blocks, 1.0, 1e18);
   options.threads = in_range("threads", threads, 0, 1024);
-  options.device = in_range("device", device, 0, 1023);
+  options.devices = devices_of(device).value_or(DeviceList{});
   options.boundary = boundary;
   options.start = start;
   options.observed_every = observed_every;

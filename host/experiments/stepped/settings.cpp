@@ -22,7 +22,7 @@ StepperOptions stepper_options(const SolverSpec& solver, ContactForm form, Geome
   options.damping_kind = solver.damping_kind;
   options.damping = solver.damping;
   options.threads = solver.threads;
-  options.device = solver.device;
+  options.devices = solver.devices;
   return options;
 }
 

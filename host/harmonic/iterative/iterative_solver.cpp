@@ -42,9 +42,10 @@ class CpuSolver : public LinearSolver {
 
 class CudaSolver : public LinearSolver {
  public:
-  CudaSolver(kernels::Layout layout, const kernels::LinearSystem& system) : layout_(std::move(layout)) {
+  CudaSolver(kernels::Layout layout, const kernels::LinearSystem& system, const DeviceList& devices)
+      : layout_(std::move(layout)) {
     std::int64_t loose = -1;
-    solver_ = cuda_code()->make_solver(system, loose);
+    solver_ = cuda_code()->make_solver(system, device_numbers(devices), loose);
     if (loose >= 0) refuse_loose_particle(loose, layout_);
   }
 
@@ -105,7 +106,7 @@ std::size_t usual_boxes(std::size_t particles) { return std::clamp<std::size_t>(
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
                                                     const FreeMotions& free, Backend backend,
-                                                    std::optional<std::size_t> asked) {
+                                                    const DeviceList& devices, std::optional<std::size_t> asked) {
   if (free.motions.size() > kernels::most_free_motions) {
     throw NotIterable(fmt::format("harmonic: found {} motions of the whole that no wall resists, expected at most {}",
                                   free.motions.size(), kernels::most_free_motions));
@@ -114,7 +115,7 @@ std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, co
   kernels::Layout layout = kernels::make_order(specimen, boxes > 0 ? boxes : usual);
   kernels::LinearSystem system = make_system(network, specimen, layout, typical, inertia, free);
   if (boxes == 0) std::fill(system.coarse.begin(), system.coarse.end(), 0.0);
-  if (backend == Backend::cuda) return std::make_unique<CudaSolver>(std::move(layout), system);
+  if (backend == Backend::cuda) return std::make_unique<CudaSolver>(std::move(layout), system, devices);
   return std::make_unique<CpuSolver>(std::move(layout), std::move(system));
 }
 

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_array.hpp  Arrays that live on a device, or on several that share them.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "kernels/cuda_launch.hpp"
+#include "kernels/cuda_spread_memory.hpp"
+#include "kernels/state_list.hpp"
+
+namespace macadam::kernels {
+
+/// An array on the device in use, zero at first, from its making to its end.
+template <class T>
+class DeviceArray {
+ public:
+  DeviceArray() = default;
+  explicit DeviceArray(std::size_t size) : size_(size) {
+    if (size == 0) return;
+    if (const cudaError_t status = cudaMalloc(&data_, bytes()); status != cudaSuccess) {
+      cudaGetLastError();
+      throw_out_of_memory(bytes(), cudaGetErrorString(status));
+    }
+    clear();
+  }
+  /// Of so many words an item, on the devices of the items' shares.
+  DeviceArray(const Shares& shares, std::size_t words) {
+    if (shares.size() == 1) {
+      *this = DeviceArray(shares.back().end * words);
+      return;
+    }
+    size_ = shares.back().end * words;
+    if (size_ == 0) return;
+    spread_ = SpreadMemory(shares, words * sizeof(T));
+    data_ = static_cast<T*>(spread_.data());
+    clear();
+  }
+  template <class Array>
+  static DeviceArray of(const Array& host) {
+    DeviceArray out(host.size());
+    out.upload(host.data());
+    return out;
+  }
+  template <class Array>
+  static DeviceArray of(const Array& host, const Shares& shares) {
+    if (host.empty()) return {};
+    DeviceArray out(shares, host.size() / shares.back().end);
+    out.upload(host.data());
+    return out;
+  }
+  DeviceArray(DeviceArray&& other) noexcept { *this = std::move(other); }
+  DeviceArray& operator=(DeviceArray&& other) noexcept {
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(spread_, other.spread_);
+    return *this;
+  }
+  ~DeviceArray() {
+    if (!spread_.data()) cudaFree(data_);
+  }
+
+  void clear() {
+    if (size_ > 0) check_cuda(cudaMemset(data_, 0, bytes()), "clearing an array");
+  }
+  void upload(const T* host) {
+    if (size_ > 0) check_cuda(cudaMemcpy(data_, host, bytes(), cudaMemcpyHostToDevice), "copy to the device");
+  }
+  std::vector<T> download() const {
+    std::vector<T> out(size_);
+    if (size_ > 0) check_cuda(cudaMemcpy(out.data(), data_, bytes(), cudaMemcpyDeviceToHost), "copy from the device");
+    return out;
+  }
+  T* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  std::size_t bytes() const { return size_ * sizeof(T); }
+
+ private:
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+  SpreadMemory spread_;
+};
+
+/// Adds an array on the device, which must stay where it is, to what a checkpoint copies and replaces.
+template <class T>
+void add_device_state(StateList& states, const std::string& name, const std::string& unit, T* data, std::size_t size,
+                      StateList::Order order = {}) {
+  const std::size_t bytes = size * sizeof(T);
+  states.add<T>(
+      name, unit, size,
+      [=] {
+        std::vector<T> out(size);
+        check_cuda(cudaMemcpy(out.data(), data, bytes, cudaMemcpyDeviceToHost), "copy of the state");
+        return out;
+      },
+      [=](const std::vector<T>& values) {
+        check_cuda(cudaMemcpy(data, values.data(), bytes, cudaMemcpyHostToDevice), "setting the state");
+      },
+      std::move(order));
+}
+
+}  // namespace macadam::kernels

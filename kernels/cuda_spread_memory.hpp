@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_spread_memory.hpp  One range of addresses whose pages lie on several devices, and which all of them read
+/// and write.
+#pragma once
+
+#include <cuda.h>
+#include <cuda_runtime.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "macadam/error.hpp"
+
+namespace macadam::kernels {
+
+/// Items of an array, in order: those up to `end` are on device `device`.
+struct Share {
+  std::size_t end;
+  int device;
+};
+using Shares = std::vector<Share>;
+
+/// \throws RunError saying what the device in use has left.
+[[noreturn]] inline void throw_out_of_memory(std::size_t needed, const std::string& why) {
+  std::size_t free = 0, total = 0;
+  int device = 0;
+  cudaGetDevice(&device);
+  cudaMemGetInfo(&free, &total);
+  throw RunError("CUDA: device " + std::to_string(device) + " has " + std::to_string(free >> 20) + " of " +
+                 std::to_string(total >> 20) + " MiB left, and the next array needs " + std::to_string(needed >> 20) +
+                 " MiB: " + why);
+}
+
+/// The driver's functions, asked for by name: a program that is linked to the driver would not start without one.
+template <class Function>
+Function driver_function(const char* name) {
+  void* found = nullptr;
+  cudaDriverEntryPointQueryResult result{};
+#if CUDART_VERSION >= 12050
+  const cudaError_t status = cudaGetDriverEntryPointByVersion(name, &found, 12000, cudaEnableDefault, &result);
+#else
+  const cudaError_t status = cudaGetDriverEntryPoint(name, &found, cudaEnableDefault, &result);
+#endif
+  if (status != cudaSuccess || !found) throw RunError(std::string("CUDA: the driver has no ") + name);
+  return reinterpret_cast<Function>(found);
+}
+
+/// Memory of shares of items, each of `bytes` bytes: whole pages, each on the device that has most of it.
+class SpreadMemory {
+ public:
+  SpreadMemory() = default;
+  /// \throws RunError where a device has too little left.
+  SpreadMemory(const Shares& shares, std::size_t bytes) {
+    const auto reserve = driver_function<decltype(&cuMemAddressReserve)>("cuMemAddressReserve");
+    const auto granularity = driver_function<decltype(&cuMemGetAllocationGranularity)>("cuMemGetAllocationGranularity");
+    const auto set_access = driver_function<decltype(&cuMemSetAccess)>("cuMemSetAccess");
+    CUmemAllocationProp place{};
+    place.type = CU_MEM_ALLOCATION_TYPE_PINNED;
+    place.location.type = CU_MEM_LOCATION_TYPE_DEVICE;
+    place.location.id = shares.front().device;
+    std::size_t page = 0;
+    check(granularity(&page, &place, CU_MEM_ALLOC_GRANULARITY_RECOMMENDED), "granularity");
+    size_ = (shares.back().end * bytes + page - 1) / page * page;
+    check(reserve(&begin_, size_, 0, 0, 0), "reserving addresses");
+    std::vector<CUmemAccessDesc> readers;
+    for (const Share& share : shares) {
+      place.location.id = share.device;
+      const std::size_t end = &share == &shares.back() ? size_ : (share.end * bytes + page / 2) / page * page;
+      if (end > mapped_) map(place, end - mapped_);
+      if (std::none_of(readers.begin(), readers.end(), [&](const auto& r) { return r.location.id == share.device; }))
+        readers.push_back({place.location, CU_MEM_ACCESS_FLAGS_PROT_READWRITE});
+    }
+    check(set_access(begin_, size_, readers.data(), readers.size()), "access to spread memory");
+  }
+  SpreadMemory(SpreadMemory&& other) noexcept { *this = std::move(other); }
+  SpreadMemory& operator=(SpreadMemory&& other) noexcept {
+    std::swap(begin_, other.begin_);
+    std::swap(size_, other.size_);
+    std::swap(mapped_, other.mapped_);
+    return *this;
+  }
+  ~SpreadMemory() {
+    if (size_ == 0) return;
+    try {  // found when it was made
+      if (mapped_ > 0) driver_function<decltype(&cuMemUnmap)>("cuMemUnmap")(begin_, mapped_);
+      driver_function<decltype(&cuMemAddressFree)>("cuMemAddressFree")(begin_, size_);
+    } catch (const RunError&) {}
+  }
+
+  void* data() const { return reinterpret_cast<void*>(begin_); }
+
+ private:
+  static void check(CUresult status, const std::string& what) {
+    if (status != CUDA_SUCCESS) throw RunError("CUDA: " + what + ": error " + std::to_string(status) + " of the driver");
+  }
+  /// The next pages. The mapping keeps the memory alive.
+  void map(const CUmemAllocationProp& place, std::size_t bytes) {
+    CUmemGenericAllocationHandle pages{};
+    const CUresult made = driver_function<decltype(&cuMemCreate)>("cuMemCreate")(&pages, bytes, &place, 0);
+    if (made == CUDA_ERROR_OUT_OF_MEMORY) {
+      cudaSetDevice(place.location.id);
+      throw_out_of_memory(bytes, "out of memory");
+    }
+    check(made, "spread memory");
+    check(driver_function<decltype(&cuMemMap)>("cuMemMap")(begin_ + mapped_, bytes, 0, pages, 0), "mapping spread memory");
+    driver_function<decltype(&cuMemRelease)>("cuMemRelease")(pages);
+    mapped_ += bytes;
+  }
+
+  CUdeviceptr begin_ = 0;
+  std::size_t size_ = 0, mapped_ = 0;
+};
+
+}  // namespace macadam::kernels

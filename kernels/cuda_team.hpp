@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_team.hpp  The devices that share a specimen.
+///
+/// Every launch of a step is cut by runs of tiles, one for each device. An array keeps one range of addresses: its
+/// pages lie on the device that works on them, and all others reach them too. So a contact across a cut is stepped by
+/// the same code from the same numbers as any other, and results do not depend on the number of devices.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "kernels/cuda_array.hpp"
+#include "kernels/layout.hpp"
+
+namespace macadam::kernels {
+
+/// Streams of the devices that share a specimen. One device named twice takes two shares.
+class DeviceTeam {
+ public:
+  /// \throws RunError for two devices that cannot reach each other's memory.
+  explicit DeviceTeam(const DeviceList& devices) {
+    for (const int device : devices) member_.push_back({device, nullptr, nullptr});
+    for (Member& m : member_) {
+      for (const Member& other : member_) reach(m.device, other.device);
+      check_cuda(cudaSetDevice(m.device), "device");
+      check_cuda(cudaStreamCreate(&m.stream), "stream");
+      check_cuda(cudaEventCreateWithFlags(&m.here, cudaEventDisableTiming), "event");
+    }
+    use(0);
+  }
+  DeviceTeam(const DeviceTeam&) = delete;
+  ~DeviceTeam() {
+    for (const Member& m : member_) {
+      cudaSetDevice(m.device);
+      cudaStreamDestroy(m.stream);
+      cudaEventDestroy(m.here);
+    }
+    use(0);
+  }
+
+  std::size_t size() const { return member_.size(); }
+  int device(std::size_t m) const { return member_[m].device; }
+  cudaStream_t stream(std::size_t m = 0) const { return member_[m].stream; }
+  /// How many of the team are the device of member m.
+  int shares_of(std::size_t m) const {
+    return static_cast<int>(std::count_if(member_.begin(), member_.end(),
+                                          [&](const Member& other) { return other.device == member_[m].device; }));
+  }
+  /// Makes the device of member m the calling thread's; that it answers is known by then.
+  void use(std::size_t m) const { cudaSetDevice(member_[m].device); }
+
+  /// Calls f(m) for every member, with its device in use.
+  template <class F>
+  void each(F&& f) const {
+    if (size() == 1) return f(std::size_t{0});
+    for (std::size_t m = 0; m < size(); ++m) {
+      use(m);
+      f(m);
+    }
+    use(0);
+  }
+
+  /// What any member queues from now on waits for all that the members have queued.
+  void meet() const {
+    if (size() == 1) return;
+    each([&](std::size_t m) { check_cuda(cudaEventRecord(member_[m].here, member_[m].stream), "event"); });
+    each([&](std::size_t m) {
+      for (std::size_t other = 0; other < size(); ++other) {
+        if (other != m) check_cuda(cudaStreamWaitEvent(member_[m].stream, member_[other].here, 0), "event");
+      }
+    });
+  }
+  /// What f() queues, as a graph for the stream of the first member.
+  template <class F>
+  cudaGraphExec_t record(F&& f) const {
+    check_cuda(cudaStreamBeginCapture(stream(), cudaStreamCaptureModeThreadLocal), "graph");
+    check_cuda(cudaEventRecord(member_[0].here, stream()), "graph");
+    for (std::size_t m = 1; m < size(); ++m)
+      check_cuda(cudaStreamWaitEvent(member_[m].stream, member_[0].here, 0), "graph");
+    f();
+    for (std::size_t m = 1; m < size(); ++m) {
+      use(m);
+      check_cuda(cudaEventRecord(member_[m].here, member_[m].stream), "graph");
+      use(0);
+      check_cuda(cudaStreamWaitEvent(stream(), member_[m].here, 0), "graph");
+    }
+    cudaGraph_t graph = nullptr;
+    cudaGraphExec_t out = nullptr;
+    check_cuda(cudaStreamEndCapture(stream(), &graph), "graph");
+    check_cuda(cudaGraphInstantiate(&out, graph, 0), "graph");
+    check_cuda(cudaGraphDestroy(graph), "graph");
+    return out;
+  }
+
+  /// Until all that is queued is done. A failing kernel is reported here.
+  void wait(const char* what) const {
+    each([&](std::size_t m) { check_cuda(cudaStreamSynchronize(member_[m].stream), what); });
+  }
+
+ private:
+  struct Member {
+    int device;
+    cudaStream_t stream;
+    cudaEvent_t here;
+  };
+
+  static void reach(int from, int to) {
+    if (from == to) return;
+    int can = 0;
+    check_cuda(cudaDeviceCanAccessPeer(&can, from, to), "device");
+    if (!can) {
+      throw RunError("CUDA: device " + std::to_string(from) + " cannot reach the memory of device " +
+                     std::to_string(to) + ": the two cannot share a specimen");
+    }
+    check_cuda(cudaSetDevice(from), "device");
+    const cudaError_t status = cudaDeviceEnablePeerAccess(to, 0);
+    if (status == cudaErrorPeerAccessAlreadyEnabled)
+      cudaGetLastError();
+    else
+      check_cuda(status, "access to another device's memory");
+  }
+
+  std::vector<Member> member_;
+};
+
+/// The tiles of a layout, cut into as many runs as a team has members.
+class TeamCuts {
+ public:
+  TeamCuts(const DeviceTeam& team, const Layout& layout) : team_(team), layout_(layout) {
+    for (std::size_t m = 0; m <= team.size(); ++m) tile_.push_back(m * layout.tiles() / team.size());
+  }
+
+  /// Of member m; that of the number of members is the end.
+  std::size_t tile(std::size_t m) const { return tile_[m]; }
+  /// Bodies; the last member has the walls.
+  std::size_t body(std::size_t m) const {
+    return static_cast<std::size_t>(layout_.tile_body[tile_[m]]) + (m == team_.size() ? walls : 0);
+  }
+  /// Slots of a group.
+  std::size_t slot(const GroupLayout& group, std::size_t m) const {
+    return group.tile_packet[tile_[m]] * static_cast<std::size_t>(layout_.lanes);
+  }
+
+  Shares bodies() const {
+    return of([&](std::size_t m) { return body(m); });
+  }
+  Shares slots(const GroupLayout& group) const {
+    return of([&](std::size_t m) { return slot(group, m); });
+  }
+  /// Of the slots of all groups, one group behind the other.
+  Shares all_slots() const {
+    Shares out;
+    for (const auto& group : layout_.groups) {
+      const std::size_t before = out.empty() ? 0 : out.back().end;
+      for (const Share& share : slots(group)) out.push_back({before + share.end, share.device});
+    }
+    return out;
+  }
+  /// Of any items, the first of member m being first(m).
+  template <class First>
+  Shares of(First&& first) const {
+    Shares out;
+    for (std::size_t m = 0; m < team_.size(); ++m) out.push_back({first(m + 1), team_.device(m)});
+    return out;
+  }
+
+ private:
+  const DeviceTeam& team_;
+  const Layout& layout_;
+  std::vector<std::size_t> tile_;
+};
+
+}  // namespace macadam::kernels

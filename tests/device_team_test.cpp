@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// device_team_test.cpp  One specimen on several devices: the same bits as on one. A device that is named more than once
+// takes so many shares, so that one device is enough for most of this.
+#include <gtest/gtest.h>
+
+#include "stepper_cases.hpp"
+#include "test_files.hpp"
+
+namespace macadam::test {
+namespace {
+
+/// Teams of 1 to 8 shares of the first device, and one of all devices.
+std::vector<DeviceList> teams() {
+  std::vector<DeviceList> out;
+  for (const std::size_t shares : {1u, 2u, 3u, 5u, 8u}) out.emplace_back(shares, 0);
+  if (report_backends().devices.size() > 1) out.push_back({every_device});
+  return out;
+}
+
+struct Case {
+  const char* name;
+  Precision precision;
+  ContactForm form;
+  Geometry geometry;
+  int multiprocessors;  // few: the specimen does not fit the chip
+  const char* path;
+};
+
+class Team : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+    const Case& c = GetParam();
+    scene_ = make_scene(random_specimen(3, 16, 16, 20));  // more than eight multiprocessors take
+    options_ = slow_options(scene_);
+    options_.precision = c.precision;
+    options_.form = c.form;
+    options_.geometry = c.geometry;
+    options_.multiprocessors = c.multiprocessors;
+  }
+  std::unique_ptr<Stepper> make(const DeviceList& devices) {
+    options_.devices = devices;
+    return make_stepper(Backend::cuda, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options_);
+  }
+
+  TestScene scene_;
+  StepperOptions options_;
+};
+
+void expect_same(const std::vector<StateArray>& a, const std::vector<StateArray>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].name, b[i].name);
+    EXPECT_TRUE(a[i].values == b[i].values) << a[i].name;
+  }
+}
+
+void expect_same(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, const char* what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) different += a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z;
+  EXPECT_EQ(different, 0u) << what << ", of " << a.size();
+}
+
+TEST_P(Team, TakesTheStepsOfOneDevice) {
+  const auto alone = make({0});
+  EXPECT_HAS(alone->description(), GetParam().path);
+  alone->advance(333);
+  const auto state = alone->state();
+  for (const DeviceList& devices : teams()) {
+    SCOPED_TRACE(to_string(devices));
+    const auto team = make(devices);  // more multiprocessors may have room for what one streams
+    if (devices.size() > 1) { EXPECT_HAS(team->description(), "devices " + to_string(devices)); }
+    for (const std::int64_t steps : {1, 32, 300}) team->advance(steps);
+    expect_same(team->state(), state);
+    const auto walls = [](const Stepper& s) {
+      const auto force = s.observe().wall_force;
+      return std::vector<Vec3d>(force.begin(), force.end());
+    };
+    expect_same(walls(*team), walls(*alone), "forces on the walls");
+    expect_same(team->particles().force, alone->particles().force, "forces on the particles");
+    expect_same(team->contacts(scene_.network).force, alone->contacts(scene_.network).force, "forces of the contacts");
+    EXPECT_EQ(team->first_divergent(), -1);
+  }
+}
+
+TEST_P(Team, GoesOnFromTheCheckpointOfAnother) {
+  const auto alone = make({0});
+  alone->advance(150);
+  const auto half = alone->state();
+  alone->advance(150);
+  const auto whole = alone->state();
+  const auto pair = make({0, 0});
+  pair->set_state(half);
+  pair->advance(75);
+  const auto five = make({0, 0, 0, 0, 0});
+  five->set_state(pair->state());
+  five->advance(75);
+  expect_same(five->state(), whole);
+}
+
+TEST(TeamHarmonic, FindsTheMotionOfOneDevice) {
+  if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+  const TestScene scene = make_scene(random_specimen(3, 16, 16, 20));
+  const auto solve = [&](const DeviceList& devices) {
+    HarmonicOptions options;
+    options.backend = Backend::cuda;
+    options.devices = devices;
+    Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, options, 10);
+    return harmonic.solve(std::vector<HarmonicLoad>{{.frequency_hz = 2}, {.frequency_hz = 20, .density_scaling = 1}});
+  };
+  const auto alone = solve({0});
+  for (const DeviceList& devices : teams()) {
+    const auto team = solve(devices);
+    ASSERT_EQ(team.size(), alone.size());
+    for (std::size_t k = 0; k < alone.size(); ++k) {
+      EXPECT_TRUE(team[k].motion == alone[k].motion) << to_string(devices) << ", load " << k;
+      EXPECT_EQ(team[k].iterations, alone[k].iterations) << to_string(devices);
+    }
+  }
+}
+
+constexpr auto condensed = ContactForm::condensed, points = ContactForm::points;
+constexpr auto fixed = Geometry::fixed, updated = Geometry::updated;
+INSTANTIATE_TEST_SUITE_P(
+    All, Team,
+    testing::Values(Case{"SingleOnTheChip", Precision::single, condensed, fixed, 0, "tiles on the chip"},
+                    Case{"MixedOnTheChip", Precision::mixed, condensed, updated, 0, "tiles on the chip"},
+                    Case{"SingleStreamed", Precision::single, condensed, updated, 1, "tiles streamed"},
+                    Case{"MixedStreamed", Precision::mixed, condensed, fixed, 1, "tiles streamed"},
+                    Case{"DoubleCondensed", Precision::double_, condensed, updated, 0, "two kernels a step"},
+                    Case{"DoublePoints", Precision::double_, points, updated, 0, "two kernels a step"},
+                    Case{"SinglePoints", Precision::single, points, fixed, 0, "two kernels a step"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace macadam::test
