@@ -8,6 +8,7 @@
 
 #include "kernels/contact_reading.hpp"
 #include "kernels/cuda_divergence.hpp"
+#include "kernels/cuda_part_clock.hpp"
 #include "kernels/cuda_record_rows.hpp"
 #include "kernels/cuda_team.hpp"
 #include "kernels/cuda_tile_limits.hpp"
@@ -90,6 +91,9 @@ class CudaBodyArrays {
   }
 
   const StateList& states() const { return states_; }
+
+  void start_clock() { parts_.start(team_.stream()); }
+  std::vector<PartTime> stop_clock() { return parts_.stop(); }
 
   /// What stays on the device where a stepper does.
   DeviceMotion device_motion() const {
@@ -203,7 +207,8 @@ class CudaBodyArrays {
     if (words % group.contact.size() == 0) return cuts_.slots(group);
     return cuts_.of([&](std::size_t m) {
       const std::size_t packet = group.tile_packet[cuts_.tile(m)], row = group.packet_row[packet];
-      return m == team_.size() ? words : std::min<std::size_t>(words, row * (words / std::max(group.packet_row.back(), 1u)));
+      return m == team_.size() ? words
+                               : std::min<std::size_t>(words, row * (words / std::max(group.packet_row.back(), 1u)));
     });
   }
 
@@ -219,6 +224,7 @@ class CudaBodyArrays {
   mutable std::unique_ptr<DivergenceSearch<P>> divergence_;  // made when first asked
   DeviceStore store_;
   StateList states_;
+  PartClock parts_;
   std::int64_t group_bytes_ = 0, state_bytes_ = 0;
 };
 

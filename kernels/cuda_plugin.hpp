@@ -24,6 +24,7 @@ struct CudaCode {
   /// singular, else −1. \throws RunError where a device has too little memory.
   std::unique_ptr<DeviceSolver> (*make_solver)(const LinearSystem& system, const DeviceList& devices,
                                                std::int64_t& loose);
+  DeviceSpeed (*measure)(int device);
 };
 
 /// What the plugin exports, under the C name `macadam_cuda_plugin`. The first two members stay what they are, so that
@@ -35,6 +36,6 @@ struct CudaPlugin {
 };
 
 /// Counted up with every change of CudaCode, or of what it is handed.
-inline constexpr int cuda_interface = 2;
+inline constexpr int cuda_interface = 3;
 
 }  // namespace macadam::kernels

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "kernels/cuda_part_clock.hpp"
 #include "kernels/cuda_record_rows.hpp"
 #include "kernels/cuda_settling.hpp"
 #include "kernels/cuda_tile_limits.hpp"
@@ -22,9 +23,10 @@ class TileRunner {
   using R = typename P::Particle;
 
   TileRunner(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, const DeviceTeam& team,
-             const TeamCuts& cuts)
+             const TeamCuts& cuts, PartClock& parts)
       : team_(team),
         cuts_(cuts),
+        parts_(parts),
         plan_(plan_tiles(network, layout, begins_share())),
         carried_(options.geometry == Geometry::updated),
         layout_(layout),
@@ -157,6 +159,7 @@ class TileRunner {
       }
       const auto n = static_cast<std::uint32_t>(std::min<std::int64_t>(length_ - in_block_, steps - done));
       run_(n);
+      parts_.end_of(resident_ ? "tiles on the chip" : "tiles streamed", team_.stream());
       scene_.motion.wall.table += n * scene_.motion.wall.row_words();
       tag_ += n;
       in_block_ += static_cast<int>(n);
@@ -196,9 +199,38 @@ class TileRunner {
     return static_cast<std::int64_t>(constant_.bytes() + 2 * states * sizeof(float4) +
                                      bodies_ * velocity_words * sizeof(R));
   }
+  /// Of `all` bytes of a step, what stays on the chip: counted by packets and slots.
+  Traffic traffic_by_place(std::int64_t all) const {
+    constexpr std::int64_t of_constants = 16 * 32, of_states = 2 * 16 * 32 * tile_states, of_velocity = 32,
+                           of_slot = 2 * 24;
+    Traffic out;
+    for (const Tile& tile : plan_.tile) {
+      const std::int64_t packets = tile.packets, contacts = 32 * packets;
+      const std::int64_t constants = of_constants * tile_constants(carried_);
+      out.shared +=
+          of_velocity * (contacts + contacts / TilePlan::run + tile.bodies + tile.halo) + of_slot * tile.slots;
+      if (!resident_) continue;
+      const std::int64_t cached = std::min<std::int64_t>(scene_.cached_packets, packets);
+      out.shared += constants * cached;
+      out.cache += constants * (packets - cached) + of_states * (packets - packets_in_registers(tile)) +
+                   of_velocity * (tile.bodies + tile.halo);
+      const auto rest = static_cast<std::int64_t>(ResidentMemory<P>::rest_bytes(tile.bodies, scene_.where));
+      (scene_.where == TileRest::here ? out.shared : out.cache) += rest;
+    }
+    if (!resident_) out.memory = all;
+    return out;
+  }
   std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
 
  private:
+  static constexpr std::uint32_t resident_threads = 512;  ///< all registers: a contact's state takes twelve
+  /// As ResidentTile::share() has it.
+  static std::int64_t packets_in_registers(const Tile& tile) {
+    constexpr std::uint32_t warps = resident_threads / 32, run = TilePlan::run;
+    const std::uint32_t groups = std::min(tile.groups, warps), free = warps - groups,
+                        ones = tile.packets - run * tile.groups;
+    return run * groups + std::min(ones, run * free);
+  }
   /// Adds the first `count` components of word w of 16 bytes.
   static void add_words(std::vector<std::uint64_t>& to, int w, int count) {
     for (int k = 0; k < count; ++k)
@@ -261,7 +293,7 @@ class TileRunner {
 
   template <bool carried>
   bool try_resident() {
-    constexpr int Threads = 512;  // all registers: a contact's state takes twelve
+    constexpr int Threads = resident_threads;
     const auto kernel = run_resident<P, Threads, carried>;
     const auto limit = static_cast<std::uint32_t>(limits_.shared);
     const auto memory = [&](std::uint32_t cached) {
@@ -405,6 +437,7 @@ class TileRunner {
     team_.meet();
     settling_.run(begun_ ? in_block_ : 0, steps, settled());
     team_.meet();
+    parts_.end_of("settling", team_.stream());
     team_.each([&](std::size_t m) {
       const auto [long_body, long_rows] = rows_->long_rows(m, true);
       const std::size_t first = cuts_.body(m), end = cuts_.body(m + 1);
@@ -414,6 +447,7 @@ class TileRunner {
              scene_.motion.body.displacement, before_);
     });
     team_.meet();
+    parts_.end_of("base loads", team_.stream());
     begun_ = true;
     length_ = steps;
     in_block_ = 0;
@@ -431,6 +465,7 @@ class TileRunner {
 
   const DeviceTeam& team_;
   const TeamCuts& cuts_;
+  PartClock& parts_;
   TilePlan plan_;
   bool carried_, resident_ = false, prepared_ = false, begun_ = false, to_observations_ = false;
   int block_ = 0, in_block_ = 0, length_ = 0;  // length_: of the block that runs, the first may be another

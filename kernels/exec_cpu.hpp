@@ -218,6 +218,13 @@ class ExecCpu {
   }
   std::vector<KernelUse> kernels() const { return {}; }
   std::int64_t traffic() const { return bytes() + state_bytes_; }
+  Traffic traffic_by_place() const { return {traffic(), 0, 0}; }
+
+  void start_clock() { bodies_time_ = contacts_time_ = 0, timed_ = true; }
+  std::vector<PartTime> stop_clock() {
+    timed_ = false;
+    return {{"bodies", bodies_time_}, {"contacts", contacts_time_}};
+  }
   std::int64_t bytes() const {
     return bytes_ +
            static_cast<std::int64_t>(
@@ -236,9 +243,13 @@ class ExecCpu {
       const SubnormalsAreZero<sizeof(typename P::Geometry) == sizeof(float)> while_stepping;
       const Team team{*this, static_cast<std::size_t>(omp_get_thread_num()),
                       static_cast<std::size_t>(omp_get_num_threads()), barrier};
+      const bool times = timed_ && team.thread == 0;
       for (std::int64_t row = first; row < end; ++row) {
+        const double begin = times ? omp_get_wtime() : 0;
         team.bodies(motion_, row);
+        const double between = times ? omp_get_wtime() : 0;
         team.contacts();
+        if (times) bodies_time_ += between - begin, contacts_time_ += omp_get_wtime() - between;
       }
     }
   }
@@ -321,6 +332,8 @@ class ExecCpu {
   std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
   int threads_;
   ThreadChoice choice_;
+  bool timed_ = false;
+  double bodies_time_ = 0, contacts_time_ = 0;  // of the first thread, with its waiting for the others [s]
 };
 
 }  // namespace macadam::kernels

@@ -69,7 +69,7 @@ class ExecCuda : public CudaBodyArrays<P> {
     this->team_.meet();  // with what the start has put into memory
     if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->team_.stream(), clock_);
     this->team_.meet();
-    if (waits_for_launches()) {  // which a graph cannot
+    if (waits_for_launches() || this->parts_.runs()) {  // which a graph cannot
       for (; steps > 0; --steps) step();
     }
     const auto queue = [&](cudaGraphExec_t& graph, std::int64_t n) {
@@ -104,6 +104,7 @@ class ExecCuda : public CudaBodyArrays<P> {
     return this->group_bytes_ + this->state_bytes_ + this->body_traffic() +
            static_cast<std::int64_t>(2 * records_.bytes() + this->rows_.place.bytes());
   }
+  Traffic traffic_by_place() const { return {traffic(), 0, 0}; }
   std::int64_t bytes() const { return this->held_bytes() + static_cast<std::int64_t>(records_.bytes()); }
 
  private:
@@ -121,11 +122,13 @@ class ExecCuda : public CudaBodyArrays<P> {
              records(), long_body, long_rows, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end));
     });
     team.meet();
+    this->parts_.end_of("bodies", team.stream());
     team.each([&](std::size_t m) {
       contacts_[m].run(team.stream(m), {this->gathered(), this->displacement_.data()}, records(),
                        m == 0 ? clock_ : WallClock<R>{});
     });
     team.meet();
+    this->parts_.end_of("contacts", team.stream());
   }
 
   void forget_graphs() {
@@ -143,7 +146,7 @@ class ExecCuda : public CudaBodyArrays<P> {
   DeviceArray<R> wall_row_;  // of the step
   WallClock<R> clock_;
   std::vector<ContactLaunches<P, AnyLaw>> contacts_;  // [member]
-  std::uint32_t slots_ = 0;  // of the groups so far
+  std::uint32_t slots_ = 0;                           // of the groups so far
 };
 
 }  // namespace macadam::kernels

@@ -28,9 +28,13 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
       const DeviceLimits of_device = DeviceLimits::query(options.multiprocessors, team.shares_of(m));
       limits = m == 0 ? of_device : limits.least(of_device);
     });
-    const auto chips = static_cast<std::size_t>(limits.multiprocessors) * team.size(),
-               shared = static_cast<std::size_t>(limits.shared);
+    auto chips = static_cast<std::size_t>(limits.multiprocessors) * team.size();
+    const auto shared = static_cast<std::size_t>(limits.shared);
     const std::size_t contacts = network.contacts.size();
+    if (options.side_by_side > 1) {
+      const std::size_t part = std::max<std::size_t>(1, chips / static_cast<std::size_t>(options.side_by_side));
+      if (expected_resident_bytes<P>(network, part) <= shared) chips = part;
+    }
     if (expected_resident_bytes<P>(network, chips) > shared) return std::min<std::size_t>(1500, shared / 100);
     return std::max<std::size_t>(128, contacts / (chips + 1) + 1);
   }
@@ -45,7 +49,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
 
   /// \throws Impossible
   ExecCudaTiles(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
-      : Base(network, layout, options, RecordOrder::by_number), tiles_(network, layout, options, this->team_, this->cuts_) {
+      : Base(network, layout, options, RecordOrder::by_number),
+        tiles_(network, layout, options, this->team_, this->cuts_, this->parts_) {
     if (!tiles_.possible()) throw Impossible{};
   }
 
@@ -94,6 +99,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   std::string description() const { return this->described(tiles_.description()); }
   std::vector<KernelUse> kernels() const { return tiles_.kernels(); }
   std::int64_t traffic() const { return tiles_.traffic() + this->body_traffic(); }
+  Traffic traffic_by_place() const { return tiles_.traffic_by_place(traffic()); }
   std::int64_t bytes() const { return this->held_bytes() + tiles_.bytes(); }
 
  private:

@@ -63,6 +63,9 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
   { read.kernels() } -> std::same_as<std::vector<KernelUse>>;
   { read.bytes() } -> std::same_as<std::int64_t>;
   { read.traffic() } -> std::same_as<std::int64_t>;
+  { read.traffic_by_place() } -> std::same_as<Traffic>;
+  exec.start_clock();  // the parts of the steps to come are timed
+  { exec.stop_clock() } -> std::same_as<std::vector<PartTime>>;
   read.use_device();  // a thread has a current device of its own, and may serve several steppers
 };
 

@@ -219,6 +219,16 @@ class StepperImpl final : public Stepper {
   }
   std::int64_t bytes() const override { return exec_.bytes(); }
   std::int64_t traffic() const override { return exec_.traffic(); }
+  Traffic traffic_by_place() const override { return exec_.traffic_by_place(); }
+
+  std::vector<PartTime> advance_timed(std::int64_t steps) override {
+    exec_.use_device();
+    exec_.start_clock();
+    advance(steps);
+    std::vector<PartTime> out = exec_.stop_clock();
+    for (PartTime& part : out) part.seconds /= static_cast<double>(std::max<std::int64_t>(steps, 1));
+    return out;
+  }
 
  private:
   /// Rotations are skipped only where nothing turns, at the start or later.

@@ -31,5 +31,7 @@ Backend resolved(Backend asked, bool on_device, StepperOptions& options);
 void report_cuda_devices(BackendReport& report);
 /// Only in builds with CUDA: why this device cannot run the kernels, as the one that is to; empty where it can.
 std::string cuda_refusal(int device);
+/// Only in builds with CUDA: as macadam::measure_device().
+DeviceSpeed measure_device(int device);
 
 }  // namespace macadam::kernels

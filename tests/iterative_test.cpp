@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
-#include "bench/fcc_network.hpp"
+#include "host/bench/cases.hpp"
 #include "bench/stability/hostile_scenes.hpp"
 #include "cluster_specimens.hpp"
 #include "host/harmonic/iterative/apply_row.hpp"
@@ -182,7 +182,8 @@ TEST_P(Iterative, OneAtATimeGivesTheSame) {
 
 // Large enough that the order of particles, the rows, the coarse matrix and all sums are made in several pieces.
 TEST_P(Iterative, SameBitsForAnyNumberOfThreads) {
-  const TestScene scene = bench::fcc_scene(15000, true);
+  const bench::BenchCase lattice = bench::lattice(15000, true);
+  const TestScene scene{lattice.specimen, lattice.network, lattice.laws, lattice.inertia};
   const int before = omp_get_max_threads();
   std::vector<std::vector<Complex>> motions;
   std::vector<Complex> moduli;

@@ -2,6 +2,7 @@
 // commands.cpp  The commands, a line each.
 #include "host/cli/commands.hpp"
 
+#include "host/cli/bench_command.hpp"
 #include "host/cli/calibrate_command.hpp"
 #include "host/cli/check_command.hpp"
 #include "host/cli/ct_command.hpp"
@@ -35,6 +36,7 @@ void make_command_line(CLI::App& app) {
   add_info_command(app);
   add_new_command(app);
   add_check_command(app);
+  add_bench_command(app);
   add_python_commands(app);
   add_shell_commands(app);
 }

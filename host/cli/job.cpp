@@ -13,9 +13,6 @@
 
 namespace macadam {
 
-namespace {
-
-/// "0", "0,1", "all".
 DeviceList devices_of(const std::string& text) {
   if (text == "all") return {every_device};
   DeviceList out;
@@ -32,10 +29,12 @@ DeviceList devices_of(const std::string& text) {
   }
 }
 
-}  // namespace
-
 void add_job_options(CLI::App& command, Job& job) {
   add_text(command, "scene", job.scene, "scene file (TOML)")->required();
+  add_out_and_seed(command, job);
+}
+
+void add_out_and_seed(CLI::App& command, Job& job) {
   add_out(command, job.out);
   add_number(command, "--seed", job.seed, "another specimen of the same mixture, instead of the scene's", 0,
              std::numeric_limits<std::uint64_t>::max())
@@ -59,12 +58,7 @@ void add_overrides(CLI::App& command, Overrides& instead) {
       ->group(instead_of_scene);
   add_number(command, "--threads", instead.threads, "of the CPU; results do not depend on it", 1, 1024)
       ->group(instead_of_scene);
-  options::add(
-      command, "--device,--devices",
-      "number of the CUDA device, as macadam info lists them, or 0,1,… or all: they share the specimen",
-      [&instead](const std::string& text) { instead.devices = devices_of(text); })
-      ->type_name("LIST")
-      ->group(instead_of_scene);
+  add_devices(command, instead.devices)->group(instead_of_scene);
 }
 
 Scene scene_of(const Job& job) {

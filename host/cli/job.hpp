@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "host/cli/options.hpp"
 #include "host/cli/progress_line.hpp"
 #include "host/scene/overrides.hpp"
 #include "macadam/simulation.hpp"
@@ -22,11 +23,25 @@ struct Job {
 /// Options that stand for keys of the scene, in the help.
 inline constexpr const char* instead_of_scene = "Instead of the scene's own";
 
+/// "0", "0,1", "all".
+DeviceList devices_of(const std::string& text);
+
 /// SCENE, --out and --seed.
 void add_job_options(CLI::App& command, Job& job);
+/// --out and --seed alone.
+void add_out_and_seed(CLI::App& command, Job& job);
 
 /// --backend, --precision, --method, --linear, --threads and --device.
 void add_overrides(CLI::App& command, Overrides& instead);
+
+/// --device alone: "0", "0,1" or "all".
+template <class Target>  // DeviceList, or an optional one
+CLI::Option* add_devices(CLI::App& command, Target& target) {
+  return options::add(command, "--device,--devices",
+                      "number of the CUDA device, as macadam info lists them, or 0,1,… or all: they share the specimen",
+                      [&target](const std::string& text) { target = devices_of(text); })
+      ->type_name("LIST");
+}
 
 /// Reads the scene. \throws InputError.
 Scene scene_of(const Job& job);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_command.cpp  macadam run SCENE --out DIR
+// run_command.cpp  macadam run SCENE… --out DIR
 #include "host/cli/run_command.hpp"
 
 #include <memory>
@@ -7,6 +7,7 @@
 #include "host/cli/help.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/options.hpp"
+#include "host/cli/run_scenes.hpp"
 #include "host/cli/stop_signals.hpp"
 #include "host/scene/overrides.hpp"
 #include "macadam/macadam.hpp"
@@ -16,11 +17,13 @@ namespace {
 
 struct RunArguments {
   Job job;
+  std::vector<std::string> scenes;
   Overrides instead;
   bool resume = false;
+  int at_once = 0;
 };
 
-void run_command(const RunArguments& arguments) {
+void run_one(const RunArguments& arguments) {
   Scene scene = scene_of(arguments.job);
   apply(arguments.instead, scene);
   ProgressLine line;
@@ -64,17 +67,29 @@ void run_command(const RunArguments& arguments) {
   say("\n{} | files in {}: {}\n", result.solver, arguments.job.out, files);
 }
 
+void run_command(RunArguments arguments) {
+  arguments.job.scene = arguments.scenes.front();
+  if (arguments.scenes.size() == 1) return run_one(arguments);
+  run_scenes(arguments.scenes, arguments.job, arguments.instead, arguments.at_once, arguments.resume);
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app) {
-  CLI::App& command = *app.add_subcommand("run", "run a scene and write its results");
+  CLI::App& command = *app.add_subcommand("run", "run a scene, or several side by side, and write the results");
   const auto arguments = std::make_shared<RunArguments>();
-  add_job_options(command, arguments->job);
+  command.add_option("scene", arguments->scenes, "scene files (TOML); of several, each has a folder in that of --out")
+      ->required()
+      ->type_name("FILE");
+  add_out_and_seed(command, arguments->job);
   command.add_flag("--resume", arguments->resume,
                    "go on from the checkpoint that an interrupted run left in the folder");
+  add_number(command, "--at-once", arguments->at_once,
+             "scenes at a time, of several; 0: three a CUDA device, all devices, or one a core", 0, 1024);
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam run examples/demo/scene.toml --out results",
-                         "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2"});
+                         "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2",
+                         "macadam run mixes/*.toml --out results --at-once 4"});
   command.callback([arguments] { run_command(*arguments); });
 }
 

@@ -98,6 +98,12 @@ DeviceList device_numbers(const DeviceList& asked) {
   return out;
 }
 
+DeviceSpeed measure_device(int device) {
+  const kernels::CudaCode* code = cuda_code();
+  if (!code) throw RunError("device " + std::to_string(device) + " cannot be measured: there is no CUDA backend");
+  return code->measure(device);
+}
+
 Backend select_backend(Backend asked, std::string* reason, const DeviceList& devices) {
   if (!devices.empty() && (asked == Backend::cpu || asked == Backend::reference)) {
     throw InputError("device: found " + to_string(devices) + " beside backend " + to_string(asked) +

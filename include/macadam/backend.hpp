@@ -45,6 +45,20 @@ struct BackendReport {
   int threads = 1;                               ///< OpenMP's maximum
 };
 
+/// What a CUDA device can do at the most, as measured.
+struct DeviceSpeed {
+  std::string name;
+  int multiprocessors = 0, driver = 0, runtime = 0;  ///< versions as CUDA numbers them: 13000 is 13.0
+  std::int64_t cache_bytes = 0;                      ///< of the second-level cache
+  double copy = 0;    ///< bytes read and written in a second by a copy within the memory [byte/s]
+  double cache = 0;   ///< likewise within the second-level cache
+  double shared = 0;  ///< likewise within the shared memories of all multiprocessors
+  double clock = 0;   ///< of the multiprocessors, under load [Hz]
+};
+
+/// \throws RunError where the device is not there.
+DeviceSpeed measure_device(int device);
+
 /// Looks at the machine; makes no context on any device. Never throws.
 BackendReport report_backends();
 
@@ -56,10 +70,9 @@ inline constexpr int every_device = -1;
 std::string to_string(const DeviceList& devices);
 
 /// Resolves `automatic` to cuda where the build has it and a device answers, else cpu; `reason` (optional) says why.
-/// `devices` are those that are meant, where some are; `automatic` then is cuda. A context is made on them or, without a
-/// number, on the first usable one.
-/// \throws RunError when cuda is asked for and is not there; InputError for a number that no usable device has, or
-/// beside another backend.
+/// `devices` are those that are meant, where some are; `automatic` then is cuda. A context is made on them or, without
+/// a number, on the first usable one. \throws RunError when cuda is asked for and is not there; InputError for a number
+/// that no usable device has, or beside another backend.
 Backend select_backend(Backend asked, std::string* reason = nullptr, const DeviceList& devices = {});
 
 }  // namespace macadam

@@ -35,4 +35,5 @@
 #include "macadam/sensitivity.hpp"
 #include "macadam/harmonic.hpp"
 #include "macadam/simulation.hpp"
+#include "macadam/run_many.hpp"
 #include "macadam/calibration.hpp"

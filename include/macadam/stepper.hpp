@@ -47,6 +47,8 @@ struct StepperOptions {
   int threads = 0;             ///< cpu: 0 is OpenMP's choice; results do not depend on it
   DeviceList devices;          ///< cuda: that share the specimen, the first made the calling thread's
   int multiprocessors = 0;     ///< cuda: plan for so many, as if it had no more; 0: all; results do not depend on it
+  int side_by_side = 1;        ///< cuda: so many specimens are on the device now: a small one leaves room for others;
+                               ///< results do not depend on it
   Boundary boundary;           ///< what drives the walls, fixes and loads particles; drives' dt() is dt
   const StartState* start = nullptr;  ///< read by make_stepper() only; a cyclic drive must have no ramp then
   /// A device may take steps in blocks, within which laws are not settled (model (6.8)). At least so many blocks go
@@ -101,6 +103,19 @@ struct KernelUse {
   int registers = 0;              ///< a thread
   std::int64_t shared_bytes = 0;  ///< a block
   double occupancy = 0;           ///< threads that fit over the most that a multiprocessor can have
+};
+
+/// Bytes that a step moves, by where from or to.
+struct Traffic {
+  std::int64_t memory = 0;
+  std::int64_t cache = 0;   ///< the second-level cache of a device, that has no need of the memory
+  std::int64_t shared = 0;  ///< shared memories of the multiprocessors
+};
+
+/// A part of a step: a kernel, or what lies between two blocks of steps.
+struct PartTime {
+  std::string name;
+  double seconds = 0;
 };
 
 /// Where the motion of the bodies lies on a device, for those who go on with it there. Valid until the stepper's next
@@ -172,6 +187,15 @@ class Stepper {
 
   /// Bytes that a step moves at the least: states read and written, all else read once. 0 where nobody counts.
   virtual std::int64_t traffic() const { return 0; }
+
+  /// The same by place, where it does not all come from memory.
+  virtual Traffic traffic_by_place() const { return {traffic(), 0, 0}; }
+
+  /// advance(), slower, with the time that each part took on the average of the steps [s]; none where nobody measures.
+  virtual std::vector<PartTime> advance_timed(std::int64_t steps) {
+    advance(steps);
+    return {};
+  }
 };
 
 /// Observes a stepper now and after every `every` steps, `n` times more: f(observation), which may read the stepper.

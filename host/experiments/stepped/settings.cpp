@@ -23,6 +23,7 @@ StepperOptions stepper_options(const SolverSpec& solver, ContactForm form, Geome
   options.damping = solver.damping;
   options.threads = solver.threads;
   options.devices = solver.devices;
+  options.side_by_side = solver.side_by_side;
   return options;
 }
 

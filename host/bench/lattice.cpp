@@ -1,19 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fcc_network.hpp  Networks of any size, made fast: a jittered face-centred cubic lattice, twelve contacts a
-/// particle, between two walls where asked for.
-#pragma once
+// lattice.cpp  Networks of any size, made fast: a jittered face-centred cubic lattice, twelve contacts a particle.
+#include <fmt/format.h>
 
 #include <cmath>
 #include <random>
 
-#include "tests/test_scenes.hpp"
+#include "host/bench/cases.hpp"
 
 namespace macadam::bench {
+namespace {
 
-/// About `particles` spheres, 1 mm apart; pair types in the proportions of the specimen SS of [1]. Condensed form only:
-/// the facets have no points. Walls: the lowest and the highest layer touch a wall.
-inline test::TestScene fcc_scene(std::size_t particles, bool walls = false) {
-  test::TestScene out;
+/// The laws of [1] with binder AM1.
+LawTable am1() {
+  using laws::Elastic, laws::GeneralisedKelvin;
+  LawTable out;
+  const auto of = [&](PairType pair) -> std::optional<Law>& { return out[static_cast<std::size_t>(pair)]; };
+  of(PairType::mm) = GeneralisedKelvin{
+      1.115e10, 2.515e9, {3.799e8, 1.600e9, 4.308e10}, {8.950e9, 5.695e9, 1.114e9}, 0.10};
+  of(PairType::ma) = GeneralisedKelvin{
+      3.511e10, 7.921e9, {1.197e9, 5.039e9, 1.357e11}, {2.819e10, 1.794e10, 3.510e9}, 0.10};
+  of(PairType::aa) = Elastic{1.151e11, 0.05};
+  of(PairType::mw) = Elastic{3.511e10, 0.0};
+  return out;
+}
+
+}  // namespace
+
+BenchCase lattice(std::size_t particles, bool walls) {
+  BenchCase out;
+  out.name = fmt::format("lattice:{}", particles);
   const auto n = static_cast<std::int32_t>(std::llround(std::cbrt(static_cast<double>(particles) / 4)));
   const double cell = 1e-3 * std::sqrt(2.0);
   const std::int32_t side = 2 * n;  // sites with an even sum of half-cell indices
@@ -90,7 +105,7 @@ inline test::TestScene fcc_scene(std::size_t particles, bool walls = false) {
     const std::int32_t b = network.contacts[c].b;
     if (b >= 0) network.rows[next[static_cast<std::size_t>(b)]++] = c;
   }
-  out.laws = test::am1_laws();
+  out.laws = am1();
   out.inertia = make_inertia(s, 2630, 2110);
   return out;
 }

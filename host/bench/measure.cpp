@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// measure.cpp  Repetitions of many steps, everything in motion; repetitions of whole solutions.
+#include "host/bench/measure.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "macadam/error.hpp"
+
+namespace macadam::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_of(const std::function<void()>& f) {
+  const auto start = Clock::now();
+  f();
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// The best of nine copies of 256 MiB by so many threads: a copy has no better use for the memory.
+double processor_copy(int threads) {
+  constexpr std::size_t size = std::size_t{256} << 20;
+  std::vector<char> from(size, 1), to(size, 2);
+  double best = 0;
+  for (int k = 0; k < 9; ++k) {
+    const double time = seconds_of([&] {
+#pragma omp parallel num_threads(threads)
+      {
+        const std::size_t part = size / static_cast<std::size_t>(omp_get_num_threads());
+        const std::size_t first = part * static_cast<std::size_t>(omp_get_thread_num());
+        std::memcpy(to.data() + first, from.data() + first, part);
+      }
+    });
+    best = std::max(best, 2.0 * size / time);
+  }
+  return best;
+}
+
+/// What one combination is called; what says nothing is left out.
+std::string name_of(const std::string& what, const BenchCase& timed, const StepperOptions& o, Backend backend,
+                    int units) {
+  std::string out = fmt::format("{}/{}/{}/{}/{}/{}", what, timed.name, to_string(backend), to_string(o.form),
+                                to_string(o.precision), to_string(o.geometry));
+  if (units >= 0) out += fmt::format("/units:{}", units);
+  if (o.blocks != StepperOptions{}.blocks) out += fmt::format("/blocks:{:g}", o.blocks);
+  if (o.multiprocessors > 0) out += fmt::format("/multiprocessors:{}", o.multiprocessors);
+  if (o.devices.size() > 1) out += fmt::format("/devices:{}", o.devices.size());
+  return out;
+}
+
+class Measured {
+ public:
+  Measured(const BenchCase& timed, const BenchAxes& axes, const std::function<void(const BenchRow&)>& told)
+      : case_(timed), axes_(axes), told_(told), backend_(select_backend(axes.backend, nullptr, axes.devices)) {
+    if (backend_ == Backend::cuda) devices_ = used_devices();
+  }
+
+  void steps(StepperOptions options, int units) {
+    const LawTable laws = axes_.elastic ? elastic(case_.laws) : units < 0 ? case_.laws : with_units(case_.laws, units);
+    const bool without_points = case_.network.point_area.empty();
+    if (options.form == ContactForm::points && without_points) return;  // a lattice has none
+    constexpr double frequency = 20;
+    const double dt = 0.8 * critical_step(case_.network, laws, case_.inertia, options).dt;
+    drives::Cyclic loading{1e-4 * case_.specimen.box.size.z, frequency, 1, 0};
+    loading.steps_per_period = std::llround(std::ceil(1 / (frequency * dt)));
+    options.boundary = moving_top(loading);
+    options.dt = loading.dt();
+    options.devices = devices_;
+    const auto stepper = make_stepper(backend_, case_.specimen, case_.network, laws, case_.inertia, options);
+    set_in_motion(*stepper);
+    BenchRow row =
+        row_of(name_of(axes_.elastic ? "elastic step" : "step", case_, options, backend_, units), options.threads);
+    row.label = stepper->description();
+    row.iterations = 4;
+    double took = 0;
+    while ((took = seconds_of([&] { stepper->advance(row.iterations); })) < axes_.seconds) row.iterations *= 2;
+    for (int k = 0; k < axes_.repetitions; ++k) {
+      row.seconds.push_back(seconds_of([&] { stepper->advance(row.iterations); }) /
+                            static_cast<double>(row.iterations));
+    }
+    const auto parts = stepper->advance_timed(std::min<std::int64_t>(row.iterations, 2000));
+    if (stepper->first_divergent() >= 0) throw RunError(row.name + ": diverged");
+    count(row, *stepper, parts);
+    told_(row);
+  }
+
+  void harmonic(int loads, int threads) {
+    BenchRow row = row_of(fmt::format("harmonic/{}/{}/loads:{}", case_.name, to_string(backend_), loads), threads);
+    if (devices_.size() > 1) row.name += fmt::format("/devices:{}", devices_.size());
+    if (threads > 0) omp_set_num_threads(threads);
+    HarmonicOptions options;
+    options.tolerance = 1e-8;
+    options.linear = LinearMethod::iterative;
+    options.backend = backend_;
+    options.devices = devices_;
+    constexpr double typical = 6;
+    std::unique_ptr<Harmonic> solver;
+    const double setup = seconds_of([&] {
+      solver = std::make_unique<Harmonic>(case_.specimen, case_.network, case_.laws, case_.inertia, options, typical);
+    });
+    std::vector<HarmonicLoad> asked;
+    for (int k = 0; k < loads; ++k) asked.push_back({.frequency_hz = 20.0 / (1 << k)});
+    std::vector<HarmonicResult> found;
+    for (int k = 0; k < std::min(axes_.repetitions, 5); ++k)
+      row.seconds.push_back(seconds_of([&] { found = solver->solve(asked); }));
+    int iterations = 0;
+    for (const HarmonicResult& r : found) iterations = std::max(iterations, r.iterations);
+    row.label = fmt::format("conjugate gradients, {}", to_string(backend_));
+    row.counters = {{"particles", static_cast<double>(case_.specimen.size())},
+                    {"contacts", static_cast<double>(case_.network.contacts.size())},
+                    {"setup_s", setup},
+                    {"cg_iterations", iterations},
+                    {"e_star_pa", found.front().top.e_star_pa},
+                    {"phase_deg", found.front().top.phase_deg}};
+    told_(row);
+  }
+
+  int all_threads() const { return report_backends().threads; }
+  Backend backend() const { return backend_; }
+
+ private:
+  DeviceList used_devices() const {
+    if (axes_.devices != DeviceList{every_device}) return axes_.devices;
+    DeviceList out;
+    for (const DeviceInfo& d : report_backends().devices) out.push_back(d.number);
+    return out;
+  }
+
+  BenchRow row_of(std::string name, int threads) const {
+    BenchRow out;
+    out.name = std::move(name);
+    out.threads = threads > 0 ? threads : backend_ == Backend::cpu ? all_threads() : 1;
+    if (backend_ == Backend::cpu) out.name += fmt::format("/threads:{}", out.threads);
+    return out;
+  }
+
+  void set_in_motion(Stepper& stepper) const {
+    std::mt19937 random(2);
+    const auto draw = [&](double most) { return most * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
+    std::vector<Vec3d> v(case_.specimen.size()), w(case_.specimen.size());
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      v[i] = {draw(1e-4), draw(1e-4), draw(1e-4)};
+      w[i] = {draw(1e-1), draw(1e-1), draw(1e-1)};
+    }
+    stepper.set_velocities(v, w);
+    stepper.advance(backend_ == Backend::cuda ? 256 : 8);
+  }
+
+  void count(BenchRow& row, const Stepper& stepper, const std::vector<PartTime>& parts) const {
+    const auto contacts = static_cast<double>(case_.network.contacts.size());
+    const double step = median(row.seconds);
+    const Traffic bytes = stepper.traffic_by_place();
+    const auto rate = [&](std::int64_t moved) { return static_cast<double>(moved) / step; };
+    row.counters = {{"particles", static_cast<double>(case_.specimen.size())},
+                    {"contacts", contacts},
+                    {"contacts_per_s", contacts / step},
+                    {"bytes_per_contact", static_cast<double>(stepper.traffic()) / contacts},
+                    {"held_bytes_per_contact", static_cast<double>(stepper.bytes()) / contacts},
+                    {"memory_bytes_per_s", rate(bytes.memory)},
+                    {"cache_bytes_per_s", rate(bytes.cache)},
+                    {"shared_bytes_per_s", rate(bytes.shared)}};
+    for (const PartTime& part : parts) row.counters.emplace_back("part_us " + part.name, 1e6 * part.seconds);
+    for (const KernelUse& k : stepper.kernels()) {
+      row.counters.emplace_back("registers " + k.name, k.registers);
+      row.counters.emplace_back("occupancy " + k.name, k.occupancy);
+      row.counters.emplace_back("shared_bytes " + k.name, static_cast<double>(k.shared_bytes));
+    }
+  }
+
+  const BenchCase& case_;
+  const BenchAxes& axes_;
+  const std::function<void(const BenchRow&)>& told_;
+  Backend backend_;
+  DeviceList devices_;
+};
+
+}  // namespace
+
+double BenchRow::of(const std::string& counter) const {
+  for (const auto& [name, value] : counters) {
+    if (name == counter) return value;
+  }
+  return 0;
+}
+
+double median(std::vector<double> list) {
+  std::sort(list.begin(), list.end());
+  const std::size_t half = list.size() / 2;
+  return list.size() % 2 ? list[half] : 0.5 * (list[half - 1] + list[half]);
+}
+
+MachineSpeed measure_machine(Backend backend, const DeviceList& devices, int threads) {
+  MachineSpeed out;
+  if (select_backend(backend, nullptr, devices) != Backend::cuda) {
+    out.copy = processor_copy(threads > 0 ? threads : report_backends().threads);
+    return out;
+  }
+  const bool all = devices == DeviceList{every_device};
+  for (const DeviceInfo& d : report_backends().devices) {
+    const bool first = devices.empty() && out.devices.empty();
+    if (!all && !first && std::count(devices.begin(), devices.end(), d.number) == 0) continue;
+    out.devices.push_back(measure_device(d.number));
+    out.copy += out.devices.back().copy;
+  }
+  return out;
+}
+
+void time_case(const BenchCase& timed, const BenchAxes& axes, const std::function<void(const BenchRow&)>& told) {
+  Measured measured(timed, axes, told);
+  const bool on_device = measured.backend() == Backend::cuda;
+  const int usual = omp_get_max_threads();
+  for (const int threads : on_device ? std::vector<int>{0} : axes.threads) {
+    for (const ContactForm form : axes.forms) {
+      for (const Precision precision : axes.precisions) {
+        for (const Geometry geometry : axes.geometries) {
+          for (const double blocks : on_device ? axes.blocks : std::vector<double>{StepperOptions{}.blocks}) {
+            for (const int units : axes.units) {
+              for (const int multiprocessors : on_device ? axes.multiprocessors : std::vector<int>{0}) {
+                StepperOptions options;
+                options.form = form;
+                options.precision = precision;
+                options.geometry = geometry;
+                options.threads = threads;
+                options.blocks = blocks;
+                options.multiprocessors = multiprocessors;
+                if (axes.steps) measured.steps(options, units);
+              }
+            }
+          }
+        }
+      }
+    }
+    for (const int loads : axes.loads) {
+      if (axes.harmonic) measured.harmonic(loads, threads);
+    }
+    omp_set_num_threads(usual);
+  }
+}
+
+}  // namespace macadam::bench

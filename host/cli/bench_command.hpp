@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file bench_command.hpp  macadam bench: how fast are steps and iterations here?
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace macadam {
+
+/// Adds the command to the program; it runs when the command line is parsed.
+void add_bench_command(CLI::App& app);
+
+}  // namespace macadam

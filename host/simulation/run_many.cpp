@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// run_many.cpp  Scenes handed to threads as these become free, and devices to scenes as they begin.
+#include "macadam/run_many.hpp"
+
+#include <hdf5.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <set>
+#include <thread>
+
+#include "host/simulation/checkpoints.hpp"
+#include "host/stepping/cuda_code.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr int at_once_on_a_device = 3;
+
+void require_folders_differ(const std::vector<SceneJob>& jobs) {
+  std::set<std::filesystem::path> folders;
+  for (const SceneJob& job : jobs) {
+    if (!folders.insert(std::filesystem::weakly_canonical(job.out)).second)
+      throw InputError(job.out.string() + ": found two scenes with this folder, expected a folder for each");
+  }
+}
+
+/// Checkpoints are written by HDF5, which not every build of it allows from several threads.
+bool files_allow_threads() {
+  hbool_t allowed = false;
+  return H5is_library_threadsafe(&allowed) >= 0 && allowed;
+}
+
+class Pool {
+ public:
+  Pool(const std::vector<SceneJob>& jobs, const ManyOptions& options)
+      : jobs_(jobs), options_(options), outcomes_(jobs.size()) {
+    std::set<int> devices;
+    for (const SceneJob& job : jobs) {
+      const SolverSpec& solver = job.scene.solver;
+      const bool may = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
+      if (!may || report_backends().devices.empty()) continue;
+      for (const int d : meant_by(solver)) devices.insert(d);
+    }
+    const int cores = omp_get_max_threads(),
+              usual = devices.empty() ? cores : at_once_on_a_device * int(devices.size());
+    workers_ = std::clamp(options.at_once > 0 ? options.at_once : std::min(usual, cores), 1, int(jobs.size()));
+    if (!files_allow_threads()) workers_ = 1;
+    threads_ = std::max(1, cores / workers_);
+    beside_ = devices.empty() ? 1 : (workers_ + int(devices.size()) - 1) / int(devices.size());
+  }
+
+  std::vector<JobOutcome> run() {
+    std::vector<std::thread> others;
+    for (int k = 1; k < workers_; ++k) others.emplace_back([this] { work(); });
+    const int usual = omp_get_max_threads();
+    work();
+    omp_set_num_threads(usual);
+    for (std::thread& t : others) t.join();
+    return std::move(outcomes_);
+  }
+
+ private:
+  static DeviceList meant_by(const SolverSpec& solver) {
+    return device_numbers(solver.devices.empty() ? DeviceList{every_device} : solver.devices);
+  }
+
+  void work() {
+    omp_set_num_threads(threads_);
+    for (;;) {
+      std::size_t job = 0;
+      {
+        const std::lock_guard lock(mutex_);
+        if (next_ == jobs_.size()) return;
+        job = next_++;
+      }
+      JobOutcome& outcome = outcomes_[job];
+      std::optional<int> device;
+      try {
+        if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
+        Scene scene = jobs_[job].scene;
+        device = take_device(scene.solver);
+        if (device) scene.solver.devices = {*device}, scene.solver.side_by_side = beside_;
+        const bool resume = options_.resume && std::filesystem::exists(jobs_[job].out / checkpoint_name);
+        outcome.result = macadam::run(scene, jobs_[job].out, watcher_of(job), resume);
+      } catch (...) { outcome.error = std::current_exception(); }
+      const std::lock_guard lock(mutex_);
+      if (device) --running_[*device];
+      if (options_.done) options_.done(job, outcome);
+    }
+  }
+
+  /// None where the processor runs the scene.
+  std::optional<int> take_device(const SolverSpec& solver) {
+    if (select_backend(solver.backend, nullptr, solver.devices) != Backend::cuda) return {};
+    const DeviceList meant = meant_by(solver);
+    const std::lock_guard lock(mutex_);
+    const int least =
+        *std::min_element(meant.begin(), meant.end(), [&](int a, int b) { return running_[a] < running_[b]; });
+    ++running_[least];
+    return least;
+  }
+
+  Watcher watcher_of(std::size_t job) {
+    Watcher out;
+    out.stop = options_.stop;
+    const auto begun = std::make_shared<bool>(false);
+    out.planned = [begun](const RunResult&) { *begun = true; };
+    out.progress = [this, job, begun](const std::string& stage, double share) {
+      if (!*begun && options_.stop && options_.stop())
+        throw InterruptedError("interrupted at: " + stage + "; nothing was written, what the folder held is as it was");
+      const std::lock_guard lock(mutex_);
+      if (options_.progress) options_.progress(job, stage, share);
+    };
+    out.warn = [this, job](const std::string& warning) {
+      const std::lock_guard lock(mutex_);
+      if (options_.warn) options_.warn(job, warning);
+    };
+    return out;
+  }
+
+  const std::vector<SceneJob>& jobs_;
+  const ManyOptions& options_;
+  int workers_ = 1, threads_ = 1, beside_ = 1;
+  std::mutex mutex_;  // of what follows, and of the options' functions
+  std::size_t next_ = 0;
+  std::map<int, int> running_;  // device: scenes
+  std::vector<JobOutcome> outcomes_;
+};
+
+}  // namespace
+
+std::vector<JobOutcome> run_many(const std::vector<SceneJob>& jobs, const ManyOptions& options) {
+  require_folders_differ(jobs);
+  if (jobs.empty()) return {};
+  return Pool(jobs, options).run();
+}
+
+}  // namespace macadam

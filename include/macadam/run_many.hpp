@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file run_many.hpp  Several scenes in one process, side by side.
+#pragma once
+
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "macadam/simulation.hpp"
+
+namespace macadam {
+
+/// A scene and the folder of its results.
+struct SceneJob {
+  Scene scene;
+  std::filesystem::path out;
+};
+
+/// What became of it: a result, or an error.
+struct JobOutcome {
+  std::optional<RunResult> result;
+  std::exception_ptr error;
+};
+
+struct ManyOptions {
+  /// Scenes at a time; 0: three a device, so that the specimens of some are made while others are stepped, or one a
+  /// core. Each has an equal share of the cores, unless its [solver] threads says otherwise.
+  int at_once = 0;
+  bool resume = false;  ///< go on from checkpoints, where folders have them
+  /// The functions are called by one thread at a time. `job`: position in the list.
+  std::function<void(std::size_t job, const std::string& stage, double share)> progress;
+  std::function<void(std::size_t job, const std::string& warning)> warn;
+  std::function<void(std::size_t job, const JobOutcome& outcome)> done;
+  std::function<bool()> stop;  ///< as Watcher::stop; scenes that have not begun are not begun then
+};
+
+/// run() of every scene, each on one device: on the one with the fewest at the moment, of those that its [solver] names
+/// or, where it names none, of all. Small specimens share a device at the same time. The results are those of run(). An
+/// error of one scene ends no other. Outcomes are in the order of the jobs; one that was not begun has an
+/// InterruptedError. \throws InputError where two jobs have one folder.
+std::vector<JobOutcome> run_many(const std::vector<SceneJob>& jobs, const ManyOptions& options = {});
+
+}  // namespace macadam
