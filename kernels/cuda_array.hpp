@@ -11,14 +11,15 @@
 
 namespace macadam::kernels {
 
-/// An array on the device in use, zero at first, from its making to its end.
+/// An array on the device in use, zero at first, from its making to its end, when nothing may use it any more. Made and
+/// ended in the order of the calling thread, as a device that is shared must not stand still for it.
 template <class T>
 class DeviceArray {
  public:
   DeviceArray() = default;
   explicit DeviceArray(std::size_t size) : size_(size) {
     if (size == 0) return;
-    if (const cudaError_t status = cudaMalloc(&data_, bytes()); status != cudaSuccess) {
+    if (const cudaError_t status = cudaMallocAsync(&data_, bytes(), cudaStreamPerThread); status != cudaSuccess) {
       cudaGetLastError();
       throw_out_of_memory(bytes(), cudaGetErrorString(status));
     }
@@ -57,18 +58,18 @@ class DeviceArray {
     return *this;
   }
   ~DeviceArray() {
-    if (!spread_.data()) cudaFree(data_);
+    if (!spread_.data() && data_) cudaFreeAsync(data_, cudaStreamPerThread);
   }
 
   void clear() {
-    if (size_ > 0) check_cuda(cudaMemset(data_, 0, bytes()), "clearing an array");
+    if (size_ > 0) clear_now(data_, bytes(), "clearing an array");
   }
   void upload(const T* host) {
-    if (size_ > 0) check_cuda(cudaMemcpy(data_, host, bytes(), cudaMemcpyHostToDevice), "copy to the device");
+    if (size_ > 0) copy_now(data_, host, bytes(), "copy to the device");
   }
   std::vector<T> download() const {
     std::vector<T> out(size_);
-    if (size_ > 0) check_cuda(cudaMemcpy(out.data(), data_, bytes(), cudaMemcpyDeviceToHost), "copy from the device");
+    if (size_ > 0) copy_now(out.data(), data_, bytes(), "copy from the device");
     return out;
   }
   T* data() const { return data_; }
@@ -90,12 +91,10 @@ void add_device_state(StateList& states, const std::string& name, const std::str
       name, unit, size,
       [=] {
         std::vector<T> out(size);
-        check_cuda(cudaMemcpy(out.data(), data, bytes, cudaMemcpyDeviceToHost), "copy of the state");
+        copy_now(out.data(), data, bytes, "copy of the state");
         return out;
       },
-      [=](const std::vector<T>& values) {
-        check_cuda(cudaMemcpy(data, values.data(), bytes, cudaMemcpyHostToDevice), "setting the state");
-      },
+      [=](const std::vector<T>& values) { copy_now(data, values.data(), bytes, "setting the state"); },
       std::move(order));
 }
 

@@ -179,9 +179,8 @@ struct SettleRanges {
 template <class P, class AnyLaw, Geometry geometry>
 __global__ void __launch_bounds__(contact_threads)
     settle_contacts(const __grid_constant__ SettleGroups<P, AnyLaw, geometry> groups,
-                    const __grid_constant__ SettleRanges ranges, float4* constant, float4* state,
-                    const double* now, const double* before, int steps,
-                    const LoadRecords<typename P::Particle> records) {
+                    const __grid_constant__ SettleRanges ranges, float4* constant, float4* state, const double* now,
+                    const double* before, int steps, const LoadRecords<typename P::Particle> records) {
   int number = 0;
   while (number + 1 < pair_types && ranges.of[number + 1].first_block <= blockIdx.x) ++number;
   const auto& group = groups.group[number];

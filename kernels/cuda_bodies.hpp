@@ -50,8 +50,8 @@ __device__ R sum_by_block(const LoadRecords<T>& records, std::uint32_t body) {
 /// records of a body at once (45.4 in place of 47.1 µs a step of the full specimen in double precision).
 inline constexpr unsigned body_blocks = 4;
 
-/// Moves the bodies first … end − 1; `pushed` as ParticleMotion::word(). The first `long_rows` blocks have one body each.
-/// The walls' table has the row of this step alone.
+/// Moves the bodies first … end − 1; `pushed` as ParticleMotion::word(). The first `long_rows` blocks have one body
+/// each. The walls' table has the row of this step alone.
 template <class P, bool pushed>
 __global__ void __launch_bounds__(body_threads, body_blocks)
     step_bodies(const __grid_constant__ ParticleMotion<P> motion, const LoadRecords<typename P::Geometry> records,

@@ -35,6 +35,11 @@ class CudaBodyArrays {
         displacement_(cuts_.bodies(), displacement_words),
         velocity_(cuts_.bodies(), std::is_same_v<G, R> ? 0 : velocity_words) {}
   CudaBodyArrays(const CudaBodyArrays&) = delete;
+  ~CudaBodyArrays() {  // what an error left behind may still use the arrays
+    try {
+      team_.wait("end");
+    } catch (const RunError&) {}
+  }
 
   void use_device() const { team_.use(0); }
 
@@ -84,7 +89,7 @@ class CudaBodyArrays {
   GroupState<P> group_state(std::size_t number, std::size_t chain, std::size_t frame) const {
     const auto copy = [](const auto* from, std::size_t n) {
       std::vector<typename P::State> out(n);
-      if (n > 0) check_cuda(cudaMemcpy(out.data(), from, n * sizeof out[0], cudaMemcpyDeviceToHost), "contact states");
+      if (n > 0) copy_now(out.data(), from, n * sizeof out[0], "contact states");
       return out;
     };
     return {copy(views_[number].chain, chain), copy(views_[number].frame, frame), {}};
@@ -104,9 +109,7 @@ class CudaBodyArrays {
   template <class T>
   std::vector<T> of_walls(const T* bodies, std::size_t words) const {
     std::vector<T> out(walls * words);
-    check_cuda(
-        cudaMemcpy(out.data(), bodies + layout_.particles() * words, out.size() * sizeof(T), cudaMemcpyDeviceToHost),
-        "walls");
+    copy_now(out.data(), bodies + layout_.particles() * words, out.size() * sizeof(T), "walls");
     return out;
   }
 
@@ -133,8 +136,7 @@ class CudaBodyArrays {
       }
       if constexpr (state) {
         if (!first && size > 0) {
-          check_cuda(cudaMemcpy(pointer, array.data(), static_cast<std::size_t>(size), cudaMemcpyHostToDevice),
-                     "states of the start");
+          copy_now(pointer, array.data(), static_cast<std::size_t>(size), "states of the start");
         }
         const GroupLayout& group = layout_.groups[number];
         add_device_state(states_, std::string(name) + "_" + to_string(group.pair), unit, pointer, array.size(),

@@ -78,7 +78,7 @@ struct ContactGroups;
 template <class P, class... L, ContactForm form, Geometry geometry, int Units>
 struct ContactGroups<P, std::variant<L...>, form, geometry, Units> {
   struct Group {
-    std::uint32_t first_block = UINT32_MAX;        ///< of this group
+    std::uint32_t first_block = UINT32_MAX;            ///< of this group
     std::uint32_t first_slot = 0, begin = 0, end = 0;  ///< of all groups; of this one, those of the launch
     AnyFunctor<typename StepFunctor<P, L, form, geometry, Units>::type...> functor;
   };

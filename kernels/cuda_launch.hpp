@@ -21,6 +21,17 @@ inline void check_cuda(cudaError_t status, const char* what) {
   if (status != cudaSuccess) throw RunError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
 }
 
+/// Copies to, from or within a device, or clears, and waits until that is done, but for nothing else that the device is
+/// doing: several specimens may share it. What is copied is not in use then.
+inline void copy_now(void* to, const void* from, std::size_t bytes, const char* what) {
+  check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, cudaStreamPerThread), what);
+  check_cuda(cudaStreamSynchronize(cudaStreamPerThread), what);
+}
+inline void clear_now(void* data, std::size_t bytes, const char* what) {
+  check_cuda(cudaMemsetAsync(data, 0, bytes, cudaStreamPerThread), what);
+  check_cuda(cudaStreamSynchronize(cudaStreamPerThread), what);
+}
+
 /// A named stretch of the host's work, for profilers that read NVTX.
 class Range {
  public:

@@ -50,8 +50,8 @@ struct RecordRows {
     long_body = DeviceArray<std::uint32_t>::of(longer);
     for (std::size_t m = 0; m <= begins.size(); ++m) {
       const auto first = static_cast<std::uint32_t>(cuts.body(m));
-      long_cut.push_back(static_cast<std::uint32_t>(
-          std::lower_bound(longer.begin(), longer.end(), first) - longer.begin()));
+      long_cut.push_back(
+          static_cast<std::uint32_t>(std::lower_bound(longer.begin(), longer.end(), first) - longer.begin()));
     }
     std::vector<std::uint32_t> of_a(contacts), of_b(contacts), places;
     const auto take = [&](std::vector<std::uint32_t>& record, std::uint32_t c, std::int32_t end) {

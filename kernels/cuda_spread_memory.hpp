@@ -93,7 +93,8 @@ class SpreadMemory {
 
  private:
   static void check(CUresult status, const std::string& what) {
-    if (status != CUDA_SUCCESS) throw RunError("CUDA: " + what + ": error " + std::to_string(status) + " of the driver");
+    if (status != CUDA_SUCCESS)
+      throw RunError("CUDA: " + what + ": error " + std::to_string(status) + " of the driver");
   }
   /// The next pages. The mapping keeps the memory alive.
   void map(const CUmemAllocationProp& place, std::size_t bytes) {
@@ -104,7 +105,8 @@ class SpreadMemory {
       throw_out_of_memory(bytes, "out of memory");
     }
     check(made, "spread memory");
-    check(driver_function<decltype(&cuMemMap)>("cuMemMap")(begin_ + mapped_, bytes, 0, pages, 0), "mapping spread memory");
+    check(driver_function<decltype(&cuMemMap)>("cuMemMap")(begin_ + mapped_, bytes, 0, pages, 0),
+          "mapping spread memory");
     driver_function<decltype(&cuMemRelease)>("cuMemRelease")(pages);
     mapped_ += bytes;
   }

@@ -23,7 +23,7 @@ class DeviceTeam {
     for (Member& m : member_) {
       for (const Member& other : member_) reach(m.device, other.device);
       check_cuda(cudaSetDevice(m.device), "device");
-      check_cuda(cudaStreamCreate(&m.stream), "stream");
+      check_cuda(cudaStreamCreateWithFlags(&m.stream, cudaStreamNonBlocking), "stream");
       check_cuda(cudaEventCreateWithFlags(&m.here, cudaEventDisableTiming), "event");
     }
     use(0);
@@ -118,6 +118,12 @@ class DeviceTeam {
       cudaGetLastError();
     else
       check_cuda(status, "access to another device's memory");
+    cudaMemPool_t pool = nullptr;  // of the other's arrays
+    check_cuda(cudaDeviceGetDefaultMemPool(&pool, to), "memory of another device");
+    cudaMemAccessDesc reader{};
+    reader.location = {cudaMemLocationTypeDevice, from};
+    reader.flags = cudaMemAccessFlagsProtReadWrite;
+    check_cuda(cudaMemPoolSetAccess(pool, &reader, 1), "access to another device's memory");
   }
 
   std::vector<Member> member_;

@@ -178,10 +178,8 @@ class TileRunner {
   std::vector<float> changes(std::size_t number, std::size_t slots) const {
     std::vector<float4> state(state_count_);
     std::vector<uint2> places(slots);
-    check_cuda(cudaMemcpy(state.data(), scene_.state, state_count_ * sizeof(float4), cudaMemcpyDeviceToHost), "states");
-    check_cuda(
-        cudaMemcpy(places.data(), settle_place_ + group_slot_[number], slots * sizeof(uint2), cudaMemcpyDeviceToHost),
-        "places");
+    copy_now(state.data(), scene_.state, state_count_ * sizeof(float4), "states");
+    copy_now(places.data(), settle_place_ + group_slot_[number], slots * sizeof(uint2), "places");
     std::vector<float> out(6 * slots, 0.0f);
     for (std::size_t slot = 0; slot < slots; ++slot) {
       const std::uint32_t place = places[slot].x;
@@ -250,7 +248,7 @@ class TileRunner {
   /// Of an array [packet][count] of words of 16 bytes, as floats.
   StateOrder order(int count, std::vector<std::uint64_t> words) const {
     std::vector<uint2> places(slots_);
-    check_cuda(cudaMemcpy(places.data(), settle_place_, slots_ * sizeof(uint2), cudaMemcpyDeviceToHost), "places");
+    copy_now(places.data(), settle_place_, slots_ * sizeof(uint2), "places");
     const auto at = [&](std::uint32_t place) {
       return place == UINT32_MAX ? StateOrder::none
                                  : (std::uint64_t{place / 32} * static_cast<unsigned>(count) * 32 + place % 32) * 4;

@@ -7,9 +7,6 @@
 #include "kernels/harmonic/cocg_kernels.hpp"
 #include "kernels/harmonic/cocg_setup.hpp"
 
-#ifndef MACADAM_SEGMENTS
-#define MACADAM_SEGMENTS 8
-#endif
 namespace macadam::kernels {
 namespace {
 
@@ -109,6 +106,7 @@ class Solver : public DeviceSolver {
     constexpr unsigned threads = 128;
     launch("particle blocks", invert_blocks, (bodies_ + threads - 1) / threads, threads, 0, team_.stream(), bodies_,
            row_begin_.data(), ends_.data(), typical, inverse_.data(), loose.data());
+    team_.wait("particle blocks");
     const unsigned long long found = loose.download().front();
     return found == none ? -1 : static_cast<std::int64_t>(found);
   }
@@ -176,18 +174,22 @@ class Solver : public DeviceSolver {
     v.scalars.upload(&start);
     const std::size_t size = 6 * bodies_, blocks = (size + cocg_threads - 1) / cocg_threads;
     DeviceArray<double2> staged(size);
-    for (auto* array : {&v.x, &v.r, &v.p}) check_cuda(cudaMemset(array->data(), 0, array->bytes()), "vectors");
+    for (auto* array : {&v.x, &v.r, &v.p}) array->clear();
     for (std::size_t f = 0; f < loads.size(); ++f) {
       staged.upload(reinterpret_cast<const double2*>(right[f]));
       launch("loads", to_lanes<F>, blocks, cocg_threads, 0, team_.stream(), staged.data(), v.r.data(), size, int(f));
+      team_.wait("loads");
       staged.upload(reinterpret_cast<const double2*>(motion[f]));
       launch("loads", to_lanes<F>, blocks, cocg_threads, 0, team_.stream(), staged.data(), v.x.data(), size, int(f));
+      team_.wait("loads");
     }
     const CocgScalars<F> end = iterate(v, look);
     std::vector<LinearState> out;
     for (std::size_t f = 0; f < loads.size(); ++f) {
-      launch("motions", from_lanes<F>, blocks, cocg_threads, 0, team_.stream(), v.x.data(), staged.data(), size, int(f));
-      check_cuda(cudaMemcpy(motion[f], staged.data(), staged.bytes(), cudaMemcpyDeviceToHost), "motions");
+      launch("motions", from_lanes<F>, blocks, cocg_threads, 0, team_.stream(), v.x.data(), staged.data(), size,
+             int(f));
+      team_.wait("motions");
+      copy_now(motion[f], staged.data(), staged.bytes(), "motions");
       out.push_back(end.state[f]);
     }
     return out;
@@ -222,7 +224,7 @@ class Solver : public DeviceSolver {
     team_.meet();
     improve(v.x.data(), true);  // r = f − K·x: x does not move along p = 0
     if (!v.batch && !waits_for_launches()) v.batch = team_.record(queue_batch);
-    const PinnedScalars<F> looked;
+    const PinnedScalars<F> looked(team_);
     for (int batch = 0;; ++batch) {
       if (v.batch)
         check_cuda(cudaGraphLaunch(v.batch, team_.stream()), "iterations");
@@ -240,13 +242,13 @@ class Solver : public DeviceSolver {
   template <int F>
   class PinnedScalars {
    public:
-    PinnedScalars() {
+    explicit PinnedScalars(const DeviceTeam& team) : team_(team) {
       check_cuda(cudaMallocHost(&host_, 2 * sizeof(CocgScalars<F>)), "pinned memory");
       for (cudaEvent_t& e : copied_) check_cuda(cudaEventCreateWithFlags(&e, cudaEventDisableTiming), "event");
     }
     PinnedScalars(const PinnedScalars&) = delete;
     ~PinnedScalars() {
-      cudaDeviceSynchronize();  // a copy may be under way
+      cudaStreamSynchronize(team_.stream());  // a copy may be under way
       cudaFreeHost(host_);
       for (cudaEvent_t e : copied_) cudaEventDestroy(e);
     }
@@ -261,12 +263,13 @@ class Solver : public DeviceSolver {
     }
 
    private:
+    const DeviceTeam& team_;
     CocgScalars<F>* host_ = nullptr;
     cudaEvent_t copied_[2] = {};
   };
 
   static constexpr int batch_length = 8;
-  static constexpr std::size_t segments_a_multiprocessor = MACADAM_SEGMENTS;
+  static constexpr std::size_t segments_a_multiprocessor = 16;  ///< few enough for one, enough for two devices
 
   DeviceTeam team_;
   int free_;

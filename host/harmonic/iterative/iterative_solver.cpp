@@ -56,17 +56,21 @@ class CudaSolver : public LinearSolver {
  private:
   void solve_some(const std::vector<LinearTask*>& tasks, const std::function<bool()>& stop) {
     std::vector<kernels::LinearLoad> loads;
-    std::vector<Vector> right, motion;
-    for (const LinearTask* task : tasks) {
-      loads.push_back({task->stiffness.k, task->stiffness.alpha, task->inertia, length(task->right), task->tolerance,
-                       task->energy_limit, task->most_iterations});
-      right.push_back(in_order(task->right));
-      motion.push_back(task->motion.empty() ? Vector(task->right.size()) : in_order(task->motion));
-    }
     std::vector<const Complex*> rights;
     std::vector<Complex*> motions;
-    for (std::size_t t = 0; t < tasks.size(); ++t)
-      rights.push_back(right[t].data()), motions.push_back(motion[t].data());
+    right_.resize(std::max(right_.size(), tasks.size()));
+    motion_.resize(right_.size());
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+      const LinearTask& task = *tasks[t];
+      loads.push_back({task.stiffness.k, task.stiffness.alpha, task.inertia, length(task.right), task.tolerance,
+                       task.energy_limit, task.most_iterations});
+      put_in_order(task.right, right_[t]);
+      if (task.motion.empty())
+        motion_[t].assign(task.right.size(), 0.0);
+      else
+        put_in_order(task.motion, motion_[t]);
+      rights.push_back(right_[t].data()), motions.push_back(motion_[t].data());
+    }
     const std::vector<kernels::LinearState> states =
         solver_->solve(loads, rights, motions, [&] { require_not_stopped(stop); });
     for (std::size_t t = 0; t < tasks.size(); ++t) {
@@ -75,14 +79,13 @@ class CudaSolver : public LinearSolver {
       task.iterations += states[t].iterations;
       task.converged = states[t].converged;
       task.motion.resize(task.right.size());
-      for_each_number([&](std::size_t body, std::size_t particle) { task.motion[particle] = motion[t][body]; });
+      for_each_number([&](std::size_t body, std::size_t particle) { task.motion[particle] = motion_[t][body]; });
     }
   }
 
-  Vector in_order(const Vector& by_particle) const {
-    Vector out(by_particle.size());
+  void put_in_order(const Vector& by_particle, Vector& out) const {
+    out.resize(by_particle.size());
     for_each_number([&](std::size_t body, std::size_t particle) { out[body] = by_particle[particle]; });
-    return out;
   }
 
   /// f(where a number stands in the order of bodies, in that of particles)
@@ -97,6 +100,7 @@ class CudaSolver : public LinearSolver {
 
   kernels::Layout layout_;
   std::unique_ptr<kernels::DeviceSolver> solver_;
+  std::vector<Vector> right_, motion_;  // kept: new memory of this size takes longer than what is done with it
 };
 
 }  // namespace
@@ -105,8 +109,8 @@ std::size_t usual_boxes(std::size_t particles) { return std::clamp<std::size_t>(
 
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
-                                                    const FreeMotions& free, Backend backend,
-                                                    const DeviceList& devices, std::optional<std::size_t> asked) {
+                                                    const FreeMotions& free, Backend backend, const DeviceList& devices,
+                                                    std::optional<std::size_t> asked) {
   if (free.motions.size() > kernels::most_free_motions) {
     throw NotIterable(fmt::format("harmonic: found {} motions of the whole that no wall resists, expected at most {}",
                                   free.motions.size(), kernels::most_free_motions));
