@@ -9,6 +9,7 @@
 
 #include "kernels/cuda_part_clock.hpp"
 #include "kernels/cuda_record_rows.hpp"
+#include "kernels/cuda_room.hpp"
 #include "kernels/cuda_settling.hpp"
 #include "kernels/cuda_tile_limits.hpp"
 #include "kernels/cuda_tiles_resident.hpp"
@@ -147,9 +148,21 @@ class TileRunner {
         });
   }
 
+  TileRunner(const TileRunner&) = delete;
+  ~TileRunner() { leave_room(); }
+
+  /// All steps that were queued are done.
+  void leave_room() {
+    if (std::exchange(has_room_, false)) DeviceRoom::give(room_);
+  }
+
   /// Queues steps first … first + steps − 1, the first of which has the first row of the walls' table.
   void run(std::int64_t first, std::int64_t steps) {
     const Range range("time steps");
+    if (resident_ && !has_room_) {
+      DeviceRoom::take(room_, room_of_device_);
+      has_room_ = true;
+    }
     team_.meet();  // with what the start has put into memory
     scene_.motion.wall.table = wall_table_;
     for (std::int64_t done = 0; done < steps;) {
@@ -311,6 +324,10 @@ class TileRunner {
     if (!fits) return false;
     scene_.cached_packets = cached;
     resident_ = true;
+    team_.each([&](std::size_t m) {
+      room_[team_.device(m)] += static_cast<int>(tiles(m));
+      room_of_device_[team_.device(m)] = DeviceLimits::query(0).multiprocessors;
+    });
     if (scene_.where != TileRest::here) {
       const std::size_t bytes = ResidentMemory<P>::rest_bytes(plan_.most_bodies, scene_.where);
       team_.each([&](std::size_t m) { tables_[m].rest = store_.template zeros<unsigned char>(tiles(m) * bytes); });
@@ -484,6 +501,8 @@ class TileRunner {
   std::size_t slots_ = 0;  // of all groups
   const RecordRows* rows_ = nullptr;
   std::vector<Tables> tables_;  // [member]
+  DeviceRoom::Share room_, room_of_device_;
+  bool has_room_ = false;
   LoadRecords<R> records_{};
   Settling<P, AnyLaw> settling_;
   std::function<void(std::uint32_t)> run_;

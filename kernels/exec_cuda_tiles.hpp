@@ -79,6 +79,10 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   }
 
   void run(std::int64_t first, std::int64_t steps) { tiles_.run(first, steps); }
+  void wait() {
+    Base::wait();
+    tiles_.leave_room();
+  }
 
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
     std::vector<R> out(count * velocity_words);
