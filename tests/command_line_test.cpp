@@ -58,9 +58,12 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
            {"run " + path("scene.toml") + " --out ''", "--out: found \"\""},
            {"runn " + job,
             "found \"runn\", expected run (the nearest of run, specimen, shapes, fit, calibrate, ct, info, "
-            "new, check, report, study, completion, man)"},
+            "new, check, bench, report, study, completion, man)"},
+           {"run " + job + " more", "more: scene: found no such file"},
+           {"run " + job + " --device 0,x", "--device: found \"0,x\", expected all, or different whole numbers from 0"},
+           {"run " + job + " --devices 1,1", "found \"1,1\", expected all, or different"},
            {"shapes fil", "found \"fil\", expected fill (the nearest of "},
-           {"run " + job + " more", "found \"more\", expected nothing more"},
+           {"specimen " + job + " more", "found \"more\", expected nothing more"},
            {"", "found no command, expected one of run, specimen, shapes, fit, calibrate, ct, info"},
            {"shapes fill x --out y --radius 1 --scale 0", "--scale: found \"0\", expected a number from 1e-12 to "}}) {
     const Outcome outcome = macadam(arguments);

@@ -15,10 +15,10 @@ LawTable am1() {
   using laws::Elastic, laws::GeneralisedKelvin;
   LawTable out;
   const auto of = [&](PairType pair) -> std::optional<Law>& { return out[static_cast<std::size_t>(pair)]; };
-  of(PairType::mm) = GeneralisedKelvin{
-      1.115e10, 2.515e9, {3.799e8, 1.600e9, 4.308e10}, {8.950e9, 5.695e9, 1.114e9}, 0.10};
-  of(PairType::ma) = GeneralisedKelvin{
-      3.511e10, 7.921e9, {1.197e9, 5.039e9, 1.357e11}, {2.819e10, 1.794e10, 3.510e9}, 0.10};
+  of(PairType::mm) =
+      GeneralisedKelvin{1.115e10, 2.515e9, {3.799e8, 1.600e9, 4.308e10}, {8.950e9, 5.695e9, 1.114e9}, 0.10};
+  of(PairType::ma) =
+      GeneralisedKelvin{3.511e10, 7.921e9, {1.197e9, 5.039e9, 1.357e11}, {2.819e10, 1.794e10, 3.510e9}, 0.10};
   of(PairType::aa) = Elastic{1.151e11, 0.05};
   of(PairType::mw) = Elastic{3.511e10, 0.0};
   return out;

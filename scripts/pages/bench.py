@@ -13,26 +13,28 @@ GPU = "gpu-step-h200-2026-11-23.csv"
 
 
 def cpu_rows():
-    """Google Benchmark's CSV: the machine's lines, then the table; a time is of five steps."""
-    with opened("cpu_epyc_2026-11-21.csv") as f:
-        lines = f.read().splitlines()
-    start = next(k for k, line in enumerate(lines) if line.startswith("name,"))
+    """Rows of `macadam bench` on a processor."""
     found = []
-    for r in csv.DictReader(lines[start:]):
-        _, _, form, precision, geometry, threads, _ = r["name"].split("/")
+    for r in rows("bench-cpu-2026-11-23.csv"):
+        _, _, _, form, precision, geometry, threads = r["row"].split("/")
         found.append({"form": form, "precision": precision, "geometry": geometry, "threads": threads.split(":")[1],
-                      "ms": float(r["real_time"]) / 5, "bytes": float(r["bytes/contact"]),
-                      "contacts": float(r["contacts/s"]), "copy": float(r["copy_bytes/s"]),
-                      "share": float(r["share_of_copy"])})
+                      "ms": r["us"] / 1e3, "bytes": r["bytes_per_contact"], "contacts": r["contacts"] / r["us"],
+                      "share": r["memory_share"]})
     return found
+
+
+@mark
+def cpu_machine():
+    first = rows("bench-cpu-2026-11-23.csv")[0]
+    return f"{head('bench-cpu-2026-11-23.csv')[0]}, copy {first['copy_bytes_per_s'] / 1e9:.0f} GB/s"
 
 
 @mark
 def cpu():
     return table(["form", "precision", "geometry", "threads", "ms a step", "bytes a contact", "10⁶ contacts/s",
-                  "copy GB/s", "share"],
+                  "share of copy"],
                  [(r["form"], r["precision"], r["geometry"], r["threads"], f"{r['ms']:.1f}", f"{r['bytes']:.0f}",
-                   f"{r['contacts'] / 1e6:.1f}", f"{r['copy'] / 1e9:.1f}", f"{r['share']:.2f}") for r in cpu_rows()])
+                   f"{r['contacts']:.1f}", f"{r['share']:.2f}") for r in cpu_rows()])
 
 
 @mark
@@ -154,6 +156,41 @@ def blocks():
 @mark
 def block_setting():
     return head("tried-gpu-blocks.csv")[0]
+
+
+# ---- rows of macadam bench
+
+BENCH = "bench-h200-2026-11-23.csv"
+TEAM = "team-h200-2026-11-23.csv"
+
+
+@mark
+def bench_machine():
+    return head(BENCH)[0]
+
+
+@mark
+def parts():
+    """What the parts of a step take; on one device."""
+    cases = [(TEAM, "ac14_ss_am1", p, label) for p, label in (("single", "full specimen, single"), ("mixed", "… mixed"), ("double", "… double"))]
+    cases += [(TEAM, "ac14_ms_ico_fine", p, label) for p, label in (("mixed", "MS-Ico-fine, mixed"), ("double", "… double"))]
+    cases += [(BENCH, "lattice:1e6", p, label) for p, label in (("single", "lattice of 10⁶, single"), ("double", "… double"))]
+    lines = []
+    for file, scene, precision, label in cases:
+        r = one(rows(file), row=f"step/{scene}/cuda/condensed/{precision}/fixed")
+        share = [f"{name} {r[f'{name}_share']:.2f}" for name in ("memory", "cache", "shared") if r[f"{name}_share"]]
+        lines.append((label, us(r), r["parts"], ", ".join(share)))
+    return table(["step, geometry fixed", "µs", "of which (µs)", "share of bandwidth"], lines)
+
+
+@mark
+def multiprocessors():
+    numbers = (132, 84, 46, 28)
+    lines = []
+    for scene, label in (("ac14_ss_am1", "full specimen, mixed"), ("lattice:1e5", "lattice of 10⁵, mixed")):
+        found = [one(rows(BENCH), row=f"step/{scene}/cuda/condensed/mixed/fixed/multiprocessors:{n}") for n in numbers]
+        lines.append((label, *(f"{us(r)}{'' if 'chip' in r['path'] else ' (streamed)'}" for r in found)))
+    return table(["µs a step with so many multiprocessors", *map(str, numbers)], lines)
 
 
 # ---- length of blocks

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/devices.md: one specimen on several GPUs."""
+from pages.data import head, one, rows, table
+from pages.marks import mark
+
+DOCUMENT = "docs/devices.md"
+TEAM = "team-h200-2026-11-23.csv"
+
+
+@mark
+def team_machine():
+    return head(TEAM)[0]
+
+
+def pair(row):
+    return one(rows(TEAM), row=row)["us"], one(rows(TEAM), row=f"{row}/devices:2")["us"]
+
+
+def written(us):
+    return f"{us:.1f}" if us < 1e3 else f"{us:,.0f}" if us < 1e5 else f"{us / 1e6:.2f} s"
+
+
+@mark
+def team():
+    cases = [(f"step/{scene}/cuda/condensed/{p}/fixed", f"{label}, {p}")
+             for scene, label in (("ac14_ss_am1", "full specimen, 221,000 contacts"), ("ac14_ms_ico_fine", "MS-Ico-fine, 441,000 contacts"),
+                                  ("lattice:1e6", "lattice of 10⁶, 5.9·10⁶ contacts"))
+             for p in ("single", "mixed", "double")]
+    lines = []
+    for row, label in cases:
+        alone, both = pair(row)
+        path = one(rows(TEAM), row=f"{row}/devices:2")["path"].split(", ")[2]
+        lines.append((label, written(alone), written(both), f"{alone / both:.2f}", path))
+    return table(["a step (µs)", "one GPU", "two GPUs", "factor", "on two"], lines)
+
+
+@mark
+def team_harmonic(loads):
+    alone, both = pair(f"harmonic/lattice:1e6/cuda/loads:{loads}")
+    return f"{alone / 1e6:.2f} s on one GPU and {both / 1e6:.2f} s on two"
