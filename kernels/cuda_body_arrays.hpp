@@ -35,11 +35,9 @@ class CudaBodyArrays {
         displacement_(cuts_.bodies(), displacement_words),
         velocity_(cuts_.bodies(), std::is_same_v<G, R> ? 0 : velocity_words) {}
   CudaBodyArrays(const CudaBodyArrays&) = delete;
-  ~CudaBodyArrays() {  // what an error left behind may still use the arrays
-    try {
-      team_.wait("end");
-    } catch (const RunError&) {}
-  }
+
+  /// What an error left behind is done; then arrays may go.
+  void end_steps() noexcept { team_.wait_for_the_last(); }
 
   void use_device() const { team_.use(0); }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <map>
 #include <mutex>
 
@@ -17,17 +18,18 @@ class DeviceRoom {
   /// Number of multiprocessors, by device.
   using Share = std::map<int, int>;
 
-  /// Waits until all of `wanted` is free. `of_device`: what each device has.
+  /// Waits until all of `wanted` is free and whoever came before, to one of these devices, has got what it waited for.
+  /// `of_device`: what each device has.
   static void take(const Share& wanted, const Share& of_device) {
     DeviceRoom& room = instance();
     std::unique_lock lock(room.mutex_);
-    room.changed_.wait(lock, [&] {
-      for (const auto& [device, number] : wanted) {
-        if (room.taken_[device] > 0 && room.taken_[device] + number > of_device.at(device)) return false;
-      }
-      return true;
-    });
+    const std::uint64_t mine = room.next_++;
+    room.waiting_[mine] = wanted;
+    room.changed_.wait(lock, [&] { return room.is_turn_of(mine, of_device); });
+    room.waiting_.erase(mine);
     for (const auto& [device, number] : wanted) room.taken_[device] += number;
+    lock.unlock();
+    room.changed_.notify_all();  // who is next may have room beside this one
   }
   static void give(const Share& share) {
     DeviceRoom& room = instance();
@@ -39,6 +41,19 @@ class DeviceRoom {
   }
 
  private:
+  bool is_turn_of(std::uint64_t mine, const Share& of_device) {
+    const Share& wanted = waiting_.at(mine);
+    for (const auto& [earlier, others] : waiting_) {
+      if (earlier == mine) break;
+      for (const auto& [device, number] : others) {
+        if (wanted.contains(device)) return false;
+      }
+    }
+    for (const auto& [device, number] : wanted) {
+      if (taken_[device] > 0 && taken_[device] + number > of_device.at(device)) return false;
+    }
+    return true;
+  }
   static DeviceRoom& instance() {
     static DeviceRoom room;
     return room;
@@ -46,6 +61,8 @@ class DeviceRoom {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<int, int> taken_;
+  std::map<std::uint64_t, Share> waiting_;  // in the order in which they came
+  std::uint64_t next_ = 0;
 };
 
 }  // namespace macadam::kernels

@@ -82,8 +82,7 @@ DeviceSpeed measure_device(int device) {
   const auto blocks = static_cast<unsigned>(4 * properties.multiProcessorCount);
   {
     constexpr int turns = 20;
-    const std::size_t words =
-        static_cast<std::size_t>(properties.l2CacheSize) / 6 / sizeof(float4);  // two thirds in all
+    const std::size_t words = static_cast<std::size_t>(properties.l2CacheSize) / 6 / sizeof(float4);  // a third in all
     const DeviceArray<float4> a(words), b(words);
     out.cache = 2.0 * turns * static_cast<double>(words * sizeof(float4)) / seconds_of([&] {
                   move_words<<<blocks, threads>>>(a.data(), b.data(), words, turns);

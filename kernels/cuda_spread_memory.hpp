@@ -52,7 +52,7 @@ class SpreadMemory {
  public:
   SpreadMemory() = default;
   /// \throws RunError where a device has too little left.
-  SpreadMemory(const Shares& shares, std::size_t bytes) {
+  SpreadMemory(const Shares& shares, std::size_t bytes) : SpreadMemory() {  // so that what is there goes with an error
     const auto reserve = driver_function<decltype(&cuMemAddressReserve)>("cuMemAddressReserve");
     const auto granularity = driver_function<decltype(&cuMemGetAllocationGranularity)>("cuMemGetAllocationGranularity");
     const auto set_access = driver_function<decltype(&cuMemSetAccess)>("cuMemSetAccess");
@@ -62,8 +62,9 @@ class SpreadMemory {
     place.location.id = shares.front().device;
     std::size_t page = 0;
     check(granularity(&page, &place, CU_MEM_ALLOC_GRANULARITY_RECOMMENDED), "granularity");
-    size_ = (shares.back().end * bytes + page - 1) / page * page;
-    check(reserve(&begin_, size_, 0, 0, 0), "reserving addresses");
+    const std::size_t whole = (shares.back().end * bytes + page - 1) / page * page;
+    check(reserve(&begin_, whole, 0, 0, 0), "reserving addresses");
+    size_ = whole;
     std::vector<CUmemAccessDesc> readers;
     for (const Share& share : shares) {
       place.location.id = share.device;
@@ -105,9 +106,9 @@ class SpreadMemory {
       throw_out_of_memory(bytes, "out of memory");
     }
     check(made, "spread memory");
-    check(driver_function<decltype(&cuMemMap)>("cuMemMap")(begin_ + mapped_, bytes, 0, pages, 0),
-          "mapping spread memory");
+    const CUresult mapped = driver_function<decltype(&cuMemMap)>("cuMemMap")(begin_ + mapped_, bytes, 0, pages, 0);
     driver_function<decltype(&cuMemRelease)>("cuMemRelease")(pages);
+    check(mapped, "mapping spread memory");
     mapped_ += bytes;
   }
 

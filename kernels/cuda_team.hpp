@@ -92,6 +92,14 @@ class DeviceTeam {
     return out;
   }
 
+  /// The same whatever fails, of every member: before what it works on goes.
+  void wait_for_the_last() const noexcept {
+    for (const Member& m : member_) {
+      cudaSetDevice(m.device);
+      cudaStreamSynchronize(m.stream);
+    }
+    use(0);
+  }
   /// Until all that is queued is done. A failing kernel is reported here.
   void wait(const char* what) const {
     each([&](std::size_t m) { check_cuda(cudaStreamSynchronize(member_[m].stream), what); });

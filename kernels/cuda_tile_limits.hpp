@@ -38,7 +38,18 @@ struct DeviceLimits {
   }
 };
 
-/// Whether all blocks of a kernel can be on the device at once, one a multiprocessor; sets its shared memory if so.
+/// Lets launches of a kernel have as much shared memory as the device has for a block. The limit is one for the whole
+/// process: with that of one specimen, another that needs more could not launch.
+template <class... Parameters>
+void allow_all_shared_memory(const DeviceLimits& limits, void (*kernel)(Parameters...)) {
+  cudaFuncAttributes attributes{};
+  check_cuda(cudaFuncGetAttributes(&attributes, kernel), "shared memory");
+  check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                  limits.shared - static_cast<int>(attributes.sharedSizeBytes)),
+             "shared memory");
+}
+
+/// Whether all blocks of a kernel can be on the device at once, one a multiprocessor.
 template <class... Parameters>
 bool fits_resident(const DeviceLimits& limits, void (*kernel)(Parameters...), std::size_t blocks, int threads,
                    std::uint32_t shared) {
@@ -47,8 +58,7 @@ bool fits_resident(const DeviceLimits& limits, void (*kernel)(Parameters...), st
   }
   if (shared > static_cast<std::uint32_t>(limits.shared)) return false;
   int fitting = 0;
-  check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared)),
-             "shared memory");
+  allow_all_shared_memory(limits, kernel);
   check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&fitting, kernel, threads, shared), "occupancy");
   return fitting > 0;
 }

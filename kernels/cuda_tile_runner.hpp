@@ -12,6 +12,8 @@
 #include "kernels/cuda_room.hpp"
 #include "kernels/cuda_settling.hpp"
 #include "kernels/cuda_tile_limits.hpp"
+#include "kernels/cuda_tile_places.hpp"
+#include "kernels/cuda_tile_traffic.hpp"
 #include "kernels/cuda_tiles_resident.hpp"
 #include "kernels/cuda_tiles_streamed.hpp"
 
@@ -33,15 +35,10 @@ class TileRunner {
         layout_(layout),
         bodies_(layout.particles()),
         constants_(plan_.contact.size() * static_cast<std::size_t>(tile_constants(carried_))),
+        places_(layout),
         tables_(team.size()),
         settling_(team, cuts, layout) {
     choose(options.multiprocessors);
-    std::size_t slots = 0;
-    for (const auto& group : layout.groups) {
-      group_slot_.push_back(slots);
-      slots += group.contact.size();
-    }
-    places_.assign(slots, uint2{UINT32_MAX, UINT32_MAX});
   }
 
   /// Whether this device can run the scene so.
@@ -63,8 +60,7 @@ class TileRunner {
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
       const TileContact& c = plan_.contact[i];
       if (c.group_slot == UINT32_MAX || c.group != g) continue;
-      auto& place = places_[group_slot_[g] + c.group_slot];
-      (place.x == UINT32_MAX ? place.x : place.y) = static_cast<std::uint32_t>(i);
+      places_.add(g, c.group_slot, static_cast<std::uint32_t>(i));
       const auto words = static_cast<std::size_t>(view.geometry_words);
       const auto* geo = &arrays.geometry[c.group_slot / 32 * words * 32 + c.group_slot % 32];
       const auto word = [&](int w) { return static_cast<float>(geo[w * 32]); };
@@ -84,7 +80,7 @@ class TileRunner {
     const auto block = law.block(dt, block_);
     scene_.law[number] = {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
                           static_cast<float>(view.alpha), static_cast<float>(block.follow)};
-    settling_.template set_group<geometry>(number, group_slot_[static_cast<std::size_t>(number)], law, view, dt);
+    settling_.template set_group<geometry>(number, places_.first_slot(static_cast<std::size_t>(number)), law, view, dt);
   }
 
   /// Ends every set-up: everything as it is before the first step. Words of the exchange may stay, as tags go on.
@@ -115,7 +111,7 @@ class TileRunner {
     const std::size_t loads = 2 * velocity_words * sizeof(R) + displacement_words * sizeof(double);
     return constants_.size() * sizeof(float4) + plan_.contact.size() * tile_states * sizeof(float4) +
            (bodies_ + walls) * loads + records * record_words * sizeof(R) + (bodies_ + walls) * 4 * sizeof(ulonglong2) +
-           places_.size() * sizeof(uint2) +
+           places_.slots() * sizeof(uint2) +
            (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4 * team_.size();
   }
 
@@ -125,12 +121,9 @@ class TileRunner {
     const std::size_t loads = (bodies_ + walls) * velocity_words;
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
     add_device_state(states, "tile_drifts", "Pa m, 1, m", words(constant_.data()), 4 * constant_.size(),
-                     [this] { return order(tile_constants(carried_), words_of_block(carried_)); });
-    add_device_state(states, "tile_states", "Pa m", words(scene_.state), 4 * state_count_, [this] {
-      std::vector<std::uint64_t> all;
-      for (const int w : {tile_change, tile_both, tile_sum}) add_words(all, w, 4);
-      return order(tile_states, all);
-    });
+                     [this] { return places_.order(tile_constants(carried_), TilePlaces::words_of_block(carried_)); });
+    add_device_state(states, "tile_states", "Pa m", words(scene_.state), 4 * state_count_,
+                     [this] { return places_.order(tile_states, TilePlaces::words_of_states()); });
     add_device_state(states, "base_loads", "N, N m", base_, loads, by_body);
     add_device_state(states, "forces", "N, N m", scene_.force, bodies_ * velocity_words,  // walls': forces() sums them
                      [this] { return body_order(layout_, velocity_words, false); });
@@ -149,7 +142,6 @@ class TileRunner {
   }
 
   TileRunner(const TileRunner&) = delete;
-  ~TileRunner() { leave_room(); }
 
   /// All steps that were queued are done.
   void leave_room() {
@@ -187,95 +179,22 @@ class TileRunner {
            scene_.force + bodies_ * velocity_words);
     return scene_.force;
   }
-  /// [slot][6] of group `number`: what f has changed since the block began.
-  std::vector<float> changes(std::size_t number, std::size_t slots) const {
-    std::vector<float4> state(state_count_);
-    std::vector<uint2> places(slots);
-    copy_now(state.data(), scene_.state, state_count_ * sizeof(float4), "states");
-    copy_now(places.data(), settle_place_ + group_slot_[number], slots * sizeof(uint2), "places");
-    std::vector<float> out(6 * slots, 0.0f);
-    for (std::size_t slot = 0; slot < slots; ++slot) {
-      const std::uint32_t place = places[slot].x;
-      if (place == UINT32_MAX) continue;
-      const float4* words = &state[place / 32 * std::size_t{tile_states} * 32 + place % 32];
-      const float4 a = words[tile_change * 32], b = words[tile_both * 32];
-      const float change[6] = {a.x, a.y, a.z, a.w, b.x, b.y};
-      std::copy(change, change + 6, &out[6 * slot]);
-    }
-    return out;
-  }
   /// Bytes of contacts that a step moves at the least: states read and written, constants and base loads read.
   std::int64_t traffic() const {
-    const std::size_t states = constant_.size() / static_cast<std::size_t>(tile_constants(carried_)) * tile_states;
-    return static_cast<std::int64_t>(constant_.bytes() + 2 * states * sizeof(float4) +
-                                     bodies_ * velocity_words * sizeof(R));
+    const auto of_packet = static_cast<std::size_t>(tile_constants(carried_) + 2 * tile_states) * 32 * sizeof(float4);
+    std::size_t packets = 0;
+    for (const Tile& tile : plan_.tile) packets += tile.packets;
+    return static_cast<std::int64_t>(packets * of_packet + bodies_ * velocity_words * sizeof(R));
   }
-  /// Of `all` bytes of a step, what stays on the chip: counted by packets and slots.
+  /// The same, with what else a step moves, by where from or to.
   Traffic traffic_by_place(std::int64_t all) const {
-    constexpr std::int64_t of_constants = 16 * 32, of_states = 2 * 16 * 32 * tile_states, of_velocity = 32,
-                           of_slot = 2 * 24;
-    Traffic out;
-    for (const Tile& tile : plan_.tile) {
-      const std::int64_t packets = tile.packets, contacts = 32 * packets;
-      const std::int64_t constants = of_constants * tile_constants(carried_);
-      out.shared +=
-          of_velocity * (contacts + contacts / TilePlan::run + tile.bodies + tile.halo) + of_slot * tile.slots;
-      if (!resident_) continue;
-      const std::int64_t cached = std::min<std::int64_t>(scene_.cached_packets, packets);
-      out.shared += constants * cached;
-      out.cache += constants * (packets - cached) + of_states * (packets - packets_in_registers(tile)) +
-                   of_velocity * (tile.bodies + tile.halo);
-      const auto rest = static_cast<std::int64_t>(ResidentMemory<P>::rest_bytes(tile.bodies, scene_.where));
-      (scene_.where == TileRest::here ? out.shared : out.cache) += rest;
-    }
-    if (!resident_) out.memory = all;
-    return out;
+    return resident_ ? traffic_on_chip<P>(plan_.tile, scene_, carried_) : traffic_streamed(plan_.tile, all);
   }
+  /// [slot][6] of group `number`: what f has changed since the block began.
+  std::vector<float> changes(std::size_t number) const { return places_.changes(number, scene_.state, state_count_); }
   std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
 
  private:
-  static constexpr std::uint32_t resident_threads = 512;  ///< all registers: a contact's state takes twelve
-  /// As ResidentTile::share() has it.
-  static std::int64_t packets_in_registers(const Tile& tile) {
-    constexpr std::uint32_t warps = resident_threads / 32, run = TilePlan::run;
-    const std::uint32_t groups = std::min(tile.groups, warps), free = warps - groups,
-                        ones = tile.packets - run * tile.groups;
-    return run * groups + std::min(ones, run * free);
-  }
-  /// Adds the first `count` components of word w of 16 bytes.
-  static void add_words(std::vector<std::uint64_t>& to, int w, int count) {
-    for (int k = 0; k < count; ++k)
-      to.push_back(static_cast<std::uint64_t>(w) * 32 * 4 + static_cast<std::uint64_t>(k));
-  }
-  /// Of a contact's constants, those that a block begins with.
-  static std::vector<std::uint64_t> words_of_block(bool carried) {
-    std::vector<std::uint64_t> out;
-    add_words(out, tile_drift_a, 4);
-    add_words(out, tile_drift_b, 2);
-    if (!carried) return out;
-    add_words(out, tile_normal, 4);
-    add_words(out, tile_moment_a, 1);
-    add_words(out, tile_tangent, 3);
-    return out;
-  }
-  /// Of an array [packet][count] of words of 16 bytes, as floats.
-  StateOrder order(int count, std::vector<std::uint64_t> words) const {
-    std::vector<uint2> places(slots_);
-    copy_now(places.data(), settle_place_, slots_ * sizeof(uint2), "places");
-    const auto at = [&](std::uint32_t place) {
-      return place == UINT32_MAX ? StateOrder::none
-                                 : (std::uint64_t{place / 32} * static_cast<unsigned>(count) * 32 + place % 32) * 4;
-    };
-    StateOrder out{{}, std::move(words), {}};
-    for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
-      for (const std::uint32_t slot : slots_in_order(layout_.groups[g])) {
-        const uint2 place = places[group_slot_[g] + slot];
-        out.first.push_back(at(place.x));
-        out.twin.push_back(at(place.y));
-      }
-    }
-    return out;
-  }
   static float bits(std::uint32_t x) {
     float out = 0;
     std::memcpy(&out, &x, sizeof out);
@@ -349,10 +268,7 @@ class TileRunner {
     const auto kernel = run_streamed<P, threads, per_multiprocessor, carried>;
     const std::uint32_t shared = StreamedMemory(plan_.most_locals, plan_.most_slots).total;
     if (shared > static_cast<std::uint32_t>(limits_.shared)) return;
-    team_.each([&](std::size_t) {
-      check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(shared)),
-                 "shared memory");
-    });
+    team_.each([&](std::size_t) { allow_all_shared_memory(limits_, kernel); });
     use_ = kernel_use("tiles streamed", kernel, threads, shared);
     run_ = [this, kernel, shared](std::uint32_t steps) {
       team_.each([&](std::size_t m) {
@@ -429,15 +345,13 @@ class TileRunner {
     wall_begin_ = store_.keep(plan_.wall_begin);
     rows_ = &rows;
     records_ = {store_.template zeros<R>(rows.shares, record_words), rows.begin.data(), rows.place.data()};
-    slots_ = places_.size();
-    settle_place_ = store_.keep(places_, cuts_.all_slots());
+    places_.keep(store_, cuts_.all_slots());
     constants_ = {};
-    places_ = {};
     plan_.contact = {};
   }
 
   SettledArrays<P> settled() const {
-    return {constant_.data(), scene_.state, scene_.motion.body.displacement, before_, records_, settle_place_};
+    return {constant_.data(), scene_.state, scene_.motion.body.displacement, before_, records_, places_.on_device()};
   }
 
   /// Ends a block, if one has begun, and begins the next, of so many steps.
@@ -488,8 +402,7 @@ class TileRunner {
   std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;
   DeviceLimits limits_;
   std::vector<float4> constants_;
-  std::vector<uint2> places_;
-  std::vector<std::size_t> group_slot_;
+  TilePlaces places_;
   TileScene<P> scene_{};
   std::uint32_t tag_ = 1;
   DeviceArray<float4> constant_;
@@ -497,8 +410,6 @@ class TileRunner {
   double* before_ = nullptr;
   const R* wall_table_ = nullptr;
   const std::uint32_t* wall_begin_ = nullptr;
-  const uint2* settle_place_ = nullptr;
-  std::size_t slots_ = 0;  // of all groups
   const RecordRows* rows_ = nullptr;
   std::vector<Tables> tables_;  // [member]
   DeviceRoom::Share room_, room_of_device_;

@@ -116,6 +116,7 @@ class ExecCpu {
     }
   }
   void wait() const {}
+  void end_steps() noexcept {}
   void use_device() const {}
 
  private:

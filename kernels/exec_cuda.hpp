@@ -27,7 +27,10 @@ class ExecCuda : public CudaBodyArrays<P> {
 
   ExecCuda(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
       : Base(network, layout, options, RecordOrder::as_written), step_(1), wall_row_(walls * WallMotion<R>::words) {}
-  ~ExecCuda() { forget_graphs(); }
+  ~ExecCuda() {
+    this->end_steps();
+    forget_graphs();
+  }
 
   bool suits(const ExecStart&) const { return true; }
 

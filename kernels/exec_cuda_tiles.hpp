@@ -54,6 +54,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     if (!tiles_.possible()) throw Impossible{};
   }
 
+  ~ExecCudaTiles() { end_steps(); }
+
   bool suits(const ExecStart& start) const { return block_of(start.options, start.laws, start.size) > 0; }
 
   void begin(const ExecStart& start) {
@@ -83,6 +85,10 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     Base::wait();
     tiles_.leave_room();
   }
+  void end_steps() noexcept {
+    Base::end_steps();
+    tiles_.leave_room();
+  }
 
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
     std::vector<R> out(count * velocity_words);
@@ -96,7 +102,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
 
   GroupState<P> group_state(std::size_t number, std::size_t chain, std::size_t frame) const {
     GroupState<P> out = Base::group_state(number, chain, frame);
-    out.change = tiles_.changes(number, this->layout_.groups[number].contact.size());
+    out.change = tiles_.changes(number);
     return out;
   }
 

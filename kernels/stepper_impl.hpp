@@ -69,13 +69,18 @@ class StepperImpl final : public Stepper {
 
   void advance(std::int64_t steps) override {
     exec_.use_device();
-    for (const std::int64_t begin = step_, end = begin + steps; step_ < end;) {
-      const std::int64_t n = wall_table_.rows(step_ - begin, end - step_);
-      exec_.set_wall_rows(wall_table_.fill(step_, n));
-      exec_.run(step_, n);
-      step_ += n;
+    try {
+      for (const std::int64_t begin = step_, end = begin + steps; step_ < end;) {
+        const std::int64_t n = wall_table_.rows(step_ - begin, end - step_);
+        exec_.set_wall_rows(wall_table_.fill(step_, n));
+        exec_.run(step_, n);
+        step_ += n;
+      }
+      exec_.wait();
+    } catch (...) {  // of a drive, or of the device
+      exec_.end_steps();
+      throw;
     }
-    exec_.wait();
   }
 
   Observation observe() const override {

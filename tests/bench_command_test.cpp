@@ -74,8 +74,8 @@ TEST_F(BenchCommand, SaysWhatBecameSlowerBeyondNoise) {
 }
 
 TEST_F(BenchCommand, RefusesWhatItCannotTime) {
-  for (const char* options : {"lattice:5", "lattice:many", "lattice:", "lattice:1e12", "--precision half",
-                              "--loads 9", "--only both", "--device 0"}) {
+  for (const char* options : {"lattice:5", "lattice:many", "lattice:", "lattice:1e12", "--precision half", "--loads 9",
+                              "--only both", "--device 0"}) {
     const Outcome outcome = bench(options);
     EXPECT_EQ(outcome.code, 2) << options << outcome.out;
     EXPECT_HAS(outcome.err, "found") << options;

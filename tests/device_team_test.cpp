@@ -3,6 +3,11 @@
 // takes so many shares, so that one device is enough for most of this.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include "kernels/cuda_room.hpp"
 #include "stepper_cases.hpp"
 #include "test_files.hpp"
 
@@ -69,7 +74,9 @@ TEST_P(Team, TakesTheStepsOfOneDevice) {
   const auto state = alone->state();
   for (const DeviceList& devices : teams()) {
     SCOPED_TRACE(to_string(devices));
-    const auto team = make(devices);  // more multiprocessors may have room for what one streams
+    const auto team = make(devices);
+    const std::string path = GetParam().path;  // more multiprocessors may have room for what one streams
+    if (path != "tiles streamed") { EXPECT_HAS(team->description(), path); }
     if (devices.size() > 1) { EXPECT_HAS(team->description(), "devices " + to_string(devices)); }
     for (const std::int64_t steps : {1, 32, 300}) team->advance(steps);
     expect_same(team->state(), state);
@@ -99,6 +106,66 @@ TEST_P(Team, GoesOnFromTheCheckpointOfAnother) {
   expect_same(five->state(), whole);
 }
 
+// Of different sizes, so that each asks for shared memory of its own; in turn they take all of the device.
+TEST(SideBySide, SpecimensOfOneDeviceTakeTheirOwnSteps) {
+  if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+  constexpr std::size_t specimens = 3;
+  std::vector<TestScene> scenes;
+  for (const int width : {14, 15, 16}) scenes.push_back(make_scene(random_specimen(3, 16, width, 20)));
+  const auto make = [&](std::size_t k) {
+    StepperOptions options = slow_options(scenes[k]);
+    options.precision = Precision::mixed;
+    return make_stepper(Backend::cuda, scenes[k].specimen, scenes[k].network, scenes[k].laws, scenes[k].inertia,
+                        options);
+  };
+  std::vector<std::vector<StateArray>> alone, together(specimens);
+  for (std::size_t k = 0; k < specimens; ++k) {
+    const auto stepper = make(k);
+    EXPECT_HAS(stepper->description(), "tiles on the chip");
+    stepper->advance(2000);
+    alone.push_back(stepper->state());
+  }
+  std::vector<std::thread> threads;
+  for (std::size_t k = 0; k < specimens; ++k) {
+    threads.emplace_back([&, k] {
+      try {
+        const auto stepper = make(k);
+        for (int part = 0; part < 20; ++part) stepper->advance(100);
+        together[k] = stepper->state();
+      } catch (const std::exception& error) { ADD_FAILURE() << k << ": " << error.what(); }
+    });
+  }
+  for (std::thread& t : threads) t.join();
+  for (std::size_t k = 0; k < specimens; ++k) expect_same(together[k], alone[k]);
+}
+
+// Who came first goes first, however large it is.
+TEST(DeviceRoom, GivesTurnsInTheOrderOfTheirComing) {
+  using kernels::DeviceRoom;
+  const DeviceRoom::Share whole{{700, 10}}, small{{700, 4}}, other{{701, 1}}, of_device{{700, 10}, {701, 10}};
+  std::mutex mutex;
+  std::vector<char> order;
+  const auto take = [&](const DeviceRoom::Share& share, char name) {
+    DeviceRoom::take(share, of_device);
+    {
+      const std::lock_guard lock(mutex);
+      order.push_back(name);
+    }
+    DeviceRoom::give(share);
+  };
+  const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); };
+  DeviceRoom::take(small, of_device);
+  std::thread large([&] { take(whole, 'L'); });
+  wait();                                       // so that it waits before the next comes
+  std::thread late([&] { take(small, 's'); });  // there would be room, but not its turn
+  wait();
+  take(other, 'o');  // another device is free
+  DeviceRoom::give(small);
+  large.join();
+  late.join();
+  EXPECT_EQ(order, (std::vector<char>{'o', 'L', 's'}));
+}
+
 TEST(TeamHarmonic, FindsTheMotionOfOneDevice) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   const TestScene scene = make_scene(random_specimen(3, 16, 16, 20));
@@ -107,7 +174,10 @@ TEST(TeamHarmonic, FindsTheMotionOfOneDevice) {
     options.backend = Backend::cuda;
     options.devices = devices;
     Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, options, 10);
-    return harmonic.solve(std::vector<HarmonicLoad>{{.frequency_hz = 2}, {.frequency_hz = 20, .density_scaling = 1}});
+    auto found =
+        harmonic.solve(std::vector<HarmonicLoad>{{.frequency_hz = 2}, {.frequency_hz = 20, .density_scaling = 1}});
+    found.push_back(harmonic.solve(5));  // alone, by kernels of its own
+    return found;
   };
   const auto alone = solve({0});
   for (const DeviceList& devices : teams()) {

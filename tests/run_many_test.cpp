@@ -2,6 +2,9 @@
 // run_many_test.cpp  Several scenes in one process: each as if it had been run alone.
 #include "macadam/run_many.hpp"
 
+#include <array>
+#include <atomic>
+
 #include "program.hpp"
 
 namespace macadam::test {
@@ -81,7 +84,7 @@ TEST_F(RunMany, BeginsNoneWhereASceneIsWrong) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
-TEST_F(RunMany, StopsThoseThatRunAndBeginsNoOther) {
+TEST_F(RunMany, BeginsNoOtherAfterAStop) {
   std::vector<SceneJob> jobs;
   for (const std::string& name : names_)
     jobs.push_back({read_scene(folder_ / (name + ".toml")), folder_ / "out" / name});
@@ -100,8 +103,44 @@ TEST_F(RunMany, StopsThoseThatRunAndBeginsNoOther) {
   }
   EXPECT_EQ(ended, 3);
   EXPECT_TRUE(run_many({}).empty());
+  options = {};
+  options.done = [](std::size_t, const JobOutcome&) { throw std::runtime_error("of the caller"); };
+  options.stop = [] { return true; };
+  EXPECT_THROW(run_many(jobs, options), std::runtime_error);
   jobs[1].out = jobs[0].out / ".." / "at_5";
   EXPECT_THROW(run_many(jobs), InputError);
+}
+
+// Each leaves what it has, and a checkpoint from which it goes on to the same bits.
+TEST_F(RunMany, StopsThoseThatRun) {
+  std::vector<SceneJob> jobs;
+  for (const std::string& name : names_) {
+    const fs::path file = folder_ / (name + ".toml");
+    std::string scene = read(file);
+    scene.replace(scene.find("cycles = 1"), 10, "cycles = 40");
+    write(file, scene);
+    jobs.push_back({read_scene(file), folder_ / "out" / name});
+  }
+  std::array<std::atomic<bool>, 3> stepping{};
+  ManyOptions options;
+  options.at_once = 3;
+  options.progress = [&](std::size_t job, const std::string& stage, double) {
+    if (stage.find("Hz") != std::string::npos) stepping[job] = true;
+  };
+  options.stop = [&] { return stepping[0] && stepping[1] && stepping[2]; };
+  std::vector<std::string> warnings;
+  options.warn = [&](std::size_t, const std::string& warning) { warnings.push_back(warning); };
+  for (const JobOutcome& outcome : run_many(jobs, options)) {
+    ASSERT_TRUE(outcome.error);
+    EXPECT_THROW(std::rethrow_exception(outcome.error), InterruptedError);
+  }
+  EXPECT_TRUE(warnings.empty()) << warnings.front();
+  for (const SceneJob& job : jobs) EXPECT_TRUE(fs::exists(job.out / "checkpoint.h5"));
+  options = {};
+  options.resume = true;
+  for (const JobOutcome& outcome : run_many(jobs, options)) EXPECT_TRUE(outcome.result);
+  run(jobs[1].scene, folder_ / "alone");
+  EXPECT_EQ(read(jobs[1].out / "response.csv"), read(folder_ / "alone" / "response.csv"));
 }
 
 }  // namespace

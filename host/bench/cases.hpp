@@ -28,7 +28,8 @@ BenchCase case_of(const std::string& text);
 
 /// Every law as the spring that it is at once.
 LawTable elastic(LawTable laws);
-/// The same laws with so many Kelvin units, of the same sum of compliances; what is elastic stays so.
+/// The same laws with so many Kelvin units, each with the compliances of the first over their number; what is elastic
+/// stays so.
 LawTable with_units(LawTable laws, int units);
 
 }  // namespace macadam::bench

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <random>
 
+#include "host/stepping/cuda_code.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::bench {
@@ -58,7 +59,7 @@ class Measured {
  public:
   Measured(const BenchCase& timed, const BenchAxes& axes, const std::function<void(const BenchRow&)>& told)
       : case_(timed), axes_(axes), told_(told), backend_(select_backend(axes.backend, nullptr, axes.devices)) {
-    if (backend_ == Backend::cuda) devices_ = used_devices();
+    if (backend_ == Backend::cuda) devices_ = device_numbers(axes.devices);
   }
 
   void steps(StepperOptions options, int units) {
@@ -107,7 +108,7 @@ class Measured {
     std::vector<HarmonicLoad> asked;
     for (int k = 0; k < loads; ++k) asked.push_back({.frequency_hz = 20.0 / (1 << k)});
     std::vector<HarmonicResult> found;
-    for (int k = 0; k < std::min(axes_.repetitions, 5); ++k)
+    for (int k = 0; k < axes_.repetitions; ++k)
       row.seconds.push_back(seconds_of([&] { found = solver->solve(asked); }));
     int iterations = 0;
     for (const HarmonicResult& r : found) iterations = std::max(iterations, r.iterations);
@@ -125,13 +126,6 @@ class Measured {
   Backend backend() const { return backend_; }
 
  private:
-  DeviceList used_devices() const {
-    if (axes_.devices != DeviceList{every_device}) return axes_.devices;
-    DeviceList out;
-    for (const DeviceInfo& d : report_backends().devices) out.push_back(d.number);
-    return out;
-  }
-
   BenchRow row_of(std::string name, int threads) const {
     BenchRow out;
     out.name = std::move(name);
@@ -201,11 +195,8 @@ MachineSpeed measure_machine(Backend backend, const DeviceList& devices, int thr
     out.copy = processor_copy(threads > 0 ? threads : report_backends().threads);
     return out;
   }
-  const bool all = devices == DeviceList{every_device};
-  for (const DeviceInfo& d : report_backends().devices) {
-    const bool first = devices.empty() && out.devices.empty();
-    if (!all && !first && std::count(devices.begin(), devices.end(), d.number) == 0) continue;
-    out.devices.push_back(measure_device(d.number));
+  for (const int device : device_numbers(devices)) {
+    out.devices.push_back(measure_device(device));
     out.copy += out.devices.back().copy;
   }
   return out;

@@ -85,9 +85,9 @@ void bench_command(BenchArguments arguments) {
   if (arguments.scenes.empty()) arguments.scenes = {"lattice:1e4", "lattice:1e5"};
   const bench::BenchAxes& axes = arguments.axes;
   const Backend backend = select_backend(axes.backend, nullptr, axes.devices);
-  const bench::MachineSpeed machine =
-      bench::measure_machine(axes.backend, axes.devices,
-                             axes.threads.empty() ? 0 : *std::max_element(axes.threads.begin(), axes.threads.end()));
+  const int most = *std::max_element(axes.threads.begin(), axes.threads.end());
+  const bool all = std::count(axes.threads.begin(), axes.threads.end(), 0) > 0;
+  const bench::MachineSpeed machine = bench::measure_machine(axes.backend, axes.devices, all ? 0 : most);
   say_machine(machine);
   const nlohmann::ordered_json context = bench::context_of(machine, backend);
   std::vector<bench::BenchRow> rows;

@@ -82,8 +82,10 @@ void run_scenes(const std::vector<std::string>& scenes, const Job& job, const Ov
   run_many(jobs, options);
   line.clear();
   if (interrupted > 0) {
-    throw InterruptedError(fmt::format("interrupted: {} of {} scenes are not done; --resume goes on from checkpoints",
-                                       interrupted + failed, jobs.size()));
+    throw InterruptedError(
+        fmt::format("interrupted: {} of {} scenes are not done; --resume goes on from checkpoints and does "
+                    "the others anew",
+                    interrupted + failed, jobs.size()));
   }
   if (failed > 0) throw RunError(fmt::format("{} of {} scenes failed", failed, jobs.size()));
   say("{} scenes | results in {}\n", jobs.size(), job.out);

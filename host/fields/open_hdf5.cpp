@@ -93,11 +93,12 @@ void OpenHdf5::write(std::size_t bytes, const std::function<void(H5::H5File&)>& 
     if (::ftruncate(descriptor_, end) != 0) refuse(file_, errno);
     refuse(file_, error);
   }
+  off_t size = 0;
   with_hdf5(file_, [&] {
     change(*hdf5_);
     hdf5_->flush(H5F_SCOPE_GLOBAL);
+    size = static_cast<off_t>(hdf5_->getFileSize());  // what was taken too much is given back
   });
-  const auto size = static_cast<off_t>(hdf5_->getFileSize());  // what was taken too much is given back
   if (::ftruncate(descriptor_, size) != 0) refuse(file_, errno);
 }
 

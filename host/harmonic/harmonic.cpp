@@ -73,8 +73,8 @@ class Harmonic::Implementation {
       return;
     }
     try {
-      iterative_ = make_iterative_solver(specimen, network, typical_, inertia_, free_, options_.backend,
-                                         options_.devices);
+      iterative_ =
+          make_iterative_solver(specimen, network, typical_, inertia_, free_, options_.backend, options_.devices);
     } catch (const NotIterable& error) {
       if (options.linear == LinearMethod::iterative || specimen.size() > largest_direct) throw;
       why_factors_ = error.what();

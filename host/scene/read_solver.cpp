@@ -124,7 +124,8 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         Need::optional,
         {[&](const Value& v) { spec.devices = read_devices(v, most_devices); },
          {"whole number, list of them or \"all\"", nullptr, fmt::format("from 0 to {}", most_devices)}},
-        "the CUDA device, as macadam info numbers them, or those that share the specimen", "the first that can run"},
+        "the CUDA device, as macadam info numbers them, or those that share the specimen",
+        "the first that can run"},
        {"inertia", Need::optional, into(spec.inertia), "method \"harmonic\": with the inertia of the particles"}});
   read_damping(section, spec);
 

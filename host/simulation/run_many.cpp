@@ -2,7 +2,6 @@
 // run_many.cpp  Scenes handed to threads as these become free, and devices to scenes as they begin.
 #include "macadam/run_many.hpp"
 
-#include <hdf5.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <set>
+#include <system_error>
 #include <thread>
 
 #include "host/simulation/checkpoints.hpp"
@@ -21,6 +21,18 @@ namespace {
 
 constexpr int at_once_on_a_device = 3;
 
+/// Of devices, those that answer: one that does not would fail a scene after the other.
+DeviceList usable(const DeviceList& devices) {
+  DeviceList out;
+  for (const int d : devices) {
+    try {
+      select_backend(Backend::cuda, nullptr, {d});
+      out.push_back(d);
+    } catch (const RunError&) {}
+  }
+  return out;
+}
+
 void require_folders_differ(const std::vector<SceneJob>& jobs) {
   std::set<std::filesystem::path> folders;
   for (const SceneJob& job : jobs) {
@@ -29,53 +41,48 @@ void require_folders_differ(const std::vector<SceneJob>& jobs) {
   }
 }
 
-/// Checkpoints are written by HDF5, which not every build of it allows from several threads.
-bool files_allow_threads() {
-  hbool_t allowed = false;
-  return H5is_library_threadsafe(&allowed) >= 0 && allowed;
-}
-
 class Pool {
  public:
   Pool(const std::vector<SceneJob>& jobs, const ManyOptions& options)
       : jobs_(jobs), options_(options), outcomes_(jobs.size()) {
     std::set<int> devices;
+    if (!report_backends().devices.empty()) usable_ = usable(device_numbers({every_device}));
     for (const SceneJob& job : jobs) {
       const SolverSpec& solver = job.scene.solver;
       const bool may = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
-      if (!may || report_backends().devices.empty()) continue;
-      for (const int d : meant_by(solver)) devices.insert(d);
+      for (const int d : usable_) {
+        const bool meant = solver.devices.empty() || solver.devices == DeviceList{every_device} ||
+                           std::count(solver.devices.begin(), solver.devices.end(), d) > 0;
+        if (may && meant) devices.insert(d);
+      }
     }
     const int cores = omp_get_max_threads(),
               usual = devices.empty() ? cores : at_once_on_a_device * int(devices.size());
     workers_ = std::clamp(options.at_once > 0 ? options.at_once : std::min(usual, cores), 1, int(jobs.size()));
-    if (!files_allow_threads()) workers_ = 1;
     threads_ = std::max(1, cores / workers_);
     beside_ = devices.empty() ? 1 : (workers_ + int(devices.size()) - 1) / int(devices.size());
   }
 
   std::vector<JobOutcome> run() {
-    std::vector<std::thread> others;
-    for (int k = 1; k < workers_; ++k) others.emplace_back([this] { work(); });
-    const int usual = omp_get_max_threads();
-    work();
-    omp_set_num_threads(usual);
-    for (std::thread& t : others) t.join();
+    std::vector<std::thread> workers;  // not this one, whose number of threads stays as it is
+    try {
+      for (int k = 0; k < workers_; ++k) workers.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {
+      if (workers.empty()) throw;  // else fewer do it
+    }
+    for (std::thread& t : workers) t.join();
+    if (thrown_) std::rethrow_exception(thrown_);
     return std::move(outcomes_);
   }
 
  private:
-  static DeviceList meant_by(const SolverSpec& solver) {
-    return device_numbers(solver.devices.empty() ? DeviceList{every_device} : solver.devices);
-  }
-
   void work() {
     omp_set_num_threads(threads_);
     for (;;) {
       std::size_t job = 0;
       {
         const std::lock_guard lock(mutex_);
-        if (next_ == jobs_.size()) return;
+        if (next_ == jobs_.size() || thrown_) return;
         job = next_++;
       }
       JobOutcome& outcome = outcomes_[job];
@@ -90,14 +97,17 @@ class Pool {
       } catch (...) { outcome.error = std::current_exception(); }
       const std::lock_guard lock(mutex_);
       if (device) --running_[*device];
-      if (options_.done) options_.done(job, outcome);
+      try {
+        if (options_.done) options_.done(job, outcome);
+      } catch (...) { thrown_ = std::current_exception(); }
     }
   }
 
   /// None where the processor runs the scene.
   std::optional<int> take_device(const SolverSpec& solver) {
     if (select_backend(solver.backend, nullptr, solver.devices) != Backend::cuda) return {};
-    const DeviceList meant = meant_by(solver);
+    DeviceList meant = solver.devices.empty() ? usable_ : device_numbers(solver.devices);
+    if (const DeviceList answer = usable(meant); !answer.empty()) meant = answer;
     const std::lock_guard lock(mutex_);
     const int least =
         *std::min_element(meant.begin(), meant.end(), [&](int a, int b) { return running_[a] < running_[b]; });
@@ -129,6 +139,8 @@ class Pool {
   std::mutex mutex_;  // of what follows, and of the options' functions
   std::size_t next_ = 0;
   std::map<int, int> running_;  // device: scenes
+  DeviceList usable_;
+  std::exception_ptr thrown_;  // by an option's function
   std::vector<JobOutcome> outcomes_;
 };
 

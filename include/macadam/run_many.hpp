@@ -26,20 +26,23 @@ struct JobOutcome {
 };
 
 struct ManyOptions {
-  /// Scenes at a time; 0: three a device, so that the specimens of some are made while others are stepped, or one a
-  /// core. Each has an equal share of the cores, unless its [solver] threads says otherwise.
+  /// Scenes at a time; 0: three a device, so that the specimens of some are made while others are stepped, but no more
+  /// than cores; without a device one a core. Each has an equal share of the cores, unless its [solver] threads says
+  /// otherwise.
   int at_once = 0;
   bool resume = false;  ///< go on from checkpoints, where folders have them
-  /// The functions are called by one thread at a time. `job`: position in the list.
+  /// The functions but `stop` are called by one thread at a time. `job`: position in the list. What `done` throws ends
+  /// all, once what runs has ended.
   std::function<void(std::size_t job, const std::string& stage, double share)> progress;
   std::function<void(std::size_t job, const std::string& warning)> warn;
   std::function<void(std::size_t job, const JobOutcome& outcome)> done;
-  std::function<bool()> stop;  ///< as Watcher::stop; scenes that have not begun are not begun then
+  std::function<bool()> stop;  ///< as Watcher::stop, from several threads; scenes that have not begun do not begin then
 };
 
 /// run() of every scene, each on one device: on the one with the fewest at the moment, of those that its [solver] names
-/// or, where it names none, of all. Small specimens share a device at the same time. The results are those of run(). An
-/// error of one scene ends no other. Outcomes are in the order of the jobs; one that was not begun has an
+/// or, where it names none, of all that answer. Small specimens share a device at the same time. The results are those
+/// of run(). An error of one scene ends no other, unless a device fails for a whole process; scenes that are on a
+/// device together share its memory. Outcomes are in the order of the jobs; one that was not begun has an
 /// InterruptedError. \throws InputError where two jobs have one folder.
 std::vector<JobOutcome> run_many(const std::vector<SceneJob>& jobs, const ManyOptions& options = {});
 

@@ -79,8 +79,8 @@ __device__ inline unsigned largest_in_warp(unsigned value) {
 
 /// Eight threads a body: one a lane, and where there are fewer lanes several share its contacts.
 template <int F>
-__global__ void __launch_bounds__(cocg_threads) cocg_apply(CocgView<F> d, unsigned first_segment,
-                                                         const double* from, bool first) {
+__global__ void __launch_bounds__(cocg_threads)
+    cocg_apply(CocgView<F> d, unsigned first_segment, const double* from, bool first) {
   constexpr unsigned W = 2 * F, group = 8, slices = group / W;
   CocgScalars<F>& s = *d.scalars;
   if (!s.running) return;

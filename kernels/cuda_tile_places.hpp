@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_tile_places.hpp  Where the contacts of the groups are among those of the tiles, where one that crosses a
+/// border is twice.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "kernels/cuda_tile_limits.hpp"
+#include "kernels/cuda_tile_scene.hpp"
+
+namespace macadam::kernels {
+
+class TilePlaces {
+ public:
+  explicit TilePlaces(const Layout& layout) : layout_(layout) {
+    for (const auto& group : layout.groups) {
+      first_slot_.push_back(slots_);
+      slots_ += group.contact.size();
+    }
+    places_.assign(slots_, uint2{UINT32_MAX, UINT32_MAX});
+  }
+
+  /// Slots of all groups, and the first of one.
+  std::size_t slots() const { return slots_; }
+  std::size_t first_slot(std::size_t group) const { return first_slot_[group]; }
+
+  /// The contact of a slot is at `place`, too.
+  void add(std::size_t group, std::size_t slot, std::uint32_t place) {
+    uint2& of_slot = places_[first_slot_[group] + slot];
+    (of_slot.x == UINT32_MAX ? of_slot.x : of_slot.y) = place;
+  }
+  /// All have been added: they go to the device for good.
+  void keep(DeviceStore& store, const Shares& shares) {
+    on_device_ = store.keep(places_, shares);
+    places_ = {};
+  }
+  const uint2* on_device() const { return on_device_; }
+
+  /// Words, of four numbers each, of an array [packet][count][lane] of the tiles' contacts, in the order of the
+  /// network.
+  StateOrder order(int count, std::vector<std::uint64_t> words) const {
+    const std::vector<uint2> places = copied(0, slots_);
+    const auto at = [&](std::uint32_t place) {
+      return place == UINT32_MAX ? StateOrder::none
+                                 : (std::uint64_t{place / 32} * static_cast<unsigned>(count) * 32 + place % 32) * 4;
+    };
+    StateOrder out{{}, std::move(words), {}};
+    for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
+      for (const std::uint32_t slot : slots_in_order(layout_.groups[g])) {
+        const uint2 place = places[first_slot_[g] + slot];
+        out.first.push_back(at(place.x));
+        out.twin.push_back(at(place.y));
+      }
+    }
+    return out;
+  }
+  /// Of a contact's constants, those that a block begins with.
+  static std::vector<std::uint64_t> words_of_block(bool carried) {
+    std::vector<std::uint64_t> out;
+    add_words(out, tile_drift_a, 4);
+    add_words(out, tile_drift_b, 2);
+    if (!carried) return out;
+    add_words(out, tile_normal, 4);
+    add_words(out, tile_moment_a, 1);
+    add_words(out, tile_tangent, 3);
+    return out;
+  }
+  static std::vector<std::uint64_t> words_of_states() {
+    std::vector<std::uint64_t> out;
+    for (const int w : {tile_change, tile_both, tile_sum}) add_words(out, w, 4);
+    return out;
+  }
+
+  /// [slot][6] of a group: the changes that `state`, of `count` words, has.
+  std::vector<float> changes(std::size_t group, const float4* state, std::size_t count) const {
+    std::vector<float4> all(count);
+    copy_now(all.data(), state, count * sizeof(float4), "states");
+    const std::vector<uint2> places = copied(first_slot_[group], layout_.groups[group].contact.size());
+    std::vector<float> out(6 * places.size(), 0.0f);
+    for (std::size_t slot = 0; slot < places.size(); ++slot) {
+      const std::uint32_t place = places[slot].x;
+      if (place == UINT32_MAX) continue;
+      const float4* words = &all[place / 32 * std::size_t{tile_states} * 32 + place % 32];
+      const float4 a = words[tile_change * 32], b = words[tile_both * 32];
+      const float change[6] = {a.x, a.y, a.z, a.w, b.x, b.y};
+      std::copy(change, change + 6, &out[6 * slot]);
+    }
+    return out;
+  }
+
+ private:
+  std::vector<uint2> copied(std::size_t first, std::size_t count) const {
+    std::vector<uint2> out(count);
+    if (count > 0) copy_now(out.data(), on_device_ + first, count * sizeof(uint2), "places");
+    return out;
+  }
+  /// Adds the first `count` components of word w of 16 bytes.
+  static void add_words(std::vector<std::uint64_t>& to, int w, int count) {
+    for (int k = 0; k < count; ++k)
+      to.push_back(static_cast<std::uint64_t>(w) * 32 * 4 + static_cast<std::uint64_t>(k));
+  }
+
+  const Layout& layout_;
+  std::size_t slots_ = 0;
+  std::vector<std::size_t> first_slot_;  // [group]
+  std::vector<uint2> places_;            // until they are on the device
+  const uint2* on_device_ = nullptr;
+};
+
+}  // namespace macadam::kernels

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_tile_traffic.hpp  What a step over tiles moves, by where from or to: counted by packets, slots and
+/// bodies.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "kernels/cuda_tiles_resident.hpp"
+
+namespace macadam::kernels {
+
+inline constexpr std::uint32_t resident_threads = 512;  ///< all registers: a contact's state takes twelve
+
+/// Packets whose states stay in registers, as ResidentTile::share() has it.
+inline std::int64_t packets_in_registers(const Tile& tile) {
+  constexpr std::uint32_t warps = resident_threads / 32, run = TilePlan::run;
+  const std::uint32_t groups = std::min(tile.groups, warps), ones = tile.packets - run * tile.groups;
+  return run * groups + std::min(ones, run * (warps - groups));
+}
+
+/// Through shared memory: velocities of both ends, once for a whole run of contacts that share an end, and the loads.
+inline std::int64_t shared_traffic(const Tile& tile) {
+  constexpr std::int64_t of_velocity = 32, of_slot = 2 * 24;
+  const std::int64_t contacts = 32 * std::int64_t{tile.packets};
+  return of_velocity * (contacts + contacts / TilePlan::run + tile.bodies + tile.halo) + of_slot * tile.slots;
+}
+
+/// Tiles that go through memory, of which a step moves `all` bytes.
+inline Traffic traffic_streamed(const std::vector<Tile>& tiles, std::int64_t all) {
+  Traffic out{all, 0, 0};
+  for (const Tile& tile : tiles) out.shared += shared_traffic(tile);
+  return out;
+}
+
+/// Tiles that stay on the chip: nothing goes through memory.
+template <class P>
+Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileScene<P>& scene, bool carried) {
+  constexpr std::int64_t of_packet = 32 * sizeof(float4), of_states = 2 * of_packet * tile_states, of_velocity = 32;
+  const std::int64_t of_constants = of_packet * tile_constants(carried);
+  Traffic out;
+  for (const Tile& tile : tiles) {
+    const std::int64_t packets = tile.packets, cached = std::min<std::int64_t>(scene.cached_packets, packets);
+    out.shared += shared_traffic(tile) + of_constants * cached;
+    out.cache += of_constants * (packets - cached) + of_states * (packets - packets_in_registers(tile)) +
+                 of_velocity * (tile.bodies + tile.halo);
+    const auto rest = static_cast<std::int64_t>(ResidentMemory<P>::rest_bytes(tile.bodies, scene.where));
+    (scene.where == TileRest::here ? out.shared : out.cache) += rest;
+  }
+  return out;
+}
+
+}  // namespace macadam::kernels
