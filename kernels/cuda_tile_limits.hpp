@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "kernels/cuda_bodies.hpp"
+#include "kernels/cuda_team.hpp"
 #include "kernels/tile_plan.hpp"
 
 namespace macadam::kernels {
@@ -31,10 +32,16 @@ struct DeviceLimits {
     out.whole_words = major >= 7;
     return out;
   }
-  /// What both have.
-  DeviceLimits least(const DeviceLimits& other) const {
-    return {std::min(multiprocessors, other.multiprocessors), std::min(shared, other.shared),
-            cooperative && other.cooperative, whole_words && other.whole_words};
+  /// What each member of a team has.
+  static DeviceLimits of_each(const DeviceTeam& team, int multiprocessors) {
+    DeviceLimits out;
+    team.each([&](std::size_t m) {
+      const DeviceLimits own = query(multiprocessors, team.shares_of(m));
+      out = m == 0 ? own
+                   : DeviceLimits{std::min(out.multiprocessors, own.multiprocessors), std::min(out.shared, own.shared),
+                                  out.cooperative && own.cooperative, out.whole_words && own.whole_words};
+    });
+    return out;
   }
 };
 

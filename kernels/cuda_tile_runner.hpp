@@ -203,10 +203,7 @@ class TileRunner {
   /// Chooses the kernel by what the device has.
   void choose(int multiprocessors) {
     if (!plan_.fits) return;
-    team_.each([&](std::size_t m) {
-      const DeviceLimits limits = DeviceLimits::query(multiprocessors, team_.shares_of(m));
-      limits_ = m == 0 ? limits : limits_.least(limits);
-    });
+    limits_ = DeviceLimits::of_each(team_, multiprocessors);
     scene_.most_bodies = plan_.most_bodies;
     scene_.most_halo = plan_.most_halo;
     scene_.most_locals = plan_.most_locals;

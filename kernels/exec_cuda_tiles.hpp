@@ -23,11 +23,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that two tiles share one.
   static std::size_t tile_contacts(const ContactNetwork& network, const StepperOptions& options) {
     const DeviceTeam team(options.devices);
-    DeviceLimits limits;
-    team.each([&](std::size_t m) {
-      const DeviceLimits of_device = DeviceLimits::query(options.multiprocessors, team.shares_of(m));
-      limits = m == 0 ? of_device : limits.least(of_device);
-    });
+    const DeviceLimits limits = DeviceLimits::of_each(team, options.multiprocessors);
     auto chips = static_cast<std::size_t>(limits.multiprocessors) * team.size();
     const auto shared = static_cast<std::size_t>(limits.shared);
     const std::size_t contacts = network.contacts.size();
