@@ -25,16 +25,16 @@ void for_each_in_parallel(std::size_t n, F&& f, bool threads = true) {
 }
 
 /// Σ f(k) over k < n: sums of pieces, and then of these, in order, so that the bits do not depend on the threads.
+/// Exceptions as with for_each_in_parallel().
 template <class T, class F>
 T sum_in_parallel(std::size_t n, F&& f) {
   constexpr std::size_t piece = 1 << 14;
   std::vector<T> pieces((n + piece - 1) / piece);
-#pragma omp parallel for schedule(static)
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
+  for_each_in_parallel(pieces.size(), [&](std::size_t p) {
     T own{};
     for (std::size_t k = p * piece; k < n && k < (p + 1) * piece; ++k) own += f(k);
     pieces[p] = own;
-  }
+  });
   T out{};
   for (const T& p : pieces) out += p;
   return out;

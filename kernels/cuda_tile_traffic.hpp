@@ -11,6 +11,7 @@
 namespace macadam::kernels {
 
 inline constexpr std::uint32_t resident_threads = 512;  ///< all registers: a contact's state takes twelve
+inline constexpr std::uint32_t contacts_in_registers = TilePlan::run * resident_threads;  ///< at the most, of a tile
 
 /// Packets whose states stay in registers, as ResidentTile::share() has it.
 inline std::int64_t packets_in_registers(const Tile& tile) {

@@ -28,8 +28,12 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     const auto shared = static_cast<std::size_t>(limits.shared);
     const std::size_t contacts = network.contacts.size();
     if (options.side_by_side > 1) {
+      // In a part of the chip, only where registers hold all states. Else they would be fetched at every step, and the
+      // cache would have to hold those of all that are side by side: three full specimens took 44 us a step each so
+      // (H200), and would take 20 us where they take turns.
       const std::size_t part = std::max<std::size_t>(1, chips / static_cast<std::size_t>(options.side_by_side));
-      if (expected_resident_bytes<P>(network, part) <= shared) chips = part;
+      constexpr double computed = 1.3;  // times, a contact: those across the faces of tiles by both sides
+      if (computed * static_cast<double>(contacts) <= static_cast<double>(part * contacts_in_registers)) chips = part;
     }
     if (expected_resident_bytes<P>(network, chips) > shared) return std::min<std::size_t>(1500, shared / 100);
     return std::max<std::size_t>(128, contacts / (chips + 1) + 1);

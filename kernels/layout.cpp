@@ -123,28 +123,37 @@ void order_particles(const Specimen& specimen, const std::vector<double>& weight
 /// Fills one group: sorts its contacts by (tile, points, body) and pads every tile's run to whole packets.
 GroupLayout make_group(const ContactNetwork& network, const Layout& layout, const std::vector<std::int32_t>& tile_of,
                        PairType pair) {
-  using Key = std::tuple<std::int32_t, std::uint32_t, std::int32_t, std::int32_t, std::uint32_t>;
-  std::vector<Key> keys;
-  for (std::uint32_t c = 0; c < network.contacts.size(); ++c) {
-    const Contact& contact = network.contacts[c];
-    if (contact.pair != pair) continue;
-    const std::int32_t a = layout.body_of(contact.a), b = layout.body_of(contact.b);
-    const std::int32_t low = std::min(a, b);  // a wall is never the lower body
-    keys.emplace_back(tile_of[static_cast<std::size_t>(low)], contact.point_end - contact.point_begin, low,
-                      std::max(a, b), c);
+  using Key = std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint32_t>;  // points, bodies, number
+  const auto tile_of_contact = [&](const Contact& c) {  // that of the lower body; a wall is none
+    const std::int32_t low = std::min(layout.body_of(c.a), layout.body_of(c.b));
+    return static_cast<std::size_t>(tile_of[static_cast<std::size_t>(low)]);
+  };
+  std::vector<std::size_t> begin(layout.tiles() + 1, 0);
+  for (const Contact& c : network.contacts) {
+    if (c.pair == pair) ++begin[tile_of_contact(c) + 1];
   }
-  std::sort(keys.begin(), keys.end());
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  RawVector<Key> keys(begin.back());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (std::uint32_t number = 0; number < network.contacts.size(); ++number) {
+    const Contact& c = network.contacts[number];
+    if (c.pair != pair) continue;
+    const std::int32_t a = layout.body_of(c.a), b = layout.body_of(c.b);
+    keys[next[tile_of_contact(c)]++] = {c.point_end - c.point_begin, std::min(a, b), std::max(a, b), number};
+  }
+  const auto key_at = [&](std::size_t k) { return keys.begin() + static_cast<std::ptrdiff_t>(k); };
+#pragma omp parallel for schedule(dynamic, 16)
+  for (std::size_t tile = 0; tile < layout.tiles(); ++tile) std::sort(key_at(begin[tile]), key_at(begin[tile + 1]));
 
   GroupLayout group;
   group.pair = pair;
   const auto lanes = static_cast<std::size_t>(layout.lanes);
-  std::size_t k = 0;
   std::uint32_t row = 0;
   for (std::size_t tile = 0; tile < layout.tiles(); ++tile) {
     group.tile_packet.push_back(static_cast<std::uint32_t>(group.contact.size() / lanes));
-    for (; k < keys.size() && std::get<0>(keys[k]) == static_cast<std::int32_t>(tile); ++k) {
-      group.contact.push_back(std::get<4>(keys[k]));
-      group.points.push_back(std::get<1>(keys[k]));
+    for (std::size_t k = begin[tile]; k < begin[tile + 1]; ++k) {
+      group.contact.push_back(std::get<3>(keys[k]));
+      group.points.push_back(std::get<0>(keys[k]));
     }
     while (group.contact.size() % lanes != 0) group.contact.push_back(inert);
     group.points.resize(group.contact.size(), 0);

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "host/parallel.hpp"
+
 namespace macadam::kernels {
 namespace {
 
@@ -49,6 +51,14 @@ struct Columns {
   }
 };
 
+/// A tile, whose places and packets count from 0.
+struct TilePart {
+  Tile tile{};
+  std::vector<std::int32_t> body, halo;
+  std::vector<std::uint32_t> row, diagonal;
+  std::vector<TileContact> contact;
+};
+
 class Planner {
  public:
   Planner(const ContactNetwork& network, const Layout& layout, const std::vector<bool>& begins_share)
@@ -61,7 +71,9 @@ class Planner {
 
   TilePlan plan() {
     find_touches();
-    for (std::size_t t = 0; t < layout_.tiles(); ++t) add_tile(static_cast<int>(t));
+    std::vector<TilePart> parts(layout_.tiles());
+    for_each_in_parallel(parts.size(), [&](std::size_t t) { make_tile(static_cast<int>(t), parts[t]); });
+    for (std::size_t t = 0; t < parts.size(); ++t) add_tile(t, std::exchange(parts[t], {}));
     std::vector<std::int32_t> place(layout_.particles());
     for (std::size_t p = 0; p < out_.body.size(); ++p) {
       if (out_.body[p] >= 0) place[at(out_.body[p])] = static_cast<std::int32_t>(p);
@@ -116,30 +128,42 @@ class Planner {
     }
   }
 
-  void add_tile(int t) {
+  void add_tile(std::size_t t, const TilePart& part) {
+    if (!begins_share_.empty() && begins_share_[t]) {
+      out_.contact.resize(whole(out_.packets(), TilePlan::share_packets) * 32);  // inert
+      out_.body.resize(whole(out_.body.size(), TilePlan::share_places), -1);
+      out_.row.resize(2 * out_.body.size());
+    }
+    Tile tile = part.tile;
+    tile.first_body = static_cast<std::uint32_t>(out_.body.size());
+    tile.first_halo = static_cast<std::uint32_t>(out_.halo.size());
+    tile.first_packet = static_cast<std::uint32_t>(out_.packets());
+    const auto append = [](auto& list, const auto& more) { list.insert(list.end(), more.begin(), more.end()); };
+    append(out_.body, part.body);
+    append(out_.row, part.row);
+    append(out_.diagonal, part.diagonal);
+    append(out_.halo, part.halo);
+    append(out_.contact, part.contact);
+    out_.most_bodies = std::max(out_.most_bodies, tile.bodies);
+    out_.most_halo = std::max(out_.most_halo, tile.halo);
+    out_.most_locals = std::max(out_.most_locals, tile.bodies + tile.halo + walls);
+    out_.most_slots = std::max(out_.most_slots, tile.slots);
+    out_.most_packets = std::max(out_.most_packets, tile.packets);
+    out_.fits = out_.fits && tile.bodies + tile.halo + walls < UINT16_MAX && tile.slots < TilePlan::more_of_run;
+    out_.tile.push_back(tile);
+  }
+
+  void make_tile(int t, TilePart& part) {
     auto& touches = touches_[at(t)];
     const auto first = static_cast<std::uint32_t>(layout_.tile_body[at(t)]);
     const auto bodies = static_cast<std::uint32_t>(layout_.tile_body[at(t) + 1]) - first;
-    if (!begins_share_.empty() && begins_share_[at(t)]) {
-      out_.contact.resize(whole(out_.packets(), TilePlan::share_packets) * 32);  // inert
-      out_.body.resize(whole(out_.body.size(), TilePlan::share_places), -1);
-    }
-    const std::size_t place = out_.body.size();
-    out_.body.resize(place + bodies);
-    out_.row.resize(2 * out_.body.size());
-    Tile tile{static_cast<std::uint32_t>(place),
-              bodies,
-              static_cast<std::uint32_t>(out_.halo.size()),
-              0,
-              static_cast<std::uint32_t>(out_.packets()),
-              0,
-              0,
-              0,
-              0,
-              0};
+    Tile& tile = part.tile;
+    tile.bodies = bodies;
+    part.body.resize(bodies);
+    part.row.resize(std::size_t{2} * bodies);
 
     std::vector<std::uint32_t> length(bodies, 0), rank(bodies), order(bodies);
-    std::vector<std::int32_t> halo;
+    std::vector<std::int32_t>& halo = part.halo;
     for (const Touch& touch : touches) {
       for (const std::int32_t body : {touch.a, touch.b}) {
         if (owns(t, body))
@@ -151,46 +175,38 @@ class Planner {
     std::sort(halo.begin(), halo.end());
     halo.erase(std::unique(halo.begin(), halo.end()), halo.end());
     tile.halo = static_cast<std::uint32_t>(halo.size());
-    out_.halo.insert(out_.halo.end(), halo.begin(), halo.end());
 
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return length[i] > length[j]; });
-    std::vector<std::uint32_t> diagonal(TilePlan::longest_short_row, 0);
+    part.diagonal.assign(TilePlan::longest_short_row, 0);
     for (std::uint32_t r = 0; r < bodies; ++r) {
       const std::uint32_t n = length[order[r]];
       rank[order[r]] = r;
-      out_.body[place + r] = static_cast<std::int32_t>(first + order[r]);
-      out_.row[2 * (place + r)] = n;
+      part.body[r] = static_cast<std::int32_t>(first + order[r]);
+      part.row[2 * r] = n;
       if (n > TilePlan::longest_short_row) {
         ++tile.long_rows;
-        out_.row[2 * (place + r) + 1] = tile.slots;
+        part.row[2 * r + 1] = tile.slots;
         tile.slots += n;
       }
     }
     for (std::uint32_t e = 0; e < TilePlan::longest_short_row; ++e) {
       // short ranks r ≥ long_rows have row lengths that fall with r: slot e exists for a run of them
       std::uint32_t run = 0;
-      for (std::uint32_t r = tile.long_rows; r < bodies && out_.row[2 * (place + r)] > e; ++r) ++run;
-      diagonal[e] = tile.slots - tile.long_rows;
+      for (std::uint32_t r = tile.long_rows; r < bodies && part.row[2 * r] > e; ++r) ++run;
+      part.diagonal[e] = tile.slots - tile.long_rows;
       tile.slots += run;
     }
-    out_.diagonal.insert(out_.diagonal.end(), diagonal.begin(), diagonal.end());
-
-    add_contacts(t, tile, touches, halo, rank, diagonal);
-    out_.most_bodies = std::max(out_.most_bodies, bodies);
-    out_.most_halo = std::max(out_.most_halo, tile.halo);
-    out_.most_locals = std::max(out_.most_locals, bodies + tile.halo + walls);
-    out_.most_slots = std::max(out_.most_slots, tile.slots);
-    out_.most_packets = std::max(out_.most_packets, tile.packets);
-    out_.fits = out_.fits && bodies + tile.halo + walls < UINT16_MAX && tile.slots < TilePlan::more_of_run;
-    out_.tile.push_back(tile);
+    add_contacts(t, part, touches, rank);
     touches = {};
   }
 
   /// Runs are sorted by their slot, so that the lanes of a warp touch neighbouring words of shared memory: entry e of
   /// consecutive ranks.
-  void add_contacts(int t, Tile& tile, const std::vector<Touch>& touches, const std::vector<std::int32_t>& halo,
-                    const std::vector<std::uint32_t>& rank, const std::vector<std::uint32_t>& diagonal) {
+  void add_contacts(int t, TilePart& part, const std::vector<Touch>& touches,
+                    const std::vector<std::uint32_t>& rank) const {
+    Tile& tile = part.tile;
+    const std::vector<std::int32_t>& halo = part.halo;
     std::vector<std::uint32_t> filled(tile.bodies, 0);
     const auto local = [&](std::int32_t body) -> std::uint32_t {
       if (is_wall(body)) {
@@ -201,8 +217,7 @@ class Planner {
     };
     const auto fill = [&](std::uint32_t r, std::uint16_t& slot) {
       const std::uint32_t e = filled[r]++;
-      slot = static_cast<std::uint16_t>(r < tile.long_rows ? out_.row[2 * (tile.first_body + r) + 1] + e
-                                                           : diagonal[e] + r);
+      slot = static_cast<std::uint16_t>(r < tile.long_rows ? part.row[2 * r + 1] + e : part.diagonal[e] + r);
       return e;
     };
     using Entry = std::tuple<std::uint32_t, std::uint32_t, Run>;  // entry, rank, contacts
@@ -244,7 +259,7 @@ class Planner {
     TileContact none;
     none.slot_a = none.slot_b = TilePlan::no_slot;
     const auto add = [&](std::uint32_t number) {
-      out_.contact.push_back(number == Columns::nobody ? none : contacts[number]);
+      part.contact.push_back(number == Columns::nobody ? none : contacts[number]);
     };
     columns.column.resize(std::size_t{32} * tile.groups,
                           {Columns::nobody, Columns::nobody, Columns::nobody, Columns::nobody});
@@ -254,8 +269,8 @@ class Planner {
       }
     }
     for (const std::uint32_t number : others.ones) add(number);
-    while (out_.contact.size() % 32 != 0) add(Columns::nobody);
-    tile.packets = static_cast<std::uint32_t>(out_.packets()) - tile.first_packet;
+    while (part.contact.size() % 32 != 0) add(Columns::nobody);
+    tile.packets = static_cast<std::uint32_t>(part.contact.size() / 32);
   }
 
   const ContactNetwork& network_;

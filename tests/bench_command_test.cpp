@@ -51,6 +51,23 @@ TEST_F(BenchCommand, WritesWhatItTimedAsGoogleBenchmarkDoes) {
   }
 }
 
+TEST_F(BenchCommand, TimesWhatComesBeforeAStep) {
+  const Outcome outcome =
+      bench("lattice:500 --only preparation --precision double --geometry fixed --json " + path("now.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const json all = read_json("now.json");
+  const json& entry = all["benchmarks"].front();
+  EXPECT_EQ(entry["name"], "preparation/lattice:500/cpu/condensed/double/fixed/threads:1");
+  EXPECT_GT(entry["contacts"], entry["particles"].get<double>());
+  double parts = 0;
+  for (const char* part : {"tessellation", "network", "critical step", "stepper"}) {
+    EXPECT_GT(entry[std::string("part_us ") + part].get<double>(), 0) << part;
+    parts += entry[std::string("part_us ") + part].get<double>();
+  }
+  const json& last = all["benchmarks"][2];  // of three repetitions, whose parts are told
+  EXPECT_NEAR(parts, last["real_time"].get<double>(), 1e-6 * parts);
+}
+
 TEST_F(BenchCommand, SaysWhatBecameSlowerBeyondNoise) {
   ASSERT_EQ(bench("lattice:500 --only step --precision double --json " + path("now.json")).code, 0);
   json before = read_json("now.json");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// measure.cpp  Repetitions of many steps, everything in motion; repetitions of whole solutions.
+// measure.cpp  Repetitions of many steps, everything in motion; of whole solutions, and of what comes before a step.
 #include "host/bench/measure.hpp"
 
 #include <fmt/format.h>
@@ -66,13 +66,7 @@ class Measured {
     const LawTable laws = axes_.elastic ? elastic(case_.laws) : units < 0 ? case_.laws : with_units(case_.laws, units);
     const bool without_points = case_.network.point_area.empty();
     if (options.form == ContactForm::points && without_points) return;  // a lattice has none
-    constexpr double frequency = 20;
-    const double dt = 0.8 * critical_step(case_.network, laws, case_.inertia, options).dt;
-    drives::Cyclic loading{1e-4 * case_.specimen.box.size.z, frequency, 1, 0};
-    loading.steps_per_period = std::llround(std::ceil(1 / (frequency * dt)));
-    options.boundary = moving_top(loading);
-    options.dt = loading.dt();
-    options.devices = devices_;
+    drive(options, critical_step(case_.network, laws, case_.inertia, options).dt);
     const auto stepper = make_stepper(backend_, case_.specimen, case_.network, laws, case_.inertia, options);
     set_in_motion(*stepper);
     BenchRow row =
@@ -122,16 +116,60 @@ class Measured {
     told_(row);
   }
 
+  /// From particles to the first step: cells, contacts, the critical step, and arrays where they are stepped.
+  void preparation(StepperOptions options) {
+    BenchRow row = row_of(name_of("preparation", case_, options, backend_, -1), options.threads);
+    if (options.threads > 0) omp_set_num_threads(options.threads);
+    std::vector<std::pair<std::string, double>> parts;
+    const auto part = [&](const char* name, const std::function<void()>& f) {
+      parts.emplace_back(name, seconds_of(f));
+    };
+    double all = 0;
+    while (row.seconds.empty() || (static_cast<int>(row.seconds.size()) < axes_.repetitions && all < long_enough)) {
+      parts.clear();
+      Tessellation cells;
+      ContactNetwork network;
+      std::unique_ptr<Stepper> stepper;
+      part("tessellation", [&] { cells = tessellate(case_.specimen); });
+      part("network", [&] { network = build_network(case_.specimen, cells, {}); });
+      cells = {};
+      part("critical step", [&] { drive(options, critical_step(network, case_.laws, case_.inertia, options).dt); });
+      part("stepper", [&] {
+        stepper = make_stepper(backend_, case_.specimen, network, case_.laws, case_.inertia, options);
+        stepper->advance(1);
+      });
+      row.label = stepper->description();
+      row.counters = {{"particles", static_cast<double>(case_.specimen.size())},
+                      {"contacts", static_cast<double>(network.contacts.size())}};
+      row.seconds.push_back(0);
+      for (const auto& [name, seconds] : parts) row.seconds.back() += seconds;
+      all += row.seconds.back();
+    }
+    for (const auto& [name, seconds] : parts) row.counters.emplace_back("part_us " + name, 1e6 * seconds);
+    told_(row);
+  }
+
   int all_threads() const { return report_backends().threads; }
   Backend backend() const { return backend_; }
 
  private:
+  static constexpr double long_enough = 30;  ///< seconds of all repetitions of a preparation
+
   BenchRow row_of(std::string name, int threads) const {
     BenchRow out;
     out.name = std::move(name);
     out.threads = threads > 0 ? threads : backend_ == Backend::cpu ? all_threads() : 1;
     if (backend_ == Backend::cpu) out.name += fmt::format("/threads:{}", out.threads);
     return out;
+  }
+
+  /// Steps of 20 Hz.
+  void drive(StepperOptions& options, double critical) const {
+    drives::Cyclic loading{1e-4 * case_.specimen.box.size.z, 20, 1, 0};
+    loading.steps_per_period = std::llround(std::ceil(1 / (loading.frequency * 0.8 * critical)));
+    options.boundary = moving_top(loading);
+    options.dt = loading.dt();
+    options.devices = devices_;
   }
 
   void set_in_motion(Stepper& stepper) const {
@@ -221,6 +259,7 @@ void time_case(const BenchCase& timed, const BenchAxes& axes, const std::functio
                 options.blocks = blocks;
                 options.multiprocessors = multiprocessors;
                 if (axes.steps) measured.steps(options, units);
+                if (axes.preparation) measured.preparation(options);
               }
             }
           }

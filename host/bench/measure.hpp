@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file measure.hpp  Times of steps and of iterations, repeated, with what explains them.
+/// \file measure.hpp  Times of steps, of iterations and of preparations, repeated, with what explains them.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ struct BenchAxes {
   bool elastic = false;                                 ///< every law as a spring
   std::vector<int> multiprocessors{0};                  ///< as in StepperOptions
   std::vector<int> loads{1, 4};                         ///< frequencies that are solved side by side
-  bool steps = true, harmonic = true;
+  bool steps = true, harmonic = true, preparation = false;
   int repetitions = 7;
   double seconds = 0.05;  ///< of a repetition, at the least
 };
@@ -32,8 +32,8 @@ struct BenchAxes {
 /// One thing that was timed.
 struct BenchRow {
   std::string name, label;      ///< label: what ran, in words
-  std::vector<double> seconds;  ///< of each repetition, a step or a solution
-  std::int64_t iterations = 1;  ///< steps or solutions of a repetition
+  std::vector<double> seconds;  ///< of each repetition, a step, a solution or a preparation
+  std::int64_t iterations = 1;  ///< of these, in a repetition
   int threads = 1;
   std::vector<std::pair<std::string, double>> counters;
   double of(const std::string& counter) const;  ///< 0 for none

@@ -42,7 +42,7 @@ void say_row(const bench::BenchRow& row, const bench::MachineSpeed& machine) {
     if (name.starts_with(part))
       parts += fmt::format("{}{} {:.2f}", parts.empty() ? "" : ", ", name.substr(part.size()), value);
   }
-  say("  {}{}\n", row.label, parts.empty() ? "" : "; us a step: " + parts);
+  say("  {}{}\n", row.label, parts.empty() ? "" : "; us: " + parts);
   flush_output();
 }
 
@@ -81,6 +81,7 @@ void bench_command(BenchArguments arguments) {
   if (!arguments.only.empty()) {
     arguments.axes.steps = arguments.only == "step";
     arguments.axes.harmonic = arguments.only == "harmonic";
+    arguments.axes.preparation = arguments.only == "preparation";
   }
   if (arguments.scenes.empty()) arguments.scenes = {"lattice:1e4", "lattice:1e5"};
   const bench::BenchAxes& axes = arguments.axes;
@@ -165,8 +166,9 @@ void add_bench_command(CLI::App& app) {
   add_list(command, "--multiprocessors", axes.multiprocessors,
            "of a device that are used, as if it had no more; 0: all", 0, 4096);
   add_list(command, "--loads", axes.loads, "frequencies that are solved side by side", 1, 4);
-  add_choice(command, "--only", arguments->only, "steps in time, or solutions in the frequency domain",
-             {{"step", "step"}, {"harmonic", "harmonic"}});
+  add_choice(command, "--only", arguments->only,
+             "steps in time, solutions in the frequency domain, or what comes before a step",
+             {{"step", "step"}, {"harmonic", "harmonic"}, {"preparation", "preparation"}});
   add_number(command, "--repetitions", axes.repetitions, "of each row", 1, 1000);
   add_number(command, "--seconds", axes.seconds, "of a repetition, at the least", 1e-6, 1e4);
   add_text(command, "--json", arguments->json, "write the rows in the format of Google Benchmark");

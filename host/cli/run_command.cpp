@@ -85,7 +85,7 @@ void add_run_command(CLI::App& app) {
   command.add_flag("--resume", arguments->resume,
                    "go on from the checkpoint that an interrupted run left in the folder");
   add_number(command, "--at-once", arguments->at_once,
-             "scenes at a time, of several; 0: three a CUDA device, all devices, or one a core", 0, 1024);
+             "scenes at a time, of several; 0: four a CUDA device, all devices, or one a core", 0, 1024);
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam run examples/demo/scene.toml --out results",
                          "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2",

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "host/counted.hpp"
+#include "host/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -113,21 +114,18 @@ void add_triangle(double area, const std::array<double, 3>& s, const std::array<
   exact.tt += area / 12 * (sum_t * sum_t + tt);
 }
 
-/// Appends the contact's points (vertices, then centroid) with their areas; returns both kinds of moments.
-std::array<AreaMoments, 2> add_points(const Specimen& specimen, const Tessellation& tessellation, const Facet& f,
-                                      Contact& c, ContactNetwork& out) {
+/// Fills in the contact's points (vertices, then centroid) with their areas; returns both kinds of moments.
+std::array<AreaMoments, 2> set_points(const Specimen& specimen, const Tessellation& tessellation, const Facet& f,
+                                      const Contact& c, ContactNetwork& out) {
   const auto polygon = tessellation.polygon(f);
-  const std::size_t first = out.point_s.size(), n = polygon.size();
+  const std::size_t first = c.point_begin, n = polygon.size();
   const Vec3d x0 = specimen.centre[f.a] + c.arm_a * c.n;
-  const auto add = [&](const Vec3d& x) {
-    out.point_s.push_back(dot(x - x0, c.s));
-    out.point_t.push_back(dot(x - x0, c.t));
-    out.point_area.push_back(0);
+  const auto set = [&](std::size_t k, const Vec3d& x) {
+    out.point_s[first + k] = dot(x - x0, c.s);
+    out.point_t[first + k] = dot(x - x0, c.t);
   };
-  for (const Vec3d& x : polygon) add(x);
-  add(f.centroid);
-  c.point_begin = static_cast<std::uint32_t>(first);
-  c.point_end = static_cast<std::uint32_t>(out.point_s.size());
+  for (std::size_t k = 0; k < n; ++k) set(k, polygon[k]);
+  set(n, f.centroid);
   const double *s = &out.point_s[first], *t = &out.point_t[first];
   AreaMoments lumped, exact;
   for (std::size_t k = 0; k < n; ++k) {  // fan from the centroid: x0 may lie outside the polygon
@@ -139,15 +137,13 @@ std::array<AreaMoments, 2> add_points(const Specimen& specimen, const Tessellati
   return {lumped, exact};
 }
 
-/// Appends the centroid as the contact's one point, with the whole area; returns its moments.
-AreaMoments add_one_point(const Specimen& specimen, const Facet& f, Contact& c, ContactNetwork& out) {
+/// Fills in the centroid as the contact's one point, with the whole area; returns its moments.
+AreaMoments set_one_point(const Specimen& specimen, const Facet& f, const Contact& c, ContactNetwork& out) {
   const Vec3d x = f.centroid - (specimen.centre[f.a] + c.arm_a * c.n);
   const double s = dot(x, c.s), t = dot(x, c.t);
-  c.point_begin = static_cast<std::uint32_t>(out.point_s.size());
-  c.point_end = c.point_begin + 1;
-  out.point_s.push_back(s);
-  out.point_t.push_back(t);
-  out.point_area.push_back(f.area);
+  out.point_s[c.point_begin] = s;
+  out.point_t[c.point_begin] = t;
+  out.point_area[c.point_begin] = f.area;
   return {f.area, f.area * s, f.area * t, f.area * s * s, f.area * s * t, f.area * t * t};
 }
 
@@ -205,30 +201,42 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
     if (f.area < limit.area_min.value_or(0) * mean_area) return ++out.dropped_area, dropped += f.area, false;
     return true;
   };
-  double difference = 0, total = 0;
-  for (const Facet& f : tessellation.facets) {
+  std::vector<std::uint32_t> facet_of, point_begin{0};  // of each contact
+  for (std::size_t k = 0; k < tessellation.facets.size(); ++k) {
+    const Facet& f = tessellation.facets[k];
     if (!wanted(f)) continue;
     if (f.b >= 0) kept += f.area;
-    Contact c = geometry(specimen, f);
-    if (spec.quadrature == Quadrature::one_point) {
-      c.moments = add_one_point(specimen, f, c, out);
-    } else {
-      const auto [lumped, exact] = add_points(specimen, tessellation, f, c, out);
-      c.moments = spec.quadrature == Quadrature::exact ? exact : lumped;
-      difference += std::abs(lumped.ss + lumped.tt - exact.ss - exact.tt);
-      total += exact.ss + exact.tt;
-    }
-    counted<std::uint32_t>(out.point_s.size(), "contact points");
-    ++out.count[static_cast<std::size_t>(c.pair)];
-    out.contacts.push_back(c);
+    facet_of.push_back(static_cast<std::uint32_t>(k));
+    const std::size_t points = spec.quadrature == Quadrature::one_point ? 1 : f.vertex_end - f.vertex_begin + 1;
+    point_begin.push_back(counted<std::uint32_t>(point_begin.back() + points, "contact points"));
   }
+  out.contacts.resize(facet_of.size());
+  for (auto* list : {&out.point_s, &out.point_t, &out.point_area}) list->resize(point_begin.back(), 0);
+  struct Sums {
+    double difference = 0, total = 0;
+    Sums& operator+=(const Sums& o) { return difference += o.difference, total += o.total, *this; }
+  };
+  const auto sums = sum_in_parallel<Sums>(facet_of.size(), [&](std::size_t k) -> Sums {
+    const Facet& f = tessellation.facets[facet_of[k]];
+    Contact& c = out.contacts[k];
+    c = geometry(specimen, f);
+    c.point_begin = point_begin[k], c.point_end = point_begin[k + 1];
+    if (spec.quadrature == Quadrature::one_point) {
+      c.moments = set_one_point(specimen, f, c, out);
+      return {};
+    }
+    const auto [lumped, exact] = set_points(specimen, tessellation, f, c, out);
+    c.moments = spec.quadrature == Quadrature::exact ? exact : lumped;
+    return {std::abs(lumped.ss + lumped.tt - exact.ss - exact.tt), exact.ss + exact.tt};
+  });
+  for (const Contact& c : out.contacts) ++out.count[static_cast<std::size_t>(c.pair)];
   if (dropped > 0) out.dropped_share = dropped / (dropped + kept);
   if (out.contacts.empty())
     throw InputError("network", 0, "contacts",
                      fmt::format("none left of {} facets ({} dropped by gap_max, {} by area_min)",
                                  tessellation.facets.size(), out.dropped_gap, out.dropped_area),
                      "at least one");
-  if (total > 0) out.second_moment_difference = difference / total;
+  if (sums.total > 0) out.second_moment_difference = sums.difference / sums.total;
   counted<std::uint32_t>(2 * out.contacts.size(), "ends of contacts");
   build_rows(specimen.size(), out);
   return out;

@@ -19,7 +19,7 @@
 namespace macadam {
 namespace {
 
-constexpr int at_once_on_a_device = 3;
+constexpr int at_once_on_a_device = 4;
 
 /// Of devices, those that answer: one that does not would fail a scene after the other.
 DeviceList usable(const DeviceList& devices) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "host/network/contact_stiffness.hpp"
+#include "host/spheres/parallel_blocks.hpp"
 #include "macadam/stepper.hpp"
 
 namespace macadam {
@@ -41,9 +42,8 @@ double stiffness_on(const ContactNetwork& network, const FactsTable& laws, std::
 
 CriticalStep critical_step(const ContactNetwork& network, const FactsTable& laws, const Inertia& inertia,
                            const StepperOptions& options) {
-  double worst = 0;
-  CriticalStep out;
-  for (std::size_t i = 0; i < inertia.mass.size(); ++i) {
+  std::vector<double> largest(inertia.mass.size());  // eigenvalue of each particle
+  for_each_in_blocks(largest.size(), true, [&](std::size_t i) {
     Matrix6 block = Matrix6::Zero();
     for (const std::uint32_t number : network.row(i)) {
       const Contact& c = network.contacts[number];
@@ -55,11 +55,12 @@ CriticalStep critical_step(const ContactNetwork& network, const FactsTable& laws
     scale.head<3>().setConstant(1 / std::sqrt(inertia.mass[i] * options.density_scaling));
     scale.tail<3>().setConstant(1 / std::sqrt(inertia.inertia[i] * options.density_scaling));
     const Matrix6 scaled = scale.asDiagonal() * block * scale.asDiagonal();
-    const double lambda = Eigen::SelfAdjointEigenSolver<Matrix6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(5);
-    if (lambda > worst) {
-      worst = lambda;
-      out.particle = static_cast<std::int32_t>(i);
-    }
+    largest[i] = Eigen::SelfAdjointEigenSolver<Matrix6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(5);
+  });
+  double worst = 0;
+  CriticalStep out;
+  for (std::size_t i = 0; i < largest.size(); ++i) {
+    if (largest[i] > worst) worst = largest[i], out.particle = static_cast<std::int32_t>(i);
   }
   for (int w = 0; w < wall_count; ++w) {
     const WallMotionSpec& wall = options.boundary.wall[static_cast<std::size_t>(w)];

@@ -174,6 +174,7 @@ class FacetMaker {
 std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const Vec3d& box) {
   const double rounding = rounding_bound(box);
   std::vector<std::uint8_t> beyond(diagram.dual.size(), 0);
+#pragma omp parallel for schedule(static)
   for (std::size_t t = 0; t < beyond.size(); ++t)
     for (int k = 0; k < wall_count; ++k)
       if (WallPlane(k, box).height(diagram.dual[t]) >= -rounding) beyond[t] |= 1U << k;
