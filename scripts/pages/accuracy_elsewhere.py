@@ -5,6 +5,8 @@ from pages.accuracy_rows import both, signed
 from pages.data import head, listed, mean, minus, one, percents, plain, power, rows, table, thousands, upto, where
 from pages.marks import mark
 
+WHOLE = "whole-tests-h200-2026-11-23.csv"
+
 
 @mark
 def whole_tests():
@@ -12,13 +14,14 @@ def whole_tests():
                  [(f"{r['frequency_hz']:g}", f"{r['scene']}; {r['precision']}, {r['geometry']}",
                    f"{r['density_scaling']:,.0f}", thousands(r["steps"]), plain(r["stepping_s"], 2),
                    signed(r["error_e_star"]), signed(r["error_phase_rad"]))
-                  for r in rows("whole-tests-h200-2026-11-21.csv")])
+                  for r in rows(WHOLE)])
 
 
 @mark
-def whole_planning():
-    of = [r["planning_s"] for r in rows("whole-tests-h200-2026-11-21.csv")]
-    return f"{min(of):.0f} to {max(of):.0f} s"
+def whole_command(scene, frequency):
+    """From the start of the command to its end."""
+    of = one(rows(WHOLE), scene=scene.replace("_", " "), frequency_hz=float(frequency), geometry="fixed")
+    return f"{of['command_s']:.1f} s"
 
 
 GPU_TESTS = "gpu-tests-h200-2026-11-22.csv"

@@ -236,7 +236,7 @@ def command_time(what):
 
 @mark
 def whole_steps():
-    of = [r for r in rows("whole-tests-h200-2026-11-21.csv") if r["scene"].startswith("tolerance")]
+    of = [r for r in rows("whole-tests-h200-2026-11-23.csv") if r["scene"].startswith("tolerance")]
     return f"{sum(r['steps'] for r in of):,.0f} steps, {sum(r['stepping_s'] for r in of):.1f} s"
 
 
@@ -248,3 +248,24 @@ def placement():
 @mark
 def placement_machine():
     return head("placement.txt")[0]
+
+
+# ---- what comes before the first step
+
+PREPARATION = "preparation-h200-2026-11-23.csv"
+
+
+@mark
+def preparation_machine():
+    return head(PREPARATION)[0]
+
+
+@mark
+def preparation():
+    lines = []
+    for scene, label in (("ac14_ss_am1", "full specimen"), ("lattice:1e6", "lattice of 10⁶"), ("lattice:1e7", "lattice of 10⁷")):
+        r = one(rows(PREPARATION), row=f"preparation/{scene}/cuda/condensed/mixed/fixed")
+        parts = {name: float(us) / 1e6 for name, us in (part.rsplit(" ", 1) for part in r["parts"].split(", "))}
+        lines.append((f"{label}, {r['contacts']:,.0f} contacts", f"{r['us'] / 1e6:.3g}",
+                      *(f"{parts[name]:.2g}" for name in ("tessellation", "network", "critical step", "stepper"))))
+    return table(["seconds, 16 cores", "all", "tessellation", "contacts", "critical step", "arrays on the GPU"], lines)

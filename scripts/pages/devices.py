@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/devices.md: one specimen on several GPUs."""
+"""docs/devices.md: one specimen on several GPUs, several specimens on one."""
 from pages.data import head, one, rows, table
 from pages.marks import mark
 
@@ -38,3 +38,16 @@ def team():
 def team_harmonic(loads):
     alone, both = pair(f"harmonic/lattice:1e6/cuda/loads:{loads}")
     return f"{alone / 1e6:.2f} s on one GPU and {both / 1e6:.2f} s on two"
+
+
+MANY = "many-h200-2026-11-23.csv"
+
+
+@mark
+def many_machine():
+    return head(MANY)[0]
+
+
+@mark
+def many_seconds(scenes, at_once):
+    return f"{one(rows(MANY), scenes=int(scenes), at_once=int(at_once))['seconds']:.1f} s"
