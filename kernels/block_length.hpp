@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file block_length.hpp  How many steps a device takes before it settles the laws, and with which coefficients.
+/// \file block_length.hpp  How many steps are taken before the laws are settled, and with which coefficients.
 #pragma once
 
 #include <algorithm>

@@ -30,6 +30,7 @@ struct ContactForces {
   using Policy = P;
   static constexpr ContactForm form_of = form;
   static constexpr Geometry geometry_of = geometry;
+  static constexpr int units_of = Units;
   /// Whether f follows from the displacements of now: no state is read or written.
   static constexpr bool stateless = LawStep::memoryless && geometry == Geometry::fixed;
   /// Whether the components of a contact point are advanced together.

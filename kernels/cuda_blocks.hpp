@@ -3,6 +3,7 @@
 /// prepared.
 #pragma once
 
+#include "kernels/contact_blocks.hpp"
 #include "kernels/cuda_bodies.hpp"
 #include "kernels/cuda_tile_scene.hpp"
 
@@ -11,13 +12,10 @@ namespace macadam::kernels {
 /// In place of the steps of the block that ends: nothing has been stepped, and constants are to be those of the start.
 inline constexpr int settling_starts = -1;
 
-/// Settles the contacts of one group.
+/// Settles the contacts of one group, which the tiles have in their own order.
 template <class P, class Block, int Units, Geometry geometry>
 struct SettleContact {
-  using State = typename P::State;
-  using Forces = ContactForces<P, typename laws::Elastic::Step<State>, 0, ContactForm::condensed, geometry>;
-  ContactView<P> view;
-  Block law;
+  BlockSettling<P, Block, Units, geometry> settling;
 
   /// `place`: where the contact is among the tiles', UINT32_MAX for none. `steps`: of the block that ends; 0: none;
   /// settling_starts.
@@ -26,50 +24,14 @@ struct SettleContact {
                              std::uint32_t record) const {
     if (place.x == UINT32_MAX) return;
     constexpr bool carried = geometry == Geometry::updated;
-    const std::uint32_t lane = slot % 32, packet = slot / 32;
     if (steps == settling_starts) {
       begin(slot, place, constant);
       return;
     }
     float change[6], sum[6];
     load_state(at(state, place.x, tile_states), change, sum);
-    const int units = Units >= 0 ? Units : view.units;
-    const auto* g = view.geometry + static_cast<std::size_t>(packet) * view.geometry_words * 32 + lane;
-    const auto word = [&](int k) { return static_cast<double>(g[k * 32]); };
-    Placement<double> frame;
-    const Vec3<double> n0{word(n_x), word(n_y), word(n_z)};
-    if constexpr (carried)
-      frame = carry(slot, n0, word(arm_a), word(arm_b), word(distance), now, before);
-    else
-      frame = canonical_placement(n0, ::copysign(1.0, n0.z), word(arm_a), word(arm_b));
-
-    double f[6] = {0, 0, 0, 0, 0, 0};
-    float drift[6] = {0, 0, 0, 0, 0, 0};
-    if (!view.chain) {  // f follows from the displacements of now
-      const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
-      double x[6];
-      relative_rates(frame, Twist<double>{{0, 0, 0}, vector(now, a, 4)},
-                     Twist<double>{vector(now, b, 0) - vector(now, a, 0), vector(now, b, 4)}, x);
-      for (int c = 0; c < view.components; ++c) f[c] = law.rate * x[c];
-    }
-    for (int c = 0; view.chain && c < view.components; ++c) {
-      State* chain = view.chain + (static_cast<std::size_t>(packet) * view.components + c) * (1 + units) * 32 + lane;
-      double x[Units >= 0 ? Units + 1 : Block::most_units];
-      for (int l = 0; l < units; ++l) x[l] = chain[(1 + l) * 32];
-      const auto unit = [&](int l) -> double& { return x[l]; };
-      const double start = chain[0];
-      f[c] = start + change[c];
-      if (steps > 0) law.template settle<Units>(2.0 * steps * start + sum[c], unit);
-      drift[c] = static_cast<float>(law.template drift<Units>(f[c], unit));
-      chain[0] = static_cast<State>(f[c]);
-      for (int l = 0; l < units; ++l) chain[(1 + l) * 32] = static_cast<State>(x[l]);
-    }
-    double m[6];
-    for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
-    const auto load = to_centres(frame, condensed_load(f, static_cast<double>(view.alpha), m));
-    using R = typename P::Particle;
-    const auto rounded = [](const Vec3<double>& a) { return Vec3<R>{R(a.x), R(a.y), R(a.z)}; };
-    records.store(record, ContactLoad<R>{rounded(load.force_a), rounded(load.moment_a), rounded(load.moment_b)});
+    const auto [frame, drift, load] = settling(LaneItem{slot % 32}, slot / 32, change, sum, now, before, steps);
+    records.store(record, load);
 
     const float none[6] = {0, 0, 0, 0, 0, 0};
     for (const std::uint32_t p : {place.x, place.y}) {
@@ -91,13 +53,9 @@ struct SettleContact {
     return words + static_cast<std::size_t>(place / 32) * count * 32 + place % 32;
   }
 
-  __device__ __forceinline__ static Vec3<double> vector(const double* u, std::int32_t body, int first) {
-    const double* w = u + static_cast<std::size_t>(body) * displacement_words + first;
-    return {w[0], w[1], w[2]};
-  }
-
   /// No drift, and the frame of the undeformed contact.
   __device__ void begin(std::uint32_t slot, uint2 place, float4* constant) const {
+    const ContactView<P>& view = settling.view;
     const auto* g = view.geometry + static_cast<std::size_t>(slot / 32) * view.geometry_words * 32 + slot % 32;
     const auto word = [&](int k) { return static_cast<float>(g[k * 32]); };
     constexpr bool carried = geometry == Geometry::updated;
@@ -112,26 +70,6 @@ struct SettleContact {
         out[tile_tangent * 32] = {0, 0, 0, 0};
       }
     }
-  }
-
-  /// Eq. 5–6 over a block: as ContactForces::carry() over a step, with the motion since the last block.
-  __device__ Placement<double> carry(std::uint32_t slot, const Vec3<double>& n0, double arm_a, double arm_b, double d0,
-                                     const double* now, const double* before) const {
-    const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
-    const Vec3<double> branch = d0 * n0 + (vector(now, b, 0) - vector(now, a, 0));
-    Placement<double> out{n0, {}, {}, arm_a, arm_b};
-    follow_branch(out, n0, d0, branch, view.wall);
-    Vec3<double> n_before = n0;
-    if (!view.wall) {
-      const Vec3<double> branch_before = d0 * n0 + (vector(before, b, 0) - vector(before, a, 0));
-      n_before = (1 / norm(branch_before)) * branch_before;
-    }
-    const Vec3<double> turned = (vector(now, a, 4) - vector(before, a, 4)) + (vector(now, b, 4) - vector(before, b, 4));
-    const double spin = 0.25 * dot(turned, n_before + out.n);
-    State* stored = view.frame + static_cast<std::size_t>(slot / 32) * view.frame_words * 32;
-    out.s = turn_tangent<double>(LaneItem{slot % 32}, stored, n_before, out.n, spin).now;
-    out.t = cross(out.n, out.s);
-    return out;
   }
 };
 

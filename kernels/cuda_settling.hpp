@@ -41,7 +41,7 @@ class Settling {
     fill_[number] = [groups, number, law, view, dt](int ended, int steps) {
       const auto block = block_after(law, dt, ended, steps);
       dispatch_units<false>(law, [&](auto units) {
-        groups->group[number].functor.put(SettleContact<P, typename L::Block, units(), geometry>{view, block});
+        groups->group[number].functor.put(SettleContact<P, typename L::Block, units(), geometry>{{view, block}});
       });
     };
     filled_ended_ = filled_steps_ = 0;  // for other laws and time steps

@@ -9,6 +9,7 @@
 
 #include "kernels/cuda_part_clock.hpp"
 #include "kernels/cuda_record_rows.hpp"
+#include "kernels/block_schedule.hpp"
 #include "kernels/cuda_room.hpp"
 #include "kernels/cuda_settling.hpp"
 #include "kernels/cuda_tile_limits.hpp"
@@ -49,9 +50,7 @@ class TileRunner {
   /// Ends whatever ran: the steps to come are of blocks of another length.
   void begin(int block, bool to_observations) {
     block_ = block;
-    to_observations_ = to_observations;
-    begun_ = false;
-    in_block_ = length_ = 0;
+    schedule_.begin(block, to_observations);
   }
 
   /// Takes the contacts of group `number`; `view` points to device arrays.
@@ -129,16 +128,7 @@ class TileRunner {
                      [this] { return body_order(layout_, velocity_words, false); });
     add_device_state(states, "wall_loads", "N, N m", words(scene_.wall_load), 4 * wall_load_count_);
     if (carried_) add_device_state(states, "displacement_at_block", "m, rad", before_, loads, by_body);
-    states.add<std::int64_t>(
-        "block", "1", 3,
-        [this] {
-          return std::vector<std::int64_t>{begun_, in_block_, length_};
-        },
-        [this](const std::vector<std::int64_t>& values) {
-          begun_ = values[0] != 0;
-          in_block_ = static_cast<int>(values[1]);
-          length_ = static_cast<int>(values[2]);
-        });
+    schedule_.add_state(states);
   }
 
   TileRunner(const TileRunner&) = delete;
@@ -158,16 +148,13 @@ class TileRunner {
     team_.meet();  // with what the start has put into memory
     scene_.motion.wall.table = wall_table_;
     for (std::int64_t done = 0; done < steps;) {
-      if (in_block_ == length_ || !begun_) {
-        // a steady start begins at step −1: a block of one step, and those that follow end at the observations
-        settle(!begun_ && to_observations_ && first + done < 0 ? static_cast<int>(-first - done) : block_);
-      }
-      const auto n = static_cast<std::uint32_t>(std::min<std::int64_t>(length_ - in_block_, steps - done));
+      if (schedule_.is_due()) settle(schedule_.next(first + done));
+      const auto n = static_cast<std::uint32_t>(std::min(schedule_.left(), steps - done));
       run_(n);
       parts_.end_of(resident_ ? "tiles on the chip" : "tiles streamed", team_.stream());
       scene_.motion.wall.table += n * scene_.motion.wall.row_words();
       tag_ += n;
-      in_block_ += static_cast<int>(n);
+      schedule_.take(n);
       done += n;
     }
   }
@@ -354,14 +341,14 @@ class TileRunner {
   /// Ends a block, if one has begun, and begins the next, of so many steps.
   void settle(int steps) {
     const Range range("settling");
-    if (!begun_) {
+    if (!schedule_.has_begun()) {
       check_cuda(cudaMemcpyAsync(before_, scene_.motion.body.displacement,
                                  (bodies_ + walls) * displacement_words * sizeof(*before_), cudaMemcpyDeviceToDevice,
                                  team_.stream()),
                  "first block");
     }
     team_.meet();
-    settling_.run(begun_ ? in_block_ : 0, steps, settled());
+    settling_.run(schedule_.ended(), steps, settled());
     team_.meet();
     parts_.end_of("settling", team_.stream());
     team_.each([&](std::size_t m) {
@@ -374,9 +361,7 @@ class TileRunner {
     });
     team_.meet();
     parts_.end_of("base loads", team_.stream());
-    begun_ = true;
-    length_ = steps;
-    in_block_ = 0;
+    schedule_.start(steps);
   }
 
   /// What each device has of its own.
@@ -393,8 +378,9 @@ class TileRunner {
   const TeamCuts& cuts_;
   PartClock& parts_;
   TilePlan plan_;
-  bool carried_, resident_ = false, prepared_ = false, begun_ = false, to_observations_ = false;
-  int block_ = 0, in_block_ = 0, length_ = 0;  // length_: of the block that runs, the first may be another
+  bool carried_, resident_ = false, prepared_ = false;
+  int block_ = 0;  // steps
+  BlockSchedule schedule_;
   const Layout& layout_;
   std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;
   DeviceLimits limits_;

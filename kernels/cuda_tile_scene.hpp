@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file cuda_tile_scene.hpp  One step of a contact within a block of steps, and what a tile keeps in shared memory.
 ///
-/// Within a block of M steps a contact carries, for each of its six displacement components, the change δf of f since
-/// the block began and the sum of f' + f − 2F, in single precision; `drift` holds what the past still does. The loads
-/// of the F at the block's beginning are part of the bodies' `base` loads. Chains are settled after every block
-/// (cuda_blocks.hpp).
+/// What a contact carries within a block is in contact_blocks.hpp. The loads of the f at the block's beginning are part
+/// of the bodies' `base` loads. Chains are settled after every block (cuda_blocks.hpp).
 #pragma once
 
 #include <type_traits>

@@ -9,8 +9,8 @@
 
 #include "kernels/barrier.hpp"
 #include "kernels/contact_reading.hpp"
+#include "kernels/cpu_blocks.hpp"
 #include "kernels/executor.hpp"
-#include "kernels/pack_item.hpp"
 #include "kernels/subnormals.hpp"
 #include "kernels/thread_choice.hpp"
 #include "kernels/tile_accumulators.hpp"
@@ -38,24 +38,27 @@ class ExecCpu {
       : layout_(layout),
         accumulators_(network, layout),
         groups_(layout.groups.size()),
+        blocks_(layout, accumulators_),
         threads_(
             std::min(options.threads > 0 ? options.threads : omp_get_max_threads(), static_cast<int>(layout.tiles()))),
         choice_(threads_, options.threads > 0) {}
 
   bool suits(const ExecStart&) const { return true; }
 
-  void begin(const ExecStart&) {
+  void begin(const ExecStart& start) {
     const std::size_t bodies = layout_.particles() + walls;
     states_.clear();
     sums_.assign(accumulators_.size() * velocity_words, R(0));
     master_.assign(bodies * velocity_words, R(0));
     displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
-    add_state("sums", "N, N m", sums_);  // tiles are those of any CPU
+    states_.add("sums", "N, N m", sums_);  // tiles are those of any CPU
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
-    add_state("velocity", "m/s, rad/s", master_, by_body);
-    add_state("displacement", "m, rad", displacement_, by_body);
-    add_state("gathered_velocity", "m/s, rad/s", velocity_, by_body);
+    states_.add("velocity", "m/s, rad/s", master_, by_body);
+    states_.add("displacement", "m, rad", displacement_, by_body);
+    states_.add("gathered_velocity", "m/s, rad/s", velocity_, by_body);
+    blocks_.begin(start);
+    blocks_.add_states(states_);
   }
 
   BodyView<P> set_bodies(std::vector<R> inverse, std::vector<R> weight) {
@@ -76,39 +79,43 @@ class ExecCpu {
   void set_wall_rows(const std::vector<R>& rows) { std::copy(rows.begin(), rows.end(), wall_table_.begin()); }
 
   template <class L, class Forces>
-  void set_group(std::size_t number, bool first, const L&, ContactArrays<P> arrays, const Forces& forces) {
+  void set_group(std::size_t number, bool first, const L& law, ContactArrays<P> arrays, const Forces& forces) {
+    using Group = CpuGroupOf<P, width, L, Forces>;
     auto& group = groups_[number];
     if (first) {
-      group = std::make_unique<GroupOf<Forces>>();
-      group->number = number;
+      group = std::make_unique<Group>();
+      group->layout = &layout_.groups[number];
+      group->end_a = accumulators_.end_a[number].data();
+      group->end_b = accumulators_.end_b[number].data();
       group->arrays = std::move(arrays);
     } else {
       std::swap(group->arrays.chain, arrays.chain);
       std::swap(group->arrays.frame, arrays.frame);
     }
-    auto& own = static_cast<GroupOf<Forces>&>(*group).forces;  // the same law in the same form and geometry
+    auto& all = static_cast<Group&>(*group);  // the same law in the same form and geometry
+    auto& own = all.forces;
     own = forces;
+    all.law = law;
     own.view = group->arrays.shape;
     group->arrays.for_each_array(own.view, [&](auto name, auto unit, auto& array, auto& pointer) {
       constexpr bool state = !std::is_const_v<std::remove_pointer_t<std::decay_t<decltype(pointer)>>>;
       pointer = array.data();
-      const auto size = static_cast<std::int64_t>(array.size() * sizeof(array[0]));
-      if (first) bytes_ += size;
-      if (first && state) state_bytes_ += size;
       const GroupLayout& of = layout_.groups[number];
       if constexpr (state)
-        add_state(std::string(name) + "_" + to_string(of.pair), unit, array,
-                  state_order(layout_, of, own.view, &pointer == &own.view.chain));
+        states_.add(std::string(name) + "_" + to_string(of.pair), unit, array,
+                    state_order(layout_, of, own.view, &pointer == &own.view.chain));
     });
+    blocks_.use(*group, number, states_);
   }
 
   void prepare(const ParticleMotion<P>& motion) { motion_ = motion; }
 
   /// Takes all steps, in pieces in which the number of threads is chosen.
-  void run(std::int64_t, std::int64_t steps) {
+  void run(std::int64_t first, std::int64_t steps) {
     for (std::int64_t row = 0; row < steps;) {
       const ThreadChoice::Next next = choice_.next();
-      const std::int64_t n = std::min(steps - row, next.steps);
+      const std::int64_t n =
+          blocks_.next(first + row, std::min(steps - row, next.steps), groups_, displacement_, next.threads);
       const double start = omp_get_wtime();
       run_rows(next.threads, row, row + n);
       choice_.took(n, omp_get_wtime() - start);
@@ -146,8 +153,9 @@ class ExecCpu {
       const MotionView<P> motion{exec.gathered(), exec.displacement_.data()};
       for_own_tiles([&](std::size_t tile) {
         const auto *begin = exec.accumulators_.tile_begin.data() + tile, *end = begin + 1;
-        std::fill(exec.sums_.begin() + *begin * velocity_words, exec.sums_.begin() + *end * velocity_words, R(0));
-        for (const auto& group : exec.groups_) group->run(exec, tile, motion);
+        exec.blocks_.begin_sums(*begin * velocity_words, *end * velocity_words, exec.sums_);
+        for (const auto& group : exec.groups_)
+          group->run(group->layout->tile_packet[tile], group->layout->tile_packet[tile + 1], motion, exec.sums_.data());
       });
       barrier.wait();
     }
@@ -207,8 +215,9 @@ class ExecCpu {
   }
 
   GroupState<P> group_state(std::size_t number, std::size_t, std::size_t) const {
-    const ContactArrays<P>& arrays = groups_[number]->arrays;
-    return {{arrays.chain.begin(), arrays.chain.end()}, {arrays.frame.begin(), arrays.frame.end()}, {}};
+    const CpuGroup<P, width>& group = *groups_[number];
+    const ContactArrays<P>& arrays = group.arrays;
+    return {{arrays.chain.begin(), arrays.chain.end()}, {arrays.frame.begin(), arrays.frame.end()}, group.changes()};
   }
   DeviceMotion device_motion() const { return {}; }
 
@@ -218,7 +227,11 @@ class ExecCpu {
     return "cpu, " + std::to_string(threads_) + (threads_ == 1 ? " thread" : " threads");
   }
   std::vector<KernelUse> kernels() const { return {}; }
-  std::int64_t traffic() const { return bytes() + state_bytes_; }
+  std::int64_t traffic() const {
+    std::int64_t out = 0;
+    for (const auto& group : groups_) out += group->step_bytes();
+    return out + body_bytes() + blocks_.step_bytes();
+  }
   Traffic traffic_by_place() const { return {traffic(), 0, 0}; }
 
   void start_clock() { bodies_time_ = contacts_time_ = 0, timed_ = true; }
@@ -227,13 +240,19 @@ class ExecCpu {
     return {{"bodies", bodies_time_}, {"contacts", contacts_time_}};
   }
   std::int64_t bytes() const {
-    return bytes_ +
-           static_cast<std::int64_t>(
-               (sums_.size() + master_.size() + inverse_.size() + weight_.size() + wall_table_.size()) * sizeof(R) +
-               displacement_.size() * sizeof(double) + velocity_.size() * sizeof(typename P::Geometry));
+    std::int64_t out = 0;
+    for (const auto& group : groups_) out += group->bytes();
+    return out + body_bytes() + blocks_.bytes();
   }
 
  private:
+  /// Of what the bodies have, which a step reads or writes once.
+  std::int64_t body_bytes() const {
+    const std::size_t words = sums_.size() + master_.size() + inverse_.size() + weight_.size() + wall_table_.size();
+    return static_cast<std::int64_t>(words * sizeof(R) + displacement_.size() * sizeof(double) +
+                                     velocity_.size() * sizeof(typename P::Geometry));
+  }
+
   /// The step, for rows first … end − 1 of the walls' table: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void run_rows(int threads, std::int64_t first, std::int64_t end) {
     Barrier barrier;
@@ -256,50 +275,6 @@ class ExecCpu {
   }
 
   /// The array must stay where it is.
-  template <class T>
-  void add_state(const std::string& name, const std::string& unit, AlignedVector<T>& array,
-                 StateList::Order order = {}) {
-    states_.add<T>(
-        name, unit, array.size(), [&array] { return std::vector<T>(array.begin(), array.end()); },
-        [&array](const std::vector<T>& values) { std::copy(values.begin(), values.end(), array.begin()); },
-        std::move(order));
-  }
-
-  struct Group {
-    virtual ~Group() = default;
-    virtual void run(ExecCpu& exec, std::size_t tile, const MotionView<P>& motion) = 0;
-    std::size_t number = 0;
-    ContactArrays<P> arrays;
-  };
-
-  template <class Forces>
-  struct GroupOf final : Group {
-    Forces forces{};
-
-    [[gnu::flatten]] void run(ExecCpu& exec, std::size_t tile, const MotionView<P>& motion) override {
-      const auto& packets = exec.layout_.groups[this->number].tile_packet;
-      const std::uint32_t* end_a = exec.accumulators_.end_a[this->number].data();
-      const std::uint32_t* end_b = exec.accumulators_.end_b[this->number].data();
-      // eight contacts at a time, first their ends A: the order of additions is the same for both widths
-      constexpr std::uint32_t together = 8 / lanes;
-      for (std::uint32_t first = packets[tile]; first < packets[tile + 1]; first += together) {
-        using Load = decltype(forces(Item{}, first, motion));
-        const std::uint32_t count = std::min(together, packets[tile + 1] - first);
-        Load load[together];
-        for (std::uint32_t k = 0; k < count; ++k) load[k] = forces(Item{}, first + k, motion);
-        R *force = exec.sums_.data(), *moment = force + velocity_words / 2;
-        for (std::uint32_t k = 0; k < count; ++k) {
-          Item::scatter_add(force, end_a + (first + k) * lanes, load[k].force_a);
-          Item::scatter_add(moment, end_a + (first + k) * lanes, load[k].moment_a);
-        }
-        for (std::uint32_t k = 0; k < count; ++k) {
-          Item::scatter_add(force, end_b + (first + k) * lanes, -load[k].force_a);
-          Item::scatter_add(moment, end_b + (first + k) * lanes, load[k].moment_b);
-        }
-      }
-    }
-  };
-
   /// A body's own accumulator (walls have `none`) and its halo row.
   Twist<R> sum(std::int32_t body, std::uint32_t own) const {
     const auto i = static_cast<std::size_t>(body);
@@ -323,14 +298,14 @@ class ExecCpu {
 
   const Layout& layout_;
   TileAccumulators accumulators_;
-  std::vector<std::unique_ptr<Group>> groups_;
+  std::vector<std::unique_ptr<CpuGroup<P, width>>> groups_;
+  CpuBlocks<P, width> blocks_;
   AlignedVector<R> sums_, master_;                // [accumulator][8], [body][8]
   AlignedVector<double> displacement_;            // [body][8]
   AlignedVector<typename P::Geometry> velocity_;  // [body][8], where Geometry is not Particle
   ParticleMotion<P> motion_{};
   std::vector<R> inverse_, weight_, wall_table_;
   StateList states_;
-  std::int64_t bytes_ = 0, state_bytes_ = 0;  // of the groups; states are what a step writes
   int threads_;
   ThreadChoice choice_;
   bool timed_ = false;

@@ -44,6 +44,15 @@ class StateList {
                         }});
   }
 
+  /// Takes an array of the host's memory.
+  template <class T, class A>
+  void add(const std::string& name, const std::string& unit, std::vector<T, A>& array, Order order = {}) {
+    add<T>(
+        name, unit, array.size(), [&array] { return std::vector<T>(array.begin(), array.end()); },
+        [&array](const std::vector<T>& values) { std::copy(values.begin(), values.end(), array.begin()); },
+        std::move(order));
+  }
+
   void clear() { entries_.clear(); }
 
   /// Host copies of all, in the order in which they were added.

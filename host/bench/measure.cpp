@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <random>
 
 #include "host/stepping/cuda_code.hpp"
@@ -79,7 +80,11 @@ class Measured {
       row.seconds.push_back(seconds_of([&] { stepper->advance(row.iterations); }) /
                             static_cast<double>(row.iterations));
     }
-    const auto parts = stepper->advance_timed(std::min<std::int64_t>(row.iterations, 2000));
+    std::map<std::string, std::vector<double>> parts;  // of repetitions: one may be beside something else
+    for (int k = 0; k < axes_.repetitions; ++k) {
+      for (const PartTime& part : stepper->advance_timed(std::min<std::int64_t>(row.iterations, 2000)))
+        parts[part.name].push_back(part.seconds);
+    }
     if (stepper->first_divergent() >= 0) throw RunError(row.name + ": diverged");
     count(row, *stepper, parts);
     told_(row);
@@ -184,7 +189,7 @@ class Measured {
     stepper.advance(backend_ == Backend::cuda ? 256 : 8);
   }
 
-  void count(BenchRow& row, const Stepper& stepper, const std::vector<PartTime>& parts) const {
+  void count(BenchRow& row, const Stepper& stepper, const std::map<std::string, std::vector<double>>& parts) const {
     const auto contacts = static_cast<double>(case_.network.contacts.size());
     const double step = median(row.seconds);
     const Traffic bytes = stepper.traffic_by_place();
@@ -197,7 +202,7 @@ class Measured {
                     {"memory_bytes_per_s", rate(bytes.memory)},
                     {"cache_bytes_per_s", rate(bytes.cache)},
                     {"shared_bytes_per_s", rate(bytes.shared)}};
-    for (const PartTime& part : parts) row.counters.emplace_back("part_us " + part.name, 1e6 * part.seconds);
+    for (const auto& [name, seconds] : parts) row.counters.emplace_back("part_us " + name, 1e6 * median(seconds));
     for (const KernelUse& k : stepper.kernels()) {
       row.counters.emplace_back("registers " + k.name, k.registers);
       row.counters.emplace_back("occupancy " + k.name, k.occupancy);
@@ -248,7 +253,7 @@ void time_case(const BenchCase& timed, const BenchAxes& axes, const std::functio
     for (const ContactForm form : axes.forms) {
       for (const Precision precision : axes.precisions) {
         for (const Geometry geometry : axes.geometries) {
-          for (const double blocks : on_device ? axes.blocks : std::vector<double>{StepperOptions{}.blocks}) {
+          for (const double blocks : axes.blocks) {
             for (const int units : axes.units) {
               for (const int multiprocessors : on_device ? axes.multiprocessors : std::vector<int>{0}) {
                 StepperOptions options;

@@ -68,7 +68,7 @@ StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
 
 /// Says how long blocks of steps are, where a tolerance decides it and the backend may take them.
 void decide_blocks(const SolverSpec& solver, Backend backend, Plan& plan) {
-  const bool may = backend == Backend::cuda && plan.form == ContactForm::condensed;
+  const bool may = backend != Backend::reference && plan.form == ContactForm::condensed;
   if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
   const double blocks = common_options(plan, solver).blocks;
   plan.decisions.push_back(

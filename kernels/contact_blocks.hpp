@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file contact_blocks.hpp  What lies between two blocks of steps for one contact: model (6.8), (6.9). Written once
+/// for the CPU and for devices.
+///
+/// Within a block of M steps a contact carries, for each of its displacement components, the change δf of f since the
+/// block began and the sum of δf' + δf over its steps, in single precision; `drift` holds what the past still does.
+/// Loads of the f at the block's beginning are summed once a block.
+#pragma once
+
+#include <cmath>
+
+#include "kernels/contact_forces.hpp"
+#include "macadam/laws/facts.hpp"
+
+namespace macadam::kernels {
+
+/// A contact when a block has ended and the next begins.
+template <class R>
+struct SettledContact {
+  Placement<double> frame;
+  float drift[6];
+  ContactLoad<R> load;
+};
+
+/// Settles the contacts of one group, in full precision.
+template <class P, class Block, int Units, Geometry geometry>
+struct BlockSettling {
+  using State = typename P::State;
+  using R = typename P::Particle;
+  ContactView<P> view;
+  Block law;
+
+  /// The contact in lane `item.lane` of a packet. `steps`: of the block that ends, 0: none, and then `change` and `sum`
+  /// are 0. `now`, `before`: displacements now and when that block began, [body][8].
+  template <class Item>
+  MACADAM_HD SettledContact<R> operator()(const Item& item, std::uint32_t packet, const float (&change)[6],
+                                          const float (&sum)[6], const double* now, const double* before,
+                                          int steps) const {
+    constexpr auto lanes = static_cast<std::size_t>(Item::lanes());
+    const std::size_t slot = packet * lanes + item.lane;
+    const int units = Units >= 0 ? Units : view.units;
+    const auto* g = view.geometry + packet * static_cast<std::size_t>(view.geometry_words) * lanes + item.lane;
+    const auto word = [&](int k) { return static_cast<double>(g[static_cast<std::size_t>(k) * lanes]); };
+    const Vec3<double> n0{word(n_x), word(n_y), word(n_z)};
+    SettledContact<R> out;
+    if constexpr (geometry == Geometry::updated)
+      out.frame = carry(item, packet, slot, n0, word(arm_a), word(arm_b), word(distance), now, before);
+    else
+      out.frame = canonical_placement(n0, ::copysign(1.0, n0.z), word(arm_a), word(arm_b));
+
+    double f[6] = {0, 0, 0, 0, 0, 0};
+    for (float& d : out.drift) d = 0;
+    if (!view.chain) {  // f follows from the displacements of now
+      const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
+      double x[6];
+      relative_rates(out.frame, Twist<double>{{0, 0, 0}, vector(now, a, 4)},
+                     Twist<double>{vector(now, b, 0) - vector(now, a, 0), vector(now, b, 4)}, x);
+      for (int c = 0; c < view.components; ++c) f[c] = law.rate * x[c];
+    }
+    for (int c = 0; view.chain && c < view.components; ++c) {
+      const auto chains = static_cast<std::size_t>(view.components) * packet + static_cast<std::size_t>(c);
+      State* chain = view.chain + chains * static_cast<std::size_t>(1 + units) * lanes + item.lane;
+      double x[Units >= 0 ? Units + 1 : Block::most_units];
+      for (int l = 0; l < units; ++l) x[l] = chain[static_cast<std::size_t>(1 + l) * lanes];
+      const auto unit = [&](int l) -> double& { return x[l]; };
+      const double start = chain[0];
+      f[c] = start + change[c];
+      if (steps > 0) law.template settle<Units>(2.0 * steps * start + sum[c], unit);
+      out.drift[c] = static_cast<float>(law.template drift<Units>(f[c], unit));
+      chain[0] = static_cast<State>(f[c]);
+      for (int l = 0; l < units; ++l) chain[static_cast<std::size_t>(1 + l) * lanes] = static_cast<State>(x[l]);
+    }
+    double m[6];
+    for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
+    const auto load = to_centres(out.frame, condensed_load(f, static_cast<double>(view.alpha), m));
+    const auto rounded = [](const Vec3<double>& a) { return Vec3<R>{R(a.x), R(a.y), R(a.z)}; };
+    out.load = {rounded(load.force_a), rounded(load.moment_a), rounded(load.moment_b)};
+    return out;
+  }
+
+ private:
+  MACADAM_HD static Vec3<double> vector(const double* u, std::int32_t body, int first) {
+    const double* w = u + static_cast<std::size_t>(body) * displacement_words + first;
+    return {w[0], w[1], w[2]};
+  }
+
+  /// Eq. 5–6 over a block: as ContactForces::carry() over a step, with the motion since the last block.
+  template <class Item>
+  MACADAM_HD Placement<double> carry(const Item& item, std::uint32_t packet, std::size_t slot, const Vec3<double>& n0,
+                                     double arm_a, double arm_b, double d0, const double* now,
+                                     const double* before) const {
+    const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
+    const Vec3<double> branch = d0 * n0 + (vector(now, b, 0) - vector(now, a, 0));
+    Placement<double> out{n0, {}, {}, arm_a, arm_b};
+    follow_branch(out, n0, d0, branch, view.wall);
+    Vec3<double> n_before = n0;
+    if (!view.wall) {
+      const Vec3<double> branch_before = d0 * n0 + (vector(before, b, 0) - vector(before, a, 0));
+      n_before = (1 / norm(branch_before)) * branch_before;
+    }
+    const Vec3<double> turned = (vector(now, a, 4) - vector(before, a, 4)) + (vector(now, b, 4) - vector(before, b, 4));
+    const double spin = 0.25 * dot(turned, n_before + out.n);
+    State* stored =
+        view.frame + packet * static_cast<std::size_t>(view.frame_words) * static_cast<std::size_t>(Item::lanes());
+    out.s = turn_tangent<double>(item, stored, n_before, out.n, spin).now;
+    out.t = cross(out.n, out.s);
+    return out;
+  }
+};
+
+}  // namespace macadam::kernels
