@@ -269,3 +269,32 @@ def preparation():
         lines.append((f"{label}, {r['contacts']:,.0f} contacts", f"{r['us'] / 1e6:.3g}",
                       *(f"{parts[name]:.2g}" for name in ("tessellation", "network", "critical step", "stepper"))))
     return table(["seconds, 16 cores", "all", "tessellation", "contacts", "critical step", "arrays on the GPU"], lines)
+
+
+# ---- other programs
+
+PEERS = "peers.csv"
+
+
+@mark
+def peers_machine():
+    return head(PEERS)[0]
+
+
+@mark
+def peers():
+    lines = []
+    for r in rows(PEERS):
+        lines.append((r["program"], r["settings"], f"{r['threads']:.0f}", f"{r['bonds']:,.0f}", f"{r['ms_a_step']:.1f}",
+                      f"{1e3 * r['us_a_bond_and_core']:.0f}"))
+    return table(["program", "settings", "threads", "bonds", "ms a step", "ns a bond and core"], lines)
+
+
+@mark
+def peers_factor():
+    """Of the slowest settings of Macadam with the same precision and geometry to Yade, over all numbers of threads."""
+    of = {}
+    for r in rows(PEERS):
+        if r["settings"] == "double, geometry updated":
+            of.setdefault(r["threads"], {})[r["program"].split()[0]] = r["us_a_bond_and_core"]
+    return span([pair["Yade"] / pair["Macadam"] for pair in of.values()], "{:.0f}", " to ")
