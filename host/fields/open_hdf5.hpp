@@ -28,6 +28,8 @@ class OpenHdf5 {
   void write(std::size_t bytes, const std::function<void(H5::H5File&)>& change);
   /// Gives a new file its name, in place of an older one. \throws RunError.
   void keep();
+  /// After the last change. \throws RunError naming the file, where closing it fails.
+  void end();
   H5::H5File& hdf5() { return *hdf5_; }
 
  private:
