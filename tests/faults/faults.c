@@ -5,16 +5,21 @@
 //   FAULT_KIND    memory, open, write, short (half of a write is done, without an error), sync, rename, close, remove,
 //                 mkdir
 //   FAULT_AT      number of the call that fails, from 1 on; 0: none, they are counted only
-//   FAULT_ON      1: all later ones fail too
+//   FAULT_BYTES   in place of FAULT_AT: allocations fail with which the program would hold more than so many bytes
+//   FAULT_SPARE   part of the name of a library: allocations that it asks for itself do not fail, and do not count
 //   FAULT_ERRNO   what a call on a file fails with
 //   FAULT_FOLDER  files below this folder count, as the program names them, with an absolute path
-//   FAULT_REPORT  file that receives `hit KIND` when a call fails; and in the end, where none did, `count KIND N`
+//   FAULT_REPORT  file that receives `hit KIND` when a call fails; and in the end, where none did, `count KIND N` and, of
+//                 the bytes held, `count start N` and `count most N`
+//   FAULT_TRACE   file that receives the functions that asked for what fails first
 //   FAULT_STACKS  file that receives a number of 64 bits for each allocation: a hash of the functions that asked for it
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
 #include <execinfo.h>
 #include <fcntl.h>
+#include <link.h>
+#include <malloc.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdint.h>
@@ -32,19 +37,22 @@ static const char* const names[kinds] = {"memory", "open", "write", "short", "sy
 
 static atomic_bool active;
 static atomic_long counted[kinds];
-static long at;
-static int kind = -1, on, error_number = EIO, hit;
-static const char *folder, *report, *stacks;
+static atomic_long held, held_at_start, most_held;
+static long at, most_bytes;
+static int kind = -1, error_number = EIO, hit;
+static const char* spare;
+static uintptr_t spare_begin, spare_end;  // where the code of the library is
+static const char *folder, *report, *stacks, *trace;
 static unsigned char marked[most_files];
 
 enum { most_stacks = 1 << 22 };
 static uint64_t* stack_hashes;
-static __thread int inside __attribute__((tls_model("initial-exec")));
 
 extern void* __libc_malloc(size_t);
 extern void* __libc_calloc(size_t, size_t);
 extern void* __libc_realloc(void*, size_t);
 extern void* __libc_memalign(size_t, size_t);
+extern void __libc_free(void*);
 
 // No function of stdio: it allocates.
 static void say(const char* what, const char* name, long number) {
@@ -66,18 +74,37 @@ static void say(const char* what, const char* name, long number) {
   syscall(SYS_close, file);
 }
 
-static int fails(int which) {
-  if (!active || inside) return 0;
-  const long number = ++counted[which];
-  if (which != kind || at == 0 || number < at || (number > at && !on)) return 0;
+static __thread int inside __attribute__((tls_model("initial-exec")));
+
+static void say_stack(void) {
+  void* frames[64];
+  inside = 1;
+  const int depth = backtrace(frames, 64);
+  const int file = (int)syscall(SYS_openat, AT_FDCWD, trace, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  backtrace_symbols_fd(frames, depth, file);
+  syscall(SYS_close, file);
+  inside = 0;
+}
+
+static int fails_now(int which, int now) {
+  if (which != kind || !now) return 0;
   if (!hit && report) say("hit ", names[which], -1);
+  if (!hit && trace) say_stack();
   hit = 1;
   errno = which == memory_ ? ENOMEM : error_number;
   return 1;
 }
 
-static int memory_fails(void) {
-  if (stack_hashes && active && !inside) {
+static int fails(int which) {
+  if (!active || inside) return 0;
+  const long number = ++counted[which];
+  return fails_now(which, number == at);
+}
+
+static int memory_fails(size_t bytes, const void* caller) {
+  if (!active || inside || ((uintptr_t)caller >= spare_begin && (uintptr_t)caller < spare_end)) return 0;
+  if (most_bytes > 0) return fails_now(memory_, held + (long)bytes > most_bytes);
+  if (stack_hashes) {
     inside = 1;
     void* frames[48];
     const int depth = backtrace(frames, 48);
@@ -89,14 +116,38 @@ static int memory_fails(void) {
   return fails(memory_);
 }
 
-void* malloc(size_t bytes) { return memory_fails() ? NULL : __libc_malloc(bytes); }
-void* calloc(size_t n, size_t bytes) { return memory_fails() ? NULL : __libc_calloc(n, bytes); }
-void* realloc(void* old, size_t bytes) { return memory_fails() ? NULL : __libc_realloc(old, bytes); }
-void* memalign(size_t align, size_t bytes) { return memory_fails() ? NULL : __libc_memalign(align, bytes); }
-void* aligned_alloc(size_t align, size_t bytes) { return memory_fails() ? NULL : __libc_memalign(align, bytes); }
+static void* hold(void* memory) {
+  const long now = held += memory ? (long)malloc_usable_size(memory) : 0;
+  if (now > most_held) most_held = now;
+  return memory;
+}
+
+#define CALLER __builtin_return_address(0)
+void* malloc(size_t bytes) { return memory_fails(bytes, CALLER) ? NULL : hold(__libc_malloc(bytes)); }
+void* calloc(size_t n, size_t bytes) { return memory_fails(n * bytes, CALLER) ? NULL : hold(__libc_calloc(n, bytes)); }
+void* realloc(void* old, size_t bytes) {
+  const size_t before = old ? malloc_usable_size(old) : 0;
+  if (memory_fails(bytes > before ? bytes - before : 0, CALLER)) return NULL;
+  void* const out = __libc_realloc(old, bytes);
+  if (out || bytes == 0) held -= (long)before;
+  return hold(out);
+}
+void* memalign(size_t align, size_t bytes) { return memory_fails(bytes, CALLER) ? NULL : hold(__libc_memalign(align, bytes)); }
+void* aligned_alloc(size_t align, size_t bytes) {
+  return memory_fails(bytes, CALLER) ? NULL : hold(__libc_memalign(align, bytes));
+}
 int posix_memalign(void** to, size_t align, size_t bytes) {
-  if (memory_fails()) return ENOMEM;
-  return (*to = __libc_memalign(align, bytes)) ? 0 : ENOMEM;
+  if (memory_fails(bytes, CALLER)) return ENOMEM;
+  return (*to = hold(__libc_memalign(align, bytes))) ? 0 : ENOMEM;
+}
+char* strdup(const char* text) {  // or the C library would ask for the memory of those who are spared
+  const size_t bytes = strlen(text) + 1;
+  char* const out = memory_fails(bytes, CALLER) ? NULL : hold(__libc_malloc(bytes));
+  return out ? memcpy(out, text, bytes) : NULL;
+}
+void free(void* memory) {
+  if (memory) held -= (long)malloc_usable_size(memory);
+  __libc_free(memory);
 }
 
 static int ours(const char* path) {
@@ -210,6 +261,8 @@ static void finish(void) {
   active = 0;
   if (report && !hit) {
     for (int k = 0; k < kinds; ++k) say("count ", names[k], counted[k]);
+    say("count ", "start", held_at_start);
+    say("count ", "most", most_held);
   }
   if (!stack_hashes) return;
   const long n = counted[memory_] < most_stacks ? counted[memory_] : most_stacks;
@@ -218,7 +271,20 @@ static void finish(void) {
   syscall(SYS_close, file);
 }
 
+static int find_spare(struct dl_phdr_info* info, size_t size, void* unused) {
+  (void)size, (void)unused;
+  if (!strstr(info->dlpi_name, spare)) return 0;
+  for (int k = 0; k < info->dlpi_phnum; ++k) {
+    if (info->dlpi_phdr[k].p_type != PT_LOAD || !(info->dlpi_phdr[k].p_flags & PF_X)) continue;
+    spare_begin = info->dlpi_addr + info->dlpi_phdr[k].p_vaddr;
+    spare_end = spare_begin + info->dlpi_phdr[k].p_memsz;
+  }
+  return 1;
+}
+
 static int counting_main(int argc, char** argv, char** environment) {
+  if (spare) dl_iterate_phdr(find_spare, NULL);
+  held_at_start = most_held = held;
   active = 1;
   const int code = program(argc, argv, environment);
   finish();
@@ -233,13 +299,16 @@ int __libc_start_main(int (*main_function)(int, char**, char**), int argc, char*
     if (strcmp(text, names[k]) == 0) kind = k;
   }
   at = (text = getenv("FAULT_AT")) ? atol(text) : 0;
-  on = (text = getenv("FAULT_ON")) ? atoi(text) : 0;
+  most_bytes = (text = getenv("FAULT_BYTES")) ? atol(text) : 0;
+  spare = getenv("FAULT_SPARE");
   if ((text = getenv("FAULT_ERRNO"))) error_number = atoi(text);
   folder = getenv("FAULT_FOLDER");
   report = getenv("FAULT_REPORT");
-  if ((stacks = getenv("FAULT_STACKS"))) {
-    void* room[2];
-    backtrace(room, 2);  // the first loads a library
+  trace = getenv("FAULT_TRACE");
+  stacks = getenv("FAULT_STACKS");
+  void* room[2];
+  if (stacks || trace) backtrace(room, 2);  // the first loads a library
+  if (stacks) {
     stack_hashes = mmap(NULL, sizeof(uint64_t) * most_stacks, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   }
   __typeof__(&__libc_start_main) real = (__typeof__(real))dlsym(RTLD_NEXT, "__libc_start_main");
