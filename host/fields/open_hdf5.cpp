@@ -67,7 +67,7 @@ OpenHdf5::OpenHdf5(const std::filesystem::path& file, Begin begin) : file_(file)
   try {
     with_hdf5(file, [&] {
       require_memory_for_hdf5(0);
-      hdf5_.emplace(name.string(), anew ? H5F_ACC_TRUNC : H5F_ACC_RDWR, creation(), access());
+      hdf5_ = std::make_unique<H5::H5File>(name.string(), anew ? H5F_ACC_TRUNC : H5F_ACC_RDWR, creation(), access());
       // Where the file ends is what a flush writes last: after a kill within it, arrays may lie beyond that.
       if (!anew && H5Fincrement_filesize(hdf5_->getId(), 0) < 0) throw H5::FileIException("H5Fincrement_filesize");
     });
@@ -79,11 +79,16 @@ OpenHdf5::OpenHdf5(const std::filesystem::path& file, Begin begin) : file_(file)
 
 OpenHdf5::~OpenHdf5() { close(); }
 
+/// HDF5 crashes where a file is closed again after that has failed, which the destructor of its class would do.
+void OpenHdf5::close_hdf5() {
+  H5::H5File* const file = hdf5_.release();
+  with_hdf5(file_, [&] { file->close(); });
+  delete file;
+}
+
 void OpenHdf5::close() {
   try {
-    with_hdf5(file_, [&] {
-      if (hdf5_) hdf5_->close();
-    });
+    if (hdf5_) close_hdf5();
   } catch (const RunError&) {  // end() was not asked for: an error is on its way already
   }
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -110,8 +115,7 @@ void OpenHdf5::write(std::size_t bytes, const std::function<void(H5::H5File&)>& 
 }
 
 void OpenHdf5::end() {
-  with_hdf5(file_, [&] { hdf5_->close(); });
-  hdf5_.reset();
+  close_hdf5();
   if (::close(std::exchange(descriptor_, -1)) != 0) refuse(file_, errno);
 }
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <memory>
 
 namespace macadam {
 
@@ -34,10 +34,11 @@ class OpenHdf5 {
 
  private:
   void close();
+  void close_hdf5();
 
   std::filesystem::path file_, part_;  ///< the latter: of a new file that is not kept yet; else empty
   int descriptor_ = -1;                ///< of the same file, to take and give back room
-  std::optional<H5::H5File> hdf5_;
+  std::unique_ptr<H5::H5File> hdf5_;
 };
 
 /// f(), in which HDF5 prints no errors and throws them as an exception alone. \throws RunError naming the file.
