@@ -6,6 +6,7 @@
 
 #include "host/cli/commands.hpp"
 #include "host/cli/limited_memory.hpp"
+#include "host/cli/memory_reserve.hpp"
 #include "host/cli/streams.hpp"
 #include "host/nearest.hpp"
 #include "macadam/error.hpp"
@@ -68,18 +69,13 @@ End run_program(CLI::App& app, int argc, char** argv) {
   } catch (const CLI::ParseError& error) { return {refuse(app, error), false}; } catch (const InputError& error) {
     say_error("macadam: {}\n", error.what());
     return {2, true};
-  } catch (const std::bad_alloc&) {
-    say_error("macadam: out of memory\n");
-    return {1, true};
-  } catch (const std::exception& error) {
+  } catch (const std::bad_alloc&) { throw; } catch (const std::exception& error) {
     say_error("macadam: {}\n", error.what());
     return {1, true};
   }
 }
 
-int main_function(int argc, char** argv) {
-  restart_with_one_blas_thread_where_memory_is_limited(argv);
-  hold_standard_streams();
+int say_and_run(int argc, char** argv) {
   CLI::App app;
   make_command_line(app);
   const auto [code, ran] = run_program(app, argc, argv);
@@ -88,6 +84,19 @@ int main_function(int argc, char** argv) {
   if (flush_output() || code != 0 || in_files) return code;
   say_error("macadam: standard output: cannot be written (disk full, or nobody reads it)\n");
   return 1;
+}
+
+/// Memory may end while the command line is made, and while an error is put into words.
+int main_function(int argc, char** argv) {
+  restart_with_one_blas_thread_where_memory_is_limited(argv);
+  hold_standard_streams();
+  keep_memory_in_reserve();
+  try {
+    return say_and_run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    say_error_text("macadam: out of memory\n");
+    return 1;
+  }
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ void hold_standard_streams() {
 
 void say_text(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
-bool say_error_text(const std::string& text) {
+bool say_error_text(std::string_view text) {
   const bool whole = std::fwrite(text.data(), 1, text.size(), stderr) == text.size();
   return std::fflush(stderr) == 0 && whole;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <string_view>
 
 namespace macadam {
 
@@ -16,8 +17,8 @@ void hold_standard_streams();
 
 /// Writes to standard output.
 void say_text(const std::string& text);
-/// Writes to standard error. Whether it got there.
-bool say_error_text(const std::string& text);
+/// Writes to standard error, without asking for memory. Whether it got there.
+bool say_error_text(std::string_view text);
 
 template <class... Args>
 void say(fmt::format_string<Args...> text, Args&&... args) {

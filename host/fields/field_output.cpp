@@ -48,13 +48,14 @@ FieldMesh cells_of(const Preparation& prepared) {
 void remove_fields(const fs::path& out) {
   std::error_code error;
   const fs::path folder = folder_in(out);
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
+  if (!fs::is_directory(folder, error)) return;
+  for (const auto& entry : fs::directory_iterator(folder)) {
     if (!entry.is_regular_file(error) || !is_field_file(entry.path())) continue;
     if (!fs::remove(entry.path(), error)) {
       throw RunError(entry.path().string() + ": cannot be replaced: " + error.message());
     }
   }
-  if (fs::is_directory(folder, error)) fs::remove(folder, error);  // where nothing of the user's is in it
+  fs::remove(folder, error);  // where nothing of the user's is in it
 }
 
 void write_specimen_fields(const Scene& scene, const Preparation& prepared, const fs::path& out) {
@@ -118,6 +119,11 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
   if (!contacts_) return;
   if (form == ContactForm::points) carried.chain_begin.clear();  // chains of points, not of the facet
   contacts_->add(time, contact_arrays(prepared_.specimen, prepared_.network, carried, state.displacement));
+}
+
+void FieldOutput::end() {
+  if (particles_) particles_->end();
+  if (contacts_) contacts_->end();
 }
 
 void FieldOutput::write(const HarmonicResult& solved, const LawTable& laws, std::optional<double> temperature) {

@@ -34,6 +34,8 @@ class FieldOutput {
   bool wants(std::int64_t sample) const;
   /// Adds a frame. \throws RunError.
   void add(const Stepper& stepper, ContactForm form, Geometry geometry, double time);
+  /// After the last frame of what is stepped. \throws RunError.
+  void end();
 
   /// Writes a steady state; laws are those that it was solved with. `temperature` [°C]: where there are several.
   /// \throws RunError.

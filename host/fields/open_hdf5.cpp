@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <new>
 #include <system_error>
+#include <utility>
 
 #include "host/quiet_hdf5.hpp"
 #include "macadam/error.hpp"
@@ -45,12 +46,16 @@ H5::FileCreatPropList creation() {
 }  // namespace
 
 void with_hdf5(const std::filesystem::path& file, const std::function<void()>& f) {
+  const QuietHdf5 quiet;
+  const auto fail = [&](const std::string& what) {
+    throw RunError(file.string() + ": HDF5 cannot go on with it: " + what + (quiet.failed() ? ": " + quiet.why() : ""));
+  };
   try {
-    const QuietHdf5 quiet;
     f();
-  } catch (const H5::Exception& error) {
-    throw RunError(file.string() + ": HDF5 cannot go on with it: " + error.getDetailMsg());
-  } catch (const std::bad_alloc&) { throw RunError(file.string() + ": not enough memory to write it"); }
+  } catch (const H5::Exception& error) { fail(error.getDetailMsg()); } catch (const std::bad_alloc&) {
+    throw RunError(file.string() + ": not enough memory to write it");
+  }
+  if (quiet.failed()) fail("an array cannot be closed");
 }
 
 OpenHdf5::OpenHdf5(const std::filesystem::path& file, Begin begin) : file_(file) {
@@ -61,7 +66,8 @@ OpenHdf5::OpenHdf5(const std::filesystem::path& file, Begin begin) : file_(file)
   if (descriptor_ < 0) refuse(file, errno);
   try {
     with_hdf5(file, [&] {
-      hdf5_.emplace(name.string(), anew ? H5F_ACC_TRUNC : H5F_ACC_RDWR, creation(), access());
+      require_memory_for_hdf5(0);
+      hdf5_ = std::make_unique<H5::H5File>(name.string(), anew ? H5F_ACC_TRUNC : H5F_ACC_RDWR, creation(), access());
       // Where the file ends is what a flush writes last: after a kill within it, arrays may lie beyond that.
       if (!anew && H5Fincrement_filesize(hdf5_->getId(), 0) < 0) throw H5::FileIException("H5Fincrement_filesize");
     });
@@ -73,14 +79,19 @@ OpenHdf5::OpenHdf5(const std::filesystem::path& file, Begin begin) : file_(file)
 
 OpenHdf5::~OpenHdf5() { close(); }
 
+/// HDF5 crashes where a file is closed again after that has failed, which the destructor of its class would do.
+void OpenHdf5::close_hdf5() {
+  H5::H5File* const file = hdf5_.release();
+  with_hdf5(file_, [&] { file->close(); });
+  delete file;
+}
+
 void OpenHdf5::close() {
   try {
-    with_hdf5(file_, [&] {
-      if (hdf5_) hdf5_->close();
-    });
-  } catch (const RunError&) {  // after a flush there is nothing left that could fail
+    if (hdf5_) close_hdf5();
+  } catch (const RunError&) {  // end() was not asked for: an error is on its way already
   }
-  ::close(descriptor_);
+  if (descriptor_ >= 0) ::close(descriptor_);
   std::error_code ignored;
   if (!part_.empty()) std::filesystem::remove(part_, ignored);
 }
@@ -95,11 +106,17 @@ void OpenHdf5::write(std::size_t bytes, const std::function<void(H5::H5File&)>& 
   }
   off_t size = 0;
   with_hdf5(file_, [&] {
+    require_memory_for_hdf5(2 * bytes);  // what it converts, and its pieces
     change(*hdf5_);
     hdf5_->flush(H5F_SCOPE_GLOBAL);
     size = static_cast<off_t>(hdf5_->getFileSize());  // what was taken too much is given back
   });
   if (::ftruncate(descriptor_, size) != 0) refuse(file_, errno);
+}
+
+void OpenHdf5::end() {
+  close_hdf5();
+  if (::close(std::exchange(descriptor_, -1)) != 0) refuse(file_, errno);
 }
 
 void OpenHdf5::keep() {

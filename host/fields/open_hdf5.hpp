@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <memory>
 
 namespace macadam {
 
@@ -28,14 +28,17 @@ class OpenHdf5 {
   void write(std::size_t bytes, const std::function<void(H5::H5File&)>& change);
   /// Gives a new file its name, in place of an older one. \throws RunError.
   void keep();
+  /// After the last change. \throws RunError naming the file, where closing it fails.
+  void end();
   H5::H5File& hdf5() { return *hdf5_; }
 
  private:
   void close();
+  void close_hdf5();
 
   std::filesystem::path file_, part_;  ///< the latter: of a new file that is not kept yet; else empty
   int descriptor_ = -1;                ///< of the same file, to take and give back room
-  std::optional<H5::H5File> hdf5_;
+  std::unique_ptr<H5::H5File> hdf5_;
 };
 
 /// f(), in which HDF5 prints no errors and throws them as an exception alone. \throws RunError naming the file.

@@ -183,6 +183,11 @@ class VtkHdfSeries : public FieldSeries {
     }
   }
 
+  void end() override {
+    if (open_) open_->end();
+    open_.reset();
+  }
+
  private:
   /// Both at once: VTK takes as many times as there are, into as much memory as the number of steps needs.
   void set_steps(std::size_t number, const double* last_time) {
@@ -288,6 +293,7 @@ std::unique_ptr<FieldSeries> begin_vtkhdf(const std::filesystem::path& file, Fie
 void write_vtkhdf(const std::filesystem::path& file, const FieldMesh& mesh) {
   OpenHdf5 open(file, OpenHdf5::Begin::anew);
   open.write(bytes_of(mesh), [&](H5::H5File& hdf5) { put_mesh(hdf5, mesh); });
+  open.end();
   open.keep();
 }
 

@@ -142,6 +142,7 @@ class VtpSeries : public FieldSeries {
 
   void go_on(double until) {
     std::ifstream in(list(), std::ios::binary);
+    in.exceptions(std::ios::badbit);  // want of memory is no damage
     const auto refuse = [&](const std::string& found) {
       throw InputError(list().string(), 0, "fields to go on with", found,
                        "those of this run; without the file the run goes on, and begins a new one");

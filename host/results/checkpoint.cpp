@@ -19,6 +19,7 @@ namespace macadam {
 namespace {
 
 constexpr std::size_t user_block = 512;  ///< HDF5's smallest
+constexpr std::size_t growth = 1 << 24;  ///< bytes by which a file in memory grows
 
 template <class T>
 StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
@@ -31,7 +32,6 @@ H5::StrType text_type(std::size_t length) { return {H5::PredType::C_S1, length +
 
 /// HDF5's "core" driver keeps a file in memory: it never meets a full disk, whose errors it does not survive.
 H5::FileAccPropList in_memory() {
-  constexpr std::size_t growth = 1 << 24;  // bytes
   H5::FileAccPropList access;
   access.setCore(growth, false);
   return access;
@@ -39,6 +39,11 @@ H5::FileAccPropList in_memory() {
 
 /// The bytes of a checkpoint, its user block still empty.
 std::string file_of(const Checkpoint& checkpoint) {
+  std::size_t bytes_of_state = 0;
+  for (const StateArray& array : checkpoint.arrays) {
+    bytes_of_state += std::visit([](const auto& values) { return values.size() * sizeof(values[0]); }, array.values);
+  }
+  require_memory_for_hdf5(3 * bytes_of_state + growth);  // the file, how it grows, and its copy
   H5::H5File out("in memory", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory());
   const H5::Group texts = out.createGroup("texts"), arrays = out.createGroup("arrays");
   for (const auto& [name, text] : checkpoint.texts) {
@@ -110,12 +115,17 @@ std::string user_block_of(std::string_view image) {
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   std::string bytes;
+  const QuietHdf5 quiet;
+  const auto fail = [&](const std::string& what) {
+    throw RunError(file.string() + ": HDF5 cannot make it (out of memory?): " + what +
+                   (quiet.failed() ? ": " + quiet.why() : ""));
+  };
   try {
-    const QuietHdf5 quiet;
     bytes = file_of(checkpoint);
-  } catch (const H5::Exception& error) {
-    throw RunError(file.string() + ": HDF5 cannot make it (out of memory?): " + error.getDetailMsg());
-  } catch (const std::bad_alloc&) { throw RunError(file.string() + ": not enough memory to make it"); }
+    if (quiet.failed()) fail("an array cannot be closed");
+  } catch (const H5::Exception& error) { fail(error.getDetailMsg()); } catch (const std::bad_alloc&) {
+    throw RunError(file.string() + ": not enough memory to make it");
+  }
   bytes.replace(0, user_block, user_block_of(std::string_view(bytes).substr(user_block)));
   write_whole(file, bytes, true);
 }
@@ -140,6 +150,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& file) {
   if (!in || header != user_block_of(image)) refuse("another checksum than it names", "the same: it is damaged");
   try {
     const QuietHdf5 quiet;
+    require_memory_for_hdf5(2 * image.size());
     return read_image(std::move(image));
   } catch (const H5::Exception& error) {
     throw InputError(file.string(), 0, "checkpoint", "what HDF5 cannot read (" + error.getDetailMsg() + ")",

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,40 +18,44 @@ namespace macadam {
 
 namespace {
 
-/// A file that is open for writing, in the system's own calls: a stream would not say whether all is on the disk.
-class OutputFile {
- public:
-  explicit OutputFile(const std::filesystem::path& file)
-      : file_(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {}
-  ~OutputFile() { close(); }
-  bool write(std::string_view bytes) const {
-    while (file_ >= 0 && !bytes.empty()) {
-      const ssize_t written = ::write(file_, bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) return false;
-      bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return file_ >= 0;
-  }
-  bool sync() const { return ::fsync(file_) == 0; }
-  bool close() {
-    const int file = std::exchange(file_, -1);
-    return file < 0 || ::close(file) == 0;
-  }
+std::string reason(int error = errno) { return std::generic_category().message(error); }
 
- private:
-  int file_;
-};
-
-/// Waits until a folder's entries are on the disk; some file systems cannot, which is no fault of the file.
-void sync_folder(const std::filesystem::path& folder) {
+/// Waits until a folder's entries are on the disk. Some file systems cannot, which is no fault of the file; a disk that
+/// fails is.
+bool sync_folder(const std::filesystem::path& folder) {
   const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return;
-  ::fsync(file);
+  if (file < 0) return true;
+  const int error = ::fsync(file) == 0 ? 0 : errno;
   ::close(file);
+  errno = error;
+  return error != EIO && error != ENOSPC && error != EDQUOT;
 }
 
 }  // namespace
+
+OutputFile::OutputFile(const std::filesystem::path& file)
+    : file_(::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {}
+
+bool OutputFile::write(std::string_view bytes) const {
+  while (file_ >= 0 && !bytes.empty()) {
+    const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return file_ >= 0;
+}
+
+bool OutputFile::sync() const { return ::fsync(file_) == 0; }
+
+bool OutputFile::cut(off_t length) const {
+  return ::ftruncate(file_, length) == 0 && ::lseek(file_, length, SEEK_SET) == length;
+}
+
+bool OutputFile::close() {
+  const int file = std::exchange(file_, -1);
+  return file < 0 || ::close(file) == 0;
+}
 
 void write_whole(const std::filesystem::path& file, std::string_view bytes, bool to_disk) {
   auto part = file;
@@ -58,7 +63,7 @@ void write_whole(const std::filesystem::path& file, std::string_view bytes, bool
   OutputFile out(part);
   bool written = out.write(bytes) && (!to_disk || out.sync());
   written = out.close() && written;
-  const std::string why = written ? "" : std::generic_category().message(errno);
+  const std::string why = written ? "" : reason();
   std::error_code error;
   if (written) std::filesystem::rename(part, file, error);
   if (!written || error) {
@@ -66,7 +71,9 @@ void write_whole(const std::filesystem::path& file, std::string_view bytes, bool
     std::filesystem::remove(part, ignored);  // half a file on a full disk would keep it full
     throw RunError(file.string() + ": cannot be written: " + (written ? error.message() : why));
   }
-  if (to_disk) sync_folder(file.parent_path());
+  if (to_disk && !sync_folder(file.parent_path())) {
+    throw RunError(file.string() + ": cannot be written for good, its folder: " + reason());
+  }
 }
 
 std::string csv_field(const std::string& name) {
@@ -76,15 +83,48 @@ std::string csv_field(const std::string& name) {
   return out + "\"";
 }
 
-LineWriter::LineWriter(const std::filesystem::path& file, std::string_view head)
-    : file_(file), out_(file, std::ios::binary) {
-  out_ << head << '\n' << std::flush;
-  if (!out_) throw RunError(file_.string() + ": cannot be written (disk full, or no permission)");
+LineWriter::LineWriter(const std::filesystem::path& file, std::string_view head) : file_(file), out_(file) {
+  add(head);
 }
 
 void LineWriter::add(std::string_view line) {
-  out_ << line << '\n' << std::flush;
-  if (!out_) throw RunError(file_.string() + ": cannot be written on (disk full?)");
+  const std::string whole = std::string(line) + '\n';
+  if (!out_.write(whole)) fail();
+  length_ += std::ssize(whole);
+}
+
+void LineWriter::close() {
+  if (!out_.close()) fail();
+}
+
+void LineWriter::fail() const {
+  const std::string why = reason();
+  [[maybe_unused]] const bool half_a_line_is_gone = out_.cut(length_);
+  throw RunError(file_.string() + ": cannot be written: " + why);
+}
+
+FilesTogether::FilesTogether(const std::filesystem::path& folder) : folder_(folder), place_(folder / ".part") {
+  std::error_code ignored;
+  std::filesystem::remove_all(place_, ignored);  // of a kill
+  if (::mkdir(place_.c_str(), 0777) != 0) throw RunError(place_.string() + ": cannot be made: " + reason());
+}
+
+FilesTogether::~FilesTogether() {
+  std::error_code ignored;
+  std::filesystem::remove_all(place_, ignored);
+}
+
+std::filesystem::path FilesTogether::place_of(const std::string& name) {
+  names_.push_back(name);
+  return place_ / name;
+}
+
+void FilesTogether::give_names() {
+  for (const std::string& name : names_) {
+    if (::rename((place_ / name).c_str(), (folder_ / name).c_str()) != 0) {
+      throw RunError((folder_ / name).string() + ": cannot be written: " + reason());
+    }
+  }
 }
 
 void write_contacts_csv(const std::filesystem::path& file, const ContactNetwork& network) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file scene_reader.cpp  read_scene: the file, its sections, and what holds between sections.
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <limits>
+#include <new>
 
 #include <fmt/format.h>
 
@@ -34,7 +36,9 @@ std::string read_text(const std::filesystem::path& file, const std::string& what
   if (!error && bytes > longest_file) {
     refuse(fmt::format("{} bytes", bytes), fmt::format("{} of at most {} bytes", kind, longest_file));
   }
+  errno = 0;
   std::ifstream in(file, std::ios::binary);
+  if (!in && errno == ENOMEM) throw std::bad_alloc();
   std::string text(error ? 0 : bytes, '\0');
   if (!in || !in.read(text.data(), std::ssize(text))) refuse("a file that cannot be read", "read permission");
   return text;

@@ -10,11 +10,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <optional>
 #include <sstream>
 
@@ -99,6 +101,7 @@ std::string bytes_of(const std::filesystem::path& file) {
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) fail("a device or pipe", "a file");
   errno = 0;
   std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in && errno == ENOMEM) throw std::bad_alloc();
   if (!in) fail(std::strerror(errno), "a readable file");
   std::string bytes(static_cast<std::size_t>(in.tellg()), '\0');  // streams would take want of memory for a bad file
   if (!in.seekg(0).read(bytes.data(), std::ssize(bytes))) fail(std::strerror(errno), "a readable file");

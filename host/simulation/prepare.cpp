@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // prepare.cpp  Scene → specimen → tessellation → contact network.
 #include <chrono>
+#include <system_error>
 
 #include "host/fields/field_output.hpp"
 #include "host/network/clusters.hpp"
@@ -25,6 +26,13 @@ double timed(F&& f) {
 bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::error_code error;
   return std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(), folder, error);
+}
+
+/// Takes a file of an older result away, as a new one will have its name.
+void replace(const std::filesystem::path& file) {
+  std::error_code error;
+  std::filesystem::remove(file, error);
+  if (error) throw RunError(file.string() + ": cannot be replaced: " + error.message());
 }
 
 /// A file of an older specimen.
@@ -86,29 +94,27 @@ Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progr
   return out;
 }
 
-void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out) {
-  const bool same_specimen = scene.specimen.file && is_in(*scene.specimen.file, out);
-  write_specimen_csv(out / "specimen.csv", prepared.specimen);
-  if (!prepared.aggregates.empty()) {
-    write_aggregates_csv(out / "aggregates.csv", prepared.aggregates, prepared.composition);
-  } else if (!same_specimen) {
-    remove_older(out / "aggregates.csv");
-  }
-  if (scene.recipe) {
-    write_gradation_csv(out / "gradation.csv", gradation_of(*scene.recipe, prepared.composition));
-  } else if (!same_specimen) {
-    remove_older(out / "gradation.csv");
-  }
-  if (scene.output.contacts) {
-    write_contacts_csv(out / "contacts.csv", prepared.network);
-  } else {
-    remove_older(out / "contacts.csv");
-  }
+void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
+                       const std::function<void()>& remove_results) {
+  const bool same_specimen = scene.specimen.file && is_in(*scene.specimen.file, out),
+             aggregates = !prepared.aggregates.empty(), gradation = scene.recipe.has_value();
+  FilesTogether files(out);
+  write_specimen_csv(files.place_of("specimen.csv"), prepared.specimen);
+  if (aggregates) write_aggregates_csv(files.place_of("aggregates.csv"), prepared.aggregates, prepared.composition);
+  if (gradation)
+    write_gradation_csv(files.place_of("gradation.csv"), gradation_of(*scene.recipe, prepared.composition));
+  if (scene.output.contacts) write_contacts_csv(files.place_of("contacts.csv"), prepared.network);
+  write_whole(files.place_of("summary.json"), summary_json(scene, prepared, {}, "prepared"));
+  replace(out / "summary.json");
+  remove_results();
+  if (!aggregates && !same_specimen) remove_older(out / "aggregates.csv");
+  if (!gradation && !same_specimen) remove_older(out / "gradation.csv");
+  if (!scene.output.contacts) remove_older(out / "contacts.csv");
   for (const auto& entry : std::filesystem::directory_iterator(out)) {
     const std::string name = entry.path().filename().string();
     if (!same_specimen && name.starts_with("section_") && name.ends_with(".csv")) remove_older(entry.path());
   }
-  write_whole(out / "summary.json", summary_json(scene, prepared, {}, "prepared"));
+  files.give_names();
 }
 
 Preparation prepare_into(const std::filesystem::path& out, const Scene& scene,
@@ -116,8 +122,7 @@ Preparation prepare_into(const std::filesystem::path& out, const Scene& scene,
   const ResultFolder folder(out);
   require_no_run(out);
   Preparation prepared = prepare(scene, progress);
-  remove_fields(out);
-  write_preparation(scene, prepared, out);
+  write_preparation(scene, prepared, out, [&] { remove_fields(out); });
   write_specimen_fields(scene, prepared, out);
   for (const SectionPlane& plane : sections) {
     write_cross_section_csv(out / section_file_name(plane), prepared.specimen,

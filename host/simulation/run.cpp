@@ -137,9 +137,10 @@ RunResult run_of(const Scene& scene, const Preparation* given, const std::filesy
   if (watcher.progress) watcher.progress("writing the specimen", 0);  // the last to be interrupted without a trace
   {
     const InPhase writing(result.phases, &PhaseSeconds::writing);
-    remove_results(out);
-    if (!resume) remove_fields(out);
-    write_preparation(scene, prepared, out);
+    write_preparation(scene, prepared, out, [&] {
+      remove_results(out);
+      if (!resume) remove_fields(out);
+    });
   }
   try {
     if (unsolvable) std::rethrow_exception(unsolvable);

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <iterator>
 #include <memory>
+#include <new>
 #include <string_view>
 #include <system_error>
 #include <unordered_map>
@@ -35,6 +36,7 @@ class Lines {
     if (std::filesystem::is_directory(file, ignored)) fail("a directory", "a CSV file");
     errno = 0;
     in_.reset(gzopen(name_.c_str(), "rb"));
+    if (!in_ && (errno == ENOMEM || errno == 0)) throw std::bad_alloc();  // zlib's own words for it
     if (!in_) fail(std::strerror(errno), "a readable file");
   }
 
@@ -75,6 +77,7 @@ class Lines {
     // A file cut off in mid-stream reads to its end and only then shows an error code.
     int code = Z_OK;
     const std::string reason = gzerror(in_.get(), &code);
+    if (code == Z_MEM_ERROR) throw std::bad_alloc();
     if (code != Z_OK && code != Z_STREAM_END)
       fail(code == Z_ERRNO ? std::strerror(errno) : reason, "a whole readable file");
     // gzread() takes what it cannot read behind a whole stream for nothing

@@ -157,6 +157,7 @@ class Steps : public Solution {
       finish(i, result);
       owns_checkpoint_ = courses.own_checkpoint();
     }
+    if (writer) writer->close();
     require_sense(scene_, result.stepped());
   }
 

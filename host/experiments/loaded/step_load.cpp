@@ -141,6 +141,7 @@ class SteppedLoad : public Solution {
       throw;
     }
     finish();
+    writer.close();
     judge(found, result.warnings);
   }
 

@@ -89,6 +89,8 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
       watcher_.progress(course.shown(step, speed(step)), static_cast<double>(step) / static_cast<double>(end));
     }
   }
+  const InPhase writing(result_.phases, &PhaseSeconds::writing);
+  fields_.end();
 }
 
 }  // namespace macadam
