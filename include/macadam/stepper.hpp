@@ -52,7 +52,8 @@ struct StepperOptions {
   Boundary boundary;           ///< what drives the walls, fixes and loads particles; drives' dt() is dt
   const StartState* start = nullptr;  ///< read by make_stepper() only; a cyclic drive must have no ramp then
   /// Mixed and single precision may take steps in blocks, within which laws are not settled (model (6.8)). At least so
-  /// many blocks go into the shortest of the drives' and the laws' times. What a block neglects is of second order in its length.
+  /// many blocks go into the shortest of the drives' and the laws' times. What a block neglects is of second order in
+  /// its length.
   double blocks = 4000;
   /// Steps from one observe() to the next, 0: not known. Blocks end there where they can.
   std::int64_t observed_every = 0;
