@@ -8,7 +8,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
 #include <iterator>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -74,6 +76,16 @@ void write_whole(const std::filesystem::path& file, std::string_view bytes, bool
   if (to_disk && !sync_folder(file.parent_path())) {
     throw RunError(file.string() + ": cannot be written for good, its folder: " + reason());
   }
+}
+
+std::string read_whole(const std::filesystem::path& file) {
+  errno = 0;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in && errno == ENOMEM) throw std::bad_alloc();
+  std::string out(in ? static_cast<std::size_t>(in.tellg()) : 0, '\0');
+  if (!in || !in.seekg(0).read(out.data(), std::ssize(out)))
+    throw RunError(file.string() + ": cannot be read: " + reason());
+  return out;
 }
 
 std::string csv_field(const std::string& name) {

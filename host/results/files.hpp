@@ -18,6 +18,9 @@ namespace macadam {
 /// RunError.
 void write_whole(const std::filesystem::path& file, std::string_view bytes, bool to_disk = false);
 
+/// All bytes of a file. \throws RunError where it cannot be read, std::bad_alloc where memory is the reason.
+std::string read_whole(const std::filesystem::path& file);
+
 /// A name as a field of a CSV file: quoted where it has to be (RFC 4180).
 std::string csv_field(const std::string& name);
 

@@ -3,11 +3,11 @@
 #include "host/simulation/summary.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "host/experiments/experiment.hpp"
+#include "host/results/files.hpp"
 #include "host/simulation/checkpoints.hpp"
 #include "host/simulation/recipe_summary.hpp"
 #include "macadam/error.hpp"
@@ -113,8 +113,7 @@ void require_no_run(const std::filesystem::path& out) {
   if (std::filesystem::exists(out / checkpoint_name)) refuse("the checkpoint of a run");
   const std::filesystem::path file = out / "summary.json";
   if (!std::filesystem::exists(file)) return;
-  std::ifstream in(file, std::ios::binary);
-  const Json summary = Json::parse(in, nullptr, false);
+  const Json summary = Json::parse(read_whole(file), nullptr, false);
   const auto status = summary.is_object() ? summary.find("status") : summary.end();
   if (!summary.is_object() || status == summary.end()) refuse("a summary.json that is none of Macadam's");
   if (*status != "prepared") refuse(fmt::format("a run in it (summary.json: {})", status->dump()));
