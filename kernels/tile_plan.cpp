@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 
 namespace macadam::kernels {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "macadam/error.hpp"
 #include "macadam/shape.hpp"
 

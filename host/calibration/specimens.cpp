@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/simulation/harmonic_options.hpp"
 #include "macadam/error.hpp"
 

@@ -2,7 +2,7 @@
 // coarse_scan.cpp  Block means, a layer of blocks after the other.
 #include "host/ct/coarse_scan.hpp"
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 
 namespace macadam::ct {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 
 namespace macadam::ct {
 namespace {

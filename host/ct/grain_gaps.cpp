@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/shapes/surface_distance.hpp"
 
 namespace macadam::ct {

@@ -2,7 +2,7 @@
 // grains.cpp  Neck, solidity and valley of two pieces that touch, and the joining of pieces.
 #include "host/ct/grains.hpp"
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/shapes/convex_hull.hpp"
 #include "host/shapes/surface_numbers.hpp"
 #include "macadam/error.hpp"

@@ -2,7 +2,7 @@
 // grey_levels.cpp  Mixtures by expectation and maximisation on histograms.
 #include "host/ct/grey_levels.hpp"
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::ct {

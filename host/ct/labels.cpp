@@ -2,7 +2,7 @@
 // labels.cpp  Labels from the grid on which grains were parted to that of the scan.
 #include "host/ct/labels.hpp"
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/ct/voxel_phases.hpp"
 
 namespace macadam::ct {

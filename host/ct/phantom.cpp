@@ -10,7 +10,7 @@
 #include "host/ct/grain_gaps.hpp"
 #include "host/ct/scan_faults.hpp"
 #include "host/ct/voxelise.hpp"
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/shapes/icosahedron.hpp"
 #include "macadam/error.hpp"
 

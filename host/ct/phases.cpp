@@ -2,7 +2,7 @@
 // phases.cpp  Thresholds, and the Markov field that evens out what noise does to them.
 #include "host/ct/phases.hpp"
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/ct/voxel_phases.hpp"
 
 namespace macadam::ct {

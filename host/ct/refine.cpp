@@ -3,7 +3,7 @@
 #include "host/ct/refine.hpp"
 
 #include "host/ct/smoothing.hpp"
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::ct {

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "host/ct/itk_image.hpp"
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/spheres/random_stream.hpp"
 
 namespace macadam::ct {

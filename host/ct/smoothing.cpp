@@ -2,7 +2,7 @@
 // smoothing.cpp  Edge-preserving diffusion.
 #include "host/ct/smoothing.hpp"
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 
 namespace macadam::ct {
 

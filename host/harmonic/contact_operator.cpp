@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "host/harmonic/law_stiffness.hpp"
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 
 namespace macadam::harmonic {
 

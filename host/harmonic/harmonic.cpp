@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "host/harmonic/linear_solver.hpp"
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "kernels/contact_kinematics.hpp"
 #include "macadam/error.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "host/network/clusters.hpp"
 #include "host/network/contact_stiffness.hpp"
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "host/counted.hpp"
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/shapes/crushed_stone.hpp"
 #include "host/shapes/library_targets.hpp"
 #include "macadam/error.hpp"

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/specimen/shape_body.hpp"
 #include "host/specimen/shape_insertion.hpp"
 #include "host/specimen/shape_packing.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/shapes/fill.hpp"
 #include "host/specimen/composition.hpp"
 #include "host/specimen/shape_placement.hpp"

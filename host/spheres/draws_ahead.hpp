@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "host/spheres/random_stream.hpp"
 
 namespace macadam {

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 
 namespace macadam {
 namespace {

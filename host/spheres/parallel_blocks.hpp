@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 
 namespace macadam {
 

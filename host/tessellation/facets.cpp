@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {

@@ -12,6 +12,6 @@ SUPPLY = RESULTS.parents[1] / "scripts" / "supply.csv"
 @mark
 def supply(*lists):
     with open(SUPPLY, encoding="utf-8") as f:
-        rows = [r for r in csv.DictReader(f) if r["list"] in lists]
+        rows = [r for r in csv.DictReader(line for line in f if not line.startswith("#")) if r["list"] in lists]
     return table(["what", "package", "tried from", "licence", "for", "considered instead"],
                  [(r["name"], f"`{r['package']}`", r["version"], r["licence"], r["why"], r["considered"] or "–") for r in rows])

@@ -11,7 +11,7 @@
 #include <limits>
 #include <numeric>
 
-#include "host/parallel.hpp"
+#include "kernels/parallel.hpp"
 #include "kernels/harmonic/particle_block.hpp"
 
 namespace macadam::harmonic {
