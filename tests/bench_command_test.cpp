@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // bench_command_test.cpp  macadam bench: rows that mean what they say, in a format that others read.
+#include <algorithm>
 #include <cmath>
 
 #include "host/bench/json.hpp"
@@ -40,15 +41,22 @@ TEST_F(BenchCommand, WritesWhatItTimedAsGoogleBenchmarkDoes) {
     EXPECT_EQ(number, 3) << name;
     EXPECT_HAS(outcome.out, name);
   }
+  std::vector<double> shares;  // of a step, its parts together
   for (const json& entry : all["benchmarks"]) {
     if (!std::string(entry["name"]).starts_with("step/") || entry["run_type"] == "aggregate") continue;
     const double step = entry["real_time"].get<double>(), contacts = entry["contacts"];
     EXPECT_GT(contacts, entry["particles"].get<double>());
     EXPECT_GT(entry["bytes_per_contact"].get<double>(), 100);
     const double parts = entry["part_us bodies"].get<double>() + entry["part_us contacts"].get<double>();
-    EXPECT_GT(parts, 0.2 * step) << entry;  // of another repetition, beside whatever else the machine does
-    EXPECT_LT(parts, 5 * step) << entry;
+    EXPECT_GT(parts, 0) << entry;
+    shares.push_back(parts / step);
   }
+  // A repetition of 2 ms is at the mercy of whatever else the machine does, so one share means nothing: the median of
+  // all does.
+  ASSERT_EQ(shares.size(), 2u * 3 * 2 * 3);  // scenes × precisions × geometries × repetitions
+  std::ranges::nth_element(shares, shares.begin() + shares.size() / 2);
+  EXPECT_GT(shares[shares.size() / 2], 0.2);
+  EXPECT_LT(shares[shares.size() / 2], 5);
 }
 
 TEST_F(BenchCommand, TimesWhatComesBeforeAStep) {
