@@ -13,7 +13,9 @@ if(MACADAM_SANITIZE)
   target_link_options(macadam_options INTERFACE -fsanitize=${MACADAM_SANITIZE} -Wl,-Bsymbolic-functions)
   # The step's inlined packets have thousands of temporaries: watching each on the stack takes gcc ten minutes a file.
   # Its arrays are on the heap, where every access is still checked.
-  set(MACADAM_SANITIZE_STEP "--param=asan-stack=0")
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set(MACADAM_SANITIZE_STEP "--param=asan-stack=0")
+  endif()
   # CGAL's wraps, trees and hulls take gcc up to ten minutes a file: those files are thin shells around them.
   set(MACADAM_SANITIZE_CGAL "-fno-sanitize=all")
 endif()

@@ -23,7 +23,10 @@ class QuietHdf5 {
   }
   QuietHdf5(const QuietHdf5&) = delete;
   QuietHdf5& operator=(const QuietHdf5&) = delete;
-  ~QuietHdf5() { H5::Exception::setAutoPrint(print_, data_); }
+  ~QuietHdf5() {
+    H5garbage_collect();  // it would keep megabytes for files to come
+    H5::Exception::setAutoPrint(print_, data_);
+  }
 
   /// Whether anything went wrong: destructors of HDF5's classes, which may write, throw nothing.
   bool failed() const { return why_[0] != '\0'; }

@@ -198,6 +198,36 @@ TEST_F(CheckpointedRun, DamagedFilesAreRefused) {
   EXPECT_HAS(refusal(scene, "out"), "checkpoint of another");
 }
 
+TEST_F(CheckpointedRun, WhereTheNewestIsDamagedTheOneBeforeIsGoneOnWith) {
+  const Scene scene = this->scene(rest);
+  const fs::path previous = out("out") / "checkpoint-previous.h5";
+  run(scene, out("one"));
+  const std::vector<std::function<void()>> damages = {[&] { write(file("out"), "nonsense"); },
+                                                      [&] { fs::remove(file("out")); }};
+  for (const auto& damage : damages) {
+    ASSERT_TRUE(run_until(scene, "out", 20, false));
+    EXPECT_FALSE(fs::exists(previous));
+    const std::string first = read(file("out"));
+    ASSERT_TRUE(run_until(scene, "out", 20, true));
+    ASSERT_TRUE(read(previous) == first);
+    damage();
+    std::vector<std::string> warnings;
+    Watcher watcher;
+    watcher.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+    const RunResult result = run(scene, out("out"), watcher, true);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_HAS(warnings[0], "checkpoint before the newest, which is missing or damaged: " + file("out").string());
+    EXPECT_EQ(result.warnings, warnings);
+    EXPECT_TRUE(read(out("out") / "response.csv") == read(out("one") / "response.csv"));
+    for (const fs::path& gone : {file("out"), previous}) EXPECT_FALSE(fs::exists(gone)) << gone;
+  }
+  // both damaged: the newest is named
+  ASSERT_TRUE(run_until(scene, "out", 20, false));
+  write(file("out"), "nonsense");
+  write(previous, "nonsense");
+  EXPECT_HAS(refusal(scene, "out"), "checkpoint.h5: checkpoint: found another kind of file");
+}
+
 TEST_F(CheckpointedRun, AKillWhileWritingLeavesTheOldOrTheNewOne) {
   Checkpoint checkpoint;
   checkpoint.texts["text"] = "a\nb\n";

@@ -62,6 +62,19 @@ std::pair<std::string, std::string> first_difference(const std::string& found, c
   throw InputError(file.string(), 0, "checkpoint of another " + what, found, expected + ", as in this run");
 }
 
+/// Texts of a checkpoint and of a run, the same or refused.
+void require_same_run(const std::filesystem::path& file, const Checkpoint& checkpoint, const Scene& scene,
+                      Backend backend) {
+  for (const auto& [what, expected] : identity(scene, backend)) {
+    const auto there = checkpoint.texts.find(what);
+    const std::string found = there == checkpoint.texts.end() ? "" : there->second;
+    if (found == expected) continue;
+    if (what != "scene") refuse(file, what, found, expected);
+    const auto [left, right] = first_difference(found, expected);
+    refuse(file, what, left, right);
+  }
+}
+
 }  // namespace
 
 bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not) {
@@ -73,22 +86,30 @@ bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not
   return !why;
 }
 
+bool has_checkpoint(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / checkpoint_name) ||
+         std::filesystem::exists(folder / previous_checkpoint_name);
+}
+
 bool is_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend) {
   try {
-    read_checkpoint_of(file, scene, backend);
+    require_same_run(file, read_checkpoint(file), scene, backend);
     return true;
   } catch (const InputError&) { return false; }
 }
 
-Checkpoint read_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend) {
-  Checkpoint out = read_checkpoint(file);
-  for (const auto& [what, expected] : identity(scene, backend)) {
-    const std::string& found = out.texts[what];
-    if (found == expected) continue;
-    if (what != "scene") refuse(file, what, found, expected);
-    const auto [there, here] = first_difference(found, expected);
-    refuse(file, what, there, here);
+FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const Scene& scene, Backend backend) {
+  FoundCheckpoint out{.file = folder / checkpoint_name, .checkpoint = {}, .damage = {}};
+  try {
+    out.checkpoint = read_checkpoint(out.file);
+  } catch (const InputError& newest) {
+    out.file = folder / previous_checkpoint_name;
+    out.damage = newest.what();
+    try {
+      out.checkpoint = read_checkpoint(out.file);
+    } catch (const InputError&) { throw newest; }
   }
+  require_same_run(out.file, out.checkpoint, scene, backend);
   return out;
 }
 
@@ -158,7 +179,24 @@ void Checkpoints::write(const Content& content, const Stepper& stepper) const {
     array.name = state_prefix + array.name;
     out.arrays.push_back(std::move(array));
   }
+  keep_previous();
   write_checkpoint(file_, out);
+}
+
+/// A second name for what the next one replaces, made aside: at no moment is there none. A file system without such
+/// names keeps one checkpoint only.
+void Checkpoints::keep_previous() const {
+  namespace fs = std::filesystem;
+  const fs::path previous = file_.parent_path() / previous_checkpoint_name, aside = previous.string() + ".part";
+  std::error_code ignored;
+  if (!own_) {
+    fs::remove(previous, ignored);  // of another run
+    return;
+  }
+  if (fs::equivalent(file_, previous, ignored)) return;  // the last one could not be written
+  fs::remove(aside, ignored);
+  fs::create_hard_link(file_, aside, ignored);
+  if (!ignored) fs::rename(aside, previous, ignored);
 }
 
 }  // namespace macadam

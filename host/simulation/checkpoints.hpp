@@ -16,14 +16,27 @@ namespace macadam {
 
 /// The checkpoint's name in the folder of the results.
 inline constexpr const char* checkpoint_name = "checkpoint.h5";
+/// The one before it, of the same run, for where the newest is damaged on the disk.
+inline constexpr const char* previous_checkpoint_name = "checkpoint-previous.h5";
 
 /// Whether runs of this scene keep checkpoints; `why_not` (optional) says why they do not.
 bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not = nullptr);
 
-/// Reads a checkpoint of this scene on this backend, which belongs to one of its tests.
-/// \throws InputError as read_checkpoint(), and naming what differs: scene (with the first line that does), version,
-/// backend, precision, form or geometry.
-Checkpoint read_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend);
+/// Whether a folder of results has a checkpoint, or the one before.
+bool has_checkpoint(const std::filesystem::path& folder);
+
+/// What a run can go on from.
+struct FoundCheckpoint {
+  std::filesystem::path file;
+  Checkpoint checkpoint;
+  std::string damage;  ///< what is wrong with the newest, where this is the one before; else empty
+};
+
+/// Reads the checkpoint of this scene on this backend, which belongs to one of its tests, from a folder of results:
+/// where the newest is missing or damaged, the one before, if that is whole.
+/// \throws InputError as read_checkpoint() of the newest, and naming what differs: scene (with the first line that
+/// does), version, backend, precision, form or geometry.
+FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const Scene& scene, Backend backend);
 
 /// Whether a file is a whole checkpoint of this scene on this backend.
 bool is_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend);
@@ -53,6 +66,7 @@ class Checkpoints {
 
  private:
   void write(const Content& content, const Stepper& stepper) const;
+  void keep_previous() const;
 
   using Clock = std::chrono::steady_clock;
   std::filesystem::path file_;

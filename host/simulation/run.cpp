@@ -77,11 +77,13 @@ void remove_results(const std::filesystem::path& out) {
 /// This run's checkpoint, and that of an earlier run of the same scene: what they would lead to is there. One that
 /// cannot be removed costs disk space only.
 void remove_own_checkpoint(const std::filesystem::path& out, const Scene& scene, Backend backend, bool own) {
-  const std::filesystem::path file = out / checkpoint_name;
   std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored) || !(own || is_checkpoint_of(file, scene, backend))) return;
-  std::filesystem::remove(file, ignored);
-  std::filesystem::remove(file.string() + ".part", ignored);  // of a kill while one was written
+  for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
+    const std::filesystem::path file = out / name;
+    if (!own && !is_checkpoint_of(file, scene, backend)) continue;
+    std::filesystem::remove(file, ignored);
+    std::filesystem::remove(file.string() + ".part", ignored);  // of a kill while one was written
+  }
 }
 
 std::string status_of(const std::exception& error) {
@@ -102,9 +104,11 @@ RunResult run_of(const Scene& scene, const Preparation* given, const std::filesy
   require_checkpoints(scene, result.backend, resume);
   const ResultFolder folder(out);
   std::optional<Resumed> resumed;
+  std::string damage;  // of the newest checkpoint
   if (resume) {
-    const std::filesystem::path file = out / checkpoint_name;
-    resumed = Resumed{read_checkpoint_of(file, scene, result.backend), file};
+    FoundCheckpoint found = find_checkpoint(out, scene, result.backend);
+    resumed = Resumed{std::move(found.checkpoint), found.file};
+    damage = std::move(found.damage);
   }
   starting.reset();
   std::optional<Preparation> made;
@@ -114,6 +118,13 @@ RunResult run_of(const Scene& scene, const Preparation* given, const std::filesy
     made = prepare(scene, watcher.progress);
   const Preparation& prepared = given ? *given : *made;
   if (resumed) require_same_specimen(resumed->file, resumed->checkpoint, prepared);
+  if (!damage.empty()) {
+    std::error_code error;
+    std::filesystem::rename(resumed->file, out / checkpoint_name, error);
+    if (error) throw RunError(resumed->file.string() + ": cannot become " + checkpoint_name + ": " + error.message());
+    damage = "the run went on from the checkpoint before the newest, which is missing or damaged: " + damage;
+    if (watcher.warn) watcher.warn(damage);
+  }
   if (watcher.prepared) watcher.prepared(prepared);
 
   const Saving save = [&](const std::string& status) {
@@ -130,6 +141,7 @@ RunResult run_of(const Scene& scene, const Preparation* given, const std::filesy
     if (std::filesystem::exists(out / "summary.json")) throw;
     unsolvable = std::current_exception();  // whoever has nothing yet wants to look at the specimen
   }
+  if (!damage.empty()) result.warnings.push_back(damage);
   if (scene.network.lateral_walls) {
     result.warnings.emplace_back(
         "the sides are held: moduli are those of a confined specimen, not |E*| or E(t) of a free one");

@@ -92,7 +92,7 @@ class Pool {
         Scene scene = jobs_[job].scene;
         device = take_device(scene.solver);
         if (device) scene.solver.devices = {*device}, scene.solver.side_by_side = beside_;
-        const bool resume = options_.resume && std::filesystem::exists(jobs_[job].out / checkpoint_name);
+        const bool resume = options_.resume && has_checkpoint(jobs_[job].out);
         outcome.result = macadam::run(scene, jobs_[job].out, watcher_of(job), resume);
       } catch (...) { outcome.error = std::current_exception(); }
       const std::lock_guard lock(mutex_);

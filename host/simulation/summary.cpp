@@ -110,7 +110,7 @@ void require_no_run(const std::filesystem::path& out) {
     throw InputError(out.string(), 0, "folder of the specimen", found,
                      "none: its files would replace those of the run; choose another folder");
   };
-  if (std::filesystem::exists(out / checkpoint_name)) refuse("the checkpoint of a run");
+  if (has_checkpoint(out)) refuse("the checkpoint of a run");
   const std::filesystem::path file = out / "summary.json";
   if (!std::filesystem::exists(file)) return;
   const Json summary = Json::parse(read_whole(file), nullptr, false);

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Calls of NVIDIA's driver that fail: memory, launches, waits, copies, and a device that is lost."""
+import shutil
+import sys
+
+from verdicts import Result, damaged, differences
+
+KINDS = ("memory", "launch", "wait", "copy", "other")
+
+
+def faults(setting):
+    """Each call of the driver fails once, in a stepped run and in the frequency domain; and from a launch on, all do."""
+    library = setting.preloaded("driver_faults", "-Wl,-soname,libcuda.so.1")
+    for name, method in (("stepped", ["--method", "explicit"]), ("harmonic", ["--method", "harmonic"])):
+        whole = setting.clear("whole")
+        outcome = setting.run(command(whole, method))
+        if outcome.code != 0:
+            sys.exit(f"{name} does not even run on a GPU: {outcome}")
+        expected = Result(whole)
+        counts = census(setting, library, method)
+        print(f"{name}: " + ", ".join(f"{counts[kind]} {kind}" for kind in KINDS), flush=True)
+        for kind in KINDS:
+            for at in setting.sample(range(1, counts[kind] + 1), 12, long=120 if kind != "memory" else None):
+                trial(setting, library, f"{name}, {kind} {at}", method, kind, at, expected)
+        for at in setting.sample(range(1, counts["launch"] + 1), 6, long=40):
+            trial(setting, library, f"{name}, lost at launch {at}", method, "lost", at, expected)
+
+
+def command(out, method):
+    checkpoints = ["--resume"] if (out / "checkpoint.h5").exists() else []
+    return ["run", "device.toml", "--backend", "cuda", *method, "--out", str(out), *checkpoints]
+
+
+def preloaded(library, report, kind="", at=0):
+    return {"LD_PRELOAD": library, "FAULT_KIND": kind, "FAULT_AT": str(at), "FAULT_REPORT": str(report)}
+
+
+def census(setting, library, method):
+    report = setting.folder / "report.txt"
+    report.unlink(missing_ok=True)
+    outcome = setting.run(command(setting.clear(), method), preloaded(library, report))
+    lines = [line.split() for line in report.read_text().splitlines()] if report.exists() else []
+    counts = {words[1]: int(words[2]) for words in lines if words[0] == "count"}
+    if outcome.code != 0 or not counts.get("launch"):
+        sys.exit(f"no call of the driver was counted: {outcome}, {counts}")
+    return counts
+
+
+def trial(setting, library, what, method, kind, at, expected):
+    """A run that fails keeps its last checkpoint; resumed, it gives the bits of one that never failed."""
+    out, report = setting.clear(), setting.folder / "report.txt"
+    report.unlink(missing_ok=True)
+    outcome = setting.run(command(out, method), preloaded(library, report, kind, at))
+    hit = report.read_text().split() if report.exists() else []
+    if "hit" not in hit:
+        return  # fewer calls than before
+    what += f", {hit[hit.index('hit') + 1]}"
+    complaints = []
+    if outcome.code == 0:  # put right: asked again, or of something that is not needed
+        complaints += differences(Result(out), expected, "a plain run")
+    elif outcome.code != 1 or not ("CUDA" in outcome.err or "memory" in outcome.err or "device" in outcome.err):
+        complaints.append(f"exit code {outcome.code}, expected 1 and a word of CUDA, memory or a device")
+    else:
+        complaints += damaged(out) if out.exists() else []
+        again = setting.run(command(out, method))
+        if again.code != 0:
+            complaints.append(f"cannot be run after that: {again.err.strip()}")
+        else:
+            complaints += differences(Result(out), expected, "a plain run")
+    setting.report("driver", what, complaints, outcome)
+    shutil.rmtree(out, ignore_errors=True)

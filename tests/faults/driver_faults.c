@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// driver_faults.c  To be preloaded into a program that uses CUDA (x86-64): lets one call of NVIDIA's driver fail.
+//
+// It bears the driver's name, so that the CUDA runtime takes it for the driver. It asks the driver itself for every function,
+// and puts between one that counts its calls, and does not make the one that is to fail. Environment:
+//   FAULT_DRIVER  the driver itself, a path (found by the loader's own list where it is not given)
+//   FAULT_KIND    memory, launch, wait, copy, other; lost: from a launch on, every call fails
+//   FAULT_AT      number of the call of this kind that fails, from 1 on; 0: none, they are counted only
+//   FAULT_REPORT  file that receives `hit FUNCTION` when a call fails; and in the end, where none did, `count KIND N`
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { memory, launch, wait_, copy, other, kinds };
+static const char* const kind_names[kinds] = {"memory", "launch", "wait", "copy", "other"};
+enum { out_of_memory = 2, not_initialised = 3, not_found = 500, device_unavailable = 46, launch_out_of_resources = 701, launch_failed = 719 };
+
+// All the driver's functions take integers and pointers, and give a code: one form serves for all. What a function does not
+// take is not looked at.
+typedef intptr_t W;
+typedef int (*Function)(W, W, W, W, W, W, W, W, W, W, W, W, W, W);
+#define TAKEN W a, W b, W c, W d, W e, W f, W g, W h, W i, W j, W k, W l, W m, W n
+#define GIVEN a, b, c, d, e, f, g, h, i, j, k, l, m, n
+
+enum { most_functions = 1024 };
+static Function real[most_functions];
+static char names[most_functions][64];
+static int kind_of[most_functions];
+static atomic_int functions;
+static atomic_long counted[kinds];
+static atomic_int hit;
+static int kind = -1, losing;
+static long at;
+static const char* report;
+
+static void say(const char* what, const char* name, long number) {
+  FILE* const out = report ? fopen(report, "a") : NULL;
+  if (!out) return;
+  number < 0 ? fprintf(out, "%s %s\n", what, name) : fprintf(out, "%s %s %ld\n", what, name, number);
+  fclose(out);
+}
+
+static int code_of(int which) {
+  return which == memory ? out_of_memory : which == launch ? launch_out_of_resources : which == other ? device_unavailable : launch_failed;
+}
+
+static int pass(int function, TAKEN) {
+  const int which = kind_of[function];
+  const long number = ++counted[which];
+  if (losing && hit) return launch_failed;
+  if (which == kind && number == at) {
+    hit = 1;
+    say("hit", names[function], -1);
+    return losing ? launch_failed : code_of(which);
+  }
+  return real[function](GIVEN);
+}
+
+// 1024 functions that know their number.
+#define NUMBERS16(x) EACH(x##0) EACH(x##1) EACH(x##2) EACH(x##3) EACH(x##4) EACH(x##5) EACH(x##6) EACH(x##7) \
+                     EACH(x##8) EACH(x##9) EACH(x##a) EACH(x##b) EACH(x##c) EACH(x##d) EACH(x##e) EACH(x##f)
+#define NUMBERS256(x) NUMBERS16(x##0) NUMBERS16(x##1) NUMBERS16(x##2) NUMBERS16(x##3) NUMBERS16(x##4) NUMBERS16(x##5) \
+                      NUMBERS16(x##6) NUMBERS16(x##7) NUMBERS16(x##8) NUMBERS16(x##9) NUMBERS16(x##a) NUMBERS16(x##b) \
+                      NUMBERS16(x##c) NUMBERS16(x##d) NUMBERS16(x##e) NUMBERS16(x##f)
+#define ALL_NUMBERS NUMBERS256(0x0) NUMBERS256(0x1) NUMBERS256(0x2) NUMBERS256(0x3)
+#define EACH(x) static int pass_##x(TAKEN) { return pass(x, GIVEN); }
+ALL_NUMBERS
+#undef EACH
+#define EACH(x) pass_##x,
+static const Function between[most_functions] = {ALL_NUMBERS};
+
+static int kind_by_name(const char* name) {
+  if (strstr(name, "Free") || strstr(name, "Destroy")) return other;
+  if (strstr(name, "MemAlloc") || strstr(name, "MemHostAlloc") || strstr(name, "MemCreate") || strstr(name, "MemAddressReserve")) return memory;
+  if (strstr(name, "Launch")) return launch;
+  if (strstr(name, "Synchronize") || strstr(name, "EventQuery") || strstr(name, "StreamQuery")) return wait_;
+  if (strstr(name, "Memcpy") || strstr(name, "Memset")) return copy;
+  return other;
+}
+
+// What says of an error what it is stays as it is, and so do the ways to more functions.
+static void put_between(const char* name, void** function) {
+  if (!*function || strstr(name, "GetError") || strstr(name, "GetProcAddress") || strstr(name, "GetExportTable")) return;
+  for (int x = 0; x < functions && x < most_functions; ++x) {
+    if (real[x] == (Function)*function) {
+      *function = (void*)between[x];
+      return;
+    }
+  }
+  const int x = functions++;
+  if (x >= most_functions) return;
+  real[x] = (Function)*function;
+  snprintf(names[x], sizeof names[x], "%s", name);
+  kind_of[x] = kind_by_name(name);
+  *function = (void*)between[x];
+}
+
+static void* of_driver(const char* name) {
+  static void* driver;
+  if (!driver) {
+    const char* const given = getenv("FAULT_DRIVER");
+    driver = dlopen(given ? given : "/usr/lib/x86_64-linux-gnu/libcuda.so.1", RTLD_NOW);
+    if (!driver) fprintf(stderr, "driver_faults: %s\n", dlerror());
+  }
+  return driver ? dlsym(driver, name) : NULL;
+}
+
+int cuGetProcAddress_v2(const char* name, void** function, int version, uint64_t flags, int* found) {
+  int (*const ask)(const char*, void**, int, uint64_t, int*) = of_driver("cuGetProcAddress_v2");
+  if (!ask) return not_found;
+  if (strcmp(name, "cuGetProcAddress") == 0) {  // the next ones must come this way too
+    *function = (void*)cuGetProcAddress_v2;
+    if (found) *found = 0;
+    return 0;
+  }
+  const int code = ask(name, function, version, flags, found);
+  if (code == 0) put_between(name, function);
+  return code;
+}
+int cuGetProcAddress(const char* name, void** function, int version, uint64_t flags) {
+  return cuGetProcAddress_v2(name, function, version, flags, NULL);
+}
+int cuDriverGetVersion(int* version) {
+  int (*const ask)(int*) = of_driver("cuDriverGetVersion");
+  return ask ? ask(version) : not_initialised;
+}
+int cuInit(unsigned flags) {
+  int (*const ask)(unsigned) = of_driver("cuInit");
+  return ask ? ask(flags) : not_initialised;
+}
+int cuGetExportTable(const void** table, const void* id) {
+  int (*const ask)(const void**, const void*) = of_driver("cuGetExportTable");
+  return ask ? ask(table, id) : not_initialised;
+}
+
+__attribute__((constructor)) static void begin(void) {
+  const char* text = getenv("FAULT_KIND");
+  losing = text && strcmp(text, "lost") == 0;
+  for (int x = 0; text && x < kinds; ++x) {
+    if (strcmp(text, losing ? "launch" : kind_names[x]) == 0 || (losing && x == launch)) kind = x;
+  }
+  at = (text = getenv("FAULT_AT")) ? atol(text) : 0;
+  report = getenv("FAULT_REPORT");
+}
+__attribute__((destructor)) static void end(void) {
+  for (int x = 0; x < kinds && !hit; ++x) say("count", kind_names[x], counted[x]);
+}
