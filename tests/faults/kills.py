@@ -19,7 +19,7 @@ def kills(setting):
     if outcome.code != 0:
         sys.exit(f"the stepped run does not even run: {outcome}")
     expected = Result(whole)
-    all_killed, most = 0, 1000 if setting.long else 20
+    all_killed, most = 0, setting.kills or (1000 if setting.long else 20)
     while all_killed < most:
         out, killed, complaints = setting.clear(), 0, []
         for _ in range(300):

@@ -70,7 +70,7 @@ Command = collections.namedtuple("Command", "name arguments older")  # what it r
 class Setting:
     def __init__(self, arguments, folder):
         self.program = str(Path(arguments.program).resolve())
-        self.backend = arguments.backend
+        self.backend, self.kills = arguments.backend, arguments.kills
         self.long, self.every, self.folder = arguments.long, arguments.every, folder
         self.random = random.Random(arguments.seed)
         self.trials = collections.Counter()

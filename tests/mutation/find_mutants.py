@@ -35,7 +35,7 @@ def find(commands, root, told=print):
     found, texts = {}, {}
     index = cindex.Index.create()
     for k, entry in enumerate(entries):
-        unit = index.parse(entry["file"], arguments_of(entry["command"]), options=cindex.TranslationUnit.PARSE_INCOMPLETE * 0)
+        unit = index.parse(entry["file"], arguments_of(entry["command"]))
         told(f"{k + 1}/{len(entries)} {entry['file']}: {len(found)} places", flush=True)
         for cursor in unit.cursor.get_children():
             walk(cursor, root, texts, found, inside=False)
@@ -54,15 +54,23 @@ def ours(cursor, root, texts):
     return texts[name]
 
 
+def kind_of(cursor):
+    try:
+        return cursor.kind
+    except ValueError:  # newer than the package
+        return None
+
+
 def walk(cursor, root, texts, found, inside):
-    if cursor.kind in (Kind.STATIC_ASSERT, Kind.ENUM_DECL, Kind.TEMPLATE_NON_TYPE_PARAMETER, Kind.CASE_STMT):
+    kind = kind_of(cursor)
+    if kind in (Kind.STATIC_ASSERT, Kind.ENUM_DECL, Kind.TEMPLATE_NON_TYPE_PARAMETER, Kind.CASE_STMT):
         return
-    here = ours(cursor, root, texts) if cursor.kind != Kind.NAMESPACE else True
+    here = ours(cursor, root, texts) if kind != Kind.NAMESPACE else True
     if here is None:
         return
-    if cursor.kind == Kind.COMPOUND_STMT:
+    if kind == Kind.COMPOUND_STMT:
         inside = True
-    if cursor.kind == Kind.VAR_DECL and any(t.spelling == "constexpr" for t in list(cursor.get_tokens())[:3]):
+    if kind == Kind.VAR_DECL and any(t.spelling == "constexpr" for t in list(cursor.get_tokens())[:3]):
         return
     if inside and here is not True:
         mutant = mutant_at(cursor, *here)
@@ -70,7 +78,7 @@ def walk(cursor, root, texts, found, inside):
             found.setdefault((mutant.file, mutant.begin, mutant.end), mutant)
     children = list(cursor.get_children())
     for child in children:
-        if inside and cursor.kind == Kind.COMPOUND_STMT and child.kind == Kind.CALL_EXPR and here is not True:
+        if inside and kind == Kind.COMPOUND_STMT and kind_of(child) == Kind.CALL_EXPR and here is not True:
             mutant = without(child, *here)
             if mutant:
                 found.setdefault((mutant.file, mutant.begin, mutant.end), mutant)
@@ -89,7 +97,7 @@ def plain(piece):
 
 
 def mutant_at(cursor, file, text):
-    if cursor.kind not in (Kind.BINARY_OPERATOR, Kind.COMPOUND_ASSIGNMENT_OPERATOR):
+    if kind_of(cursor) not in (Kind.BINARY_OPERATOR, Kind.COMPOUND_ASSIGNMENT_OPERATOR):
         return None
     children = list(cursor.get_children())
     if len(children) != 2:
