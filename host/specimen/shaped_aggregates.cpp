@@ -169,7 +169,8 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
                                         const std::function<void(const char* stage, double share)>& progress) {
   const ShapeSpec& how = spec.shapes.value();
   const Drawn drawn(spec);
-  const auto& [shapes, templates, composition] = drawn;
+  const auto& shapes = drawn.shapes;
+  const ShapeComposition& composition = drawn.composition;
   ShapePlacementSpec search;
   search.method = how.placement;
   search.attempts = spec.attempts;
@@ -190,7 +191,7 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
   if (progress) progress("filling aggregates", 0);
   for_each_in_parallel(spheres.size(), [&](std::size_t k) { spheres[k] = filled(k); });
   if (how.test == PlacementTest::spheres) search.spheres = spheres;
-  ShapePlacement placed = place_shapes(spec.box, templates, composition, search, progress);
+  ShapePlacement placed = place_shapes(spec.box, drawn.templates, composition, search, progress);
 
   ShapedAggregates out;
   out.row = std::move(placed.row);

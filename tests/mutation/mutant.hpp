@@ -5,7 +5,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <type_traits>
 
 namespace mutation {
 
@@ -32,7 +31,7 @@ inline int chosen() {
 
 /// Whether mistake `number` is made. Never where the compiler computes: what it needs must stay a constant.
 constexpr bool on(int number) {
-  if (std::is_constant_evaluated()) return false;
+  if (__builtin_is_constant_evaluated()) return false;
   if (!reached.at[number]) reached.at[number] = true;
   return chosen() == number;
 }

@@ -7,6 +7,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <utility>
 
 #include "kernels/aligned.hpp"
 
@@ -18,19 +19,16 @@ struct Registers;
 template <>
 struct Registers<1> {
   typedef double Number __attribute__((vector_size(16)));
-  typedef long long Index __attribute__((vector_size(16)));
 };
 template <>
 struct Registers<4> {
   typedef double Number __attribute__((vector_size(64)));
-  typedef long long Index __attribute__((vector_size(64)));
 };
 
 template <int F>
 struct Lanes {
   static constexpr int width = 2 * F;
   using Register = typename Registers<F>::Number;
-  using Index = typename Registers<F>::Index;
   Register v{};
 
   Lanes() = default;
@@ -56,9 +54,9 @@ struct Lanes {
 
   /// Real and imaginary parts exchanged.
   Lanes swapped() const {
-    Index order;
-    for (int i = 0; i < width; ++i) order[i] = (i + F) % width;
-    return __builtin_shuffle(v, order);
+    return [this]<int... i>(std::integer_sequence<int, i...>) -> Register {
+      return __builtin_shufflevector(v, v, ((i + F) % width)...);
+    }(std::make_integer_sequence<int, width>());
   }
 };
 
