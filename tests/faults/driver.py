@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calls of NVIDIA's driver that fail: memory, launches, waits, copies, and a device that is lost."""
+import ctypes
+import re
 import shutil
 import sys
 
@@ -11,7 +13,7 @@ KINDS = ("memory", "launch", "wait", "copy", "other")
 def faults(setting):
     """Each call of the driver fails once, in a stepped run and in the frequency domain; and from a launch on, all do."""
     library = setting.preloaded("driver_faults", "-Wl,-soname,libcuda.so.1")
-    for name, method in (("stepped", ["--method", "explicit"]), ("harmonic", ["--method", "harmonic"])):
+    for name, method in (("stepped", ["--method", "explicit"]), ("harmonic", ["--method", "harmonic", "--linear", "iterative"])):
         whole = setting.clear("whole")
         outcome = setting.run(command(whole, method))
         if outcome.code != 0:
@@ -26,13 +28,23 @@ def faults(setting):
             trial(setting, library, f"{name}, lost at launch {at}", method, "lost", at, expected)
 
 
+def driver_file():
+    """Where the loader finds the driver."""
+    try:
+        ctypes.CDLL("libcuda.so.1")
+    except OSError as error:
+        sys.exit(f"no driver: {error}")
+    with open("/proc/self/maps", encoding="utf-8") as maps:
+        return re.search(r"\S*/libcuda\.so\S*", maps.read())[0]
+
+
 def command(out, method):
     checkpoints = ["--resume"] if (out / "checkpoint.h5").exists() else []
     return ["run", "device.toml", "--backend", "cuda", *method, "--out", str(out), *checkpoints]
 
 
 def preloaded(library, report, kind="", at=0):
-    return {"LD_PRELOAD": library, "FAULT_KIND": kind, "FAULT_AT": str(at), "FAULT_REPORT": str(report)}
+    return {"LD_PRELOAD": library, "FAULT_DRIVER": driver_file(), "FAULT_KIND": kind, "FAULT_AT": str(at), "FAULT_REPORT": str(report)}
 
 
 def census(setting, library, method):

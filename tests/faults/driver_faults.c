@@ -3,7 +3,7 @@
 //
 // It bears the driver's name, so that the CUDA runtime takes it for the driver. It asks the driver itself for every function,
 // and puts between one that counts its calls, and does not make the one that is to fail. Environment:
-//   FAULT_DRIVER  the driver itself, a path (found by the loader's own list where it is not given)
+//   FAULT_DRIVER  the driver itself, a path
 //   FAULT_KIND    memory, launch, wait, copy, other; lost: from a launch on, every call fails
 //   FAULT_AT      number of the call of this kind that fails, from 1 on; 0: none, they are counted only
 //   FAULT_REPORT  file that receives `hit FUNCTION` when a call fails; and in the end, where none did, `count KIND N`
@@ -102,9 +102,9 @@ static void put_between(const char* name, void** function) {
 static void* of_driver(const char* name) {
   static void* driver;
   if (!driver) {
-    const char* const given = getenv("FAULT_DRIVER");
-    driver = dlopen(given ? given : "/usr/lib/x86_64-linux-gnu/libcuda.so.1", RTLD_NOW);
-    if (!driver) fprintf(stderr, "driver_faults: %s\n", dlerror());
+    const char* const file = getenv("FAULT_DRIVER");
+    driver = file ? dlopen(file, RTLD_NOW) : NULL;
+    if (!driver) fprintf(stderr, "driver_faults: %s\n", file ? dlerror() : "FAULT_DRIVER is not given");
   }
   return driver ? dlsym(driver, name) : NULL;
 }

@@ -43,7 +43,7 @@ def kills(setting):
             complaints.append("never done")
         complaints += differences(Result(out), expected, "an uninterrupted run")
         complaints += [f"{p.name} is left" for p in out.glob("*.part")]
-        setting.report("kill and resume", f"a run on {setting.backend}, killed {killed} times", complaints, trials=killed)
+        setting.report(f"kill and resume, {setting.backend}", f"killed {killed} times", complaints, trials=killed)
 
 
 def checkpoints(setting):
