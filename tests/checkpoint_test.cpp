@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -226,6 +227,32 @@ TEST_F(CheckpointedRun, WhereTheNewestIsDamagedTheOneBeforeIsGoneOnWith) {
   write(file("out"), "nonsense");
   write(previous, "nonsense");
   EXPECT_HAS(refusal(scene, "out"), "checkpoint.h5: checkpoint: found another kind of file");
+}
+
+/// Good checksums say nothing of what an HDF5 file counts, nor where it leads.
+TEST_F(CheckpointedRun, ForgedCountsAndLinksAreRefused) {
+  const auto refused = [&](const std::function<void(const H5::Group&, const H5::Group&)>& forge, const char* word) {
+    const fs::path file = folder_ / "forged.h5";
+    {
+      const H5::H5File made(file.string(), H5F_ACC_TRUNC);
+      const H5::Group texts = made.createGroup("texts"), arrays = made.createGroup("arrays");
+      forge(texts, arrays);
+    }
+    const std::string image = read(file);
+    write(file, user_block_of(image) + image);
+    EXPECT_HAS(message_of([&] { read_checkpoint(file); }), word);
+  };
+  const hsize_t many = hsize_t{1} << 40;
+  refused([&](auto&, auto& arrays) { arrays.createDataSet("x", H5::PredType::NATIVE_DOUBLE, H5::DataSpace(1, &many)); },
+          "\"x\" is larger than the file");
+  refused([&](auto& texts,
+              auto&) { texts.createDataSet("t", H5::StrType(H5::PredType::C_S1, many >> 9), H5::DataSpace()); },
+          "\"t\" is larger than the file");
+  refused([&](auto& texts, auto&) { texts.createDataSet("t", H5::PredType::NATIVE_INT, H5::DataSpace()); },
+          "\"t\" is of another type");
+  refused([&](auto&, auto& arrays) { H5Lcreate_soft("/arrays", arrays.getId(), "x", H5P_DEFAULT, H5P_DEFAULT); },
+          "\"x\" is no dataset");
+  refused([&](auto&, auto& arrays) { arrays.createGroup("x"); }, "\"x\" is no dataset");
 }
 
 TEST_F(CheckpointedRun, AKillWhileWritingLeavesTheOldOrTheNewOne) {

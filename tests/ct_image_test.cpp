@@ -111,5 +111,33 @@ TEST_F(CtImage, WhatIsWrongWithAFileIsSaid) {
   EXPECT_NE(fault<std::uint8_t>(folder_ / "large.mha").find("from 0 to 255"), std::string::npos);
 }
 
+TEST_F(CtImage, HeadersOnWhichItkWouldNotEndAreRefused) {
+  const auto refused = [&](const char* file, std::string bytes, const char* word) {
+    write(file, bytes);
+    EXPECT_NE(fault<std::uint8_t>(folder_ / file).find(word), std::string::npos) << fault<std::uint8_t>(folder_ / file);
+  };
+  refused("dimensions.mha", "ObjectType = Image\nNDims = 2147483648\nDimSize = 4 3 2\n",
+          ":2: NDims: found \"2147483648\"");
+  refused("type.mha",
+          "ObjectType = Image\nNDims = 2\nDimSize = 1 1\nElementType = MET_OTHER\nElementDataFile = LOCAL\na",
+          "type.mha");
+  write_image(folder_ / "whole.tif", Image<std::uint8_t>({4, 3, 1}, {1e-4, 1e-4, 1e-4}));
+  std::ifstream in(folder_ / "whole.tif", std::ios::binary);
+  const std::string whole{std::istreambuf_iterator<char>(in), {}};
+  const auto number = [&](std::size_t at, int bytes) {  // little-endian
+    std::size_t out = 0;
+    for (int k = bytes; k-- > 0;) out = out << 8 | static_cast<unsigned char>(whole[at + static_cast<std::size_t>(k)]);
+    return out;
+  };
+  ASSERT_EQ(whole.substr(0, 2), "II");
+  const std::size_t directory = number(4, 4), next = directory + 2 + 12 * number(directory, 2);
+  std::string bytes = whole;
+  refused("again.tif", bytes.replace(next, 4, whole.substr(4, 4)), "again, expected a chain that ends");
+  bytes = whole;
+  refused("tag.tif", bytes.replace(directory + 6, 4, "\xff\xff\xff\x7f"), "2147483647 values");
+  bytes = whole;
+  refused("outside.tif", bytes.replace(4, 4, "\xff\xff\xff\x7f"), "one at byte 2147483647");
+}
+
 }  // namespace
 }  // namespace macadam

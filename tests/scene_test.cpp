@@ -449,6 +449,13 @@ TEST_F(SceneFile, FilesThatNobodyWroteByHandAreRefused) {
   EXPECT_NE(message(deep + "]\n").find("[specimen]: found nothing"), std::string::npos);
 }
 
+TEST_F(SceneFile, ControlCharactersLeaveTheMessageInOneLine) {
+  write(file(), "a = n\n\x02");
+  const std::string what = message_of([&] { read_scene(file()); });
+  EXPECT_TRUE(what.find("TOML syntax") != std::string::npos && what.find_first_of("\n\x02") == std::string::npos)
+      << what;
+}
+
 TEST_F(SceneFile, AnUnreadableHeaderNamesItsLine) {  // an assertion of the TOML parser must not end the program
   const std::string what = message("\n[=]\n");
   EXPECT_EQ(what.substr(0, (file().string() + ":2: TOML syntax: ").size()), file().string() + ":2: TOML syntax: ");

@@ -141,6 +141,10 @@ TEST(Series, RangesAreEvenInTheLogarithm) {
   EXPECT_EQ(range.back(), 10);
   EXPECT_NEAR(range[3], 1e-2, 1e-16);
   EXPECT_EQ(log_range(1, 2, 1).size(), 2u);
+  const std::vector<double> widest = log_range(1e-300, 1e300, 1);  // whose ratio is no number
+  ASSERT_EQ(widest.size(), 601u);
+  for (std::size_t k = 0; k < widest.size(); ++k)
+    EXPECT_NEAR(std::log10(widest[k]), static_cast<double>(k) - 300, 1e-9);
 }
 
 /// Of a network, against Laplace inversions of its full solutions: nothing in common but the solver.

@@ -11,6 +11,8 @@
 #include "host/ct/image_slices.hpp"
 #include "host/ct/slice_names.hpp"
 #include "host/ct/itk_io.hpp"
+#include "host/ct/meta_header.hpp"
+#include "host/ct/tiff_directories.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::ct {
@@ -114,7 +116,13 @@ void attempt(const std::string& file, const char* what, const std::string& expec
 ImageHeader header_of(itk::ImageIOBase& io) {
   const std::string file = io.GetFileName();
   if (!fs::exists(file)) throw InputError(file, 0, "image", "no such file", "a file that can be read");
-  attempt(file, "image", "a whole image file", [&] { io.ReadImageInformation(); });
+  if (is_tiff(file)) check_tiff_directories(file);
+  if (dynamic_cast<itk::MetaImageIO*>(&io)) check_meta_header(file);
+  std::size_t bytes = 0;  // of a voxel
+  attempt(file, "image", "a whole image file", [&] {
+    io.ReadImageInformation();
+    bytes = io.GetComponentSize();  // which throws where the type is not known
+  });
   if (io.GetNumberOfComponents() != 1 || io.GetNumberOfDimensions() < 2 || io.GetNumberOfDimensions() > 3) {
     throw InputError(
         file, 0, "image",
@@ -135,7 +143,7 @@ ImageHeader header_of(itk::ImageIOBase& io) {
   known = known && !is_tiff(file);  // its resolution is meant for paper, and knows two axes
   if (known) header.spacing = {mm * spacing[0], mm * spacing[1], mm * spacing[2]};
   header.origin = {mm * origin[0], mm * origin[1], mm * origin[2]};
-  header.bits = static_cast<int>(8 * io.GetComponentSize());
+  header.bits = static_cast<int>(8 * bytes);
   const auto type = io.GetComponentType();
   header.floating = type == itk::IOComponentEnum::FLOAT || type == itk::IOComponentEnum::DOUBLE;
   return header;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// experiment.cpp  What can be asked of any test, by the one list of them.
+// experiment.cpp  What a scene asks for, and what can be asked of any test, by the one list of them.
 #include "host/experiments/experiment.hpp"
-
-#include <fmt/format.h>
 
 #include "host/scene/sections.hpp"
 #include "macadam/error.hpp"
@@ -61,15 +59,6 @@ bool has_fields(const Scene& scene) {
   return scene.solver.method == SolverMethod::explicit_ || !frequencies_of(scene.experiment).empty();
 }
 
-std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-                                          std::optional<Resumed> resumed, RunResult& result) {
-  return std::visit(
-      [&]<class Spec>(const Spec& spec) {
-        return ExperimentOf<Spec>::plan(spec, scene, prepared, watcher, std::move(resumed), result);
-      },
-      scene.experiment);
-}
-
 std::vector<std::string> files_of(const Experiment& experiment) {
   return std::visit([](const auto& spec) { return std::vector<std::string>(spec.files.begin(), spec.files.end()); },
                     experiment);
@@ -81,48 +70,6 @@ std::vector<std::string> result_files() {
     for (const std::string& name : files_of(experiment)) out.push_back(name);
   });
   return out;
-}
-
-namespace {
-
-/// f of what was found; `nothing` where nothing is.
-template <class T, class F>
-T of_found(const ExperimentResult& found, T nothing, F&& f) {
-  return std::visit(
-      [&]<class Result>(const Result& result) -> T {
-        if constexpr (std::is_same_v<Result, std::monostate>)
-          return nothing;
-        else
-          return f(result);
-      },
-      found);
-}
-
-}  // namespace
-
-void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_json& out) {
-  const bool nothing = std::holds_alternative<std::monostate>(result.found);
-  const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
-  const ExperimentResult none =
-      cyclic ? ExperimentResult(experiments::SteppedCyclic{}) : ExperimentResult(experiments::SteppedResponse{});
-  const bool shown = nothing && scene.solver.method == SolverMethod::explicit_;
-  of_found(shown ? none : result.found, 0, [&]<class Result>(const Result& found) {
-    ResultOf<Result>::summarise(found, scene, result, out);
-    return 0;
-  });
-}
-
-double solve_seconds(const RunResult& result) {
-  const double found =
-      of_found(result.found, 0.0, []<class Result>(const Result& f) { return ResultOf<Result>::seconds(f); });
-  const bool stepped = of_found(
-      result.found, false, []<class Result>(const Result&) { return std::is_base_of_v<experiments::Stepped, Result>; });
-  return found + (stepped ? 0 : result.phases.preconditioner);  // a stepped one has it in its planning
-}
-
-std::string results_table(const RunResult& result) {
-  return of_found(result.found, std::string(),
-                  []<class Result>(const Result& found) { return ResultOf<Result>::table(found); });
 }
 
 experiments::Cyclic& Scene::cyclic() { return const_cast<experiments::Cyclic&>(std::as_const(*this).cyclic()); }

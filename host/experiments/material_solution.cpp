@@ -133,14 +133,6 @@ const char* modulus_words(bool confined) {
   return confined ? "confined modulus (the sides are held)" : "uniaxial modulus (the sides are free)";
 }
 
-scene::Key poisson_key(double& target) {
-  using namespace scene;
-  constexpr Rule rule{[](double v) { return v > -1 && v < 0.5; }, "a ratio above -1 and below 0.5"};
-  target = 0.35;
-  return {"poisson_ratio", Need::optional, into(target, ratio, rule),
-          "for the tables of finite-element programs; the specimen does not give it"};
-}
-
 std::unique_ptr<Solution> plan_material(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                         RunResult& result, const History& history, double poisson_ratio,
                                         Responds responds) {

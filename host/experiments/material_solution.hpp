@@ -14,9 +14,6 @@ namespace macadam {
 /// What the moduli of a specimen are.
 const char* modulus_words(bool confined);
 
-/// `poisson_ratio` in `[loading]`.
-scene::Key poisson_key(double& target);
-
 /// When the load changes and when the answer is asked for [s].
 struct History {
   std::vector<double> times;

@@ -10,6 +10,13 @@
 
 namespace macadam::scene {
 
+Key poisson_key(double& target) {
+  constexpr Rule rule{[](double v) { return v > -1 && v < 0.5; }, "a ratio above -1 and below 0.5"};
+  target = 0.35;
+  return {"poisson_ratio", Need::optional, into(target, ratio, rule),
+          "for the tables of finite-element programs; the specimen does not give it"};
+}
+
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
                   const char* what) {
   if (entries.empty() && section.has(key)) section.refuse(key, "none", "at least one");

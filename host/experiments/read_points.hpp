@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_points.hpp  Lists of times, frequencies and temperatures in `[loading]`.
+/// \file read_points.hpp  Keys of several tests in `[loading]`: lists of times, frequencies and temperatures.
 #pragma once
 
 #include <optional>
@@ -14,6 +14,9 @@ namespace macadam::scene {
 inline Key kind_key() {
   return {"kind", Need::required, {[](const Value&) {}, {"one of"}}, "the test; it decides which keys follow"};
 }
+
+/// `poisson_ratio` in `[loading]`.
+Key poisson_key(double& target);
 
 /// \throws InputError where a key that is there has no entry, or the same one twice.
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,

@@ -166,15 +166,6 @@ void build_rows(std::size_t particles, ContactNetwork& out) {
 
 }  // namespace
 
-const char* to_string(PairType pair) {
-  constexpr std::array<const char*, pair_types> name{"M-M", "M-A", "A-A", "inner", "A-W", "M-W"};
-  return name[static_cast<std::size_t>(pair)];
-}
-
-const char* to_string(Quadrature quadrature) {
-  return quadrature == Quadrature::exact ? "exact" : quadrature == Quadrature::one_point ? "one_point" : "lumped";
-}
-
 void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t) {
   const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
   s = {1 + sign * n.x * n.x * a, sign * b, -sign * n.x};

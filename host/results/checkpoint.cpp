@@ -6,11 +6,15 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
+#include <initializer_list>
 #include <new>
+#include <type_traits>
 
 #include "host/hdf5_type.hpp"
+#include "host/in_quotes.hpp"
 #include "host/quiet_hdf5.hpp"
 #include "host/results/files.hpp"
 #include "macadam/error.hpp"
@@ -72,26 +76,74 @@ std::string file_of(const Checkpoint& checkpoint) {
   return all;
 }
 
+/// Counts what an image says that it holds: it cannot be more than the image.
+class Room {
+ public:
+  explicit Room(std::size_t bytes) : left_(static_cast<double>(bytes)) {}
+
+  /// \throws H5::Exception where there is none for so many values of a type, whose kind is another or which have no
+  /// end.
+  void take(const std::string& name, const H5::AbstractDs& values, std::initializer_list<H5T_class_t> kinds) {
+    const H5::DataSpace space = values.getSpace();
+    const bool known = std::find(kinds.begin(), kinds.end(), values.getTypeClass()) != kinds.end();
+    if (!known || H5Tis_variable_str(values.getDataType().getId()) != 0) refuse(name, "is of another type");
+    if (space.getSimpleExtentNdims() > 1) refuse(name, "has several dimensions");
+    left_ -= static_cast<double>(space.getSimpleExtentNpoints()) * static_cast<double>(values.getDataType().getSize());
+    if (!(left_ >= 0)) refuse(name, "is larger than the file");
+  }
+
+  [[noreturn]] static void refuse(const std::string& name, const std::string& what) {
+    throw H5::DataSetIException("checkpoint", in_quotes(name) + " " + what);
+  }
+
+ private:
+  double left_;
+};
+
+/// A text with nothing behind it.
+template <class Values>
+std::string text_in(const std::string& name, const Values& values, Room& room) {
+  room.take(name, values, {H5T_STRING});
+  if (values.getSpace().getSimpleExtentNpoints() != 1) Room::refuse(name, "is no single text");
+  std::string out;
+  if constexpr (std::is_same_v<Values, H5::Attribute>)
+    values.read(values.getStrType(), out);
+  else
+    values.read(out, values.getStrType());
+  return out;
+}
+
+/// Names of the datasets in a group. Links lead to other files, or to no end.
+std::vector<std::string> names_in(const H5::Group& group) {
+  std::vector<std::string> out;
+  for (hsize_t i = 0; i < group.getNumObjs(); ++i) {
+    out.push_back(group.getObjnameByIdx(i));
+    H5L_info_t link{};
+    if (H5Lget_info(group.getId(), out.back().c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD ||
+        group.childObjType(out.back()) != H5O_TYPE_DATASET)
+      Room::refuse(out.back(), "is no dataset");
+  }
+  return out;
+}
+
 Checkpoint read_image(std::string image) {
   H5::FileAccPropList access = in_memory();
   if (H5Pset_file_image(access.getId(), image.data(), image.size()) < 0) {
     throw H5::FileIException("H5Pset_file_image", "no image");
   }
   const H5::H5File in("in memory", H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access);
+  Room room(image.size());
   image = {};  // HDF5 has a copy
   const H5::Group texts = in.openGroup("texts"), arrays = in.openGroup("arrays");
   Checkpoint out;
-  for (hsize_t i = 0; i < texts.getNumObjs(); ++i) {
-    const std::string name = texts.getObjnameByIdx(i);
-    const H5::DataSet set = texts.openDataSet(name);
-    set.read(out.texts[name], set.getStrType());
-  }
-  for (hsize_t i = 0; i < arrays.getNumObjs(); ++i) {
+  for (const std::string& name : names_in(texts)) out.texts[name] = text_in(name, texts.openDataSet(name), room);
+  for (const std::string& name : names_in(arrays)) {
     StateArray array;
-    array.name = arrays.getObjnameByIdx(i);
-    const H5::DataSet set = arrays.openDataSet(array.name);
-    const H5::Attribute unit = set.openAttribute("unit");
-    unit.read(unit.getStrType(), array.unit);
+    array.name = name;
+    const H5::DataSet set = arrays.openDataSet(name);
+    room.take(name, set, {H5T_INTEGER, H5T_FLOAT});
+    if (set.getCreatePlist().getExternalCount() > 0) Room::refuse(name, "is in another file");
+    array.unit = text_in(name, set.openAttribute("unit"), room);
     const auto count = static_cast<hsize_t>(set.getSpace().getSimpleExtentNpoints());
     const bool whole = set.getTypeClass() == H5T_INTEGER, single = set.getDataType().getSize() == sizeof(float);
     array.values = whole    ? values_of<std::int64_t>(set, count)
@@ -102,7 +154,8 @@ Checkpoint read_image(std::string image) {
   return out;
 }
 
-/// The user block before an image: HDF5 itself may fail on a damaged file, so that none is given to it.
+}  // namespace
+
 std::string user_block_of(std::string_view image) {
   const uLong checksum = crc32_z(crc32(0, nullptr, 0), reinterpret_cast<const Bytef*>(image.data()), image.size());
   std::string block = fmt::format("Macadam checkpoint of {} bytes, CRC-32 of those from {} on {:08x}\n",
@@ -110,8 +163,6 @@ std::string user_block_of(std::string_view image) {
   block.resize(user_block, '\0');
   return block;
 }
-
-}  // namespace
 
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint) {
   std::string bytes;

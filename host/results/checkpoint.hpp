@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "macadam/stepper.hpp"
@@ -21,6 +22,9 @@ struct Checkpoint {
 /// new one, and so does a full disk. HDF5's user block, the first 512 bytes, holds the length and a checksum, as text.
 /// It is made in memory first, which takes twice its size. \throws RunError.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
+
+/// The user block before an image of HDF5: that itself may fail on a damaged file, so that none is given to it.
+std::string user_block_of(std::string_view image);
 
 /// \throws InputError naming the file: not there, no checkpoint, cut off, damaged.
 Checkpoint read_checkpoint(const std::filesystem::path& file);

@@ -187,10 +187,16 @@ CreepSeries creep_series(const PronySeries& relaxation) {
 }
 
 std::vector<double> log_range(double first, double last, int per_decade) {
-  const double decades = std::log10(last / first);
+  // the ratio of the smallest and the largest numbers is none; of others its logarithm loses less than a difference
+  // would
+  const bool far_apart = !std::isfinite(last / first);
+  const double decades = far_apart ? std::log10(last) - std::log10(first) : std::log10(last / first);
+  const auto at = [&](double decade) {
+    return far_apart ? std::pow(10.0, std::log10(first) + decade) : first * std::pow(10.0, decade);
+  };
   const int count = std::max(1, static_cast<int>(std::ceil(per_decade * decades - 1e-9)));
   std::vector<double> out;
-  for (int i = 0; i < count; ++i) out.push_back(first * std::pow(10.0, decades * i / count));
+  for (int i = 0; i < count; ++i) out.push_back(at(decades * i / count));
   out.push_back(last);
   return out;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// backend.cpp  Names of the choices, what the machine offers, and the one switch between backends.
+// backend.cpp  What the machine offers, and the one switch between backends.
 #include "macadam/backend.hpp"
 
 #include <omp.h>
@@ -48,32 +48,6 @@ std::string refusal_of(const DeviceInfo& device) {
 
 }  // namespace
 
-const char* to_string(Backend b) {
-  switch (b) {
-    case Backend::cpu:
-      return "cpu";
-    case Backend::cuda:
-      return "cuda";
-    case Backend::reference:
-      return "reference";
-    default:
-      return "auto";
-  }
-}
-const char* to_string(Precision p) {
-  switch (p) {
-    case Precision::mixed:
-      return "mixed";
-    case Precision::single:
-      return "single";
-    default:
-      return "double";
-  }
-}
-const char* to_string(ContactForm f) { return f == ContactForm::points ? "points" : "condensed"; }
-const char* to_string(Geometry g) { return g == Geometry::fixed ? "fixed" : "updated"; }
-const char* to_string(Damping d) { return d == Damping::none ? "none" : d == Damping::local ? "local" : "viscous"; }
-
 BackendReport report_backends() {
   BackendReport report;
   report.threads = omp_get_max_threads();
@@ -82,14 +56,6 @@ BackendReport report_backends() {
     code->report(report);
   }
   return report;
-}
-
-std::string to_string(const DeviceList& devices) {
-  if (devices == DeviceList{every_device}) return "all";
-  std::string out;
-  for (std::size_t i = 0; i < devices.size(); ++i)
-    out += (i == 0 ? "" : i + 1 < devices.size() ? ", " : " and ") + std::to_string(devices[i]);
-  return out;
 }
 
 DeviceList device_numbers(const DeviceList& asked) {

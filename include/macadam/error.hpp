@@ -22,11 +22,18 @@ class InputError : public Error {
   /// `file:line: what: found F, expected E`; line 0 means that no line applies.
   InputError(const std::string& file, int line, const std::string& what, const std::string& found,
              const std::string& expected)
-      : Error(place(file, line) + ": " + what + ": found " + found + ", expected " + expected) {}
+      : Error(place(file, line) + ": " + in_one_line(what + ": found " + found + ", expected " + expected)) {}
 
  private:
   static std::string place(const std::string& file, int line) {
     return line > 0 ? file + ":" + std::to_string(line) : file;
+  }
+  /// Names in a damaged file, and what libraries say of it, may hold anything: control characters are shown as `?`.
+  static std::string in_one_line(std::string text) {
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    for (char& c : text)
+      if (static_cast<unsigned char>(c) < ' ' || c == 0x7F) c = '?';
+    return text;
   }
 };
 

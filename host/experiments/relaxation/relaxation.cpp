@@ -4,31 +4,12 @@
 #include <cmath>
 
 #include "host/experiments/loaded/load_test.hpp"
-#include "host/experiments/read_points.hpp"
 #include "macadam/drives/ramp.hpp"
 
 namespace macadam {
 
 using experiments::Relaxation;
 using experiments::ResponsePoint;
-
-template <>
-Relaxation ExperimentOf<Relaxation>::read(const scene::Section& section) {
-  using namespace scene;
-  constexpr Rule strain{[](double v) { return v != 0 && std::abs(v) < 1; }, "a strain between -1 and 1 that is not 0"};
-  Relaxation out;
-  Points times;
-  std::vector<Key> keys = times.keys("times", duration);
-  keys.insert(keys.end(),
-              {kind_key(),
-               poisson_key(out.poisson_ratio),
-               {"strain", Need::optional, into(out.strain, ratio, strain), "that is held; tension positive"},
-               {"ramp", Need::optional, into(out.ramp, duration, non_negative),
-                "over which the load grows evenly; 0: at once"}});
-  section.read(keys);
-  out.times = times.all(section, "times", "s", "time");
-  return out;
-}
 
 LoadTest load_test(const Relaxation& spec) {
   LoadTest out;

@@ -9,7 +9,6 @@
 #include "host/experiments/cyclic/methods.hpp"
 #include "host/experiments/experiment.hpp"
 #include "host/experiments/material_solution.hpp"
-#include "host/experiments/read_points.hpp"
 #include "host/results/files.hpp"
 #include "host/scene/shift_keys.hpp"
 
@@ -18,21 +17,6 @@ namespace macadam {
 using experiments::HarmonicFrequency;
 using experiments::Sweep;
 using experiments::SweepResult;
-
-template <>
-Sweep ExperimentOf<Sweep>::read(const scene::Section& section) {
-  using namespace scene;
-  Sweep out;
-  Points frequencies;
-  std::vector<Key> keys = frequencies.keys("frequencies", frequency);
-  keys.push_back(kind_key());
-  keys.push_back({"temperatures", Need::optional, into(out.temperatures, temperature, celsius),
-                  "every frequency at each of them; in place of temperature in [materials]", "none"});
-  section.read(keys);
-  out.frequencies = frequencies.all(section, "frequencies", "Hz", "frequency");
-  require_once(section, "temperatures", out.temperatures, "degrees C", "temperature");
-  return out;
-}
 
 namespace {
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import difflib
 import itertools
 import json
+import math
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from macadam.study.scenes import Table, key_of, located, merged, read_toml, text
 
 _KEYS = {"scene", "command", "arguments", "grid", "latin_hypercube", "list", "choice", "experiment", "run", "report"}
 _COMMANDS = ("run", "specimen")
+_MOST = 1_000_000  # points; far more than anyone computes, and held in memory at once
 
 
 @dataclass
@@ -53,6 +55,8 @@ def read_design(source: str | Path | Table, version: str) -> Design:
     command = asked.get("command", "run")
     if command not in _COMMANDS:
         raise StudyError(f"command: found {command!r}, expected {' or '.join(_COMMANDS)}")
+    if not isinstance(asked.get("arguments", []), list):
+        raise StudyError(f"arguments: found {asked['arguments']!r}, expected a list of words")
     arguments = [str(a) for a in asked.get("arguments", [])]
     design = Design(folder, run=_table(asked, "run"), report=_table(asked, "report"))
     seen = set()
@@ -108,6 +112,8 @@ def _applied(scene: Table, name: str, value: Any, asked: Table, folder: Path) ->
         return with_value(scene, name, value)
     for key, of_choice in asked["choice"][name][value].items():
         if key == "file":
+            if not isinstance(of_choice, str):
+                raise StudyError(f"choice.{name}.{value}: file: found {of_choice!r}, expected the name of a file")
             scene = merged(scene, read_toml(folder / of_choice))
         else:
             scene = with_value(scene, key, of_choice)
@@ -133,6 +139,9 @@ def _points(asked: Table) -> list[dict[str, Any]]:
     both = set(axes) & {k for s in samples for k in s}
     if both:
         raise StudyError(f"{min(both)}: found in the grid and in a hypercube or list, expected it in one of them")
+    number = max(1, len(samples)) * math.prod(len(values) for values in axes.values())
+    if number > _MOST:
+        raise StudyError(f"points: found {number:,}, expected at most {_MOST:,}")
     crossed = [dict(zip(axes, row, strict=True)) for row in itertools.product(*axes.values())]
     return [{**sample, **row} for sample in samples or [{}] for row in crossed]
 
@@ -149,8 +158,8 @@ def _hypercube(block: Table) -> list[dict[str, Any]]:
     """So many points that each range, cut into as many equal parts, has one in each."""
     block = _flat(block, lambda value: "low" in value or "high" in value)
     number, seed = block.pop("points", None), block.pop("seed", 1)
-    if not isinstance(number, int) or number < 1:
-        raise StudyError(f"latin_hypercube: points: found {number!r}, expected a number of points")
+    if not isinstance(number, int) or not 1 <= number <= _MOST:
+        raise StudyError(f"latin_hypercube: points: found {number!r}, expected a number of points, at most {_MOST:,}")
     if not block:
         raise StudyError("latin_hypercube: found no key with a range")
     try:

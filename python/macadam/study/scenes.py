@@ -26,8 +26,10 @@ def read_toml(file: Path) -> Table:
     """A TOML file, or a StudyError with its name."""
     try:
         return tomllib.loads(file.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+    except (OSError, ValueError) as error:  # ValueError: no UTF-8, no TOML, numbers of thousands of digits
         raise StudyError(f"{file}: {getattr(error, 'strerror', None) or error}") from None
+    except RecursionError:
+        raise StudyError(f"{file}: found lists or tables nested deeper than Python follows, expected some levels") from None
 
 
 def with_value(scene: Table, key: str, value: Any) -> Table:
@@ -61,7 +63,7 @@ def _index(entries: list[Any], part: str, key: str) -> int:
         return pairs.index(part)
     if part.isdigit() and int(part) < len(entries):
         return int(part)
-    named = [p for p in pairs if p]
+    named = [str(p) for p in pairs if p]
     have = f"the pairs {', '.join(named)}" if named else f"{len(entries)} entries, numbered from 0"
     raise StudyError(f"key {key}: found no {part!r} in the scene; it has {have}")
 
@@ -72,7 +74,11 @@ def merged(scene: Table, more: Table) -> Table:
     out = copy.deepcopy(scene)
     for key, value in more.items():
         if key == "contacts" and isinstance(value, list):
-            kept = [c for c in out.get("contacts", []) if c.get("pair") not in {v.get("pair") for v in value}]
+            for contacts in (value, out.get("contacts", [])):
+                if not isinstance(contacts, list) or not all(isinstance(c, dict) for c in contacts):
+                    raise StudyError(f"contacts: found {contacts!r}, expected tables [[contacts]]")
+            pairs = [v.get("pair") for v in value]
+            kept = [c for c in out.get("contacts", []) if c.get("pair") not in pairs]
             out["contacts"] = kept + copy.deepcopy(value)
         elif isinstance(value, dict) and isinstance(out.get(key), dict):
             out[key] = merged(out[key], value)

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file meta_header.hpp  The header of a MetaImage file, looked at before ITK reads it.
+#pragma once
+
+#include <filesystem>
+
+namespace macadam::ct {
+
+/// ITK's MetaIO counts to whatever number of dimensions a header names, and reads on through any bytes for lines that
+/// are none. \throws InputError naming the line.
+void check_meta_header(const std::filesystem::path& file);
+
+}  // namespace macadam::ct

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// tiff_directories.cpp  Both kinds of TIFF, with numbers of 4 and of 8 bytes for places, in either order of bytes.
+#include "host/ct/tiff_directories.hpp"
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "macadam/error.hpp"
+
+namespace macadam::ct {
+namespace {
+
+/// Of a value, by the number of its type; 0: no type.
+constexpr std::uint64_t bytes_of_type[] = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
+
+/// Whole numbers in a file, wherever they stand.
+class Numbers {
+ public:
+  explicit Numbers(const std::filesystem::path& file) : in_(file, std::ios::binary) {
+    char order[2] = {};
+    in_.read(order, 2);
+    big_endian_ = order[0] == 'M';
+  }
+
+  /// Of so many bytes from `place` on; good() is false where the file has none there.
+  std::uint64_t at(std::uint64_t place, int bytes) {
+    unsigned char raw[8] = {};
+    in_.seekg(static_cast<std::streamoff>(place));
+    in_.read(reinterpret_cast<char*>(raw), bytes);
+    std::uint64_t out = 0;
+    for (int k = 0; k < bytes; ++k) out = out << 8 | raw[big_endian_ ? k : bytes - 1 - k];
+    return out;
+  }
+  bool good() const { return in_.good(); }
+
+ private:
+  std::ifstream in_;
+  bool big_endian_ = false;
+};
+
+}  // namespace
+
+void check_tiff_directories(const std::filesystem::path& file) {
+  Numbers numbers(file);
+  const std::uint64_t version = numbers.at(2, 2);
+  const bool wide = version == 43;
+  if (!numbers.good() || (version != 42 && !wide)) return;
+  const int place_bytes = wide ? 8 : 4, count_bytes = wide ? 8 : 2, entry_bytes = wide ? 20 : 12;
+  const std::uint64_t size = std::filesystem::file_size(file);
+  std::set<std::uint64_t> seen;
+  for (std::uint64_t place = numbers.at(wide ? 8 : 4, place_bytes); numbers.good() && place != 0;) {
+    if (!seen.insert(place).second)
+      throw InputError(file.string(), 0, "directories of the TIFF file", "byte " + std::to_string(place) + " again",
+                       "a chain that ends");
+    const std::uint64_t entries = place < size ? numbers.at(place, count_bytes) : 0;
+    if (place >= size || !numbers.good() || entries > (size - place) / static_cast<std::uint64_t>(entry_bytes))
+      throw InputError(file.string(), 0, "directories of the TIFF file",
+                       "one at byte " + std::to_string(place) + " with " + std::to_string(entries) + " entries",
+                       "as many as the " + std::to_string(size) + " bytes of the file hold");
+    for (std::uint64_t e = 0; e < entries; ++e) {
+      const std::uint64_t entry =
+          place + static_cast<std::uint64_t>(count_bytes) + e * static_cast<std::uint64_t>(entry_bytes);
+      const std::uint64_t tag = numbers.at(entry, 2), type = numbers.at(entry + 2, 2);
+      const std::uint64_t values = numbers.at(entry + 4, place_bytes);
+      const std::uint64_t bytes = type < std::size(bytes_of_type) ? bytes_of_type[type] : 0;
+      if (bytes > 0 && values > size / bytes)
+        throw InputError(file.string(), 0, "tag " + std::to_string(tag) + " of the TIFF file",
+                         std::to_string(values) + " values of " + std::to_string(bytes) + " bytes",
+                         "as many as the " + std::to_string(size) + " bytes of the file hold");
+    }
+    place =
+        numbers.at(place + static_cast<std::uint64_t>(count_bytes) + entries * static_cast<std::uint64_t>(entry_bytes),
+                   place_bytes);
+  }
+}
+
+}  // namespace macadam::ct

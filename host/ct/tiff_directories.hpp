@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file tiff_directories.hpp  The chain of a TIFF file's directories.
+#pragma once
+
+#include <filesystem>
+
+namespace macadam::ct {
+
+/// Each directory names the place of the next: ITK's libtiff follows a chain that comes back to itself for ever.
+/// It also takes memory for as many values as a tag counts, before it looks for their bytes. \throws InputError for
+/// such a chain, and for one that leaves the file, and for tags with more values than the file has bytes. What is no
+/// TIFF file at all is left to ITK.
+void check_tiff_directories(const std::filesystem::path& file);
+
+}  // namespace macadam::ct

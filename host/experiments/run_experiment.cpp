@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// run_experiment.cpp  Running any test, and what is said of its results, by the one list of them.
+#include "host/experiments/experiment.hpp"
+
+namespace macadam {
+
+std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+                                          std::optional<Resumed> resumed, RunResult& result) {
+  return std::visit(
+      [&]<class Spec>(const Spec& spec) {
+        return ExperimentOf<Spec>::plan(spec, scene, prepared, watcher, std::move(resumed), result);
+      },
+      scene.experiment);
+}
+
+namespace {
+
+/// f of what was found; `nothing` where nothing is.
+template <class T, class F>
+T of_found(const ExperimentResult& found, T nothing, F&& f) {
+  return std::visit(
+      [&]<class Result>(const Result& result) -> T {
+        if constexpr (std::is_same_v<Result, std::monostate>)
+          return nothing;
+        else
+          return f(result);
+      },
+      found);
+}
+
+}  // namespace
+
+void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_json& out) {
+  const bool nothing = std::holds_alternative<std::monostate>(result.found);
+  const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
+  const ExperimentResult none =
+      cyclic ? ExperimentResult(experiments::SteppedCyclic{}) : ExperimentResult(experiments::SteppedResponse{});
+  const bool shown = nothing && scene.solver.method == SolverMethod::explicit_;
+  of_found(shown ? none : result.found, 0, [&]<class Result>(const Result& found) {
+    ResultOf<Result>::summarise(found, scene, result, out);
+    return 0;
+  });
+}
+
+double solve_seconds(const RunResult& result) {
+  const double found =
+      of_found(result.found, 0.0, []<class Result>(const Result& f) { return ResultOf<Result>::seconds(f); });
+  const bool stepped = of_found(
+      result.found, false, []<class Result>(const Result&) { return std::is_base_of_v<experiments::Stepped, Result>; });
+  return found + (stepped ? 0 : result.phases.preconditioner);  // a stepped one has it in its planning
+}
+
+std::string results_table(const RunResult& result) {
+  return of_found(result.found, std::string(),
+                  []<class Result>(const Result& found) { return ResultOf<Result>::table(found); });
+}
+
+}  // namespace macadam

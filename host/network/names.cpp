@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// names.cpp  Names of the choices of a network.
+#include <array>
+
+#include "macadam/contact_network.hpp"
+
+namespace macadam {
+
+const char* to_string(PairType pair) {
+  constexpr std::array<const char*, pair_types> name{"M-M", "M-A", "A-A", "inner", "A-W", "M-W"};
+  return name[static_cast<std::size_t>(pair)];
+}
+
+const char* to_string(Quadrature quadrature) {
+  return quadrature == Quadrature::exact ? "exact" : quadrature == Quadrature::one_point ? "one_point" : "lumped";
+}
+
+}  // namespace macadam

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// checkpoint.cpp  A checkpoint as bytes, or one with a good checksum around an HDF5 file made by a recipe.
+#include "host/results/checkpoint.hpp"
+
+#include <H5Cpp.h>
+
+#include "tests/fuzz/forged_hdf5.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace macadam::fuzz {
+namespace {
+
+MemoryFile& file() {
+  static MemoryFile one;
+  return one;
+}
+
+}  // namespace
+
+std::string file_name() { return file().path().string(); }
+
+void read(std::string_view bytes) {
+  if (bytes.starts_with("Macadam checkpoint")) {
+    read_checkpoint(file().with(bytes));
+    return;
+  }
+  const std::string image =
+      forged_hdf5(bytes, {"texts", "arrays"}, {"scene", "plan", "state x", "x\ny", "a/b"}, {"unit", "other"});
+  read_checkpoint(file().with(user_block_of(image) + image));
+}
+
+}  // namespace macadam::fuzz

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// target.cpp  One input, and what is asked of every reader: errors of Macadam alone, which name the file; a second for
+// each kilobyte; a hundred times the input and 64 MB of memory. What breaks one of these ends the program, as the
+// fuzzer asks.
+#include "tests/fuzz/target.hpp"
+
+#include <cxxabi.h>
+#include <sanitizer/allocator_interface.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <typeinfo>
+
+#include "macadam/error.hpp"
+
+namespace macadam::fuzz {
+namespace {
+
+constexpr std::int64_t fixed_bytes = 64 << 20, bytes_a_byte = 100;
+std::int64_t live = 0, peak = 0, limit = 0, largest_peak = 0;
+bool counting = false;
+double slowest = 0;  // [s]
+
+template <class... Values>
+[[noreturn]] void finding(const char* words, Values... values) {
+  counting = false;
+  std::fprintf(stderr, "FINDING: ");
+  std::fprintf(stderr, words, values...);
+  std::fprintf(stderr, "\n");
+  std::abort();
+}
+
+void allocated(const volatile void*, std::size_t bytes) {
+  if (!counting) return;
+  live += static_cast<std::int64_t>(bytes);
+  peak = std::max(peak, live);
+  if (live > limit) finding("%lld bytes of memory, expected at most %lld", (long long)live, (long long)limit);
+}
+
+void freed(const volatile void* memory) {
+  if (counting && memory) live -= static_cast<std::int64_t>(__sanitizer_get_allocated_size(memory));
+}
+
+/// Of this process: others on the machine may be busy.
+double seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// One line that begins with the file, and says what was found and what was expected.
+void check_message(const std::string& message) {
+  static const std::string name = file_name();
+  const bool line = std::none_of(message.begin(), message.end(),
+                                 [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7F; });
+  const bool whole = message.starts_with(name) && message.find(": found ") != std::string::npos &&
+                     message.find(", expected ") != std::string::npos;
+  if (!line || !whole)
+    finding("a message that is not 'FILE:LINE: WHAT: found F, expected E' in a line: %s", message.c_str());
+}
+
+void attempt(std::string_view bytes) {
+  std::string message;
+  try {
+    read(bytes);
+  } catch (const Error& error) { message = error.what(); } catch (const std::exception& error) {
+    int status = 0;
+    finding("an exception of another kind, %s: %s",
+            abi::__cxa_demangle(typeid(error).name(), nullptr, nullptr, &status), error.what());
+  }
+  counting = false;
+  if (!message.empty()) check_message(message);
+}
+
+}  // namespace
+}  // namespace macadam::fuzz
+
+using namespace macadam::fuzz;
+
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  if (__sanitizer_install_malloc_and_free_hooks(allocated, freed) == 0) std::abort();
+  std::atexit([] {
+    std::fprintf(stderr, "stat::slowest_s: %.6f\nstat::peak_mb: %.3f\n", slowest,
+                 1e-6 * static_cast<double>(largest_peak));
+  });
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  live = peak = 0;
+  limit = fixed_bytes + bytes_a_byte * static_cast<std::int64_t>(size);
+  const double begin = seconds();
+  counting = true;
+  attempt({reinterpret_cast<const char*>(data), size});
+  const double took = seconds() - begin, allowed = std::max(1.0, static_cast<double>(size) / 1000);
+  if (took > allowed) finding("%g s for %zu bytes, expected at most %g", took, size, allowed);
+  slowest = std::max(slowest, took);
+  largest_peak = std::max(largest_peak, peak);
+  return 0;
+}
+
+/// What C libraries ask for in vain is theirs to report; what C++ asks for in vain ends the program.
+extern "C" const char* __asan_default_options() {
+  return "allocator_may_return_null=1:detect_stack_use_after_return=0:detect_leaks=0:quarantine_size_mb=16";
+}
+extern "C" const char* __ubsan_default_options() { return "print_stacktrace=1:halt_on_error=1"; }
