@@ -128,7 +128,8 @@ TEST_P(ComplexStiffness, IsExactAtTheWarpedFrequency) {
 
 // Second order: a quarter of the error for half the step. The next order of the error is (ωΔt)² = 0.01 of it.
 TEST_P(ComplexStiffness, ConvergesAtSecondOrder) {
-  const auto& [name, law, settling] = GetParam();
+  const auto& law = GetParam().law;
+  const double settling = GetParam().settling;
   const double f = 0.5;
   const auto exact = law.stiffness(std::complex<double>(0, 2 * pi * f));
   const auto error = [&](int n) {

@@ -42,7 +42,8 @@ TEST(Dimensions, OfABox) {
   // w1·a + w2·b + w3·c = 0; the longest such is at a corner of that polygon. Where b² + c² ≤ a² it is
   // (−(b² + c²)/a, b, c), of length √(b² + c²)·D^L/a. Across both is (0, −c, b), along which the box is as long as its
   // height c allows: c/b·√(b² + c²).
-  for (const auto& [a, b, c] : {std::array{6., 4., 3.}, {5., 4., 1.}, {2., 1.2, 1.1}}) {
+  for (const auto& edges : {std::array{6., 4., 3.}, {5., 4., 1.}, {2., 1.2, 1.1}}) {
+    const double a = edges[0], b = edges[1], c = edges[2];
     const double l = std::hypot(a, b, c), across = std::hypot(b, c);
     in_all_poses(box_surface(a, b, c), [&](const ShapeMeasure& m) {
       expect_lengths(m, l, across * l / a, across * c / b);

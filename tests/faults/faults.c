@@ -12,6 +12,7 @@
 //   FAULT_REPORT  file that receives `hit KIND` when a call fails; and in the end, where none did, `count KIND N` and, of
 //                 the bytes held, `count start N` and `count most N`
 //   FAULT_TRACE   file that receives the functions that asked for what fails first
+//   FAULT_CLOCK   if it is there, the time of day goes back by an hour each time that it is asked for
 //   FAULT_STACKS  file that receives a number of 64 bits for each allocation: a hash of the functions that asked for it
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -30,6 +31,7 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/uio.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { memory_, open_, write_, short_, sync_, rename_, close_, remove_, mkdir_, kinds, most_files = 4096 };
@@ -253,6 +255,18 @@ int unlink(const char* path) { return ours(path) && fails(remove_) ? -1 : (int)s
 int mkdir(const char* path, mode_t mode) {
   if (ours(path) && fails(mkdir_)) return -1;
   return (int)syscall(SYS_mkdirat, AT_FDCWD, path, mode);
+}
+
+static atomic_long asked_for_time;
+int clock_gettime(clockid_t which, struct timespec* out) {
+  const int result = (int)syscall(SYS_clock_gettime, which, out);
+  if (result == 0 && which == CLOCK_REALTIME && getenv("FAULT_CLOCK")) out->tv_sec -= 3600 * ++asked_for_time;
+  return result;
+}
+time_t time(time_t* out) {
+  struct timespec now;
+  clock_gettime(CLOCK_REALTIME, &now);
+  return out ? *out = now.tv_sec : now.tv_sec;
 }
 
 static int (*program)(int, char**, char**);

@@ -69,15 +69,18 @@ def checkpoints(setting):
 
 def interrupted(setting):
     """The folder of a run that was interrupted when it had written two checkpoints."""
-    out = setting.clear()
-    child = subprocess.Popen([setting.program, *setting.stepped(out)], env=setting.environment, cwd=setting.folder,
-                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     end = time.monotonic() + TIMEOUT
-    while not (out / "checkpoint.h5").exists() and child.poll() is None and time.monotonic() < end:
-        time.sleep(0.005)
-    child.send_signal(signal.SIGINT)
-    child.wait()
-    return out
+    while time.monotonic() < end:  # on a busy machine it may be done before it is seen that it has written one
+        out = setting.clear()
+        child = subprocess.Popen([setting.program, *setting.stepped(out)], env=setting.environment, cwd=setting.folder,
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not (out / "checkpoint.h5").exists() and child.poll() is None and time.monotonic() < end:
+            time.sleep(0.005)
+        child.send_signal(signal.SIGINT)
+        child.wait()
+        if (out / "checkpoint-previous.h5").exists():
+            return out
+    sys.exit("a stepped run could not be interrupted behind its second checkpoint")
 
 
 def damages(setting, good):

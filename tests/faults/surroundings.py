@@ -111,6 +111,12 @@ def streams(setting):
     outcome = Outcome(child.wait(TIMEOUT), "", child.stderr.read().decode())
     expect_same(setting, "a pipe that breaks", outcome, out, expected)
 
+    for solver, arguments in (("quick", setting.quick), ("stepped", setting.stepped)):
+        plain = setting.clear("plain_time")
+        setting.run(arguments(plain))
+        out = setting.clear()
+        outcome = setting.run(arguments(out), {"LD_PRELOAD": setting.library, "FAULT_CLOCK": "back"})
+        expect_same(setting, f"a clock that goes back, {solver}", outcome, out, Result(plain))
     for threads in (1, 2, 1000):
         out = setting.clear()
         expect_same(setting, f"{threads} threads", setting.run(setting.quick(out, "--threads", threads)), out, expected)
