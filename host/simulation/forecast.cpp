@@ -10,28 +10,10 @@
 #include <numbers>
 
 #include "host/experiments/stepped/settings.hpp"
+#include "host/simulation/costs.hpp"
 
 namespace macadam {
 namespace {
-
-/// Measured by bench/forecast/run on two cores of an AMD EPYC (docs/forecast.md); of a device by bench/command on an
-/// H200.
-struct Cost {
-  // A Laguerre cell of a mixture has about 14 facets, each of two cells; those at free sides are none.
-  double contacts = 7.1, missing_at_sides = 9;
-  // seconds of one thread a particle, an aggregate, a shape of the library
-  double relaxing = 1.1e-4, inserting = 1e-3, packing = 7e-3, packed_shape = 0.085, tessellating = 2.2e-5;
-  // seconds of one thread a particle^(4/3) and solution: the iterations grow with the specimen's edge
-  double solving = 1.1e-6, solving_on_device = 2e-8;
-  // seconds of one thread a contact and step, where a specimen's arrays do not fit into the processor's cache
-  double stepping_double = 3.0e-8, stepping_mixed = 2.7e-8, stepping_single = 2.4e-8, updated = 1.6, points = 2.1;
-  double cached = 0.5, contacts_in_cache = 30'000;
-  double stepping_on_device = 1.8e-10, least_step_on_device = 1e-5;
-  double start = 0.1, start_on_device = 0.8;
-  // bytes: of the program; a contact, of the specimen, the solutions, the steppers
-  double program = 32e6, a_contact = 1250, a_solved_contact = 550, a_stepped_contact = 500;
-  double device = 5e8, on_device_a_contact = 900;
-};
 
 constexpr double usual_safety = 0.8, safety_by_tolerance = 0.95;
 
@@ -170,10 +152,14 @@ std::vector<std::string> files_of_run(const Scene& scene) {
 }
 
 void add_memory(Forecast& f, const Cost& cost) {
-  const double a_contact =
-      cost.a_contact + (f.solutions > 0 ? cost.a_solved_contact : 0) + (f.stepped ? cost.a_stepped_contact : 0);
-  f.host_bytes = cost.program + a_contact * f.contacts;
-  if (f.backend == Backend::cuda) f.device_bytes = cost.device + cost.on_device_a_contact * f.contacts;
+  const bool device = f.backend == Backend::cuda;
+  const double stepped = f.stepped ? step_cost(device, f.form, f.precision, f.geometry).bytes : 0;
+  const double host =
+      cost.a_contact + (f.solutions > 0 && !device ? cost.a_solved_contact : 0) + (device ? 0 : stepped);
+  f.host_bytes = cost.program + host * f.contacts;
+  if (device)
+    f.device_bytes =
+        cost.device + std::max(stepped, f.solutions > 0 ? cost.a_solved_contact_on_device : 0) * f.contacts;
 }
 
 void add_time(const Scene& scene, Forecast& f, const Cost& cost) {
@@ -190,14 +176,10 @@ void add_time(const Scene& scene, Forecast& f, const Cost& cost) {
   }
   f.network_s = cost.tessellating * n / threads;
   f.harmonic_s = f.solutions * std::pow(n, 4.0 / 3) * (device ? cost.solving_on_device : cost.solving / threads);
-  double rate = f.precision == Precision::single  ? cost.stepping_single
-                : f.precision == Precision::mixed ? cost.stepping_mixed
-                                                  : cost.stepping_double;
-  if (f.geometry == Geometry::updated) rate *= cost.updated;
-  if (f.form == ContactForm::points) rate *= cost.points;
-  if (f.contacts < cost.contacts_in_cache) rate *= cost.cached;
-  const double step =
-      device ? std::max(cost.least_step_on_device, cost.stepping_on_device * f.contacts) : rate * f.contacts / threads;
+  double rate = step_cost(device, f.form, f.precision, f.geometry).seconds;
+  if (device && f.contacts < cost.contacts_on_chip) rate *= cost.on_chip;
+  if (!device && f.contacts < cost.contacts_in_cache) rate *= cost.cached;
+  const double step = device ? std::max(cost.least_step_on_device, rate * f.contacts) : rate * f.contacts / threads;
   for (const StepForecast& s : f.steps) f.stepping_s += s.steps * step;
 }
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file costs.hpp  What parts of a run take of time and memory, as measured: docs/forecast.md.
+#pragma once
+
+#include <cstddef>
+
+#include "macadam/stepper.hpp"
+
+namespace macadam {
+
+/// Of two cores of an AMD EPYC, by bench/forecast/run and macadam bench (bench/results/bench-cpu-…); of a device an
+/// H200, by bench/steps/run (bench/results/gpu-step-…).
+struct Cost {
+  // A Laguerre cell of a mixture has about 14 facets, each of two cells; those at free sides are none.
+  double contacts = 7.1, missing_at_sides = 9;
+  // seconds of one thread a particle, an aggregate, a shape of the library
+  double relaxing = 1.1e-4, inserting = 1e-3, packing = 7e-3, packed_shape = 0.085, tessellating = 2.2e-5;
+  // seconds of one thread a particle^(4/3) and solution: the iterations grow with the specimen's edge
+  double solving = 1.1e-6, solving_on_device = 2e-8;
+  double start = 0.1, start_on_device = 0.8;
+  // a specimen of fewer contacts fits into the processor's cache
+  double cached = 0.5, contacts_in_cache = 30'000;
+  // a step on a device, however small the specimen [s]; fewer contacts than that stay on the chip, in so much less time
+  double least_step_on_device = 3e-6, contacts_on_chip = 420'000, on_chip = 0.4;
+  // bytes: of the program; a contact, of the specimen, the solutions; of the device's own, and a contact's solutions
+  double program = 32e6, a_contact = 1250, a_solved_contact = 550, device = 5e8, a_solved_contact_on_device = 450;
+};
+
+/// Of a step: seconds a contact (of the CPU: one thread), and bytes a contact that its stepper holds.
+struct StepCost {
+  double seconds, bytes;
+};
+
+/// In the order of ContactForm and Precision, then geometry: fixed, updated.
+inline StepCost step_cost(bool on_device, ContactForm form, Precision precision, Geometry geometry) {
+  enum { single, mixed, double_ };
+  // clang-format off
+  static constexpr StepCost costs[2][2][3][2] = {
+      {{{{1.32e-8, 253}, {1.94e-8, 318}}, {{1.74e-8, 377}, {2.44e-8, 451}}, {{2.56e-8, 328}, {4.66e-8, 362}}},    // condensed
+       {{{2.81e-8, 442}, {5.46e-8, 463}}, {{4.33e-8, 750}, {6.96e-8, 782}}, {{5.17e-8, 864}, {7.96e-8, 900}}}},   // points
+      {{{{9.1e-11, 433}, {1.0e-10, 475}}, {{9.6e-11, 601}, {1.1e-10, 651}}, {{2.55e-10, 425}, {2.9e-10, 460}}},   // device
+       {{{5.1e-10, 1000}, {5.4e-10, 1040}}, {{5.1e-10, 1000}, {5.4e-10, 1040}}, {{5.1e-10, 1000}, {5.4e-10, 1040}}}}};
+  // clang-format on
+  const int p = precision == Precision::single ? single : precision == Precision::mixed ? mixed : double_;
+  return costs[on_device][form == ContactForm::points][p][geometry == Geometry::updated];
+}
+
+}  // namespace macadam
