@@ -173,7 +173,8 @@ toml::array without_lines(const toml::array& array) {
 
 toml::table without_lines(const toml::table& table) {
   toml::table out;
-  for (const auto& [key, node] : table) copied(node, [&](auto&& value) { out.insert(key.str(), value); });
+  for (const auto& [key, node] : table)
+    copied(node, [&out, &name = key](auto&& value) { out.insert(name.str(), value); });
   return out;
 }
 
