@@ -3,6 +3,13 @@
 add_library(macadam_options INTERFACE)
 target_include_directories(macadam_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra>)
+if(MACADAM_WERROR)
+  target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
+endif()
+# The same bytes wherever the sources lie (scripts/reproducible): names of files as seen from them. Not where a debugger or the
+# counters of coverage look for the files.
+target_compile_options(macadam_options INTERFACE $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:
+                       -ffile-prefix-map=${PROJECT_SOURCE_DIR}=. -ffile-prefix-map=${PROJECT_BINARY_DIR}=build>)
 if(MACADAM_SANITIZE)
   # Null pointers and ends of objects are the address sanitizer's too; asked twice, and with alignment and types of objects,
   # they take a third of a build.

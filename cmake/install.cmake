@@ -1,25 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# `find_package(macadam)`: the library hides its own dependencies, so a user needs none of them.
-install(TARGETS macadam EXPORT macadamTargets)
+# What is installed, in two parts, which are packages of their own (cmake/package.cmake): the program with what it needs, and
+# what programs that are built with the library need. The CUDA backend is in neither: docs/python.md says why it is not handed on.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
+install(TARGETS macadam EXPORT macadamTargets LIBRARY NAMELINK_COMPONENT development)
 install(TARGETS macadam_cli)
 if(MACADAM_HAS_CUDA)
-  install(TARGETS macadam_cuda)
+  install(TARGETS macadam_cuda COMPONENT cuda)
 endif()
-install(DIRECTORY include/macadam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-# The kernels as templates, for laws of a user's own
-install(DIRECTORY kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macadam-kernels FILES_MATCHING PATTERN "*.hpp")
 install(PROGRAMS scripts/draw-fit scripts/draw-calibration scripts/draw-relaxation DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam)
 install(DIRECTORY examples/ DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam/examples)
+# Reports and studies, which are plain Python: host/cli/python_commands.cpp
+install(DIRECTORY python/macadam DESTINATION ${CMAKE_INSTALL_DATADIR}/macadam/python
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.css" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
 # What shells and man know of the command line
 install(FILES ${PROJECT_BINARY_DIR}/macadam.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${PROJECT_BINARY_DIR}/completion/macadam.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME macadam)
-install(FILES ${PROJECT_BINARY_DIR}/completion/macadam.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions
+install(FILES ${PROJECT_BINARY_DIR}/completion/macadam.zsh DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${MACADAM_ZSH_FOLDER}
         RENAME _macadam)
 install(FILES ${PROJECT_BINARY_DIR}/completion/macadam.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+install(FILES cmake/copyright CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# `find_package(macadam)`: the library hides its own dependencies, so a user needs none of them.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
+install(DIRECTORY include/macadam DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+# The kernels as templates, for laws of a user's own
+install(DIRECTORY kernels DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/macadam-kernels FILES_MATCHING PATTERN "*.hpp")
 install(EXPORT macadamTargets NAMESPACE macadam:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam)
 configure_package_config_file(cmake/macadamConfig.cmake.in ${PROJECT_BINARY_DIR}/macadamConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file(macadamConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/macadamConfig.cmake ${PROJECT_BINARY_DIR}/macadamConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/macadam)
+unset(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME)

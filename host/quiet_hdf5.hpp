@@ -32,7 +32,8 @@ class QuietHdf5 {
   bool failed() const { return why_[0] != '\0'; }
   /// Of the first error, where it arose; of one of the system, the system's words.
   std::string why() const {
-    const std::string text = why_.data(), of_the_system = "error message = '";
+    std::string text = why_.data();
+    const std::string of_the_system = "error message = '";
     const std::size_t begin = text.find(of_the_system);
     if (begin == std::string::npos) return text;
     return text.substr(begin + of_the_system.size(),

@@ -25,7 +25,7 @@ class StateList {
   /// goes into a checkpoint as it is.
   template <class T>
   void add(const std::string& name, const std::string& unit, std::size_t size, std::function<std::vector<T>()> copy,
-           std::function<void(const std::vector<T>&)> replace, Order order = {}) {
+           std::function<void(const std::vector<T>&)> replace, const Order& order = {}) {
     if (size == 0) return;
     using List = std::vector<T>;
     entries_.push_back({name, unit,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # conf.py  The site: scripts/site lays the repository's Markdown files into build/site/source and calls Sphinx with this.
 import os
-import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -11,7 +11,7 @@ sys.path.insert(0, str(HERE))
 
 project = "Macadam"
 copyright = "the authors of Macadam, GPL-3.0-or-later"
-version = release = re.search(r"project\(macadam VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+version = release = subprocess.run([ROOT / "scripts" / "version"], capture_output=True, text=True, check=True).stdout.strip()
 root_doc = "docs/index"
 extensions = ["myst_parser", "reference", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_copybutton",
               "contents", "repository_links", "mathml", "plain_docstrings"]

@@ -15,10 +15,10 @@ namespace fs = std::filesystem;
 fs::path find(const std::string& script) {
   std::error_code error;
   const fs::path program = own_program();
-  for (const fs::path& file : {program.parent_path().parent_path() / "share/macadam" / script,
-                               fs::path(MACADAM_SOURCE) / "scripts" / script}) {
-    if (fs::is_regular_file(file, error)) return file;
-  }
+  fs::path installed = program.parent_path().parent_path() / "share/macadam" / script;
+  if (fs::is_regular_file(installed, error)) return installed;
+  if (const fs::path tree = source_tree(); !tree.empty() && fs::is_regular_file(tree / "scripts" / script, error))
+    return tree / "scripts" / script;
   return {};
 }
 

@@ -29,6 +29,13 @@ std::filesystem::path own_program() {
   return std::filesystem::read_symlink("/proc/self/exe", error);
 }
 
+std::filesystem::path source_tree() {
+  const std::filesystem::path folder = own_program().parent_path();
+  std::error_code error;
+  if (folder.empty() || !std::filesystem::exists(folder / "CMakeCache.txt", error)) return {};
+  return (folder / MACADAM_SOURCE).lexically_normal();
+}
+
 bool runs(std::vector<std::string> words) {
   const std::vector<char*> arguments = pointers_to(words);
   posix_spawn_file_actions_t actions;

@@ -11,6 +11,11 @@ namespace macadam {
 /// This program's own file; empty where the system does not say it.
 std::filesystem::path own_program();
 
+/// The source tree, where this program lies in the folder that it was built in; empty: it was installed. No folder of
+/// the machine that built it is in its bytes: they depend on the sources alone, and nobody runs what lies there on
+/// theirs.
+std::filesystem::path source_tree();
+
 /// Runs a program of the search path, or of a path, with its output thrown away. Whether it ended with 0.
 bool runs(std::vector<std::string> words);
 

@@ -15,23 +15,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder with the package: of the build that this program is of, of the package that it came with, or of the
-/// source tree; empty: none, and Python is to know it.
+/// The folder with the package: of the build that this program is of, of the package that it came with, of the
+/// installation, or of the source tree; empty: none, and Python is to know it.
 fs::path package_folder() {
   const fs::path program = own_program(), build = program.parent_path();
   std::error_code error;
-  for (const fs::path& folder :
-       {build / "python", build.parent_path().parent_path(), fs::path(MACADAM_SOURCE) / "python"})
-    if (fs::is_regular_file(folder / "macadam/__main__.py", error)) return folder;
+  for (const fs::path& folder : {build / "python", build.parent_path().parent_path(),
+                                 build.parent_path() / "share/macadam/python", source_tree() / "python"})
+    if (folder.is_absolute() && fs::is_regular_file(folder / "macadam/__main__.py", error)) return folder;
   return {};
 }
 
 /// MACADAM_PYTHON of the environment, that of the source tree (scripts/python), or the first of the search path.
 std::string interpreter() {
   if (const char* const named = std::getenv("MACADAM_PYTHON"); named && *named) return named;
-  const fs::path own = fs::path(MACADAM_SOURCE) / "build/python/bin/python3";
+  const fs::path own = source_tree() / "build/python/bin/python3";
   std::error_code error;
-  return fs::exists(own, error) ? own.string() : "python3";
+  return own.is_absolute() && fs::exists(own, error) ? own.string() : "python3";
 }
 
 [[noreturn]] void run_python(const std::string& command, const std::vector<std::string>& arguments) {

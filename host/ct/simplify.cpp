@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // simplify.cpp  Fewer facets for the same shape, by CGAL.
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
@@ -12,6 +9,7 @@
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include "host/ct/isosurface.hpp"
+#include "host/shapes/facet_tree.hpp"
 
 namespace macadam::ct {
 namespace {
@@ -56,8 +54,7 @@ void reduce(Mesh& mesh, int facets) {
 
 /// Largest distance of the points from a surface, of some two thousand of them.
 double distance(const std::vector<Vec3d>& points, const Mesh& mesh) {
-  using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
-  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree(faces(mesh).first, faces(mesh).second, mesh);
+  FacetTree<Kernel, Mesh> tree(faces(mesh).first, faces(mesh).second, mesh);
   tree.accelerate_distance_queries();
   double largest = 0;
   for (std::size_t p = 0; p < points.size(); p += points.size() / 2000 + 1)

@@ -2,21 +2,20 @@
 /// \file shape_solid.cpp  CGAL's tree of facets with exact predicates.
 #include "host/shapes/shape_solid.hpp"
 
-#include <CGAL/AABB_face_graph_triangle_primitive.h>
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <cmath>
 
+#include "host/shapes/facet_tree.hpp"
+
 namespace macadam {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using FacetTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Mesh>>>;
+using Facets = FacetTree<Kernel, Mesh>;
 using Side = CGAL::Side_of_triangle_mesh<Mesh, Kernel>;
 
 Kernel::Point_3 point_of(const Vec3d& p) { return {p.x, p.y, p.z}; }
@@ -33,7 +32,7 @@ Mesh mesh_of(const Surface& surface) {
 
 struct ShapeSolid::Tree {
   Mesh mesh;
-  FacetTree facets;
+  Facets facets;
   Side side;
 
   explicit Tree(const Surface& surface)

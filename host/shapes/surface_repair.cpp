@@ -128,7 +128,11 @@ class Repair {
     std::size_t facets = 0;
     for (const Mesh::Halfedge_index border : borders) {
       std::vector<Mesh::Face_index> patch;
+#if CGAL_VERSION_NR >= 1060000000  // where this is a named parameter
+      pmp::triangulate_hole(mesh, border, CGAL::parameters::face_output_iterator(std::back_inserter(patch)));
+#else
       pmp::triangulate_hole(mesh, border, std::back_inserter(patch));
+#endif
       facets += patch.size();
     }
     if (!borders.empty()) {

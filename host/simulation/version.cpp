@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// version.cpp  The version is the project's, from CMakeLists.txt.
+// version.cpp  The version is the source tree's, of which scripts/version tells.
 #include "macadam/version.hpp"
 
 namespace macadam {

@@ -4,7 +4,7 @@
 
 namespace macadam {
 
-/// "0.1.0"
+/// "0.1.0"; between releases "0.1.0+3.gHASH", three commits after 0.1.0
 const char* version();
 
 }  // namespace macadam

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file facet_tree.hpp  CGAL's tree of a mesh's facets, which CGAL 6 has by another name than CGAL 5.
+#pragma once
+
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_tree.h>
+#if __has_include(<CGAL/AABB_traits_3.h>)
+#include <CGAL/AABB_traits_3.h>
+#else
+#include <CGAL/AABB_traits.h>
+#endif
+
+namespace macadam {
+
+#if __has_include(<CGAL/AABB_traits_3.h>)
+template <class Kernel, class Mesh>
+using FacetTree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, CGAL::AABB_face_graph_triangle_primitive<Mesh>>>;
+#else
+template <class Kernel, class Mesh>
+using FacetTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Mesh>>>;
+#endif
+
+}  // namespace macadam

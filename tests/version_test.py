@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What scripts/version says in a repository, in a source archive, and where neither is: version_test.py SOURCE_FOLDER"""
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import tempfile
+from pathlib import Path
+
+SOURCE = Path(sys.argv[1])
+NAMELESS = {"GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_SYSTEM": os.devnull, "GIT_AUTHOR_NAME": "a", "GIT_AUTHOR_EMAIL": "a@b",
+            "GIT_COMMITTER_NAME": "a", "GIT_COMMITTER_EMAIL": "a@b", "GIT_COMMITTER_DATE": "1700000000 +0000"}
+
+
+def ran(folder, *words):
+    return subprocess.run(words, cwd=folder, env={**os.environ, **NAMELESS}, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def expect(folder, expected, *options):
+    found = ran(folder, "scripts/version", *options)
+    assert found == expected, f"{folder} {options}: found {found}, expected {expected}"
+
+
+def unpacked(repository, folder):
+    ran(repository, "git", "archive", "-o", folder.parent / "archive.tar", "HEAD")
+    with tarfile.open(folder.parent / "archive.tar") as archive:
+        archive.extractall(folder, filter="data") if hasattr(tarfile, "data_filter") else archive.extractall(folder)
+    return folder
+
+
+with tempfile.TemporaryDirectory() as temporary:
+    work = Path(temporary)
+    plain = work / "plain"
+    (plain / "scripts").mkdir(parents=True)
+    shutil.copy(SOURCE / "scripts/version", plain / "scripts")
+    for name in (".gitattributes", ".git_archival.txt"):
+        shutil.copy(SOURCE / name, plain)
+    (plain / "CHANGELOG.md").write_text("# Changelog\n\n## [Unreleased]\n\n## [0.4.2] - 2026-01-02\n\n## [0.4.1] - 2025-01-02\n")
+    expect(plain, "0.4.2")  # nothing but the changelog, as pip unpacks it
+    expect(plain, "unknown", "--commit")
+    expect(plain, "0", "--epoch")
+
+    repository = work / "repository"
+    shutil.copytree(plain, repository)
+    ran(repository, "git", "init", "-q")
+    ran(repository, "git", "add", ".")
+    ran(repository, "git", "commit", "-qm", "first")
+    commit = ran(repository, "git", "rev-parse", "--short=10", "HEAD")
+    expect(repository, f"0.4.2+g{commit}")  # a clone without tags
+    expect(repository, "0.4.2", "--number")
+    expect(repository, "1700000000", "--epoch")
+    shutil.copytree(plain, repository / "within")  # unpacked in a repository, and not of it
+    expect(repository / "within", "0.4.2")
+    shutil.rmtree(repository / "within")
+    expect(unpacked(repository, work / "untagged"), f"0.4.2+g{commit}")
+
+    ran(repository, "git", "tag", "somewhere")
+    ran(repository, "git", "tag", "v0.5.0")
+    expect(repository, "0.5.0")
+    expect(unpacked(repository, work / "tagged"), "0.5.0")
+    ran(repository, "git", "commit", "-qm", "second", "--allow-empty")
+    commit = ran(repository, "git", "rev-parse", "--short=10", "HEAD")
+    expect(repository, f"0.5.0+1.g{commit}")
+    expect(repository, "0.5.0", "--number")
+    later = unpacked(repository, work / "later")
+    expect(later, f"0.5.0+1.g{commit}")
+    expect(later, commit, "--commit")
+    expect(later, "1700000000", "--epoch")
+
+    ran(repository, "git", "commit", "-qm", "third", "--allow-empty")
+    ran(repository, "git", "tag", "v0.6.0-rc1")  # no version of ours
+    said = subprocess.run(["scripts/version"], cwd=repository, capture_output=True, text=True, env={**os.environ, **NAMELESS})
+    assert said.returncode == 1 and "expected X.Y.Z" in said.stderr, said
+print("passed")
