@@ -28,7 +28,8 @@ std::size_t edits(std::string_view a, std::string_view b) {  // Levenshtein, one
 }  // namespace
 
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
-  constexpr std::size_t longest = 64;  // of a key; a line of a damaged file may be far longer, and edits() takes its time
+  constexpr std::size_t longest =
+      64;  // of a key; a line of a damaged file may be far longer, and edits() takes its time
   word = word.substr(0, longest);
   return *std::min_element(known.begin(), known.end(),
                            [&](const auto& a, const auto& b) { return edits(word, a) < edits(word, b); });

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"

@@ -450,8 +450,7 @@ TEST_F(SceneFile, FilesThatNobodyWroteByHandAreRefused) {
 }
 
 TEST_F(SceneFile, ControlCharactersLeaveTheMessageInOneLine) {
-  write(file(), "a = n\n\x02");
-  const std::string what = message_of([&] { read_scene(file()); });
+  const std::string what = message("a = n\n\x02");
   EXPECT_TRUE(what.find("TOML syntax") != std::string::npos && what.find_first_of("\n\x02") == std::string::npos)
       << what;
 }

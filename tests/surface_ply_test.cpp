@@ -244,8 +244,8 @@ TEST_F(SurfacePly, CutAnywhereTheyNeverPass) {
 
 TEST_F(SurfacePly, NamesWithControlCharactersLeaveTheMessageInOneLine) {
   std::string bytes = tetrahedron_ply("ascii", "int", "int", "uchar", "int", false);
-  bytes.insert(bytes.find("element"), "element a\x01\vb 1000000\nproperty int c\n");
-  EXPECT_HAS(message_for(bytes), "element a?");
+  bytes.insert(bytes.find("element"), "element a\x01 1000000\nproperty int c\n");
+  EXPECT_HAS(message_for(bytes), "element a?: found 1000000 items");
 }
 
 }  // namespace
