@@ -138,6 +138,9 @@ TEST_F(CtImage, HeadersOnWhichItkWouldNotEndAreRefused) {
   refused("tag.tif", bytes.replace(directory + 6, 4, "\xff\xff\xff\x7f"), "2147483647 values");
   bytes = whole;
   refused("outside.tif", bytes.replace(4, 4, "\xff\xff\xff\x7f"), "one at byte 2147483647");
+  bytes = whole;
+  refused("text.tif", bytes.replace(directory + 2, 12, std::string("\x15\xfa\2\0\1\0\0\0x\0\0\0", 12)),
+          "tag 64021 of the TIFF file: found a text without an end");
 }
 
 }  // namespace

@@ -130,6 +130,7 @@ TEST_P(ComplexStiffness, IsExactAtTheWarpedFrequency) {
 TEST_P(ComplexStiffness, ConvergesAtSecondOrder) {
   const auto& law = GetParam().law;
   const double settling = GetParam().settling;
+  const std::string name = GetParam().name;
   const double f = 0.5;
   const auto exact = law.stiffness(std::complex<double>(0, 2 * pi * f));
   const auto error = [&](int n) {

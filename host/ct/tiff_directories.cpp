@@ -2,6 +2,7 @@
 // tiff_directories.cpp  Both kinds of TIFF, with numbers of 4 and of 8 bytes for places, in either order of bytes.
 #include "host/ct/tiff_directories.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -41,6 +42,30 @@ class Numbers {
   bool big_endian_ = false;
 };
 
+/// Texts whose end libtiff sees to: names of the document, the maker, the program and the like (TIFF 6.0).
+constexpr std::uint64_t known_texts[] = {269, 270, 271, 272, 285, 305, 306, 315, 316, 333, 337, 33432};
+
+/// The tag whose entry in a directory begins at `entry`.
+void check_tag(const std::filesystem::path& file, Numbers& numbers, std::uint64_t size, bool wide,
+               std::uint64_t entry) {
+  constexpr std::uint64_t text = 2;
+  const std::uint64_t place_bytes = wide ? 8 : 4;
+  const std::uint64_t tag = numbers.at(entry, 2), type = numbers.at(entry + 2, 2);
+  const std::uint64_t values = numbers.at(entry + 4, static_cast<int>(place_bytes));
+  const std::uint64_t bytes = type < std::size(bytes_of_type) ? bytes_of_type[type] : 0;
+  const auto refuse = [&](const std::string& found, const std::string& expected) {
+    throw InputError(file.string(), 0, "tag " + std::to_string(tag) + " of the TIFF file", found, expected);
+  };
+  if (bytes > 0 && values > size / bytes)
+    refuse(std::to_string(values) + " values of " + std::to_string(bytes) + " bytes",
+           "as many as the " + std::to_string(size) + " bytes of the file hold");
+  if (type != text || values == 0 || std::ranges::count(known_texts, tag) > 0) return;
+  const std::uint64_t inside = entry + 4 + place_bytes;
+  const std::uint64_t begin = values <= place_bytes ? inside : numbers.at(inside, static_cast<int>(place_bytes));
+  if (begin >= size || values > size - begin || numbers.at(begin + values - 1, 1) != 0)
+    refuse("a text without an end", "a last byte of 0");
+}
+
 }  // namespace
 
 void check_tiff_directories(const std::filesystem::path& file) {
@@ -60,17 +85,9 @@ void check_tiff_directories(const std::filesystem::path& file) {
       throw InputError(file.string(), 0, "directories of the TIFF file",
                        "one at byte " + std::to_string(place) + " with " + std::to_string(entries) + " entries",
                        "as many as the " + std::to_string(size) + " bytes of the file hold");
-    for (std::uint64_t e = 0; e < entries; ++e) {
-      const std::uint64_t entry =
-          place + static_cast<std::uint64_t>(count_bytes) + e * static_cast<std::uint64_t>(entry_bytes);
-      const std::uint64_t tag = numbers.at(entry, 2), type = numbers.at(entry + 2, 2);
-      const std::uint64_t values = numbers.at(entry + 4, place_bytes);
-      const std::uint64_t bytes = type < std::size(bytes_of_type) ? bytes_of_type[type] : 0;
-      if (bytes > 0 && values > size / bytes)
-        throw InputError(file.string(), 0, "tag " + std::to_string(tag) + " of the TIFF file",
-                         std::to_string(values) + " values of " + std::to_string(bytes) + " bytes",
-                         "as many as the " + std::to_string(size) + " bytes of the file hold");
-    }
+    for (std::uint64_t e = 0; e < entries; ++e)
+      check_tag(file, numbers, size, wide,
+                place + static_cast<std::uint64_t>(count_bytes) + e * static_cast<std::uint64_t>(entry_bytes));
     place =
         numbers.at(place + static_cast<std::uint64_t>(count_bytes) + entries * static_cast<std::uint64_t>(entry_bytes),
                    place_bytes);

@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/reliability.md: campaigns of faults, from tests/faults/campaign --table, and fuzzing, from scripts/fuzz --table."""
+"""docs/reliability.md: campaigns of faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours of runs
+(tests/soak), mistakes on purpose (tests/mutation/campaign --table), compilers (tests/same_bits/run --table)."""
+import collections
+
 from pages.data import head, rows, table
 from pages.marks import mark
 
 DOCUMENT = "docs/reliability.md"
 FAULTS = "faults.csv"
 FUZZING = "fuzzing.csv"
+SOAK = {"cpu": "soak-cpu.csv", "cuda": "soak-cuda.csv"}
+MUTATION = "mutation.csv"
+SAME_BITS = "same-bits.csv"
 READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specimen": "specimens (CSV)",
          "specimen_gz": "specimens (CSV in gzip)", "laboratory": "laboratory data (CSV)", "checkpoint": "checkpoints (HDF5)",
          "off": "surfaces (OFF)", "obj": "surfaces (OBJ)", "stl": "surfaces (STL)", "ply": "surfaces (PLY)",
@@ -44,3 +50,69 @@ def fuzzing():
     return table(["target", "what it reads", "executions", "edges", "findings", "slowest input [s]", "most memory [MB]"],
                  [(f"`{r['target']}`", READS[r["target"]], f"{r['executions']:,.0f}", f"{r['edges']:.0f}", f"{r['findings']:.0f}",
                    f"{r['slowest_s']:.2g}", f"{r['peak_mb']:.1f}") for r in rows(FUZZING)], right=(2, 3, 4, 5, 6))
+
+
+@mark
+def faults_long():
+    return table(["campaign", "trials", "failures", "where"],
+                 [(r["campaign"], f"{r['trials']:,.0f}", f"{r['failures']:.0f}", r["where"]) for r in rows("faults-long.csv")], right=(1, 2))
+
+
+@mark
+def soak():
+    """The most that was held until two thirds of the time, and in the last third."""
+    out = []
+    for backend, file in SOAK.items():
+        all_ = rows(file)
+        third = len(all_) - len(all_) // 3
+
+        def most(column, part):
+            return max(r[column] for r in part)
+
+        def both(column, digits):
+            return f"{most(column, all_[:third]):.{digits}f} / {most(column, all_[third:]):.{digits}f}"
+        last = all_[-1]
+        out.append((backend, head(file)[0], f"{last['seconds'] / 60:.0f}", f"{last['runs']:,.0f}", f"{last['resumes']:,.0f}",
+                    both("resident_mb", 1), both("allocated_mb", 2), both("device_mb", 0) if backend == "cuda" else "",
+                    both("files", 0), both("threads", 0)))
+    return table(["backend", "measured", "minutes", "runs", "resumed", "resident, before / last third [MB]", "allocated [MB]",
+                  "device [MB]", "open files", "threads"], out, right=range(2, 10))
+
+
+def verdicts():
+    return collections.Counter(r["verdict"] for r in rows(MUTATION))
+
+
+@mark
+def mutation_machine():
+    return head(MUTATION)[0]
+
+
+@mark
+def mutation():
+    """By folder of the sources."""
+    folders = collections.defaultdict(collections.Counter)
+    for r in rows(MUTATION):
+        folders["/".join(r["file"].split("/")[:2]) if r["file"].startswith("host/") else "kernels"][r["verdict"]] += 1
+    names = ("killed", "survived", "not reached")
+    listed = [(name, sum(c.values()), *(c[v] for v in names)) for name, c in sorted(folders.items())]
+    listed.append(("all", sum(row[1] for row in listed), *(sum(row[k] for row in listed) for k in (2, 3, 4))))
+    return table(["sources", "mistakes", "noticed", "not noticed", "no test comes by"], listed, right=range(1, 5))
+
+
+@mark
+def mutation_share():
+    count = verdicts()
+    return f"{100 * count['killed'] / (count['killed'] + count['survived']):.0f} %"
+
+
+@mark
+def same_bits_machine():
+    return head(SAME_BITS)[0]
+
+
+@mark
+def same_bits():
+    return table(["compiler", "optimisation", "runs", "other specimen", "other response", "other contacts"],
+                 [(r["compiler"], f"`{r['level']}`", f"{r['runs']:.0f}", *(f"{r[n]:.0f}" for n in ("specimen.csv", "response.csv", "contacts.csv")))
+                  for r in rows(SAME_BITS)], right=range(2, 6))

@@ -10,22 +10,29 @@ from verdicts import Result, damaged, differences
 KINDS = ("memory", "launch", "wait", "copy", "other")
 
 
-def faults(setting):
-    """Each call of the driver fails once, in a stepped run and in the frequency domain; and from a launch on, all do."""
+def stepped(setting):
+    faults(setting, "stepped", ["--method", "explicit"])
+
+
+def harmonic(setting):
+    faults(setting, "harmonic", ["--method", "harmonic", "--linear", "iterative"])
+
+
+def faults(setting, name, method):
+    """Each call of the driver fails once; and from a launch on, all do."""
     library = setting.preloaded("driver_faults", "-Wl,-soname,libcuda.so.1")
-    for name, method in (("stepped", ["--method", "explicit"]), ("harmonic", ["--method", "harmonic", "--linear", "iterative"])):
-        whole = setting.clear("whole")
-        outcome = setting.run(command(whole, method))
-        if outcome.code != 0:
-            sys.exit(f"{name} does not even run on a GPU: {outcome}")
-        expected = Result(whole)
-        counts = census(setting, library, method)
-        print(f"{name}: " + ", ".join(f"{counts[kind]} {kind}" for kind in KINDS), flush=True)
-        for kind in KINDS:
-            for at in setting.sample(range(1, counts[kind] + 1), 12, long=120 if kind != "memory" else None):
-                trial(setting, library, f"{name}, {kind} {at}", method, kind, at, expected)
-        for at in setting.sample(range(1, counts["launch"] + 1), 6, long=40):
-            trial(setting, library, f"{name}, lost at launch {at}", method, "lost", at, expected)
+    whole = setting.clear("whole")
+    outcome = setting.run(command(whole, method))
+    if outcome.code != 0:
+        sys.exit(f"{name} does not even run on a GPU: {outcome}")
+    expected = Result(whole)
+    counts = census(setting, library, method)
+    print(f"{name}: " + ", ".join(f"{counts[kind]} {kind}" for kind in KINDS), flush=True)
+    for kind in KINDS:
+        for at in setting.sample(range(1, counts[kind] + 1), 10, long=120 if kind != "memory" else None):
+            trial(setting, library, f"{name}, {kind} {at}", method, kind, at, expected)
+    for at in setting.sample(range(1, counts["launch"] + 1), 5, long=40):
+        trial(setting, library, f"{name}, lost at launch {at}", method, "lost", at, expected)
 
 
 def driver_file():
