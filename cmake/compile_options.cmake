@@ -3,6 +3,8 @@
 add_library(macadam_options INTERFACE)
 target_include_directories(macadam_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra>)
+# Eigen's own threads would cut sums as their number has it, and wait for one another in a way that looks like a race.
+target_compile_definitions(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:EIGEN_DONT_PARALLELIZE>)
 if(MACADAM_WERROR)
   target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
 endif()
@@ -10,6 +12,13 @@ endif()
 # counters of coverage look for the files.
 target_compile_options(macadam_options INTERFACE $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<CONFIG:Release>>:
                        -ffile-prefix-map=${PROJECT_SOURCE_DIR}=. -ffile-prefix-map=${PROJECT_BINARY_DIR}=build>)
+# Compiled by clang 14 or 16 for AVX-512, libstdc++'s packets (std::experimental::simd) lose what is assigned to lanes that a
+# mask of doubles chooses: bonds would not break.
+set(MACADAM_PACKETS $<$<CXX_COMPILER_ID:Clang>:-mno-avx512f>)
+set(MACADAM_STEP_OPTIONS -Wno-psabi)  # the warning speaks of calls between libraries, and packets never leave their files
+if(MACADAM_NATIVE)
+  list(APPEND MACADAM_STEP_OPTIONS -march=native ${MACADAM_PACKETS})
+endif()
 if(MACADAM_SANITIZE)
   # Null pointers and ends of objects are the address sanitizer's too; asked twice, and with alignment and types of objects,
   # they take a third of a build.
