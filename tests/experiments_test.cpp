@@ -234,7 +234,7 @@ TEST_F(Experiments, TablesForOtherProgramsHoldTheSameMaterial) {
       const bool maxwell = std::isnan(unit.at("time_s"));
       creep +=
           maxwell ? 1 / unit.at("E_pa") + t / unit.at("C_pa_s") : -std::expm1(-t / unit.at("time_s")) / unit.at("E_pa");
-      if (!maxwell) EXPECT_NEAR(unit.at("C_pa_s") / unit.at("E_pa") / unit.at("time_s"), 1, 1e-14);
+      if (!maxwell) { EXPECT_NEAR(unit.at("C_pa_s") / unit.at("E_pa") / unit.at("time_s"), 1, 1e-14); }
     }
     EXPECT_GT(creep * expected, 0.1);  // J·E is at most 1, and near it for what relaxes slowly
     EXPECT_LE(creep * expected, 1 + 1e-9);

@@ -283,9 +283,11 @@ TEST(ShapedSpecimens, MayBeTestedByTheirSpheres) {
     const Specimen& by_surfaces = made_of(ShapeSpec::Library::icosahedron).specimen;
     for (std::size_t i = 0; i < s.size() && s.body[i] >= 0; ++i) {
       EXPECT_EQ(s.radius[i], by_surfaces.radius[i]) << i;  // the fillings are the same
-      for (std::size_t j = 0; j < i; ++j)                  // 1e-15 m: rounding of positions in a box of centimetres
-        if (s.body[i] != s.body[j])
-          EXPECT_GE(norm(s.centre[i] - s.centre[j]), s.radius[i] + s.radius[j] + spacing - 1e-15) << i << " " << j;
+      for (std::size_t j = 0; j < i; ++j) {
+        if (s.body[i] == s.body[j]) continue;
+        EXPECT_GE(norm(s.centre[i] - s.centre[j]), s.radius[i] + s.radius[j] + spacing - 1e-15)
+            << i << " " << j;  // 1e-15 m: rounding of positions in a box of centimetres
+      }
       const Vec3d x = s.centre[i], l = s.box.size;
       EXPECT_GE(std::min({x.x, x.y, x.z, l.x - x.x, l.y - x.y, l.z - x.z}), s.radius[i] - 1e-15) << i;
     }
