@@ -76,7 +76,7 @@ def interrupted(setting):
                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         while not (out / "checkpoint.h5").exists() and child.poll() is None and time.monotonic() < end:
             time.sleep(0.005)
-        child.send_signal(signal.SIGINT)
+        child.send_signal(signal.SIGTERM)  # SIGINT is ignored where a shell runs this in the background
         child.wait()
         if (out / "checkpoint-previous.h5").exists():
             return out
