@@ -155,7 +155,7 @@ void add_memory(Forecast& f, const Cost& cost) {
   const bool device = f.backend == Backend::cuda;
   const double stepped = f.stepped ? step_cost(device, f.form, f.precision, f.geometry).bytes : 0;
   const double host =
-      cost.a_contact + (f.solutions > 0 && !device ? cost.a_solved_contact : 0) + (device ? 0 : stepped);
+      cost.a_contact + (f.solutions > 0 && !device ? cost.a_solved_contact : 0) + (device ? 0 : cost.made * stepped);
   f.host_bytes = cost.program + host * f.contacts;
   if (device)
     f.device_bytes =
