@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/reliability.md: campaigns of faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours of runs
 (tests/soak), races (scripts/races --table), mistakes on purpose (tests/mutation/campaign --table), compilers (tests/same_bits/run --table)."""
-import collections
-
 from pages.data import head, rows, table
 from pages.marks import mark
 
@@ -10,9 +8,6 @@ DOCUMENT = "docs/reliability.md"
 FAULTS = "faults.csv"
 FUZZING = "fuzzing.csv"
 SOAK = {"cpu": "soak-cpu.csv", "cuda": "soak-cuda.csv"}
-RACES = "races.csv"
-MUTATION = "mutation.csv"
-SAME_BITS = "same-bits.csv"
 READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specimen": "specimens (CSV)",
          "specimen_gz": "specimens (CSV in gzip)", "laboratory": "laboratory data (CSV)", "checkpoint": "checkpoints (HDF5)",
          "off": "surfaces (OFF)", "obj": "surfaces (OBJ)", "stl": "surfaces (STL)", "ply": "surfaces (PLY)",
@@ -78,62 +73,3 @@ def soak():
                     both("files", 0), both("threads", 0)))
     return table(["backend", "measured", "minutes", "runs", "resumed", "resident, before / last third [MB]", "allocated [MB]",
                   "device [MB]", "open files", "threads"], out, right=range(2, 10))
-
-
-@mark
-def races_machine():
-    return head(RACES)[0]
-
-
-@mark
-def races_programs():
-    return f"{len(rows(RACES))}"
-
-
-@mark
-def races_tests():
-    return f"{sum(r['tests'] for r in rows(RACES)):,.0f}"
-
-
-@mark
-def races_found():
-    return f"{sum(r['reports'] for r in rows(RACES)):.0f}"
-
-
-def verdicts():
-    return collections.Counter(r["verdict"] for r in rows(MUTATION))
-
-
-@mark
-def mutation_machine():
-    return head(MUTATION)[0]
-
-
-@mark
-def mutation():
-    """By folder of the sources."""
-    folders = collections.defaultdict(collections.Counter)
-    for r in rows(MUTATION):
-        folders["/".join(r["file"].split("/")[:2]) if r["file"].startswith("host/") else "kernels"][r["verdict"]] += 1
-    names = ("killed", "survived", "not reached")
-    listed = [(name, sum(c.values()), *(c[v] for v in names)) for name, c in sorted(folders.items())]
-    listed.append(("all", sum(row[1] for row in listed), *(sum(row[k] for row in listed) for k in (2, 3, 4))))
-    return table(["sources", "mistakes", "noticed", "not noticed", "no test comes by"], listed, right=range(1, 5))
-
-
-@mark
-def mutation_share():
-    count = verdicts()
-    return f"{100 * count['killed'] / (count['killed'] + count['survived']):.0f} %"
-
-
-@mark
-def same_bits_machine():
-    return head(SAME_BITS)[0]
-
-
-@mark
-def same_bits():
-    return table(["compiler", "optimisation", "runs", "other specimen", "other response", "other contacts"],
-                 [(r["compiler"], f"`{r['level']}`", f"{r['runs']:.0f}", *(f"{r[n]:.0f}" for n in ("specimen.csv", "response.csv", "contacts.csv")))
-                  for r in rows(SAME_BITS)], right=range(2, 6))

@@ -3,11 +3,13 @@
 // memory nor open files that grow.
 //
 // usage: soak SECONDS [cpu|cuda] [TABLE.csv]
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <malloc.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <ctime>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -126,6 +128,7 @@ int soak(double seconds, const std::string& backend, const std::string& table) {
   fs::create_directories(folder);
   Soak soak(folder, backend);
   std::ofstream out(table.empty() ? "/dev/null" : table);
+  out << fmt::format("# {:%F}, {}, Macadam {}\n", fmt::localtime(std::time(nullptr)), backend, version());
   const char* head = "seconds,runs,resumes,resident_mb,allocated_mb,device_mb,files,threads\n";
   out << head;
   fmt::print("{}", head);
