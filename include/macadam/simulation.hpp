@@ -107,12 +107,13 @@ struct Watcher {
 /// response.csv is complete up to the last sample whatever happens later; so is summary.json up to the last frequency
 /// (up to ten times what saving takes, where frequencies take less). A stepped run of a scene that was read from a file
 /// leaves `checkpoint.h5` as it goes (OutputSpec::checkpoint), replaced by a rename, and the one before it as
-/// `checkpoint-previous.h5`; one that cannot be written is a warning. When all is done the run removes its own and those
-/// of the same scene, no other; but its first one replaces whatever checkpoint is there. Backend reference keeps none.
-/// `resume` goes on from it to the same bits as a run that was never interrupted; where the newest is missing or damaged,
-/// a warning says so, and the one before is gone on from. \throws InputError also for a checkpoint that is not there,
-/// damaged, or of another scene, version, backend or precision, and where another command is writing into the folder;
-/// InterruptedError; RunError (DivergenceError names particle and time), also for a tolerance whose result cannot be right.
+/// `checkpoint-previous.h5`; one that cannot be written is a warning. When all is done the run removes its own and
+/// those of the same scene, no other; but its first one replaces whatever checkpoint is there. Backend reference keeps
+/// none. `resume` goes on from it to the same bits as a run that was never interrupted; where the newest is missing or
+/// damaged, a warning says so, and the one before is gone on from. \throws InputError also for a checkpoint that is not
+/// there, damaged, or of another scene, version, backend or precision, and where another command is writing into the
+/// folder; InterruptedError; RunError (DivergenceError names particle and time), also for a tolerance whose result
+/// cannot be right.
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
 /// The same of what was prepared already, of this scene or of one with the same particles.
 RunResult run(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,

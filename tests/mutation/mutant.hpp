@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file mutant.hpp  Which one of the mistakes that tests/mutation/campaign has put into the sources is made: that of the
-/// environment's MUTANT, or none. The campaign compiles every source with this file before it.
+/// \file mutant.hpp  Which one of the mistakes that tests/mutation/campaign has put into the sources is made: that of
+/// the environment's MUTANT, or none. The campaign compiles every source with this file before it.
 #pragma once
 
 #include <cstdio>
@@ -10,7 +10,8 @@ namespace mutation {
 
 inline constexpr int most = 4096;
 
-/// Those whose place in the code was come by. Written down at the end where the environment's MUTANTS_REACHED names a file.
+/// Those whose place in the code was come by. Written down at the end where the environment's MUTANTS_REACHED names a
+/// file.
 struct Reached {
   bool at[most] = {};
   ~Reached() {

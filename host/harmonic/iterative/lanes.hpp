@@ -53,10 +53,12 @@ struct Lanes {
   friend Lanes operator*(double a, Lanes b) { return a * b.v; }
 
   /// Real and imaginary parts exchanged.
-  Lanes swapped() const {
-    return [this]<int... i>(std::integer_sequence<int, i...>) -> Register {
-      return __builtin_shufflevector(v, v, ((i + F) % width)...);
-    }(std::make_integer_sequence<int, width>());
+  Lanes swapped() const { return in_order(std::make_integer_sequence<int, width>()); }
+
+ private:
+  template <int... i>
+  Register in_order(std::integer_sequence<int, i...>) const {
+    return __builtin_shufflevector(v, v, ((i + F) % width)...);
   }
 };
 
