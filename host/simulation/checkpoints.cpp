@@ -195,8 +195,13 @@ void Checkpoints::keep_previous() const {
   }
   if (fs::equivalent(file_, previous, ignored)) return;  // the last one could not be written
   fs::remove(aside, ignored);
-  fs::create_hard_link(file_, aside, ignored);
-  if (!ignored) fs::rename(aside, previous, ignored);
+  std::error_code error;
+  fs::create_hard_link(file_, aside, error);
+  if (error == std::errc::operation_not_permitted || error == std::errc::operation_not_supported) return;
+  if (!error) fs::rename(aside, previous, error);
+  if (!error) return;
+  fs::remove(aside, ignored);
+  warn_(fmt::format("{}: the checkpoint before the newest cannot be kept: {}", previous.string(), error.message()));
 }
 
 }  // namespace macadam
