@@ -141,6 +141,9 @@ TEST_F(CtImage, HeadersOnWhichItkWouldNotEndAreRefused) {
   bytes = whole;
   refused("text.tif", bytes.replace(directory + 2, 12, std::string("\x15\xfa\2\0\1\0\0\0x\0\0\0", 12)),
           "tag 64021 of the TIFF file: found a text without an end");
+  bytes = whole;
+  refused("date.tif", bytes.replace(directory + 2, 12, std::string("\x32\1\3\0\1\0\0\0\x10\0\0\0", 12)),
+          "tag 306 of the TIFF file: found type 3, expected a text, type 2");
 }
 
 }  // namespace

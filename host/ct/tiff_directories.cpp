@@ -59,7 +59,9 @@ void check_tag(const std::filesystem::path& file, Numbers& numbers, std::uint64_
   if (bytes > 0 && values > size / bytes)
     refuse(std::to_string(values) + " values of " + std::to_string(bytes) + " bytes",
            "as many as the " + std::to_string(size) + " bytes of the file hold");
-  if (type != text || values == 0 || std::ranges::count(known_texts, tag) > 0) return;
+  const bool known = std::ranges::count(known_texts, tag) > 0;
+  if (known && type != text) refuse("type " + std::to_string(type), "a text, type " + std::to_string(text));
+  if (type != text || values == 0 || known) return;
   const std::uint64_t inside = entry + 4 + place_bytes;
   const std::uint64_t begin = values <= place_bytes ? inside : numbers.at(inside, static_cast<int>(place_bytes));
   if (begin >= size || values > size - begin || numbers.at(begin + values - 1, 1) != 0)

@@ -9,7 +9,8 @@ namespace macadam::ct {
 /// Each directory names the place of the next: ITK's libtiff follows a chain that comes back to itself for ever.
 /// It also takes memory for as many values as a tag counts, before it looks for their bytes, and ITK reads texts of
 /// tags that libtiff does not know beyond their end. \throws InputError for such a chain, for one that leaves the file,
-/// for tags with more values than the file has bytes, and for such a text without a 0 at its end. What is no TIFF file
+/// for tags with more values than the file has bytes, and for such a text without a 0 at its
+/// end, or a known text that is of another type. What is no TIFF file
 /// at all is left to ITK.
 void check_tiff_directories(const std::filesystem::path& file);
 
