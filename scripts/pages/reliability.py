@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/reliability.md: campaigns of faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours of runs
-(tests/soak), races (scripts/races --table), mistakes on purpose (tests/mutation/campaign --table), compilers (tests/same_bits/run --table)."""
+(tests/soak), races (scripts/races --table)."""
 from pages.data import head, rows, table
 from pages.marks import mark
 
 DOCUMENT = "docs/reliability.md"
 FAULTS = "faults.csv"
 FUZZING = "fuzzing.csv"
+RACES = "races.csv"
 SOAK = {"cpu": "soak-cpu.csv", "cuda": "soak-cuda.csv"}
 READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specimen": "specimens (CSV)",
          "specimen_gz": "specimens (CSV in gzip)", "laboratory": "laboratory data (CSV)", "checkpoint": "checkpoints (HDF5)",
@@ -73,3 +74,23 @@ def soak():
                     both("files", 0), both("threads", 0)))
     return table(["backend", "measured", "minutes", "runs", "resumed", "resident, before / last third [MB]", "allocated [MB]",
                   "device [MB]", "open files", "threads"], out, right=range(2, 10))
+
+
+@mark
+def races_machine():
+    return head(RACES)[0]
+
+
+@mark
+def races_programs():
+    return f"{sum(r['tests'] > 0 for r in rows(RACES))}"
+
+
+@mark
+def races_tests():
+    return f"{sum(r['tests'] for r in rows(RACES)):,.0f}"
+
+
+@mark
+def races_found():
+    return f"{sum(r['reports'] for r in rows(RACES)):.0f}"
