@@ -156,7 +156,8 @@ void add_memory(Forecast& f, const Cost& cost) {
   const double stepped = f.stepped ? step_cost(device, f.form, f.precision, f.geometry).bytes : 0;
   const double host =
       cost.a_contact + (f.solutions > 0 && !device ? cost.a_solved_contact : 0) + (device ? 0 : cost.made * stepped);
-  f.host_bytes = cost.program + host * f.contacts;
+  const double more = std::log(std::max(1.0, f.contacts / cost.contacts_kept));
+  f.host_bytes = cost.program + host * f.contacts * std::max(cost.least_share, 1 - cost.less_an_e_fold * more);
   if (device)
     f.device_bytes =
         cost.device + std::max(stepped, f.solutions > 0 ? cost.a_solved_contact_on_device : 0) * f.contacts;
