@@ -25,7 +25,7 @@ struct Cost {
   // bytes: of the program; a contact, of the specimen, the solutions; of the device's own, and a contact's solutions
   double program = 32e6, a_contact = 1250, a_solved_contact = 550, device = 5e8, a_solved_contact_on_device = 450;
   // beyond so many contacts, what arrays no longer need goes back to the system at once: less a contact for each e-fold
-  double contacts_kept = 250'000, less_an_e_fold = 0.11, least_share = 0.7;
+  double contacts_kept = 150'000, less_an_e_fold = 0.15, least_share = 0.7;
   double made = 1.5;  // what a stepper takes while it is made, over what it holds
 };
 
