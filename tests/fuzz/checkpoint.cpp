@@ -8,25 +8,17 @@
 #include "tests/fuzz/target.hpp"
 
 namespace macadam::fuzz {
-namespace {
 
-MemoryFile& file() {
-  static MemoryFile one;
-  return one;
-}
-
-}  // namespace
-
-std::string file_name() { return file().path().string(); }
+std::string file_name() { return the_file().path().string(); }
 
 void read(std::string_view bytes) {
   if (bytes.starts_with("Macadam checkpoint")) {
-    read_checkpoint(file().with(bytes));
+    read_checkpoint(the_file().with(bytes));
     return;
   }
   const std::string image =
       forged_hdf5(bytes, {"texts", "arrays"}, {"scene", "plan", "state x", "x\ny", "a/b"}, {"unit", "other"});
-  read_checkpoint(file().with(user_block_of(image) + image));
+  read_checkpoint(the_file().with(user_block_of(image) + image));
 }
 
 }  // namespace macadam::fuzz

@@ -5,20 +5,12 @@
 #include "tests/fuzz/target.hpp"
 
 namespace macadam::fuzz {
-namespace {
 
-MemoryFile& file() {
-  static MemoryFile one;
-  return one;
-}
-
-}  // namespace
-
-std::string file_name() { return file().path().string(); }
+std::string file_name() { return the_file().path().string(); }
 
 void read(std::string_view bytes) {
   const bool shear = bytes.find("g_star_pa") != std::string_view::npos;
-  read_modulus_data(file().with(bytes), shear ? std::optional(0.35) : std::nullopt);
+  read_modulus_data(the_file().with(bytes), shear ? std::optional(0.35) : std::nullopt);
 }
 
 }  // namespace macadam::fuzz

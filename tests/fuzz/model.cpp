@@ -5,18 +5,10 @@
 #include "tests/fuzz/target.hpp"
 
 namespace macadam::fuzz {
-namespace {
 
-MemoryFile& file() {
-  static MemoryFile one;
-  return one;
-}
+std::string file_name() { return the_file().path().string(); }
 
-}  // namespace
-
-std::string file_name() { return file().path().string(); }
-
-void read(std::string_view bytes) { read_analogue(file().with(bytes)); }
+void read(std::string_view bytes) { read_analogue(the_file().with(bytes)); }
 
 }  // namespace macadam::fuzz
 

@@ -7,18 +7,10 @@
 #include "tests/fuzz/target.hpp"
 
 namespace macadam::fuzz {
-namespace {
 
-MemoryFile& file() {
-  static MemoryFile one;
-  return one;
-}
+std::string file_name() { return the_file().path().string(); }
 
-}  // namespace
-
-std::string file_name() { return file().path().string(); }
-
-void read(std::string_view bytes) { read_specimen_csv(file().with(bytes), {{1, 1, 1}}); }
+void read(std::string_view bytes) { read_specimen_csv(the_file().with(bytes), {{1, 1, 1}}); }
 
 }  // namespace macadam::fuzz
 

@@ -15,7 +15,7 @@ void read(std::string_view bytes);
 /// How the file is called: messages must say it. Defined once in each program.
 std::string file_name();
 
-/// A file that is on no disk; one for the whole program.
+/// A file that is on no disk.
 class MemoryFile {
  public:
   /// `ending`: that of its name, ".tif" for instance; empty where the reader does not ask.
@@ -32,5 +32,11 @@ class MemoryFile {
   int file_;
   std::filesystem::path path_, folder_;
 };
+
+/// The one file of a program whose reader does not ask for an ending.
+inline MemoryFile& the_file() {
+  static MemoryFile one;
+  return one;
+}
 
 }  // namespace macadam::fuzz
