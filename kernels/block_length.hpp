@@ -15,11 +15,15 @@
 
 namespace macadam::kernels {
 
-/// Steps of a block: at most `options.blocks`-th of the shortest time in the load or the laws, and so few that at the
-/// specimen's strain a carried normal turns by less than 1e-6 in a 4,000th of that time. Where this allows it, blocks
-/// end at the observations, which otherwise cut them. 0: blocks would be too short to pay, or nothing says how fast the
-/// load changes, a law has no blocks, or a wall follows a force,
-/// which needs the sum on it at every step. `size`: of the specimen [m].
+/// Sums over the steps of a block are in single precision: |E*| of 160 particles at true mass is off by no more with so
+/// many steps than with 128.
+inline constexpr int longest_block = 1024;
+
+/// Steps of a block: at most longest_block, at most the `options.blocks`-th part of the shortest time in the load or
+/// the laws, and so few that at the specimen's strain a carried normal turns by less than 1e-6 in a 4,000th of that
+/// time. Where this allows it, blocks end at the observations, which otherwise cut them. 0: blocks would be too short
+/// to pay, or nothing says how fast the load changes, a law has no blocks, or a wall follows a force, which needs the
+/// sum on it at every step. `size`: of the specimen [m].
 inline int block_steps(const StepperOptions& options, const FactsTable& laws, const Vec3d& size) {
   if (!options.boundary.any(DrivenBy::displacement) || options.boundary.any(DrivenBy::force)) return 0;
   constexpr double pi = std::numbers::pi;
@@ -39,7 +43,8 @@ inline int block_steps(const StepperOptions& options, const FactsTable& laws, co
     if (!law->blocks) return 0;
     shortest = std::min(shortest, 2 * pi * law->shortest_time);
   }
-  const auto most = static_cast<std::int64_t>(std::min(256.0, std::floor(shortest / (options.blocks * options.dt))));
+  const auto most =
+      static_cast<std::int64_t>(std::min<double>(longest_block, std::floor(shortest / (options.blocks * options.dt))));
   if (most < 4) return 0;
   for (std::int64_t steps = most; 2 * steps >= most; --steps) {  // of less than half, more would be lost than is won
     const std::int64_t observed = options.observed_every;

@@ -57,18 +57,32 @@ struct BlockSettling {
                      Twist<double>{vector(now, b, 0) - vector(now, a, 0), vector(now, b, 4)}, x);
       for (int c = 0; c < view.components; ++c) f[c] = law.rate * x[c];
     }
-    for (int c = 0; view.chain && c < view.components; ++c) {
-      const auto chains = static_cast<std::size_t>(view.components) * packet + static_cast<std::size_t>(c);
-      State* chain = view.chain + chains * static_cast<std::size_t>(1 + units) * lanes + item.lane;
-      double x[Units >= 0 ? Units + 1 : Block::most_units];
-      for (int l = 0; l < units; ++l) x[l] = chain[static_cast<std::size_t>(1 + l) * lanes];
-      const auto unit = [&](int l) -> double& { return x[l]; };
-      const double start = chain[0];
-      f[c] = start + change[c];
-      if (steps > 0) law.template settle<Units>(2.0 * steps * start + sum[c], unit);
-      out.drift[c] = static_cast<float>(law.template drift<Units>(f[c], unit));
-      chain[0] = static_cast<State>(f[c]);
-      for (int l = 0; l < units; ++l) chain[static_cast<std::size_t>(1 + l) * lanes] = static_cast<State>(x[l]);
+    // Where the number of units is known, all chains are asked for before the first is stored.
+    constexpr int together = Units >= 0 ? 6 : 1, most = Units >= 0 ? Units : Block::most_units;
+    for (int first = 0; view.chain && first < view.components; first += together) {
+      State held[together][1 + most];
+      const auto each = [&](auto&& each_word) {
+        for (int c = 0; c < together; ++c) {
+          const auto chains = static_cast<std::size_t>(view.components) * packet + static_cast<std::size_t>(first + c);
+          State* chain = view.chain + chains * static_cast<std::size_t>(1 + units) * lanes + item.lane;
+          if (first + c >= view.components) continue;
+          for (int l = 0; l <= units; ++l) each_word(held[c][l], chain[static_cast<std::size_t>(l) * lanes]);
+        }
+      };
+      each([](State& here, const State& there) { here = there; });
+      for (int c = 0; c < together && first + c < view.components; ++c) {
+        double x[most > 0 ? most : 1];
+        for (int l = 0; l < units; ++l) x[l] = held[c][1 + l];
+        const auto unit = [&](int l) -> double& { return x[l]; };
+        const double start = held[c][0];
+        double& now_f = f[first + c];
+        now_f = start + change[first + c];
+        if (steps > 0) law.template settle<Units>(2.0 * steps * start + sum[first + c], unit);
+        out.drift[first + c] = static_cast<float>(law.template drift<Units>(now_f, unit));
+        held[c][0] = static_cast<State>(now_f);
+        for (int l = 0; l < units; ++l) held[c][1 + l] = static_cast<State>(x[l]);
+      }
+      each([](State& here, State& there) { there = here; });
     }
     double m[6];
     for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);

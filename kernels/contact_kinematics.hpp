@@ -7,6 +7,8 @@
 ///   opening  u[0] + s·u[1] + t·u[2],   slip along ŝ  u[3] − t·u[5],   slip along t̂  u[4] + s·u[5].
 #pragma once
 
+#include <type_traits>
+
 #include "macadam/numeric.hpp"
 
 namespace macadam::kernels {
@@ -24,10 +26,22 @@ struct Placement {
   T arm_a, arm_b;
 };
 
+/// 1/x where 1 ≤ |x| ≤ 2: a device's division would look after the ends of the range, too.
+template <class T>
+MACADAM_HD T reciprocal_near_one(const T& x) {
+#ifdef __CUDA_ARCH__
+  if constexpr (std::is_same_v<T, float>) {
+    const float r = __fdividef(1.0f, x);
+    return fmaf(r, fmaf(-x, r, 1.0f), r);
+  }
+#endif
+  return T(1) / x;
+}
+
 /// Canonical frame of a unit normal (Duff et al. 2017); `sign` is copysign(1, n.z).
 template <class T>
 MACADAM_HD Placement<T> canonical_placement(const Vec3<T>& n, const T& sign, const T& arm_a, const T& arm_b) {
-  const T a = T(-1) / (sign + n.z);
+  const T a = -reciprocal_near_one(sign + n.z);
   const T b = n.x * n.y * a;
   return {n, {T(1) + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, arm_a, arm_b};
 }

@@ -192,7 +192,6 @@ class TileRunner {
     if (!plan_.fits) return;
     limits_ = DeviceLimits::of_each(team_, multiprocessors);
     scene_.most_bodies = plan_.most_bodies;
-    scene_.most_halo = plan_.most_halo;
     scene_.most_locals = plan_.most_locals;
     scene_.most_slots = plan_.most_slots;
     scene_.places = static_cast<std::uint32_t>(plan_.body.size());
@@ -208,24 +207,23 @@ class TileRunner {
   template <bool carried>
   bool try_resident() {
     constexpr int Threads = resident_threads;
-    const auto kernel = run_resident<P, Threads, carried>;
     const auto limit = static_cast<std::uint32_t>(limits_.shared);
-    const auto memory = [&](std::uint32_t cached) {
-      return ResidentMemory<P>(plan_.most_bodies, plan_.most_halo, plan_.most_locals, plan_.most_slots, cached, carried,
-                               scene_.where);
+    const auto most = [&](TileRest where, std::uint32_t room) {
+      std::uint32_t bytes = 0;
+      for (const Tile& tile : plan_.tile) bytes = std::max(bytes, ResidentMemory<P>(tile, carried, where, room).total);
+      return bytes;
     };
-    for (const TileRest where : {TileRest::all_away, TileRest::away, TileRest::here}) {
-      const TileRest before = std::exchange(scene_.where, where);
-      if (memory(0).total > limit) scene_.where = before;
+    scene_.where = TileRest::all_away;
+    for (const TileRest where : {TileRest::away, TileRest::here}) {
+      if (most(where, 0) <= limit) scene_.where = where;
     }
-    std::uint32_t cached = 0;
-    while (cached < plan_.most_packets && memory(cached + 1).total <= limit) ++cached;
-    const ResidentMemory<P> places = memory(cached);
-    const std::uint32_t shared = places.total;
+    const auto kernel = scene_.where == TileRest::here   ? run_resident<P, Threads, carried, TileRest::here>
+                        : scene_.where == TileRest::away ? run_resident<P, Threads, carried, TileRest::away>
+                                                         : run_resident<P, Threads, carried, TileRest::all_away>;
+    const std::uint32_t shared = scene_.room = most(scene_.where, limit);
     bool fits = true;
     team_.each([&](std::size_t m) { fits = fits && fits_resident(limits_, kernel, tiles(m), Threads, shared); });
     if (!fits) return false;
-    scene_.cached_packets = cached;
     resident_ = true;
     team_.each([&](std::size_t m) {
       room_[team_.device(m)] += static_cast<int>(tiles(m));
@@ -236,10 +234,10 @@ class TileRunner {
       team_.each([&](std::size_t m) { tables_[m].rest = store_.template zeros<unsigned char>(tiles(m) * bytes); });
     }
     use_ = kernel_use("tiles on the chip", kernel, Threads, shared);
-    run_ = [this, kernel, places](std::uint32_t steps) {
+    run_ = [this, kernel](std::uint32_t steps) {
       team_.each([&](std::size_t m) {
-        launch_together("time steps", kernel, tiles(m), Threads, places.total, team_.stream(m), scene_of(m), places,
-                        steps, tag_);
+        launch_together("time steps", kernel, tiles(m), Threads, scene_.room, team_.stream(m), scene_of(m), steps,
+                        tag_);
       });
       team_.each([&](std::size_t m) { check_launch("time steps", team_.stream(m)); });
     };

@@ -106,7 +106,8 @@ struct TileScene {
   float4 law[pair_types];    ///< rate·Δt, relax, α, follow
   unsigned char* rest;       ///< [block] what has no room in shared memory
   TileRest where;
-  std::uint32_t most_bodies, most_halo, most_locals, most_slots, cached_packets;
+  std::uint32_t most_bodies, most_locals, most_slots;
+  std::uint32_t room;  ///< bytes of shared memory that a tile on the chip has
   std::uint32_t places;
   std::uint32_t first_tile;  ///< of this device
 
@@ -128,38 +129,58 @@ struct ContactConstants {
 
 /// A run of contacts, as a thread steps it: the motion of the end A that they share, and the sum of their loads on it.
 struct ContactRun {
-  Vec3<float> linear, angular, force{0, 0, 0}, moment{0, 0, 0};
+  Vec3<float> linear, angular, force, moment;
   bool goes_on = false;
+};
+
+/// What is known of a contact without its state.
+template <bool carried>
+struct ContactInBlock {
+  const float4 (&word)[tile_constants(carried)];
+  Placement<float> frame;
+  GroupAndRow of;
+  EndPair slots;
+
+  __device__ __forceinline__ explicit ContactInBlock(const ContactConstants<carried>& constant)
+      : word(constant.word), of{__float_as_uint(word[tile_drift_b].w)}, slots{__float_as_uint(word[tile_drift_b].z)} {
+    const float4 c0 = word[tile_normal];
+    const Vec3<float> n{c0.x, c0.y, c0.z};
+    if constexpr (carried) {
+      const float4 c5 = word[tile_tangent];
+      const Vec3<float> tangent{c5.x, c5.y, c5.z};
+      frame = {n, tangent, cross(n, tangent), c0.w, word[tile_moment_a].x};
+    } else {
+      frame = canonical_placement(n, copysignf(1.0f, n.z), c0.w, word[tile_moment_a].x);
+    }
+  }
+  __device__ __forceinline__ EndPair ends() const { return {__float_as_uint(word[tile_moment_b].w)}; }
+
+  /// The change of its loads with `change` of its f.
+  __device__ __forceinline__ ContactLoad<float> load(const float (&change)[6], float alpha) const {
+    const float4 c1 = word[tile_moment_a], c2 = word[tile_moment_b];
+    const float moments[6] = {c1.y, c1.z, c1.w, c2.x, c2.y, c2.z};
+    return to_centres(frame, condensed_load(change, alpha, moments));
+  }
 };
 
 /// Steps one contact of a run; `v` and `w` are the tables of velocities and spins. Returns the change of its loads.
 template <bool carried>
-__device__ __forceinline__ ContactLoad<float> step_in_block(const ContactConstants<carried>& constant,
-                                                            const float4* law, const float4* v, const float4* w,
-                                                            float (&change)[6], float (&sum)[6], EndPair& slots,
-                                                            GroupAndRow& of, ContactRun& run) {
-  const float4 c0 = constant.word[tile_normal], c1 = constant.word[tile_moment_a], c2 = constant.word[tile_moment_b];
-  const float4 c3 = constant.word[tile_drift_a], c4 = constant.word[tile_drift_b];
-  const EndPair end{__float_as_uint(c2.w)};
-  slots.word = __float_as_uint(c4.z), of.word = __float_as_uint(c4.w);
+__device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock<carried>& contact, const float4* law,
+                                                            const float4* v, const float4* w, float (&change)[6],
+                                                            float (&sum)[6], ContactRun& run) {
+  const EndPair end = contact.ends();
   if (!run.goes_on) {
     const float4 va = v[end.a()], wa = w[end.a()];
     run.linear = {va.x, va.y, va.z};
     run.angular = {wa.x, wa.y, wa.z};
+    run.force = run.moment = {0, 0, 0};
   }
-  run.goes_on = slots.a() == TilePlan::more_of_run;
+  run.goes_on = contact.slots.a() == TilePlan::more_of_run;
   const float4 vb = v[end.b()], wb = w[end.b()];
-  const Vec3<float> n{c0.x, c0.y, c0.z};
-  Placement<float> f;
-  if constexpr (carried) {
-    const float4 c5 = constant.word[tile_tangent];
-    f = {n, {c5.x, c5.y, c5.z}, cross(n, Vec3<float>{c5.x, c5.y, c5.z}), c0.w, c1.x};
-  } else {
-    f = canonical_placement(n, copysignf(1.0f, n.z), c0.w, c1.x);
-  }
   float u[6];
-  relative_rates(f, Twist<float>{run.linear, run.angular}, Twist<float>{{vb.x, vb.y, vb.z}, {wb.x, wb.y, wb.z}}, u);
-  const float4 l = law[of.group()];
+  relative_rates(contact.frame, Twist<float>{run.linear, run.angular},
+                 Twist<float>{{vb.x, vb.y, vb.z}, {wb.x, wb.y, wb.z}}, u);
+  const float4 l = law[contact.of.group()], c3 = contact.word[tile_drift_a], c4 = contact.word[tile_drift_b];
   const float drift[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
 #pragma unroll
   for (int c = 0; c < 6; ++c) {
@@ -167,33 +188,45 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactConstan
     change[c] += l.x * u[c] + (drift[c] + l.w * sum[c] - l.y * before);
     sum[c] += change[c] + before;
   }
-  const float moments[6] = {c1.y, c1.z, c1.w, c2.x, c2.y, c2.z};
-  return to_centres(f, condensed_load(change, l.z, moments));
+  return contact.load(change, l.z);
 }
 
-/// Slots of loads in shared memory, three planes of two words.
+/// Slots of loads in shared memory, three words of two numbers each: so far apart that neighbouring slots are in other
+/// banks.
 struct TileSlots {
-  float2* plane;
-  std::uint32_t size;
+  float2* word;
 
   __device__ __forceinline__ void put(std::uint32_t slot, const Vec3<float>& force, const Vec3<float>& moment) const {
     if (slot == TilePlan::no_slot) return;
-    plane[slot] = {force.x, force.y};
-    plane[size + slot] = {force.z, moment.x};
-    plane[2 * size + slot] = {moment.y, moment.z};
+    float2* to = word + 3 * slot;
+    to[0] = {force.x, force.y};
+    to[1] = {force.z, moment.x};
+    to[2] = {moment.y, moment.z};
   }
   __device__ __forceinline__ void add(std::uint32_t slot, float (&f)[6]) const {
-    const float2 a = plane[slot], b = plane[size + slot], c = plane[2 * size + slot];
+    const float2* from = word + 3 * slot;
+    const float2 a = from[0], b = from[1], c = from[2];
     f[0] += a.x, f[1] += a.y, f[2] += b.x, f[3] += b.y, f[4] += c.x, f[5] += c.y;
+  }
+  /// Adds the first `count` of four slots, or all of them: asked for together.
+  __device__ __forceinline__ void add(const std::uint32_t (&slot)[4], std::uint32_t count, float (&f)[6]) const {
+    float2 part[4][3];
+#pragma unroll
+    for (std::uint32_t k = 0; k < 4; ++k) {
+#pragma unroll
+      for (std::uint32_t p = 0; p < 3; ++p) part[k][p] = k < count ? word[3 * slot[k] + p] : float2{0, 0};
+    }
+#pragma unroll
+    for (int k = 0; k < 4; ++k) {
+#pragma unroll
+      for (int p = 0; p < 3; ++p) f[2 * p] += part[k][p].x, f[2 * p + 1] += part[k][p].y;
+    }
   }
   /// Loads on end A are put when the run ends.
   __device__ __forceinline__ void put(EndPair slots, const ContactLoad<float>& load, ContactRun& run) const {
     run.force += load.force_a;
     run.moment += load.moment_a;
-    if (!run.goes_on) {
-      put(slots.a(), run.force, run.moment);
-      run.force = run.moment = {0, 0, 0};
-    }
+    if (!run.goes_on) put(slots.a(), run.force, run.moment);
     put(slots.b(), -load.force_a, load.moment_b);
   }
 };
@@ -217,17 +250,19 @@ __device__ __forceinline__ void sum_rows(const Tile& tile, const uint2* row, con
   for (std::uint32_t r = tile.long_rows + threadIdx.x; r < tile.bodies; r += blockDim.x) {
     float sum[6] = {0, 0, 0, 0, 0, 0};
     const std::uint32_t n = row[r].x;
-#pragma unroll 4
-    for (std::uint32_t e = 0; e < n; ++e) slots.add(diagonal[e] + r, sum);
+    for (std::uint32_t e = 0; e < n; e += 4) {
+      const uint4 at = reinterpret_cast<const uint4*>(diagonal)[e / 4];
+      slots.add({at.x + r, at.y + r, at.z + r, at.w + r}, n - e, sum);
+    }
     f(r, sum);
   }
 }
 
 /// Velocity of a wall that moves, at step k of the launch, as particles' are.
 template <class P>
-__device__ __forceinline__ float4 wall_velocity(const TileScene<P>& s, int wall, std::uint32_t k) {
+__device__ __forceinline__ Vec3<float> wall_velocity(const TileScene<P>& s, int wall, std::uint32_t k) {
   const auto v = load_vec3(s.motion.wall.row(wall, k));
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), 0};
+  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 /// One axis of a wall, over some steps of a launch: what it needs is asked for early, and used later.

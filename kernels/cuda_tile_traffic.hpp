@@ -6,12 +6,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "kernels/cuda_tiles_resident.hpp"
+#include "kernels/cuda_resident_memory.hpp"
 
 namespace macadam::kernels {
-
-inline constexpr std::uint32_t resident_threads = 512;  ///< all registers: a contact's state takes twelve
-inline constexpr std::uint32_t contacts_in_registers = TilePlan::run * resident_threads;  ///< at the most, of a tile
 
 /// Packets whose states stay in registers, as ResidentTile::share() has it.
 inline std::int64_t packets_in_registers(const Tile& tile) {
@@ -41,7 +38,9 @@ Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileScene<P>& scen
   const std::int64_t of_constants = of_packet * tile_constants(carried);
   Traffic out;
   for (const Tile& tile : tiles) {
-    const std::int64_t packets = tile.packets, cached = std::min<std::int64_t>(scene.cached_packets, packets);
+    const std::int64_t packets = tile.packets;
+    const std::int64_t cached =
+        std::min<std::int64_t>(packets, ResidentMemory<P>(tile, carried, scene.where, scene.room).cached);
     out.shared += shared_traffic(tile) + of_constants * cached;
     out.cache += of_constants * (packets - cached) + of_states * (packets - packets_in_registers(tile)) +
                  of_velocity * (tile.bodies + tile.halo);

@@ -71,7 +71,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
   const StreamedMemory m(s.most_locals, s.most_slots);
   auto* v = reinterpret_cast<float4*>(shared);
   auto* w = reinterpret_cast<float4*>(shared + m.spin);
-  const TileSlots slots{reinterpret_cast<float2*>(shared + m.slots), s.most_slots};
+  const TileSlots slots{reinterpret_cast<float2*>(shared + m.slots)};
   const unsigned tid = threadIdx.x, lane = tid % 32, warp = tid / 32;
   constexpr unsigned warps = Threads / 32;
   constexpr std::uint32_t words = tile_constants(carried);
@@ -103,14 +103,13 @@ __global__ void __launch_bounds__(Threads, Blocks)
     float4* state = s.state + at * tile_states * 32 + lane;
     float change[6], sum[6];
     load_state(state, change, sum);
-    EndPair places;
-    GroupAndRow of;
     ContactConstants<carried> constant;
     constant.load(s.constant + at * words * 32 + lane);
-    const auto load = step_in_block(constant, s.law, v, w, change, sum, places, of, run);
+    const ContactInBlock<carried> contact(constant);
+    const auto load = step_in_block(contact, s.law, v, w, change, sum, run);
     store_state(state, change, sum);
-    slots.put(places, load, run);
-    if (last) store_wall_load(s.wall_load, of, load);
+    slots.put(contact.slots, load, run);
+    if (last) store_wall_load(s.wall_load, contact.of, load);
   }
   __syncthreads();
   sum_rows(tile, s.row + tile.first_body, s.diagonal + s.own_tile() * TilePlan::longest_short_row, slots,

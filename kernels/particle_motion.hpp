@@ -2,6 +2,7 @@
 /// \file particle_motion.hpp  Eq. 1–2 of one body (docs/model.md, section 10): damping, leapfrog, displacement.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "kernels/contact_forces.hpp"
@@ -27,8 +28,7 @@ template <class P>
 struct ParticleMotion {
   using R = typename P::Particle;
   BodyView<P> body;
-  Damping damping;
-  R chi;         ///< local damping
+  R chi;         ///< local damping; 0: none
   R keep, gain;  ///< of viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2); 1 and 1 without
   double dt;     ///< [s]
   WallMotion<R> wall;
@@ -88,10 +88,8 @@ struct ParticleMotion {
 
   /// v half a step later.
   MACADAM_HD R moved(R v, R f, R inverse) const {
-    if (damping == Damping::local) {  // F_d = −χ·|F|·sign(v)
-      const R against = v > 0 ? -chi : v < 0 ? chi : R(0);
-      f = multiply_add(against, f < 0 ? -f : f, f);
-    }
+    const R against = v == 0 ? R(0) : std::copysign(chi, -v);  // F_d = −χ·|F|·sign(v)
+    f = multiply_add(against, f < 0 ? -f : f, f);
     return multiply_add(keep, v, gain * inverse * f);
   }
 };

@@ -48,7 +48,7 @@ TEST(BlockLength, FollowsTheNumberOfBlocks) {
   options.blocks = 1e6 / 3.9;  // three steps do not pay
   EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 0);
   options.blocks = 10;  // sums of so many steps are still good in single precision
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 256);
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), kernels::longest_block);
 }
 
 TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
