@@ -239,11 +239,13 @@ __global__ void __launch_bounds__(Threads, 1)
   __syncthreads();
   for (std::uint32_t k = 0; k < steps; ++k) {
     const std::uint32_t tag = first_tag + k;
+    Vec3<float> of_wall;
+    if (drives_wall) of_wall = wall_velocity(s, wall, k);  // asked for early: it comes while loads are summed
     if (k == 0)
       tile.move_by_memory(tag);
     else
       tile.move_by_sums(tag);
-    if (drives_wall) tile.set_wall(wall, wall_velocity(s, wall, k));
+    if (drives_wall) tile.set_wall(wall, of_wall);
     ContactRun run;
     if (tile.overlaps()) __syncthreads();
 #pragma unroll 1

@@ -119,6 +119,8 @@ TEST_F(CtImage, HeadersOnWhichItkWouldNotEndAreRefused) {
   };
   refused("dimensions.mha", "ObjectType = Image\nNDims = 2147483648\nDimSize = 4 3 2\n",
           ":2: NDims: found \"2147483648\"");
+  refused("key.mha", "ObjectType = Image\n" + std::string(255, 'k') + " = 3\n",
+          ":2: header of a MetaImage: found a key of 255 bytes, expected 254 at the most");
   refused("type.mha",
           "ObjectType = Image\nNDims = 2\nDimSize = 1 1\nElementType = MET_OTHER\nElementDataFile = LOCAL\na",
           "type.mha");

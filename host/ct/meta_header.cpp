@@ -22,8 +22,9 @@ std::string_view trimmed(std::string_view text) {
 }  // namespace
 
 void check_meta_header(const std::filesystem::path& file) {
-  constexpr std::size_t longest = 4096;  // bytes of a line
-  constexpr int most = 1000;             // lines
+  constexpr std::size_t longest = 4096;     // bytes of a line
+  constexpr int most = 1000;                // lines
+  constexpr std::size_t longest_key = 254;  // ITK copies it into 255 bytes
   std::ifstream in(file, std::ios::binary);
   std::string line(longest, '\0');
   for (int number = 1; number <= most; ++number) {
@@ -35,6 +36,10 @@ void check_meta_header(const std::filesystem::path& file) {
     if (key.empty() && sign == std::string_view::npos) continue;
     if (sign == std::string_view::npos)
       throw InputError(file.string(), number, "header of a MetaImage", in_quotes(text), "KEY = VALUE");
+    if (key.size() > longest_key)
+      throw InputError(file.string(), number, "header of a MetaImage",
+                       "a key of " + std::to_string(key.size()) + " bytes",
+                       std::to_string(longest_key) + " at the most");
     const std::string_view value = trimmed(text.substr(sign + 1));
     int dimensions = 0;
     if (key == "NDims" && (std::from_chars(value.data(), value.data() + value.size(), dimensions).ec != std::errc{} ||

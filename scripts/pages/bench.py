@@ -193,6 +193,26 @@ def multiprocessors():
     return table(["µs a step with so many multiprocessors", *map(str, numbers)], lines)
 
 
+CHIP = "bench-h200-2026-11-23-chip.csv"
+
+
+@mark
+def chip_machine():
+    return head(CHIP)[0]
+
+
+@mark
+def chip_steps():
+    """Steps over tiles, measured anew after a change."""
+    scenes = {"ac14_ss_am1": "full specimen", "ac14_ms_ico_fine": "MS-Ico-fine", "lattice:1e5": "lattice of 10⁵"}
+    lines = []
+    for r in rows(CHIP):
+        kind, scene, *_, precision, geometry = r["row"].split("/")
+        lines.append((f"{scenes[scene]}{', elastic' if kind.startswith('elastic') else ''}, {precision}, geometry {geometry}", us(r),
+                      r["parts"]))
+    return table(["step", "µs", "of which (µs)"], lines)
+
+
 # ---- length of blocks
 
 BLOCKS = "block-lengths.csv"

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/reliability.md: campaigns of faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours of runs
-(tests/soak), races (scripts/races --table)."""
+(tests/soak), races (scripts/races --table), mistakes on purpose (tests/mutation/campaign --table)."""
+import collections
+
 from pages.data import head, rows, table
 from pages.marks import mark
 
@@ -8,6 +10,7 @@ DOCUMENT = "docs/reliability.md"
 FAULTS = "faults.csv"
 FUZZING = "fuzzing.csv"
 RACES = "races.csv"
+MUTATION = "mutation.csv"
 SOAK = {"cpu": "soak-cpu.csv", "cuda": "soak-cuda.csv"}
 READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specimen": "specimens (CSV)",
          "specimen_gz": "specimens (CSV in gzip)", "laboratory": "laboratory data (CSV)", "checkpoint": "checkpoints (HDF5)",
@@ -94,3 +97,33 @@ def races_tests():
 @mark
 def races_found():
     return f"{sum(r['reports'] for r in rows(RACES)):.0f}"
+
+
+@mark
+def mutation_machine():
+    return head(MUTATION)[0]
+
+
+@mark
+def mutation():
+    """By folder of the sources."""
+    folders = collections.defaultdict(collections.Counter)
+    for r in rows(MUTATION):
+        folders["/".join(r["file"].split("/")[:2]) if r["file"].startswith("host/") else "kernels"][r["verdict"]] += 1
+    names = ("killed", "survived", "not reached")
+    listed = [(f"`{name}`", sum(c.values()), *(c[v] for v in names)) for name, c in sorted(folders.items())]
+    listed.append(("all", *(sum(row[k] for row in listed) for k in range(1, 5))))
+    return table(["sources", "mistakes", "noticed", "not noticed", "no test comes by"], listed, right=range(1, 5))
+
+
+@mark
+def mutation_share():
+    count = collections.Counter(r["verdict"] for r in rows(MUTATION))
+    return f"{100 * count['killed'] / (count['killed'] + count['survived']):.0f} %"
+
+
+@mark
+def mutation_equal():
+    """Of those that no test notices: such as differ only where two numbers are the same."""
+    swaps = {"< → <=", "<= → <", "> → >=", ">= → >"}
+    return f"{sum(r['verdict'] == 'survived' and r['what'] in swaps for r in rows(MUTATION))}"
