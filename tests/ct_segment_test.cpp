@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
 
+#include "host/ct/grains.hpp"
 #include "host/ct/isosurface.hpp"
+#include "host/ct/overlay.hpp"
 #include "host/ct/segment_files.hpp"
 #include "macadam/error.hpp"
 #include "tests/ct_scans.hpp"
@@ -126,6 +129,25 @@ TEST(CtSegment, AnEdgeAlongTheSideOfAnotherGrainStaysWithItsOwn) {
   EXPECT_GT(static_cast<double>(right) / static_cast<double>(voxels), 0.9);
 }
 
+// A border with the neck, the solidity and the valley at which nobody can tell, and one of a neck narrower by 0.1.
+TEST(CtSegment, AMarginIsTheSurenessOfACut) {
+  EXPECT_NEAR(ct::margin_of(0.8, 0.93, 0.85), 0, 1e-12);
+  EXPECT_NEAR(ct::margin_of(0.7, 0.93, 0.85), std::tanh(0.5 * 0.4), 1e-12);
+}
+
+TEST(CtSegment, ViewsAreWritten) {
+  const Segmentation found = segment_scan(many_balls(48), options_of(14));
+  for (const auto write : {ct::write_view, ct::write_overlay}) {
+    const auto file = std::filesystem::temp_directory_path() / "macadam_ct_segment_test.png";
+    write(file, found);
+    std::ifstream in(file, std::ios::binary);
+    std::string begin(8, '\0');
+    in.read(begin.data(), 8);
+    EXPECT_EQ(begin, "\x89PNG\r\n\x1a\n");
+    std::filesystem::remove(file);
+  }
+}
+
 TEST(CtSegment, ThreadsDoNotChangeTheAnswer) {
   Image<float> scan = many_balls(60);
   add_noise(scan, 0.15);
@@ -152,6 +174,9 @@ TEST(CtSegment, SharesOfThePhasesAreRightAndThoseOfTheLaboratoryAreKept) {
   options.surfaces = false;
   const Segmentation free = segment_scan(scan, options);
   EXPECT_NEAR(free.air_voids, true_air, 0.003);  // a bar of 0.3 points
+  double confidence = 0;
+  for (const std::uint8_t c : free.confidence.voxels) confidence += c / 255.0;
+  EXPECT_NEAR(free.confidence_mean, confidence / static_cast<double>(clean.count()), 1e-12);  // all is specimen
   options.aggregate = free.aggregate + 0.01;
   EXPECT_NEAR(segment_scan(scan, options).aggregate, free.aggregate + 0.01, 0.003);
   options.aggregate = 0.9;  // not what the scan shows

@@ -64,6 +64,9 @@ TEST_F(CtTwin, HasEveryGrainWhereItLayAndRuns) {
   for (const VoidSphere& v : twin.specimen.voids) here_air += 4 * pi / 3 * std::pow(v.radius, 3);
   EXPECT_NEAR(here_air / air, 1, 0.03);  // by whole voxels
   EXPECT_EQ(twin.specimen.voids.size(), source.voids.size());
+  const Twin without = make_twin(truth, scene, {.least_void = 1e-2});
+  EXPECT_TRUE(without.specimen.voids.empty());
+  EXPECT_DOUBLE_EQ(without.voids_left_out, twin.voids);
   const double mastic = (1 - 0.02) * (1 - twin.voids) - twin.aggregate;
   EXPECT_NEAR(twin.mastic, mastic, 2 * 4 * pi / 3 * std::pow(0.8e-3, 3) / scene.specimen.box.volume());
 
@@ -133,7 +136,7 @@ TEST_F(CtTwin, RefusesWhatIsNoScan) {
   };
   EXPECT_HAS(message(folder_, {}), "phases.mha");
   const fs::path truth = truth_of(scene, CoreShape::cylinder);
-  EXPECT_HAS(message(truth, {}), "outside of the specimen");
+  EXPECT_HAS(message(truth, {}), "outside of the specimen: found 21 %");  // beside a cylinder in its box: 1 − π/4
   EXPECT_HAS(message(truth, {.box = {{Vec3d{0, 0, 0}, Vec3d{1, 1, 1}}}}), "box");
   EXPECT_HAS(message(truth, {.box = {{Vec3d{5e-3, 5e-3, 5e-3}, Vec3d{4e-3, 6e-3, 6e-3}}}}), "box");
   EXPECT_EQ(message(truth, {.box = {{Vec3d{3e-3, 3e-3, 3e-3}, Vec3d{9e-3, 9e-3, 9e-3}}}}), "nothing was thrown");

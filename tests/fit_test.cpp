@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "host/fit/criterion.hpp"
 #include "test_files.hpp"
 #include "test_networks.hpp"
 
@@ -84,6 +85,14 @@ TEST(Fit, BicAndNumbersOfUnitsThatAreGiven) {
   EXPECT_GT(two.errors.e_star_largest, 1e-3);
   options.flow = false;
   EXPECT_FALSE(std::isfinite(std::get<laws::GeneralisedKelvin>(fit_modulus(data, options).model).C_m));
+}
+
+/// n = 20 numbers and p = 3 parameters: n − p − 1 = 16. Without stated deviations the size of the errors is a
+/// parameter.
+TEST(Fit, CriteriaAreThoseOfTheirFormulae) {
+  EXPECT_DOUBLE_EQ(fitting::criterion(Criterion::aicc, 7, 20, 3, true), 7 + 6 + 24.0 / 16);
+  EXPECT_DOUBLE_EQ(fitting::criterion(Criterion::bic, 7, 20, 3, true), 7 + 3 * std::log(20.0));
+  EXPECT_DOUBLE_EQ(fitting::criterion(Criterion::aicc, 7, 20, 3, false), 20 * std::log(0.35) + 8 + 40.0 / 15);
 }
 
 /// A count of a binomial of 200 trials at 0.95 lies in [179, 198] but for 3e-4 of the cases on either side; the seeds

@@ -32,6 +32,17 @@ TEST_F(Check, CountsWhatIsMade) {
   }
 }
 
+// A forecast has no contacts: it knows the critical step by the materials and the smallest particles.
+TEST_F(Check, StepsOfACreepTestAreThoseOfItsCriticalStep) {
+  const Scene scene = example("stepped_creep");
+  const Preparation made = prepare(scene);
+  const StepForecast foretold = forecast(scene).steps.front();
+  const Inertia inertia = make_inertia(made.specimen, scene.materials.aggregate, scene.materials.mastic);
+  const double expected =
+      0.8 * critical_step(made.network, scene.laws, inertia, {}).dt * std::sqrt(foretold.density_scaling);
+  EXPECT_NEAR(foretold.dt_s / expected, 1, 0.5);
+}
+
 TEST_F(Check, TakesNoTimeForAMillionParticles) {
   std::string text = read(fs::path(MACADAM_EXAMPLES) / "demo/scene.toml");
   const std::string box = "[\"20 mm\", \"20 mm\", \"30 mm\"]";

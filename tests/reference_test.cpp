@@ -114,6 +114,15 @@ TEST(Reference, ContactFollowsItsLaw) {
   EXPECT_NEAR(stepper->particles().force[0].x, law.alpha * scale * f, tolerance);
 }
 
+TEST(Reference, AUnitWithoutASpringIsADashpot) {
+  const HandMade made = test::two_sphere_network(heavy());
+  auto law = test::mastic_am1();
+  law.E[1] = 0;
+  EXPECT_NO_THROW(make(made, law, options_of(1e-3, Geometry::fixed)));
+  law.E[1] = -1;
+  EXPECT_THROW(make(made, law, options_of(1e-3, Geometry::fixed)), InputError);
+}
+
 TEST(Reference, ViscousDampingDecaysAsItsClosedForm) {
   const HandMade made = test::two_sphere_network();
   StepperOptions options = options_of(1e-4, Geometry::fixed);

@@ -101,10 +101,13 @@ TEST(SteadyStartReference, AgreesOverTheFirstSteps) {
   loading.ramp_steps = 0;
   options.boundary = moving_top(loading);
   Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, 2000);
-  const StartState start = steady_start(scene.network, scene.laws, harmonic.solve(2000, 1).motion, loading);
-  options.start = &start;
-  for (const Geometry geometry : {Geometry::updated, Geometry::fixed}) {
+  for (const auto& [geometry, damping] :
+       {std::pair{Geometry::updated, 0.0}, {Geometry::fixed, 0.0}, {Geometry::fixed, 2e4}}) {
     options.geometry = geometry;
+    options.damping_kind = damping > 0 ? Damping::viscous : Damping::none;
+    options.damping = damping;
+    const StartState start = steady_start(scene.network, scene.laws, harmonic.solve(2000, 1, damping).motion, loading);
+    options.start = &start;
     std::vector<ParticleState> states;
     for (const auto& [backend, form] : {std::pair{Backend::reference, ContactForm::points},
                                         {Backend::cpu, ContactForm::points},

@@ -129,5 +129,30 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
   EXPECT_LE(plan.contact.size(), real + plan.tile.size() * 32 * (TilePlan::run + 1));
 }
 
+TEST(TilePlan, PlacesInTheTableOfVelocitiesAreThoseOfTheEnds) {
+  const test::TestScene scene = test::make_scene(test::random_specimen(4, 8, 8, 10));
+  const Layout layout = make_layout(scene.specimen, scene.network, 32, 300);
+  const TilePlan plan = plan_tiles(scene.network, layout);
+  std::size_t of_other_tiles = 0;
+  for (const Tile& tile : plan.tile) {
+    const auto body_at = [&](std::uint32_t local) {
+      if (local < tile.bodies) return plan.body[tile.first_body + local];
+      if (local >= tile.bodies + tile.halo)
+        return static_cast<std::int32_t>(layout.particles() + local - tile.bodies - tile.halo);
+      ++of_other_tiles;
+      return plan.body[static_cast<std::size_t>(plan.halo[tile.first_halo + local - tile.bodies])];
+    };
+    for (std::size_t k = 32 * std::size_t{tile.first_packet}; k < 32 * std::size_t{tile.first_packet + tile.packets};
+         ++k) {
+      const TileContact& c = plan.contact[k];
+      if (c.group_slot == UINT32_MAX) continue;
+      const Contact& contact = scene.network.contacts[number_of(layout, c)];
+      ASSERT_EQ(body_at(c.local_a), layout.body_of(contact.a));
+      ASSERT_EQ(body_at(c.local_b), layout.body_of(contact.b));
+    }
+  }
+  EXPECT_GT(of_other_tiles, 0u);
+}
+
 }  // namespace
 }  // namespace macadam::kernels
