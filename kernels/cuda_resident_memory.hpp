@@ -59,7 +59,7 @@ struct ResidentMemory {
     halo = take(4 * tile.halo);
     diagonal = take(4 * TilePlan::longest_short_row);
     row = take(8 * tile.bodies);
-    others = take(static_cast<std::uint32_t>(sizeof(WarpPackets)) * 32);
+    others = take(static_cast<std::uint32_t>(sizeof(WarpPackets)) * resident_threads / 32);
     cache = at;
     cached = room < at ? 0 : (room - at) / packet_bytes(carried);
     if (cached > packets_with_states) cached = packets_with_states;

@@ -145,10 +145,8 @@ class Planner {
     append(out_.halo, part.halo);
     append(out_.contact, part.contact);
     out_.most_bodies = std::max(out_.most_bodies, tile.bodies);
-    out_.most_halo = std::max(out_.most_halo, tile.halo);
     out_.most_locals = std::max(out_.most_locals, tile.bodies + tile.halo + walls);
     out_.most_slots = std::max(out_.most_slots, tile.slots);
-    out_.most_packets = std::max(out_.most_packets, tile.packets);
     out_.fits = out_.fits && tile.bodies + tile.halo + walls < UINT16_MAX && tile.slots < TilePlan::more_of_run;
     out_.tile.push_back(tile);
   }

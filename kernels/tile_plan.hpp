@@ -52,7 +52,7 @@ struct TilePlan {
   std::vector<std::int32_t> halo;       ///< [first_halo + …] first_body + rank in its own tile
   std::vector<TileContact> contact;  ///< [packet][32]; a lane's contacts in the packets of a group follow one another
   std::vector<std::uint32_t> wall_begin;  ///< [wall + 1] of wall rows
-  std::uint32_t most_bodies = 0, most_halo = 0, most_locals = 0, most_slots = 0, most_packets = 0;
+  std::uint32_t most_bodies = 0, most_locals = 0, most_slots = 0;
   std::size_t packets() const { return contact.size() / 32; }
   /// Whether all local numbers fit their 16 bits.
   bool fits = true;
