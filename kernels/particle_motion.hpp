@@ -28,6 +28,7 @@ template <class P>
 struct ParticleMotion {
   using R = typename P::Particle;
   BodyView<P> body;
+  Damping damping;
   R chi;         ///< local damping; 0: none
   R keep, gain;  ///< of viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2); 1 and 1 without
   double dt;     ///< [s]
@@ -86,8 +87,15 @@ struct ParticleMotion {
     return pushed && wall.loaded(3 * number + axis) ? moved(v, force + given, body.inverse[2 * i]) : given;
   }
 
+#ifdef __CUDA_ARCH__
+  static constexpr bool on_device = true;
+#else
+  static constexpr bool on_device = false;
+#endif
   /// v half a step later.
   MACADAM_HD R moved(R v, R f, R inverse) const {
+    if (!on_device && damping != Damping::local)
+      return multiply_add(keep, v, gain * inverse * f);        // devices lose more by a branch
     const R against = v == 0 ? R(0) : std::copysign(chi, -v);  // F_d = −χ·|F|·sign(v)
     f = multiply_add(against, f < 0 ? -f : f, f);
     return multiply_add(keep, v, gain * inverse * f);

@@ -288,6 +288,7 @@ class StepperImpl final : public Stepper {
     wall.table = exec_.wall_table(wall_table_.most_values());
     const double beta = options.damping_kind == Damping::viscous ? options.damping : 0;
     motion_ = {exec_.set_bodies(std::move(inverse), std::move(weight)),
+               options.damping_kind,
                static_cast<R>(options.damping_kind == Damping::local ? options.damping : 0),
                static_cast<R>((1 - beta * options.dt / 2) / (1 + beta * options.dt / 2)),
                static_cast<R>(1 / (1 + beta * options.dt / 2)),
