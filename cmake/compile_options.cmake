@@ -3,6 +3,9 @@
 add_library(macadam_options INTERFACE)
 target_include_directories(macadam_options INTERFACE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/include)
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra>)
+# A product and a sum are rounded twice, whatever the compiler, its options and the processor: the same bits everywhere. gcc
+# and clang would join them in one rounding where the processor can, each in places of its own choice.
+target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
 # Eigen's own threads would cut sums as their number has it, and wait for one another in a way that looks like a race.
 target_compile_definitions(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:EIGEN_DONT_PARALLELIZE>)
 if(MACADAM_WERROR)
