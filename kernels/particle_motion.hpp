@@ -94,7 +94,7 @@ struct ParticleMotion {
 #endif
   /// v half a step later.
   MACADAM_HD R moved(R v, R f, R inverse) const {
-    if (on_device || damping == Damping::local) {  // on a device χ = 0 costs less than a branch
+    if (on_device || damping == Damping::local) {                // on a device χ = 0 costs less than a branch
       const R against = v == 0 ? R(0) : std::copysign(chi, -v);  // F_d = −χ·|F|·sign(v)
       f = multiply_add(against, f < 0 ? -f : f, f);
     }

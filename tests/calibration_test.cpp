@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "aggregate_cube.hpp"
+#include "host/calibration/statistics.hpp"
 #include "test_files.hpp"
 
 namespace macadam::test {
@@ -170,6 +172,23 @@ TEST(Calibration, DeviationsAreThoseOfNoise) {
   }
 }
 
+/// A parameter of value 3 by one or two measurements, both of which follow its logarithm. Where nobody stated what
+/// these deviate, the misfit of 50 tells it, as far as anything is left to tell it by.
+TEST(Calibration, DeviationsFollowTheMisfitWhereNoneAreStated) {
+  const auto deviation = [](bool stated, std::size_t measurements) {
+    Calibration c;
+    c.parameters.resize(1);
+    c.parameters[0].value = 3;
+    c.misfit = 50;
+    c.deviations = stated;
+    calibration::add_statistics(c, std::vector<double>(measurements, 1.0), {});
+    return c.parameters[0].deviation;
+  };
+  EXPECT_NEAR(deviation(true, 2), 3 / std::numbers::sqrt2, 1e-14);
+  EXPECT_NEAR(deviation(false, 2), 3 / std::numbers::sqrt2 * std::sqrt(50), 1e-13);
+  EXPECT_NEAR(deviation(false, 1), 3, 1e-14);
+}
+
 TEST(Calibration, SeveralTemperaturesAndTheirShift) {
   Scene start = t8_scene();
   for (const PairType pair : {PairType::mm, PairType::ma})
@@ -209,6 +228,20 @@ TEST(Calibration, WhatCannotBeToldApartIsNamed) {
   EXPECT_NEAR(with_prior.parameters[1].value, 1, 1e-6);
   EXPECT_NEAR(with_prior.parameters[1].deviation, 0.1, 1e-3) << "what was known of it, no more";
   EXPECT_EQ(with_prior.combinations.size(), 1u) << "of the measurements alone";
+}
+
+/// 95 % of what is distributed normally lies within 1.96 standard deviations, here of a logarithm.
+TEST(Calibration, WhatIsHardlyDeterminedIsNamedWithItsFactor) {
+  CalibrationOptions rough = freeing({"M-A.delta"});
+  rough.e_star_deviation = 0.5, rough.phase_deviation = 20;
+  const Calibration c = calibrate(t8_scene(), measured(t8_scene(), {2, 20}), rough);
+  ASSERT_EQ(c.combinations.size(), 1u);
+  ASSERT_EQ(c.warnings.size(), 1u);
+  double factor = 0;
+  const std::size_t figure = c.warnings[0].find("a factor of ");
+  ASSERT_NE(figure, std::string::npos) << c.warnings[0];
+  ASSERT_EQ(std::sscanf(c.warnings[0].c_str() + figure, "a factor of %lf", &factor), 1);
+  EXPECT_NEAR(factor / std::exp(1.96 * c.combinations[0].deviation), 1, 0.05) << "two digits are written";
 }
 
 /// A laboratory's table: five temperatures, six frequencies. A trial stays a matter of milliseconds.
@@ -268,6 +301,18 @@ TEST(Calibration, SeedsAreAveraged) {
   ModulusData again = data;  // its own prediction is found again
   again.points[0].e_star_pa = both.points[0].e_star_pa, again.points[0].phase_deg = both.points[0].phase_deg;
   EXPECT_NEAR(calibrate(scene, again, options).parameters[0].value / both.parameters[0].value, 1, 1e-6);
+
+  std::vector<ModulusPoint> found;
+  scale(scene, PairType::mm, both.parameters[0].value);
+  for (const std::uint64_t seed : {3, 4}) {
+    scene.specimen.seed = seed;
+    found.push_back(measured(scene, {5}).points.front());
+  }
+  // of two numbers it is their difference over √2
+  EXPECT_NEAR(both.points[0].e_star_scatter,
+              std::abs(std::log(found[0].e_star_pa / found[1].e_star_pa)) / std::numbers::sqrt2, 1e-7);
+  EXPECT_NEAR(both.points[0].phase_scatter_deg, std::abs(found[0].phase_deg - found[1].phase_deg) / std::numbers::sqrt2,
+              1e-5);
 }
 
 /// The inner contacts of a cube of aggregate such that it is as stiff as the rock (bench/results/aggregate-cube.csv).

@@ -73,6 +73,25 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
+TEST_F(CommandLine, ReportsAreMadeByThePythonThatIsNamedIfOneIs) {
+  for (const char* name : {"python3", "named"}) {
+    std::ofstream(folder_ / name) << "#!/bin/sh\necho " << name << " \"$@\"\n";
+    fs::permissions(folder_ / name, fs::perms::owner_all);
+  }
+  const auto report = [&](const std::string& python) {
+    const std::string out = (folder_ / "out.txt").string();
+    const int status =
+        std::system(fmt::format("env -u MACADAM_PYTHON PATH='{}':\"$PATH\" {} '{}' report --help >'{}' 2>&1 </dev/null",
+                                folder_.string(), python, MACADAM_PROGRAM, out)
+                        .c_str());
+    return std::pair{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out)};
+  };
+  EXPECT_EQ(report("MACADAM_PYTHON=" + path("named")), (std::pair{0, std::string("named -m macadam report --help\n")}));
+  const auto unnamed = report("");  // that of scripts/python, where there is one
+  EXPECT_EQ(unnamed.first, 0) << unnamed.second;
+  EXPECT_EQ(report("MACADAM_PYTHON="), unnamed);
+}
+
 // What CLI11 makes of enumerations is their number, which would be printed as a character.
 TEST_F(CommandLine, HelpIsPlainText) {
   for (const char* command : {"run", "specimen", "shapes fill", "shapes measure", "shapes generate", "info", ""}) {

@@ -168,6 +168,15 @@ TEST(CtFaults, HalfAStackEndsWithTheScanAtOneEnd) {
   EXPECT_TRUE(o.says("in air at one end along z, and with the scan at the upper one")) << o.error << o.warnings;
 }
 
+TEST(CtFaults, ARegionThatSomebodyGaveEndsWhereItWasGiven) {
+  SegmentOptions options;
+  options.smallest = 1.4e-3;
+  options.surfaces = false;
+  options.given = GivenRegion{{0, 0, 0}, {4.5e-3, 4.5e-3, 3.4e-3}};  // from the scan's lower end to within it
+  const Segmentation found = segment_scan(balls(), options);
+  for (const std::string& warning : found.warnings) EXPECT_EQ(warning.find("ends in air"), std::string::npos);
+}
+
 TEST(CtFaults, APhaseThatIsMissingIsSaid) {
   const auto no_aggregate = [](float grey) { return std::min(grey, mastic); };
   const auto no_voids = [](float grey) { return std::max(grey, mastic); };

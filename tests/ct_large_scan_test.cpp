@@ -157,6 +157,41 @@ TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
   EXPECT_NE(fault(folder_ / "pages.tif", options, 1e12).find("edge of a voxel"), std::string::npos);
 }
 
+TEST_F(CtLargeScan, GrainsAreCutAlikeByBothEndsOfEachAxis) {
+  Image<float> scan = scan_of({96, 96, 96}, {ball(95.5, 30, 34, 20), ball(34, 95.5, 30, 22), ball(30, 34, 95.5, 24)},
+                              {ball(76, 76, 76, 10)});
+  add_noise(scan, 0.02);
+  std::vector<double> volumes[2];
+  for (std::vector<double>& found : volumes) {
+    write_image(folder_ / "scan.mha", scan, false);
+    Segmentation parts = segment_file({folder_ / "scan.mha", {}, {}}, options_of(40), little(scan));
+    EXPECT_EQ(parts.refined, 3u);
+    by_place(parts);
+    for (const ScannedGrain& grain : parts.grains) found.push_back(grain.measure.volume);
+    std::reverse(scan.voxels.begin(), scan.voxels.end());  // mirrored along x, y and z
+  }
+  ASSERT_EQ(volumes[0].size(), 3u);
+  ASSERT_EQ(volumes[1].size(), 3u);
+  // other facets, of as many; half a voxel of where a ball is cut would be 0.04
+  for (std::size_t g = 0; g < 3; ++g) EXPECT_NEAR(volumes[1][g] / volumes[0][g], 1, 0.005) << g;
+}
+
+TEST_F(CtLargeScan, ANeedleThinnerThanABlockLeavesItsGrainsSurfaceClosed) {
+  // The needle is too thin for the blocks, so that it goes on where what is read again for the ball ends.
+  Image<float> scan =
+      scan_of({96, 96, 96}, {ball(44, 44, 44, 20), block({60, 44.5, 44.5}, {92, 46.5, 46.5})}, {ball(80, 80, 80, 10)});
+  add_noise(scan, 0.02);
+  write_image(folder_ / "scan.mha", scan, false);
+  SegmentOptions options = options_of(40);
+  options.denoising = Denoising::none;
+  const Segmentation parts = segment_file({folder_ / "scan.mha", {}, {}}, options, little(scan));
+  ASSERT_EQ(parts.block, 2);
+  ASSERT_EQ(parts.grains.size(), 1u);
+  EXPECT_EQ(parts.refined, 1u);
+  EXPECT_TRUE(check_surface(parts.grains[0].surface).good()) << check_surface(parts.grains[0].surface).text();
+  EXPECT_LE(parts.grains[0].surface.facets.size(), 800u) << "more would be of a surface that had to be mended";
+}
+
 TEST_F(CtLargeScan, AGrainBehindARimOfMixedVoxelsIsCutByTheSpecimensEnd) {
   Image<std::uint8_t> phases({9, 9, 9}, {1, 1, 1}, {}, 255);
   Image<std::uint32_t> labels = Image<std::uint32_t>::like(phases);

@@ -84,6 +84,23 @@ TEST_F(CtPhantom, TheSawLeavesCaps) {
   EXPECT_NEAR(p.grains[0].volume / (sum * 1e-9), 1, 1e-3);
 }
 
+TEST_F(CtPhantom, ASphereCutFromBelowAloneIsCut) {
+  const Scene scene = scene_of_rows("0,0.005,0.004,0.0033,0.003,aggregate,4\n");  // 0.3 mm above z = 0
+  const auto border_and_volume = [&](double off) {
+    PhantomSpec spec = clean(0.1e-3);
+    spec.sawn = off;
+    const Phantom p = make_phantom(scene, spec);
+    return std::pair{p.grains.at(0).border, p.grains.at(0).volume};
+  };
+  const double volume = 4 * pi / 3 * 27e-9, cap = pi * 0.36e-6 * (9e-3 - 0.6e-3) / 3;  // πh²(3r − h)/3
+  const auto [whole, of_whole] = border_and_volume(0.2e-3);
+  EXPECT_FALSE(whole);
+  EXPECT_NEAR(of_whole / volume, 1, 1e-12);
+  const auto [cut, of_cut] = border_and_volume(0.9e-3);
+  EXPECT_TRUE(cut);
+  EXPECT_NEAR(of_cut / (volume - cap), 1, 1e-3);
+}
+
 TEST_F(CtPhantom, ACylinderHasNoCorners) {
   PhantomSpec spec = clean(0.2e-3);
   spec.shape = CoreShape::cylinder;

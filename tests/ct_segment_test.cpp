@@ -2,18 +2,24 @@
 // Grains, surfaces and phases of small scans of which everything is known, and what is said of scans that are none.
 #include <gtest/gtest.h>
 #include <omp.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
 
+#include "host/ct/fragments.hpp"
+#include "host/ct/grain_surfaces.hpp"
 #include "host/ct/grains.hpp"
 #include "host/ct/isosurface.hpp"
 #include "host/ct/overlay.hpp"
+#include "host/ct/paper_recipe.hpp"
+#include "host/ct/region.hpp"
 #include "host/ct/segment_files.hpp"
 #include "macadam/error.hpp"
 #include "tests/ct_scans.hpp"
+#include "tests/shape_tests.hpp"
 
 namespace macadam {
 namespace {
@@ -58,6 +64,51 @@ TEST(CtIsosurface, OfABallHasItsVolumeAndItsArea) {
   EXPECT_LE(fewer.error, 0.5 * voxel);
   EXPECT_TRUE(check_surface(fewer.surface).good()) << check_surface(fewer.surface).text();
   EXPECT_NEAR(measure_shape(fewer.surface).volume / m.volume, 1, 0.005);
+}
+
+TEST(CtIsosurface, OfAFieldThatIsPositiveEverywhereIsClosedAtItsEnds) {
+  Image<float> field({5, 6, 7}, {voxel, voxel, voxel}, {}, 0.5f);
+  ct::close_ends(field);
+  EXPECT_EQ(std::count(field.voxels.begin(), field.voxels.end(), 0.5f), 3 * 4 * 5);  // all but the outermost nodes
+  const Surface surface = ct::isosurface(field);
+  EXPECT_TRUE(check_surface(surface).good()) << check_surface(surface).text();
+}
+
+TEST(CtGrainSurfaces, OfTwoGrainsMeetAtTheCutBetweenThem) {
+  // Aggregate from x = 4 to 39, cut between 19 and 20: only labels tell the two from each other.
+  Segmentation scan;
+  scan.phases = Image<std::uint8_t>({44, 24, 24}, {voxel, voxel, voxel}, {}, std::uint8_t(VoxelPhase::mastic));
+  scan.confidence = Image<std::uint8_t>::like(scan.phases, 255);
+  scan.labels = Image<std::uint32_t>::like(scan.phases);
+  scan.grey = Image<float>::like(scan.phases, mastic);
+  scan.levels = {air, mastic, aggregate, 0, true};
+  for (std::int64_t k = 4; k < 20; ++k)
+    for (std::int64_t j = 4; j < 20; ++j)
+      for (std::int64_t i = 4; i < 40; ++i) {
+        scan.phases.at(i, j, k) = std::uint8_t(VoxelPhase::aggregate);
+        scan.labels.at(i, j, k) = i < 20 ? 1 : 2;
+        scan.grey.at(i, j, k) = aggregate;
+      }
+  std::vector<std::string> warnings;
+  const auto grains =
+      ct::surfaces_of(scan, {0.5 * (air + mastic), mastic + contrast / 2},
+                      ct::boxes_of(scan.labels, scan.phases, scan.confidence), options_of(16), warnings);
+  ASSERT_EQ(grains.size(), 2u);
+  for (const double x : {19.4, 19.6}) {
+    const Vec3d beside{x * voxel, 11.4 * voxel, 11.7 * voxel};
+    EXPECT_NEAR(test::winding(grains[0].surface, beside), x < 19.5 ? 1 : 0, 1e-6);
+    EXPECT_NEAR(test::winding(grains[1].surface, beside), x < 19.5 ? 0 : 1, 1e-6);
+  }
+}
+
+TEST(CtFragments, BasinsLessThanHalfAVoxelDeepAreOne) {
+  const auto fragments = [](double saddle) {  // two places 3 voxels from the surface
+    Image<float> distance({3, 1, 1}, {voxel, voxel, voxel}, {}, static_cast<float>(3 * voxel));
+    distance.voxels[1] = static_cast<float>(saddle * voxel);
+    return ct::flood(distance, Image<float>::like(distance, 1), 1).radius.size() - 1;
+  };
+  EXPECT_EQ(fragments(2.6), 1u);
+  EXPECT_EQ(fragments(2.4), 2u);
 }
 
 TEST(CtSegment, ABallAndABlockAreMeasured) {
@@ -138,7 +189,8 @@ TEST(CtSegment, AMarginIsTheSurenessOfACut) {
 TEST(CtSegment, ViewsAreWritten) {
   const Segmentation found = segment_scan(many_balls(48), options_of(14));
   for (const auto write : {ct::write_view, ct::write_overlay}) {
-    const auto file = std::filesystem::temp_directory_path() / "macadam_ct_segment_test.png";
+    const auto file =
+        std::filesystem::path(testing::TempDir()) / ("macadam_ct_segment_" + std::to_string(getpid()) + ".png");
     write(file, found);
     std::ifstream in(file, std::ios::binary);
     std::string begin(8, '\0');
@@ -202,6 +254,17 @@ TEST(CtSegment, ASpecimenInAirIsFound) {
   EXPECT_NEAR(inside / (pi * 30 * 30 * 57), 1, 0.02);  // half a voxel of the radius is 3 %, found by area
 }
 
+TEST(CtRegion, OfAPrismAtTheSideOfTheScanEndsWhereThePrismDoes) {
+  Image<float> scan({30, 28, 10}, {voxel, voxel, voxel}, {}, air);
+  for (std::int64_t k = 0; k < 10; ++k)
+    for (std::int64_t j = 5; j < 25; ++j)
+      for (std::int64_t i = 0; i < 20; ++i) scan.at(i, j, k) = mastic;
+  for (const ScanRegion kind : {ScanRegion::prism, ScanRegion::found}) {
+    const Image<std::uint8_t> region = ct::find_region(scan, kind);
+    for (std::size_t n = 0; n < scan.count(); ++n) ASSERT_EQ(region.voxels[n], scan.voxels[n] == mastic) << n;
+  }
+}
+
 TEST(CtSegment, WhatIsNoScanIsRefused) {
   const SegmentOptions options = options_of(14);
   EXPECT_NE(fault(Image<float>({40, 40, 40}, {voxel, voxel, voxel}, {}, 7), options).find("everywhere"),
@@ -243,6 +306,25 @@ TEST(CtSegment, ThePapersStepsPartBallsToo) {
   for (const ScannedGrain& grain : out.grains) EXPECT_TRUE(check_surface(grain.surface).good());
   options.cuts = std::vector<GrainCut>{};
   EXPECT_NE(fault(scan, options).find("recipe"), std::string::npos);
+}
+
+TEST(CtSegment, ThePapersStepsShiftSlicesToTheMeanOfTheScan) {
+  Image<float> scan({5, 5, 2}, {voxel, voxel, voxel}, {}, 10);
+  std::fill(scan.voxels.begin() + 25, scan.voxels.end(), 30.0f);
+  Image<std::uint8_t> region = Image<std::uint8_t>::like(scan, 1);
+  region.at(0, 0, 1) = 0, scan.at(0, 0, 1) = 5;  // counts for nothing, and stays
+  ct::equalise(scan, region);
+  for (std::size_t n = 0; n < 50; ++n) EXPECT_NEAR(scan.voxels[n], n == 25 ? 5 : (25 * 10 + 24 * 30) / 49.0, 1e-5) << n;
+}
+
+TEST(CtSegment, ThePapersStepsFillHolesInGrainsAndNoOthers) {
+  SegmentOptions options = options_of(14);
+  options.recipe = SegmentRecipe::paper;
+  options.surfaces = false;
+  const Segmentation out =
+      segment_scan(scan_of({44, 44, 44}, {ball(24, 24, 24, 15)}, {ball(24, 24, 24, 6), ball(6, 6, 6, 5)}), options);
+  EXPECT_EQ(out.phases.at(24, 24, 24), std::uint8_t(VoxelPhase::aggregate));
+  EXPECT_EQ(out.phases.at(6, 6, 6), std::uint8_t(VoxelPhase::air_void));
 }
 
 TEST(CtSieve, OfABlockAndABall) {

@@ -4,12 +4,15 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <limits>
 #include <numbers>
 
+#include "host/specimen/placement.hpp"
 #include "host/spheres/relaxation.hpp"
 #include "long_tests.hpp"
 #include "macadam/error.hpp"
@@ -242,6 +245,28 @@ TEST(Generate, AClassWithoutRoomSaysHowMuchHadRoom) {
   for (const char* words : {"of 40 of class 4.7-5 mm", "30000 attempts", "of 40 placed", "% of the class's volume",
                             "larger box", "another seed"})
     EXPECT_NE(message.find(words), std::string::npos) << message;
+  int placed = 0;
+  double percent = 0;
+  const std::size_t figures = message.find("attempts: ");
+  ASSERT_NE(figures, std::string::npos);
+  ASSERT_EQ(std::sscanf(message.c_str() + figures, "attempts: %d of 40 placed, %lf %%", &placed, &percent), 2);
+  EXPECT_GT(percent, 100.0 * placed / 40 - 0.1);  // the largest come first
+  EXPECT_LT(percent, 100.0 * placed / 40 * std::pow(5 / 4.7, 3));
+}
+
+/// What `taken` is asked about is clear of the aggregate. Of 9.8³ mm³ for the small one's centre 448 are: each of the
+/// 20,000 tries anywhere is clear with 0.476. Then come tries in cells of 0.2 mm that are not wholly taken, of which
+/// none is nearer to the middle than 4.9 mm less a diagonal: these are 604 mm³ at most, and a try is clear with 0.74.
+TEST(Placement, LaterTriesAreWhereThereMayBeRoom) {
+  Specimen specimen;
+  specimen.box.size = {0.01, 0.01, 0.01};
+  std::atomic<int> clear = 0;
+  const auto taken = [&](const Vec3d&) { return ++clear, true; };
+  Placement placement(specimen, 2e-4, 40'000, RandomStream(1, 1), {}, taken);
+  placement.add_aggregate({0.005, 0.005, 0.005}, 0.0048, 0);
+  EXPECT_THROW(placement.place_aggregates({{{}, {1e-4}, {}}}, 0, [](double) {}), RunError);
+  EXPECT_GT(clear, 20'000 * (0.476 + 0.742) - 400);  // four standard deviations
+  EXPECT_LE(clear, 20'000 * (0.476 + 1) + 400);
 }
 
 /// Of a scene, messages name its file and the line of the class.
@@ -269,6 +294,10 @@ TEST(Generate, WhatCannotBeMetIsNamedWithItsLine) {
   bad.attempts = 1;
   bad.aggregate[1].volume_fraction = 0.6;
   expect(bad, "mix.toml:11: no room for aggregate ");
+  bad = spec;
+  bad.aggregate.clear();
+  bad.mastic.reset();
+  expect(bad, "mix.toml:3: particles: found 0");
 }
 
 /// Errors in OpenMP's threads are exceptions like any other, not the end of the process.
@@ -308,14 +337,15 @@ TEST(Generate, ImpossibleRecipesAreRefused) {
   expect_refused(spoilt([](S& s) { s.aggregate[0].sieve_min = 0.005; }), "0 < smallest <= largest");
   expect_refused(spoilt([&](S& s) { s.aggregate[0].sieve_max = nan; }), "0 < smallest <= largest");
   expect_refused(spoilt([](S& s) { s.aggregate[0].volume_fraction = 1.2; }), "volume_fraction: found 1.2");
-  expect_refused(spoilt([](S& s) { s.aggregate[0].volume_fraction = 0.85; }), "solid volume that the porosity leaves");
+  expect_refused(spoilt([](S& s) { s.aggregate[0].volume_fraction = 0.85; }),
+                 "found 99.75 % of the box, expected at most the solid volume that the porosity leaves, 95 %");
   expect_refused(spoilt([](S& s) { s.mastic->count = 4; }), "both porosity and count");
   expect_refused(spoilt([](S& s) { s.mastic->porosity.reset(); }), "neither porosity nor count");
   expect_refused(spoilt([](S& s) { s.mastic->porosity = 1; }), "porosity: found 1");
   expect_refused(spoilt([](S& s) { s.mastic->radius_min = -1; }), "0 < smallest <= largest");
   expect_refused(spoilt([](S& s) { s.mastic = MasticSpec{1e-9, 1e-9, 0.05, {}}; }), "number of spheres");
   expect_refused(spoilt([](S& s) { s.aggregate[1] = {0.0132, 0.0134, {}, 1}; }), "shortest edge of the box, 13 mm");
-  expect_refused(spoilt([](S& s) { s.aggregate[1].sieve_min = 0.0094; }), "(1 spheres), or wider sieves");
+  expect_refused(spoilt([](S& s) { s.aggregate[1].sieve_min = 0.0094; }), "or 19.79 % (1 spheres), or wider sieves");
   expect_refused(spoilt([](S& s) { s.aggregate.clear(), s.mastic.reset(); }), "particles: found 0");
 }
 

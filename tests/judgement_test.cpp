@@ -76,6 +76,19 @@ TEST(Judgement, AToleranceThatNothingVerifiesIsNotCalledKept) {
   EXPECT_HAS(warnings.back(), "the tolerance was not kept");
 }
 
+// 0.05 degrees are 0.9e-3 rad, 0.1 degrees 1.7e-3.
+TEST(Judgement, PhasesOfTheLastCyclesAreComparedInRadians) {
+  experiments::SteppedFrequency f = good_result();
+  f.kept.reset();
+  std::vector<std::string> warnings;
+  f.cyclic.change_phase_deg = -0.05;
+  judge(f, stiffest, 1e-3, warnings);
+  EXPECT_FALSE(f.kept.has_value());
+  f.cyclic.change_phase_deg = -0.1;
+  judge(f, stiffest, 1e-3, warnings);
+  EXPECT_EQ(f.kept, false);
+}
+
 TEST(Judgement, WallsThatDisagreeWithoutInertiaAreSaid) {
   experiments::HarmonicFrequency f;
   f.frequency_hz = 20;

@@ -2,6 +2,7 @@
 // new_command_test.cpp  macadam new: every scene that it writes is read and runs, and so does every key in its
 // comments.
 #include <regex>
+#include <set>
 
 #include "host/scene/new_scene.hpp"
 #include "macadam/error.hpp"
@@ -64,6 +65,21 @@ TEST_F(NewCommand, EveryKeyInACommentCanBeTakenOut) {
       }
       EXPECT_GE(taken, 9u);
     }
+  }
+}
+
+TEST_F(NewCommand, KeysAreExplainedWhereTheirSectionComesFirst) {
+  for (const NewKind kind : kinds) {
+    std::set<std::string> sections;
+    bool first = true;
+    std::size_t again = 0;
+    for (const std::string& line : lines_of(scene_text(kind, "cyclic"))) {
+      if (line.starts_with('[')) first = sections.insert(line).second;
+      if (first || line.empty() || line.starts_with('#')) continue;  // what begins with # is said of a whole section
+      EXPECT_FALSE(contains(line, "#")) << line;
+      ++again;
+    }
+    EXPECT_GE(again, 15u);  // of the contacts
   }
 }
 

@@ -61,6 +61,19 @@ TEST_F(Folder, RefusedCommandsLeaveEveryFileAsItWas) {
   expect_refused(run, "no harmonic solution");
 }
 
+// At 1e-20 Hz dashpots are so soft beside springs that the stiffness is singular to rounding.
+TEST_F(Folder, SolutionsBeforeOneThatFailsStay) {
+  write_scene_of("kind = \"cyclic\"\nfrequencies = [20, 5, 1e-20, 2]\n",
+                 "method = \"harmonic\"\nlinear = \"iterative\"\n");
+  const Outcome run = run_quick("out");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_HAS(run.err, "at 1e-20 Hz");
+  const auto found = summary("out").at("results");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found.at(0).at("frequency_hz"), 20);
+  EXPECT_EQ(found.at(1).at("frequency_hz"), 5);
+}
+
 TEST_F(Folder, ARefusedCommandLeavesNoFolder) {
   write_scene(quick, "[network]\ngap_max = -1.0\n");
   for (const char* out : {"new/below", "new/below/", "./new/../new/x", "new/./x/."}) {

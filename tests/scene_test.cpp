@@ -434,6 +434,29 @@ TEST_F(SceneFile, AFileBesideARecipeIsRefused) {
       << what;
 }
 
+// Spheres of 8 mm: 44 are 11.80 of the box's 12 cm3, 45 are 12.06.
+TEST_F(SceneFile, VoidsByCountLeaveRoomInTheBox) {
+  const auto with_voids = [](int count) {
+    return text_of(
+        {{9, "porosity = 0.05\n[specimen.voids]\nradius = [0.004, 0.005]\ncount = " + std::to_string(count)}});
+  };
+  EXPECT_EQ(message(with_voids(44)), "");
+  EXPECT_NE(message(with_voids(45)).find("voids as large as the box"), std::string::npos) << message(with_voids(45));
+}
+
+// Of the box's 12 cm3, 40 aggregates of 8 mm leave room for 4e7 spheres of 0.04 mm, one of them for 3.5e8.
+TEST_F(SceneFile, MasticHasTheRoomThatCountedAggregatesLeave) {
+  const auto with_aggregates = [](int count) {
+    return text_of({{5, "sieve = [0.008, 0.008]"},
+                    {6, "count = " + std::to_string(count)},
+                    {8, "radius = [2e-5, 2e-5]"},
+                    {9, "porosity = 0"}});
+  };
+  EXPECT_EQ(message(with_aggregates(40)), "");
+  EXPECT_NE(message(with_aggregates(1)).find("at most 100000000 particles"), std::string::npos)
+      << message(with_aggregates(1));
+}
+
 TEST_F(SceneFile, AMissingFileAndADirectoryAreRefused) {
   EXPECT_THROW(read_scene(folder_ / "absent.toml"), InputError);
   EXPECT_THROW(read_scene(folder_), InputError);

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "host/shapes/stabbing.hpp"
 #include "host/shapes/statistics.hpp"
 #include "long_tests.hpp"
 #include "macadam/error.hpp"
@@ -35,6 +36,14 @@ void in_all_poses(const Surface& surface, const std::function<void(const ShapeMe
     const Vec3d centre{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     expect(measure_shape(mapped(surface, random_pose(random, 1, centre))));
   }
+}
+
+TEST(Stabbing, AnIntervalHoldsWhatIsBeyondItsEndsByTheToleranceAndNoMore) {
+  const std::vector<Interval> intervals{{0, 1}, {2, 2}};
+  const std::vector<double> positions{1.2, -0.05, 2.05, 1.05, 0.5, 1.95, 1};
+  std::vector<std::pair<std::size_t, std::size_t>> found;
+  stab(intervals, positions, 0.1, [&](std::size_t i, std::size_t p) { found.emplace_back(i, p); });
+  EXPECT_EQ(found, (std::vector<std::pair<std::size_t, std::size_t>>{{0, 1}, {0, 4}, {0, 6}, {0, 3}, {1, 5}, {1, 2}}));
 }
 
 TEST(Dimensions, OfABox) {

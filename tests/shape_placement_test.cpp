@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <cstdio>
+
 #include "host/specimen/shape_body.hpp"
+#include "host/specimen/shape_packing.hpp"
 #include "long_tests.hpp"
 #include "macadam/error.hpp"
 #include "shape_tests.hpp"
@@ -111,6 +114,18 @@ TEST(ShapeBody, FieldBoundsTheTrueDistance) {
   }
 }
 
+TEST(ShapeBody, DistanceFromASphereIsKnownExactly) {
+  const ShapeTemplate shape = shape_template(test::stone(2, 1));
+  const ShapeGeometry geometry(shape);
+  ShapeBody sphere(geometry, 0.006, true);
+  sphere.centre = {0.001, 0.002, 0.003};
+  for (const double away : {0.001, 0.005}) {
+    const Vec3d p = sphere.centre + away * Vec3d{0.36, 0.48, 0.8};
+    EXPECT_NEAR(sphere.distance_at_least(p), away - sphere.sphere_radius(), 1e-17);
+    EXPECT_NEAR(sphere.distance_at_most(p), away - sphere.sphere_radius(), 1e-17);
+  }
+}
+
 TEST(ShapeComposition, ClassesHaveTheirVolumes) {
   const std::vector<ShapeTemplate> shapes = stones();
   const SpecimenSpec spec = small_mix(0.5);
@@ -168,6 +183,25 @@ TEST(ShapePlacement, BothMethodsKeepThemApartAndInside) {
   }
 }
 
+/// A contact pushes both bodies with the same force. Of two similar stones the larger, four times the other's size, has
+/// 16 times the mass, and turns less still.
+TEST(ShapePlacement, PackedStonesGiveWayByTheirMasses) {
+  const ShapeTemplate shape = shape_template(test::stone(2, 1));
+  const ShapeGeometry geometry(shape);
+  std::vector<ShapeBody> bodies{{geometry, 0.008, false}, {geometry, 0.002, false}};
+  const Vec3d start[] = {{0.02, 0.02, 0.02}, {0.0235, 0.0215, 0.0205}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    bodies[i].scale *= 0.1;
+    bodies[i].centre = start[i];
+  }
+  EXPECT_EQ(pack({{0.04, 0.04, 0.04}}, bodies, 0.1, 0.02, [](double) {}), 1);
+  const Vec3d large = bodies[0].centre - start[0], small = bodies[1].centre - start[1];
+  EXPECT_GT(norm(small), 1e-4);
+  EXPECT_LT(norm(16 * large + small), 1e-6 * norm(small));
+  const auto turn = [&](std::size_t i) { return 2 * std::acos(std::min(1.0, std::abs(bodies[i].turn[0]))); };
+  EXPECT_LT(turn(0), 0.1 * turn(1));
+}
+
 TEST(ShapePlacement, SameBitsForAnyNumberOfThreadsOthersForAnotherSeed) {
   const std::vector<ShapeTemplate> shapes = stones();
   SpecimenSpec spec = small_mix(0.3);
@@ -201,6 +235,11 @@ TEST(ShapePlacement, FailedInsertionSaysHowFarItGot) {
   EXPECT_NE(message.find("no room for aggregate"), std::string::npos) << message;
   EXPECT_NE(message.find("of class 4.75-8 mm"), std::string::npos) << message;
   EXPECT_NE(message.find("% of the class's volume"), std::string::npos) << message;
+  double millimetres = 0;
+  ASSERT_NE(message.find("(D^I "), std::string::npos) << message;
+  ASSERT_EQ(std::sscanf(message.c_str() + message.find("(D^I "), "(D^I %lf mm)", &millimetres), 1) << message;
+  EXPECT_GE(millimetres, 4.75);
+  EXPECT_LE(millimetres, 8);
 
   how.allow_short = true;
   const ShapePlacement p = place_shapes(spec.box, shapes, c, how);
@@ -290,6 +329,11 @@ TEST(ShapePlacement, JammedPackingSaysWhere) {
   const std::string message = message_of([&] { place_shapes(spec.box, shapes, compose_shapes(spec, shapes, {}), {}); });
   EXPECT_NE(message.find("jammed at"), std::string::npos) << message;
   EXPECT_NE(message.find("85 % asked"), std::string::npos) << message;
+  double size = 0, percent = 0;
+  const std::size_t figures = message.find("jammed at");
+  ASSERT_NE(figures, std::string::npos);
+  ASSERT_EQ(std::sscanf(message.c_str() + figures, "jammed at %lf of their size: %lf %%", &size, &percent), 2);
+  EXPECT_NEAR(percent, 85 * size * size * size, 0.1) << "three digits are written";
 }
 
 TEST(ShapePlacement, SizesAndSettingsOutOfRangeAreRefused) {

@@ -135,6 +135,7 @@ TEST(TilePlan, PlacesInTheTableOfVelocitiesAreThoseOfTheEnds) {
   const TilePlan plan = plan_tiles(scene.network, layout);
   std::size_t of_other_tiles = 0;
   for (const Tile& tile : plan.tile) {
+    ASSERT_LE(tile.first_halo + tile.halo, plan.halo.size());
     const auto body_at = [&](std::uint32_t local) {
       if (local < tile.bodies) return plan.body[tile.first_body + local];
       if (local >= tile.bodies + tile.halo)

@@ -212,6 +212,19 @@ TEST_F(Tolerance, AGivenStepHasTheScalingThatItNeeds) {
   EXPECT_NEAR(f.dt_s, 5e-6, 5e-7);
 }
 
+// Without a tolerance too, steps are as long as stability lets them, but follow a decay with exp(-t / 20 us).
+TEST_F(Tolerance, StepsFollowTheDecayOfViscousDamping) {
+  Scene scene = scene_of(t8(), 1e-2);
+  scene.cyclic().frequencies = {20};
+  scene.cyclic().cycles = 1;
+  scene.solver.tolerance = std::nullopt;
+  scene.solver.density_scaling = std::vector<double>{1e6};
+  EXPECT_GT(run_it(scene).stepped().frequencies[0].dt_s, 2e-5);
+  scene.solver.damping_kind = Damping::viscous;
+  scene.solver.damping = 5e4;
+  EXPECT_NEAR(run_it(scene).stepped().frequencies[0].dt_s, 2e-5, 1e-6);
+}
+
 // Large strains: the run keeps its geometry up to date and says that the harmonic solution does not.
 TEST_F(Tolerance, LargeStrainsAreNotLinear) {
   Scene scene = scene_of(t8(), 1e-3);

@@ -238,6 +238,22 @@ def block_lengths():
     return table(["N", "error of \\|E\\*\\|, at most", "of φ (rad), at most", "counted with"], out)
 
 
+BLOCK_ROUNDING = "block-precision.csv"
+
+
+@mark
+def block_rounding_machine():
+    return ", ".join(head(BLOCK_ROUNDING)[0].split("; ")[:2])
+
+
+@mark
+def block_rounding():
+    out = []
+    for r in rows(BLOCK_ROUNDING):
+        out.append((r["backend"], r["precision"], f"{r['steps']:,.0f}", f"{r['e_star']:.1e}", f"{r['phase_rad']:.1e}"))
+    return table(["backend", "precision", "steps of a block", "error of \\|E\\*\\|", "of φ (rad)"], out, right=(2, 3, 4))
+
+
 # ---- one command to a result on the GPU
 
 def command():

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/reliability.md: campaigns of faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours of runs
-(tests/soak), races (scripts/races --table), mistakes on purpose (tests/mutation/campaign --table)."""
+(tests/soak), races (scripts/races --table), mistakes on purpose (tests/mutation/campaign --table), the same bits (tests/same_bits/run
+--table)."""
 import collections
 
 from pages.data import head, rows, table
@@ -11,6 +12,7 @@ FAULTS = "faults.csv"
 FUZZING = "fuzzing.csv"
 RACES = "races.csv"
 MUTATION = "mutation.csv"
+SAME_BITS = "same-bits.csv"
 SOAK = {"cpu": "soak-cpu.csv", "cuda": "soak-cuda.csv"}
 READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specimen": "specimens (CSV)",
          "specimen_gz": "specimens (CSV in gzip)", "laboratory": "laboratory data (CSV)", "checkpoint": "checkpoints (HDF5)",
@@ -131,13 +133,26 @@ def survivors():
     """What was seen when those that no test noticed were looked at."""
     said = {"same": "no result differs, or only where two numbers are the same (`<` for `<=`)",
             "shown": "words, pictures and progress that people read", "start": "first guesses and the order of work: the end is the same",
-            "beyond": "read or written beyond an array, which the tests with sanitizers watch",
+            "beyond": "read or written beyond an array, which only the tests with sanitizers can see",
             "tested since": "a test notices it since", "open": "a test could notice it"}
     return table(["mistakes that no test noticed", "number"], [(words, looked_at(kind)) for kind, words in said.items()])
 
 
 @mark
 def mutation_since():
-    """Share of those that change a result and stay within arrays."""
+    """Share of those that change anything, whether or not a test comes by."""
     killed = sum(r["verdict"] == "killed" for r in rows(MUTATION)) + looked_at("tested since")
-    return f"{100 * killed / (killed + looked_at('open', 'start')):.1f} %"
+    return f"{100 * killed / (len(rows(MUTATION)) - looked_at('same')):.0f} %"
+
+
+@mark
+def same_bits_machine():
+    return head(SAME_BITS)[0]
+
+
+@mark
+def same_bits():
+    files = ("specimen.csv", "response.csv", "contacts.csv")
+    return table(["compiler", "optimised", "for the processor", "runs", *(f"other bytes in `{name}`" for name in files)],
+                 [(r["compiler"], f"`{r['level']}`", r["processor"].replace("native", "of this machine"), f"{r['runs']:.0f}",
+                   *(f"{r[name]:.0f}" for name in files)) for r in rows(SAME_BITS)], right=range(3, 7))

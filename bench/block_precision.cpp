@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// block_precision.cpp  What rounding costs in |E*| and phase by the steps of a block, as CSV on standard output.
+//
+// Within a block, changes of force and their sums are in single precision. The specimen t8 in geometry of the start, a
+// cycle of 20 Hz from the steady state, in so many steps that blocks may be as long as kernels::longest_block admits.
+// Against the same steps in double precision, which are not taken in blocks. It takes some minutes.
+//
+// usage: block_precision [cpu|cuda]
+#include <fmt/format.h>
+
+#include <string>
+
+#include "host/experiments/cyclic/error_model.hpp"
+#include "kernels/block_length.hpp"
+#include "macadam/laws/facts.hpp"
+#include "test_scenes.hpp"
+
+namespace macadam::bench {
+namespace {
+
+constexpr double frequency = 20;  // [Hz]
+constexpr std::int64_t steps_per_period = 4000000;
+constexpr std::int64_t samples = 200;
+
+class OneCycle {
+ public:
+  explicit OneCycle(Backend backend) : backend_(backend) {
+    Harmonic harmonic(scene_.specimen, scene_.network, scene_.laws, scene_.inertia, {}, frequency);
+    start_ = steady_start(scene_.network, scene_.laws, harmonic.solve(frequency, 1, 0).motion, loading_);
+  }
+
+  Stiffness stepped(const StepperOptions& options) const {
+    const auto stepper = make_stepper(backend_, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
+    const Vec3d& box = scene_.specimen.box.size;
+    std::vector<ResponseSample> response;
+    sample(*stepper, steps_per_period / samples, samples, [&](const Observation& now) {
+      response.push_back({frequency, now.time, now.top_displacement() / box.z, -now.top_force() / (box.x * box.y)});
+    });
+    return evaluate_cyclic(response, frequency, 1).fit;
+  }
+
+  void print() const {
+    StepperOptions options;
+    options.geometry = Geometry::fixed;
+    options.boundary = moving_top(loading_);
+    options.dt = loading_.dt();
+    options.observed_every = steps_per_period / samples;
+    options.start = &start_;
+    options.precision = Precision::double_;
+    const Stiffness exact = stepped(options);
+    for (const auto& [precision, name] : {std::pair{Precision::mixed, "mixed"}, {Precision::single, "single"}}) {
+      options.precision = precision;
+      for (const double blocks : {32000.0, 16000.0, 8000.0, 4000.0}) {
+        options.blocks = blocks;
+        const int steps = kernels::block_steps(options, facts_of(scene_.laws), scene_.specimen.box.size);
+        const ErrorEstimate e = difference(stepped(options), exact);
+        fmt::print("{},{},{},{},{:g},{},{:.2g},{:.2g}\n", to_string(backend_), name, scene_.specimen.size(),
+                   steps_per_period, blocks, steps, e.e_star, e.phase_rad);
+        std::fflush(stdout);
+      }
+    }
+  }
+
+ private:
+  test::TestScene scene_ = test::make_scene(read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}}));
+  drives::Cyclic loading_{1e-4 * scene_.specimen.box.size.z, frequency, steps_per_period, 0};
+  Backend backend_;
+  StartState start_;
+};
+
+}  // namespace
+}  // namespace macadam::bench
+
+int main(int count, char** words) {
+  using macadam::Backend;
+  fmt::print(
+      "# steps in blocks against steps in double precision; t8, geometry of the start, true mass, 20 Hz, steady start\n"
+      "backend,precision,particles,steps_per_period,blocks,steps,e_star,phase_rad\n");
+  macadam::bench::OneCycle(count > 1 && words[1] == std::string("cuda") ? Backend::cuda : Backend::cpu).print();
+}
