@@ -174,6 +174,11 @@ TEST_F(CtLargeScan, GrainsAreCutAlikeByBothEndsOfEachAxis) {
   ASSERT_EQ(volumes[1].size(), 3u);
   // other facets, of as many; half a voxel of where a ball is cut would be 0.04
   for (std::size_t g = 0; g < 3; ++g) EXPECT_NEAR(volumes[1][g] / volumes[0][g], 1, 0.005) << g;
+  std::sort(volumes[0].begin(), volumes[0].end());
+  for (std::size_t g = 0; g < 3; ++g) {  // facets of about two voxels cut off 3/1000 of a ball
+    const double radius = (20 + 2 * static_cast<double>(g)) * voxel;
+    EXPECT_NEAR(volumes[0][g] / (2 * pi / 3 * std::pow(radius, 3)), 1, 0.01) << g;
+  }
 }
 
 TEST_F(CtLargeScan, ANeedleThinnerThanABlockLeavesItsGrainsSurfaceClosed) {

@@ -62,8 +62,10 @@ Around around(const Segmentation& out, std::uint32_t id, const GrainBox& box) {
     for (std::int64_t j = 0; j < size[1]; ++j) {
       for (std::int64_t i = 0; i < size[0]; ++i) {
         const std::int64_t x = a.first[0] + i, y = a.first[1] + j, z = a.first[2] + k;
-        if (x < 0 || y < 0 || z < 0 || x >= out.labels.size[0] || y >= out.labels.size[1] || z >= out.labels.size[2])
+        if (x < 0 || y < 0 || z < 0 || x >= out.labels.size[0] || y >= out.labels.size[1] || z >= out.labels.size[2]) {
+          a.inside.at(i, j, k) = 0.5f;  // where the scan ends, its grey values end the grain, at the end itself
           continue;
+        }
         const auto phase = static_cast<VoxelPhase>(out.phases.at(x, y, z));
         if (phase != VoxelPhase::outside) a.inside.at(i, j, k) = 0.5f;
         if (phase == VoxelPhase::aggregate && out.labels.at(x, y, z) != id) a.own.at(i, j, k) = -0.5f;
