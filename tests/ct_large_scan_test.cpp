@@ -2,6 +2,7 @@
 // Scans larger than the memory that is given: the same grains as in memory, on two levels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numbers>
 
