@@ -327,8 +327,7 @@ def peers():
 
 
 @mark
-def peers_factor():
-    """Of Yade to Macadam on one thread, with the precision and geometry that both have."""
-    of = {r["program"].split()[0]: r["ms_a_step"] for r in rows(PEERS)
-          if r["threads"] == 1 and r["settings"] == "double, geometry updated"}
-    return f"{of['Yade'] / of['Macadam']:.0f}"
+def peers_factors():
+    """Of the others to Macadam on one thread, with the precision and geometry that all have."""
+    of = {r["program"]: r["ms_a_step"] for r in rows(PEERS) if r["threads"] == 1 and r["settings"] == "double, geometry updated"}
+    return " and ".join(f"{ms / of['Macadam']:.2g} ({name})" for name, ms in of.items() if name != "Macadam")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/reliability.md: campaigns of faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours of runs
-(tests/soak), races (scripts/races --table), mistakes on purpose (tests/mutation/campaign --table), the same bits (tests/same_bits/run
+(tests/soak), races (scripts/races --table, scripts/gpu-sanitizers --table), mistakes on purpose (tests/mutation/campaign --table), the same bits (tests/same_bits/run
 --table)."""
 import collections
 
@@ -11,6 +11,7 @@ DOCUMENT = "docs/reliability.md"
 FAULTS = "faults.csv"
 FUZZING = "fuzzing.csv"
 RACES = "races.csv"
+GPU_SANITIZERS = "gpu-sanitizers.csv"
 MUTATION = "mutation.csv"
 SAME_BITS = "same-bits.csv"
 SOAK = {"cpu": "soak-cpu.csv", "cuda": "soak-cuda.csv"}
@@ -99,6 +100,27 @@ def races_tests():
 @mark
 def races_found():
     return f"{sum(r['reports'] for r in rows(RACES)):.0f}"
+
+
+@mark
+def gpu_sanitizers_machine():
+    return head(GPU_SANITIZERS)[0]
+
+
+@mark
+def gpu_sanitizers_reports():
+    return f"{sum(r['reports'] for r in rows(GPU_SANITIZERS)):.0f}"
+
+
+@mark
+def gpu_sanitizers():
+    """Tests that ended of those that use the GPU, by program and check."""
+    programs = collections.defaultdict(dict)
+    for r in rows(GPU_SANITIZERS):
+        programs[r["program"]][r["check"]] = f"{r['ended']:.0f} of {r['tests'] - r['unused']:.0f}"
+    checks = ("memcheck", "initcheck", "racecheck", "synccheck")
+    return table(["program", *(f"`{check}`" for check in checks)],
+                 [(f"`{program}`", *(ended.get(check, "") for check in checks)) for program, ended in programs.items()], right=range(1, 5))
 
 
 @mark
