@@ -13,8 +13,9 @@ FUZZING = "fuzzing.csv"
 RACES = "races.csv"
 GPU_SANITIZERS = "gpu-sanitizers.csv"
 MUTATION = "mutation.csv"
+SECOND_MUTATION = "mutation-second.csv"
 SAME_BITS = "same-bits.csv"
-SOAK = {"cpu": "soak-cpu.csv", "cuda": "soak-cuda.csv"}
+SOAK = (("cpu", "soak-cpu.csv"), ("cuda", "soak-cuda.csv"), ("cuda", "soak-cuda-h100.csv"))
 READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specimen": "specimens (CSV)",
          "specimen_gz": "specimens (CSV in gzip)", "laboratory": "laboratory data (CSV)", "checkpoint": "checkpoints (HDF5)",
          "off": "surfaces (OFF)", "obj": "surfaces (OBJ)", "stl": "surfaces (STL)", "ply": "surfaces (PLY)",
@@ -65,7 +66,7 @@ def faults_long():
 def soak():
     """The most that was held until two thirds of the time, and in the last third."""
     out = []
-    for backend, file in SOAK.items():
+    for backend, file in SOAK:
         all_ = rows(file)
         third = len(all_) - len(all_) // 3
 
@@ -140,10 +141,30 @@ def mutation():
     return table(["sources", "mistakes", "noticed", "not noticed", "no test comes by"], listed, right=range(1, 5))
 
 
+def noticed(file):
+    """Share of the mistakes that a test comes by."""
+    count = collections.Counter(r["verdict"] for r in rows(file))
+    return f"{100 * count['killed'] / (count['killed'] + count['survived']):.0f} %"
+
+
 @mark
 def mutation_share():
-    count = collections.Counter(r["verdict"] for r in rows(MUTATION))
-    return f"{100 * count['killed'] / (count['killed'] + count['survived']):.0f} %"
+    return noticed(MUTATION)
+
+
+@mark
+def second_mutation_machine():
+    return head(SECOND_MUTATION)[0]
+
+
+@mark
+def second_mutation_number():
+    return str(len(rows(SECOND_MUTATION)))
+
+
+@mark
+def second_mutation_share():
+    return noticed(SECOND_MUTATION)
 
 
 def looked_at(*kinds):
