@@ -39,6 +39,25 @@ TEST_F(CommandHelp, WalksAllCommands) {
   EXPECT_GE(commands, 15u);
 }
 
+/// Its words, one space between them.
+std::string in_one_line(const std::string& text) {
+  std::string out;
+  std::istringstream words(text);
+  for (std::string word; words >> word;) out += (out.empty() ? "" : " ") + word;
+  return out;
+}
+
+TEST_F(CommandHelp, HasEveryDescriptionWordForWord) {
+  for_each_command(app_, [](CLI::App& command) {
+    const std::string help = in_one_line(help_of(command));
+    const auto expect = [&](const std::string& description) {
+      EXPECT_NE(help.find(in_one_line(description)), std::string::npos) << name_of(command) << ": " << description;
+    };
+    for (const CLI::Option* option : command.get_options()) expect(option->get_description());
+    for (const CLI::App* below : command.get_subcommands(nullptr)) expect(below->get_description());
+  });
+}
+
 // A type that CLI11 prints by itself is a table of numbers, `ENUM:value in {auto->1} OR {1}`.
 TEST_F(CommandHelp, IsForPeople) {
   for_each_command(app_, [](CLI::App& command) {

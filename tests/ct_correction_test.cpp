@@ -99,6 +99,28 @@ TEST_F(CtCorrection, RingsGoAndTheRestStays) {
   EXPECT_LT(difference(clean, true_).second, 0.03);
 }
 
+TEST(CtRings, AreAsStrongAsIsSaidAndStepsTakeTheSameOutOfEveryPlace) {
+  // Two layers, so that every ring holds as much of both phases; rings of 0.1 at 4 of the 43 whole radii.
+  Image<float> layers({61, 61, 48}, {1e-4, 1e-4, 1e-4}, {}, mastic);
+  std::fill(layers.voxels.begin() + 61 * 61 * 30, layers.voxels.end(), aggregate);
+  add_noise(layers, 0.05);
+  const Image<float> before = with(layers, [](std::int64_t i, std::int64_t j, auto, float grey) {
+    const auto r = std::lround(std::hypot(static_cast<double>(i) - 30, static_cast<double>(j) - 30));
+    return grey + (r == 11 || r == 19 || r == 27 || r == 35 ? 0.1 * contrast : 0.0);
+  });
+  Image<float> scan = before;
+  ct::CorrectionSteps steps;
+  // the level of a ring of a thousand voxels and more is known to a hundredth of 0.1
+  EXPECT_NEAR(ct::correct_rings(scan, Image<std::uint8_t>::like(scan, 1), &steps), 0.1 * std::sqrt(4.0 / 43), 0.002);
+  EXPECT_NEAR(scan.at(30, 41, 7) - before.at(30, 41, 7), -0.1 * contrast, 0.01 * contrast);
+  ASSERT_EQ(steps.size(), 1u);
+  for (std::int64_t n = 0; n < 61; ++n) {  // where radii are whole
+    const auto at = static_cast<double>(n);
+    EXPECT_NEAR(steps[0].of(before.at(30, n, 7), 30, at, 7), scan.at(30, n, 7), 0.01) << n;
+    EXPECT_NEAR(steps[0].of(before.at(n, 30, 7), at, 30, 7), scan.at(n, 30, 7), 0.01) << n;
+  }
+}
+
 TEST_F(CtCorrection, CuppingIsTakenAway) {
   Image<float> scan = with(true_, [](std::int64_t i, std::int64_t j, auto, float grey) {
     const double r = std::hypot(static_cast<double>(i) - 43.5, static_cast<double>(j) - 43.5) / 62;
@@ -143,6 +165,20 @@ TEST(CtLevels, AreThoseOfThePhasesWithOrWithoutAir) {
   EXPECT_NEAR(levels.mastic, mastic, 0.02 * contrast);
   EXPECT_NEAR(levels.aggregate, aggregate, 0.02 * contrast);
   EXPECT_NEAR(levels.deviation, 0.15 * contrast, 0.02 * contrast);
+}
+
+TEST(CtLevels, OfHardlyAnyNoiseHaveItsDeviation) {
+  ct::Histogram histogram;  // bins of 1 from 0
+  histogram.counts.assign(512, 0);
+  const auto below = [](double x) { return 0.5 * std::erfc(-x / 1.5 / std::sqrt(2.0)); };
+  for (const auto& [level, voxels] : {std::pair{60, 1e5}, {260, 6e5}, {420, 3e5}})
+    for (int b = 0; b < 512; ++b)
+      histogram.counts[static_cast<std::size_t>(b)] += std::lround(voxels * (below(b + 1 - level) - below(b - level)));
+  const GreyLevels levels = ct::fit_levels(histogram);
+  ASSERT_TRUE(levels.has_air);
+  EXPECT_NEAR(levels.mastic, 260, 0.01);
+  EXPECT_NEAR(levels.aggregate, 420, 0.01);
+  EXPECT_NEAR(levels.deviation, std::sqrt(1.5 * 1.5 + 1 / 12.0), 0.01);  // that of a bin adds to it
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "host/ct/gradation.hpp"
 #include "host/ct/grains.hpp"
+#include "host/ct/scan_checks.hpp"
 #include "macadam/error.hpp"
 #include "tests/ct_scans.hpp"
 
@@ -100,6 +101,24 @@ TEST(CtFaults, AVoxelOfAnotherHeightMakesAllGrainsFlatOrTall) {
   }
 }
 
+TEST(CtFaults, ChordsOfABlockAreItsSidesAlsoWhereTheScanCutsIt) {
+  for (const std::int64_t rim : {3, 0}) {
+    Image<std::uint8_t> phases({10 + 2 * rim, 20 + 2 * rim, 40 + 2 * rim}, {1e-4, 1e-4, 1e-4}, {},
+                               static_cast<std::uint8_t>(VoxelPhase::mastic));
+    for (std::int64_t k = rim; k < 40 + rim; ++k)
+      for (std::int64_t j = rim; j < 20 + rim; ++j)
+        std::fill_n(&phases.at(rim, j, k), 10, static_cast<std::uint8_t>(VoxelPhase::aggregate));
+    std::vector<std::string> warnings;
+    EXPECT_EQ(ct::trust_in_axes(phases, warnings), ct::doubtful);
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("chords through the aggregate are 1, 2 and 4 mm long"), std::string::npos)
+        << warnings[0];
+    phases.spacing = {4e-4, 2e-4, 1e-4};  // the same voxels are a cube of 4 mm
+    EXPECT_EQ(ct::trust_in_axes(phases, warnings), 1);
+    EXPECT_EQ(warnings.size(), 1u);
+  }
+}
+
 TEST(CtFaults, AWrongEdgeOfAllVoxelsShowsBesideTheLaboratorysGradation) {
   SegmentOptions options;
   options.region = ScanRegion::whole;
@@ -136,6 +155,7 @@ TEST(CtFaults, GradationsAreReadAndStandBesideTheScans) {
   EXPECT_NEAR(ct::passing_at(laboratory, 4e-3), 0.7, 1e-12);  // half-way from 2 to 8 in logarithms
   EXPECT_NEAR(ct::passing_at(laboratory, 4e-3, 2e-3), 0.5, 1e-12);
   EXPECT_NEAR(ct::passing_at(laboratory, 1e-3), 0.2, 1e-12);
+  EXPECT_EQ(ct::passing_at(laboratory, 1e-2, 9e-3), 1) << "nothing of it is that large, and all of nothing passes";
   std::vector<ScannedGrain> grains(2);
   grains[0].measure.volume = 3, grains[0].measure.d_intermediate = 3e-3, grains[0].sieve = 5e-3;
   grains[1].measure.volume = 1, grains[1].measure.d_intermediate = grains[1].sieve = 7e-3;
@@ -143,6 +163,11 @@ TEST(CtFaults, GradationsAreReadAndStandBesideTheScans) {
   EXPECT_TRUE(text.find("\n0.004,0.750000,0.000000,0.700000,0.500000\n") != std::string::npos) << text;
   EXPECT_TRUE(text.find("\n0.008,1.000000,1.000000,1.000000,1.000000\n") != std::string::npos) << text;
   EXPECT_TRUE(ct::gradation_csv(grains).find("laboratory") == std::string::npos);
+  EXPECT_TRUE(ct::gradation_csv({}).find("\n0.004,0.000000,0.000000\n") != std::string::npos) << "of no grain, none";
+  std::vector<std::string> warnings;  // a scan that shows what is above 8 mm, where the laboratory has nothing
+  EXPECT_EQ(ct::trust_in_sizes(grains, laboratory, 2 * laboratory.back().size, warnings), ct::doubtful);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_TRUE(warnings[0].find("no grain above 8 mm") != std::string::npos) << warnings[0];
   std::filesystem::remove(file);
 }
 
@@ -190,6 +215,9 @@ TEST(CtFaults, APhaseThatIsMissingIsSaid) {
   EXPECT_TRUE(outcome(in_air(spongy), ScanRegion::found).error.find("of the air around") != std::string::npos);
   EXPECT_TRUE(outcome(in_air(balls(no_mastic)), ScanRegion::found).error.find("of the air around") !=
               std::string::npos);
+  Image<float> brighter = in_air(balls(no_mastic));  // whatever number stands for air
+  for (float& grey : brighter.voxels) grey += 20000;
+  EXPECT_TRUE(outcome(brighter, ScanRegion::found).error.find("of the air around") != std::string::npos);
   EXPECT_EQ(outcome(in_air(balls(no_mastic)), ScanRegion::whole, 0).grains, 8u) << "loose grains, as was said";
   // without voids: two levels, of which nothing but the air around tells whether air is one
   const Outcome alone = outcome(balls(no_voids)), around = outcome(in_air(balls(no_voids)), ScanRegion::found),

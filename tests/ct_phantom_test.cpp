@@ -86,19 +86,22 @@ TEST_F(CtPhantom, TheSawLeavesCaps) {
 
 TEST_F(CtPhantom, ASphereCutFromBelowAloneIsCut) {
   const Scene scene = scene_of_rows("0,0.005,0.004,0.0033,0.003,aggregate,4\n");  // 0.3 mm above z = 0
-  const auto border_and_volume = [&](double off) {
+  const auto sawn_by = [&](double off) {
     PhantomSpec spec = clean(0.1e-3);
     spec.sawn = off;
-    const Phantom p = make_phantom(scene, spec);
-    return std::pair{p.grains.at(0).border, p.grains.at(0).volume};
+    return make_phantom(scene, spec).grains.at(0);
   };
   const double volume = 4 * pi / 3 * 27e-9, cap = pi * 0.36e-6 * (9e-3 - 0.6e-3) / 3;  // πh²(3r − h)/3
-  const auto [whole, of_whole] = border_and_volume(0.2e-3);
-  EXPECT_FALSE(whole);
-  EXPECT_NEAR(of_whole / volume, 1, 1e-12);
-  const auto [cut, of_cut] = border_and_volume(0.9e-3);
-  EXPECT_TRUE(cut);
-  EXPECT_NEAR(of_cut / (volume - cap), 1, 1e-3);
+  const PhantomGrain whole = sawn_by(0.2e-3), cut = sawn_by(0.9e-3);
+  EXPECT_FALSE(whole.border);
+  EXPECT_NEAR(whole.volume / volume, 1, 1e-12);
+  EXPECT_TRUE(cut.border);
+  EXPECT_NEAR(cut.volume / (volume - cap), 1, 1e-3);
+  // a cap from a to r has the moment π(r² − a²)²/4 about the sphere's middle, which is at 2.4 mm here: 0.075 mm
+  const double moment = pi / 4 * std::pow(9e-6 - 5.76e-6, 2);
+  EXPECT_NEAR(cut.centre.z, 2.4e-3 + moment / (volume - cap), 2e-6);
+  EXPECT_NEAR(cut.centre.x, 4.1e-3, 2e-6);
+  EXPECT_NEAR(cut.centre.y, 3.1e-3, 2e-6);
 }
 
 TEST_F(CtPhantom, ACylinderHasNoCorners) {

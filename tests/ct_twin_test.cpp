@@ -121,7 +121,12 @@ TEST_F(CtTwin, WhatVoidsEncloseIsTakenOut) {
       }
   write_image(folder_ / "phases.mha", phases);
   write_image(folder_ / "labels.mha", Image<std::uint32_t>::like(phases));
-  const Twin twin = make_twin(folder_, scene, {});
+  std::vector<std::string> stages;
+  const Twin twin = make_twin(folder_, scene, {}, [&](const std::string& stage, double) {
+    if (stages.empty() || stages.back() != stage) stages.push_back(stage);
+  });
+  EXPECT_EQ(stages, (std::vector<std::string>{"reading the scan", "filling grains", "relaxing mastic",
+                                              "what hangs on nothing"}));
   EXPECT_GT(twin.enclosed_mastic, 5);  // some 14 spheres of 0.7 mm have its volume
   EXPECT_EQ(twin.enclosed_aggregate, 0);
   for (const Vec3d& p : twin.specimen.centre) EXPECT_GT(norm(p - Vec3d{6e-3, 6e-3, 7e-3}), 3e-3);

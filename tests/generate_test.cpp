@@ -12,8 +12,10 @@
 #include <limits>
 #include <numbers>
 
+#include "host/specimen/mastic.hpp"
 #include "host/specimen/placement.hpp"
 #include "host/spheres/relaxation.hpp"
+#include "host/spheres/specimen_check.hpp"
 #include "long_tests.hpp"
 #include "macadam/error.hpp"
 #include "macadam/specimen.hpp"
@@ -171,6 +173,19 @@ TEST(Generate, CountsGiveTheMeanVolumeOfTheSizeLaw) {
   }
 }
 
+/// By the mean volume, three of the largest are as much as 3.49 spheres, and three of the smallest as much as 2.54.
+TEST(ClassRequest, ThreeOfOneSizeAreThree) {
+  for (const double largest : {0.001, 0.0047, 0.0125, 1.0}) {
+    ClassRequest request{"", {SizeLaw::uniform, 0.9 * largest, largest}, 1, {}, {}};
+    for (const double size : {0.9 * largest, largest}) {
+      for (const double rounding : {-1e-15, 0.0, 1e-15}) {
+        request.volume = 3 * volume(size / 2) * (1 + rounding);
+        EXPECT_EQ(request.number(10 * request.volume), 3) << size << " of " << largest << ", " << rounding;
+      }
+    }
+  }
+}
+
 TEST(Generate, MasticByCountSolvesForTheSolidVolume) {
   SpecimenSpec spec = small_mix();
   spec.aggregate = {{0.002, 0.004, 0.25, {}}, {0.004, 0.006, {}, 3}};
@@ -269,6 +284,25 @@ TEST(Placement, LaterTriesAreWhereThereMayBeRoom) {
   EXPECT_LE(clear, 20'000 * (0.476 + 1) + 400);
 }
 
+/// Halfway between two equal aggregates that overlap, a sphere is pushed neither way and has no cell.
+TEST(Mastic, WithoutACellGetsAnotherPlace) {
+  Specimen s;
+  s.box.size = {1, 1, 1};
+  constexpr double radius = 0.2;
+  Placement placement(s, radius, 1000, RandomStream(1, 1), {});
+  placement.add_aggregate({0.375, 0.5, 0.5}, radius, 0);
+  placement.add_aggregate({0.625, 0.5, 0.5}, radius, 1);
+  s.centre.push_back({0.5, 0.5, 0.5}), s.radius.push_back(0.05);
+  s.phase.push_back(Phase::mastic), s.body.push_back(-1);
+  ASSERT_EQ(particles_without_cell(s), std::vector<std::int32_t>{2});
+  const auto silent = [](double) {};
+  relax(s, true, silent);
+  ASSERT_EQ(norm(s.centre[2] - Vec3d{0.5, 0.5, 0.5}), 0);
+  settle_mastic(s, placement, true, {}, {}, silent);
+  EXPECT_TRUE(particles_without_cell(s).empty());
+  for (std::size_t i : {0, 1}) EXPECT_GE(norm(s.centre[2] - s.centre[i]), radius);
+}
+
 /// Of a scene, messages name its file and the line of the class.
 TEST(Generate, WhatCannotBeMetIsNamedWithItsLine) {
   SpecimenSpec spec = small_mix();
@@ -339,6 +373,8 @@ TEST(Generate, ImpossibleRecipesAreRefused) {
   expect_refused(spoilt([](S& s) { s.aggregate[0].volume_fraction = 1.2; }), "volume_fraction: found 1.2");
   expect_refused(spoilt([](S& s) { s.aggregate[0].volume_fraction = 0.85; }),
                  "found 99.75 % of the box, expected at most the solid volume that the porosity leaves, 95 %");
+  expect_refused(spoilt([](S& s) { s.aggregate[0] = {0.002, 0.00475, {}, -1}; }), "2-4.75 mm: count: found -1");
+  expect_refused(spoilt([](S& s) { s.aggregate[0] = {0.002, 0.00475, {}, most_particles + 1}; }), "count: found");
   expect_refused(spoilt([](S& s) { s.mastic->count = 4; }), "both porosity and count");
   expect_refused(spoilt([](S& s) { s.mastic->porosity.reset(); }), "neither porosity nor count");
   expect_refused(spoilt([](S& s) { s.mastic->porosity = 1; }), "porosity: found 1");

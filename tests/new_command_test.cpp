@@ -83,6 +83,26 @@ TEST_F(NewCommand, KeysAreExplainedWhereTheirSectionComesFirst) {
   }
 }
 
+// Behind each, or above it; also those that only this kind of test, or this law, takes.
+TEST_F(NewCommand, KeysOfTheTestAndOfTheLawAreExplained) {
+  for (const std::string& test : scene::tests_of_new_scenes()) {
+    std::set<std::string> sections;
+    std::string before;
+    bool explained = false;
+    std::size_t keys = 0;
+    for (const std::string& line : lines_of(scene_text(NewKind::spheres, test))) {
+      if (line.starts_with('['))
+        explained = (line == "[loading]" || line == "[[contacts]]") && sections.insert(line).second;
+      else if (explained && !line.empty() && !line.starts_with('#')) {
+        EXPECT_TRUE(contains(line, "# ") || before.starts_with("# ")) << test << ": " << line;
+        ++keys;
+      }
+      before = line;
+    }
+    EXPECT_GE(keys, 10u) << test;
+  }
+}
+
 TEST_F(NewCommand, WritesWhatItSaysAndReplacesNothing) {
   const Outcome first = macadam("new --kind spheres --test sweep " + path("mix.toml"));
   EXPECT_EQ(first.code, 0) << first.err;

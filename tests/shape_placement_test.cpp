@@ -114,6 +114,25 @@ TEST(ShapeBody, FieldBoundsTheTrueDistance) {
   }
 }
 
+/// Near the middle of a face the distance is that from its plane.
+TEST(DistanceField, PointsStraightOutOfTheFacesOfABox) {
+  const Surface box = test::box_surface(2, 2, 2);
+  const ShapeSolid solid(box);
+  const DistanceField field(box, solid, 20);
+  RandomStream random(4, 1);
+  for (int k = 0; k < 600; ++k) {
+    double p[] = {random.uniform(0.7, 1.3), random.uniform(0.7, 1.3), random.uniform(0.7, 1.3)}, out[] = {0, 0, 0};
+    const int axis = k % 3;
+    const double beyond = random.uniform(-0.2, 0.09);  // within the grid, which goes on for 0.1
+    out[axis] = k % 2 ? 1 : -1;
+    p[axis] = k % 2 ? 2 + beyond : -beyond;
+    const DistanceField::Value v = field.value({p[0], p[1], p[2]});
+    // Nodes hold floats below 0.5, whose halved last place is 1.5e-8; slopes are their differences over 0.1.
+    EXPECT_NEAR(v.distance, beyond, 2e-8) << k;
+    EXPECT_LT(norm(v.outward - Vec3d{out[0], out[1], out[2]}), 1e-6) << k;
+  }
+}
+
 TEST(ShapeBody, DistanceFromASphereIsKnownExactly) {
   const ShapeTemplate shape = shape_template(test::stone(2, 1));
   const ShapeGeometry geometry(shape);
@@ -161,6 +180,28 @@ TEST(ShapeComposition, CountsAreKept) {
   const ShapeComposition c = compose_shapes(spec, stones(), small_ones);
   EXPECT_EQ(c.aggregate.size(), 17u);
   EXPECT_EQ(c.row[0].count, 17);
+}
+
+/// Between a and b by the logarithmic law, the mean cube of the sizes from c to d is (d³ − c³)/(3 ln(b/a)), times the
+/// share of these sizes. Those below √(a·b) are spheres here, and much smaller than the stones.
+TEST(ShapeComposition, TheNumberFollowsFromTheMeanVolumeOfSpheresAndStones) {
+  std::vector<ShapeTemplate> shapes = stones();
+  for (ShapeTemplate& t : shapes) t.sphere_size = 0.5;
+  const double a = 0.004, b = 0.0066, middle = std::sqrt(a * b);
+  SpecimenSpec spec;
+  spec.box = {{0.06, 0.06, 0.06}};
+  spec.aggregate = {{a, b, 0.4, {}}};
+  const auto c = compose_shapes(spec, shapes, [&](int, double size) { return size < middle; });
+  double sphere = 0, stone = 0;  // of size 1
+  for (const ShapeTemplate& t : shapes) {
+    sphere += aggregate_volume(t, 1, true) / static_cast<double>(shapes.size());
+    stone += aggregate_volume(t, 1, false) / static_cast<double>(shapes.size());
+  }
+  const auto cube = [](double x) { return x * x * x; };
+  const double mean = (sphere * (cube(middle) - cube(a)) + stone * (cube(b) - cube(middle))) / (3 * std::log(b / a));
+  const double expected = 0.4 * spec.box.volume() / mean;
+  ASSERT_GT(expected, 1000);
+  EXPECT_NEAR(static_cast<double>(c.row[0].count), expected, 1.5);  // rounded, and perhaps one more or less
 }
 
 TEST(ShapePlacement, BothMethodsKeepThemApartAndInside) {

@@ -159,10 +159,14 @@ TEST_F(ShapesCommand, FillWritesSpheresAndSaysHowWellTheyFit) {
 TEST_F(ShapesCommand, GenerateMixesNoTwoLibraries) {
   const std::string three = "generate --out library --count 3 --seed 2";
   EXPECT_EQ(shapes(three).code, 0);
-  EXPECT_EQ(shapes(three).code, 0) << "the same again";
+  const Outcome again = shapes(three);
+  EXPECT_EQ(again.code, 0) << again.err;
+  EXPECT_TRUE(again.out.ends_with("library: aggregate_01.off … aggregate_03.off\n")) << again.out;
   const Outcome fewer = shapes("generate --out library --count 2 --seed 2");
   EXPECT_EQ(fewer.code, 2);
   EXPECT_TRUE(contains(fewer.err, "aggregate_03.off")) << fewer.err;
+  const Outcome one = shapes("generate --out ball --icosahedron 0.005");
+  EXPECT_TRUE(one.out.ends_with("ball: icosahedron.off\n")) << one.out;
 }
 
 TEST_F(ShapesCommand, WrongUsageIsExitCodeTwo) {

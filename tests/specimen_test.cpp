@@ -186,6 +186,19 @@ TEST_F(SpecimenCsv, LinesMayEndAnywhereInABlockOfTheReader) {
   }
 }
 
+TEST_F(SpecimenCsv, ALineMayHaveAThousandBytesAndNoMore) {
+  const auto of_length = [](std::size_t n) {  // more zeros at the end of x
+    std::string line = good;
+    line.insert(line.find(",0.02"), n + 1 - line.size(), '0');
+    return line;
+  };
+  const auto file = written(header + of_length(1000));
+  EXPECT_EQ(message_for(file), "(accepted)");
+  EXPECT_EQ(read_specimen_csv(file, box).centre.at(0).x, 0.01);
+  EXPECT_NE(message_for(written(header + of_length(1001))).find(":2: line: found more than 1000 bytes"),
+            std::string::npos);
+}
+
 TEST_F(SpecimenCsv, KnowsTheLinesOfItsParticles) {
   const auto file = written(header + good + "1,0.01,0.02,0.04,0.004,aggregate,0\n");
   const Specimen s = read_specimen_csv(file, box);

@@ -76,6 +76,25 @@ TEST_F(StopSignals, SeveralAtOnceAreOne) {
   }
 }
 
+TEST_F(StopSignals, StopACommandOfSeveralScenes) {
+  const fs::path scene = write_scene("density_scaling = 1e3\n");
+  std::vector<std::string> arguments{"run"};
+  for (const char* name : {"first.toml", "second.toml"}) {
+    fs::copy_file(scene, folder_ / name);
+    arguments.push_back((folder_ / name).string());
+  }
+  for (const char* word : {"--backend", "cpu", "--threads", "1", "--at-once", "1", "--out"})
+    arguments.emplace_back(word);
+  arguments.push_back((folder_ / "out").string());
+  const pid_t child = start(arguments);
+  wait_for_samples(child, "out/first");
+  kill(child, SIGTERM);
+  EXPECT_EQ(end_of(child), 1);
+  EXPECT_HAS(read(folder_ / "stderr.txt"), "interrupted: 2 of 2 scenes are not done");
+  EXPECT_TRUE(fs::exists(folder_ / "out/first/checkpoint.h5"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/second/response.csv"));
+}
+
 // The functions themselves, in a process that has nothing to end for.
 TEST(StopSignal, AfterTwoSecondsItEndsTheProgram) {
   std::fflush(stdout);

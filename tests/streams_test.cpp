@@ -4,6 +4,7 @@
 #include <pty.h>
 #include <signal.h>
 
+#include "host/cli/progress_line.hpp"
 #include "program.hpp"
 
 namespace macadam::test {
@@ -94,6 +95,33 @@ TEST_F(Streams, TooLittleMemoryEndsARun) {
   }
   EXPECT_GT(refused, 0);
   EXPECT_GT(done, 0);
+}
+
+// Of 0.3 s for a tenth, at least 2.7 s are left, and nothing at the end, however slow the machine is.
+TEST(ProgressLine, SaysTheTimeThatIsLeft) {
+  std::fflush(stdout);
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    ProgressLine line;
+    line.show("stage", 0);
+    for (const double share : {0.1, 1.0}) {
+      usleep(300'000);
+      line.show("stage", share);
+    }
+    _exit(0);
+  }
+  std::string shown;
+  char piece[256];
+  for (ssize_t n = 0; (n = ::read(terminal, piece, sizeof piece)) > 0;)
+    shown.append(piece, static_cast<std::size_t>(n));
+  close(terminal);
+  waitpid(child, nullptr, 0);
+  const std::size_t at = shown.find("stage 10 %, ");
+  ASSERT_NE(at, std::string::npos) << shown;
+  EXPECT_GE(std::atoi(shown.c_str() + at + 12), 3) << shown;
+  EXPECT_HAS(shown, "stage 100 %, 0 s left");
 }
 
 // As after nohup, or `disown -h`: the progress line meets a terminal that answers EIO.

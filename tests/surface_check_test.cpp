@@ -91,6 +91,7 @@ TEST(CheckSurface, MisorientedNamesTheFlippedFacetAlone) {
   Surface s = icosphere(2);
   for (const int f : {7, 200}) std::swap(s.facets[f][0], s.facets[f][1]);
   expect_only(check_surface(s), [](SurfaceVerdict& v) {
+    EXPECT_EQ(v.text(), "misoriented at 2 facets (7, 200)");
     EXPECT_EQ(std::exchange(v.misoriented, {}), (Facets{7, 200}));
   });
 }
@@ -128,6 +129,8 @@ TEST(CheckSurface, SelfIntersectingNamesAllThatCut) {
   }
   ASSERT_GE(expected.size(), 6u);
   expect_only(check_surface(s), [&](SurfaceVerdict& v) {
+    const std::string words = "self-intersecting at " + std::to_string(expected.size()) + " facets (";
+    EXPECT_EQ(v.text().rfind(words + std::to_string(*expected.begin()) + ", ", 0), 0u) << v.text();
     EXPECT_EQ(std::exchange(v.self_intersecting, {}), Facets(expected.begin(), expected.end()));
   });
 }
@@ -206,7 +209,10 @@ TEST(CheckSurface, DegenerateInAnyPose) {
   }
   Surface twice = tetrahedron();
   twice.facets.push_back({0, 1, 1});
-  expect_only(check_surface(twice), [](SurfaceVerdict& v) { EXPECT_EQ(std::exchange(v.degenerate, {}), (Facets{4})); });
+  expect_only(check_surface(twice), [](SurfaceVerdict& v) {
+    EXPECT_EQ(v.text(), "degenerate at 1 facet (4)");
+    EXPECT_EQ(std::exchange(v.degenerate, {}), (Facets{4}));
+  });
 }
 
 TEST(CheckSurface, MoebiusStripIsMisorientedHoweverItIsTurned) {
