@@ -55,7 +55,7 @@ class Case {
     inertia_ = make_inertia(specimen_, scene.materials.aggregate, scene.materials.mastic);
     stiffness_ = pair_stiffness(scene.laws, Complex(0, 2 * std::numbers::pi * frequency_hz));
     free_ = find_free_motions(specimen_, network_, stiffness_, inertia_);
-    right_ = ContactOperator(network_, specimen_.size()).wall_forces(stiffness_);
+    ContactOperator(network_, specimen_.size()).wall_forces(stiffness_, right_);
   }
 
   void solve() const {

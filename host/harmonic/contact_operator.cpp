@@ -132,15 +132,16 @@ ContactOperator::ContactOperator(const ContactNetwork& network, std::size_t part
   }
 }
 
-Vector ContactOperator::wall_forces(const PairStiffness& stiffness) const {
+void ContactOperator::wall_forces(const PairStiffness& stiffness, Vector& out) const {
   const Complex rest[6] = {};
-  Vector out(6 * particles_);
+  out.resize(6 * particles_);
+#pragma omp parallel for schedule(static)
+  for (Complex& f : out) f = 0;
   for (const std::uint32_t number : on_top_) {
     const Contact& c = network_.contacts[number];
     const Load load = contact_load(c, stiffness, relative_motion(c, rest, nullptr, 1.0));
     for (std::size_t k = 0; k < 6; ++k) out[6 * static_cast<std::size_t>(c.a) + k] += load.a[k];
   }
-  return out;
 }
 
 void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia,

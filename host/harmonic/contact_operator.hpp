@@ -46,7 +46,7 @@ class ContactOperator {
   ContactOperator(const ContactNetwork& network, std::size_t particles);
 
   /// Forces and moments on the particles at rest while the top wall moves by one.
-  Vector wall_forces(const PairStiffness& stiffness) const;
+  void wall_forces(const PairStiffness& stiffness, Vector& out) const;
 
   /// (K* − factor·M)·motion: the loads that hold the motion; factor: −(s² + s·β)·density scaling.
   /// Every particle sums its own row, so that the bits do not depend on the number of threads. `largest`, where given:

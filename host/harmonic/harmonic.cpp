@@ -97,6 +97,7 @@ class Harmonic::Implementation {
     for (std::size_t i = 0; i < works.size(); ++i) {
       if (!works[i].good) throw RunError("harmonic: " + refusal(works[i], loads[i]));
       out.push_back(result_of(works[i], loads[i]));
+      spare_.push_back(std::move(works[i].task.right));
     }
     for (HarmonicResult& r : out) r.seconds = seconds_since(start) / static_cast<double>(works.size());
     return out;
@@ -120,7 +121,11 @@ class Harmonic::Implementation {
     LinearTask& task = out.task;
     task.stiffness = pair_stiffness(laws_, s);
     task.inertia = -load.density_scaling * (s * s + s * load.viscous_damping);
-    task.right = contacts_.wall_forces(task.stiffness);
+    if (!spare_.empty()) {
+      task.right = std::move(spare_.back());
+      spare_.pop_back();
+    }
+    contacts_.wall_forces(task.stiffness, task.right);
     task.tolerance = 0.3 * options_.tolerance;  // rounding parts the solver's own residual from the true one
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       const Complex k = task.stiffness.k[pair];
@@ -157,7 +162,7 @@ class Harmonic::Implementation {
   }
 
   /// Solves what is not good yet, with what a check of the solution asks for, as long as the solver gets there.
-  void attempt(std::vector<Work>& works, LinearSolver& solver, LinearMethod method) const {
+  void attempt(std::vector<Work>& works, LinearSolver& solver, LinearMethod method) {
     for (int round = 0; round < 4; ++round) {
       std::vector<Work*> open;
       for (Work& w : works) {
@@ -168,31 +173,22 @@ class Harmonic::Implementation {
       std::vector<LinearTask*> tasks;
       for (Work* w : open) tasks.push_back(&w->task), w->method = method, w->tried = true;
       solver.solve(tasks, options_.stop);
-      std::vector<bool> converged;
-      for (LinearTask* t : tasks) converged.push_back(t->converged), t->most_iterations = 0;
-      solver.solve(tasks,
-                   options_.stop);  // only judges: the energy norm of the residual as it is, not as it was carried
-      for (std::size_t i = 0; i < open.size(); ++i) {
-        tasks[i]->most_iterations = LinearTask{}.most_iterations;
-        tasks[i]->converged = converged[i];
-        check(*open[i]);
-      }
+      for (Work* w : open) check(*w);
     }
   }
 
   /// The residual computed anew, and the error in the energy norm.
-  void check(Work& w) const {
+  void check(Work& w) {
     LinearTask& task = w.task;
-    Vector rest;
-    std::vector<double> largest;
-    contacts_.resistance(task.stiffness, task.inertia, inertia_, task.motion, rest, &largest);
+    Vector& rest = rest_;
+    contacts_.resistance(task.stiffness, task.inertia, inertia_, task.motion, rest, &largest_);
     w.parts = contacts_.energy_parts(task.stiffness, task.motion, 1.0);
     const double whole = std::abs(w.parts.modulus()), scale = length(task.right);
     const double beyond = sum_in_parallel<double>(rest.size(), [&](std::size_t i) {
       rest[i] = task.right[i] - rest[i];
       // Motions are known to rounding, and loads of stiff contacts to that of them: where the load is far less, that is
       // all that can be asked.
-      const double rounding = std::numeric_limits<double>::epsilon() * largest[i];
+      const double rounding = std::numeric_limits<double>::epsilon() * largest_[i];
       const double excess = std::max(std::sqrt(std::norm(rest[i])) - rounding, 0.0);
       return excess * excess;
     });
@@ -261,6 +257,10 @@ class Harmonic::Implementation {
   FreeMotions free_;
   std::unique_ptr<LinearSolver> iterative_, direct_;
   std::string why_factors_;  ///< where no iteration can be set up
+  // Kept from one solution to the next: new memory of this size takes longer than what is done with it.
+  std::vector<Vector> spare_;  ///< right sides
+  Vector rest_;
+  std::vector<double> largest_;
 };
 
 Harmonic::Harmonic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,

@@ -59,10 +59,11 @@ class Solver : public DeviceSolver {
   }
 
   std::vector<LinearState> solve(const std::vector<LinearLoad>& loads, const std::vector<const Complex*>& right,
-                                 const std::vector<Complex*>& motion, const std::function<void()>& look) override {
+                                 const std::vector<Complex*>& motion, const std::vector<bool>& begun,
+                                 const std::function<void()>& look) override {
     team_.use(0);
-    if (loads.size() == 1) return solve_with(one_, loads, right, motion, look);
-    return solve_with(four_, loads, right, motion, look);
+    if (loads.size() == 1) return solve_with(one_, loads, right, motion, begun, look);
+    return solve_with(four_, loads, right, motion, begun, look);
   }
 
  private:
@@ -146,6 +147,7 @@ class Solver : public DeviceSolver {
     CocgScalars<F> out{};
     out.inert = out.running = true;
     out.best = std::numeric_limits<double>::infinity();
+    out.most_iterations = most_iterations;
     for (std::size_t f = 0; f < F; ++f) {
       out.done[f] = f >= loads.size();
       if (out.done[f]) continue;
@@ -159,7 +161,6 @@ class Solver : public DeviceSolver {
       out.scale[f] = load.scale;
       out.tolerance[f] = load.tolerance;
       out.energy_limit[f] = load.energy_limit;
-      out.most_iterations = std::max(out.most_iterations, load.most_iterations);
     }
     return out;
   }
@@ -167,23 +168,31 @@ class Solver : public DeviceSolver {
   template <int F>
   std::vector<LinearState> solve_with(std::unique_ptr<Vectors<F>>& own, const std::vector<LinearLoad>& loads,
                                       const std::vector<const Complex*>& right, const std::vector<Complex*>& motion,
-                                      const std::function<void()>& look) {
+                                      const std::vector<bool>& begun, const std::function<void()>& look) {
     if (!own) own = std::make_unique<Vectors<F>>(by_body_, segment_.size(), boxes_);
     Vectors<F>& v = *own;
-    const CocgScalars<F> start = scalars_of<F>(loads);
-    v.scalars.upload(&start);
     const std::size_t size = 6 * bodies_, blocks = (size + cocg_threads - 1) / cocg_threads;
     DeviceArray<double2> staged(size);
-    for (auto* array : {&v.x, &v.r, &v.p}) array->clear();
+    const auto take = [&](const Complex* from, std::size_t f, DeviceArray<double>& to) {
+      staged.upload(reinterpret_cast<const double2*>(from));
+      launch("loads", to_lanes<F>, blocks, cocg_threads, 0, team_.stream(), staged.data(), to.data(), size, int(f));
+      team_.wait("loads");
+    };
+    const auto iterated = [&](const CocgScalars<F>& start) {
+      v.scalars.upload(&start);
+      v.p.clear();
+      v.r.clear();
+      for (std::size_t f = 0; f < loads.size(); ++f) take(right[f], f, v.r);
+      return iterate(v, look);
+    };
+    v.x.clear();
     for (std::size_t f = 0; f < loads.size(); ++f) {
-      staged.upload(reinterpret_cast<const double2*>(right[f]));
-      launch("loads", to_lanes<F>, blocks, cocg_threads, 0, team_.stream(), staged.data(), v.r.data(), size, int(f));
-      team_.wait("loads");
-      staged.upload(reinterpret_cast<const double2*>(motion[f]));
-      launch("loads", to_lanes<F>, blocks, cocg_threads, 0, team_.stream(), staged.data(), v.x.data(), size, int(f));
-      team_.wait("loads");
+      if (begun[f]) take(motion[f], f, v.x);
     }
-    const CocgScalars<F> end = iterate(v, look);
+    CocgScalars<F> start = scalars_of<F>(loads);
+    const CocgScalars<F> end = iterated(start);
+    start.most_iterations = 0;  // only judges
+    const CocgScalars<F> judged = iterated(start);
     std::vector<LinearState> out;
     for (std::size_t f = 0; f < loads.size(); ++f) {
       launch("motions", from_lanes<F>, blocks, cocg_threads, 0, team_.stream(), v.x.data(), staged.data(), size,
@@ -191,6 +200,7 @@ class Solver : public DeviceSolver {
       team_.wait("motions");
       copy_now(motion[f], staged.data(), staged.bytes(), "motions");
       out.push_back(end.state[f]);
+      out.back().energy = judged.state[f].energy;
     }
     return out;
   }

@@ -50,17 +50,17 @@ struct LinearLoad {
   double scale = 1;                  ///< ‖f‖
   double tolerance = 0;              ///< of ‖r‖ / ‖f‖
   double energy_limit = 0;           ///< of rᴴ·P⁻¹·r
-  int most_iterations = 0;           ///< 0: the motion is only judged
 };
 
 /// What became of it.
 struct LinearState {
   double residual = 0;  ///< ‖r‖ / ‖f‖ by recurrence
-  double energy = 0;    ///< rᴴ·P⁻¹·r
+  double energy = 0;    ///< rᴴ·P⁻¹·r, of r = f − K·x computed anew
   int iterations = 0;
   bool converged = false;
 };
 
+inline constexpr int most_iterations = 5000;
 /// Iterations without a tenth of progress after which no solution is expected any more.
 inline constexpr int most_stagnant = 500;
 
@@ -72,12 +72,12 @@ inline constexpr int most_loads = 4;
 class DeviceSolver {
  public:
   virtual ~DeviceSolver() = default;
-  /// `right` and `motion`: of each load, [6·bodies]; motion: where to begin, then the solution. `look` is called
-  /// between iterations and may throw.
+  /// `right` and `motion`: of each load, [6·bodies]; motion: where to begin (nowhere: `begun` is false), then the
+  /// solution. `look` is called between iterations and may throw.
   virtual std::vector<LinearState> solve(const std::vector<LinearLoad>& loads,
                                          const std::vector<const std::complex<double>*>& right,
                                          const std::vector<std::complex<double>*>& motion,
-                                         const std::function<void()>& look) = 0;
+                                         const std::vector<bool>& begun, const std::function<void()>& look) = 0;
 };
 
 /// Only in builds with CUDA: as CudaCode::make_solver.

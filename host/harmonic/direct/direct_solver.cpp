@@ -41,24 +41,27 @@ class DirectSolver : public LinearSolver {
 
  private:
   void solve(LinearTask& task, const std::function<bool()>& stop) const {
+    iterate(task, stop);
+    Vector r, z;
+    rest(task, r);
+    precondition(task, r, z);
+    task.energy = energy_of(r, z);
+  }
+
+  void iterate(LinearTask& task, const std::function<bool()>& stop) const {
     Vector& x = task.motion;
-    Vector r = task.right, z, p, q;
-    if (x.empty()) {
-      x.assign(r.size(), 0);
-    } else {
-      apply(task, x, q);
-      for (std::size_t i = 0; i < r.size(); ++i) r[i] -= q[i];
-    }
+    if (x.empty()) x.assign(task.right.size(), 0);
+    Vector r, z, p, q;
+    rest(task, r);
     const double scale = length(task.right);
     Complex rho_before = 0;
     for (int k = 0;; ++k) {
       require_not_stopped(stop);
-      factors_.solve(r, z);
-      if (task.inertia != 0.0) remove_free_motions(z);
+      precondition(task, r, z);
       task.energy = energy_of(r, z);
       const double residual = length(r) / scale;
       task.converged = residual <= task.tolerance && task.energy <= task.energy_limit;
-      if (task.converged || k >= std::min(most_iterations, task.most_iterations) || !std::isfinite(residual)) return;
+      if (task.converged || k >= most_iterations || !std::isfinite(residual)) return;
       const Complex rho = product(r, z);
       if (k == 0) {
         p = z;
@@ -75,6 +78,17 @@ class DirectSolver : public LinearSolver {
       rho_before = rho;
       ++task.iterations;
     }
+  }
+
+  /// r = f − K·x
+  void rest(const LinearTask& task, Vector& r) const {
+    apply(task, task.motion, r);
+    for (std::size_t i = 0; i < r.size(); ++i) r[i] = task.right[i] - r[i];
+  }
+
+  void precondition(const LinearTask& task, const Vector& r, Vector& z) const {
+    factors_.solve(r, z);
+    if (task.inertia != 0.0) remove_free_motions(z);
   }
 
   /// out = (K* − inertia·M)·x, or (K* + pins)·x without inertia: with it free motions need no pins.

@@ -45,11 +45,7 @@ class BlockCocg {
 
   void solve(const std::function<bool()>& stop) {
     load_tasks();
-    for (int f = 0; f < F; ++f) {
-      const LinearTask& task = *tasks_[static_cast<std::size_t>(f)];
-      scale_[f] = length(task.right);
-      most_ = std::max(most_, task.most_iterations);
-    }
+    for (int f = 0; f < F; ++f) { scale_[f] = length(tasks_[static_cast<std::size_t>(f)]->right); }
     Sums sums = start();
     double best = infinity;
     for (int k = 0, best_at = 0;; ++k) {
@@ -58,7 +54,7 @@ class BlockCocg {
       Factor<F> beta;
       const double worst = judge(k, sums, beta);  // of those that are not done
       if (worst < 0.9 * best) best = worst, best_at = k;
-      if (worst == 0 || k >= most_ || k - best_at > kernels::most_stagnant) break;
+      if (worst == 0 || k >= kernels::most_iterations || k - best_at > kernels::most_stagnant) break;
       require_not_stopped(stop);
       turn(beta, drop);
       const Products<F> pq = apply();
@@ -69,6 +65,7 @@ class BlockCocg {
       }
       sums = advance(alpha);
     }
+    renew_energy();
     store_tasks();
   }
 
@@ -97,20 +94,27 @@ class BlockCocg {
     return out;
   }
 
-  void load_tasks() {
+  /// out = what `of` says of each task and number.
+  template <class Of>
+  void load(LaneVector<F>& out, Of&& of) const {
+#pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < n_; ++i) {
       const std::size_t from = 6 * static_cast<std::size_t>(layout_.particle[i]);
       for (std::size_t c = 0; c < 6; ++c) {
-        for (int f = 0; f < F; ++f) {
-          const LinearTask& task = *tasks_[static_cast<std::size_t>(f)];
-          r_[6 * i + c].set(f, task.right[from + c]);
-          x_[6 * i + c].set(f, task.motion.empty() ? Complex(0) : task.motion[from + c]);
-        }
+        for (int f = 0; f < F; ++f) out[6 * i + c].set(f, of(*tasks_[static_cast<std::size_t>(f)], from + c));
       }
     }
   }
+  void load_right() {
+    load(r_, [](const LinearTask& task, std::size_t i) { return task.right[i]; });
+  }
+  void load_tasks() {
+    load_right();
+    load(x_, [](const LinearTask& task, std::size_t i) { return task.motion.empty() ? Complex(0) : task.motion[i]; });
+  }
   void store_tasks() {
-    for (LinearTask* task : tasks_) task->motion.assign(6 * n_, 0);
+    for (LinearTask* task : tasks_) task->motion.resize(6 * n_);
+#pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < n_; ++i) {
       const std::size_t to = 6 * static_cast<std::size_t>(layout_.particle[i]);
       for (std::size_t c = 0; c < 6; ++c) {
@@ -127,7 +131,7 @@ class BlockCocg {
       LinearTask& task = *tasks_[static_cast<std::size_t>(f)];
       if (!done_[f]) {
         const double residual = std::sqrt(sums.rr.conjugated(f)) / scale_[f];
-        task.energy = std::max(sums.rz.conjugated(f) + coarse_product_.conjugated(f), 0.0);
+        task.energy = energy_of(sums, f);
         done_[f] = residual <= task.tolerance && task.energy <= task.energy_limit;
         task.converged = done_[f];
         task.iterations += k > 0;
@@ -139,6 +143,17 @@ class BlockCocg {
       rho_[f] = rho;
     }
     return worst;
+  }
+
+  double energy_of(const Sums& sums, int f) const {
+    return std::max(sums.rz.conjugated(f) + coarse_product_.conjugated(f), 0.0);
+  }
+  void renew_energy() {
+    load_right();
+    const Sums sums = start();
+    L drop[kernels::most_free_motions];
+    precondition(sums, drop);
+    for (int f = 0; f < F; ++f) tasks_[static_cast<std::size_t>(f)]->energy = energy_of(sums, f);
   }
 
   /// r = f − K·x and what follows from it.
@@ -252,7 +267,6 @@ class BlockCocg {
   Complex rho_[F] = {};
   bool done_[F] = {};
   double scale_[F];
-  int most_ = 0;
   std::vector<Sums, kernels::AlignedAllocator<Sums>> partial_;
 };
 

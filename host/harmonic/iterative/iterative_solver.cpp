@@ -58,21 +58,21 @@ class CudaSolver : public LinearSolver {
     std::vector<kernels::LinearLoad> loads;
     std::vector<const Complex*> rights;
     std::vector<Complex*> motions;
+    std::vector<bool> begun;
     right_.resize(std::max(right_.size(), tasks.size()));
     motion_.resize(right_.size());
     for (std::size_t t = 0; t < tasks.size(); ++t) {
       const LinearTask& task = *tasks[t];
       loads.push_back({task.stiffness.k, task.stiffness.alpha, task.inertia, length(task.right), task.tolerance,
-                       task.energy_limit, task.most_iterations});
+                       task.energy_limit});
       put_in_order(task.right, right_[t]);
-      if (task.motion.empty())
-        motion_[t].assign(task.right.size(), 0.0);
-      else
-        put_in_order(task.motion, motion_[t]);
+      motion_[t].resize(task.right.size());
+      begun.push_back(!task.motion.empty());
+      if (begun.back()) put_in_order(task.motion, motion_[t]);
       rights.push_back(right_[t].data()), motions.push_back(motion_[t].data());
     }
     const std::vector<kernels::LinearState> states =
-        solver_->solve(loads, rights, motions, [&] { require_not_stopped(stop); });
+        solver_->solve(loads, rights, motions, begun, [&] { require_not_stopped(stop); });
     for (std::size_t t = 0; t < tasks.size(); ++t) {
       LinearTask& task = *tasks[t];
       task.energy = states[t].energy;
