@@ -131,7 +131,12 @@ TEST(BenchLattice, IsANetwork) {
   EXPECT_NEAR(static_cast<double>(n), 4000, 200);
   std::size_t most = 0, at_walls = 0;
   for (std::size_t i = 0; i < n; ++i) most = std::max(most, lattice.network.row(i).size());
-  for (const Contact& c : lattice.network.contacts) at_walls += c.b < 0;
+  for (const Contact& c : lattice.network.contacts) {
+    if (c.b >= 0) continue;
+    ++at_walls;
+    // an area times the square of a length that is less than the distance from the wall, 0.32 mm at least
+    for (const double moment : {c.moments.ss, c.moments.tt}) EXPECT_LT(moment, c.area * c.arm_a * c.arm_a);
+  }
   EXPECT_EQ(most, 12u);
   EXPECT_GT(at_walls, 2 * std::pow(static_cast<double>(n) / 4, 2.0 / 3));
   for (const auto& law : bench::elastic(lattice.laws)) {

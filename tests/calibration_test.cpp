@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "aggregate_cube.hpp"
+#include "host/calibration/misfit.hpp"
 #include "host/calibration/statistics.hpp"
 #include "test_files.hpp"
 
@@ -187,6 +188,30 @@ TEST(Calibration, DeviationsFollowTheMisfitWhereNoneAreStated) {
   EXPECT_NEAR(deviation(true, 2), 3 / std::numbers::sqrt2, 1e-14);
   EXPECT_NEAR(deviation(false, 2), 3 / std::numbers::sqrt2 * std::sqrt(50), 1e-13);
   EXPECT_NEAR(deviation(false, 1), 3, 1e-14);
+}
+
+/// |E*| = 10 GPa at a phase whose cosine is 0.8 and sine 0.6: E' = 8 GPa, E'' = 6 GPa. Deviations of 0.05 of |E*| and
+/// of 0.1 rad are 0.04 and 0.06 of |E*| along E', 0.03 and 0.08 along E''.
+TEST(Calibration, ResidualsOfThePartsAreInTheirStandardDeviations) {
+  ModulusData data;
+  data.points = {{1, 1e10, std::atan2(0.6, 0.8) / degree, 0, 0, 0}};
+  CalibrationOptions options;
+  options.misfit = Misfit::parts;
+  options.e_star_deviation = 0.05, options.phase_deviation = 0.1 / degree;
+  calibration::Predicted predicted;
+  predicted.modulus = {8.3e9, 5.8e9};
+  predicted.by = {{3e9, 1e9}, {-2e9, 5e8}};
+  std::vector<double> residuals, jacobian;
+  calibration::add_residuals(data, options, {predicted}, residuals, jacobian);
+  const double storage = 1e10 * std::sqrt(0.04 * 0.04 + 0.06 * 0.06),
+               loss = 1e10 * std::sqrt(0.03 * 0.03 + 0.08 * 0.08);
+  ASSERT_EQ(residuals.size(), 2u);
+  // differences of a few hundredths of moduli that are known to some 1e-16
+  EXPECT_NEAR(residuals[0] / (3e8 / storage), 1, 1e-13);
+  EXPECT_NEAR(residuals[1] / (-2e8 / loss), 1, 1e-13);
+  const double expected[] = {3e9 / storage, -2e9 / storage, 1e9 / loss, 5e8 / loss};
+  ASSERT_EQ(jacobian.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(jacobian[k] / expected[k], 1, 1e-14) << k;
 }
 
 TEST(Calibration, SeveralTemperaturesAndTheirShift) {

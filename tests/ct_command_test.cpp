@@ -60,6 +60,16 @@ TEST_F(CtCommand, ARegionByCoordinatesHoldsWhatLiesInIt) {
   }
 }
 
+TEST_F(CtCommand, MemoryIsAnAmountWithAUnit) {
+  write_image(folder_ / "scan.mha", two_balls(), false);
+  const std::string segment = "ct segment " + path("scan.mha") + " --smallest '1.8 mm' --out " + path("out");
+  for (const std::string memory : {"0 GB", "-1 GB", "3"}) {
+    const Outcome outcome = macadam(segment + " --memory='" + memory + "'");
+    EXPECT_EQ(outcome.code, 2) << memory;
+    EXPECT_HAS(outcome.err, "--memory: found \"" + memory + "\", expected an amount");
+  }
+}
+
 TEST_F(CtCommand, TheEdgeOfAVoxelIsThatOfTheFileOrOfTheCommandLine) {
   const Image<float> scan = two_balls();
   write_image(folder_ / "scan.mha", scan, false);

@@ -2,10 +2,12 @@
 // Image files of computed tomography: what is written is read back, and what is wrong with a file is said.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
+#include "host/ct/image_slices.hpp"
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"
 
@@ -66,6 +68,20 @@ TEST_F(CtImage, FilesOfEveryTypeAreReadAsTheyWereWritten) {
   round_trip<std::uint16_t>(folder_);
   round_trip<std::uint32_t>(folder_);
   round_trip<float>(folder_);
+}
+
+TEST_F(CtImage, SomeSlicesOfAPackedFileAreThoseOfTheWhole) {
+  const auto image = ramp<std::uint16_t>({6, 5, 9});
+  for (const std::string name : {"packed.mha", "packed.nrrd"}) {
+    write_image(folder_ / name, image, true);
+    const std::unique_ptr<ct::ImageSlices> file = ct::open_image(folder_ / name, {});
+    EXPECT_FALSE(file->apart()) << name;
+    for (const auto& [first, count] : {std::pair{3, 4}, {0, 1}, {7, 2}}) {
+      std::vector<std::uint16_t> slices(static_cast<std::size_t>(30 * count));
+      file->read(first, count, slices.data());
+      EXPECT_TRUE(std::equal(slices.begin(), slices.end(), image.voxels.begin() + 30 * first)) << name << " " << first;
+    }
+  }
 }
 
 TEST_F(CtImage, PagesOfATiffAndFilesOfAFolderAreSlicesInTheOrderOfTheirNumbers) {

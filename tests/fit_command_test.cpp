@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fit_command_test.cpp  `macadam fit` as a user meets it: data files, results, messages.
+#include <algorithm>
+#include <cmath>
+
 #include "program.hpp"
 
 namespace macadam::test {
@@ -12,6 +15,18 @@ class FitCommand : public Program {
   void data(const std::string& text) const { write(folder_ / "data.csv", text); }
   Outcome fit(const std::string& options = "") const {
     return macadam(fmt::format("fit {} --out {} --no-pictures {}", path("data.csv"), path("law"), options));
+  }
+  /// A column of a table of the fit; the first is 0.
+  std::vector<double> column(const std::string& table, int number) const {
+    std::vector<double> out;
+    const std::vector<std::string> lines = lines_of(read(folder_ / "law" / table));
+    for (std::size_t k = 1; k < lines.size(); ++k) {
+      std::istringstream line(lines[k]);
+      std::string cell;
+      for (int c = 0; c <= number; ++c) std::getline(line, cell, ',');
+      out.push_back(std::stod(cell));
+    }
+    return out;
   }
   /// What is said of a data file that is refused.
   std::string refused(const std::string& text, const std::string& options = "") const {
@@ -44,6 +59,37 @@ TEST_F(FitCommand, TheExampleGivesALawThatASceneReads) {
   const auto& law = std::get<laws::GeneralisedKelvin>(*scene.laws[static_cast<std::size_t>(PairType::mm)]);
   EXPECT_EQ(law.E_m, found["law"]["E_m_pa"]) << "to the bit";
   EXPECT_EQ(law.C, found["law"]["C_pa_s"].get<std::vector<double>>());
+}
+
+TEST_F(FitCommand, TheCovarianceMatrixIsSquareAndHasTheDeviations) {
+  fs::copy_file(example, folder_ / "data.csv");
+  ASSERT_EQ(fit("--shift arrhenius --units 2").code, 0);
+  const json found = json::parse(read(folder_ / "law" / "fit.json"));
+  const json &parameters = found["parameters"], &of = found["covariance"]["of"];
+  const auto matrix = found["covariance"]["matrix"].get<std::vector<std::vector<double>>>();
+  ASSERT_GE(parameters.size(), 6u);  // a spring, two units, the shift
+  ASSERT_EQ(matrix.size(), parameters.size());
+  for (const auto& row : matrix) ASSERT_EQ(row.size(), matrix.size());
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    // sums of a few terms, each at most the root of the two variances
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_NEAR(matrix[i][k], matrix[k][i], 1e-14 * std::sqrt(matrix[i][i] * matrix[k][k])) << i << " " << k;
+    const bool logarithmic = of[i].get<std::string>().starts_with("ln ");
+    const double times = logarithmic ? parameters[i]["value"].get<double>() : 1;
+    const double deviation = parameters[i]["standard_deviation"].get<double>();
+    EXPECT_NEAR(deviation / (times * std::sqrt(matrix[i][i])), 1, 1e-14) << of[i];
+  }
+}
+
+TEST_F(FitCommand, TheCurveReachesHalfADecadeBeyondTheData) {
+  fs::copy_file(example, folder_ / "data.csv");
+  ASSERT_EQ(fit("--shift arrhenius --units 2").code, 0);
+  const std::vector<double> data = column("fit.csv", 3), curve = column("curve.csv", 0);  // reduced frequencies
+  const auto [lowest, highest] = std::minmax_element(data.begin(), data.end());
+  ASSERT_GT(curve.size(), 2u);
+  // to rounding of a few products
+  EXPECT_NEAR(curve.front() / (*lowest / std::sqrt(10.0)), 1, 1e-14);
+  EXPECT_NEAR(curve.back() / (*highest * std::sqrt(10.0)), 1, 1e-14);
 }
 
 TEST_F(FitCommand, PicturesAreDrawnOrItIsSaidHow) {

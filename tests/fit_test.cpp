@@ -2,11 +2,13 @@
 // fit_test.cpp  Laws from data: what made the data comes back, and the limits that are stated hold.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "host/fit/criterion.hpp"
+#include "host/fit/least_squares.hpp"
 #include "test_files.hpp"
 #include "test_networks.hpp"
 
@@ -85,6 +87,22 @@ TEST(Fit, BicAndNumbersOfUnitsThatAreGiven) {
   EXPECT_GT(two.errors.e_star_largest, 1e-3);
   options.flow = false;
   EXPECT_FALSE(std::isfinite(std::get<laws::GeneralisedKelvin>(fit_modulus(data, options).model).C_m));
+}
+
+/// AM1 has three units: of at most one the criterion takes that one, with a dashpot or without.
+TEST(Fit, MoreUnitsAreWantedOnlyWhereTheCriterionChoseTheMost) {
+  const ModulusData data = measured(mastic_am1(), frequencies(1e-3, 1e3, 31));
+  const auto warned = [&](const FitOptions& options) {
+    const Fit fit = fit_modulus(data, options);
+    return std::any_of(fit.warnings.begin(), fit.warnings.end(), [&](const std::string& warning) {
+      return warning.starts_with("AICc would take more than 1 Kelvin units");
+    });
+  };
+  FitOptions options;
+  options.most_units = 1;
+  EXPECT_TRUE(warned(options));
+  options.units = 1;
+  EXPECT_FALSE(warned(options)) << "as many as were asked for";
 }
 
 /// n = 20 numbers and p = 3 parameters: n − p − 1 = 16. Without stated deviations the size of the errors is a
@@ -205,6 +223,23 @@ TEST(Fit, AChainStandsForAnAnalogueWithinTheStatedError) {
   EXPECT_HAS(message_of([&] { to_kelvin(mixture, 1, 10, 0.7); }), "a number from 1e-6 to 0.5");
   EXPECT_HAS(message_of([&] { to_kelvin(mixture, 1e-5, 1e5, 1e-6); }), "units reach");
   EXPECT_HAS(message_of([&] { to_kelvin(mixture, 10, 1, 0.01); }), "10 to 1 Hz");
+}
+
+/// A spring between limits that are 100 apart: within 1e-6 of that from one of them it is taken to lie there.
+TEST(Fit, AParameterNearItsBoundIsNotDetermined) {
+  const fitting::Unknowns spring;
+  const auto determined = [&](double log_modulus) {
+    fitting::Target target;
+    target.place.omega = 1;
+    target.log_modulus = log_modulus;
+    const fitting::Minimum found = fitting::refine(spring, {target}, {{20, 120}}, {70});
+    EXPECT_NEAR(found.theta.at(0), log_modulus, 1e-9);  // one unknown, linear: its steps end at 1e-12 of it
+    return found.determined;
+  };
+  EXPECT_FALSE(determined(20 + 5e-5));
+  EXPECT_TRUE(determined(20 + 2e-4));
+  EXPECT_TRUE(determined(120 - 2e-4));
+  EXPECT_FALSE(determined(120 - 5e-5));
 }
 
 TEST(Fit, WhatCannotBeFittedIsRefused) {

@@ -62,6 +62,17 @@ TEST_F(Check, AContactOfASmallSpecimenTakesLessTime) {
   }
 }
 
+TEST_F(Check, ASpecimenThatIsMadeTakesMoreTimeThanOneFromAFile) {
+  Scene scene = example("mastic");
+  scene.solver.backend = Backend::cpu;
+  const double made = forecast(scene).specimen_s;
+  scene.specimen.box.size.z *= 2;
+  EXPECT_GT(forecast(scene).specimen_s, made);
+  scene.specimen.file = folder_ / "t8.csv";
+  scene.specimen.box.size = {0.008, 0.008, 0.011};
+  EXPECT_LT(forecast(scene).specimen_s, made);
+}
+
 TEST_F(Check, TakesNoTimeForAMillionParticles) {
   std::string text = read(fs::path(MACADAM_EXAMPLES) / "demo/scene.toml");
   const std::string box = "[\"20 mm\", \"20 mm\", \"30 mm\"]";

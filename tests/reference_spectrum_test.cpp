@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -110,6 +111,22 @@ TEST(StaticModulus, OfLayersInSeries) {
   laws[static_cast<std::size_t>(PairType::mw)] = laws::Elastic{3 * E, 0};
   const double expected = E / (0.75 + 0.25 / 3);
   EXPECT_NEAR(reference_static_modulus(made.specimen, made.network, laws) / expected, 1, 1e-11);
+}
+
+TEST(StaticModulus, AContactOfAParticleThatIsNotThereIsNamed) {
+  HandMade made = test::cubic_lattice_network(1, 1, 2, 2e-3, 1e-5);
+  const test::Laws laws = same_law(laws::Elastic{E, 0.1});
+  made.network.contacts.at(1).b = 2;  // of the particles 0 and 1
+  for (const auto& compute :
+       std::vector<std::function<void()>>{[&] { reference_static_modulus(made.specimen, made.network, laws); },
+                                          [&] { reference_largest_frequency(made.network, laws, made.inertia); }}) {
+    try {
+      compute();
+      FAIL() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("contact 1 (0 – 2)"), std::string::npos) << error.what();
+    }
+  }
 }
 
 TEST(StaticModulus, MissingLawIsNamed) {

@@ -3,7 +3,6 @@
 #include "host/ct/voxelise.hpp"
 
 #include <limits>
-#include <numbers>
 
 #include "host/shapes/columns.hpp"
 
@@ -81,12 +80,6 @@ bool SawnCore::holds(double x, double y) const {
   if (!cylinder) return true;
   const double radius = 0.5 * std::min(high.x - low.x, high.y - low.y);
   return std::hypot(x - 0.5 * (low.x + high.x), y - 0.5 * (low.y + high.y)) <= radius;
-}
-
-double SawnCore::volume() const {
-  const Vec3d edge = high - low;
-  const double radius = 0.5 * std::min(edge.x, edge.y);
-  return edge.z * (cylinder ? std::numbers::pi * radius * radius : edge.x * edge.y);
 }
 
 Coverage cover(const Body& body, const SawnCore& core, const Image<float>& grid, int samples) {

@@ -13,7 +13,6 @@ struct SawnCore {
   bool cylinder = false;
 
   bool holds(double x, double y) const;
-  double volume() const;  ///< [m³]
 };
 
 /// Shares of voxels that something fills: those of a part of a grid.

@@ -1,20 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/reliability.md: campaigns of faults (tests/faults/campaign --table), fuzzing (scripts/fuzz --table), hours of runs
-(tests/soak), races (scripts/races --table, scripts/gpu-sanitizers --table), mistakes on purpose (tests/mutation/campaign --table), the same bits (tests/same_bits/run
---table)."""
+(tests/soak), races (scripts/races --table, scripts/gpu-sanitizers --table), mistakes on purpose (tests/mutation/campaign
+--table), the same bits (tests/same_bits/run --table)."""
 import collections
 
 from pages.data import head, rows, table
 from pages.marks import mark
 
 DOCUMENT = "docs/reliability.md"
-FAULTS = "faults.csv"
-FUZZING = "fuzzing.csv"
-RACES = "races.csv"
-GPU_SANITIZERS = "gpu-sanitizers.csv"
-MUTATION = "mutation.csv"
-SECOND_MUTATION = "mutation-second.csv"
-SAME_BITS = "same-bits.csv"
+MUTATION = ("mutation", "mutation-second")  # by draw
 SOAK = (("cpu", "soak-cpu.csv"), ("cuda", "soak-cuda.csv"), ("cuda", "soak-cuda-h100.csv"))
 READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specimen": "specimens (CSV)",
          "specimen_gz": "specimens (CSV in gzip)", "laboratory": "laboratory data (CSV)", "checkpoint": "checkpoints (HDF5)",
@@ -24,36 +18,27 @@ READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specim
 
 
 @mark
-def faults_machine():
-    return head(FAULTS)[0]
+def measured(name):
+    """When and where, as the file of results says first."""
+    return head(f"{name}.csv")[0]
+
+
+@mark
+def total(name, column):
+    return f"{sum(r[column] for r in rows(f'{name}.csv')):,.0f}"
 
 
 @mark
 def faults():
     return table(["campaign", "trials", "failures"],
-                 [(r["campaign"], f"{r['trials']:,.0f}", f"{r['failures']:.0f}") for r in rows(FAULTS)])
-
-
-@mark
-def fuzzing_machine():
-    return head(FUZZING)[0]
-
-
-@mark
-def fuzzing_executions():
-    return f"{sum(r['executions'] for r in rows(FUZZING)):,.0f}"
-
-
-@mark
-def fuzzing_findings():
-    return f"{sum(r['findings'] for r in rows(FUZZING)):.0f}"
+                 [(r["campaign"], f"{r['trials']:,.0f}", f"{r['failures']:.0f}") for r in rows("faults.csv")])
 
 
 @mark
 def fuzzing():
     return table(["target", "what it reads", "executions", "edges", "findings", "slowest input [s]", "most memory [MB]"],
                  [(f"`{r['target']}`", READS[r["target"]], f"{r['executions']:,.0f}", f"{r['edges']:.0f}", f"{r['findings']:.0f}",
-                   f"{r['slowest_s']:.2g}", f"{r['peak_mb']:.1f}") for r in rows(FUZZING)], right=(2, 3, 4, 5, 6))
+                   f"{r['slowest_s']:.2g}", f"{r['peak_mb']:.1f}") for r in rows("fuzzing.csv")], right=(2, 3, 4, 5, 6))
 
 
 @mark
@@ -84,40 +69,15 @@ def soak():
 
 
 @mark
-def races_machine():
-    return head(RACES)[0]
-
-
-@mark
 def races_programs():
-    return f"{sum(r['tests'] > 0 for r in rows(RACES))}"
-
-
-@mark
-def races_tests():
-    return f"{sum(r['tests'] for r in rows(RACES)):,.0f}"
-
-
-@mark
-def races_found():
-    return f"{sum(r['reports'] for r in rows(RACES)):.0f}"
-
-
-@mark
-def gpu_sanitizers_machine():
-    return head(GPU_SANITIZERS)[0]
-
-
-@mark
-def gpu_sanitizers_reports():
-    return f"{sum(r['reports'] for r in rows(GPU_SANITIZERS)):.0f}"
+    return f"{sum(r['tests'] > 0 for r in rows('races.csv'))}"
 
 
 @mark
 def gpu_sanitizers():
     """Tests that ended of those that use the GPU, by program and check."""
     programs = collections.defaultdict(dict)
-    for r in rows(GPU_SANITIZERS):
+    for r in rows("gpu-sanitizers.csv"):
         programs[r["program"]][r["check"]] = f"{r['ended']:.0f} of {r['tests'] - r['unused']:.0f}"
     checks = ("memcheck", "initcheck", "racecheck", "synccheck")
     return table(["program", *(f"`{check}`" for check in checks)],
@@ -125,72 +85,60 @@ def gpu_sanitizers():
 
 
 @mark
-def mutation_machine():
-    return head(MUTATION)[0]
-
-
-@mark
 def mutation():
-    """By folder of the sources."""
+    """By folder of the sources, all draws together."""
     folders = collections.defaultdict(collections.Counter)
-    for r in rows(MUTATION):
+    for r in (r for name in MUTATION for r in rows(f"{name}.csv")):
         folders["/".join(r["file"].split("/")[:2]) if r["file"].startswith("host/") else "kernels"][r["verdict"]] += 1
-    names = ("killed", "survived", "not reached")
-    listed = [(f"`{name}`", sum(c.values()), *(c[v] for v in names)) for name, c in sorted(folders.items())]
+    verdicts = ("killed", "survived", "not reached")
+    listed = [(f"`{name}`", sum(c.values()), *(c[v] for v in verdicts)) for name, c in sorted(folders.items())]
     listed.append(("all", *(sum(row[k] for row in listed) for k in range(1, 5))))
     return table(["sources", "mistakes", "noticed", "not noticed", "no test comes by"], listed, right=range(1, 5))
 
 
-def noticed(file):
+def verdicts(name):
+    return collections.Counter(r["verdict"] for r in rows(f"{name}.csv"))
+
+
+def looked_at(name):
+    return collections.Counter(r["looked_at"] for r in rows(f"{name}-survivors.csv"))
+
+
+@mark
+def drawn(name):
+    return str(len(rows(f"{name}.csv")))
+
+
+@mark
+def noticed(name):
     """Share of the mistakes that a test comes by."""
-    count = collections.Counter(r["verdict"] for r in rows(file))
+    count = verdicts(name)
     return f"{100 * count['killed'] / (count['killed'] + count['survived']):.0f} %"
 
 
 @mark
-def mutation_share():
-    return noticed(MUTATION)
+def noticed_at_once(name):
+    """Share of those that change anything, whether or not a test comes by, without the tests that were written for them."""
+    return f"{100 * verdicts(name)['killed'] / (len(rows(f'{name}.csv')) - looked_at(name)['same']):.0f} %"
 
 
 @mark
-def second_mutation_machine():
-    return head(SECOND_MUTATION)[0]
-
-
-@mark
-def second_mutation_number():
-    return str(len(rows(SECOND_MUTATION)))
-
-
-@mark
-def second_mutation_share():
-    return noticed(SECOND_MUTATION)
-
-
-def looked_at(*kinds):
-    return sum(r["looked_at"] in kinds for r in rows("mutation-survivors.csv"))
+def noticed_since(name):
+    """The same, with them."""
+    killed = verdicts(name)["killed"] + looked_at(name)["tested since"]
+    return f"{100 * killed / (len(rows(f'{name}.csv')) - looked_at(name)['same']):.0f} %"
 
 
 @mark
 def survivors():
-    """What was seen when those that no test noticed were looked at."""
+    """What was seen when those that no test noticed were looked at, by draw."""
     said = {"same": "no result differs, or only where two numbers are the same (`<` for `<=`)",
             "shown": "words, pictures and progress that people read", "start": "first guesses and the order of work: the end is the same",
             "beyond": "read or written beyond an array, which only the tests with sanitizers can see",
             "tested since": "a test notices it since", "open": "a test could notice it"}
-    return table(["mistakes that no test noticed", "number"], [(words, looked_at(kind)) for kind, words in said.items()])
-
-
-@mark
-def mutation_since():
-    """Share of those that change anything, whether or not a test comes by."""
-    killed = sum(r["verdict"] == "killed" for r in rows(MUTATION)) + looked_at("tested since")
-    return f"{100 * killed / (len(rows(MUTATION)) - looked_at('same')):.0f} %"
-
-
-@mark
-def same_bits_machine():
-    return head(SAME_BITS)[0]
+    found = [looked_at(name) for name in MUTATION]
+    return table(["mistakes that no test noticed", "first draw", "second draw"],
+                 [(words, *(count[kind] for count in found)) for kind, words in said.items()], right=(1, 2))
 
 
 @mark
@@ -198,4 +146,4 @@ def same_bits():
     files = ("specimen.csv", "response.csv", "contacts.csv")
     return table(["compiler", "optimised", "for the processor", "runs", *(f"other bytes in `{name}`" for name in files)],
                  [(r["compiler"], f"`{r['level']}`", r["processor"].replace("native", "of this machine"), f"{r['runs']:.0f}",
-                   *(f"{r[name]:.0f}" for name in files)) for r in rows(SAME_BITS)], right=range(3, 7))
+                   *(f"{r[name]:.0f}" for name in files)) for r in rows("same-bits.csv")], right=range(3, 7))
