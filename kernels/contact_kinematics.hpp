@@ -31,7 +31,8 @@ template <class T>
 MACADAM_HD T reciprocal_near_one(const T& x) {
 #ifdef __CUDA_ARCH__
   if constexpr (std::is_same_v<T, float>) {
-    const float r = __fdividef(1.0f, x);
+    float r;
+    asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(r) : "f"(x));
     return fmaf(r, fmaf(-x, r, 1.0f), r);
   }
 #endif

@@ -10,8 +10,11 @@
 namespace macadam::kernels {
 
 inline constexpr std::uint32_t resident_threads = 512;  ///< all registers: a contact's state takes twelve
+/// A warp keeps the states of so many groups of packets in registers: one that it steps before the velocities of other
+/// tiles are there, and one after that.
+inline constexpr std::uint32_t groups_in_registers = 2;
 /// Of a tile, whose states are in registers, at the most.
-inline constexpr std::uint32_t contacts_in_registers = TilePlan::run * resident_threads;
+inline constexpr std::uint32_t contacts_in_registers = groups_in_registers * TilePlan::run * resident_threads;
 inline constexpr std::uint32_t packets_with_states = contacts_in_registers / 32;
 
 /// Six numbers of a body, or two, as threads read and write them: neighbours in other banks of shared memory.

@@ -47,23 +47,25 @@ __device__ __forceinline__ float4 numbers_of(const ulonglong2& word) {
           __uint_as_float(static_cast<std::uint32_t>(word.y)), 0};
 }
 
-/// Calls take(h, numbers) for the words h = first, first + stride, … < count at from(h) as they come to bear the tag. A
-/// word's way from the second-level cache is long: a thread asks for two at once.
+/// Calls take(h, numbers) for the words h < count at from(h), which the threads of a block share out, when they bear
+/// the tag. A word's way from the second-level cache is long: a thread asks for two at once. A warp goes on together.
 template <class From, class Take>
-__device__ __forceinline__ void wait_for_words(std::uint32_t first, std::uint32_t stride, std::uint32_t count,
-                                               std::uint32_t tag, From&& from, Take&& take) {
-  for (std::uint32_t h = first; h < count; h += 2 * stride) {
-    bool wait_a = true, wait_b = h + stride < count;
-    const ulonglong2 *at_a = from(h), *at_b = wait_b ? from(h + stride) : nullptr;
+__device__ __forceinline__ void wait_for_words(std::uint32_t count, std::uint32_t tag, From&& from, Take&& take) {
+  const std::uint32_t stride = blockDim.x;
+  for (std::uint32_t first = threadIdx.x / 32 * 32; first < count; first += 2 * stride) {  // of the warp
+    const std::uint32_t h = first + threadIdx.x % 32;
+    const bool has_a = h < count, has_b = h + stride < count;
+    const ulonglong2 *at_a = has_a ? from(h) : nullptr, *at_b = has_b ? from(h + stride) : nullptr;
+    bool wait_a = has_a, wait_b = has_b;
     ulonglong2 a{}, b{};
-    while (wait_a || wait_b) {
+    do {
       if (wait_a) a = get_word(at_a);
       if (wait_b) b = get_word(at_b);
       wait_a = wait_a && !bears(a, tag);
       wait_b = wait_b && !bears(b, tag);
-    }
-    take(h, numbers_of(a));
-    if (at_b) take(h + stride, numbers_of(b));
+    } while (__any_sync(0xffffffff, wait_a || wait_b));
+    if (has_a) take(h, numbers_of(a));
+    if (has_b) take(h + stride, numbers_of(b));
   }
 }
 

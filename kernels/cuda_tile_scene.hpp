@@ -164,12 +164,13 @@ struct ContactInBlock {
 };
 
 /// Steps one contact of a run; `v` and `w` are the tables of velocities and spins. Returns the change of its loads.
-template <bool carried>
+/// Known when compiled: a run begins (`first`); no law has a memory (`elastic`), so that drift and `sum` are 0.
+template <bool first, bool elastic, bool carried>
 __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock<carried>& contact, const float4* law,
                                                             const float4* v, const float4* w, float (&change)[6],
                                                             float (&sum)[6], ContactRun& run) {
   const EndPair end = contact.ends();
-  if (!run.goes_on) {
+  if (first || !run.goes_on) {
     const float4 va = v[end.a()], wa = w[end.a()];
     run.linear = {va.x, va.y, va.z};
     run.angular = {wa.x, wa.y, wa.z};
@@ -184,9 +185,13 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock
   const float drift[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
 #pragma unroll
   for (int c = 0; c < 6; ++c) {
-    const float before = change[c];
-    change[c] += l.x * u[c] + (drift[c] + l.w * sum[c] - l.y * before);
-    sum[c] += change[c] + before;
+    if constexpr (elastic) {
+      change[c] += l.x * u[c];
+    } else {
+      const float before = change[c];
+      change[c] += l.x * u[c] + (drift[c] + l.w * sum[c] - l.y * before);
+      sum[c] += change[c] + before;
+    }
   }
   return contact.load(change, l.z);
 }
@@ -196,12 +201,18 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock
 struct TileSlots {
   float2* word;
 
+  /// Stores nothing for what is no slot. Who reads a slot has met the threads at a barrier, so that the compiler need
+  /// not keep these stores in order with what else is in shared memory, as it would those through a pointer.
   __device__ __forceinline__ void put(std::uint32_t slot, const Vec3<float>& force, const Vec3<float>& moment) const {
-    if (slot == TilePlan::no_slot) return;
-    float2* to = word + 3 * slot;
-    to[0] = {force.x, force.y};
-    to[1] = {force.z, moment.x};
-    to[2] = {moment.y, moment.z};
+    static_assert(TilePlan::more_of_run < TilePlan::no_slot);
+    asm volatile(
+        "{ .reg .pred slot; setp.lt.u32 slot, %0, %1;\n"
+        "@slot st.shared.v2.f32 [%2], {%3, %4};\n"
+        "@slot st.shared.v2.f32 [%2 + 8], {%5, %6};\n"
+        "@slot st.shared.v2.f32 [%2 + 16], {%7, %8}; }" ::"r"(slot),
+        "n"(std::uint32_t{TilePlan::more_of_run}),
+        "r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(word + 3 * slot))), "f"(force.x), "f"(force.y),
+        "f"(force.z), "f"(moment.x), "f"(moment.y), "f"(moment.z));
   }
   __device__ __forceinline__ void add(std::uint32_t slot, float (&f)[6]) const {
     const float2* from = word + 3 * slot;
@@ -226,7 +237,7 @@ struct TileSlots {
   __device__ __forceinline__ void put(EndPair slots, const ContactLoad<float>& load, ContactRun& run) const {
     run.force += load.force_a;
     run.moment += load.moment_a;
-    if (!run.goes_on) put(slots.a(), run.force, run.moment);
+    put(slots.a(), run.force, run.moment);
     put(slots.b(), -load.force_a, load.moment_b);
   }
 };

@@ -12,9 +12,9 @@ namespace macadam::kernels {
 
 /// Packets whose states stay in registers, as ResidentTile::share() has it.
 inline std::int64_t packets_in_registers(const Tile& tile) {
-  constexpr std::uint32_t warps = resident_threads / 32, run = TilePlan::run;
-  const std::uint32_t groups = std::min(tile.groups, warps), ones = tile.packets - run * tile.groups;
-  return run * groups + std::min(ones, run * (warps - groups));
+  constexpr std::uint32_t most = groups_in_registers * resident_threads / 32, run = TilePlan::run;
+  const std::uint32_t groups = std::min(tile.groups, most), ones = tile.packets - run * tile.groups;
+  return run * groups + std::min(ones, run * (most - groups));
 }
 
 /// Through shared memory: velocities of both ends, once for a whole run of contacts that share an end, and the loads.

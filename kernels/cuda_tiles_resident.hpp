@@ -9,7 +9,7 @@ namespace macadam::kernels {
 
 /// A tile in the shared memory of its block, and what the threads do with it in a step. All that a body needs is read
 /// before the first of it is written: a read would wait for a write that may be to the same place.
-template <class P, int Threads, bool carried, TileRest where>
+template <class P, int Threads, bool carried, TileRest where, bool elastic>
 class ResidentTile {
  public:
   using R = typename P::Particle;
@@ -37,26 +37,35 @@ class ResidentTile {
         cached(m.cached),
         first_wall(tile.bodies + tile.halo) {}
 
-  /// Whether contacts that need no other tile are stepped while velocities are on their way: worth another barrier
-  /// where there is much to step.
-  __device__ __forceinline__ bool overlaps() const { return tile.groups > warps; }
-  /// The packets of this warp whose states stay in registers, one after the other: a group, or single packets where
-  /// there are more warps than groups; and those whose states are in memory.
+  /// Groups whose contacts need no other tile, and which are stepped while velocities are on their way: worth another
+  /// barrier where there is much to step.
+  __device__ __forceinline__ std::uint32_t inner() const { return 2 * tile.inner < warps ? 0 : tile.inner; }
+  /// Some packets, one after the other; in one word, as registers are scarce.
+  struct Packets {
+    std::uint32_t word;
+    __device__ __forceinline__ Packets(std::uint32_t first, std::uint32_t count) : word(first << 4 | count) {}
+    __device__ __forceinline__ std::uint32_t first() const { return word >> 4; }
+    __device__ __forceinline__ std::uint32_t count() const { return word & 15; }
+  };
+  /// What a warp steps. The states of `early` and `late` stay in registers, those of the others are in memory.
   struct Share {
-    std::uint32_t first, count;
-    bool inner;  ///< stepped before the velocities of other tiles are there
+    Packets early, late;
+    bool ahead;  ///< `early` needs no other tile
     WarpPackets others;
   };
   __device__ __forceinline__ Share share() const {
-    constexpr std::uint32_t run = TilePlan::run;
-    const std::uint32_t warp = threadIdx.x / 32, groups = min(tile.groups, warps), free = warps - groups;
-    const std::uint32_t inner = overlaps() ? min(tile.inner, warps) : 0;
-    const std::uint32_t ones = run * tile.groups;  // the first
-    const std::uint32_t each = free == 0 ? 0 : min(run, (tile.packets - ones + free - 1) / free);
-    const std::uint32_t first = warp < groups ? run * warp : min(ones + (warp - groups) * each, tile.packets);
-    return {
-        first, warp < groups ? run : min(each, tile.packets - first), warp < inner,
-        WarpPackets::of(tile, groups, min(ones + free * each, tile.packets), warp, warps, overlaps() ? inner : warps)};
+    constexpr std::uint32_t run = TilePlan::run, room = groups_in_registers * warps;
+    const std::uint32_t warp = threadIdx.x / 32, groups = min(tile.groups, room), free = room - groups;
+    const std::uint32_t ahead = min(inner(), warps);
+    const std::uint32_t first_one = run * tile.groups, ones = tile.packets - first_one;
+    const std::uint32_t each = free == 0 ? 0 : min(run, (ones + free - 1) / free);
+    const auto packets = [&](std::uint32_t k) -> Packets {
+      if (k < groups) return {run * k, run};
+      const std::uint32_t at = min((k - groups) * each, ones);
+      return {first_one + at, min(each, ones - at)};
+    };
+    return {packets(warp), packets(warps + warp), warp < ahead,
+            WarpPackets::of(tile, groups, first_one + min(free * each, ones), warp, warps, ahead)};
   }
   /// Where the constants of a warp's packet j are among those in shared memory, where it is below `cached`. The first
   /// packets of all warps come first: no warp has many more than another whose constants are in memory.
@@ -64,8 +73,14 @@ class ResidentTile {
     return j * warps + threadIdx.x / 32;
   }
   static constexpr std::uint32_t in_memory = UINT32_MAX;
-  __device__ __forceinline__ float4* state(std::uint32_t packet) const {
-    return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
+  __device__ __forceinline__ void load(std::uint32_t packet, float (&change)[6], float (&sum)[6]) const {
+    load_state(state(packet), change, sum);
+  }
+  __device__ __forceinline__ void store(std::uint32_t packet, const float (&change)[6], const float (&sum)[6]) const {
+    if constexpr (elastic)  // its registers are then free
+      store_state(state(packet), change, {0, 0, 0, 0, 0, 0});
+    else
+      store_state(state(packet), change, sum);
   }
 
   /// From memory: all but the states of the contacts.
@@ -86,11 +101,15 @@ class ResidentTile {
     if (threadIdx.x < pair_types) law[threadIdx.x] = s.law[threadIdx.x];
     if (threadIdx.x < walls) v[first_wall + threadIdx.x] = w[first_wall + threadIdx.x] = {0, 0, 0, 0};
     const Share own_share = share();
-    for (std::uint32_t j = 0; j < own_share.count; ++j) {
-      const std::uint32_t at = place_in_cache(j);
-      for (std::uint32_t i = threadIdx.x % 32; at < cached && i < words * 32; i += 32)
-        cache[at * words * 32 + i] = constants[std::size_t{own_share.first + j} * words * 32 + i];
-    }
+    const auto keep = [&](const Packets& packets, std::uint32_t first) {
+      for (std::uint32_t k = 0; k < packets.count(); ++k) {
+        const std::uint32_t at = place_in_cache(first + k);
+        for (std::uint32_t i = threadIdx.x % 32; at < cached && i < words * 32; i += 32)
+          cache[at * words * 32 + i] = constants[std::size_t{packets.first() + k} * words * 32 + i];
+      }
+    };
+    keep(own_share.early, 0);
+    keep(own_share.late, TilePlan::run);
   }
 
   /// Moves all bodies by their loads in memory, or by those that the last contacts left in shared memory.
@@ -117,8 +136,7 @@ class ResidentTile {
   __device__ __forceinline__ void receive(std::uint32_t tag) const {
     const ulonglong2* from = s.exchange(tag);
     wait_for_words(
-        threadIdx.x, Threads, 2 * tile.halo, tag,
-        [&](std::uint32_t h) { return from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2; },
+        2 * tile.halo, tag, [&](std::uint32_t h) { return from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2; },
         [&](std::uint32_t h, const float4& numbers) { (h % 2 ? w : v)[tile.bodies + h / 2] = numbers; });
   }
   /// Displaces all bodies by their velocities of now. The last warps begin, which have least to do.
@@ -132,11 +150,12 @@ class ResidentTile {
   }
 
   /// `at`: place_in_cache(), or in_memory.
+  template <bool first>
   __device__ __forceinline__ void step(std::uint32_t packet, std::uint32_t at, float (&change)[6], float (&sum)[6],
                                        ContactRun& run) const {
     const ContactConstants<carried> constant = constants_of(packet, at);
     const ContactInBlock<carried> contact(constant);
-    const auto load = step_in_block(contact, law, v, w, change, sum, run);
+    const auto load = step_in_block<first, elastic>(contact, law, v, w, change, sum, run);
     slots.put(contact.slots, load, run);
   }
   /// To memory: the loads on walls, after the last step.
@@ -160,6 +179,9 @@ class ResidentTile {
 
  private:
   static constexpr std::uint32_t words = tile_constants(carried);
+  __device__ __forceinline__ float4* state(std::uint32_t packet) const {
+    return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
+  }
   __device__ __forceinline__ ContactConstants<carried> constants_of(std::uint32_t packet, std::uint32_t at) const {
     const unsigned lane = threadIdx.x % 32;
     ContactConstants<carried> out;
@@ -212,28 +234,39 @@ class ResidentTile {
 };
 
 /// Takes `steps` steps from tag `first_tag` on. The states of a warp's first packets stay in registers.
-template <class P, int Threads, bool carried, TileRest where>
+template <class P, int Threads, bool carried, TileRest where, bool elastic>
 __global__ void __launch_bounds__(Threads, 1)
     run_resident(const __grid_constant__ TileScene<P> s, std::uint32_t steps, std::uint32_t first_tag) {
   extern __shared__ __align__(16) unsigned char shared[];
   const Tile own_tile = s.tile[s.own_tile()];
-  using OfTile = ResidentTile<P, Threads, carried, where>;
+  using OfTile = ResidentTile<P, Threads, carried, where, elastic>;
   const ResidentMemory<P> memory(own_tile, carried, where, s.room);
   OfTile tile(s, own_tile, shared, memory);
   const auto share = tile.share();
   auto& others = reinterpret_cast<WarpPackets*>(shared + memory.others)[threadIdx.x / 32];  // registers are scarce
   if (threadIdx.x % 32 == 0) others = share.others;
   tile.load();
-  float change[TilePlan::run][6], sum[TilePlan::run][6];
-  const auto each_resident = [&](auto&& f) {
-#pragma unroll
-    for (std::uint32_t j = 0; j < TilePlan::run; ++j) {
-      if (j < share.count) f(share.first + j, OfTile::place_in_cache(j), change[j], sum[j]);
-    }
+  constexpr std::uint32_t run = TilePlan::run;
+  float change[groups_in_registers * run][6], sum[groups_in_registers * run][6];
+  static_assert(run == 2 && groups_in_registers == 2);
+  const auto each_of = [&](const auto& packets, auto first, auto&& f) {
+    const auto one = [&](auto j) {
+      if (j < packets.count())
+        f(std::bool_constant<j() == 0>{}, packets.first() + j, OfTile::place_in_cache(first + j), change[first + j],
+          sum[first + j]);
+    };
+    one(std::integral_constant<std::uint32_t, 0>{});
+    one(std::integral_constant<std::uint32_t, 1>{});
   };
-  each_resident(
-      [&](std::uint32_t packet, std::uint32_t, auto& df, auto& both) { load_state(tile.state(packet), df, both); });
+  constexpr std::integral_constant<std::uint32_t, 0> early{};  // known when compiled: these are registers
+  constexpr std::integral_constant<std::uint32_t, run> late{};
+  const auto each_resident = [&](auto&& f) {
+    each_of(share.early, early, f);
+    each_of(share.late, late, f);
+  };
+  each_resident([&](auto, std::uint32_t packet, std::uint32_t, auto& df, auto& both) { tile.load(packet, df, both); });
 
+  const bool inner = tile.inner() > 0;
   const int wall = static_cast<int>(threadIdx.x) - (Threads - walls);
   const bool drives_wall = wall >= 0 && s.motion.wall.moves(wall);
   __syncthreads();
@@ -246,37 +279,40 @@ __global__ void __launch_bounds__(Threads, 1)
     else
       tile.move_by_sums(tag);
     if (drives_wall) tile.set_wall(wall, of_wall);
-    ContactRun run;
-    if (tile.overlaps()) __syncthreads();
+    ContactRun contacts;
+    const auto step = [&](auto first, std::uint32_t packet, std::uint32_t at, auto& df, auto& both) {
+      tile.template step<decltype(first)::value>(packet, at, df, both, contacts);
+    };
+    if (inner) __syncthreads();
+      // what needs no other tile is done while velocities are on their way
 #pragma unroll 1
-    for (int turn = 0; turn < 2; ++turn) {  // what needs no other tile is done while their velocities are on their way
-      if (share.inner == (turn == 0))
-        each_resident([&](std::uint32_t packet, std::uint32_t at, auto& df, auto& both) {
-          tile.step(packet, at, df, both, run);
-        });
+    for (std::uint32_t turn = 0; turn < 2; ++turn) {
+      if (share.ahead == (turn == 0)) each_of(share.early, early, step);
       if (turn > 0) break;
+      if (inner) tile.displace();
       tile.receive(tag);
       __syncthreads();
-      tile.displace();
+      if (!inner) tile.displace();
     }
+    each_of(share.late, late, step);
 #pragma unroll 1
     for (std::uint32_t k = 0; k < others.count(); ++k) {
       const std::uint32_t packet = others[k];
       float df[6], both[6];
-      load_state(tile.state(packet), df, both);
-      tile.step(packet, OfTile::in_memory, df, both, run);
-      store_state(tile.state(packet), df, both);
+      tile.load(packet, df, both);
+      step(std::false_type{}, packet, OfTile::in_memory, df, both);
+      tile.store(packet, df, both);
     }
     __syncthreads();
   }
 
-  each_resident([&](std::uint32_t packet, std::uint32_t, auto& df, auto& both) {
-    store_state(tile.state(packet), df, both);
+  each_resident([&](auto, std::uint32_t packet, std::uint32_t, auto& df, auto& both) {
+    tile.store(packet, df, both);
     tile.store_wall_loads(packet, df);
   });
   for (std::uint32_t k = 0; k < others.count(); ++k) {
     float df[6], both[6];
-    load_state(tile.state(others[k]), df, both);
+    tile.load(others[k], df, both);
     tile.store_wall_loads(others[k], df);
   }
   tile.store();

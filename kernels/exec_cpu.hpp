@@ -32,7 +32,7 @@ class ExecCpu {
   static constexpr bool room_for_five = false;
 
   /// A tile's states (200 kB) fit a core's second-level cache.
-  static std::size_t tile_contacts(const ContactNetwork&, const StepperOptions&) { return 1024; }
+  static TileSize tile_size(const ContactNetwork&, const StepperOptions&) { return {1024}; }
 
   ExecCpu(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
       : layout_(layout),

@@ -23,7 +23,7 @@ class ExecCuda : public CudaBodyArrays<P> {
   static constexpr bool room_for_five = true;  ///< Kelvin units in registers, beside exactly three
 
   /// Of any device: the order of the sums is that of the layout.
-  static std::size_t tile_contacts(const ContactNetwork&, const StepperOptions&) { return 1024; }
+  static TileSize tile_size(const ContactNetwork&, const StepperOptions&) { return {1024}; }
 
   ExecCuda(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
       : Base(network, layout, options, RecordOrder::as_written), step_(1), wall_row_(walls * WallMotion<R>::words) {}

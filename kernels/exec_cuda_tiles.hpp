@@ -20,8 +20,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   using R = typename P::Particle;
   static constexpr bool room_for_five = true;
 
-  /// Contacts of a tile: a tile a multiprocessor where the scene fits the chip, else so few that two tiles share one.
-  static std::size_t tile_contacts(const ContactNetwork& network, const StepperOptions& options) {
+  /// A tile a multiprocessor where the scene fits the chip, else tiles so small that two share one.
+  static TileSize tile_size(const ContactNetwork& network, const StepperOptions& options) {
     const DeviceTeam team(options.devices);
     const DeviceLimits limits = DeviceLimits::of_each(team, options.multiprocessors);
     auto chips = static_cast<std::size_t>(limits.multiprocessors) * team.size();
@@ -35,8 +35,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
       constexpr double computed = 1.3;  // times, a contact: those across the faces of tiles by both sides
       if (computed * static_cast<double>(contacts) <= static_cast<double>(part * contacts_in_registers)) chips = part;
     }
-    if (expected_resident_bytes<P>(network, chips) > shared) return std::min<std::size_t>(1500, shared / 100);
-    return std::max<std::size_t>(128, contacts / (chips + 1) + 1);
+    if (expected_resident_bytes<P>(network, chips) > shared) return {std::min<std::size_t>(1500, shared / 100)};
+    return {std::max<std::size_t>(128, contacts / (chips + 1) + 1), true};
   }
 
   /// Thrown where the device cannot run a scene so; ExecCuda can.

@@ -38,7 +38,7 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
                             ParticleMotion<typename E::Policy> motion) {
   typename E::AnyLaw;  // std::variant<…> of the laws that it can step
   { E::lanes + 0 } -> std::convertible_to<int>;
-  { E::tile_contacts(network, start.options) } -> std::same_as<std::size_t>;
+  { E::tile_size(network, start.options) } -> std::same_as<TileSize>;
   { read.suits(start) } -> std::same_as<bool>;  // whether groups once taken can be stepped so
   exec.begin(start);
   { exec.wall_table(std::size_t{}) } -> std::same_as<const typename E::Policy::Particle*>;

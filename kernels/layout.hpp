@@ -50,7 +50,15 @@ struct Layout {
 /// The order of the particles alone, in tiles of equal numbers of them.
 Layout make_order(const Specimen& specimen, std::size_t tiles);
 
-/// Orders a network. `tile_contacts` is the number of contacts aimed at in a tile.
-Layout make_layout(const Specimen& specimen, const ContactNetwork& network, int lanes, std::size_t tile_contacts);
+/// What is aimed at in a tile.
+struct TileSize {
+  std::size_t contacts;
+  bool even;  ///< all tiles are to touch equally many contacts, as they wait for one another; takes a few rounds
+
+  TileSize(std::size_t contact_count, bool evenly = false) : contacts(contact_count), even(evenly) {}
+};
+
+/// Orders a network.
+Layout make_layout(const Specimen& specimen, const ContactNetwork& network, int lanes, const TileSize& size);
 
 }  // namespace macadam::kernels

@@ -43,7 +43,7 @@ class StepperImpl final : public Stepper {
       : options_(decided(options, network, facts_of(laws))),
         radius_(specimen.radius),
         size_(specimen.box.size),
-        layout_(make_layout(specimen, network, Exec::lanes, Exec::tile_contacts(network, options))),
+        layout_(make_layout(specimen, network, Exec::lanes, Exec::tile_size(network, options))),
         exec_(network, layout_, options_) {
     begin(network, laws, inertia, true);
   }

@@ -259,8 +259,9 @@ class Planner {
     const auto add = [&](std::uint32_t number) {
       part.contact.push_back(number == Columns::nobody ? none : contacts[number]);
     };
-    columns.column.resize(std::size_t{32} * tile.groups,
-                          {Columns::nobody, Columns::nobody, Columns::nobody, Columns::nobody});
+    Columns::Column empty;
+    empty.fill(Columns::nobody);
+    columns.column.resize(std::size_t{32} * tile.groups, empty);
     for (std::size_t first = 0; first < columns.column.size(); first += 32) {
       for (std::size_t place = 0; place < TilePlan::run; ++place) {
         for (std::size_t lane = 0; lane < 32; ++lane) add(columns.column[first + lane][place]);

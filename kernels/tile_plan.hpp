@@ -4,7 +4,7 @@
 /// A tile computes every contact that touches one of its particles: a contact across a box's face is computed by both
 /// sides, from the same numbers in the same way, so only velocities cross.
 ///
-/// The contacts whose end A a particle is are cut, in the order in which the network numbers them, into runs of four.
+/// The contacts whose end A a particle is are cut, in the order in which the network numbers them, into runs of two.
 /// One thread steps a run and adds up its loads on that particle before it stores them. The particles of a tile are
 /// ranked by the length of their rows of slots: a slot for each run, and then one for each contact whose end B they
 /// are. A particle sums its slots in this order, which is the same for any tiles.
@@ -42,7 +42,7 @@ struct TileContact {
 struct TilePlan {
   static constexpr std::uint32_t longest_short_row = 32;
   static constexpr std::uint16_t no_slot = UINT16_MAX, more_of_run = UINT16_MAX - 1;
-  static constexpr std::uint32_t run = 4;  ///< contacts of a run at the most, and packets of a group
+  static constexpr std::uint32_t run = 2;  ///< contacts of a run at the most, and packets of a group
   /// Where another device's tiles begin, packets and places begin at a multiple of these: at a page of memory, 2 MiB.
   static constexpr std::size_t share_packets = 4096, share_places = 65536;
   std::vector<Tile> tile;

@@ -69,13 +69,12 @@ std::vector<float> fill_slots(const TilePlan& plan, const Layout& layout, const 
 }
 
 /// [particle] sums of loads as tiles make them.
-std::vector<float> sums_by_tiles(const test::TestScene& scene, std::size_t tile_contacts,
-                                 const std::vector<float>& load) {
-  const Layout layout = make_layout(scene.specimen, scene.network, 32, tile_contacts);
+std::vector<float> sums_by_tiles(const test::TestScene& scene, const TileSize& size, const std::vector<float>& load) {
+  const Layout layout = make_layout(scene.specimen, scene.network, 32, size);
   const TilePlan plan = plan_tiles(scene.network, layout);
   EXPECT_TRUE(plan.fits);
   EXPECT_EQ(plan.tile.size(), layout.tiles());
-  EXPECT_EQ(plan.tile.size() > 1, tile_contacts < load.size());
+  EXPECT_EQ(plan.tile.size() > 1, size.contacts < load.size());
   std::vector<float> out(scene.specimen.size());
   for (std::size_t t = 0; t < plan.tile.size(); ++t) {
     const Tile& tile = plan.tile[t];
@@ -93,8 +92,7 @@ std::vector<float> sums_by_tiles(const test::TestScene& scene, std::size_t tile_
   return out;
 }
 
-TEST(TilePlan, EveryLoadArrivesAndInOneOrderForAnyTiles) {
-  const test::TestScene scene = test::make_scene(test::random_specimen(3, 7, 6, 8));
+void expect_every_load_arrives(const test::TestScene& scene) {
   const std::vector<float> load = some_loads(scene.network);
   std::vector<double> expected(scene.specimen.size(), 0.0);
   std::vector<double> largest(scene.specimen.size(), 0.0);
@@ -112,7 +110,46 @@ TEST(TilePlan, EveryLoadArrivesAndInOneOrderForAnyTiles) {
         static_cast<double>(scene.network.row(i).size()) * 0x1p-24 * largest[i];  // a sum's of n terms
     EXPECT_NEAR(whole[i], expected[i], rounding) << "particle " << i;
   }
-  for (const std::size_t contacts : {700u, 300u, 120u}) EXPECT_EQ(sums_by_tiles(scene, contacts, load), whole);
+  for (const std::size_t contacts : {700u, 300u, 120u}) {
+    for (const bool even : {false, true}) EXPECT_EQ(sums_by_tiles(scene, {contacts, even}, load), whole);
+  }
+}
+
+TEST(TilePlan, EveryLoadArrivesAndInOneOrderForAnyTiles) {
+  expect_every_load_arrives(test::make_scene(test::random_specimen(3, 7, 6, 8)));
+}
+
+// A sphere of 4 mm among those of about 1 mm touches some seventy of them, which all have lower numbers: a slot each.
+TEST(TilePlan, LoadsArriveInRowsOfAnyLength) {
+  const Specimen small = test::random_specimen(3, 7, 6, 8);
+  const Vec3d middle = 0.5 * small.box.size;
+  const double large = 4e-3;
+  Specimen specimen;
+  specimen.box = small.box;
+  const auto add = [&](const Vec3d& centre, double radius) {
+    specimen.centre.push_back(centre);
+    specimen.radius.push_back(radius);
+    specimen.phase.push_back(Phase::mastic);
+    specimen.body.push_back(-1);
+  };
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    if (norm(small.centre[i] - middle) > large + small.radius[i]) add(small.centre[i], small.radius[i]);
+  }
+  add(middle, large);
+  const test::TestScene scene = test::make_scene(specimen);
+  const std::size_t whole = scene.network.contacts.size();
+  const TilePlan plan = plan_tiles(scene.network, make_layout(scene.specimen, scene.network, 32, whole));
+  ASSERT_GT(plan.tile.at(0).long_rows, 0u);
+  expect_every_load_arrives(scene);
+}
+
+TEST(TilePlan, AFewSpheresFit) {
+  for (int n = 1; n <= 4; ++n) {
+    const test::HandMade made = test::cubic_lattice_network(1, 1, n, 2e-3, 1e-5);
+    const TilePlan plan = plan_tiles(made.network, make_layout(made.specimen, made.network, 32, 1000));
+    EXPECT_TRUE(plan.fits) << n;
+    EXPECT_EQ(plan.most_locals, static_cast<std::uint32_t>(n + walls));
+  }
 }
 
 TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
@@ -123,10 +160,27 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
   for (const Tile& tile : plan.tile) slots += tile.slots, inner += tile.inner;
   EXPECT_GT(inner, 0u);
   for (const TileContact& c : plan.contact) real += c.group_slot != UINT32_MAX;
-  // each contact has a slot at end B, and a quarter of one at end A but for the last run of each particle
-  EXPECT_LT(slots, 1.45 * static_cast<double>(scene.network.contacts.size()));
+  // each contact has a slot at end B, and each run of two one at end A, of which a particle's last may be half empty
+  EXPECT_LE(slots, scene.network.contacts.size() * 3 / 2 + scene.specimen.size() / 2 + 1);
   // at most a warp's last group of each tile, and its last packet
   EXPECT_LE(plan.contact.size(), real + plan.tile.size() * 32 * (TilePlan::run + 1));
+}
+
+TEST(TilePlan, EvenTilesTouchAboutAsManyContactsEach) {
+  const test::TestScene scene = test::make_scene(test::random_specimen(4, 12, 12, 14));
+  const auto fullest = [&](bool even) {  // over the mean
+    const TilePlan plan = plan_tiles(scene.network, make_layout(scene.specimen, scene.network, 32, {500, even}));
+    std::size_t most = 0, all = 0;
+    for (const Tile& tile : plan.tile) {
+      std::size_t touched = 0;
+      for (std::size_t i = 32u * tile.first_packet; i < 32u * (tile.first_packet + tile.packets); ++i)
+        touched += plan.contact[i].group_slot != UINT32_MAX;
+      most = std::max(most, touched), all += touched;
+    }
+    return static_cast<double>(most * plan.tile.size()) / static_cast<double>(all);
+  };
+  EXPECT_LT(fullest(true), 1.05);  // a particle more or less is some 2 %
+  EXPECT_LT(fullest(true), fullest(false));
 }
 
 TEST(TilePlan, PlacesInTheTableOfVelocitiesAreThoseOfTheEnds) {
