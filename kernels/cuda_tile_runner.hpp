@@ -50,7 +50,6 @@ class TileRunner {
   /// Ends whatever ran: the steps to come are of blocks of another length.
   void begin(int block, bool to_observations) {
     block_ = block;
-    elastic_ = true;
     schedule_.begin(block, to_observations);
   }
 
@@ -78,7 +77,6 @@ class TileRunner {
   template <Geometry geometry, class L>
   void set_group(int number, const L& law, const ContactView<P>& view, double dt) {
     const auto block = law.block(dt, block_);
-    elastic_ = elastic_ && block.relax == 0 && block.follow == 0;
     scene_.law[number] = {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
                           static_cast<float>(view.alpha), static_cast<float>(block.follow)};
     settling_.template set_group<geometry>(number, places_.first_slot(static_cast<std::size_t>(number)), law, view, dt);
@@ -206,15 +204,6 @@ class TileRunner {
       pick(std::false_type{});
   }
 
-  /// That of scene_.where.
-  template <bool carried, bool elastic>
-  auto resident_kernel() const {
-    constexpr int Threads = resident_threads;
-    return scene_.where == TileRest::here   ? run_resident<P, Threads, carried, TileRest::here, elastic>
-           : scene_.where == TileRest::away ? run_resident<P, Threads, carried, TileRest::away, elastic>
-                                            : run_resident<P, Threads, carried, TileRest::all_away, elastic>;
-  }
-
   template <bool carried>
   bool try_resident() {
     constexpr int Threads = resident_threads;
@@ -228,12 +217,12 @@ class TileRunner {
     for (const TileRest where : {TileRest::away, TileRest::here}) {
       if (most(where, 0) <= limit) scene_.where = where;
     }
-    const auto kernel = resident_kernel<carried, false>(), elastic = resident_kernel<carried, true>();
+    const auto kernel = scene_.where == TileRest::here   ? run_resident<P, Threads, carried, TileRest::here>
+                        : scene_.where == TileRest::away ? run_resident<P, Threads, carried, TileRest::away>
+                                                         : run_resident<P, Threads, carried, TileRest::all_away>;
     const std::uint32_t shared = scene_.room = most(scene_.where, limit);
     bool fits = true;
-    team_.each([&](std::size_t m) {
-      for (const auto each : {kernel, elastic}) fits = fits && fits_resident(limits_, each, tiles(m), Threads, shared);
-    });
+    team_.each([&](std::size_t m) { fits = fits && fits_resident(limits_, kernel, tiles(m), Threads, shared); });
     if (!fits) return false;
     resident_ = true;
     team_.each([&](std::size_t m) {
@@ -245,10 +234,10 @@ class TileRunner {
       team_.each([&](std::size_t m) { tables_[m].rest = store_.template zeros<unsigned char>(tiles(m) * bytes); });
     }
     use_ = kernel_use("tiles on the chip", kernel, Threads, shared);
-    run_ = [this, kernel, elastic](std::uint32_t steps) {
+    run_ = [this, kernel](std::uint32_t steps) {
       team_.each([&](std::size_t m) {
-        launch_together("time steps", elastic_ ? elastic : kernel, tiles(m), Threads, scene_.room, team_.stream(m),
-                        scene_of(m), steps, tag_);
+        launch_together("time steps", kernel, tiles(m), Threads, scene_.room, team_.stream(m), scene_of(m), steps,
+                        tag_);
       });
       team_.each([&](std::size_t m) { check_launch("time steps", team_.stream(m)); });
     };
@@ -388,8 +377,7 @@ class TileRunner {
   PartClock& parts_;
   TilePlan plan_;
   bool carried_, resident_ = false, prepared_ = false;
-  bool elastic_ = false;  ///< no law has a memory
-  int block_ = 0;         // steps
+  int block_ = 0;  // steps
   BlockSchedule schedule_;
   const Layout& layout_;
   std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;

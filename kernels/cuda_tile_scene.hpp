@@ -164,8 +164,8 @@ struct ContactInBlock {
 };
 
 /// Steps one contact of a run; `v` and `w` are the tables of velocities and spins. Returns the change of its loads.
-/// Known when compiled: a run begins (`first`); no law has a memory (`elastic`), so that drift and `sum` are 0.
-template <bool first, bool elastic, bool carried>
+/// `first`: a run begins, which is known when compiled.
+template <bool first, bool carried>
 __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock<carried>& contact, const float4* law,
                                                             const float4* v, const float4* w, float (&change)[6],
                                                             float (&sum)[6], ContactRun& run) {
@@ -185,13 +185,9 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock
   const float drift[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
 #pragma unroll
   for (int c = 0; c < 6; ++c) {
-    if constexpr (elastic) {
-      change[c] += l.x * u[c];
-    } else {
-      const float before = change[c];
-      change[c] += l.x * u[c] + (drift[c] + l.w * sum[c] - l.y * before);
-      sum[c] += change[c] + before;
-    }
+    const float before = change[c];
+    change[c] += l.x * u[c] + (drift[c] + l.w * sum[c] - l.y * before);
+    sum[c] += change[c] + before;
   }
   return contact.load(change, l.z);
 }

@@ -9,7 +9,7 @@ namespace macadam::kernels {
 
 /// A tile in the shared memory of its block, and what the threads do with it in a step. All that a body needs is read
 /// before the first of it is written: a read would wait for a write that may be to the same place.
-template <class P, int Threads, bool carried, TileRest where, bool elastic>
+template <class P, int Threads, bool carried, TileRest where>
 class ResidentTile {
  public:
   using R = typename P::Particle;
@@ -73,14 +73,8 @@ class ResidentTile {
     return j * warps + threadIdx.x / 32;
   }
   static constexpr std::uint32_t in_memory = UINT32_MAX;
-  __device__ __forceinline__ void load(std::uint32_t packet, float (&change)[6], float (&sum)[6]) const {
-    load_state(state(packet), change, sum);
-  }
-  __device__ __forceinline__ void store(std::uint32_t packet, const float (&change)[6], const float (&sum)[6]) const {
-    if constexpr (elastic)  // its registers are then free
-      store_state(state(packet), change, {0, 0, 0, 0, 0, 0});
-    else
-      store_state(state(packet), change, sum);
+  __device__ __forceinline__ float4* state(std::uint32_t packet) const {
+    return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
   }
 
   /// From memory: all but the states of the contacts.
@@ -155,7 +149,7 @@ class ResidentTile {
                                        ContactRun& run) const {
     const ContactConstants<carried> constant = constants_of(packet, at);
     const ContactInBlock<carried> contact(constant);
-    const auto load = step_in_block<first, elastic>(contact, law, v, w, change, sum, run);
+    const auto load = step_in_block<first>(contact, law, v, w, change, sum, run);
     slots.put(contact.slots, load, run);
   }
   /// To memory: the loads on walls, after the last step.
@@ -179,9 +173,6 @@ class ResidentTile {
 
  private:
   static constexpr std::uint32_t words = tile_constants(carried);
-  __device__ __forceinline__ float4* state(std::uint32_t packet) const {
-    return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
-  }
   __device__ __forceinline__ ContactConstants<carried> constants_of(std::uint32_t packet, std::uint32_t at) const {
     const unsigned lane = threadIdx.x % 32;
     ContactConstants<carried> out;
@@ -234,12 +225,12 @@ class ResidentTile {
 };
 
 /// Takes `steps` steps from tag `first_tag` on. The states of a warp's first packets stay in registers.
-template <class P, int Threads, bool carried, TileRest where, bool elastic>
+template <class P, int Threads, bool carried, TileRest where>
 __global__ void __launch_bounds__(Threads, 1)
     run_resident(const __grid_constant__ TileScene<P> s, std::uint32_t steps, std::uint32_t first_tag) {
   extern __shared__ __align__(16) unsigned char shared[];
   const Tile own_tile = s.tile[s.own_tile()];
-  using OfTile = ResidentTile<P, Threads, carried, where, elastic>;
+  using OfTile = ResidentTile<P, Threads, carried, where>;
   const ResidentMemory<P> memory(own_tile, carried, where, s.room);
   OfTile tile(s, own_tile, shared, memory);
   const auto share = tile.share();
@@ -264,7 +255,9 @@ __global__ void __launch_bounds__(Threads, 1)
     each_of(share.early, early, f);
     each_of(share.late, late, f);
   };
-  each_resident([&](auto, std::uint32_t packet, std::uint32_t, auto& df, auto& both) { tile.load(packet, df, both); });
+  each_resident([&](auto, std::uint32_t packet, std::uint32_t, auto& df, auto& both) {
+    load_state(tile.state(packet), df, both);
+  });
 
   const bool inner = tile.inner() > 0;
   const int wall = static_cast<int>(threadIdx.x) - (Threads - walls);
@@ -299,20 +292,20 @@ __global__ void __launch_bounds__(Threads, 1)
     for (std::uint32_t k = 0; k < others.count(); ++k) {
       const std::uint32_t packet = others[k];
       float df[6], both[6];
-      tile.load(packet, df, both);
+      load_state(tile.state(packet), df, both);
       step(std::false_type{}, packet, OfTile::in_memory, df, both);
-      tile.store(packet, df, both);
+      store_state(tile.state(packet), df, both);
     }
     __syncthreads();
   }
 
   each_resident([&](auto, std::uint32_t packet, std::uint32_t, auto& df, auto& both) {
-    tile.store(packet, df, both);
+    store_state(tile.state(packet), df, both);
     tile.store_wall_loads(packet, df);
   });
   for (std::uint32_t k = 0; k < others.count(); ++k) {
     float df[6], both[6];
-    tile.load(others[k], df, both);
+    load_state(tile.state(others[k]), df, both);
     tile.store_wall_loads(others[k], df);
   }
   tile.store();

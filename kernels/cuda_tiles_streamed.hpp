@@ -106,7 +106,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
     ContactConstants<carried> constant;
     constant.load(s.constant + at * words * 32 + lane);
     const ContactInBlock<carried> contact(constant);
-    const auto load = step_in_block<false, false>(contact, s.law, v, w, change, sum, run);
+    const auto load = step_in_block<false>(contact, s.law, v, w, change, sum, run);
     store_state(state, change, sum);
     slots.put(contact.slots, load, run);
     if (last) store_wall_load(s.wall_load, contact.of, load);

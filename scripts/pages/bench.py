@@ -193,7 +193,10 @@ def multiprocessors():
     return table(["µs a step with so many multiprocessors", *map(str, numbers)], lines)
 
 
-CHIP = "bench-h200-2026-11-23-chip.csv"
+CHIP = "bench-h200-2026-11-25-chip.csv"
+CHIP_BARS = {("ac14_ss_am1", "single"): "6.0", ("ac14_ss_am1", "mixed"): "6.3", ("ac14_ms_ico_fine", "single"): "22",
+             ("ac14_ms_ico_fine", "mixed"): "25", ("lattice:1e5", "single"): "50", ("lattice:1e5", "mixed"): "53",
+             ("lattice:1e6", "single"): "560", ("lattice:1e6", "mixed"): "620"}
 
 
 @mark
@@ -204,13 +207,14 @@ def chip_machine():
 @mark
 def chip_steps():
     """Steps over tiles, measured anew after a change."""
-    scenes = {"ac14_ss_am1": "full specimen", "ac14_ms_ico_fine": "MS-Ico-fine", "lattice:1e5": "lattice of 10⁵"}
+    scenes = {"ac14_ss_am1": "full specimen", "ac14_ms_ico_fine": "MS-Ico-fine",
+              **{f"lattice:1e{n}": f"lattice of 10{power}" for n, power in ((3, "³"), (5, "⁵"), (6, "⁶"))}}
     lines = []
     for r in rows(CHIP):
-        kind, scene, *_, precision, geometry = r["row"].split("/")
-        lines.append((f"{scenes[scene]}{', elastic' if kind.startswith('elastic') else ''}, {precision}, geometry {geometry}", us(r),
-                      r["parts"]))
-    return table(["step", "µs", "of which (µs)"], lines)
+        _, scene, *_, precision, geometry = r["row"].split("/")
+        bar = CHIP_BARS.get((scene, precision)) if geometry == "fixed" else None
+        lines.append((f"{scenes[scene]}, {precision}, geometry {geometry}", us(r), r["parts"], judged(bar, r)))
+    return table(["step", "µs", "of which (µs)", "bar"], lines)
 
 
 # ---- length of blocks

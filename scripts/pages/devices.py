@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/devices.md: one specimen on several GPUs, several specimens on one."""
+"""docs/devices.md: one specimen on several GPUs, several specimens on one or more."""
 from pages.data import head, one, rows, table
 from pages.marks import mark
 
 DOCUMENT = "docs/devices.md"
-TEAM = "team-h200-2026-11-23.csv"
+TEAM = "team-h100-2026-11-24.csv"
 
 
 @mark
@@ -40,7 +40,16 @@ def team_harmonic(loads):
     return f"{alone / 1e6:.2f} s on one GPU and {both / 1e6:.2f} s on two"
 
 
+@mark
+def team_huge():
+    """Twice the particles on two GPUs against one."""
+    alone = one(rows(TEAM), row="step/lattice:8e6/cuda/condensed/single/fixed")["us"]
+    both = one(rows(TEAM), row="step/lattice:1.6e7/cuda/condensed/single/fixed/devices:2")["us"]
+    return f"{both / 1e3:.2f} ms, and of half of it on one {alone / 1e3:.2f} ms: {100 * alone / both:.0f} %"
+
+
 MANY = "many-h200-2026-11-23.csv"
+MANY_ON_TWO = "many-h100-2026-11-24.csv"
 
 
 @mark
@@ -51,3 +60,14 @@ def many_machine():
 @mark
 def many_seconds(scenes, at_once):
     return f"{one(rows(MANY), scenes=int(scenes), at_once=int(at_once))['seconds']:.1f} s"
+
+
+@mark
+def many_on_two_machine():
+    return head(MANY_ON_TWO)[0]
+
+
+@mark
+def many_on_two():
+    alone, both = (max((r for r in rows(MANY_ON_TWO) if r["devices"] == n), key=lambda r: r["scenes"])["seconds"] for n in (1, 2))
+    return f"{alone:.0f} s on one GPU and {both:.0f} s on two: {alone / both:.1f} times as fast"
