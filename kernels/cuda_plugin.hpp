@@ -36,6 +36,6 @@ struct CudaPlugin {
 };
 
 /// Counted up with every change of CudaCode, or of what it is handed.
-inline constexpr int cuda_interface = 3;
+inline constexpr int cuda_interface = 4;
 
 }  // namespace macadam::kernels

@@ -277,9 +277,8 @@ __global__ void __launch_bounds__(Threads, 1)
       tile.template step<decltype(first)::value>(packet, at, df, both, contacts);
     };
     if (inner) __syncthreads();
-      // what needs no other tile is done while velocities are on their way
 #pragma unroll 1
-    for (std::uint32_t turn = 0; turn < 2; ++turn) {
+    for (int turn = 0; turn < 2; ++turn) {  // 0: what needs no other tile, while velocities are on their way
       if (share.ahead == (turn == 0)) each_of(share.early, early, step);
       if (turn > 0) break;
       if (inner) tile.displace();

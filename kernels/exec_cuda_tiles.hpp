@@ -35,7 +35,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
       constexpr double computed = 1.3;  // times, a contact: those across the faces of tiles by both sides
       if (computed * static_cast<double>(contacts) <= static_cast<double>(part * contacts_in_registers)) chips = part;
     }
-    if (expected_resident_bytes<P>(network, chips) > shared) return {std::min<std::size_t>(1500, shared / 100)};
+    if (expected_resident_bytes<P>(network, chips) > shared) return {std::min<std::size_t>(1500, shared / 115)};
     return {std::max<std::size_t>(128, contacts / (chips + 1) + 1), true};
   }
 

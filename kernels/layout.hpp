@@ -47,12 +47,15 @@ struct Layout {
   }
 };
 
+/// Body → tile.
+std::vector<std::int32_t> tiles_of(const Layout& layout);
+
 /// The order of the particles alone, in tiles of equal numbers of them.
 Layout make_order(const Specimen& specimen, std::size_t tiles);
 
 /// What is aimed at in a tile.
 struct TileSize {
-  std::size_t contacts;
+  std::size_t contacts;  ///< those of the network over the number of tiles, about
   bool even;  ///< all tiles are to touch equally many contacts, as they wait for one another; takes a few rounds
 
   TileSize(std::size_t contact_count, bool evenly = false) : contacts(contact_count), even(evenly) {}

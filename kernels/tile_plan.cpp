@@ -22,32 +22,21 @@ struct Touch {
 
 using Run = std::vector<std::uint32_t>;
 
-/// Runs of contacts in columns, which a thread takes from one end to the other, and what is left of runs of one.
+/// Pairs of contacts in columns, which a thread takes from one end to the other, and runs of one.
 struct Columns {
+  static_assert(TilePlan::run == 2);
   using Column = std::array<std::uint32_t, TilePlan::run>;
   static constexpr std::uint32_t nobody = UINT32_MAX;
   std::vector<Column> column;
   Run ones;
 
-  /// `runs`: each of TilePlan::run contacts at the most. Ones that are neighbours come into neighbouring columns.
   explicit Columns(const std::vector<Run>& runs) {
-    std::array<std::vector<const Run*>, TilePlan::run + 1> of_length;
-    for (const Run& run : runs) of_length[run.size()].push_back(&run);
-    for (std::size_t n = TilePlan::run; n > 1; --n) {
-      const std::size_t together = TilePlan::run / n;
-      for (std::size_t k = 0; k < of_length[n].size(); ++k) {
-        if (k % together == 0) column.emplace_back().fill(nobody);
-        std::copy(of_length[n][k]->begin(), of_length[n][k]->end(),
-                  column.back().begin() + static_cast<std::ptrdiff_t>(k % together * n));
-      }
+    for (const Run& run : runs) {
+      if (run.size() == TilePlan::run)
+        column.push_back({run[0], run[1]});
+      else
+        ones.push_back(run.front());
     }
-    auto next = of_length[1].begin();
-    for (std::size_t place = 0; place < TilePlan::run; ++place) {
-      for (Column& c : column) {
-        if (next != of_length[1].end() && c[place] == nobody) c[place] = (*next++)->front();
-      }
-    }
-    for (; next != of_length[1].end(); ++next) ones.push_back((*next)->front());
   }
 };
 
@@ -62,12 +51,7 @@ struct TilePart {
 class Planner {
  public:
   Planner(const ContactNetwork& network, const Layout& layout, const std::vector<bool>& begins_share)
-      : network_(network), layout_(layout), begins_share_(begins_share) {
-    tile_of_.resize(layout.particles());
-    for (std::size_t t = 0; t < layout.tiles(); ++t) {
-      for (auto b = layout.tile_body[t]; b < layout.tile_body[t + 1]; ++b) tile_of_[at(b)] = static_cast<int>(t);
-    }
-  }
+      : network_(network), layout_(layout), begins_share_(begins_share), tile_of_(tiles_of(layout)) {}
 
   TilePlan plan() {
     find_touches();
@@ -259,9 +243,7 @@ class Planner {
     const auto add = [&](std::uint32_t number) {
       part.contact.push_back(number == Columns::nobody ? none : contacts[number]);
     };
-    Columns::Column empty;
-    empty.fill(Columns::nobody);
-    columns.column.resize(std::size_t{32} * tile.groups, empty);
+    columns.column.resize(std::size_t{32} * tile.groups, {Columns::nobody, Columns::nobody});
     for (std::size_t first = 0; first < columns.column.size(); first += 32) {
       for (std::size_t place = 0; place < TilePlan::run; ++place) {
         for (std::size_t lane = 0; lane < 32; ++lane) add(columns.column[first + lane][place]);
@@ -275,7 +257,7 @@ class Planner {
   const ContactNetwork& network_;
   const Layout& layout_;
   const std::vector<bool>& begins_share_;
-  std::vector<int> tile_of_;
+  std::vector<std::int32_t> tile_of_;
   std::vector<std::vector<Touch>> touches_;
   TilePlan out_;
 };

@@ -23,8 +23,8 @@ struct LinearTask {
   double tolerance = 0;  ///< of ‖f − K·u‖ / ‖f‖
   double energy_limit = std::numeric_limits<double>::infinity();  ///< of rᴴ·P⁻¹·r, P the solver's preconditioner
   Vector motion;                                                  ///< where to begin, then the solution
-  double energy =
-      0;  ///< rᴴ·P⁻¹·r of the solution's residual, computed anew: that of the iteration has gathered rounding
+  /// rᴴ·P⁻¹·r of the solution's residual, computed anew: that of the iteration has gathered rounding.
+  double energy = 0;
   int iterations = 0;      ///< added to
   bool converged = false;  ///< by the solver's own residual, which rounding may have parted from the true one
 };

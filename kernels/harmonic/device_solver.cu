@@ -178,7 +178,7 @@ class Solver : public DeviceSolver {
       launch("loads", to_lanes<F>, blocks, cocg_threads, 0, team_.stream(), staged.data(), to.data(), size, int(f));
       team_.wait("loads");
     };
-    const auto iterated = [&](const CocgScalars<F>& start) {
+    const auto from_right_sides = [&](const CocgScalars<F>& start) {
       v.scalars.upload(&start);
       v.p.clear();
       v.r.clear();
@@ -190,9 +190,9 @@ class Solver : public DeviceSolver {
       if (begun[f]) take(motion[f], f, v.x);
     }
     CocgScalars<F> start = scalars_of<F>(loads);
-    const CocgScalars<F> end = iterated(start);
+    const CocgScalars<F> end = from_right_sides(start);
     start.most_iterations = 0;  // only judges
-    const CocgScalars<F> judged = iterated(start);
+    const CocgScalars<F> judged = from_right_sides(start);
     std::vector<LinearState> out;
     for (std::size_t f = 0; f < loads.size(); ++f) {
       launch("motions", from_lanes<F>, blocks, cocg_threads, 0, team_.stream(), v.x.data(), staged.data(), size,

@@ -60,6 +60,7 @@ struct LinearState {
   bool converged = false;
 };
 
+/// Of a system, at the most.
 inline constexpr int most_iterations = 5000;
 /// Iterations without a tenth of progress after which no solution is expected any more.
 inline constexpr int most_stagnant = 500;

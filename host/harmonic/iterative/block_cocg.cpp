@@ -148,6 +148,7 @@ class BlockCocg {
   double energy_of(const Sums& sums, int f) const {
     return std::max(sums.rz.conjugated(f) + coarse_product_.conjugated(f), 0.0);
   }
+  /// From r = f − K·x: that of the iteration has gathered rounding.
   void renew_energy() {
     load_right();
     const Sums sums = start();
