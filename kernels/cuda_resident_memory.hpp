@@ -78,7 +78,7 @@ std::size_t expected_resident_bytes(const ContactNetwork& network, std::size_t t
   for (const Contact& c : network.contacts) {
     slots += (of_end_a[static_cast<std::size_t>(c.a)]++ % TilePlan::run == 0) + (c.b >= 0);
   }
-  const double fullest = 1.06;  // of equal tiles, some have a few hundredths more than the mean
+  const double fullest = 1.06;  // some tiles have a few hundredths more than the mean
   const double bodies = fullest * static_cast<double>(of_end_a.size()) / static_cast<double>(tiles);
   const double halo = std::pow(std::cbrt(bodies) + 1.8, 3) - bodies;  // a layer of nine tenths of a body about a cube
   const auto whole = [](double x) { return static_cast<std::uint32_t>(x); };

@@ -161,7 +161,7 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
   EXPECT_GT(inner, 0u);
   for (const TileContact& c : plan.contact) real += c.group_slot != UINT32_MAX;
   // each contact has a slot at end B, and each run of two one at end A, of which a particle's last may be half empty
-  EXPECT_LE(slots, scene.network.contacts.size() * 3 / 2 + scene.specimen.size() / 2 + 1);
+  EXPECT_LE(slots, (3 * scene.network.contacts.size() + scene.specimen.size()) / 2);
   // at most a warp's last group of each tile, and its last packet
   EXPECT_LE(plan.contact.size(), real + plan.tile.size() * 32 * (TilePlan::run + 1));
 }
