@@ -153,7 +153,7 @@ TEST(DeviceRoom, GivesTurnsInTheOrderOfTheirComing) {
     }
     DeviceRoom::give(share);
   };
-  const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); };
+  const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(300)); };
   DeviceRoom::take(small, of_device);
   std::thread large([&] { take(whole, 'L'); });
   wait();                                       // so that it waits before the next comes

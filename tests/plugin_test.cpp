@@ -34,6 +34,16 @@ TEST_F(Plugin, OfThisVersionIsUsed) {
   EXPECT_TRUE(contains(run.err, "backend cuda was asked for but cannot run: paper device")) << run.err;
 }
 
+/// As it is installed: no variable names its folder.
+TEST_F(Plugin, BesideTheLibraryIsFound) {
+  fs::create_symlink(MACADAM_LIBRARY, folder_ / fs::path(MACADAM_LIBRARY).filename());
+  setenv("LD_LIBRARY_PATH", folder_.c_str(), 1);  // the library as the program finds it has this folder
+  unsetenv("MACADAM_PLUGIN_PATH");
+  const Outcome info = with(FAKE_PLUGIN);
+  unsetenv("LD_LIBRARY_PATH");
+  EXPECT_TRUE(contains(info.out, "device 0: paper device, compute capability 9.0")) << info.out << info.err;
+}
+
 TEST_F(Plugin, OfAnotherInterfaceIsRefused) {
   const Outcome info = with(FAKE_OLD_PLUGIN);
   EXPECT_TRUE(contains(info.out, "cuda       no: ")) << info.out;

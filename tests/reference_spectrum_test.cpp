@@ -104,6 +104,16 @@ TEST(StaticModulus, OfACubicLatticeIsE) {
   }
 }
 
+// A particle that nothing touches has rows without a single stiffness: it must neither carry nor be refused.
+TEST(StaticModulus, ALooseParticleChangesNothing) {
+  HandMade made = test::cubic_lattice_network(2, 2, 3, 2e-3, 1e-5);
+  const test::Laws laws = same_law(laws::Elastic{E, 0.1});
+  const double without = reference_static_modulus(made.specimen, made.network, laws);
+  test::add_particle(made, {1e-3, 1e-3, 1e-3}, 1e-4, 1e-8, Phase::mastic);
+  test::fill_rows(made.network, made.specimen.size());
+  EXPECT_NEAR(reference_static_modulus(made.specimen, made.network, laws) / without, 1, 1e-11);
+}
+
 // Walls of another modulus act in series: 1/E* = Σ length share / modulus.
 TEST(StaticModulus, OfLayersInSeries) {
   const HandMade made = test::cubic_lattice_network(2, 2, 4, 2e-3, 1e-5);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -13,18 +14,21 @@ namespace macadam {
 /// Saves as often as costs a tenth of the time at most: the text grows with the frequencies.
 class SparingSave {
  public:
-  explicit SparingSave(Saving save) : save_(std::move(save)) {}
+  using Clock = std::chrono::steady_clock;
+  /// \param now  what tells the time; tests have a clock of their own
+  explicit SparingSave(Saving save, std::function<Clock::time_point()> now = Clock::now)
+      : save_(std::move(save)), now_(std::move(now)) {}
   void operator()(const std::string& status) {
-    if (Clock::now() - last_ < 10 * cost_) return;
-    const auto start = Clock::now();
+    const auto start = now_();
+    if (start - last_ < 10 * cost_) return;
     save_(status);
-    last_ = Clock::now();
+    last_ = now_();
     cost_ = last_ - start;
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   Saving save_;
+  std::function<Clock::time_point()> now_;
   Clock::time_point last_{};
   Clock::duration cost_{};
 };
