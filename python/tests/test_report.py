@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import macadam.report.__main__ as command
-from macadam.report import ReportError, report, specimen
+from macadam.report import ReportError, mixture, report, specimen
 from report_folders import ENVIRONMENT, PROGRAM, ROOT, make
 from report_folders import command as run_as
 
@@ -117,6 +117,12 @@ def test_folders_side_by_side_have_names_and_a_table_of_differences(tmp_path: Pa
     for name in ("stepped", "harmonic", "confined"):
         assert name in plain
     assert "|E*| to stepped (%)" in plain
+
+
+def test_classes_of_several_mixes_stand_from_coarse_to_fine() -> None:
+    names = ["4.75-9.5 mm", "2-4.75 mm", "mastic", "12.5-19 mm", "9.5-12.5 mm", "fibres"]
+    ordered = ["12.5-19 mm", "9.5-12.5 mm", "4.75-9.5 mm", "2-4.75 mm", "mastic", "fibres"]
+    assert mixture._from_coarse_to_fine(names) == ordered
 
 
 def test_seeds_of_one_scene_have_a_mean_and_a_scatter(tmp_path: Path, no_pictures) -> None:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -12,6 +14,7 @@ from macadam.report.folders import Folder
 from macadam.report.page import Page, facts
 
 ABREAST = 4  # folders that one table has as columns
+SIZES = re.compile(r"([\d.]+)-([\d.]+) mm$")  # of a class without a name of its own
 
 
 def add(page: Page, folders: list[Folder]) -> None:
@@ -73,7 +76,7 @@ def _composition(page: Page, folders: list[Folder]) -> None:
     for folder in (f for f in folders if f not in with_classes):
         page.leave_out(folder.label, "size classes", "the specimen comes from a file: it says no classes")
     if 1 < len(with_classes) <= ABREAST:
-        names = list(dict.fromkeys(p["class"] for f in with_classes for p in f.summary["composition"]))
+        names = _from_coarse_to_fine({p["class"]: None for f in with_classes for p in f.summary["composition"]})
         of = [{p["class"]: p for p in f.summary["composition"]} for f in with_classes]
         rows = [
             [_class(n)]
@@ -110,6 +113,11 @@ def _composition(page: Page, folders: list[Folder]) -> None:
         short = [_class(p["class"]) for p in folder.summary["composition"] if p.get("count") != p.get("count_asked")]
         if short:
             page.text(f"{folder.label}: not all that the mix asks for found a place: {', '.join(short)}.", "warning")
+
+
+def _from_coarse_to_fine(names: Iterable[str]) -> list[str]:
+    """Classes of several mixes; what has no sizes, such as mastic, comes behind in its own order."""
+    return sorted(names, key=lambda name: -float(sizes[2]) if (sizes := SIZES.match(name)) else 0.0)
 
 
 def _class(name: str) -> str:
