@@ -15,8 +15,9 @@ find_package(ZLIB REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C CXX)
 target_link_libraries(hdf5::hdf5_cpp INTERFACE hdf5::hdf5)  # which CMake leaves out: static libraries are taken in order
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)  # CGAL asks for Boost in a way that CMake 3.30 and later warn of
 find_package(CGAL 5.5 REQUIRED)
-find_package(Boost 1.74 REQUIRED)  # headers: distributions of Math
+find_package(Boost 1.74 REQUIRED CONFIG)  # headers: distributions of Math
 
 # Debian's SuiteSparse and METIS bring no CMake targets of their own
 function(macadam_find_library target header suffix library)
