@@ -59,7 +59,7 @@ function(macadam_unite)
   endif()
 endfunction()
 
-# gcc 12 misreads std::string concatenation (bug 105329) and Eigen's fixed-size kernels; ccache needs the first for
-# precompiled headers
+# gcc 12 misreads std::string concatenation (bug 105329) and Eigen's fixed-size kernels, gcc 14 copies of vectors; ccache needs
+# the first for precompiled headers
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess -Wno-restrict
-  -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized>)
+  -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized -Wno-free-nonheap-object>)

@@ -14,6 +14,7 @@ find_package(CLI11 2.1 REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C CXX)
 target_link_libraries(hdf5::hdf5_cpp INTERFACE hdf5::hdf5)  # which CMake leaves out: static libraries are taken in order
+target_compile_definitions(hdf5::hdf5_cpp INTERFACE H5_USE_110_API)  # later ones have functions of the same names that ask for more
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)  # CGAL asks for Boost in a way that CMake 3.30 and later warn of
 find_package(CGAL 5.5 REQUIRED)

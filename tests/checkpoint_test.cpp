@@ -420,6 +420,11 @@ TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
     EXPECT_LT(size_of("out"), whole);
     resume = true;
   }
+  const fs::path copy = out("copy");
+  fs::copy(out("out"), copy);
+  ASSERT_EQ(end_of(start("copy", false)), 0);
+  EXPECT_HAS(read(folder_ / "stderr.txt"), "this run was begun before and begins anew; --resume goes on");
+  EXPECT_FALSE(fs::exists(file("copy")));
   ASSERT_EQ(end_of(start("out", true)), 0) << read(folder_ / "stderr.txt");
   expect_same("out", "one");
   EXPECT_EQ(end_of(start("out", true)), 2);

@@ -163,6 +163,23 @@ TEST(Fit, ShiftFactorsComeBack) {
   }
 }
 
+TEST(Fit, TemperaturesInTheWrongRowsAreAskedAbout) {
+  const std::vector<double> temperatures{0, 10, 20};
+  ModulusData data = measured(mixture, frequencies(0.1, 20, 8), laws::Wlf{14.5, 128, 10}, temperatures);
+  FitOptions options;
+  options.model = FitModel::two_s2p1d;
+  options.shift = ShiftKind::free;
+  options.reference_temperature = 10;
+  const auto asked = [&] {
+    const std::vector<std::string> warnings = fit_modulus(data, options).warnings;
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [](const std::string& w) { return w.find("a_T rises from 0 to 10") != std::string::npos; });
+  };
+  EXPECT_FALSE(asked());
+  for (ModulusPoint& p : data.points) p.temperature_c = 20 - p.temperature_c;
+  EXPECT_TRUE(asked());
+}
+
 TEST(Fit, AChainAndItsShiftAreFoundTogether) {
   const std::vector<double> temperatures{0, 10, 20, 30};
   const laws::Shift truth = laws::Wlf{12, 110, 20};

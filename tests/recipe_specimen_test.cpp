@@ -162,6 +162,7 @@ TEST_F(RecipeSpecimen, IsSaidAndWrittenByARun) {
   const Outcome done = macadam(fmt::format("run {} --out {}", path("recipe.toml"), path("out")));
   ASSERT_EQ(done.code, 0) << done.err;
   EXPECT_HAS(done.out, "recipe: binder 6.00 % of the mix");
+  EXPECT_HAS(done.out, "summary.json specimen.csv aggregates.csv gradation.csv");
   EXPECT_EQ(summary("out")["status"], "done");
   EXPECT_EQ(summary("out")["recipe"]["binder"], 0.06);
   EXPECT_TRUE(fs::exists(folder_ / "out" / "gradation.csv"));

@@ -120,13 +120,15 @@ TEST_F(Temperature, WhatMeansNothingIsRefused) {
   EXPECT_HAS(said(wlf, "temperature = 20\n", "temperatures = [20]\n"), "one of the two");
   EXPECT_HAS(said(wlf, "temperature = -110\n", ""), "where the shift of M-M has no value");
   EXPECT_HAS(said(wlf, "temperature = -109.9\n", ""), "where the shift of M-M has no value");  // a_T overflows
+  EXPECT_HAS(said(wlf, "temperature = -110\n", ""), "expected one above -110, reference_temperature - C2");
   EXPECT_HAS(said(wlf, "temperature = -300\n", ""), "a temperature above -273.15");
+  EXPECT_HAS(said(wlf, "temperature = 293.15\n", ""), "not in kelvins");
   EXPECT_HAS(said(wlf, "temperature = nan\n", ""), "temperature");
   EXPECT_HAS(said(wlf, "", "temperatures = []\n"), "found none, expected at least one");
   EXPECT_HAS(said(wlf, "", "temperatures = [20, 20.0]\n"), "20 degrees C twice");
   const std::string table = "shift = \"table\"\ntemperatures = [0, 10, 20]\nlog10_a_T = [1.5, 0, -1]\n";
   EXPECT_EQ(said(table, "temperature = 15\n", ""), "nothing was thrown");
-  EXPECT_HAS(said(table, "temperature = 21\n", ""), "where the shift of M-M has no value");
+  EXPECT_HAS(said(table, "temperature = 21\n", ""), "where the shift of M-M has no value, expected 0 to 20, as in its");
   EXPECT_HAS(said("shift = \"table\"\ntemperatures = [0, 0]\nlog10_a_T = [1, 0]\n", "", ""), "rising ones");
   EXPECT_HAS(said("shift = \"table\"\ntemperatures = [0, 1]\nlog10_a_T = [1]\n", "", ""), "1 numbers for 2");
   EXPECT_HAS(said("shift = \"wlf\"\nC1 = 14\nreference_temperature = 1\n", "", ""), "C2: found nothing");

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "kernels/parallel.hpp"
+#include "host/scene/shift_keys.hpp"
 #include "host/simulation/harmonic_options.hpp"
 #include "macadam/error.hpp"
 
@@ -67,7 +68,7 @@ std::vector<std::optional<double>> temperatures_of(const Scene& scene, const Mod
         refuse(
             "column temperature_c",
             fmt::format("{} degrees C, where the shift of {} has no value", *t, to_string(static_cast<PairType>(pair))),
-            "a temperature of its range");
+            scene::range_of(scene.shifts[pair]));
       }
     }
   }

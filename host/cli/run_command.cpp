@@ -60,8 +60,12 @@ void run_one(const RunArguments& arguments) {
   say("{}", results_table(result));
   for (const std::string& warning : result.warnings) say("warning: {}\n", warning);
   std::string files = "summary.json specimen.csv";
-  for (const std::string& name : files_of(scene.experiment))
+  const auto add = [&](const std::string& name) {
     if (std::filesystem::exists(std::filesystem::path(arguments.job.out) / name)) files += " " + name;
+  };
+  if (!scene.specimen.file) add("aggregates.csv");
+  if (scene.recipe) add("gradation.csv");
+  for (const std::string& name : files_of(scene.experiment)) add(name);
   if (scene.output.contacts) files += " contacts.csv";
   if (scene.output.fields.any()) files += " fields/";
   say("\n{} | files in {}: {}\n", result.solver, arguments.job.out, files);

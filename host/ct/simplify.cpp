@@ -3,7 +3,6 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
@@ -46,7 +45,11 @@ Surface surface_of(const Mesh& mesh) {
 }
 
 void reduce(Mesh& mesh, int facets) {
-  const sms::Count_stop_predicate<Mesh> stop(static_cast<std::size_t>(facets) * 3 / 2);
+  // versions 5 and 6 of CGAL have no name in common for this
+  const std::size_t most = static_cast<std::size_t>(facets) * 3 / 2;
+  const auto stop = [most](const auto& /*cost*/, const auto& /*edge*/, std::size_t /*first*/, std::size_t edges) {
+    return edges < most;
+  };
   // a facet that turns over would cut its neighbours
   const sms::Bounded_normal_change_placement<sms::LindstromTurk_placement<Mesh>> placement;
   sms::edge_collapse(mesh, stop, CGAL::parameters::get_cost(sms::LindstromTurk_cost<Mesh>()).get_placement(placement));

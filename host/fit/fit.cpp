@@ -195,6 +195,18 @@ void add_points(const Problem& problem, const ModulusData& data, const Trial& tr
   fit.errors.phase_rms_deg = std::sqrt(phase / n);
 }
 
+/// Warm materials flow faster: log10 a_T falls. Temperatures, each once, rising.
+void warn_of_shift(Fit& fit, const std::vector<double>& temperatures) {
+  for (std::size_t i = 1; i < temperatures.size(); ++i) {
+    if (laws::log10_shift(fit.shift, temperatures[i]) <= laws::log10_shift(fit.shift, temperatures[i - 1])) continue;
+    fit.warnings.push_back(
+        fmt::format("a_T rises from {} to {} degrees C, as if the material were stiffer when warm: "
+                    "are the temperatures in the right rows?",
+                    temperatures[i - 1], temperatures[i]));
+    return;
+  }
+}
+
 }  // namespace
 }  // namespace fitting
 
@@ -214,14 +226,15 @@ Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
     fit.model = analogue_of(trial.unknowns, trial.minimum.theta);
   }
   fit.shift = shift_of(trial.unknowns, trial.minimum.theta, problem.temperatures);
+  warn_of_shift(fit, problem.temperatures);
   fit.misfit = trial.minimum.misfit;
   fit.degrees_of_freedom = static_cast<double>(2 * problem.targets.size() - trial.unknowns.count());
   add_statistics(problem, trial, fit);
   add_points(problem, data, trial, fit);
   if (fit.errors.e_star_rms > 0.1) {
     fit.warnings.push_back(
-        fmt::format("the fit misses |E*| by {:.3g} % (rms): too few measurements for more parameters, or "
-                    "no moduli of one linear material",
+        fmt::format("the fit misses |E*| by {:.3g} % (rms): too few measurements for more parameters, "
+                    "temperatures in the wrong rows, or no moduli of one linear material",
                     100 * fit.errors.e_star_rms));
   }
   if (fit.deviations && fit.misfit > 2 * fit.degrees_of_freedom + 10) {

@@ -65,4 +65,13 @@ laws::Shift ShiftKeys::shift(const Section& section) const {
   return table_;
 }
 
+std::string range_of(const laws::Shift& shift) {
+  if (const auto* wlf = std::get_if<laws::Wlf>(&shift))
+    return fmt::format("one above {:.6g}, reference_temperature - C2, where a_T is a number",
+                       wlf->reference_temperature - wlf->C2);
+  if (const auto* table = std::get_if<laws::ShiftTable>(&shift))
+    return fmt::format("{} to {}, as in its table", table->temperatures.front(), table->temperatures.back());
+  return "one where a_T is a number";
+}
+
 }  // namespace macadam::scene

@@ -7,9 +7,12 @@
 
 namespace macadam::scene {
 
-/// A temperature in °C, at rest above −273.15.
-inline constexpr Rule celsius{[](double v) { return v > -laws::zero_celsius; },
-                              "a temperature above -273.15 degrees C"};
+/// A temperature in °C. Above the limit nothing bituminous is solid, and kelvins of a test are.
+inline constexpr Rule celsius{[](double v) { return v > -laws::zero_celsius && v < 250; },
+                              "a temperature above -273.15 and below 250 degrees C, not in kelvins"};
+
+/// The temperatures at which a shift has a value, for messages.
+std::string range_of(const laws::Shift& shift);
 
 /// Keys to be read with others; they store here, so this must outlive Section::read. Then shift() is what they make.
 class ShiftKeys {

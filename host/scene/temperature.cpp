@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host/scene/sections.hpp"
+#include "host/scene/shift_keys.hpp"
 
 namespace macadam {
 namespace {
@@ -57,7 +58,7 @@ void apply_temperature(Scene& scene, const Section& root) {
       section.refuse(key,
                      fmt::format("{} degrees C, where the shift of {} has no value", temperature,
                                  to_string(static_cast<PairType>(pair))),
-                     "a temperature of its range");
+                     range_of(scene.shifts[pair]));
     }
     return at;
   };

@@ -109,6 +109,8 @@ RunResult run_of(const Scene& scene, const Preparation* given, const std::filesy
     FoundCheckpoint found = find_checkpoint(out, scene, result.backend);
     resumed = Resumed{std::move(found.checkpoint), found.file};
     damage = std::move(found.damage);
+  } else if (stepped && watcher.warn && is_checkpoint_of(out / checkpoint_name, scene, result.backend)) {
+    watcher.warn((out / checkpoint_name).string() + ": this run was begun before and begins anew; --resume goes on");
   }
   starting.reset();
   std::optional<Preparation> made;
