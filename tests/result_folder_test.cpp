@@ -82,15 +82,6 @@ TEST_F(Folder, ARefusedCommandLeavesNoFolder) {
   }
 }
 
-TEST_F(Folder, AFileInItsPlaceIsRefused) {
-  write_scene();
-  for (const char* out : {"t8.csv", "t8.csv/below"}) {
-    const Outcome run = macadam(fmt::format("run {} --out {}", path("scene.toml"), path(out)));
-    EXPECT_EQ(run.code, 2) << out;
-    EXPECT_HAS(run.err, "folder of the results: found a file in its place");
-  }
-}
-
 TEST_F(Folder, ASpecimenMayReplaceASpecimenOnly) {
   write_scene();
   const std::string specimen = fmt::format("specimen {} --out {}", path("scene.toml"), path("out"));

@@ -46,11 +46,9 @@ ResultFolder::ResultFolder(const fs::path& folder) {
     file_ = ::open(whole.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (file_ < 0 && errno == ENOENT && !error) continue;
     if (file_ < 0) {
-      const int number = error ? error.value() : errno;
+      const std::string why = std::generic_category().message(errno);
       remove_empty(made_);
-      if (number == ENOTDIR || number == EEXIST)
-        throw InputError(folder.string(), 0, "folder of the results", "a file in its place", "a folder, or a new name");
-      throw RunError(folder.string() + ": cannot make the result folder: " + std::generic_category().message(number));
+      throw RunError(folder.string() + ": cannot make the result folder: " + (error ? error.message() : why));
     }
     if (::faccessat(file_, ".", W_OK | X_OK, AT_EACCESS) != 0 && errno != ENOENT) {
       const std::string why = std::generic_category().message(errno);
