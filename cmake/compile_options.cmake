@@ -22,19 +22,19 @@ set(MACADAM_STEP_OPTIONS -Wno-psabi)  # the warning speaks of calls between libr
 if(MACADAM_NATIVE)
   list(APPEND MACADAM_STEP_OPTIONS -march=native ${MACADAM_PACKETS})
 endif()
+# Null pointers and ends of objects are the address sanitizer's too; asked twice, and with alignment and types of objects,
+# they take a third of a build.
+set(MACADAM_CHECKS -fno-sanitize=null,alignment,object-size,vptr -fno-sanitize-recover=all -fno-omit-frame-pointer)
+# The step's inlined packets have thousands of temporaries: watching each on the stack takes gcc ten minutes a file.
+# Its arrays are on the heap, where every access is still checked.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(MACADAM_CHECKS_OF_STEP "--param=asan-stack=0")
+endif()
 if(MACADAM_SANITIZE)
-  # Null pointers and ends of objects are the address sanitizer's too; asked twice, and with alignment and types of objects,
-  # they take a third of a build.
-  target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${MACADAM_SANITIZE}
-                                                   -fno-sanitize=null,alignment,object-size,vptr
-                                                   -fno-sanitize-recover=all -fno-omit-frame-pointer>)
+  target_compile_options(macadam_options INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${MACADAM_SANITIZE};${MACADAM_CHECKS}>")
   # Functions of the library call its own copies of templates, not those of a program built without checks.
   target_link_options(macadam_options INTERFACE -fsanitize=${MACADAM_SANITIZE} -Wl,-Bsymbolic-functions)
-  # The step's inlined packets have thousands of temporaries: watching each on the stack takes gcc ten minutes a file.
-  # Its arrays are on the heap, where every access is still checked.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    set(MACADAM_SANITIZE_STEP "--param=asan-stack=0")
-  endif()
+  set(MACADAM_SANITIZE_STEP ${MACADAM_CHECKS_OF_STEP})
   # CGAL's wraps, trees and hulls take gcc up to ten minutes a file: those files are thin shells around them.
   set(MACADAM_SANITIZE_CGAL "-fno-sanitize=all")
 endif()
@@ -59,7 +59,7 @@ function(macadam_unite)
   endif()
 endfunction()
 
-# gcc 12 misreads std::string concatenation (bug 105329) and Eigen's fixed-size kernels, gcc 14 copies of vectors; ccache needs
+# gcc 12 misreads std::string concatenation (bug 105329) and Eigen's fixed-size kernels, and gcc 14 copies of vectors; ccache needs
 # the first for precompiled headers
 target_compile_options(macadam_options INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess -Wno-restrict
   -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds -Wno-maybe-uninitialized -Wno-free-nonheap-object>)

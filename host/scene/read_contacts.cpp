@@ -31,9 +31,10 @@ std::string text_of(const std::string& law, const std::string& key) {
   return found == texts.end() ? "" : found->second;
 }
 
-/// Nothing that is bonded is softer, and a modulus in GPa without its unit is. Springs of Kelvin units may be.
-constexpr Rule stiff{[](double v) { return v >= 1000; },
-                     "1000 Pa or more; moduli in GPa or MPa are text with the unit"};
+/// A modulus without a unit is in Pa. No solid is softer than this: such a number was meant in GPa or MPa. It does not
+/// hold for the springs of Kelvin units, which may be soft.
+constexpr Rule in_pascals{[](double v) { return v >= 1000; },
+                          "1000 Pa or more; a modulus in another unit is text with the unit"};
 
 /// The keys of one law, besides `pair`, `law`, `alpha` and `delta`, which all have.
 template <class L>
@@ -42,8 +43,9 @@ std::vector<Key> keys_of(L& law) {
   law.each_key([&](const char* key, auto& member, ValueKind kind, ValueNeed need) {
     constexpr bool one = std::is_same_v<std::decay_t<decltype(member)>, double>;
     const Quantity& unit = kind == ValueKind::viscosity ? viscosity : modulus;
-    Reader read = into(member, unit, one && kind == ValueKind::modulus ? stiff : positive);
+    Reader read = into(member, unit, positive);
     if constexpr (one) {
+      if (kind == ValueKind::modulus) read = positive_into(member, unit, in_pascals);
       if (need == ValueNeed::may_be_infinite) {  // written `inf`
         read.words.rule = "a positive number, or inf";
         read.words.usual = "inf";

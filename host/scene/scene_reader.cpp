@@ -56,17 +56,17 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
   }
 }
 
-/// A density in g/cm³ without its unit is a thousand times too small, and would cost nothing but steps.
-constexpr Rule solid{[](double v) { return v >= 10 && v <= 30000; },
-                     "10 to 30000 kg/m3; densities in g/cm3 are text with the unit"};
+/// A density without a unit is in kg/m³. No solid is lighter than the lower limit: such a number was meant in g/cm³.
+constexpr Rule in_kg_m3{[](double v) { return v >= 10 && v <= 30000; },
+                        "10 to 30000 kg/m3; a density in another unit is text with the unit"};
 
 /// Densities may be left out where they follow from a recipe.
 Materials read_materials(const Section& section, Need need) {
   Materials materials;
   const auto phase = [need](double& target) {
     return section_by([&target, need](const Value& value) {
-      value.section().read(
-          {{"density", need, into(target, density, solid), "of the spheres", "from [specimen.recipe], where that is"}});
+      value.section().read({{"density", need, positive_into(target, density, in_kg_m3), "of the spheres",
+                             "from [specimen.recipe], where that is"}});
     });
   };
   section.read({{"aggregate", Need::optional, phase(materials.aggregate), "what aggregates are of", "none"},

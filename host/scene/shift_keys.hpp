@@ -7,7 +7,7 @@
 
 namespace macadam::scene {
 
-/// A temperature in °C. Above the limit nothing bituminous is solid, and kelvins of a test are.
+/// A temperature in °C. No test is as warm as the upper limit; one that is given in kelvins mostly is above it.
 inline constexpr Rule celsius{[](double v) { return v > -laws::zero_celsius && v < 250; },
                               "a temperature above -273.15 and below 250 degrees C, not in kelvins"};
 

@@ -67,6 +67,8 @@ class Value {
   int line() const { return line_; }
   /// Whether the value is an array.
   bool is_array() const { return node_->is_array(); }
+  /// Whether the value is text, as numbers with a unit are.
+  bool is_text() const { return node_->is_string(); }
   /// Whether the value is written `inf`.
   bool is_infinite() const;
   /// The value as messages show it.
@@ -173,6 +175,14 @@ inline Reader into(std::optional<double>& target, const Quantity& quantity, cons
 inline Reader into(std::vector<double>& target, const Quantity& quantity, const Rule& rule) {
   return {[&target, &quantity, rule](const Value& value) { target = value.numbers(quantity, rule); },
           {"list of numbers", &quantity, rule.words}};
+}
+/// A positive number whose unit is easily forgotten: with its unit it is taken as it is, without one it must satisfy
+/// `bare`, which tells SI units from others.
+inline Reader positive_into(double& target, const Quantity& quantity, const Rule& bare) {
+  return {[&target, &quantity, bare](const Value& value) {
+            target = value.number(quantity, value.is_text() ? positive : bare);
+          },
+          {"number", &quantity, bare.words, written(target)}};
 }
 /// The words for whole numbers of a range.
 inline Words whole(std::int64_t min, std::int64_t max, std::string usual = "") {
