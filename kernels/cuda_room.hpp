@@ -3,7 +3,9 @@
 ///
 /// The blocks of a launch of tiles on the chip wait for one another, and each has a multiprocessor to itself. Where two
 /// such launches each had some of the multiprocessors that they need, neither would end. So a specimen takes as many as
-/// it has tiles before it launches, and gives them back when its steps are done.
+/// it has tiles before it launches, and gives them back when its steps are done. The specimen that was there first goes
+/// first, so that it is done while others are still being prepared: specimens that took turns would all end at the same
+/// time, and the device would stand still until the next ones are there.
 #pragma once
 
 #include <condition_variable>
@@ -18,15 +20,20 @@ class DeviceRoom {
   /// Number of multiprocessors, by device.
   using Share = std::map<int, int>;
 
-  /// Waits until all of `wanted` is free and whoever came before, to one of these devices, has got what it waited for.
+  /// That of the next specimen.
+  static std::uint64_t next_number() {
+    DeviceRoom& room = instance();
+    const std::lock_guard lock(room.mutex_);
+    return room.next_++;
+  }
+  /// Waits until all of `wanted` is free and no specimen with a lower number waits for one of these devices.
   /// `of_device`: what each device has.
-  static void take(const Share& wanted, const Share& of_device) {
+  static void take(std::uint64_t number, const Share& wanted, const Share& of_device) {
     DeviceRoom& room = instance();
     std::unique_lock lock(room.mutex_);
-    const std::uint64_t mine = room.next_++;
-    room.waiting_[mine] = wanted;
-    room.changed_.wait(lock, [&] { return room.is_turn_of(mine, of_device); });
-    room.waiting_.erase(mine);
+    room.waiting_[number] = wanted;
+    room.changed_.wait(lock, [&] { return room.is_turn_of(number, of_device); });
+    room.waiting_.erase(number);
     for (const auto& [device, number] : wanted) room.taken_[device] += number;
     lock.unlock();
     room.changed_.notify_all();  // who is next may have room beside this one
@@ -61,7 +68,7 @@ class DeviceRoom {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<int, int> taken_;
-  std::map<std::uint64_t, Share> waiting_;  // in the order in which they came
+  std::map<std::uint64_t, Share> waiting_;  // by the specimens' numbers
   std::uint64_t next_ = 0;
 };
 

@@ -7,6 +7,8 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "kernels/cuda_array.hpp"
@@ -100,9 +102,20 @@ class DeviceTeam {
     }
     use(0);
   }
-  /// Until all that is queued is done. A failing kernel is reported here.
+  /// Until all that is queued is done. A failing kernel is reported here, though others wait for it for ever.
   void wait(const char* what) const {
-    each([&](std::size_t m) { check_cuda(cudaStreamSynchronize(member_[m].stream), what); });
+    if (size() == 1) return check_cuda(cudaStreamSynchronize(stream()), what);
+    for (bool all = false; !all;) {
+      all = true;
+      each([&](std::size_t m) {
+        const cudaError_t status = cudaStreamQuery(member_[m].stream);
+        if (status == cudaErrorNotReady)
+          all = false;
+        else if (status != cudaSuccess)
+          throw RunError("CUDA: device " + std::to_string(device(m)) + ": " + what + ": " + cudaGetErrorString(status));
+      });
+      if (!all) std::this_thread::yield();
+    }
   }
 
  private:

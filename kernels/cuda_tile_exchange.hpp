@@ -37,10 +37,14 @@ __device__ __forceinline__ void put_velocity(ulonglong2* to, const float (&y)[6]
   put_word(to, pair(__float_as_uint(y[0]), __float_as_uint(y[1])), pair(__float_as_uint(y[2]), tag));
   put_word(to + 1, pair(__float_as_uint(y[3]), __float_as_uint(y[4])), pair(__float_as_uint(y[5]), tag));
 }
-/// Whether a word bears the tag, and its three numbers.
-__device__ __forceinline__ bool bears(const ulonglong2& word, std::uint32_t tag) {
-  return static_cast<std::uint32_t>(word.y >> 32) == tag;
+/// Whether a word bears the tag or, as a release does, one far behind it.
+__device__ __forceinline__ bool has_come(const ulonglong2& word, std::uint32_t tag) {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(word.y >> 32) - tag) >= 0;
 }
+/// What takes the place of all words where no more of them will come: every reader goes on, with numbers that mean
+/// nothing. `tag`: of a step that is being taken, or was the last.
+constexpr std::uint32_t release_of(std::uint32_t tag) { return tag + (1u << 30); }
+/// The three numbers of a word.
 __device__ __forceinline__ float4 numbers_of(const ulonglong2& word) {
   return {__uint_as_float(static_cast<std::uint32_t>(word.x)),
           __uint_as_float(static_cast<std::uint32_t>(word.x >> 32)),
@@ -61,8 +65,8 @@ __device__ __forceinline__ void wait_for_words(std::uint32_t count, std::uint32_
     do {
       if (wait_a) a = get_word(at_a);
       if (wait_b) b = get_word(at_b);
-      wait_a = wait_a && !bears(a, tag);
-      wait_b = wait_b && !bears(b, tag);
+      wait_a = wait_a && !has_come(a, tag);
+      wait_b = wait_b && !has_come(b, tag);
     } while (__any_sync(0xffffffff, wait_a || wait_b));
     if (has_a) take(h, numbers_of(a));
     if (has_b) take(h + stride, numbers_of(b));

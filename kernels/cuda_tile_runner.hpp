@@ -82,7 +82,7 @@ class TileRunner {
     settling_.template set_group<geometry>(number, places_.first_slot(static_cast<std::size_t>(number)), law, view, dt);
   }
 
-  /// Ends every set-up: everything as it is before the first step. Words of the exchange may stay, as tags go on.
+  /// Ends every set-up: everything as it is before the first step.
   void prepare(const ParticleMotion<P>& motion, const RecordRows& rows) {
     if (!std::exchange(prepared_, true)) keep_arrays(rows);
     scene_.motion = motion;
@@ -100,6 +100,10 @@ class TileRunner {
     }
     clear(scene_.wall_load, wall_load_count_);
     clear(before_, (bodies_ + walls) * displacement_words);
+    if (std::exchange(released_, false)) {  // else words stay as they are: tags go on
+      clear(scene_.even, words_of_exchange());
+      clear(scene_.odd, words_of_exchange());
+    }
     team_.meet();
     settling_.run(settling_starts, block_, settled());
     team_.wait("start");
@@ -138,11 +142,25 @@ class TileRunner {
     if (std::exchange(has_room_, false)) DeviceRoom::give(room_);
   }
 
+  /// After an error of one device: the tiles of the others wait for those of that one no longer, and end.
+  void release() noexcept {
+    if (team_.size() == 1 || !resident_ || !prepared_) return;
+    released_ = true;
+    try {
+      const auto tag = static_cast<unsigned long long>(release_of(tag_)) << 32;
+      const std::vector<ulonglong2> words(words_of_exchange(), {0, tag});
+      const std::size_t bytes = words.size() * sizeof words[0];
+      copy_now(scene_.even, words.data(), bytes, "release");  // no multiprocessor is free for a kernel
+      copy_now(scene_.odd, words.data(), bytes, "release");
+    } catch (const std::exception&) {  // the first error is the one to tell
+    }
+  }
+
   /// Queues steps first … first + steps − 1, the first of which has the first row of the walls' table.
   void run(std::int64_t first, std::int64_t steps) {
     const Range range("time steps");
     if (resident_ && !has_room_) {
-      DeviceRoom::take(room_, room_of_device_);
+      DeviceRoom::take(number_, room_, room_of_device_);
       has_room_ = true;
     }
     team_.meet();  // with what the start has put into memory
@@ -150,7 +168,12 @@ class TileRunner {
     for (std::int64_t done = 0; done < steps;) {
       if (schedule_.is_due()) settle(schedule_.next(first + done));
       const auto n = static_cast<std::uint32_t>(std::min(schedule_.left(), steps - done));
-      run_(n);
+      try {
+        run_(n);
+      } catch (...) {  // some devices may have begun
+        release();
+        throw;
+      }
       parts_.end_of(resident_ ? "tiles on the chip" : "tiles streamed", team_.stream());
       scene_.motion.wall.table += n * scene_.motion.wall.row_words();
       tag_ += n;
@@ -278,6 +301,7 @@ class TileRunner {
     }
     return out;
   }
+  std::size_t words_of_exchange() const { return 2 * (std::size_t{scene_.places} + walls); }
   std::size_t tiles(std::size_t m) const { return cuts_.tile(m + 1) - cuts_.tile(m); }
   /// First place, or packet, of member m, or behind the last.
   std::uint32_t first_place(std::size_t m) const { return m == team_.size() ? scene_.places : tables_[m].first_place; }
@@ -376,7 +400,7 @@ class TileRunner {
   const TeamCuts& cuts_;
   PartClock& parts_;
   TilePlan plan_;
-  bool carried_, resident_ = false, prepared_ = false;
+  bool carried_, resident_ = false, prepared_ = false, released_ = false;
   int block_ = 0;  // steps
   BlockSchedule schedule_;
   const Layout& layout_;
@@ -393,6 +417,7 @@ class TileRunner {
   const std::uint32_t* wall_begin_ = nullptr;
   const RecordRows* rows_ = nullptr;
   std::vector<Tables> tables_;  // [member]
+  const std::uint64_t number_ = DeviceRoom::next_number();
   DeviceRoom::Share room_, room_of_device_;
   bool has_room_ = false;
   LoadRecords<R> records_{};

@@ -82,7 +82,12 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
 
   void run(std::int64_t first, std::int64_t steps) { tiles_.run(first, steps); }
   void wait() {
-    Base::wait();
+    try {
+      Base::wait();
+    } catch (...) {
+      tiles_.release();
+      throw;
+    }
     tiles_.leave_room();
   }
   void end_steps() noexcept {

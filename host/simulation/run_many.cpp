@@ -5,6 +5,8 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <condition_variable>
+#include <future>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -46,11 +48,12 @@ class Pool {
   Pool(const std::vector<SceneJob>& jobs, const ManyOptions& options)
       : jobs_(jobs), options_(options), outcomes_(jobs.size()) {
     std::set<int> devices;
-    if (!report_backends().devices.empty()) usable_ = usable(device_numbers({every_device}));
+    DeviceList there;
+    if (!report_backends().devices.empty()) there = device_numbers({every_device});
     for (const SceneJob& job : jobs) {
       const SolverSpec& solver = job.scene.solver;
       const bool may = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
-      for (const int d : usable_) {
+      for (const int d : there) {
         const bool meant = solver.devices.empty() || solver.devices == DeviceList{every_device} ||
                            std::count(solver.devices.begin(), solver.devices.end(), d) > 0;
         if (may && meant) devices.insert(d);
@@ -59,7 +62,12 @@ class Pool {
     const int cores = omp_get_max_threads(),
               usual = devices.empty() ? cores : at_once_on_a_device * int(devices.size());
     workers_ = std::clamp(options.at_once > 0 ? options.at_once : std::min(usual, cores), 1, int(jobs.size()));
-    threads_ = std::max(1, cores / workers_);
+    if (!devices.empty())  // they wake up while the first specimens are made
+      usable_ = std::async(std::launch::async, [there] { return usable(there); }).share();
+    // While a device steps one specimen, the next is made by all cores. The first is there early then; specimens that
+    // are made at the same time are there at the same time, and late.
+    may_prepare_ = devices.empty() ? workers_ : std::min(workers_, int(devices.size()));
+    threads_ = std::max(1, cores / may_prepare_);
     beside_ = devices.empty() ? 1 : (workers_ + int(devices.size()) - 1) / int(devices.size());
   }
 
@@ -88,12 +96,13 @@ class Pool {
       JobOutcome& outcome = outcomes_[job];
       std::optional<int> device;
       try {
-        if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
         Scene scene = jobs_[job].scene;
+        const Watcher watcher = watcher_of(job);
+        const Preparation prepared = prepare_in_turn(scene, watcher);
         device = take_device(scene.solver);
         if (device) scene.solver.devices = {*device}, scene.solver.side_by_side = beside_;
         const bool resume = options_.resume && has_checkpoint(jobs_[job].out);
-        outcome.result = macadam::run(scene, jobs_[job].out, watcher_of(job), resume);
+        outcome.result = macadam::run(scene, prepared, jobs_[job].out, watcher, resume);
       } catch (...) { outcome.error = std::current_exception(); }
       const std::lock_guard lock(mutex_);
       if (device) --running_[*device];
@@ -103,10 +112,28 @@ class Pool {
     }
   }
 
+  Preparation prepare_in_turn(const Scene& scene, const Watcher& watcher) {
+    {
+      std::unique_lock lock(mutex_);
+      prepared_.wait(lock, [&] { return may_prepare_ > 0; });
+      --may_prepare_;
+    }
+    struct Turn {
+      Pool& pool;
+      ~Turn() {
+        const std::lock_guard lock(pool.mutex_);
+        ++pool.may_prepare_;
+        pool.prepared_.notify_one();
+      }
+    } const turn{*this};
+    if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
+    return prepare(scene, watcher.progress);
+  }
+
   /// None where the processor runs the scene.
   std::optional<int> take_device(const SolverSpec& solver) {
     if (select_backend(solver.backend, nullptr, solver.devices) != Backend::cuda) return {};
-    DeviceList meant = solver.devices.empty() ? usable_ : device_numbers(solver.devices);
+    DeviceList meant = solver.devices.empty() ? usable_.get() : device_numbers(solver.devices);
     if (const DeviceList answer = usable(meant); !answer.empty()) meant = answer;
     const std::lock_guard lock(mutex_);
     const int least =
@@ -136,11 +163,13 @@ class Pool {
   const std::vector<SceneJob>& jobs_;
   const ManyOptions& options_;
   int workers_ = 1, threads_ = 1, beside_ = 1;
+  std::shared_future<DeviceList> usable_;
   std::mutex mutex_;  // of what follows, and of the options' functions
+  std::condition_variable prepared_;
+  int may_prepare_ = 1;
   std::size_t next_ = 0;
   std::map<int, int> running_;  // device: scenes
-  DeviceList usable_;
-  std::exception_ptr thrown_;  // by an option's function
+  std::exception_ptr thrown_;   // by an option's function
   std::vector<JobOutcome> outcomes_;
 };
 

@@ -26,9 +26,9 @@ struct JobOutcome {
 };
 
 struct ManyOptions {
-  /// Scenes at a time; 0: three a device, so that the specimens of some are made while others are stepped, but no more
-  /// than cores; without a device one a core. Each has an equal share of the cores, unless its [solver] threads says
-  /// otherwise.
+  /// Scenes at a time; 0: four a device, so that the specimens of some are made while others are stepped, but no more
+  /// than cores; without a device one a core. One specimen a device is made at a time, by all cores; without a device
+  /// each scene has an equal share of them, unless its [solver] threads says otherwise.
   int at_once = 0;
   bool resume = false;  ///< go on from checkpoints, where folders have them
   /// The functions but `stop` are called by one thread at a time. `job`: position in the list. What `done` throws ends
@@ -40,7 +40,8 @@ struct ManyOptions {
 };
 
 /// run() of every scene, each on one device: on the one with the fewest at the moment, of those that its [solver] names
-/// or, where it names none, of all that answer. Small specimens share a device at the same time. The results are those
+/// or, where it names none, of all that answer. Small specimens share a device at the same time; of others, the
+/// one that was there first is stepped first. The results are those
 /// of run(). An error of one scene ends no other, unless a device fails for a whole process; scenes that are on a
 /// device together share its memory. Outcomes are in the order of the jobs; one that was not begun has an
 /// InterruptedError. \throws InputError where two jobs have one folder.

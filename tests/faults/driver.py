@@ -7,32 +7,38 @@ import sys
 
 from verdicts import Result, damaged, differences
 
-KINDS = ("memory", "launch", "wait", "copy", "other")
+KINDS = ("memory", "launch", "together", "wait", "copy", "other")
 
 
 def stepped(setting):
-    faults(setting, "stepped", ["--method", "explicit"])
+    faults(setting, "stepped", ["device.toml", "--method", "explicit"], "two kernels a step")
+
+
+def team(setting):
+    """By all devices there are, whose tiles wait for one another: where one fails, the others must end."""
+    faults(setting, "team", ["tiles.toml", "--method", "explicit", "--precision", "mixed", "--devices", "all"],
+           "tiles on the chip")
 
 
 def harmonic(setting):
-    faults(setting, "harmonic", ["--method", "harmonic", "--linear", "iterative"])
+    faults(setting, "harmonic", ["device.toml", "--method", "harmonic", "--linear", "iterative"], "harmonic, ")
 
 
-def faults(setting, name, method):
-    """Each call of the driver fails once; and from a launch on, all do."""
+def faults(setting, name, arguments, solver):
+    """Each call of the driver fails once; and from a launch on, all do. `solver`: what is to run, in the program's words."""
     library = setting.preloaded("driver_faults", "-Wl,-soname,libcuda.so.1")
     whole = setting.clear("whole")
-    outcome = setting.run(command(whole, method))
-    if outcome.code != 0:
-        sys.exit(f"{name} does not even run on a GPU: {outcome}")
+    outcome = setting.run(command(whole, arguments))
+    if outcome.code != 0 or solver not in outcome.out:
+        sys.exit(f"{name} does not even run on a GPU, by {solver}: {outcome}")
     expected = Result(whole)
-    counts = census(setting, library, method)
+    counts = census(setting, library, arguments)
     print(f"{name}: " + ", ".join(f"{counts[kind]} {kind}" for kind in KINDS), flush=True)
     for kind in KINDS:
         for at in setting.sample(range(1, counts[kind] + 1), 10, long=120 if kind != "memory" else None):
-            trial(setting, library, f"{name}, {kind} {at}", method, kind, at, expected)
+            trial(setting, library, f"{name}, {kind} {at}", arguments, kind, at, expected)
     for at in setting.sample(range(1, counts["launch"] + 1), 5, long=40):
-        trial(setting, library, f"{name}, lost at launch {at}", method, "lost", at, expected)
+        trial(setting, library, f"{name}, lost at launch {at}", arguments, "lost", at, expected)
 
 
 def driver_file():
@@ -45,19 +51,19 @@ def driver_file():
         return re.search(r"\S*/libcuda\.so\S*", maps.read())[0]
 
 
-def command(out, method):
+def command(out, arguments):
     checkpoints = ["--resume"] if (out / "checkpoint.h5").exists() else []
-    return ["run", "device.toml", "--backend", "cuda", *method, "--out", str(out), *checkpoints]
+    return ["run", *arguments, "--backend", "cuda", "--out", str(out), *checkpoints]
 
 
 def preloaded(library, report, kind="", at=0):
     return {"LD_PRELOAD": library, "FAULT_DRIVER": driver_file(), "FAULT_KIND": kind, "FAULT_AT": str(at), "FAULT_REPORT": str(report)}
 
 
-def census(setting, library, method):
+def census(setting, library, arguments):
     report = setting.folder / "report.txt"
     report.unlink(missing_ok=True)
-    outcome = setting.run(command(setting.clear(), method), preloaded(library, report))
+    outcome = setting.run(command(setting.clear(), arguments), preloaded(library, report))
     lines = [line.split() for line in report.read_text().splitlines()] if report.exists() else []
     counts = {words[1]: int(words[2]) for words in lines if words[0] == "count"}
     if outcome.code != 0 or not counts.get("launch"):
@@ -65,11 +71,11 @@ def census(setting, library, method):
     return counts
 
 
-def trial(setting, library, what, method, kind, at, expected):
+def trial(setting, library, what, arguments, kind, at, expected):
     """A run that fails keeps its last checkpoint; resumed, it gives the bits of one that never failed."""
     out, report = setting.clear(), setting.folder / "report.txt"
     report.unlink(missing_ok=True)
-    outcome = setting.run(command(out, method), preloaded(library, report, kind, at))
+    outcome = setting.run(command(out, arguments), preloaded(library, report, kind, at))
     hit = report.read_text().split() if report.exists() else []
     if "hit" not in hit:
         return  # fewer calls than before
@@ -81,7 +87,7 @@ def trial(setting, library, what, method, kind, at, expected):
         complaints.append(f"exit code {outcome.code}, expected 1 and a word of CUDA, memory or a device")
     else:
         complaints += damaged(out) if out.exists() else []
-        again = setting.run(command(out, method))
+        again = setting.run(command(out, arguments))
         if again.code != 0:
             complaints.append(f"cannot be run after that: {again.err.strip()}")
         else:

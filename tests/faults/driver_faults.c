@@ -4,7 +4,8 @@
 // It bears the driver's name, so that the CUDA runtime takes it for the driver. It asks the driver itself for every function,
 // and puts between one that counts its calls, and does not make the one that is to fail. Environment:
 //   FAULT_DRIVER  the driver itself, a path
-//   FAULT_KIND    memory, launch, wait, copy, other; lost: from a launch on, every call fails
+//   FAULT_KIND    memory, launch, together (launches whose blocks wait for one another), wait, copy, other; lost: from a launch on,
+//                 every call fails
 //   FAULT_AT      number of the call of this kind that fails, from 1 on; 0: none, they are counted only
 //   FAULT_REPORT  file that receives `hit FUNCTION` when a call fails; and in the end, where none did, `count KIND N`
 #define _GNU_SOURCE
@@ -15,8 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { memory, launch, wait_, copy, other, kinds };
-static const char* const kind_names[kinds] = {"memory", "launch", "wait", "copy", "other"};
+enum { memory, launch, together, wait_, copy, other, kinds };
+static const char* const kind_names[kinds] = {"memory", "launch", "together", "wait", "copy", "other"};
 enum { out_of_memory = 2, not_initialised = 3, not_found = 500, device_unavailable = 46, launch_out_of_resources = 701, launch_failed = 719 };
 
 // All the driver's functions take integers and pointers, and give a code: one form serves for all. What a function does not
@@ -45,7 +46,7 @@ static void say(const char* what, const char* name, long number) {
 }
 
 static int code_of(int which) {
-  return which == memory ? out_of_memory : which == launch ? launch_out_of_resources : which == other ? device_unavailable : launch_failed;
+  return which == memory ? out_of_memory : which == launch || which == together ? launch_out_of_resources : which == other ? device_unavailable : launch_failed;
 }
 
 static int pass(int function, TAKEN) {
@@ -76,6 +77,7 @@ static const Function between[most_functions] = {ALL_NUMBERS};
 static int kind_by_name(const char* name) {
   if (strstr(name, "Free") || strstr(name, "Destroy")) return other;
   if (strstr(name, "MemAlloc") || strstr(name, "MemHostAlloc") || strstr(name, "MemCreate") || strstr(name, "MemAddressReserve")) return memory;
+  if (strstr(name, "LaunchCooperative")) return together;
   if (strstr(name, "Launch")) return launch;
   if (strstr(name, "Synchronize") || strstr(name, "EventQuery") || strstr(name, "StreamQuery")) return wait_;
   if (strstr(name, "Memcpy") || strstr(name, "Memset")) return copy;

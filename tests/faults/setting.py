@@ -91,6 +91,7 @@ class Setting:
                   "full": scene("t8.csv", output=everything + 'format = "vtp"'),
                   "hdf5": scene("t8.csv", output=everything),
                   "device": scene("t8.csv", "density_scaling = 1e4", "checkpoint = 0.02"),
+                  "tiles": scene("t8.csv", "density_scaling = 1e2", "checkpoint = 0.02"),  # steps short enough for blocks
                   "stepped": scene("t8.csv", f"density_scaling = {self.scaling()}", "checkpoint = 0.05")}
         for name, text in scenes.items():
             (folder / f"{name}.toml").write_text(text)
