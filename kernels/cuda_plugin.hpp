@@ -16,6 +16,8 @@ struct CudaCode {
   void (*report)(BackendReport& report);
   /// Why this device cannot run the kernels, as the one that is to; empty where it can.
   std::string (*refusal)(int device);
+  /// Whether `device` could help `first` with a specimen: as cuda_idle_beside().
+  bool (*idle_beside)(int device, int first);
   /// Other arguments as make_stepper(); the options' precision and device.
   std::unique_ptr<Stepper> (*make_stepper)(const Specimen& specimen, const ContactNetwork& network,
                                            const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
@@ -36,6 +38,6 @@ struct CudaPlugin {
 };
 
 /// Counted up with every change of CudaCode, or of what it is handed.
-inline constexpr int cuda_interface = 4;
+inline constexpr int cuda_interface = 5;
 
 }  // namespace macadam::kernels

@@ -31,6 +31,9 @@ Backend resolved(Backend asked, bool on_device, StepperOptions& options);
 void report_cuda_devices(BackendReport& report);
 /// Only in builds with CUDA: why this device cannot run the kernels, as the one that is to; empty where it can.
 std::string cuda_refusal(int device);
+/// Only in builds with CUDA: whether `device` is like `first`, the two reach each other's memory, and no process, this
+/// one neither, computes on it. Makes no context.
+bool cuda_idle_beside(int device, int first);
 /// Only in builds with CUDA: as macadam::measure_device().
 DeviceSpeed measure_device(int device);
 

@@ -6,6 +6,7 @@
 #include <cuda_runtime_api.h>
 #endif
 
+#include "host/stepping/choose_devices.hpp"
 #include "kernels/device_code.hpp"
 #include "kernels/make_stepper.hpp"
 #include "test_files.hpp"
@@ -41,6 +42,34 @@ TEST(DeviceCode, MachineCodeServesItsGenerationAndVirtualCodeAllLater) {
     EXPECT_EQ(kernels::has_code_for(c.list, c.major, c.minor), c.expected)
         << c.list << " on " << c.major << "." << c.minor;
   }
+}
+
+TEST(ChooseDevices, TakesIdleOnesWhereTheyPay) {
+  const std::vector<DeviceInfo> devices{{1, "A", 90, 0, 132}, {2, "A", 90, 0, 132}, {4, "A", 90, 0, 132}};
+  std::vector<int> asked;
+  std::string decision;
+  const auto chosen = [&](std::size_t contacts, DeviceList busy) {
+    decision.clear();
+    asked.clear();
+    const auto idle_beside = [&](int device, int first) {
+      EXPECT_EQ(first, 1);
+      asked.push_back(device);
+      return std::count(busy.begin(), busy.end(), device) == 0;
+    };
+    return choose_devices(contacts, devices, idle_beside, decision);
+  };
+  EXPECT_EQ(chosen(299'999, {}), DeviceList{1});
+  EXPECT_TRUE(asked.empty());
+  EXPECT_EQ(decision, "");
+  EXPECT_EQ(chosen(300'000, {}), (DeviceList{1, 2}));
+  EXPECT_EQ(asked, std::vector{2});
+  EXPECT_HAS(decision, "devices 1 and 2: several step 300000 contacts faster");
+  EXPECT_HAS(decision, "--devices 1 takes one");
+  EXPECT_EQ(chosen(300'000, {2}), (DeviceList{1, 4}));
+  EXPECT_EQ(chosen(1'000'000, {}), (DeviceList{1, 2, 4}));
+  EXPECT_EQ(chosen(1'000'000, {2, 4}), DeviceList{1});
+  EXPECT_EQ(decision, "");
+  EXPECT_EQ(choose_devices(1'000'000, {}, {}, decision), DeviceList{});
 }
 
 TEST(OwnLaws, AreResolvedAsMacadamsAre) {

@@ -16,7 +16,7 @@ void report(BackendReport& out) {
 }
 std::string refusal(int) { return "it is made of paper"; }
 
-constexpr CudaCode code{report, refusal, nullptr, nullptr, nullptr};
+constexpr CudaCode code{report, refusal, nullptr, nullptr, nullptr, nullptr};
 
 }  // namespace
 

@@ -125,7 +125,7 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         {[&](const Value& v) { spec.devices = read_devices(v, most_devices); },
          {"whole number, list of them or \"all\"", nullptr, fmt::format("from 0 to {}", most_devices)}},
         "the CUDA device, as macadam info numbers them, or those that share the specimen",
-        "the first that can run"},
+        "the first that can run; of 300,000 contacts or more, stepped, idle ones like it too"},
        {"inertia", Need::optional, into(spec.inertia), "method \"harmonic\": with the inertia of the particles"}});
   read_damping(section, spec);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <future>
 #include <new>
 
 #include "host/experiments/experiment.hpp"
@@ -15,6 +16,8 @@
 #include "host/simulation/sparing_save.hpp"
 #include "host/simulation/solution.hpp"
 #include "host/simulation/summary.hpp"
+#include "host/stepping/choose_devices.hpp"
+#include "host/stepping/cuda_code.hpp"
 #include "macadam/error.hpp"
 #include "macadam/simulation.hpp"
 
@@ -92,15 +95,38 @@ std::string status_of(const std::exception& error) {
   return std::string("failed: ") + error.what();
 }
 
+/// The backend that runs. A device takes a third of a second to wake: it does so while the specimen is made.
+class FoundBackend {
+ public:
+  /// \throws as select_backend(), but for a device that is there and refuses.
+  explicit FoundBackend(const SolverSpec& solver) {
+    const auto select = [&solver] { return select_backend(solver.backend, nullptr, solver.devices); };
+    const bool may_wake = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
+    if (!may_wake || report_backends().devices.empty()) {
+      backend_ = select();
+      return;
+    }
+    device_numbers(solver.devices);  // whether there are such
+    waking_ = std::async(std::launch::async, select);
+  }
+  Backend expected() const { return backend_; }
+  /// \throws as select_backend().
+  Backend get() { return waking_.valid() ? backend_ = waking_.get() : backend_; }
+
+ private:
+  Backend backend_ = Backend::cuda;
+  std::future<Backend> waking_;
+};
+
 /// `given`: none, or what need not be made anew.
-RunResult run_of(const Scene& scene, const Preparation* given, const std::filesystem::path& out, const Watcher& watcher,
+RunResult run_of(Scene scene, const Preparation* given, const std::filesystem::path& out, const Watcher& watcher,
                  bool resume) {
   require_backend_fits(scene);
   RunResult result;
   std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
-  result.backend =
-      select_backend(scene.solver.backend, nullptr, scene.solver.devices);  // before any work: it may not be there
+  FoundBackend backend(scene.solver);  // before any work: it may not be there
+  result.backend = given || resume ? backend.get() : backend.expected();
   require_checkpoints(scene, result.backend, resume);
   const ResultFolder folder(out);
   std::optional<Resumed> resumed;
@@ -119,6 +145,10 @@ RunResult run_of(const Scene& scene, const Preparation* given, const std::filesy
   else
     made = prepare(scene, watcher.progress);
   const Preparation& prepared = given ? *given : *made;
+  {
+    const InPhase waiting(result.phases, &PhaseSeconds::start);
+    result.backend = backend.get();
+  }
   if (resumed) require_same_specimen(resumed->file, resumed->checkpoint, prepared);
   if (!damage.empty()) {
     std::error_code error;
@@ -128,6 +158,9 @@ RunResult run_of(const Scene& scene, const Preparation* given, const std::filesy
     if (watcher.warn) watcher.warn(damage);
   }
   if (watcher.prepared) watcher.prepared(prepared);
+  std::string devices_decision;
+  if (stepped && result.backend == Backend::cuda && scene.solver.devices.empty())
+    scene.solver.devices = choose_devices(prepared.network.contacts.size(), devices_decision);
 
   const Saving save = [&](const std::string& status) {
     const InPhase writing(result.phases, &PhaseSeconds::writing);
@@ -143,6 +176,7 @@ RunResult run_of(const Scene& scene, const Preparation* given, const std::filesy
     if (std::filesystem::exists(out / "summary.json")) throw;
     unsolvable = std::current_exception();  // whoever has nothing yet wants to look at the specimen
   }
+  if (!devices_decision.empty()) result.decisions.push_back(devices_decision);
   if (!damage.empty()) result.warnings.push_back(damage);
   if (scene.network.lateral_walls) {
     result.warnings.emplace_back(

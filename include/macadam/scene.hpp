@@ -56,7 +56,7 @@ struct SolverSpec {
   Backend backend = Backend::automatic;
   LinearMethod linear = LinearMethod::automatic;  ///< of the harmonic solutions
   int threads = 0;                                ///< 0: OpenMP's choice
-  DeviceList devices;                             ///< CUDA devices; none: the first usable one
+  DeviceList devices;                             ///< CUDA devices; none: run() chooses
   int side_by_side = 1;                           ///< no key: as in StepperOptions
   bool inertia = false;                           ///< harmonic only: include −ω²M, times density_scaling
 };

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// cuda_idle.cpp  Whether a second device may be taken unasked. No context is made on it.
+#include <cuda_runtime.h>
+#include <dlfcn.h>
+
+#include "kernels/steppers.hpp"
+
+namespace macadam::kernels {
+namespace {
+
+/// NVIDIA's library of management, which comes with the driver and has no header here. Its calls answer 0 where all is
+/// well; another answer, such as that of a machine that hides its processes, is no leave to take a device.
+class Management {
+ public:
+  Management() : library_(dlopen("libnvidia-ml.so.1", RTLD_NOW | RTLD_LOCAL)) {
+    const auto init = function<int (*)()>("nvmlInit_v2");
+    works_ = init && init() == 0;
+  }
+  Management(const Management&) = delete;
+  ~Management() {
+    const auto shutdown = works_ ? function<int (*)()>("nvmlShutdown") : nullptr;
+    if (shutdown) shutdown();
+    if (library_) dlclose(library_);
+  }
+
+  /// Whether no process computes on the device of this address on the bus.
+  bool is_idle(const char* bus_address) const {
+    if (!works_) return false;
+    const auto find = function<int (*)(const char*, void**)>("nvmlDeviceGetHandleByPciBusId_v2");
+    const auto processes = function<int (*)(void*, unsigned*, void*)>("nvmlDeviceGetComputeRunningProcesses_v3");
+    void* device = nullptr;
+    unsigned number = 0;  // with no room for any, more than none is an error
+    return find && processes && find(bus_address, &device) == 0 && processes(device, &number, nullptr) == 0 &&
+           number == 0;
+  }
+
+ private:
+  template <class Function>
+  Function function(const char* name) const {
+    return library_ ? reinterpret_cast<Function>(dlsym(library_, name)) : nullptr;
+  }
+  void* library_;
+  bool works_ = false;
+};
+
+bool can_reach(int from, int to) {
+  int can = 0;
+  return cudaDeviceCanAccessPeer(&can, from, to) == cudaSuccess && can;
+}
+
+}  // namespace
+
+bool cuda_idle_beside(int device, int first) {
+  cudaDeviceProp a{}, b{};
+  if (cudaGetDeviceProperties(&a, device) != cudaSuccess || cudaGetDeviceProperties(&b, first) != cudaSuccess)
+    return false;
+  const bool alike = std::string(a.name) == b.name && a.multiProcessorCount == b.multiProcessorCount;
+  char address[32];  // 0000:00:00.0
+  return alike && can_reach(device, first) && can_reach(first, device) &&
+         cudaDeviceGetPCIBusId(address, sizeof address, device) == cudaSuccess && Management().is_idle(address);
+}
+
+}  // namespace macadam::kernels
