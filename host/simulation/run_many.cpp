@@ -59,16 +59,14 @@ class Pool {
         if (may && meant) devices.insert(d);
       }
     }
-    const int cores = omp_get_max_threads(),
-              usual = devices.empty() ? cores : at_once_on_a_device * int(devices.size());
-    workers_ = std::clamp(options.at_once > 0 ? options.at_once : std::min(usual, cores), 1, int(jobs.size()));
-    if (!devices.empty())  // they wake up while the first specimens are made
-      usable_ = std::async(std::launch::async, [there] { return usable(there); }).share();
-    // While a device steps one specimen, the next is made by all cores. The first is there early then; specimens that
-    // are made at the same time are there at the same time, and late.
-    may_prepare_ = devices.empty() ? workers_ : std::min(workers_, int(devices.size()));
-    threads_ = std::max(1, cores / may_prepare_);
-    beside_ = devices.empty() ? 1 : (workers_ + int(devices.size()) - 1) / int(devices.size());
+    const auto number = static_cast<int>(devices.size());
+    const int usual = number == 0 ? cores_ : std::min(at_once_on_a_device * number, cores_);
+    workers_ = first_ = at_a_time_ = std::clamp(options.at_once > 0 ? options.at_once : usual, 1, int(jobs.size()));
+    if (number == 0) return;
+    first_ = std::min(workers_, number);
+    at_a_time_ = std::min(workers_, 2 * number);
+    beside_ = (workers_ + number - 1) / number;
+    usable_ = std::async(std::launch::async, [there] { return usable(there); }).share();
   }
 
   std::vector<JobOutcome> run() {
@@ -85,7 +83,6 @@ class Pool {
 
  private:
   void work() {
-    omp_set_num_threads(threads_);
     for (;;) {
       std::size_t job = 0;
       {
@@ -112,18 +109,22 @@ class Pool {
     }
   }
 
+  /// A specimen for each device comes first, made by all cores, so that no device waits long; later two for a device
+  /// are made at a time, which takes less time than one after the other.
   Preparation prepare_in_turn(const Scene& scene, const Watcher& watcher) {
+    const auto may = [this] { return prepared_ < first_ ? first_ : at_a_time_; };
     {
       std::unique_lock lock(mutex_);
-      prepared_.wait(lock, [&] { return may_prepare_ > 0; });
-      --may_prepare_;
+      changed_.wait(lock, [&] { return preparing_ < may(); });
+      ++preparing_;
+      omp_set_num_threads(std::max(1, cores_ / may()));
     }
     struct Turn {
       Pool& pool;
       ~Turn() {
         const std::lock_guard lock(pool.mutex_);
-        ++pool.may_prepare_;
-        pool.prepared_.notify_one();
+        --pool.preparing_, ++pool.prepared_;
+        pool.changed_.notify_all();
       }
     } const turn{*this};
     if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
@@ -162,11 +163,13 @@ class Pool {
 
   const std::vector<SceneJob>& jobs_;
   const ManyOptions& options_;
-  int workers_ = 1, threads_ = 1, beside_ = 1;
-  std::shared_future<DeviceList> usable_;
-  std::mutex mutex_;  // of what follows, and of the options' functions
-  std::condition_variable prepared_;
-  int may_prepare_ = 1;
+  const int cores_ = omp_get_max_threads();
+  int workers_ = 1, beside_ = 1;
+  int first_ = 1, at_a_time_ = 1;          // specimens that are made at a time
+  std::shared_future<DeviceList> usable_;  // known once devices are awake, while the first specimens are made
+  std::mutex mutex_;                       // of what follows, and of the options' functions
+  std::condition_variable changed_;
+  int preparing_ = 0, prepared_ = 0;
   std::size_t next_ = 0;
   std::map<int, int> running_;  // device: scenes
   std::exception_ptr thrown_;   // by an option's function
