@@ -259,7 +259,8 @@ class TileRunner {
     use_ = kernel_use("tiles on the chip", kernel, Threads, shared);
     run_ = [this, kernel](std::uint32_t steps) {
       team_.each([&](std::size_t m) {
-        launch_together("time steps", kernel, tiles(m), Threads, scene_.room, team_.stream(m), scene_of(m), steps,
+        const std::string what = "time steps on device " + std::to_string(team_.device(m));
+        launch_together(what.c_str(), kernel, tiles(m), Threads, scene_.room, team_.stream(m), scene_of(m), steps,
                         tag_);
       });
       team_.each([&](std::size_t m) { check_launch("time steps", team_.stream(m)); });
