@@ -37,6 +37,25 @@ def cpu():
                    f"{r['contacts']:.1f}", f"{r['share']:.2f}") for r in cpu_rows()])
 
 
+MORE_CORES = "bench-cpu-16-cores-2026-11-25.csv"
+
+
+@mark
+def more_cores_machine():
+    return head(MORE_CORES)[0]
+
+
+@mark
+def more_cores():
+    """Steps by more and more threads; geometry fixed."""
+    threads = (1, 2, 4, 8, 16)
+    lines = []
+    for precision in ("single", "mixed", "double"):
+        us_of = [one(rows(MORE_CORES), row=f"step/ac14_ss_am1/cpu/condensed/{precision}/fixed/threads:{n}")["us"] for n in threads]
+        lines.append((precision, *(f"{us / 1e3:.2f}" for us in us_of), f"{us_of[0] / us_of[-1]:.1f}"))
+    return table(["ms a step with so many threads", *map(str, threads), "one to sixteen"], lines)
+
+
 @mark
 def two_thread_shares():
     return span([r["share"] for r in cpu_rows() if r["threads"] == "2"], "{:.1f}", " to ")
@@ -161,6 +180,7 @@ def block_setting():
 # ---- rows of macadam bench
 
 BENCH = "bench-h200-2026-11-23.csv"
+AXES = "bench-h200-2026-11-25-axes.csv"
 TEAM = "team-h200-2026-11-23.csv"
 
 
@@ -188,13 +208,13 @@ def multiprocessors():
     numbers = (132, 84, 46, 28)
     lines = []
     for scene, label in (("ac14_ss_am1", "full specimen, mixed"), ("lattice:1e5", "lattice of 10⁵, mixed")):
-        found = [one(rows(BENCH), row=f"step/{scene}/cuda/condensed/mixed/fixed/multiprocessors:{n}") for n in numbers]
+        found = [one(rows(AXES), row=f"step/{scene}/cuda/condensed/mixed/fixed/multiprocessors:{n}") for n in numbers]
         lines.append((label, *(f"{us(r)}{'' if 'chip' in r['path'] else ' (streamed)'}" for r in found)))
     return table(["µs a step with so many multiprocessors", *map(str, numbers)], lines)
 
 
 CHIP = "bench-h200-2026-11-25-chip.csv"
-CHIP_BARS = {("ac14_ss_am1", "single"): "6.0", ("ac14_ss_am1", "mixed"): "6.3", ("ac14_ms_ico_fine", "single"): "22",
+CHIP_BARS = {("ac14_ss_am1", "mixed", "elastic"): "5.5", ("ac14_ss_am1", "single"): "6.0", ("ac14_ss_am1", "mixed"): "6.3", ("ac14_ms_ico_fine", "single"): "22",
              ("ac14_ms_ico_fine", "mixed"): "25", ("lattice:1e5", "single"): "50", ("lattice:1e5", "mixed"): "53",
              ("lattice:1e6", "single"): "560", ("lattice:1e6", "mixed"): "620"}
 
@@ -211,9 +231,11 @@ def chip_steps():
               **{f"lattice:1e{n}": f"lattice of 10{power}" for n, power in ((3, "³"), (5, "⁵"), (6, "⁶"))}}
     lines = []
     for r in rows(CHIP):
-        _, scene, *_, precision, geometry = r["row"].split("/")
-        bar = CHIP_BARS.get((scene, precision)) if geometry == "fixed" else None
-        lines.append((f"{scenes[scene]}, {precision}, geometry {geometry}", us(r), r["parts"], judged(bar, r)))
+        kind, scene, *_, precision, geometry = r["row"].split("/")
+        elastic = kind.startswith("elastic")
+        bar = CHIP_BARS.get((scene, precision, *["elastic"][:elastic])) if geometry == "fixed" else None
+        label = f"{scenes[scene]}, {precision}, geometry {geometry}" + (", all contacts elastic" if elastic else "")
+        lines.append((label, us(r), r["parts"], judged(bar, r)))
     return table(["step", "µs", "of which (µs)", "bar"], lines)
 
 

@@ -48,8 +48,7 @@ def team_huge():
     return f"{both / 1e3:.2f} ms, and of half of it on one {alone / 1e3:.2f} ms: {100 * alone / both:.0f} %"
 
 
-MANY = "many-h200-2026-11-23.csv"
-MANY_ON_TWO = "many-h100-2026-11-24.csv"
+MANY = "many-h100-2026-11-25.csv"
 
 
 @mark
@@ -58,16 +57,8 @@ def many_machine():
 
 
 @mark
-def many_seconds(scenes, at_once):
-    return f"{one(rows(MANY), scenes=int(scenes), at_once=int(at_once))['seconds']:.1f} s"
-
-
-@mark
-def many_on_two_machine():
-    return head(MANY_ON_TWO)[0]
-
-
-@mark
-def many_on_two():
-    alone, both = (max((r for r in rows(MANY_ON_TWO) if r["devices"] == n), key=lambda r: r["scenes"])["seconds"] for n in (1, 2))
-    return f"{alone:.0f} s on one GPU and {both:.0f} s on two: {alone / both:.1f} times as fast"
+def many(program):
+    """Of the program that was measured last, or first: `now`, `before`."""
+    commit = rows(MANY)[-1 if program == "now" else 0]["commit"]
+    alone, both = (one(rows(MANY), commit=commit, devices=n)["seconds"] for n in (1, 2))
+    return f"{alone:.0f} s on one GPU and {both:.0f} s on two" + (f", {alone / both:.1f} times as fast" if program == "now" else "")
