@@ -45,7 +45,7 @@ class CudaBodyArrays {
   /// All wait for them.
   void set_wall_rows(const std::vector<R>& rows) {
     team_.meet();
-    wall_rows_.put(rows, team_.stream());
+    wall_rows_.put(rows, team_);
     team_.meet();
   }
 

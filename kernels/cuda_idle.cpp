@@ -43,21 +43,25 @@ class Management {
   bool works_ = false;
 };
 
+/// Whether a call succeeded; an error is not left for others to find.
+bool good(cudaError_t status) {
+  if (status != cudaSuccess) cudaGetLastError();
+  return status == cudaSuccess;
+}
 bool can_reach(int from, int to) {
   int can = 0;
-  return cudaDeviceCanAccessPeer(&can, from, to) == cudaSuccess && can;
+  return good(cudaDeviceCanAccessPeer(&can, from, to)) && can;
 }
 
 }  // namespace
 
 bool cuda_idle_beside(int device, int first) {
   cudaDeviceProp a{}, b{};
-  if (cudaGetDeviceProperties(&a, device) != cudaSuccess || cudaGetDeviceProperties(&b, first) != cudaSuccess)
-    return false;
+  if (!good(cudaGetDeviceProperties(&a, device)) || !good(cudaGetDeviceProperties(&b, first))) return false;
   const bool alike = std::string(a.name) == b.name && a.multiProcessorCount == b.multiProcessorCount;
   char address[32];  // 0000:00:00.0
   return alike && can_reach(device, first) && can_reach(first, device) &&
-         cudaDeviceGetPCIBusId(address, sizeof address, device) == cudaSuccess && Management().is_idle(address);
+         good(cudaDeviceGetPCIBusId(address, sizeof address, device)) && Management().is_idle(address);
 }
 
 }  // namespace macadam::kernels

@@ -3,9 +3,10 @@
 ///
 /// The blocks of a launch of tiles on the chip wait for one another, and each has a multiprocessor to itself. Where two
 /// such launches each had some of the multiprocessors that they need, neither would end. So a specimen takes as many as
-/// it has tiles before it launches, and gives them back when its steps are done. The specimen that was there first goes
-/// first, so that it is done while others are still being prepared: specimens that took turns would all end at the same
-/// time, and the device would stand still until the next ones are there.
+/// it has tiles before it launches, and gives them back when its steps are done. Of those that
+/// wait, the specimen that was there first goes first: so the oldest two take turns, and are done while others are
+/// still being prepared. If all took turns, all would end at the same time, and the device would stand still until the
+/// next ones are there.
 #pragma once
 
 #include <condition_variable>
@@ -20,7 +21,7 @@ class DeviceRoom {
   /// Number of multiprocessors, by device.
   using Share = std::map<int, int>;
 
-  /// That of the next specimen.
+  /// The number of a specimen that is to be stepped: one more than that of the specimen before.
   static std::uint64_t next_number() {
     DeviceRoom& room = instance();
     const std::lock_guard lock(room.mutex_);
@@ -34,7 +35,7 @@ class DeviceRoom {
     room.waiting_[number] = wanted;
     room.changed_.wait(lock, [&] { return room.is_turn_of(number, of_device); });
     room.waiting_.erase(number);
-    for (const auto& [device, number] : wanted) room.taken_[device] += number;
+    for (const auto& [device, taken] : wanted) room.taken_[device] += taken;
     lock.unlock();
     room.changed_.notify_all();  // who is next may have room beside this one
   }

@@ -55,11 +55,14 @@ class DeviceTeam {
   template <class F>
   void each(F&& f) const {
     if (size() == 1) return f(std::size_t{0});
+    const struct Back {  // also after an error
+      const DeviceTeam& team;
+      ~Back() { team.use(0); }
+    } back{*this};
     for (std::size_t m = 0; m < size(); ++m) {
       use(m);
       f(m);
     }
-    use(0);
   }
 
   /// What any member queues from now on waits for all that the members have queued.
@@ -102,23 +105,42 @@ class DeviceTeam {
     }
     use(0);
   }
-  /// Until all that is queued is done. A failing kernel is reported here, though others wait for it for ever.
+  /// Until all that is queued is done. Every device is asked again and again: what one that fails should have done,
+  /// others may wait for in vain.
   void wait(const char* what) const {
     if (size() == 1) return check_cuda(cudaStreamSynchronize(stream()), what);
-    for (bool all = false; !all;) {
-      all = true;
-      each([&](std::size_t m) {
-        const cudaError_t status = cudaStreamQuery(member_[m].stream);
-        if (status == cudaErrorNotReady)
-          all = false;
-        else if (status != cudaSuccess)
-          throw RunError("CUDA: device " + std::to_string(device(m)) + ": " + what + ": " + cudaGetErrorString(status));
-      });
-      if (!all) std::this_thread::yield();
+    while (!at_rest(what)) std::this_thread::yield();
+  }
+  /// The same until an event has come.
+  void wait_for(cudaEvent_t event, const char* what) const {
+    if (size() == 1) return check_cuda(cudaEventSynchronize(event), what);
+    for (cudaError_t status = cudaErrorNotReady; status != cudaSuccess; status = cudaEventQuery(event)) {
+      if (status != cudaErrorNotReady) check_cuda(status, what);
+      at_rest(what);
+      std::this_thread::yield();
     }
+  }
+  /// Whether a device that has not failed still works.
+  bool works() const noexcept {
+    bool out = false;
+    each([&](std::size_t m) { out = out || cudaStreamQuery(member_[m].stream) == cudaErrorNotReady; });
+    return out;
   }
 
  private:
+  /// Whether all that is queued is done. \throws RunError naming a device that has failed.
+  bool at_rest(const char* what) const {
+    bool out = true;
+    each([&](std::size_t m) {
+      const cudaError_t status = cudaStreamQuery(member_[m].stream);
+      if (status == cudaErrorNotReady)
+        out = false;
+      else if (status != cudaSuccess)
+        throw RunError("CUDA: device " + std::to_string(device(m)) + ": " + what + ": " + cudaGetErrorString(status));
+    });
+    return out;
+  }
+
   struct Member {
     int device;
     cudaStream_t stream;

@@ -37,12 +37,12 @@ __device__ __forceinline__ void put_velocity(ulonglong2* to, const float (&y)[6]
   put_word(to, pair(__float_as_uint(y[0]), __float_as_uint(y[1])), pair(__float_as_uint(y[2]), tag));
   put_word(to + 1, pair(__float_as_uint(y[3]), __float_as_uint(y[4])), pair(__float_as_uint(y[5]), tag));
 }
-/// Whether a word bears the tag or, as a release does, one far behind it.
+/// Whether a word bears the tag or a later one, as a release does.
 __device__ __forceinline__ bool has_come(const ulonglong2& word, std::uint32_t tag) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(word.y >> 32) - tag) >= 0;
 }
-/// What takes the place of all words where no more of them will come: every reader goes on, with numbers that mean
-/// nothing. `tag`: of a step that is being taken, or was the last.
+/// The tag of words that take the place of all others where no more of these will come: every reader goes on, with
+/// numbers that mean nothing. `tag`: of the next step.
 constexpr std::uint32_t release_of(std::uint32_t tag) { return tag + (1u << 30); }
 /// The three numbers of a word.
 __device__ __forceinline__ float4 numbers_of(const ulonglong2& word) {

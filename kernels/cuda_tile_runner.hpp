@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <functional>
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include "kernels/cuda_part_clock.hpp"
@@ -103,6 +105,7 @@ class TileRunner {
     if (std::exchange(released_, false)) {  // else words stay as they are: tags go on
       clear(scene_.even, words_of_exchange());
       clear(scene_.odd, words_of_exchange());
+      tag_ = 1;
     }
     team_.meet();
     settling_.run(settling_starts, block_, settled());
@@ -149,9 +152,8 @@ class TileRunner {
     try {
       const auto tag = static_cast<unsigned long long>(release_of(tag_)) << 32;
       const std::vector<ulonglong2> words(words_of_exchange(), {0, tag});
-      const std::size_t bytes = words.size() * sizeof words[0];
-      copy_now(scene_.even, words.data(), bytes, "release");  // no multiprocessor is free for a kernel
-      copy_now(scene_.odd, words.data(), bytes, "release");
+      // Again and again: tiles that still run write words of their own.
+      while (team_.works() && write_on_any(words)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     } catch (const std::exception&) {  // the first error is the one to tell
     }
   }
@@ -168,12 +170,7 @@ class TileRunner {
     for (std::int64_t done = 0; done < steps;) {
       if (schedule_.is_due()) settle(schedule_.next(first + done));
       const auto n = static_cast<std::uint32_t>(std::min(schedule_.left(), steps - done));
-      try {
-        run_(n);
-      } catch (...) {  // some devices may have begun
-        release();
-        throw;
-      }
+      run_(n);
       parts_.end_of(resident_ ? "tiles on the chip" : "tiles streamed", team_.stream());
       scene_.motion.wall.table += n * scene_.motion.wall.row_words();
       tag_ += n;
@@ -263,7 +260,8 @@ class TileRunner {
         launch_together(what.c_str(), kernel, tiles(m), Threads, scene_.room, team_.stream(m), scene_of(m), steps,
                         tag_);
       });
-      team_.each([&](std::size_t m) { check_launch("time steps", team_.stream(m)); });
+      check_cuda(cudaGetLastError(), "time steps");
+      if (waits_for_launches()) team_.wait("time steps");
     };
     return true;
   }
@@ -301,6 +299,20 @@ class TileRunner {
       out[cuts_.tile(m)] = true;
     }
     return out;
+  }
+  /// Puts these words in the place of all of the exchange, by any device that can. Copies, as no multiprocessor is free
+  /// for a kernel.
+  bool write_on_any(const std::vector<ulonglong2>& words) {
+    bool done = false;
+    team_.each([&](std::size_t) {
+      if (done) return;
+      try {
+        copy_now(scene_.even, words.data(), words.size() * sizeof words[0], "release");
+        copy_now(scene_.odd, words.data(), words.size() * sizeof words[0], "release");
+        done = true;
+      } catch (const RunError&) { cudaGetLastError(); }  // this device has failed
+    });
+    return done;
   }
   std::size_t words_of_exchange() const { return 2 * (std::size_t{scene_.places} + walls); }
   std::size_t tiles(std::size_t m) const { return cuts_.tile(m + 1) - cuts_.tile(m); }

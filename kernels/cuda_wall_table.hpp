@@ -5,7 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "kernels/cuda_array.hpp"
+#include "kernels/cuda_team.hpp"
 
 namespace macadam::kernels {
 
@@ -34,15 +34,15 @@ class WallRowsOnDevice {
   /// On the device.
   std::size_t bytes() const { return table_.bytes(); }
 
-  /// Queues the rows behind all that the stream has.
-  void put(const std::vector<R>& rows, cudaStream_t stream) {
+  /// Queues the rows behind all that the stream of the team's first device has.
+  void put(const std::vector<R>& rows, const DeviceTeam& team) {
     if (rows.empty()) return;
     Buffer& b = buffers_[next_ ^= 1];
-    check_cuda(cudaEventSynchronize(b.copied), "walls' table");
+    team.wait_for(b.copied, "walls' table");
     const std::size_t bytes = rows.size() * sizeof(R);
     std::memcpy(b.values, rows.data(), bytes);
-    check_cuda(cudaMemcpyAsync(table_.data(), b.values, bytes, cudaMemcpyHostToDevice, stream), "walls' table");
-    check_cuda(cudaEventRecord(b.copied, stream), "walls' table");
+    check_cuda(cudaMemcpyAsync(table_.data(), b.values, bytes, cudaMemcpyHostToDevice, team.stream()), "walls' table");
+    check_cuda(cudaEventRecord(b.copied, team.stream()), "walls' table");
   }
 
  private:

@@ -80,17 +80,18 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     tiles_.add_states(this->states_);
   }
 
-  void run(std::int64_t first, std::int64_t steps) { tiles_.run(first, steps); }
+  void set_wall_rows(const std::vector<R>& rows) {
+    noticed([&] { Base::set_wall_rows(rows); });
+  }
+  void run(std::int64_t first, std::int64_t steps) {
+    noticed([&] { tiles_.run(first, steps); });
+  }
   void wait() {
-    try {
-      Base::wait();
-    } catch (...) {
-      tiles_.release();
-      throw;
-    }
+    noticed([&] { Base::wait(); });
     tiles_.leave_room();
   }
   void end_steps() noexcept {
+    if (std::exchange(failed_, false)) tiles_.release();
     Base::end_steps();
     tiles_.leave_room();
   }
@@ -118,7 +119,19 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   std::int64_t bytes() const { return this->held_bytes() + tiles_.bytes(); }
 
  private:
+  /// f(), whose errors are those of a device.
+  template <class F>
+  void noticed(F&& f) {
+    try {
+      f();
+    } catch (...) {
+      failed_ = true;
+      throw;
+    }
+  }
+
   double dt_ = 0;
+  bool failed_ = false;
   TileRunner<P, AnyLaw> tiles_;
 };
 

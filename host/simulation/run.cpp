@@ -13,6 +13,7 @@
 #include "host/simulation/checkpoints.hpp"
 #include "host/simulation/phases.hpp"
 #include "host/simulation/preparation_files.hpp"
+#include "host/simulation/run_scene.hpp"
 #include "host/simulation/sparing_save.hpp"
 #include "host/simulation/solution.hpp"
 #include "host/simulation/summary.hpp"
@@ -98,7 +99,7 @@ std::string status_of(const std::exception& error) {
 /// The backend that runs. A device takes a third of a second to wake: it does so while the specimen is made.
 class FoundBackend {
  public:
-  /// \throws as select_backend(), but for a device that is there and refuses.
+  /// \throws as select_backend(), before any work; but what a device that is there refuses is known later.
   explicit FoundBackend(const SolverSpec& solver) {
     const auto select = [&solver] { return select_backend(solver.backend, nullptr, solver.devices); };
     const bool may_wake = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
@@ -118,14 +119,22 @@ class FoundBackend {
   std::future<Backend> waking_;
 };
 
-/// `given`: none, or what need not be made anew.
-RunResult run_of(Scene scene, const Preparation* given, const std::filesystem::path& out, const Watcher& watcher,
-                 bool resume) {
+/// Names the devices where nobody did. Returns a sentence where these are several.
+std::string place(SolverSpec& solver, std::size_t contacts, bool stepped) {
+  std::string decision;
+  if (stepped && solver.devices.empty()) solver.devices = choose_devices(contacts, decision);
+  return decision;
+}
+
+}  // namespace
+
+RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher& watcher, bool resume,
+                    const RunParts& parts, const Preparation* given) {
   require_backend_fits(scene);
   RunResult result;
   std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
-  FoundBackend backend(scene.solver);  // before any work: it may not be there
+  FoundBackend backend(scene.solver);
   result.backend = given || resume ? backend.get() : backend.expected();
   require_checkpoints(scene, result.backend, resume);
   const ResultFolder folder(out);
@@ -143,7 +152,7 @@ RunResult run_of(Scene scene, const Preparation* given, const std::filesystem::p
   if (given)
     require_laws(scene, given->specimen, given->network);
   else
-    made = prepare(scene, watcher.progress);
+    made = parts.prepare ? parts.prepare(scene, watcher.progress) : prepare(scene, watcher.progress);
   const Preparation& prepared = given ? *given : *made;
   {
     const InPhase waiting(result.phases, &PhaseSeconds::start);
@@ -159,8 +168,10 @@ RunResult run_of(Scene scene, const Preparation* given, const std::filesystem::p
   }
   if (watcher.prepared) watcher.prepared(prepared);
   std::string devices_decision;
-  if (stepped && result.backend == Backend::cuda && scene.solver.devices.empty())
-    scene.solver.devices = choose_devices(prepared.network.contacts.size(), devices_decision);
+  if (result.backend == Backend::cuda && parts.place)
+    parts.place(scene.solver);
+  else if (result.backend == Backend::cuda)
+    devices_decision = place(scene.solver, prepared.network.contacts.size(), stepped);
 
   const Saving save = [&](const std::string& status) {
     const InPhase writing(result.phases, &PhaseSeconds::writing);
@@ -206,15 +217,13 @@ RunResult run_of(Scene scene, const Preparation* given, const std::filesystem::p
   return result;
 }
 
-}  // namespace
-
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher, bool resume) {
-  return run_of(scene, nullptr, out, watcher, resume);
+  return run_scene(scene, out, watcher, resume, {});
 }
 
 RunResult run(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out, const Watcher& watcher,
               bool resume) {
-  return run_of(scene, &prepared, out, watcher, resume);
+  return run_scene(scene, out, watcher, resume, {}, &prepared);
 }
 
 }  // namespace macadam

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "host/simulation/checkpoints.hpp"
+#include "host/simulation/run_scene.hpp"
 #include "host/stepping/cuda_code.hpp"
 #include "macadam/error.hpp"
 
@@ -92,17 +93,20 @@ class Pool {
       }
       JobOutcome& outcome = outcomes_[job];
       std::optional<int> device;
+      RunParts parts;
+      parts.prepare = [this](const Scene& scene, const Progress& progress) { return prepare_in_turn(scene, progress); };
+      parts.place = [&](SolverSpec& solver) {
+        device = take_device(solver);
+        solver.devices = {*device}, solver.side_by_side = beside_;
+      };
       try {
-        Scene scene = jobs_[job].scene;
-        const Watcher watcher = watcher_of(job);
-        const Preparation prepared = prepare_in_turn(scene, watcher);
-        device = take_device(scene.solver);
-        if (device) scene.solver.devices = {*device}, scene.solver.side_by_side = beside_;
-        const bool resume = options_.resume && has_checkpoint(jobs_[job].out);
-        outcome.result = macadam::run(scene, prepared, jobs_[job].out, watcher, resume);
+        if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
+        const SceneJob& asked = jobs_[job];
+        const bool resume = options_.resume && has_checkpoint(asked.out);
+        outcome.result = run_scene(asked.scene, asked.out, watcher_of(job), resume, parts);
       } catch (...) { outcome.error = std::current_exception(); }
       const std::lock_guard lock(mutex_);
-      if (device) --running_[*device];
+      if (device) --running_[*device], changed_.notify_all();
       try {
         if (options_.done) options_.done(job, outcome);
       } catch (...) { thrown_ = std::current_exception(); }
@@ -111,7 +115,7 @@ class Pool {
 
   /// A specimen for each device comes first, made by all cores, so that no device waits long; later two for a device
   /// are made at a time, which takes less time than one after the other.
-  Preparation prepare_in_turn(const Scene& scene, const Watcher& watcher) {
+  Preparation prepare_in_turn(const Scene& scene, const Progress& progress) {
     const auto may = [this] { return prepared_ < first_ ? first_ : at_a_time_; };
     {
       std::unique_lock lock(mutex_);
@@ -122,23 +126,26 @@ class Pool {
     struct Turn {
       Pool& pool;
       ~Turn() {
+        omp_set_num_threads(std::max(1, pool.cores_ / pool.workers_));
         const std::lock_guard lock(pool.mutex_);
         --pool.preparing_, ++pool.prepared_;
         pool.changed_.notify_all();
       }
     } const turn{*this};
     if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
-    return prepare(scene, watcher.progress);
+    return prepare(scene, progress);
   }
 
-  /// None where the processor runs the scene.
-  std::optional<int> take_device(const SolverSpec& solver) {
-    if (select_backend(solver.backend, nullptr, solver.devices) != Backend::cuda) return {};
+  /// Of those that are meant and answer, the one that runs the fewest; waits where all have as many as they may.
+  int take_device(const SolverSpec& solver) {
     DeviceList meant = solver.devices.empty() ? usable_.get() : device_numbers(solver.devices);
     if (const DeviceList answer = usable(meant); !answer.empty()) meant = answer;
-    const std::lock_guard lock(mutex_);
-    const int least =
-        *std::min_element(meant.begin(), meant.end(), [&](int a, int b) { return running_[a] < running_[b]; });
+    std::unique_lock lock(mutex_);
+    int least = 0;
+    changed_.wait(lock, [&] {
+      least = *std::min_element(meant.begin(), meant.end(), [&](int a, int b) { return running_[a] < running_[b]; });
+      return running_[least] < beside_;
+    });
     ++running_[least];
     return least;
   }

@@ -35,7 +35,11 @@ DeviceList choose_devices(std::size_t contacts, const std::vector<DeviceInfo>& d
 
 DeviceList choose_devices(std::size_t contacts, std::string& decision) {
   const kernels::CudaCode* code = cuda_code();
-  return code ? choose_devices(contacts, report_backends().devices, code->idle_beside, decision) : DeviceList{};
+  if (!code) return {};
+  const auto idle_beside = [&](int device, int first) {
+    return code->idle_beside(device, first) && code->refusal(device).empty();
+  };
+  return choose_devices(contacts, report_backends().devices, idle_beside, decision);
 }
 
 }  // namespace macadam

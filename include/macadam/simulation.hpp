@@ -41,7 +41,7 @@ struct Skip {
 
 /// Wall time of a run's phases in this process [s], beside those of its Preparation: each moment is in one of them.
 struct PhaseSeconds {
-  double start = 0;           ///< before preparing: a device is found, a checkpoint is read
+  double start = 0;           ///< a device is found and waited for, a checkpoint is read
   double planning = 0;        ///< explicit: critical step and settings
   double preconditioner = 0;  ///< of the harmonic solutions, or their factors
   double harmonic = 0;        ///< harmonic solutions: for the plan, for the start, or those that are the result
