@@ -119,13 +119,6 @@ class FoundBackend {
   std::future<Backend> waking_;
 };
 
-/// Names the devices where nobody did. Returns a sentence where these are several.
-std::string place(SolverSpec& solver, std::size_t contacts, bool stepped) {
-  std::string decision;
-  if (stepped && solver.devices.empty()) solver.devices = choose_devices(contacts, decision);
-  return decision;
-}
-
 }  // namespace
 
 RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher& watcher, bool resume,
@@ -168,10 +161,12 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   }
   if (watcher.prepared) watcher.prepared(prepared);
   std::string devices_decision;
-  if (result.backend == Backend::cuda && parts.place)
-    parts.place(scene.solver);
-  else if (result.backend == Backend::cuda)
-    devices_decision = place(scene.solver, prepared.network.contacts.size(), stepped);
+  if (result.backend == Backend::cuda) {
+    if (parts.place)
+      parts.place(scene.solver);
+    else if (stepped && scene.solver.devices.empty())
+      scene.solver.devices = choose_devices(prepared.network.contacts.size(), devices_decision);
+  }
 
   const Saving save = [&](const std::string& status) {
     const InPhase writing(result.phases, &PhaseSeconds::writing);

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int at_once_on_a_device = 4;
 /// While a device steps one specimen, so many are made, by all cores. More at a time would all be there late; one after
-/// the other they take longer than their steps (30.5 s for twenty on two H100, 27.2 s with two at a time).
+/// the other they can take longer than their steps (bench/results/many-h100-2026-11-25.csv).
 constexpr int prepared_for_a_device = 2;
 
 /// Of devices, those that answer: one that does not would fail a scene after the other.
@@ -138,8 +138,8 @@ class Pool {
 
   /// Of those that are meant and answer, the one that runs the fewest; waits where all have as many as they may.
   int take_device(const SolverSpec& solver) {
-    DeviceList meant = solver.devices.empty() ? usable_.get() : device_numbers(solver.devices);
-    if (const DeviceList answer = usable(meant); !answer.empty()) meant = answer;
+    DeviceList meant = solver.devices.empty() ? usable_.get() : usable(device_numbers(solver.devices));
+    if (meant.empty()) meant = device_numbers(solver.devices);  // making the stepper says why it cannot
     std::unique_lock lock(mutex_);
     int least = 0;
     changed_.wait(lock, [&] {

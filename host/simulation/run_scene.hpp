@@ -9,7 +9,8 @@ namespace macadam {
 struct RunParts {
   /// Makes particles and contacts; prepare() where there is none.
   std::function<Preparation(const Scene& scene, const Progress& progress)> prepare;
-  /// Names the devices that step, where the backend is cuda and all is prepared; choose_devices() where there is none.
+  /// Names the devices, where the backend is cuda and all is prepared; where there is none, choose_devices() does, for
+  /// steps.
   std::function<void(SolverSpec& solver)> place;
 };
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/devices.md: one specimen on several GPUs, several specimens on one or more."""
-from pages.data import head, one, rows, table
+from pages.data import head, one, rows, span, table
 from pages.marks import mark
 
 DOCUMENT = "docs/devices.md"
@@ -56,9 +56,29 @@ def many_machine():
     return head(MANY)[0]
 
 
+def many_rows():
+    """Times by number of GPUs: of the program before, as it is now, and what was tried beside."""
+    out = {}
+    for r in rows(MANY):
+        out.setdefault(r["how"], {})[r["devices"]] = r["seconds"]
+    return out
+
+
 @mark
-def many(program):
-    """Of the program that was measured last, or first: `now`, `before`."""
-    commit = rows(MANY)[-1 if program == "now" else 0]["commit"]
-    alone, both = (one(rows(MANY), commit=commit, devices=n)["seconds"] for n in (1, 2))
-    return f"{alone:.0f} s on one GPU and {both:.0f} s on two" + (f", {alone / both:.1f} times as fast" if program == "now" else "")
+def many(which):
+    """`turns`: the program before; `two`: as it is now."""
+    found = next(times for how, times in many_rows().items() if which in how.split())
+    return f"{found[1]:.0f} s on one GPU and {found[2]:.0f} s on two"
+
+
+@mark
+def many_factors():
+    """Of two GPUs to one, of all but the program before."""
+    return span([t[1] / t[2] for t in list(many_rows().values())[1:] if 1 in t], "{:.2f}", " to ")
+
+
+@mark
+def many_worst():
+    others = list(many_rows().values())[1:]
+    one_gpu, two = (max(t[n] for t in others if n in t) for n in (1, 2))
+    return f"{one_gpu:.0f} s and {two:.0f} s"
