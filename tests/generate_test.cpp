@@ -12,6 +12,7 @@
 #include <limits>
 #include <numbers>
 
+#include "host/specimen/generate.hpp"
 #include "host/specimen/mastic.hpp"
 #include "host/specimen/placement.hpp"
 #include "host/spheres/relaxation.hpp"
@@ -97,6 +98,26 @@ TEST(Generate, SameBitsForAnyNumberOfThreads) {
     }
   }
   omp_set_num_threads(threads);
+}
+
+/// The generator tessellates to see that no sphere is hidden; nobody does it a second time.
+TEST(Generate, HandsOnTheCellsOfTheSpecimenAsItIs) {
+  const auto same = [](const Facet& a, const Facet& b) {
+    return a.a == b.a && a.b == b.b && a.area == b.area && norm(a.centroid - b.centroid) == 0;
+  };
+  for (const bool fix : {true, false}) {
+    SpecimenSpec spec = small_mix();
+    spec.fix_aggregates = fix;
+    const GeneratedCells generated = generate_with_cells(spec, {});
+    const Tessellation again = tessellate(generated.made.specimen);
+    ASSERT_TRUE(generated.tessellation);
+    EXPECT_TRUE(std::ranges::equal(generated.tessellation->facets, again.facets, same));
+    EXPECT_EQ(generated.tessellation->cell_volume, again.cell_volume);
+    EXPECT_GT(generated.seconds_tessellation, 0);
+  }
+  SpecimenSpec with_voids = small_mix();
+  with_voids.voids = VoidSpec{0.0006, 0.0012, 0.02, {}};
+  EXPECT_FALSE(generate_with_cells(with_voids, {}).tessellation);
 }
 
 TEST(Generate, AggregatesAreInsideAndClearOfEachOther) {

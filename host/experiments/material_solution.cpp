@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <tuple>
 
 #include "host/experiments/material_files.hpp"
 #include "host/harmonic/law_stiffness.hpp"
+#include "host/seconds_of.hpp"
 #include "host/simulation/harmonic_options.hpp"
 #include "host/simulation/phases.hpp"
 #include "macadam/error.hpp"
@@ -60,15 +60,15 @@ class MaterialSolution : public Solution {
             std::min(1.0, std::log(error) / std::log(options_.tolerance)));
       }
     };
-    const auto start = std::chrono::steady_clock::now();
     Material material;
-    try {
-      const InPhase in(result.phases, &PhaseSeconds::harmonic);
-      material.spectrum = spectrum_of(prepared_.specimen, prepared_.network, scene_.laws, options_);
-    } catch (const InterruptedError&) {
-      throw InterruptedError("interrupted between solutions of the spectrum, which keeps no checkpoints");
-    }
-    material.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    material.seconds = seconds_of([&] {
+      try {
+        const InPhase in(result.phases, &PhaseSeconds::harmonic);
+        material.spectrum = spectrum_of(prepared_.specimen, prepared_.network, scene_.laws, options_);
+      } catch (const InterruptedError&) {
+        throw InterruptedError("interrupted between solutions of the spectrum, which keeps no checkpoints");
+      }
+    });
     material.shortest_s = options_.shortest, material.longest_s = options_.longest;
     material.confined = scene_.network.lateral_walls;
     material.relaxation =

@@ -110,6 +110,7 @@ std::string text_in(const std::string& name, const Values& values, Room& room) {
     values.read(values.getStrType(), out);
   else
     values.read(out, values.getStrType());
+  out.resize(std::min(out.size(), out.find('\0')));  // HDF5 1.14 leaves the zeros of a text's end
   return out;
 }
 

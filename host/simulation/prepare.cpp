@@ -1,27 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // prepare.cpp  Scene → specimen → tessellation → contact network.
-#include <chrono>
 #include <system_error>
 
 #include "host/fields/field_output.hpp"
 #include "host/network/clusters.hpp"
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
+#include "host/seconds_of.hpp"
 #include "host/simulation/preparation_files.hpp"
 #include "host/simulation/summary.hpp"
+#include "host/specimen/generate.hpp"
 #include "macadam/error.hpp"
 #include "macadam/simulation.hpp"
 
 namespace macadam {
 namespace {
-
-/// Seconds that f takes.
-template <class F>
-double timed(F&& f) {
-  const auto start = std::chrono::steady_clock::now();
-  f();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 bool is_in(const std::filesystem::path& file, const std::filesystem::path& folder) {
   std::error_code error;
@@ -41,12 +34,15 @@ void remove_older(const std::filesystem::path& file) {
   if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);
 }
 
-/// Cells and contacts of particles that are there.
-void divide(const Scene& scene, const Progress& progress, Preparation& out) {
+void make_cells(const Progress& progress, Preparation& out) {
   if (progress) progress("tessellation", 0);
-  out.seconds_tessellation = timed([&] { out.tessellation = tessellate(out.specimen); });
+  out.seconds_tessellation = seconds_of([&] { out.tessellation = tessellate(out.specimen); });
+}
+
+/// Contacts of particles whose cells are there.
+void make_contacts(const Scene& scene, const Progress& progress, Preparation& out) {
   if (progress) progress("contact network", 0);
-  out.seconds_network = timed([&] {
+  out.seconds_network = seconds_of([&] {
     out.network = build_network(out.specimen, out.tessellation, scene.network);
     require_laws(scene, out.specimen, out.network);
     for (const Cluster& cluster : find_clusters(out.network, out.specimen.size())) {
@@ -70,19 +66,28 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
   auto report = [&](const char* stage, double share) {
     if (progress) progress(stage, share);
   };
-  out.seconds_specimen = timed([&] {
+  std::optional<Tessellation> cells;
+  out.seconds_specimen = seconds_of([&] {
     if (scene.specimen.file) {
       report("reading the specimen", 0);
       out.specimen = read_specimen_csv(*scene.specimen.file, scene.specimen.box);
     } else {
-      GeneratedSpecimen made = generate_specimen(scene.specimen, report);
-      out.specimen = std::move(made.specimen);
-      out.composition = std::move(made.composition);
-      out.aggregates = std::move(made.aggregates);
-      out.relaxation_iterations = made.relaxation_iterations;
+      GeneratedCells generated = generate_with_cells(scene.specimen, report);
+      out.specimen = std::move(generated.made.specimen);
+      out.composition = std::move(generated.made.composition);
+      out.aggregates = std::move(generated.made.aggregates);
+      out.relaxation_iterations = generated.made.relaxation_iterations;
+      cells = std::move(generated.tessellation);
+      out.seconds_tessellation = generated.seconds_tessellation;
     }
   });
-  divide(scene, progress, out);
+  if (cells) {
+    out.tessellation = std::move(*cells);
+    out.seconds_specimen -= out.seconds_tessellation;
+  } else {
+    make_cells(progress, out);
+  }
+  make_contacts(scene, progress, out);
   return out;
 }
 
@@ -90,7 +95,8 @@ Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progr
   Preparation out;
   validate(specimen, specimen.source);
   out.specimen = std::move(specimen);
-  divide(scene, progress, out);
+  make_cells(progress, out);
+  make_contacts(scene, progress, out);
   return out;
 }
 

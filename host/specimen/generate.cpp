@@ -5,6 +5,7 @@
 #include <string>
 
 #include "host/specimen/composition.hpp"
+#include "host/specimen/generate.hpp"
 #include "host/specimen/mastic.hpp"
 #include "host/specimen/placement.hpp"
 #include "host/specimen/shaped_aggregates.hpp"
@@ -102,8 +103,8 @@ Placed with_shapes(const SpecimenSpec& spec, GeneratedSpecimen& result, Enclosur
 
 }  // namespace
 
-GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
-                                    const std::function<void(const char* stage, double share)>& progress) {
+GeneratedCells generate_with_cells(const SpecimenSpec& spec,
+                                   const std::function<void(const char* stage, double share)>& progress) {
   if (spec.file)
     throw InputError(spec.source, spec.line, "recipe", "the file " + spec.file->string(), "no file to generate");
   if (!(spec.spacing >= 0 && std::isfinite(spec.spacing)))
@@ -114,7 +115,8 @@ GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
     };
   };
 
-  GeneratedSpecimen result;
+  GeneratedCells cells;
+  GeneratedSpecimen& result = cells.made;
   Specimen& specimen = result.specimen;
   specimen.box = spec.box;
   specimen.source = spec.line > 0 ? "specimen generated from " + spec.source : "generated specimen";
@@ -125,15 +127,25 @@ GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
   auto [placement, first_void, end_of_voids] = spec.shapes ? with_shapes(spec, result, wall, progress)
                                                            : with_spheres(spec, result, report("placing aggregates"));
 
-  result.relaxation_iterations =
+  SettledMastic settled =
       settle_mastic(specimen, placement, spec.fix_aggregates, Origin(spec), wall, report("relaxing mastic"));
+  result.relaxation_iterations = settled.iterations;
+  if (first_void == end_of_voids) {
+    cells.tessellation = std::move(settled.tessellation);
+    cells.seconds_tessellation = settled.seconds_tessellation;
+  }
   if (!spec.fix_aggregates) {
     for (Aggregate& a : result.aggregates) a.centre = specimen.centre[static_cast<std::size_t>(a.body)];
     result.residual_overlap = largest_aggregate_overlap(specimen);
   }
   part_voids(first_void, end_of_voids, specimen);
   validate(specimen, specimen.source);
-  return result;
+  return cells;
+}
+
+GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
+                                    const std::function<void(const char* stage, double share)>& progress) {
+  return generate_with_cells(spec, progress).made;
 }
 
 }  // namespace macadam

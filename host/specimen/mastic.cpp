@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "host/seconds_of.hpp"
 #include "host/spheres/relaxation.hpp"
 #include "macadam/error.hpp"
 
@@ -30,17 +31,16 @@ void reinsert(const std::vector<std::int32_t>& hidden, Specimen& specimen, Place
 
 }  // namespace
 
-int settle_mastic(Specimen& specimen, Placement& placement, bool fix_aggregates, const Origin& origin,
-                  const Enclosure& wall, const std::function<void(double share)>& progress) {
-  int iterations = 0;
-  std::vector<std::int32_t> hidden;
+SettledMastic settle_mastic(Specimen& specimen, Placement& placement, bool fix_aggregates, const Origin& origin,
+                            const Enclosure& wall, const std::function<void(double share)>& progress) {
+  SettledMastic out;
   for (int round = 0; round < most_rounds; ++round) {
-    reinsert(hidden, specimen, placement);
-    iterations += relax(specimen, fix_aggregates, progress, wall);
-    hidden = particles_without_cell(specimen);
-    if (hidden.empty()) return iterations;
+    reinsert(out.tessellation.hidden, specimen, placement);
+    out.iterations += relax(specimen, fix_aggregates, progress, wall);
+    out.seconds_tessellation = seconds_of([&] { out.tessellation = tessellate(specimen); });
+    if (out.tessellation.hidden.empty()) return out;
   }
-  give_up(origin, hidden);
+  give_up(origin, out.tessellation.hidden);
 }
 
 void part_voids(std::size_t first, std::size_t end, Specimen& specimen) {

@@ -17,6 +17,7 @@ constexpr int most_levels = 40;           // of sizes, each twice the one before
 constexpr std::size_t block = 64;         // rows listed at once
 constexpr std::size_t ranked_up_to = 64;  // keys that are sorted faster by counting those before each
 constexpr std::size_t few = 24;           // one in so many may stray before all are listed again
+constexpr std::size_t worth_waking = 16;  // threads for: rows of so many strayed spheres
 constexpr std::uint32_t spare = 2;        // room in a row for those that come near later
 
 double largest(std::span<const Ball> spheres) {
@@ -191,12 +192,27 @@ void Neighbours::relist(std::span<const std::int32_t> strayed) {
     listed_at_[i - first_] = spheres_[i].centre;
     moving_[bins_of_[i - first_]].move(i, spheres_[i].centre);
   }
-  Buffer buffer;
-  for (std::int32_t i : strayed) {
-    find_all(i, buffer);
-    set(i, buffer);
-    for (std::int32_t j : of(static_cast<std::size_t>(i)))
+  const auto block_of = [&](std::int32_t i) { return (static_cast<std::size_t>(i) - first_) / block; };
+  std::vector<std::size_t> begin;  // of those of one block, whose rows share memory: a thread sets them all
+  for (std::size_t k = 0; k < strayed.size(); ++k)
+    if (k == 0 || block_of(strayed[k]) != block_of(strayed[k - 1])) begin.push_back(k);
+  begin.push_back(strayed.size());
+  for_each_in_parallel(
+      begin.size() - 1,
+      [&](std::size_t b) {
+        Buffer buffer;
+        for (std::size_t k = begin[b]; k < begin[b + 1]; ++k) {
+          find_all(strayed[k], buffer);
+          set(strayed[k], buffer);
+        }
+      },
+      strayed.size() >= worth_waking);
+  for (const std::int32_t i : strayed) {
+    const Row& row = row_[i - first_];
+    for (std::uint32_t k = 0; k < row.size; ++k) {
+      const std::int32_t j = list_[row.block][row.begin + k];  // each time: add() may move the block's memory
       if (static_cast<std::size_t>(j) >= first_) add(j, i);
+    }
   }
 }
 

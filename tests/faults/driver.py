@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Calls of NVIDIA's driver that fail: memory, launches, waits, copies, and a device that is lost."""
+"""Calls of NVIDIA's driver that fail: memory, launches, waits, copies; kernels that die, and a device that is lost."""
 import ctypes
 import re
 import shutil
@@ -25,7 +25,7 @@ def harmonic(setting):
 
 
 def faults(setting, name, arguments, *solver):
-    """Each call of the driver fails once; and from a launch on, all do. `solver`: what is to run, in words of the program."""
+    """Each call of the driver fails once; each kernel dies once; and from a launch on, all calls fail. `solver`: what is to run, in words of the program."""
     library = setting.preloaded("driver_faults", "-Wl,-soname,libcuda.so.1")
     whole = setting.clear("whole")
     outcome = setting.run(command(whole, arguments))
@@ -37,6 +37,9 @@ def faults(setting, name, arguments, *solver):
     for kind in KINDS:
         for at in setting.sample(range(1, counts[kind] + 1), 10, long=120 if kind != "memory" else None):
             trial(setting, library, f"{name}, {kind} {at}", arguments, kind, at, expected)
+    for kind, dies in (("launch", "dies"), ("together", "dies-together")):
+        for at in setting.sample(range(1, counts[kind] + 1), 5, long=40):
+            trial(setting, library, f"{name}, {dies} at launch {at}", arguments, dies, at, expected)
     for at in setting.sample(range(1, counts["launch"] + 1), 5, long=40):
         trial(setting, library, f"{name}, lost at launch {at}", arguments, "lost", at, expected)
 

@@ -5,7 +5,8 @@
 // and puts between one that counts its calls, and does not make the one that is to fail. Environment:
 //   FAULT_DRIVER  the driver itself, a path
 //   FAULT_KIND    memory, launch, together (launches whose blocks wait for one another), wait, copy, other; lost: from a launch on,
-//                 every call fails
+//                 every call fails; dies, dies-together: a launch is made, but with nonsense in place of all pointers and numbers,
+//                 so that the kernel dies while it runs
 //   FAULT_AT      number of the call of this kind that fails, from 1 on; 0: none, they are counted only
 //   FAULT_REPORT  file that receives `hit FUNCTION` when a call fails; and in the end, where none did, `count KIND N`
 #define _GNU_SOURCE
@@ -34,7 +35,7 @@ static int kind_of[most_functions];
 static atomic_int functions;
 static atomic_long counted[kinds];
 static atomic_int hit;
-static int kind = -1, losing;
+static int kind = -1, losing, dying;
 static long at;
 static const char* report;
 
@@ -49,6 +50,18 @@ static int code_of(int which) {
   return which == memory ? out_of_memory : which == launch || which == together ? launch_out_of_resources : which == other ? device_unavailable : launch_failed;
 }
 
+// No pointer has such an address, on any machine with 64 bits.
+static int launched_with_nonsense(int function, TAKEN) {
+  enum { most_parameters = 64 };
+  static char nonsense[32768];  // CUDA's limit of all that a kernel takes
+  static void* parameters[most_parameters];
+  memset(nonsense, 0x5a, sizeof nonsense);
+  for (int x = 0; x < most_parameters; ++x) parameters[x] = nonsense;
+  if (strstr(names[function], "LaunchKernelEx")) c = (W)parameters;
+  else j = (W)parameters;
+  return real[function](GIVEN);
+}
+
 static int pass(int function, TAKEN) {
   const int which = kind_of[function];
   const long number = ++counted[which];
@@ -56,6 +69,7 @@ static int pass(int function, TAKEN) {
   if (which == kind && number == at) {
     hit = 1;
     say("hit", names[function], -1);
+    if (dying) return launched_with_nonsense(function, GIVEN);
     return losing ? launch_failed : code_of(which);
   }
   return real[function](GIVEN);
@@ -142,8 +156,10 @@ int cuGetExportTable(const void** table, const void* id) {
 __attribute__((constructor)) static void begin(void) {
   const char* text = getenv("FAULT_KIND");
   losing = text && strcmp(text, "lost") == 0;
+  dying = text && strncmp(text, "dies", 4) == 0;
+  if (losing || dying) text = strcmp(text, "dies-together") == 0 ? "together" : "launch";
   for (int x = 0; text && x < kinds; ++x) {
-    if (strcmp(text, losing ? "launch" : kind_names[x]) == 0 || (losing && x == launch)) kind = x;
+    if (strcmp(text, kind_names[x]) == 0) kind = x;
   }
   at = (text = getenv("FAULT_AT")) ? atol(text) : 0;
   report = getenv("FAULT_REPORT");
