@@ -22,6 +22,14 @@ def expect(folder, expected, *options):
     assert found == expected, f"{folder} {options}: found {found}, expected {expected}"
 
 
+def not_filled_in(file):
+    """Of a repository; in a source archive git has put its answers in place of the questions."""
+    questions = {"commit": "%H", "epoch": "%ct", "describe": "%(describe:tags=true,abbrev=10,match=v[0-9]*.[0-9]*.[0-9]*)"}
+    text = "".join(f"{name}: $Format:{question}$\n" for name, question in questions.items())
+    assert "$Format" not in file.read_text() or file.read_text() == text, f"{file} asks for something else"
+    return text
+
+
 def unpacked(repository, folder):
     ran(repository, "git", "archive", "-o", folder.parent / "archive.tar", "HEAD")
     with tarfile.open(folder.parent / "archive.tar") as archive:
@@ -34,8 +42,8 @@ with tempfile.TemporaryDirectory() as temporary:
     plain = work / "plain"
     (plain / "scripts").mkdir(parents=True)
     shutil.copy(SOURCE / "scripts/version", plain / "scripts")
-    for name in (".gitattributes", ".git_archival.txt"):
-        shutil.copy(SOURCE / name, plain)
+    shutil.copy(SOURCE / ".gitattributes", plain)
+    (plain / ".git_archival.txt").write_text(not_filled_in(SOURCE / ".git_archival.txt"))
     (plain / "CHANGELOG.md").write_text("# Changelog\n\n## [Unreleased]\n\n## [0.4.2] - 2026-01-02\n\n## [0.4.1] - 2025-01-02\n")
     expect(plain, "0.4.2")  # nothing but the changelog, as pip unpacks it
     expect(plain, "unknown", "--commit")

@@ -153,7 +153,7 @@ class Calibrator {
       theta.push_back(std::clamp(std::log(p.start), std::log(p.low), std::log(p.high)));
     State best = solved(specimens, theta);
     for (int round = 0; round < most_rounds; ++round) {
-      const State next = least_by_estimate(specimens, best.theta);
+      State next = least_by_estimate(specimens, best.theta);
       double moved = 0;
       for (std::size_t i = 0; i < theta.size(); ++i) moved = std::max(moved, std::abs(next.theta[i] - best.theta[i]));
       if (moved < least_move) return next;

@@ -48,8 +48,10 @@ void add_statistics(Calibration& out, std::vector<double> data, std::vector<doub
   out.covariance.assign(all * all, nothing);
   out.correlation.assign(all * all, nothing);
   for (std::size_t i = 0; i < all; ++i) out.parameters[i].deviation = infinity, out.correlation[i * all + i] = 1;
-  out.degrees_of_freedom = n == 0 ? 0 : static_cast<double>(data.size() / n) - static_cast<double>(n);
+  out.degrees_of_freedom = 0;
   if (n == 0) return;
+  const std::size_t measurements = data.size() / n;
+  out.degrees_of_freedom = static_cast<double>(measurements) - static_cast<double>(n);
   // Deviations that nobody stated are those assumed, or what the misfit shows where that is more.
   const double scale =
       !out.deviations && out.degrees_of_freedom > 0 ? std::max(1.0, std::sqrt(out.misfit / out.degrees_of_freedom)) : 1;

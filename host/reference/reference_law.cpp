@@ -70,7 +70,7 @@ ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
 }  // namespace
 
 ReferenceLaw make_reference_law(const Law& law, const std::string& pair) {
-  const ReferenceLaw out = std::visit([&](const auto& l) { return read(l, pair); }, law);
+  ReferenceLaw out = std::visit([&](const auto& l) { return read(l, pair); }, law);
   require(std::isfinite(out.alpha) && out.alpha >= 0, pair, "alpha", out.alpha, "a ratio of at least 0");
   return out;
 }

@@ -30,7 +30,7 @@ void read_damping(const Section& section, SolverSpec& spec) {
 /// A number for all frequencies, or an array of one for each.
 std::vector<double> read_density_scaling(const Value& value, std::size_t frequencies) {
   if (!value.is_array()) return {value.number(ratio, positive)};
-  const std::vector<double> scaling = value.numbers(ratio, positive);
+  std::vector<double> scaling = value.numbers(ratio, positive);
   if (scaling.size() != frequencies) {
     value.refuse(fmt::format("{} entries", scaling.size()),
                  fmt::format("a number, or an array of {}, one for each frequency", frequencies));

@@ -52,7 +52,7 @@ void apply_temperature(Scene& scene, const Section& root) {
       section.refuse(key, fmt::format("{} degrees C, which changes no law of the scene", temperature),
                      "shift = \"wlf\", \"arrhenius\" or \"table\" in a [[contacts]]");
     }
-    const LawTable at = laws_at(scene, temperature);
+    LawTable at = laws_at(scene, temperature);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       if (!at[pair] || laws::usable(*at[pair])) continue;
       section.refuse(key,

@@ -11,8 +11,9 @@ namespace macadam {
 /// Of two cores of an AMD EPYC, by bench/forecast/run and macadam bench (bench/results/bench-cpu-…); of a device an
 /// H200, by bench/steps/run (bench/results/gpu-step-…).
 struct Cost {
-  // A Laguerre cell of a mixture has about 14 facets, each of two cells; those at free sides are none.
-  double contacts = 7.1, missing_at_sides = 9;
+  // A Laguerre cell of a mixture has about 14 facets, each of two cells, and 13 where aggregates are large single
+  // spheres; those at free sides are none.
+  double contacts = 7.1, contacts_of_single_spheres = 6.5, missing_at_sides = 9;
   // seconds of one thread a particle, an aggregate, a shape of the library
   double relaxing = 1.1e-4, inserting = 1e-3, packing = 7e-3, packed_shape = 0.085, tessellating = 2.2e-5;
   // seconds of one thread a particle^(4/3) and solution: the iterations grow with the specimen's edge
@@ -22,11 +23,10 @@ struct Cost {
   double cached = 0.5, contacts_in_cache = 30'000;
   // a step on a device, however small the specimen [s]; fewer contacts than that stay on the chip, in so much less time
   double least_step_on_device = 3e-6, contacts_on_chip = 420'000, on_chip = 0.4;
-  // bytes: of the program; a contact, of the specimen, the solutions; of the device's own, and a contact's solutions
-  double program = 32e6, a_contact = 1250, a_solved_contact = 550, device = 5e8, a_solved_contact_on_device = 450;
-  // beyond so many contacts, what arrays no longer need goes back to the system at once: less a contact for each e-fold
-  double contacts_kept = 150'000, less_an_e_fold = 0.15, least_share = 0.7;
-  double made = 1.5;  // what a stepper takes while it is made, over what it holds
+  // bytes: of the program, of a shape of the library; a contact, of the specimen, and of the solutions beside it; of
+  // the device's own, and a contact's solutions
+  double program = 33e6, a_shape = 7e5, a_contact = 650, a_solved_contact = 850;
+  double device = 5e8, a_solved_contact_on_device = 450;
 };
 
 /// Of a step: seconds a contact (of the CPU: one thread), and bytes a contact that its stepper holds.

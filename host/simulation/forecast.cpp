@@ -154,10 +154,9 @@ std::vector<std::string> files_of_run(const Scene& scene) {
 void add_memory(Forecast& f, const Cost& cost) {
   const bool device = f.backend == Backend::cuda;
   const double stepped = f.stepped ? step_cost(device, f.form, f.precision, f.geometry).bytes : 0;
-  const double host =
-      cost.a_contact + (f.solutions > 0 && !device ? cost.a_solved_contact : 0) + (device ? 0 : cost.made * stepped);
-  const double more = std::log(std::max(1.0, f.contacts / cost.contacts_kept));
-  f.host_bytes = cost.program + host * f.contacts * std::max(cost.least_share, 1 - cost.less_an_e_fold * more);
+  const double solved = f.solutions > 0 ? cost.a_solved_contact : 0;  // given back before the steps
+  const double host = cost.a_contact + (device ? 0 : std::max(stepped, solved));
+  f.host_bytes = cost.program + cost.a_shape * static_cast<double>(f.census.templates) + host * f.contacts;
   if (device)
     f.device_bytes =
         cost.device + std::max(stepped, f.solutions > 0 ? cost.a_solved_contact_on_device : 0) * f.contacts;
@@ -193,7 +192,9 @@ Forecast forecast(const Scene& scene) {
   out.threads = scene.solver.threads > 0 ? scene.solver.threads : report_backends().threads;
   out.census = count_specimen(scene.specimen);
   const double n = static_cast<double>(out.census.particles());
-  out.contacts = std::max(0.0, n * (cost.contacts - cost.missing_at_sides / std::cbrt(std::max(1.0, n))));
+  const bool single_spheres = !scene.specimen.shapes && !scene.specimen.aggregate.empty() && scene.specimen.mastic;
+  const double inside = single_spheres ? cost.contacts_of_single_spheres : cost.contacts;
+  out.contacts = std::max(0.0, n * (inside - cost.missing_at_sides / std::cbrt(std::max(1.0, n))));
   out.stepped = scene.solver.method == SolverMethod::explicit_;
   out.form = form_of(scene);
   // a tolerance lets the program take the geometry of the start and the least precision, where these cost little

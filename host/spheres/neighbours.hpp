@@ -35,7 +35,8 @@ class Neighbours {
 
   /// Lists again for the centres as they are now: all of them,
   void rebuild();
-  /// or, where those that have strayed are few, as most times, these; ascending. The others' centres may have moved too.
+  /// or, where those that have strayed are few, as most times, these; ascending. The others' centres may have moved
+  /// too.
   void relist(std::span<const std::int32_t> strayed);
 
   std::span<const std::int32_t> of(std::size_t sphere) const {

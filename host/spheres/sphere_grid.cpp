@@ -51,8 +51,8 @@ std::size_t SphereGrid::cell_of(const Vec3d& p) const {
 
 Vec3d SphereGrid::corner(std::size_t cell) const {
   const auto k = static_cast<std::int64_t>(cell);
-  return {static_cast<double>(k % nx_) * edge_.x, static_cast<double>(k / nx_ % ny_) * edge_.y,
-          static_cast<double>(k / (nx_ * ny_)) * edge_.z};
+  const std::int64_t x = k % nx_, y = k / nx_ % ny_, z = k / (nx_ * ny_);
+  return {static_cast<double>(x) * edge_.x, static_cast<double>(y) * edge_.y, static_cast<double>(z) * edge_.z};
 }
 
 }  // namespace macadam

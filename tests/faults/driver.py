@@ -7,7 +7,7 @@ import sys
 
 from verdicts import Result, damaged, differences
 
-KINDS = ("memory", "launch", "together", "wait", "copy", "other")
+KINDS = ("memory", "launch", "together", "graph", "wait", "copy", "other")
 
 
 def stepped(setting):
@@ -40,7 +40,7 @@ def faults(setting, name, arguments, *solver):
     for kind, dies in (("launch", "dies"), ("together", "dies-together")):
         for at in setting.sample(range(1, counts[kind] + 1), 5, long=40):
             trial(setting, library, f"{name}, {dies} at launch {at}", arguments, dies, at, expected)
-    for at in setting.sample(range(1, counts["launch"] + 1), 5, long=40):
+    for at in setting.sample(range(1, counts["launch"] + counts["graph"] + 1), 5, long=40):
         trial(setting, library, f"{name}, lost at launch {at}", arguments, "lost", at, expected)
 
 
@@ -69,7 +69,7 @@ def census(setting, library, arguments):
     outcome = setting.run(command(setting.clear(), arguments), preloaded(library, report))
     lines = [line.split() for line in report.read_text().splitlines()] if report.exists() else []
     counts = {words[1]: int(words[2]) for words in lines if words[0] == "count"}
-    if outcome.code != 0 or not counts.get("launch"):
+    if outcome.code != 0 or not counts.get("launch", 0) + counts.get("graph", 0):
         sys.exit(f"no call of the driver was counted: {outcome}, {counts}")
     return counts
 

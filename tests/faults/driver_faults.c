@@ -4,9 +4,9 @@
 // It bears the driver's name, so that the CUDA runtime takes it for the driver. It asks the driver itself for every function,
 // and puts between one that counts its calls, and does not make the one that is to fail. Environment:
 //   FAULT_DRIVER  the driver itself, a path
-//   FAULT_KIND    memory, launch, together (launches whose blocks wait for one another), wait, copy, other; lost: from a launch on,
-//                 every call fails; dies, dies-together: a launch is made, but with nonsense in place of all pointers and numbers,
-//                 so that the kernel dies while it runs
+//   FAULT_KIND    memory, launch, together (launches whose blocks wait for one another), graph (launches of several kernels, with
+//                 what these take), wait, copy, other; lost: from a launch or graph on, every call fails; dies, dies-together: a
+//                 launch is made, but with nonsense in place of all pointers and numbers, so that the kernel dies while it runs
 //   FAULT_AT      number of the call of this kind that fails, from 1 on; 0: none, they are counted only
 //   FAULT_REPORT  file that receives `hit FUNCTION` when a call fails; and in the end, where none did, `count KIND N`
 #define _GNU_SOURCE
@@ -17,8 +17,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { memory, launch, together, wait_, copy, other, kinds };
-static const char* const kind_names[kinds] = {"memory", "launch", "together", "wait", "copy", "other"};
+enum { memory, launch, together, graph, wait_, copy, other, kinds };
+static const char* const kind_names[kinds] = {"memory", "launch", "together", "graph", "wait", "copy", "other"};
 enum { out_of_memory = 2, not_initialised = 3, not_found = 500, device_unavailable = 46, launch_out_of_resources = 701, launch_failed = 719 };
 
 // All the driver's functions take integers and pointers, and give a code: one form serves for all. What a function does not
@@ -33,7 +33,7 @@ static Function real[most_functions];
 static char names[most_functions][64];
 static int kind_of[most_functions];
 static atomic_int functions;
-static atomic_long counted[kinds];
+static atomic_long counted[kinds], launches;
 static atomic_int hit;
 static int kind = -1, losing, dying;
 static long at;
@@ -47,7 +47,12 @@ static void say(const char* what, const char* name, long number) {
 }
 
 static int code_of(int which) {
-  return which == memory ? out_of_memory : which == launch || which == together ? launch_out_of_resources : which == other ? device_unavailable : launch_failed;
+  switch (which) {
+    case memory: return out_of_memory;
+    case launch: case together: case graph: return launch_out_of_resources;
+    case other: return device_unavailable;
+    default: return launch_failed;
+  }
 }
 
 // No pointer has such an address, on any machine with 64 bits.
@@ -64,9 +69,10 @@ static int launched_with_nonsense(int function, TAKEN) {
 
 static int pass(int function, TAKEN) {
   const int which = kind_of[function];
-  const long number = ++counted[which];
+  const int meant = losing ? which == launch || which == graph : which == kind;
+  const long number = ++counted[which], launched = which == launch || which == graph ? ++launches : 0;
   if (losing && hit) return launch_failed;
-  if (which == kind && number == at) {
+  if (meant && (losing ? launched : number) == at) {
     hit = 1;
     say("hit", names[function], -1);
     if (dying) return launched_with_nonsense(function, GIVEN);
@@ -92,6 +98,7 @@ static int kind_by_name(const char* name) {
   if (strstr(name, "Free") || strstr(name, "Destroy")) return other;
   if (strstr(name, "MemAlloc") || strstr(name, "MemHostAlloc") || strstr(name, "MemCreate") || strstr(name, "MemAddressReserve")) return memory;
   if (strstr(name, "LaunchCooperative")) return together;
+  if (strstr(name, "GraphLaunch")) return graph;
   if (strstr(name, "Launch")) return launch;
   if (strstr(name, "Synchronize") || strstr(name, "EventQuery") || strstr(name, "StreamQuery")) return wait_;
   if (strstr(name, "Memcpy") || strstr(name, "Memset")) return copy;
@@ -157,7 +164,7 @@ __attribute__((constructor)) static void begin(void) {
   const char* text = getenv("FAULT_KIND");
   losing = text && strcmp(text, "lost") == 0;
   dying = text && strncmp(text, "dies", 4) == 0;
-  if (losing || dying) text = strcmp(text, "dies-together") == 0 ? "together" : "launch";
+  if (dying) text = strcmp(text, "dies-together") == 0 ? "together" : "launch";
   for (int x = 0; text && x < kinds; ++x) {
     if (strcmp(text, kind_names[x]) == 0) kind = x;
   }

@@ -160,7 +160,7 @@ class SteppedLoad : public Solution {
   }
 
   /// Sample 0 is the start, for the fields; the others are the points.
-  Course course_of(std::function<void(const SteppedPoint&)> add, Content content) {
+  Course course_of(const std::function<void(const SteppedPoint&)>& add, Content content) {
     const std::vector<double>& times = test_.history.times;
     Course course;
     course.name = test_.kind;

@@ -68,8 +68,10 @@ class SweepSolution : public Solution {
 }  // namespace
 
 template <>
-std::unique_ptr<Solution> ExperimentOf<Sweep>::plan(const Sweep&, const Scene& scene, const Preparation& prepared,
-                                                    const Watcher& watcher, std::optional<Resumed>, RunResult& result) {
+std::unique_ptr<Solution> ExperimentOf<Sweep>::plan(
+    const Sweep&, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
+    std::optional<Resumed>,  // NOLINT(performance-unnecessary-value-param): tests that are stepped keep it
+    RunResult& result) {
   return std::make_unique<SweepSolution>(
       scene, plan_harmonic(scene, prepared, watcher, result, result.found.emplace<SweepResult>().points));
 }

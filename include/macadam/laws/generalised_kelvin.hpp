@@ -102,7 +102,7 @@ struct GeneralisedKelvin {
       const S f_new = f + (S(inv_c) * stretched - S(relax) * f);  // model (6.6)
       const S sum = f_new + f;
       for (int l = 0; l < m; ++l) x(l) += S(compliance[l]) * sum - S(recover[l]) * x(l);  // model (6.6)
-      return f_new;
+      return f_new;  // NOLINT(performance-no-automatic-move): numbers in registers
     }
   };
 
