@@ -88,8 +88,11 @@ TEST_F(Streams, TooLittleMemoryEndsARun) {
                     megabytes * 1024, seconds, command));
   };
   // With less, the libraries are not even loaded; OpenBLAS 0.3.29 then waits for ever before the program begins.
-  int least = 100;
-  while (least < 400 && limited(least, 5, "--version >/dev/null").code != 0) least += 4;
+  int too_little = 60, least = 500;
+  while (least - too_little > 4) {
+    const int middle = (too_little + least) / 2;
+    (limited(middle, 5, "--version >/dev/null").code == 0 ? least : too_little) = middle;
+  }
   int refused = 0, done = 0;
   for (int megabytes = least; megabytes <= least + 300; megabytes += 25) {
     const Outcome outcome = limited(megabytes, 20, "run scene.toml --out out");

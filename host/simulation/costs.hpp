@@ -15,7 +15,9 @@ struct Cost {
   // spheres; those at free sides are none.
   double contacts = 7.1, contacts_of_single_spheres = 6.5, missing_at_sides = 9;
   // seconds of one thread a particle, an aggregate, a shape of the library
-  double relaxing = 1.1e-4, inserting = 1e-3, packing = 7e-3, packed_shape = 0.085, tessellating = 2.2e-5;
+  double relaxing = 0.9e-4, inserting = 1e-3, packing = 7e-3, packed_shape = 0.085, tessellating = 0.8e-5;
+  // seconds a particle that no second thread shortens: places, sums and lists; the triangulation
+  double placing = 1.6e-5, triangulating = 1.2e-5;
   // seconds of one thread a particle^(4/3) and solution: the iterations grow with the specimen's edge
   double solving = 1.1e-6, solving_on_device = 2e-8;
   double start = 0.1, start_on_device = 0.8;
@@ -26,7 +28,9 @@ struct Cost {
   // bytes: of the program, of a shape of the library; a contact, of the specimen, and of the solutions beside it; of
   // the device's own, and a contact's solutions
   double program = 33e6, a_shape = 7e5, a_contact = 650, a_solved_contact = 850;
-  double device = 5e8, a_solved_contact_on_device = 450;
+  double device = 5.6e8, a_solved_contact_on_device = 655;
+  // on the host, beside a device: of NVIDIA's driver; a contact's solutions, or a share of what the stepper holds there
+  double driver = 2.5e8, a_solved_contact_beside_device = 220, staged = 0.68;
 };
 
 /// Of a step: seconds a contact (of the CPU: one thread), and bytes a contact that its stepper holds.

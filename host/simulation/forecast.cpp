@@ -154,9 +154,11 @@ std::vector<std::string> files_of_run(const Scene& scene) {
 void add_memory(Forecast& f, const Cost& cost) {
   const bool device = f.backend == Backend::cuda;
   const double stepped = f.stepped ? step_cost(device, f.form, f.precision, f.geometry).bytes : 0;
-  const double solved = f.solutions > 0 ? cost.a_solved_contact : 0;  // given back before the steps
-  const double host = cost.a_contact + (device ? 0 : std::max(stepped, solved));
-  f.host_bytes = cost.program + cost.a_shape * static_cast<double>(f.census.templates) + host * f.contacts;
+  // what solutions take is given back before the steps
+  const double solved = f.solutions == 0 ? 0 : device ? cost.a_solved_contact_beside_device : cost.a_solved_contact;
+  const double beside = std::max(solved, device ? cost.staged * stepped : stepped);
+  f.host_bytes = cost.program + (device ? cost.driver : 0) + cost.a_shape * static_cast<double>(f.census.templates) +
+                 (cost.a_contact + beside) * f.contacts;
   if (device)
     f.device_bytes =
         cost.device + std::max(stepped, f.solutions > 0 ? cost.a_solved_contact_on_device : 0) * f.contacts;
@@ -167,14 +169,14 @@ void add_time(const Scene& scene, Forecast& f, const Cost& cost) {
   const bool device = f.backend == Backend::cuda;
   f.specimen_s = device ? cost.start_on_device : cost.start;
   if (!scene.specimen.file) {
-    f.specimen_s += cost.relaxing * n / threads;
+    f.specimen_s += (cost.relaxing / threads + cost.placing) * n;
     if (const auto& shapes = scene.specimen.shapes) {
       const bool packed = shapes->placement == PlacementMethod::packing;
       f.specimen_s += (packed ? cost.packing : cost.inserting) * static_cast<double>(f.census.aggregates) / threads;
       if (packed) f.specimen_s += cost.packed_shape * static_cast<double>(f.census.templates) / threads;
     }
   }
-  f.network_s = cost.tessellating * n / threads;
+  f.network_s = (cost.tessellating / threads + cost.triangulating) * n;
   f.harmonic_s = f.solutions * std::pow(n, 4.0 / 3) * (device ? cost.solving_on_device : cost.solving / threads);
   double rate = step_cost(device, f.form, f.precision, f.geometry).seconds;
   if (device && f.contacts < cost.contacts_on_chip) rate *= cost.on_chip;
