@@ -3,6 +3,10 @@
 #include "host/simulation/forecast.hpp"
 
 #include <chrono>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
 
 #include "macadam/macadam.hpp"
 #include "program.hpp"
@@ -31,6 +35,57 @@ TEST_F(Check, CountsWhatIsMade) {
     const double contacts = static_cast<double>(made.network.contacts.size());
     EXPECT_NEAR(foretold.contacts, contacts, 0.2 * contacts) << name;
   }
+}
+
+/// The columns of a line of bench/results/forecast*.csv by name.
+std::vector<std::map<std::string, std::string>> measured(const std::string& file) {
+  std::ifstream in(fs::path(MACADAM_EXAMPLES).parent_path() / "bench/results" / file);
+  std::vector<std::string> head;
+  std::vector<std::map<std::string, std::string>> out;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('#')) continue;
+    std::vector<std::string> cells;
+    std::istringstream rest(line);
+    for (std::string cell; std::getline(rest, cell, ',');) cells.push_back(cell);
+    if (head.empty()) {
+      head = cells;
+      continue;
+    }
+    for (std::size_t i = 0; i < std::min(head.size(), cells.size()); ++i)
+      (i == 0 ? out.emplace_back() : out.back())[head[i]] = cells[i];
+  }
+  return out;
+}
+
+// A request for memory on a cluster may be as much too small.
+TEST_F(Check, FindsTheMemoryThatRunsTook) {
+  const auto rows = measured("forecast.csv");
+  ASSERT_GT(rows.size(), 5u);
+  for (const auto& row : rows) {
+    Scene scene = example(row.at("scene"));
+    scene.solver.backend = Backend::cpu;
+    scene.solver.method = row.at("method") == "harmonic" ? SolverMethod::harmonic : SolverMethod::explicit_;
+    const double found = 1e6 * std::stod(row.at("memory_mb"));
+    EXPECT_NEAR(forecast(scene).host_bytes, found, 0.1 * found) << row.at("scene");
+  }
+}
+
+TEST_F(Check, FindsTheMemoryOfMillionsOfParticles) {
+  const auto rows = measured("forecast-large.csv");
+  ASSERT_FALSE(rows.empty());
+  ASSERT_EQ(rows[0].at("scene"), "ac14_ss_am1:points:x60");
+  ASSERT_EQ(rows[0].at("device"), "");
+  Scene scene = example("ac14_ss_am1");
+  constexpr int times = 60;
+  scene.specimen.box.size = std::cbrt(times) * scene.specimen.box.size;
+  for (AggregateClass& c : scene.specimen.aggregate) *c.count *= times;
+  *scene.specimen.mastic->count *= times;
+  scene.solver.backend = Backend::cpu;
+  scene.solver.tolerance.reset();
+  scene.solver.form = ContactForm::points;
+  scene.solver.precision = Precision::double_;
+  const double found = 1e6 * std::stod(rows[0].at("memory_mb"));
+  EXPECT_NEAR(forecast(scene).host_bytes, found, 0.1 * found);
 }
 
 // A forecast has no contacts: it knows the critical step by the materials and the smallest particles.

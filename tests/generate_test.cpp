@@ -108,7 +108,7 @@ TEST(Generate, HandsOnTheCellsOfTheSpecimenAsItIs) {
   for (const bool fix : {true, false}) {
     SpecimenSpec spec = small_mix();
     spec.fix_aggregates = fix;
-    const GeneratedCells generated = generate_with_cells(spec, {});
+    const GeneratedWithCells generated = generate_with_cells(spec, {});
     const Tessellation again = tessellate(generated.made.specimen);
     ASSERT_TRUE(generated.tessellation);
     EXPECT_TRUE(std::ranges::equal(generated.tessellation->facets, again.facets, same));
@@ -319,7 +319,7 @@ TEST(Mastic, WithoutACellGetsAnotherPlace) {
   const auto silent = [](double) {};
   relax(s, true, silent);
   ASSERT_EQ(norm(s.centre[2] - Vec3d{0.5, 0.5, 0.5}), 0);
-  settle_mastic(s, placement, true, {}, {}, silent);
+  settle_mastic(s, placement, true, {}, {}, {});
   EXPECT_TRUE(particles_without_cell(s).empty());
   for (std::size_t i : {0, 1}) EXPECT_GE(norm(s.centre[2] - s.centre[i]), radius);
 }

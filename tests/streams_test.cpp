@@ -93,6 +93,7 @@ TEST_F(Streams, TooLittleMemoryEndsARun) {
     const int middle = (too_little + least) / 2;
     (limited(middle, 5, "--version >/dev/null").code == 0 ? least : too_little) = middle;
   }
+  EXPECT_LT(least, 300);
   int refused = 0, done = 0;
   for (int megabytes = least; megabytes <= least + 300; megabytes += 25) {
     const Outcome outcome = limited(megabytes, 20, "run scene.toml --out out");

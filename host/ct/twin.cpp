@@ -253,8 +253,7 @@ Twin make_twin(const fs::path& folder, const Scene& scene, const TwinSpec& spec,
     out.mastic += p.row.fraction;
     placement.place_mastic(p);
   }
-  settle_mastic(out.specimen, placement, true, Origin(how), {},
-                [&](double share) { report("relaxing mastic", share); });
+  settle_mastic(out.specimen, placement, true, Origin(how), {}, report);
   part_voids(first_void, end_of_voids, out.specimen);
   report("what hangs on nothing", 0);
   std::tie(out.enclosed_mastic, out.enclosed_aggregate) = std::tuple_cat(remove_hanging(out.specimen, scene.network));

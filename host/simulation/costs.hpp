@@ -9,7 +9,8 @@
 namespace macadam {
 
 /// Of two cores of an AMD EPYC, by bench/forecast/run and macadam bench (bench/results/bench-cpu-…); of a device an
-/// H200, by bench/steps/run (bench/results/gpu-step-…).
+/// H200, by bench/steps/run (bench/results/gpu-step-…). What depends on the size, and memory of and beside a device, by
+/// bench/forecast/run on machines with them (bench/results/forecast-large.csv).
 struct Cost {
   // A Laguerre cell of a mixture has about 14 facets, each of two cells, and 13 where aggregates are large single
   // spheres; those at free sides are none.

@@ -72,7 +72,7 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
       report("reading the specimen", 0);
       out.specimen = read_specimen_csv(*scene.specimen.file, scene.specimen.box);
     } else {
-      GeneratedCells generated = generate_with_cells(scene.specimen, report);
+      GeneratedWithCells generated = generate_with_cells(scene.specimen, report);
       out.specimen = std::move(generated.made.specimen);
       out.composition = std::move(generated.made.composition);
       out.aggregates = std::move(generated.made.aggregates);

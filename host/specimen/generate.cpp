@@ -103,19 +103,17 @@ Placed with_shapes(const SpecimenSpec& spec, GeneratedSpecimen& result, Enclosur
 
 }  // namespace
 
-GeneratedCells generate_with_cells(const SpecimenSpec& spec,
-                                   const std::function<void(const char* stage, double share)>& progress) {
+GeneratedWithCells generate_with_cells(const SpecimenSpec& spec,
+                                       const std::function<void(const char* stage, double share)>& progress) {
   if (spec.file)
     throw InputError(spec.source, spec.line, "recipe", "the file " + spec.file->string(), "no file to generate");
   if (!(spec.spacing >= 0 && std::isfinite(spec.spacing)))
     throw InputError(spec.source, spec.line, "spacing", shown(spec.spacing) + " m", "a finite length, not negative");
-  const auto report = [&](const char* stage) {
-    return [&progress, stage](double share) {
-      if (progress) progress(stage, share);
-    };
+  const auto placing = [&](double share) {
+    if (progress) progress("placing aggregates", share);
   };
 
-  GeneratedCells cells;
+  GeneratedWithCells cells;
   GeneratedSpecimen& result = cells.made;
   Specimen& specimen = result.specimen;
   specimen.box = spec.box;
@@ -124,11 +122,10 @@ GeneratedCells generate_with_cells(const SpecimenSpec& spec,
     throw InputError(spec.source, spec.line, "fix_aggregates", "false",
                      spec.shapes ? "true, as the spheres of a shape would part" : "true, as voids would move too");
   Enclosure wall;
-  auto [placement, first_void, end_of_voids] = spec.shapes ? with_shapes(spec, result, wall, progress)
-                                                           : with_spheres(spec, result, report("placing aggregates"));
+  auto [placement, first_void, end_of_voids] =
+      spec.shapes ? with_shapes(spec, result, wall, progress) : with_spheres(spec, result, placing);
 
-  SettledMastic settled =
-      settle_mastic(specimen, placement, spec.fix_aggregates, Origin(spec), wall, report("relaxing mastic"));
+  SettledMastic settled = settle_mastic(specimen, placement, spec.fix_aggregates, Origin(spec), wall, progress);
   result.relaxation_iterations = settled.iterations;
   if (first_void == end_of_voids) {
     cells.tessellation = std::move(settled.tessellation);

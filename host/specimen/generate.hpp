@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-struct GeneratedCells {
+struct GeneratedWithCells {
   GeneratedSpecimen made;
   /// Of the specimen as it is. None where it has voids: these stood among the spheres when the cells were looked at.
   std::optional<Tessellation> tessellation;
@@ -18,7 +18,7 @@ struct GeneratedCells {
 };
 
 /// As generate_specimen().
-GeneratedCells generate_with_cells(const SpecimenSpec& spec,
-                                   const std::function<void(const char* stage, double share)>& progress);
+GeneratedWithCells generate_with_cells(const SpecimenSpec& spec,
+                                       const std::function<void(const char* stage, double share)>& progress);
 
 }  // namespace macadam

@@ -32,11 +32,17 @@ void reinsert(const std::vector<std::int32_t>& hidden, Specimen& specimen, Place
 }  // namespace
 
 SettledMastic settle_mastic(Specimen& specimen, Placement& placement, bool fix_aggregates, const Origin& origin,
-                            const Enclosure& wall, const std::function<void(double share)>& progress) {
+                            const Enclosure& wall,
+                            const std::function<void(const char* stage, double share)>& progress) {
+  const auto report = [&](const char* stage, double share) {
+    if (progress) progress(stage, share);
+  };
   SettledMastic out;
   for (int round = 0; round < most_rounds; ++round) {
     reinsert(out.tessellation.hidden, specimen, placement);
-    out.iterations += relax(specimen, fix_aggregates, progress, wall);
+    out.iterations += relax(
+        specimen, fix_aggregates, [&](double share) { report("relaxing mastic", share); }, wall);
+    report("tessellation", 0);
     out.seconds_tessellation = seconds_of([&] { out.tessellation = tessellate(specimen); });
     if (out.tessellation.hidden.empty()) return out;
   }

@@ -17,9 +17,11 @@ struct SettledMastic {
 };
 
 /// Relaxes a specimen until the spheres are evenly spread and each has a Laguerre cell; mastic without one gets another
-/// place. `wall` is relax()'s. Voids are still among the aggregates. \throws RunError naming spheres without a cell.
+/// place. `wall` is relax()'s, `progress` may be empty. Voids are still among the aggregates. \throws RunError naming
+/// spheres without a cell.
 SettledMastic settle_mastic(Specimen& specimen, Placement& placement, bool fix_aggregates, const Origin& origin,
-                            const Enclosure& wall, const std::function<void(double share)>& progress);
+                            const Enclosure& wall,
+                            const std::function<void(const char* stage, double share)>& progress);
 
 /// Takes the voids, spheres from number `first` to below `end`, from among the particles.
 void part_voids(std::size_t first, std::size_t end, Specimen& specimen);

@@ -3,6 +3,7 @@
 #include "host/spheres/neighbours.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <map>
 #include <numeric>
 
@@ -17,8 +18,9 @@ constexpr int most_levels = 40;           // of sizes, each twice the one before
 constexpr std::size_t block = 64;         // rows listed at once
 constexpr std::size_t ranked_up_to = 64;  // keys that are sorted faster by counting those before each
 constexpr std::size_t few = 24;           // one in so many may stray before all are listed again
-constexpr std::size_t worth_waking = 16;  // threads for: rows of so many strayed spheres
-constexpr std::uint32_t spare = 2;        // room in a row for those that come near later
+constexpr std::size_t worth_waking =
+    16;                             // fewer strayed spheres are listed by one thread, as waking others takes longer
+constexpr std::uint32_t spare = 2;  // room in a row for those that come near later
 
 double largest(std::span<const Ball> spheres) {
   double r = 0;
@@ -185,6 +187,7 @@ void Neighbours::add(std::int32_t i, std::int32_t neighbour) {
 /// Two spheres are in each other's lists if they were near where each was listed last. Pairs that have parted since
 /// stay in the other's list, which does no harm, until all are listed again.
 void Neighbours::relist(std::span<const std::int32_t> strayed) {
+  assert(std::is_sorted(strayed.begin(), strayed.end()));
   std::size_t moved = strayed.size();
   for (const SphereBins& bins : moving_) moved += bins.moved();
   if (moved * few > row_.size()) return rebuild();

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/dependencies.md: the rows of scripts/supply.csv."""
 import csv
+import re
 
-from pages.data import RESULTS, table
+from pages.data import RESULTS, rows, table, thousands
 from pages.marks import mark
 
 DOCUMENT = "docs/dependencies.md"
@@ -15,3 +16,16 @@ def supply(*lists):
         rows = [r for r in csv.DictReader(line for line in f if not line.startswith("#")) if r["list"] in lists]
     return table(["what", "package", "tried from", "licence", "for", "considered instead"],
                  [(r["name"], f"`{r['package']}`", r["version"], r["licence"], r["why"], r["considered"] or "–") for r in rows])
+
+
+def compiler_of(text):
+    """Its name and version, of the first line that it says of itself."""
+    return f"{'clang' if 'clang' in text else 'gcc'} {re.search(r'[0-9]+[.][0-9]+[.][0-9]+', re.sub(r'[(].*?[)]', '', text))[0]}"
+
+
+@mark
+def distributions():
+    """What scripts/chroot-build --table measured."""
+    return table(["distribution", "compiler", "CGAL", "HDF5", "ITK", "{fmt}", "passed", "failed", "skipped", "commit"],
+                 [(r["distribution"], compiler_of(r["compiler"]), *(r[c] for c in ("cgal", "hdf5", "itk", "fmt")),
+                   *(thousands(r[c]) for c in ("passed", "failed", "skipped")), r["commit"]) for r in rows("distributions.csv")], range(6, 9))

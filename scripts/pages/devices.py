@@ -57,28 +57,28 @@ def many_machine():
 
 
 def many_rows():
-    """Times by number of GPUs: of the program before, as it is now, and what was tried beside."""
+    """Mean times by number of GPUs, of each commit in the order of the rows: first of the program before, last as it is now."""
     out = {}
     for r in rows(MANY):
-        out.setdefault(r["how"], {})[r["devices"]] = r["seconds"]
-    return out
+        out.setdefault(r["commit"], {}).setdefault(r["devices"], []).append(r["seconds"])
+    return [{devices: sum(seconds) / len(seconds) for devices, seconds in times.items()} for times in out.values()]
 
 
 @mark
-def many(which):
-    """`turns`: the program before; `two`: as it is now."""
-    found = next(times for how, times in many_rows().items() if which in how.split())
+def many(program):
+    """`before` or `now`."""
+    found = many_rows()[{"before": 0, "now": -1}[program]]
     return f"{found[1]:.0f} s on one GPU and {found[2]:.0f} s on two"
 
 
 @mark
 def many_factors():
     """Of two GPUs to one, of all but the program before."""
-    return span([t[1] / t[2] for t in list(many_rows().values())[1:] if 1 in t], "{:.2f}", " to ")
+    return span([times[1] / times[2] for times in many_rows()[1:]], "{:.2f}", " to ")
 
 
 @mark
 def many_worst():
-    others = list(many_rows().values())[1:]
-    one_gpu, two = (max(t[n] for t in others if n in t) for n in (1, 2))
+    """Of all but the program before, with one GPU and with two."""
+    one_gpu, two = (max(times[n] for times in many_rows()[1:]) for n in (1, 2))
     return f"{one_gpu:.0f} s and {two:.0f} s"

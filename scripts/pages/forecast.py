@@ -28,3 +28,17 @@ def foretold():
 def where_measured():
     first = cases()[0]
     return f"{first['machine']}, {first['threads']:.0f} threads, {first['date']}"
+
+
+@mark
+def foretold_large():
+    """Gigabytes and seconds as found, each with the ratio behind it."""
+    lines = []
+    for r in rows("forecast-large.csv"):
+        line = [r["scene"], r["method"], r["device"] or f"{r['threads']:.0f} threads", thousands(r["particles"])]
+        for found, said, form in ((r["memory_mb"] / 1e3, r["memory_foretold_mb"] / 1e3, "{:.1f}"),
+                                  (r["device_mb"] / 1e3, r["device_foretold_mb"] / 1e3, "{:.1f}"), (r["wall_s"], r["time_foretold_s"], "{:.0f}")):
+            line += [form.format(found) if found else "", ratio(said, found)]
+        lines.append(line)
+    return table(["scene", "method", "on", "particles", "memory (GB)", "memory", "of the GPU (GB)", "of the GPU", "time (s)", "time"], lines,
+                 range(3, 10))

@@ -25,7 +25,7 @@ def harmonic(setting):
 
 
 def faults(setting, name, arguments, *solver):
-    """Each call of the driver fails once; each kernel dies once; and from a launch on, all calls fail. `solver`: what is to run, in words of the program."""
+    """Calls of the driver fail once each; kernels die; and from a launch on, all calls fail. Some of each kind. `solver`: what is to run, in words of the program."""
     library = setting.preloaded("driver_faults", "-Wl,-soname,libcuda.so.1")
     whole = setting.clear("whole")
     outcome = setting.run(command(whole, arguments))
@@ -40,7 +40,7 @@ def faults(setting, name, arguments, *solver):
     for kind, dies in (("launch", "dies"), ("together", "dies-together")):
         for at in setting.sample(range(1, counts[kind] + 1), 5, long=40):
             trial(setting, library, f"{name}, {dies} at launch {at}", arguments, dies, at, expected)
-    for at in setting.sample(range(1, counts["launch"] + counts["graph"] + 1), 5, long=40):
+    for at in setting.sample(range(1, counts["launch"] + counts["together"] + counts["graph"] + 1), 5, long=40):
         trial(setting, library, f"{name}, lost at launch {at}", arguments, "lost", at, expected)
 
 

@@ -5,7 +5,7 @@
 // and puts between one that counts its calls, and does not make the one that is to fail. Environment:
 //   FAULT_DRIVER  the driver itself, a path
 //   FAULT_KIND    memory, launch, together (launches whose blocks wait for one another), graph (launches of several kernels, with
-//                 what these take), wait, copy, other; lost: from a launch or graph on, every call fails; dies, dies-together: a
+//                 what these take), wait, copy, other; lost: from any launch on, every call fails; dies, dies-together: a
 //                 launch is made, but with nonsense in place of all pointers and numbers, so that the kernel dies while it runs
 //   FAULT_AT      number of the call of this kind that fails, from 1 on; 0: none, they are counted only
 //   FAULT_REPORT  file that receives `hit FUNCTION` when a call fails; and in the end, where none did, `count KIND N`
@@ -33,7 +33,7 @@ static Function real[most_functions];
 static char names[most_functions][64];
 static int kind_of[most_functions];
 static atomic_int functions;
-static atomic_long counted[kinds], launches;
+static atomic_long counted[kinds], launched;
 static atomic_int hit;
 static int kind = -1, losing, dying;
 static long at;
@@ -69,10 +69,13 @@ static int launched_with_nonsense(int function, TAKEN) {
 
 static int pass(int function, TAKEN) {
   const int which = kind_of[function];
-  const int meant = losing ? which == launch || which == graph : which == kind;
-  const long number = ++counted[which], launched = which == launch || which == graph ? ++launches : 0;
-  if (losing && hit) return launch_failed;
-  if (meant && (losing ? launched : number) == at) {
+  const int launches = which == launch || which == together || which == graph;
+  long number = ++counted[which];
+  if (losing) {
+    if (hit) return launch_failed;
+    number = launches ? ++launched : 0;
+  }
+  if ((losing ? launches : which == kind) && number == at) {
     hit = 1;
     say("hit", names[function], -1);
     if (dying) return launched_with_nonsense(function, GIVEN);
