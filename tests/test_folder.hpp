@@ -8,6 +8,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <cstdlib>
+
 #include "test_files.hpp"
 
 namespace macadam::test {
@@ -16,8 +18,9 @@ namespace macadam::test {
 class TestFolder : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / fmt::format("macadam_test_{}", getpid());  // tests of a process take turns
-    fs::create_directories(folder_);
+    std::string name = (fs::path(testing::TempDir()) / "macadam_test_XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr) << name;
+    folder_ = name;
     fs::copy_file(MACADAM_TEST_DATA "/t8.csv", folder_ / "t8.csv");
   }
   void TearDown() override { fs::remove_all(folder_); }
