@@ -125,7 +125,7 @@ TEST_F(CtTwin, WhatVoidsEncloseIsTakenOut) {
   const Twin twin = make_twin(folder_, scene, {}, [&](const std::string& stage, double) {
     if (stages.empty() || stages.back() != stage) stages.push_back(stage);
   });
-  EXPECT_EQ(stages, (std::vector<std::string>{"reading the scan", "filling grains", "relaxing mastic",
+  EXPECT_EQ(stages, (std::vector<std::string>{"reading the scan", "filling grains", "relaxing mastic", "tessellation",
                                               "what hangs on nothing"}));
   EXPECT_GT(twin.enclosed_mastic, 5);  // some 14 spheres of 0.7 mm have its volume
   EXPECT_EQ(twin.enclosed_aggregate, 0);

@@ -18,9 +18,8 @@ constexpr int most_levels = 40;           // of sizes, each twice the one before
 constexpr std::size_t block = 64;         // rows listed at once
 constexpr std::size_t ranked_up_to = 64;  // keys that are sorted faster by counting those before each
 constexpr std::size_t few = 24;           // one in so many may stray before all are listed again
-constexpr std::size_t worth_waking =
-    16;                             // fewer strayed spheres are listed by one thread, as waking others takes longer
-constexpr std::uint32_t spare = 2;  // room in a row for those that come near later
+constexpr std::size_t worth_waking = 16;  // strayed spheres: one thread is faster with fewer
+constexpr std::uint32_t spare = 2;        // room in a row for those that come near later
 
 double largest(std::span<const Ball> spheres) {
   double r = 0;
