@@ -8,6 +8,7 @@
 #include "macadam/harmonic.hpp"
 #include "program.hpp"
 #include "talbot.hpp"
+#include "test_tables.hpp"
 
 namespace macadam::test {
 namespace {
@@ -40,21 +41,12 @@ class Experiments : public Program {
 /// Rows of a table by the names of its columns; an empty field is NaN.
 std::vector<std::map<std::string, double>> rows_of(const std::string& text) {
   std::vector<std::map<std::string, double>> out;
-  std::vector<std::string> names;
-  for (const std::string& line : lines_of(text)) {
-    if (line.starts_with("#")) continue;
-    std::vector<std::string> fields;
-    std::istringstream in(line);
-    for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
-    if (names.empty()) {
-      names = fields;
-      continue;
-    }
+  for (const auto& row : table_of(text)) {
     out.emplace_back();
-    for (std::size_t i = 0; i < fields.size(); ++i) {
+    for (const auto& [name, field] : row) {
       char* end = nullptr;
-      const double value = std::strtod(fields[i].c_str(), &end);
-      out.back()[names[i]] = end == fields[i].c_str() ? std::nan("") : value;
+      const double value = std::strtod(field.c_str(), &end);
+      out.back()[name] = end == field.c_str() ? std::nan("") : value;
     }
   }
   return out;

@@ -4,13 +4,12 @@
 
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "macadam/macadam.hpp"
 #include "program.hpp"
 #include "test_scenes.hpp"
+#include "test_tables.hpp"
 
 namespace macadam::test {
 namespace {
@@ -37,24 +36,8 @@ TEST_F(Check, CountsWhatIsMade) {
   }
 }
 
-/// The columns of a line of bench/results/forecast*.csv by name.
 std::vector<std::map<std::string, std::string>> measured(const std::string& file) {
-  std::ifstream in(fs::path(MACADAM_EXAMPLES).parent_path() / "bench/results" / file);
-  std::vector<std::string> head;
-  std::vector<std::map<std::string, std::string>> out;
-  for (std::string line; std::getline(in, line);) {
-    if (line.starts_with('#')) continue;
-    std::vector<std::string> cells;
-    std::istringstream rest(line);
-    for (std::string cell; std::getline(rest, cell, ',');) cells.push_back(cell);
-    if (head.empty()) {
-      head = cells;
-      continue;
-    }
-    for (std::size_t i = 0; i < std::min(head.size(), cells.size()); ++i)
-      (i == 0 ? out.emplace_back() : out.back())[head[i]] = cells[i];
-  }
-  return out;
+  return table_of(read(fs::path(MACADAM_EXAMPLES).parent_path() / "bench/results" / file));
 }
 
 // A request for memory on a cluster may be as much too small.

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/forecast.md: what macadam check foretells, from bench/forecast/run's forecast.csv."""
-from pages.data import rows, table, thousands
+from pages.data import head, rows, table, thousands
 from pages.marks import mark
 
 DOCUMENT = "docs/forecast.md"
@@ -27,7 +27,8 @@ def foretold():
 @mark
 def where_measured():
     first = cases()[0]
-    return f"{first['machine']}, {first['threads']:.0f} threads, {first['date']}"
+    note = head("forecast.csv")[0].partition("; ")[2]
+    return f"{first['machine']}, {first['threads']:.0f} threads, {first['date']}; {note}"
 
 
 @mark

@@ -70,7 +70,7 @@ class SweepSolution : public Solution {
 template <>
 std::unique_ptr<Solution> ExperimentOf<Sweep>::plan(
     const Sweep&, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
-    std::optional<Resumed>,  // NOLINT(performance-unnecessary-value-param): tests that are stepped keep it
+    std::optional<Resumed>,  // NOLINT(performance-unnecessary-value-param): stepped experiments keep it
     RunResult& result) {
   return std::make_unique<SweepSolution>(
       scene, plan_harmonic(scene, prepared, watcher, result, result.found.emplace<SweepResult>().points));
