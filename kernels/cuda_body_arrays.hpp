@@ -4,9 +4,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "kernels/contact_reading.hpp"
+#include "kernels/cuda_crossing.hpp"
 #include "kernels/cuda_divergence.hpp"
 #include "kernels/cuda_part_clock.hpp"
 #include "kernels/cuda_record_rows.hpp"
@@ -26,20 +28,22 @@ class CudaBodyArrays {
   static constexpr int lanes = 32;
 
   CudaBodyArrays(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, RecordOrder order)
-      : team_(options.devices),
+      : team_(options.devices, options.ranks),
         layout_(layout),
         cuts_(team_, layout),
         rows_(network, layout, cuts_, order),
         views_(layout.groups.size()),
         master_(cuts_.bodies(), velocity_words),
         displacement_(cuts_.bodies(), displacement_words),
-        velocity_(cuts_.bodies(), std::is_same_v<G, R> ? 0 : velocity_words) {}
+        velocity_(cuts_.bodies(), std::is_same_v<G, R> ? 0 : velocity_words) {
+    if (team_.ranks()) crossing_.emplace(team_, network, layout, cuts_, rows_);
+  }
   CudaBodyArrays(const CudaBodyArrays&) = delete;
 
   /// What an error left behind is done; then arrays may go.
   void end_steps() noexcept { team_.wait_for_the_last(); }
 
-  void use_device() const { team_.use(0); }
+  void use_device() const { team_.use(); }
 
   const R* wall_table(std::size_t most_values) { return wall_rows_.prepare(most_values); }
   /// All wait for them.
@@ -79,7 +83,26 @@ class CudaBodyArrays {
     }
   }
 
+  /// Makes the arrays that a step changes whole, where each of several processes has a part of them.
+  void gather() const {
+    whole_bodies(master_.data(), velocity_words);
+    whole_bodies(displacement_.data(), displacement_words);
+    whole_bodies(velocity_.data(), velocity_words);
+    for (std::size_t g = 0; g < views_.size(); ++g) {
+      const GroupLayout& group = layout_.groups[g];
+      const auto packet = [&](std::size_t m) { return std::size_t{group.tile_packet[cuts_.tile(m)]}; };
+      const auto words = [](int count) { return static_cast<std::size_t>(count) * lanes; };
+      const ContactView<P>& view = views_[g];
+      const auto row = [&](std::size_t m) {
+        return view.by_points ? std::size_t{group.packet_row[packet(m)]} : packet(m);
+      };
+      queue_whole(team_, view.chain, words(view.components * (1 + view.units)), row);
+      queue_whole(team_, view.frame, words(view.frame_words), packet);
+    }
+  }
+
   std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
+    whole_bodies(master_.data(), velocity_words);
     if (!divergence_) divergence_ = std::make_unique<DivergenceSearch<P>>(layout_, radius);
     return divergence_->first(master_.data(), dt, team_.stream());
   }
@@ -100,19 +123,32 @@ class CudaBodyArrays {
 
   /// What stays on the device where a stepper does.
   DeviceMotion device_motion() const {
-    return {team_.device(0), sizeof(R) == 8, master_.data(), displacement_.data(), layout_.particle};
+    return {team_.device(team_.first()), sizeof(R) == 8, master_.data(), displacement_.data(), layout_.particle};
   }
 
  private:
   template <class T>
   std::vector<T> of_walls(const T* bodies, std::size_t words) const {
     std::vector<T> out(walls * words);
+    of_last(bodies + layout_.particles() * words, out.size());
+    team_.wait("walls");
     copy_now(out.data(), bodies + layout_.particles() * words, out.size() * sizeof(T), "walls");
     return out;
   }
 
  protected:
   std::size_t bodies() const { return layout_.particles() + walls; }
+
+  /// Of bodies, with walls.
+  template <class T>
+  void whole_bodies(T* data, std::size_t words) const {
+    queue_whole(team_, data, words, [this](std::size_t m) { return cuts_.body(m); });
+  }
+  /// What the last rank, which has the walls, has of `size` numbers.
+  template <class T>
+  void of_last(T* data, std::size_t size) const {
+    queue_whole(team_, data, size, [this](std::size_t m) { return m == team_.size() ? 1 : 0; });
+  }
 
   void rest() {
     states_.clear();
@@ -155,7 +191,7 @@ class CudaBodyArrays {
   }
 
   void require_memory(std::size_t needed) const {
-    needed = needed / team_.size() * static_cast<std::size_t>(team_.shares_of(0));
+    if (!team_.ranks()) needed = needed / team_.size() * static_cast<std::size_t>(team_.shares_of(0));
     team_.each([&](std::size_t m) {
       std::size_t free = 0, total = 0;
       check_cuda(cudaMemGetInfo(&free, &total), "memory");
@@ -169,7 +205,8 @@ class CudaBodyArrays {
 
   std::string described(const std::string& way) const {
     cudaDeviceProp properties{};
-    check_cuda(cudaGetDeviceProperties(&properties, team_.device(0)), "device properties");
+    check_cuda(cudaGetDeviceProperties(&properties, team_.device(team_.first())), "device properties");
+    if (team_.ranks()) return "cuda, " + std::to_string(team_.size()) + " ranks, " + properties.name + ", " + way;
     DeviceList devices;
     for (std::size_t m = 0; m < team_.size(); ++m) devices.push_back(team_.device(m));
     const char* named = devices.size() > 1 ? " devices " : " device ";
@@ -216,6 +253,7 @@ class CudaBodyArrays {
   const Layout& layout_;
   TeamCuts cuts_;
   RecordRows rows_;
+  std::optional<Crossing> crossing_;   // of several processes
   std::vector<ContactView<P>> views_;  // of the groups
   DeviceArray<R> master_, inverse_, weight_;
   DeviceArray<double> displacement_;

@@ -25,7 +25,8 @@ struct RecordRows {
   std::vector<std::uint32_t> long_cut;   ///< [member of the team + 1] first of its own of them
   std::uint32_t long_particles = 0;      ///< of them, those that are no walls
   std::size_t records = 0;
-  Shares shares;  ///< of the records
+  std::vector<std::size_t> cut;  ///< [member of the team + 1] first record of its bodies
+  Shares shares;                 ///< of the records
 
   RecordRows(const ContactNetwork& network, const Layout& layout, const TeamCuts& cuts, RecordOrder order) {
     const std::size_t bodies = layout.particles() + walls, contacts = network.contacts.size();
@@ -43,12 +44,13 @@ struct RecordRows {
       next[i + 1] += next[i];
     }
     records = next.back();
-    shares = cuts.of([&](std::size_t m) { return std::size_t{next[cuts.body(m)]}; });
+    for (std::size_t m = 0; m <= cuts.members(); ++m) cut.push_back(next[cuts.body(m)]);
+    shares = cuts.of([&](std::size_t m) { return cut[m]; });
     Shares begins = cuts.bodies();
     ++begins.back().end;
     begin = DeviceArray<std::uint32_t>::of(next, begins);
     long_body = DeviceArray<std::uint32_t>::of(longer);
-    for (std::size_t m = 0; m <= begins.size(); ++m) {
+    for (std::size_t m = 0; m <= cuts.members(); ++m) {
       const auto first = static_cast<std::uint32_t>(cuts.body(m));
       long_cut.push_back(
           static_cast<std::uint32_t>(std::lower_bound(longer.begin(), longer.end(), first) - longer.begin()));

@@ -37,10 +37,15 @@ struct DeviceLimits {
     DeviceLimits out;
     team.each([&](std::size_t m) {
       const DeviceLimits own = query(multiprocessors, team.shares_of(m));
-      out = m == 0 ? own
-                   : DeviceLimits{std::min(out.multiprocessors, own.multiprocessors), std::min(out.shared, own.shared),
-                                  out.cooperative && own.cooperative, out.whole_words && own.whole_words};
+      out = m == team.first()
+                ? own
+                : DeviceLimits{std::min(out.multiprocessors, own.multiprocessors), std::min(out.shared, own.shared),
+                               out.cooperative && own.cooperative, out.whole_words && own.whole_words};
     });
+    if (Ranks* ranks = team.ranks()) {  // all plan the same tiles
+      out.multiprocessors = static_cast<int>(ranks->least(out.multiprocessors));
+      out.shared = static_cast<int>(ranks->least(out.shared));
+    }
     return out;
   }
 };

@@ -30,6 +30,19 @@ class TilePlaces {
     uint2& of_slot = places_[first_slot_[group] + slot];
     (of_slot.x == UINT32_MAX ? of_slot.x : of_slot.y) = place;
   }
+  /// Calls f(member, places) for the slots of each member of a team, until places are on the device.
+  template <class F>
+  void for_each_slot(const TeamCuts& cuts, F&& f) const {
+    const_cast<TilePlaces&>(*this).for_each_slot(cuts,
+                                                 [&](std::size_t m, uint2& place) { f(m, std::as_const(place)); });
+  }
+  /// Settling reads the first of a slot's places: that is to be one of the slot's member.
+  template <class Owner>
+  void own_first(const TeamCuts& cuts, Owner&& owner) {
+    for_each_slot(cuts, [&](std::size_t m, uint2& place) {
+      if (place.y != UINT32_MAX && owner(place.x) != m) std::swap(place.x, place.y);
+    });
+  }
   /// All have been added: they go to the device for good.
   void keep(DeviceStore& store, const Shares& shares) {
     on_device_ = store.keep(places_, shares);
@@ -90,6 +103,15 @@ class TilePlaces {
   }
 
  private:
+  template <class F>
+  void for_each_slot(const TeamCuts& cuts, F&& f) {
+    for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
+      for (std::size_t m = 0; m < cuts.members(); ++m) {
+        const std::size_t end = cuts.slot(layout_.groups[g], m + 1);
+        for (std::size_t s = cuts.slot(layout_.groups[g], m); s < end; ++s) f(m, places_[first_slot_[g] + s]);
+      }
+    }
+  }
   std::vector<uint2> copied(std::size_t first, std::size_t count) const {
     std::vector<uint2> out(count);
     if (count > 0) copy_now(out.data(), on_device_ + first, count * sizeof(uint2), "places");

@@ -15,6 +15,7 @@
 #include "kernels/cuda_room.hpp"
 #include "kernels/cuda_settling.hpp"
 #include "kernels/cuda_tile_limits.hpp"
+#include "kernels/cuda_tile_messages.hpp"
 #include "kernels/cuda_tile_places.hpp"
 #include "kernels/cuda_tile_traffic.hpp"
 #include "kernels/cuda_tiles_resident.hpp"
@@ -29,11 +30,13 @@ class TileRunner {
   using R = typename P::Particle;
 
   TileRunner(const ContactNetwork& network, const Layout& layout, const StepperOptions& options, const DeviceTeam& team,
-             const TeamCuts& cuts, PartClock& parts)
+             const TeamCuts& cuts, PartClock& parts, const std::optional<Crossing>& crossing)
       : team_(team),
         cuts_(cuts),
         parts_(parts),
+        crossing_(crossing),
         plan_(plan_tiles(network, layout, begins_share())),
+        owners_(plan_, cuts),
         carried_(options.geometry == Geometry::updated),
         layout_(layout),
         bodies_(layout.particles()),
@@ -86,8 +89,8 @@ class TileRunner {
 
   /// Ends every set-up: everything as it is before the first step.
   void prepare(const ParticleMotion<P>& motion, const RecordRows& rows) {
-    if (!std::exchange(prepared_, true)) keep_arrays(rows);
     scene_.motion = motion;
+    if (!std::exchange(prepared_, true)) keep_arrays(rows);
     wall_table_ = motion.wall.table;
     const auto clear = [&](auto* data, std::size_t n) {
       check_cuda(cudaMemsetAsync(data, 0, n * sizeof *data, team_.stream()), "start");
@@ -109,6 +112,7 @@ class TileRunner {
     }
     team_.meet();
     settling_.run(settling_starts, block_, settled());
+    messages_.after_settling(team_);
     team_.wait("start");
   }
 
@@ -119,6 +123,24 @@ class TileRunner {
            (bodies_ + walls) * loads + records * record_words * sizeof(R) + (bodies_ + walls) * 4 * sizeof(ulonglong2) +
            places_.slots() * sizeof(uint2) +
            (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4 * team_.size();
+  }
+
+  /// Makes what a block in progress keeps whole, of several processes.
+  void gather() const {
+    const auto of_packets = [&](float4* data, int words) {
+      queue_whole(team_, data, static_cast<std::size_t>(words) * 32,
+                  [this](std::size_t m) { return owners_.first_packet(m); });
+    };
+    of_packets(constant_.data(), tile_constants(carried_));
+    of_packets(scene_.state, tile_states);
+    const auto of_bodies = [&](auto* data) {
+      queue_whole(team_, data, velocity_words, [this](std::size_t m) { return cuts_.body(m); });
+    };
+    static_assert(velocity_words == displacement_words);
+    of_bodies(base_);
+    of_bodies(scene_.force);
+    of_bodies(before_);
+    messages_.wall_loads(team_);
   }
 
   /// Adds what a block in progress keeps besides the chains.
@@ -181,6 +203,7 @@ class TileRunner {
 
   /// Loads on all bodies now, [body][8]; walls are summed first.
   const R* forces() const {
+    messages_.wall_loads(team_);
     launch("wall loads", add_wall_loads<R>, walls, body_threads, 0, team_.stream(),
            reinterpret_cast<const float*>(scene_.wall_load), wall_begin_, base_ + bodies_ * velocity_words,
            scene_.force + bodies_ * velocity_words);
@@ -216,7 +239,8 @@ class TileRunner {
     scene_.most_slots = plan_.most_slots;
     scene_.places = static_cast<std::uint32_t>(plan_.body.size());
     const auto pick = [&](auto carried) {
-      if (!try_resident<decltype(carried)::value>()) use_streamed<decltype(carried)::value>();
+      const bool on_chip = !team_.ranks() && try_resident<decltype(carried)::value>();  // chips that reach each other
+      if (!on_chip) use_streamed<decltype(carried)::value>();
     };
     if (carried_)
       pick(std::true_type{});
@@ -276,7 +300,7 @@ class TileRunner {
     use_ = kernel_use("tiles streamed", kernel, threads, shared);
     run_ = [this, kernel, shared](std::uint32_t steps) {
       team_.each([&](std::size_t m) {
-        const std::uint32_t first = first_place(m);
+        const auto first = static_cast<std::uint32_t>(owners_.first_place(m));
         const auto end =
             first + static_cast<std::uint32_t>(layout_.tile_body[cuts_.tile(m + 1)] - layout_.tile_body[cuts_.tile(m)]);
         launch("time steps", begin_streamed<P>, (end - first + 127) / 128, 128, 0, team_.stream(m), scene_of(m), 0u,
@@ -284,6 +308,7 @@ class TileRunner {
       });
       for (std::uint32_t k = 0; k < steps; ++k) {
         team_.meet();
+        messages_.velocities(team_, k);
         team_.each([&](std::size_t m) {
           launch("time steps", kernel, tiles(m), threads, shared, team_.stream(m), scene_of(m), k, k + 1 == steps);
         });
@@ -316,12 +341,6 @@ class TileRunner {
   }
   std::size_t words_of_exchange() const { return 2 * (std::size_t{scene_.places} + walls); }
   std::size_t tiles(std::size_t m) const { return cuts_.tile(m + 1) - cuts_.tile(m); }
-  /// First place, or packet, of member m, or behind the last.
-  std::uint32_t first_place(std::size_t m) const { return m == team_.size() ? scene_.places : tables_[m].first_place; }
-  std::size_t first_packet(std::size_t m) const {
-    return m == team_.size() ? constants_.size() / static_cast<std::size_t>(tile_constants(carried_)) / 32
-                             : plan_.tile[cuts_.tile(m)].first_packet;
-  }
   /// What the launches of member m get.
   TileScene<P> scene_of(std::size_t m) const {
     TileScene<P> out = scene_;
@@ -329,6 +348,7 @@ class TileRunner {
     out.tile = own.tile, out.body = own.body, out.row = own.row, out.diagonal = own.diagonal, out.halo = own.halo;
     out.rest = own.rest;
     out.first_tile = static_cast<std::uint32_t>(cuts_.tile(m));
+    out.moves_walls = m == team_.first();  // the others of this process reach them
     return out;
   }
 
@@ -345,11 +365,10 @@ class TileRunner {
       tables_[m].row = reinterpret_cast<const uint2*>(store_.keep(plan_.row));
       tables_[m].diagonal = store_.keep(plan_.diagonal);
       tables_[m].halo = store_.keep(plan_.halo);
-      tables_[m].first_place = plan_.tile[cuts_.tile(m)].first_body;
     });
-    const Shares by_body = cuts_.bodies(), packets = cuts_.of([&](std::size_t m) { return first_packet(m); });
-    const Shares places = cuts_.of(
-        [&](std::size_t m) -> std::size_t { return m == team_.size() ? scene_.places + walls : first_place(m); });
+    const Shares by_body = cuts_.bodies(), packets = cuts_.of([&](std::size_t m) { return owners_.first_packet(m); });
+    const Shares places =
+        cuts_.of([&](std::size_t m) { return owners_.first_place(m) + (m == team_.size() ? walls : 0); });
     constant_ = DeviceArray<float4>::of(constants_, packets);
     scene_.constant = constant_.data();
     state_count_ = plan_.contact.size() * tile_states;
@@ -364,6 +383,11 @@ class TileRunner {
     wall_begin_ = store_.keep(plan_.wall_begin);
     rows_ = &rows;
     records_ = {store_.template zeros<R>(rows.shares, record_words), rows.begin.data(), rows.place.data()};
+    places_.own_first(cuts_, [&](std::size_t contact) { return owners_.of_contact(contact); });
+    if (crossing_) {
+      messages_.make_ready(team_, layout_, cuts_, plan_, owners_, places_, *crossing_, scene_, settled(), before_,
+                           base_, carried_);
+    }
     places_.keep(store_, cuts_.all_slots());
     constants_ = {};
     plan_.contact = {};
@@ -383,8 +407,10 @@ class TileRunner {
                  "first block");
     }
     team_.meet();
+    messages_.before_settling(team_);
     settling_.run(schedule_.ended(), steps, settled());
     team_.meet();
+    messages_.after_settling(team_);
     parts_.end_of("settling", team_.stream());
     team_.each([&](std::size_t m) {
       const auto [long_body, long_rows] = rows_->long_rows(m, true);
@@ -395,6 +421,7 @@ class TileRunner {
              scene_.motion.body.displacement, before_);
     });
     team_.meet();
+    messages_.after_base(team_);
     parts_.end_of("base loads", team_.stream());
     schedule_.start(steps);
   }
@@ -406,13 +433,14 @@ class TileRunner {
     const uint2* row = nullptr;
     const std::uint32_t* diagonal = nullptr;
     unsigned char* rest = nullptr;
-    std::uint32_t first_place = 0;
   };
 
   const DeviceTeam& team_;
   const TeamCuts& cuts_;
   PartClock& parts_;
+  const std::optional<Crossing>& crossing_;
   TilePlan plan_;
+  TileOwners owners_;
   bool carried_, resident_ = false, prepared_ = false, released_ = false;
   int block_ = 0;  // steps
   BlockSchedule schedule_;
@@ -435,6 +463,7 @@ class TileRunner {
   bool has_room_ = false;
   LoadRecords<R> records_{};
   Settling<P, AnyLaw> settling_;
+  TileMessages<P> messages_;  // of several processes
   std::function<void(std::uint32_t)> run_;
   KernelUse use_;
   DeviceStore store_;

@@ -110,6 +110,7 @@ struct TileScene {
   std::uint32_t room;  ///< bytes of shared memory that a tile on the chip has
   std::uint32_t places;
   std::uint32_t first_tile;  ///< of this device
+  bool moves_walls;          ///< its first tile does, of streamed ones
 
   /// The tile of this block of threads.
   __device__ __forceinline__ std::uint32_t own_tile() const { return first_tile + blockIdx.x; }

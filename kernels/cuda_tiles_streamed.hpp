@@ -41,12 +41,12 @@ __global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint
                                std::uint32_t end) {
   using R = typename P::Particle;
   const std::uint32_t place = first + blockIdx.x * blockDim.x + threadIdx.x;
-  const int axis = static_cast<int>(place);
+  const int axis = s.moves_walls ? static_cast<int>(place - first) : -1;
   WallAxisMotion<P> wall(s, axis, k);
   if (wall.moves) {
     wall.move(s, k, k + 1);
     wall_velocity_of(s, k, axis) = static_cast<float>(wall.v);
-  } else if (axis < wall_axes) {
+  } else if (axis >= 0 && axis < wall_axes) {
     wall_velocity_of(s, k, axis) = wall_velocity_of(s, k + 1, axis) = 0;
   }
   if (place >= end) return;
@@ -77,8 +77,8 @@ __global__ void __launch_bounds__(Threads, Blocks)
   constexpr std::uint32_t words = tile_constants(carried);
   const Tile tile = s.tile[s.own_tile()];
   const float4* from = velocities_of(s, k);
-  // the first tile moves the walls on, with its last warp
-  const int axis = !last && s.own_tile() == 0 ? static_cast<int>(tid) - (Threads - wall_axes) : -1;
+  // the first tile moves the walls on, with its last warp; of several processes, each moves its own
+  const int axis = !last && s.moves_walls && blockIdx.x == 0 ? static_cast<int>(tid) - (Threads - wall_axes) : -1;
   WallAxisMotion<P> wall(s, axis, k + 1);
   for (std::uint32_t r = tid; r < 2 * tile.bodies; r += Threads)
     (r % 2 ? w : v)[r / 2] = from[2 * static_cast<std::size_t>(tile.first_body) + r];

@@ -123,6 +123,7 @@ class ExecCpu {
     }
   }
   void wait() const {}
+  void gather() const {}
   void end_steps() noexcept {}
   void use_device() const {}
 

@@ -57,6 +57,13 @@ class ExecCuda : public CudaBodyArrays<P> {
 
   void prepare(const ParticleMotion<P>& motion) {
     motion_ = motion;
+    if (this->crossing_ && !std::exchange(crosses_, true)) {
+      moved_.add(this->gathered(), velocity_words, this->crossing_->bodies);
+      moved_.add(this->displacement_.data(), displacement_words, this->crossing_->bodies);
+      loads_.add(records_.data(), record_words, this->crossing_->records);
+      moved_.make_ready(this->team_);
+      loads_.make_ready(this->team_);
+    }
     clock_ = {};
     if (motion.wall.driven > 0)
       clock_ = {step_.data(), motion.wall.table, wall_row_.data(), static_cast<unsigned>(motion.wall.row_words())};
@@ -72,7 +79,8 @@ class ExecCuda : public CudaBodyArrays<P> {
     this->team_.meet();  // with what the start has put into memory
     if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->team_.stream(), clock_);
     this->team_.meet();
-    if (waits_for_launches() || this->parts_.runs()) {  // which a graph cannot
+    const Ranks* ranks = this->team_.ranks();
+    if (waits_for_launches() || this->parts_.runs() || (ranks && !ranks->goes_into_graphs())) {
       for (; steps > 0; --steps) step();
     }
     const auto queue = [&](cudaGraphExec_t& graph, std::int64_t n) {
@@ -92,10 +100,17 @@ class ExecCuda : public CudaBodyArrays<P> {
     DeviceArray<R> out(count * velocity_words);
     launch("sums", sum_loads<R, G>, count, body_threads, 0, this->team_.stream(), records(), out.data(),
            static_cast<std::uint32_t>(first));
+    if (static_cast<std::size_t>(first) == this->layout_.particles()) this->of_last(out.data(), out.size());
     check_cuda(cudaStreamSynchronize(this->team_.stream()), "sums");
     return Base::twists(out.download());
   }
   bool forces_with_weight() const { return false; }
+  void gather() const {
+    if (!this->team_.ranks()) return;
+    Base::gather();
+    queue_whole(this->team_, records_.data(), record_words, [this](std::size_t m) { return this->rows_.cut[m]; });
+    this->wait();
+  }
 
   std::string description() const { return this->described("two kernels a step"); }
   std::vector<KernelUse> kernels() const {
@@ -126,12 +141,19 @@ class ExecCuda : public CudaBodyArrays<P> {
     });
     team.meet();
     this->parts_.end_of("bodies", team.stream());
+    send(moved_);
     team.each([&](std::size_t m) {
       contacts_[m].run(team.stream(m), {this->gathered(), this->displacement_.data()}, records(),
-                       m == 0 ? clock_ : WallClock<R>{});
+                       m == team.first() ? clock_ : WallClock<R>{});
     });
     team.meet();
     this->parts_.end_of("contacts", team.stream());
+    send(loads_);
+  }
+  void send(const RankExchange& messages) {
+    if (!this->team_.ranks()) return;
+    messages.queue(this->team_);
+    this->parts_.end_of("messages", this->team_.stream());
   }
 
   void forget_graphs() {
@@ -150,6 +172,8 @@ class ExecCuda : public CudaBodyArrays<P> {
   WallClock<R> clock_;
   std::vector<ContactLaunches<P, AnyLaw>> contacts_;  // [member]
   std::uint32_t slots_ = 0;                           // of the groups so far
+  bool crosses_ = false;
+  RankExchange moved_, loads_;  // of several processes: after the bodies, after the contacts
 };
 
 }  // namespace macadam::kernels

@@ -22,7 +22,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
 
   /// A tile a multiprocessor where the scene fits the chip, else tiles so small that two share one.
   static TileSize tile_size(const ContactNetwork& network, const StepperOptions& options) {
-    const DeviceTeam team(options.devices);
+    const DeviceTeam team(options.devices, options.ranks);
     const DeviceLimits limits = DeviceLimits::of_each(team, options.multiprocessors);
     auto chips = static_cast<std::size_t>(limits.multiprocessors) * team.size();
     const auto shared = static_cast<std::size_t>(limits.shared);
@@ -35,7 +35,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
       constexpr double computed = 1.3;  // times, a contact: those across the faces of tiles by both sides
       if (computed * static_cast<double>(contacts) <= static_cast<double>(part * contacts_in_registers)) chips = part;
     }
-    if (expected_resident_bytes<P>(network, chips) > shared) return {std::min<std::size_t>(1500, shared / 115)};
+    if (team.ranks() || expected_resident_bytes<P>(network, chips) > shared)
+      return {std::min<std::size_t>(1500, shared / 115)};
     return {std::max<std::size_t>(128, contacts / (chips + 1) + 1), true};
   }
 
@@ -50,7 +51,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   /// \throws Impossible
   ExecCudaTiles(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
       : Base(network, layout, options, RecordOrder::by_number),
-        tiles_(network, layout, options, this->team_, this->cuts_, this->parts_) {
+        tiles_(network, layout, options, this->team_, this->cuts_, this->parts_, this->crossing_) {
     if (!tiles_.possible()) throw Impossible{};
   }
 
@@ -105,6 +106,12 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     return Base::twists(out);
   }
   bool forces_with_weight() const { return true; }
+  void gather() const {
+    if (!this->team_.ranks()) return;
+    Base::gather();
+    tiles_.gather();
+    Base::wait();
+  }
 
   GroupState<P> group_state(std::size_t number, std::size_t chain, std::size_t frame) const {
     GroupState<P> out = Base::group_state(number, chain, frame);

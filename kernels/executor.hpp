@@ -47,6 +47,7 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
   exec.set_wall_rows(words);
   exec.run(std::int64_t{}, std::int64_t{});  // first step, number of steps; the walls' table begins with the first
   exec.wait();
+  read.gather();     // what a step changes is whole, though several processes have taken the steps
   exec.end_steps();  // the same after an error, which it may be in the way of others to leave as it is
   { read.forces(std::int32_t{}, std::size_t{}) } -> std::same_as<std::vector<Twist<typename E::Policy::Particle>>>;
   { read.forces_with_weight() } -> std::same_as<bool>;  // whether these have the body forces in them

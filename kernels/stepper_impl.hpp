@@ -57,7 +57,8 @@ class StepperImpl final : public Stepper {
     const FactsTable facts = facts_of(laws);
     const StepperOptions next = decided(options, network, facts);
     const auto kept = [](const StepperOptions& o) {
-      return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.devices, o.multiprocessors);
+      return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.devices, o.multiprocessors,
+                      o.ranks);
     };
     if (kept(next) != kept(options_) || network.contacts.size() != contacts_ ||
         !exec_.suits({next, facts, size_, false, 0}))
@@ -69,6 +70,7 @@ class StepperImpl final : public Stepper {
 
   void advance(std::int64_t steps) override {
     exec_.use_device();
+    if (options_.ranks) options_.ranks->require_same("the number of time steps to take", steps);
     try {
       for (const std::int64_t begin = step_, end = begin + steps; step_ < end;) {
         const std::int64_t n = wall_table_.rows(step_ - begin, end - step_);
@@ -113,6 +115,7 @@ class StepperImpl final : public Stepper {
 
   ParticleState particles() const override {
     exec_.use_device();
+    exec_.gather();
     const std::size_t n = layout_.particles();
     const std::vector<Vec3d> zero(n);
     ParticleState out{zero, zero, zero, zero, zero, zero};
@@ -138,6 +141,7 @@ class StepperImpl final : public Stepper {
 
   ContactState contacts(const ContactNetwork& network) const override {
     exec_.use_device();
+    exec_.gather();
     const std::vector<double> u = exec_.displacements();
     const std::size_t n = network.contacts.size();
     if (n != contacts_) {
@@ -169,13 +173,17 @@ class StepperImpl final : public Stepper {
     return out;
   }
 
-  DeviceMotion device_motion() const override { return exec_.device_motion(); }
+  DeviceMotion device_motion() const override {
+    exec_.gather();
+    return exec_.device_motion();
+  }
 
   void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) override {
     exec_.use_device();
     if (options_.skip_rotations && largest(spin) > 0) {
       throw InputError("a spin was given to particles that nothing can turn: set skip_rotations to false");
     }
+    exec_.gather();
     std::vector<R> v = exec_.velocities();
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
       const auto i = static_cast<std::size_t>(layout_.particle[b]);
@@ -193,6 +201,7 @@ class StepperImpl final : public Stepper {
 
   std::vector<StateArray> state() const override {
     exec_.use_device();
+    exec_.gather();
     std::vector<StateArray> out{{"step", "1", std::vector{step_}}};
     for (StateArray& array : exec_.states().copy()) out.push_back(std::move(array));
     return out;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fake_plugin.cpp  What plugin_test.cpp has in place of the CUDA backend: of this version with one device that cannot
-// be used, or, with FAKE_INTERFACE, of another.
+// fake_plugin.cpp  What tests have in place of the CUDA backend: of this version with one device that cannot be used,
+// or, with FAKE_INTERFACE, of another, or, with FAKE_DEVICE, with one that is the processor.
 #include "kernels/cuda_plugin.hpp"
 
 #ifndef FAKE_INTERFACE
@@ -14,9 +14,20 @@ void report(BackendReport& out) {
   out.devices.push_back({0, "paper device", 90, std::int64_t{1} << 30, 1});
   out.cuda_status = "1 device answers";
 }
+#ifdef FAKE_DEVICE
+std::string refusal(int) { return ""; }
+std::unique_ptr<Stepper> make(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
+                              const Inertia& inertia, const StepperOptions& options, std::unique_ptr<Stepper> used) {
+  StepperOptions given = options;
+  given.devices.clear();
+  return make_stepper(Backend::cpu, specimen, network, laws, inertia, given, std::move(used));
+}
+#else
 std::string refusal(int) { return "it is made of paper"; }
+constexpr auto make = nullptr;
+#endif
 
-constexpr CudaCode code{report, refusal, nullptr, nullptr, nullptr, nullptr};
+constexpr CudaCode code{report, refusal, nullptr, make, nullptr, nullptr};
 
 }  // namespace
 

@@ -53,6 +53,7 @@ std::string name_of(const std::string& what, const BenchCase& timed, const Stepp
   if (o.blocks != StepperOptions{}.blocks) out += fmt::format("/blocks:{:g}", o.blocks);
   if (o.multiprocessors > 0) out += fmt::format("/multiprocessors:{}", o.multiprocessors);
   if (o.devices.size() > 1) out += fmt::format("/devices:{}", o.devices.size());
+  if (o.ranks) out += fmt::format("/ranks:{}", o.ranks->count());
   return out;
 }
 
@@ -75,7 +76,8 @@ class Measured {
     row.label = stepper->description();
     row.iterations = 4;
     double took = 0;
-    while ((took = seconds_of([&] { stepper->advance(row.iterations); })) < axes_.seconds) row.iterations *= 2;
+    while ((took = of_first_rank(seconds_of([&] { stepper->advance(row.iterations); }))) < axes_.seconds)
+      row.iterations *= 2;
     for (int k = 0; k < axes_.repetitions; ++k) {
       row.seconds.push_back(seconds_of([&] { stepper->advance(row.iterations); }) /
                             static_cast<double>(row.iterations));
@@ -175,6 +177,7 @@ class Measured {
     options.boundary = moving_top(loading);
     options.dt = loading.dt();
     options.devices = devices_;
+    options.ranks = ranks();
   }
 
   void set_in_motion(Stepper& stepper) const {
@@ -241,6 +244,10 @@ MachineSpeed measure_machine(Backend backend, const DeviceList& devices, int thr
   for (const int device : device_numbers(devices)) {
     out.devices.push_back(measure_device(device));
     out.copy += out.devices.back().copy;
+  }
+  if (const Ranks* team = ranks()) {  // all have such a device
+    out.devices.resize(static_cast<std::size_t>(team->count()), out.devices.front());
+    out.copy *= team->count();
   }
   return out;
 }

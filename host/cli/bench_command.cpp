@@ -7,9 +7,11 @@
 #include <memory>
 
 #include "host/bench/json.hpp"
+#include "host/cli/as_rank.hpp"
 #include "host/cli/help.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/options.hpp"
+#include "host/stepping/rank_device.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -74,7 +76,7 @@ bool say_changes(const std::vector<bench::BenchRow>& before, const std::vector<b
   return slower;
 }
 
-void bench_command(BenchArguments arguments) {
+void time_scenes(BenchArguments arguments) {
   std::vector<bench::BenchRow> before;
   if (!arguments.against.empty())
     before = bench::read_rows(arguments.against);  // before the work, in case it is not there
@@ -105,6 +107,18 @@ void bench_command(BenchArguments arguments) {
   }
   if (!arguments.against.empty() && say_changes(before, rows, arguments.against))
     throw RunError("slower than " + arguments.against + " beyond noise");
+}
+
+/// Of several processes, steps alone are timed, each on a device of its own; the first writes.
+void bench_command(BenchArguments arguments) {
+  Ranks* const team = ranks();
+  if (!team) return time_scenes(std::move(arguments));
+  as_rank(*team, [&](bool&) {
+    arguments.only = "step";
+    if (arguments.axes.devices.empty()) arguments.axes.devices = device_of(*team);
+    if (team->number() > 0) arguments.json.clear(), arguments.against.clear();
+    time_scenes(std::move(arguments));
+  });
 }
 
 /// Several of the names, with commas.

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "host/cli/as_rank.hpp"
 #include "host/cli/help.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/options.hpp"
@@ -23,12 +24,14 @@ struct RunArguments {
   int at_once = 0;
 };
 
-void run_one(const RunArguments& arguments) {
+/// `stepping`: set when the first step comes.
+void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
   Scene scene = scene_of(arguments.job);
   apply(arguments.instead, scene);
   ProgressLine line;
   Watcher watcher;
   bool started = false;
+  const bool speaks = is_first_rank();
   watcher.progress = [&](const std::string& stage, double share) {
     if (started) {
       line.show(stage, share);
@@ -48,10 +51,11 @@ void run_one(const RunArguments& arguments) {
     for (const Skip& skip : planned.skips) say("skips {}: {}\n", skip.what, skip.why);
     flush_output();
     started = true;
+    if (stepping) *stepping = true;
   };
   watcher.warn = [&](const std::string& warning) {
     line.clear();
-    say_error("macadam: warning: {}\n", warning);
+    if (speaks) say_error("macadam: warning: {}\n", warning);
   };
   watcher.stop = stop_asked;
   listen_to_stop_signals();
@@ -73,7 +77,19 @@ void run_one(const RunArguments& arguments) {
 
 void run_command(RunArguments arguments) {
   arguments.job.scene = arguments.scenes.front();
-  if (arguments.scenes.size() == 1) return run_one(arguments);
+  const bool several = arguments.scenes.size() > 1;
+  if (Ranks* team = ranks()) {
+    return as_rank(*team, [&](bool& stepping) {
+      if (several) {
+        throw InputError(
+            fmt::format("scenes: found {} beside {} ranks, expected one: without mpirun, one process runs "
+                        "them side by side on all devices of its host",
+                        arguments.scenes.size(), team->count()));
+      }
+      run_one(arguments, &stepping);
+    });
+  }
+  if (!several) return run_one(arguments);
   run_scenes(arguments.scenes, arguments.job, arguments.instead, arguments.at_once, arguments.resume);
 }
 
@@ -93,7 +109,8 @@ void add_run_command(CLI::App& app) {
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam run examples/demo/scene.toml --out results",
                          "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2",
-                         "macadam run mixes/*.toml --out results --at-once 4"});
+                         "macadam run mixes/*.toml --out results --at-once 4",
+                         "mpirun -n 2 macadam run examples/demo/scene.toml --out results"});
   command.callback([arguments] { run_command(*arguments); });
 }
 

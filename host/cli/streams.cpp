@@ -28,6 +28,10 @@ bool say_error_text(std::string_view text) {
   return std::fflush(stderr) == 0 && whole;
 }
 
+void silence_output() {
+  if (!std::freopen("/dev/null", "w", stdout)) std::clearerr(stdout);
+}
+
 bool flush_output() {
   std::cout.flush();  // help is written there
   const bool flushed = std::fflush(stdout) == 0;

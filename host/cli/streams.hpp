@@ -29,6 +29,9 @@ bool say_error(fmt::format_string<Args...> text, Args&&... args) {
   return say_error_text(fmt::format(text, std::forward<Args>(args)...));
 }
 
+/// From now on standard output goes nowhere.
+void silence_output();
+
 /// Empties the buffer of standard output. Whether all that was ever said got out.
 bool flush_output();
 

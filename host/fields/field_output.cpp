@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "macadam/error.hpp"
+#include "macadam/ranks.hpp"
 
 namespace macadam {
 namespace {
@@ -70,8 +71,9 @@ void write_specimen_fields(const Scene& scene, const Preparation& prepared, cons
 }
 
 FieldOutput::FieldOutput(const Scene& scene, const Preparation& prepared, const fs::path& out)
-    : scene_(scene), prepared_(prepared), folder_(folder_in(out)) {
+    : scene_(scene), prepared_(prepared), folder_(folder_in(out)), writes_(is_first_rank()) {
   const FieldSpec& spec = scene.output.fields;
+  if (!writes_) return;
   if (spec.any()) make_folder(folder_);
   if (spec.cells) write_fields(folder_ / cells, spec.format, cells_of(prepared));
 }
@@ -93,7 +95,9 @@ std::unique_ptr<FieldSeries> FieldOutput::series(const char* kind, const std::st
 std::vector<std::string> FieldOutput::begin(const std::string& of, int samples, double time) {
   const FieldSpec& spec = scene_.output.fields;
   stride_ = spec.stride(samples);
+  begun_ = spec.particles || spec.contacts;
   std::vector<std::string> missing;
+  if (!writes_) return missing;
   if (spec.particles) {
     particles_ = series(particles, of, particle_mesh(prepared_.specimen, prepared_.aggregates), time, missing);
   }
@@ -102,16 +106,18 @@ std::vector<std::string> FieldOutput::begin(const std::string& of, int samples, 
   return missing;
 }
 
-bool FieldOutput::wants(std::int64_t sample) const { return (particles_ || contacts_) && sample % stride_ == 0; }
+bool FieldOutput::wants(std::int64_t sample) const { return begun_ && sample % stride_ == 0; }
 
 void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometry, double time) {
+  const FieldSpec& spec = scene_.output.fields;
   ParticleState state;
-  if (particles_ || geometry == Geometry::updated) state = stepper.particles();
+  if (spec.particles || geometry == Geometry::updated) state = stepper.particles();
   std::vector<FieldArray> of_particles = particle_arrays(state);
   if (geometry == Geometry::fixed) state.displacement.clear();
   const bool told = scene_.solver.backend != Backend::reference;  // which does not tell of its contacts
   ContactState carried;
-  if (contacts_ || told) carried = stepper.contacts(prepared_.network);
+  if (spec.contacts || told) carried = stepper.contacts(prepared_.network);
+  if (!writes_) return;  // its part is with the first rank now
   if (particles_) {
     if (told) of_particles.push_back(stress_array(prepared_.tessellation, prepared_.network, carried));
     particles_->add(time, of_particles);

@@ -50,7 +50,9 @@ class FieldOutput {
   const Preparation& prepared_;
   std::filesystem::path folder_;
   std::unique_ptr<FieldSeries> particles_, contacts_;
-  int stride_ = 1;  ///< samples from one frame to the next
+  bool writes_;         ///< this process does
+  bool begun_ = false;  ///< a series is wanted
+  int stride_ = 1;      ///< samples from one frame to the next
 };
 
 }  // namespace macadam

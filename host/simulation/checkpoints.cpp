@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "macadam/error.hpp"
+#include "macadam/ranks.hpp"
 #include "macadam/version.hpp"
 
 namespace macadam {
@@ -31,16 +32,9 @@ std::map<std::string, std::string> identity(const Scene& scene, Backend backend)
 
 /// Particles and contacts with a checksum of all that the steps take from them.
 std::string fingerprint(const Preparation& prepared) {
-  uLong sum = crc32(0, nullptr, 0);
-  const auto add = [&](const auto& list) {
-    sum = crc32_z(sum, reinterpret_cast<const Bytef*>(list.data()), list.size() * sizeof(list[0]));
-  };
-  const Specimen& s = prepared.specimen;
-  add(s.centre), add(s.radius), add(s.phase), add(s.body);  // voids show in the contacts
   const ContactNetwork& n = prepared.network;
-  add(n.point_s), add(n.point_t), add(n.point_area);
-  return fmt::format("{} particles, {} contacts, {} contact points, CRC-32 {:08x}", s.size(), n.contacts.size(),
-                     n.point_area.size(), sum);
+  return fmt::format("{} particles, {} contacts, {} contact points, CRC-32 {:08x}", prepared.specimen.size(),
+                     n.contacts.size(), n.point_area.size(), checksum(prepared));
 }
 
 /// The first line that two texts do not share, in words.
@@ -84,6 +78,18 @@ bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not
                                                                   : nullptr;
   if (why && why_not) *why_not = std::string(why) + " keeps no checkpoints";
   return !why;
+}
+
+std::uint32_t checksum(const Preparation& prepared) {
+  uLong sum = crc32(0, nullptr, 0);
+  const auto add = [&](const auto& list) {
+    sum = crc32_z(sum, reinterpret_cast<const Bytef*>(list.data()), list.size() * sizeof(list[0]));
+  };
+  const Specimen& s = prepared.specimen;
+  add(s.centre), add(s.radius), add(s.phase), add(s.body);  // voids show in the contacts
+  const ContactNetwork& n = prepared.network;
+  add(n.point_s), add(n.point_t), add(n.point_area);
+  return static_cast<std::uint32_t>(sum);
 }
 
 bool has_checkpoint(const std::filesystem::path& folder) {
@@ -145,8 +151,10 @@ void Checkpoints::look(const Content& content, const Stepper& stepper, const std
   constexpr double usual = 600;  // [s]
   const double period = scene_.output.checkpoint.value_or(usual);
   std::string why_not;
-  const bool kept = keeps_checkpoints(scene_, backend_, &why_not), stopping = stop_ && stop_();
-  const bool due = period > 0 && std::chrono::duration<double>(Clock::now() - last_).count() >= period;
+  const bool kept = keeps_checkpoints(scene_, backend_, &why_not);
+  bool stopping = stop_ && stop_();
+  bool due = period > 0 && std::chrono::duration<double>(Clock::now() - last_).count() >= period;
+  if (Ranks* team = ranks()) stopping = team->any(stopping), due = team->of_first(due) != 0;
   if (!stopping && !(kept && due)) return;
   std::string failure;
   if (kept) {
@@ -179,6 +187,7 @@ void Checkpoints::write(const Content& content, const Stepper& stepper) const {
     array.name = state_prefix + array.name;
     out.arrays.push_back(std::move(array));
   }
+  if (!is_first_rank()) return;
   keep_previous();
   write_checkpoint(file_, out);
 }

@@ -41,6 +41,9 @@ FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const Scene
 /// Whether a file is a whole checkpoint of this scene on this backend.
 bool is_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend);
 
+/// CRC-32 of all that the steps take from particles and contacts.
+std::uint32_t checksum(const Preparation& prepared);
+
 /// \throws InputError when the checkpoint's particles and contacts were others (its specimen file was changed).
 void require_same_specimen(const std::filesystem::path& file, const Checkpoint& found, const Preparation& prepared);
 

@@ -13,6 +13,7 @@
 #include "host/simulation/checkpoints.hpp"
 #include "host/simulation/phases.hpp"
 #include "host/simulation/preparation_files.hpp"
+#include "host/simulation/run_ranks.hpp"
 #include "host/simulation/run_scene.hpp"
 #include "host/simulation/sparing_save.hpp"
 #include "host/simulation/solution.hpp"
@@ -212,13 +213,35 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   return result;
 }
 
+namespace {
+
+/// As run_scene(), of this process alone or of one of several.
+RunResult run_alone_or_together(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher,
+                                bool resume, const Preparation* given) {
+  Ranks* const team = ranks();
+  if (!team) return run_scene(scene, out, watcher, resume, {}, given);
+  const Scene own = scene_of_rank(*team, scene);
+  std::optional<ScratchFolder> scratch;
+  if (!is_first_rank()) scratch.emplace(team->number());
+  const std::filesystem::path& folder = scratch ? scratch->path() : out;
+  if (resume) hand_out(*team, folder, {checkpoint_name, previous_checkpoint_name});
+  Watcher watching = watcher;
+  watching.prepared = [&](const Preparation& prepared) {
+    require_same_specimen(*team, prepared);
+    if (watcher.prepared) watcher.prepared(prepared);
+  };
+  return run_scene(own, folder, watching, resume, {}, given);
+}
+
+}  // namespace
+
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher, bool resume) {
-  return run_scene(scene, out, watcher, resume, {});
+  return run_alone_or_together(scene, out, watcher, resume, nullptr);
 }
 
 RunResult run(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out, const Watcher& watcher,
               bool resume) {
-  return run_scene(scene, out, watcher, resume, {}, &prepared);
+  return run_alone_or_together(scene, out, watcher, resume, &prepared);
 }
 
 }  // namespace macadam

@@ -30,6 +30,7 @@
 #include "macadam/phantom.hpp"
 #include "macadam/twin.hpp"
 #include "macadam/drives/all.hpp"
+#include "macadam/ranks.hpp"
 #include "macadam/stepper.hpp"
 #include "macadam/results.hpp"
 #include "macadam/sensitivity.hpp"

@@ -20,12 +20,14 @@ def written(us):
     return f"{us:.1f}" if us < 1e3 else f"{us:,.0f}" if us < 1e5 else f"{us / 1e6:.2f} s"
 
 
+SCENES = (("ac14_ss_am1", "full specimen, 221,000 contacts"), ("ac14_ms_ico_fine", "MS-Ico-fine, 441,000 contacts"),
+          ("lattice:1e6", "lattice of 10⁶, 5.9·10⁶ contacts"))
+
+
 @mark
 def team():
     cases = [(f"step/{scene}/cuda/condensed/{p}/fixed", f"{label}, {p}")
-             for scene, label in (("ac14_ss_am1", "full specimen, 221,000 contacts"), ("ac14_ms_ico_fine", "MS-Ico-fine, 441,000 contacts"),
-                                  ("lattice:1e6", "lattice of 10⁶, 5.9·10⁶ contacts"))
-             for p in ("single", "mixed", "double")]
+             for scene, label in SCENES for p in ("single", "mixed", "double")]
     lines = []
     for row, label in cases:
         alone, both = pair(row)
@@ -46,6 +48,25 @@ def team_huge():
     alone = one(rows(TEAM), row="step/lattice:8e6/cuda/condensed/single/fixed")["us"]
     both = one(rows(TEAM), row="step/lattice:1.6e7/cuda/condensed/single/fixed/devices:2")["us"]
     return f"{both / 1e3:.2f} ms, and of half of it on one {alone / 1e3:.2f} ms: {100 * alone / both:.0f} %"
+
+
+RANKS = "ranks-h100-2026-11-25.csv"
+
+
+@mark
+def ranks_machine():
+    return head(RANKS)[0]
+
+
+@mark
+def ranks():
+    lines = []
+    for scene, label in SCENES:
+        for p in ("single", "mixed", "double"):
+            row = f"step/{scene}/cuda/condensed/{p}/fixed"
+            alone, processes, memory = (one(rows(RANKS), row=row + more)["us"] for more in ("", "/ranks:2", "/devices:2"))
+            lines.append((f"{label}, {p}", written(alone), written(processes), f"{alone / processes:.2f}", written(memory)))
+    return table(["a step (µs)", "one GPU", "two processes, a GPU each", "factor", "one process, both GPUs"], lines)
 
 
 MANY = "many-h100-2026-11-25.csv"

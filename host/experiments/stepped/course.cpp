@@ -22,7 +22,7 @@ class Pieces {
       const std::int64_t piece = std::min(piece_, to - from);
       if (piece > 0) stepper.advance(piece);
       from += piece;
-      const double seconds = seconds_since(start);
+      const double seconds = of_first_rank(seconds_since(start));  // all take the same pieces
       if (piece == piece_ && seconds < 0.1) piece_ *= 2;
       if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);
       look(from);

@@ -24,6 +24,7 @@ StepperOptions stepper_options(const SolverSpec& solver, ContactForm form, Geome
   options.threads = solver.threads;
   options.devices = solver.devices;
   options.side_by_side = solver.side_by_side;
+  options.ranks = ranks();
   return options;
 }
 

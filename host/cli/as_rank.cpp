@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// as_rank.cpp  Who speaks, and how all end.
+#include "host/cli/as_rank.hpp"
+
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <thread>
+
+#include "host/cli/streams.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+/// An error that all have is told by the first alone, which ends the others meanwhile.
+[[noreturn]] void end_all(Ranks& team, const char* why, int code) {
+  const bool first = team.number() == 0;
+  if (!first) std::this_thread::sleep_for(std::chrono::seconds(2));
+  say_error("macadam: {}{}\n", first ? "" : fmt::format("rank {}: ", team.number()), why);
+  flush_output();
+  team.end_all(code);
+  std::_Exit(code);
+}
+
+}  // namespace
+
+void as_rank(Ranks& team, const std::function<void(bool&)>& f) {
+  const bool first = team.number() == 0;
+  if (!first) silence_output();
+  bool together = false;
+  try {
+    f(together);
+    team.leave();
+  } catch (const InterruptedError& error) {
+    if (!together) end_all(team, error.what(), 1);
+    team.leave();  // the first has written the checkpoint by then
+    if (first) throw;
+  } catch (const InputError& error) { end_all(team, error.what(), 2); } catch (const std::exception& error) {
+    end_all(team, error.what(), 1);
+  }
+}
+
+}  // namespace macadam

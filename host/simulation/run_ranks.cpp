@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// run_ranks.cpp  What the processes of one run do differently. Every rank prepares the scene and takes the same course;
+// the first writes the results, each other one has a folder for as long as it runs.
+#include "host/simulation/run_ranks.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "host/experiments/experiment.hpp"
+#include "host/simulation/checkpoints.hpp"
+#include "host/stepping/rank_device.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace fs = std::filesystem;
+
+ScratchFolder::ScratchFolder(int rank) {
+  std::error_code error;
+  path_ = fs::temp_directory_path(error) / fmt::format("macadam-rank-{}-{}", rank, ::getpid());
+  fs::create_directories(path_, error);
+  if (error)
+    throw RunError(path_.string() + ": cannot make the folder of rank " + std::to_string(rank) + ": " +
+                   error.message());
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+Scene scene_of_rank(const Ranks& team, Scene scene) {
+  const std::string beside = fmt::format(" beside {} ranks", team.count());
+  if (scene.solver.method != SolverMethod::explicit_) {
+    throw InputError(scene.file.string(), 0, "method", "\"harmonic\"" + beside,
+                     "\"explicit\": one process solves the frequency domain, on all devices of its host");
+  }
+  if (scene.solver.backend == Backend::cpu || scene.solver.backend == Backend::reference) {
+    throw InputError(scene.file.string(), 0, "backend", to_string(scene.solver.backend) + beside, "cuda");
+  }
+  scene.solver.backend = Backend::cuda;
+  if (scene.solver.devices.empty()) scene.solver.devices = device_of(team);
+  return scene;
+}
+
+void hand_out(Ranks& team, const fs::path& folder, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    std::string bytes;
+    if (team.number() == 0) {
+      std::ifstream file(folder / name, std::ios::binary);
+      bytes.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    auto size = static_cast<std::uint64_t>(bytes.size());
+    team.take_of_first(&size, sizeof size);
+    bytes.resize(size);
+    team.take_of_first(bytes.data(), size);
+    if (team.number() == 0 || size == 0) continue;
+    std::ofstream file(folder / name, std::ios::binary);
+    if (!(file << bytes).flush()) throw RunError((folder / name).string() + ": cannot be written");
+  }
+}
+
+void require_same_specimen(Ranks& team, const Preparation& prepared) {
+  team.require_same("checksum of particles and contacts", checksum(prepared));
+}
+
+}  // namespace macadam

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// ranks_nccl.cpp  Processes begun by MPI, whose devices send each other messages by NCCL.
+#include <mpi.h>
+#include <nccl.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "macadam/error.hpp"
+#include "macadam/ranks.hpp"
+
+namespace macadam::kernels {
+namespace {
+
+void check_mpi(int status, const char* what) {
+  if (status == MPI_SUCCESS) return;
+  char text[MPI_MAX_ERROR_STRING] = "";
+  int size = 0;
+  MPI_Error_string(status, text, &size);
+  throw RunError(std::string("MPI: ") + what + ": " + text);
+}
+
+class NcclRanks final : public Ranks {
+ public:
+  NcclRanks() {
+    int begun = 0, given = 0;
+    MPI_Initialized(&begun);  // by mpi4py, for example
+    if (!begun) check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given), "start");
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+    MPI_Comm on_host = MPI_COMM_NULL;
+    check_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &number_), "rank");
+    check_mpi(MPI_Comm_size(MPI_COMM_WORLD, &count_), "ranks");
+    check_mpi(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, number_, MPI_INFO_NULL, &on_host), "hosts");
+    check_mpi(MPI_Comm_rank(on_host, &number_on_host_), "hosts");
+    MPI_Comm_free(&on_host);
+  }
+
+  int number() const override { return number_; }
+  int count() const override { return count_; }
+  int number_on_host() const override { return number_on_host_; }
+
+  void take_of_first(void* data, std::size_t size) override {
+    constexpr std::size_t most = std::size_t{1} << 30;  // MPI counts in int
+    for (std::size_t done = 0; done < size; done += most) {
+      const auto part = static_cast<int>(std::min(most, size - done));
+      check_mpi(MPI_Bcast(static_cast<char*>(data) + done, part, MPI_BYTE, 0, MPI_COMM_WORLD), "broadcast");
+    }
+  }
+  double least(double value) override {
+    double out = value;
+    check_mpi(MPI_Allreduce(&value, &out, 1, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD), "least");
+    return out;
+  }
+
+  void connect(int device) override {
+    if (device == device_) return;
+    if (link_) {
+      throw RunError("ranks: found device " + std::to_string(device) + ", expected " + std::to_string(device_) +
+                     ", which the others know");
+    }
+    ncclUniqueId id{};
+    if (number_ == 0) check(ncclGetUniqueId(&id), "start");
+    take_of_first(&id, sizeof id);
+    check(ncclCommInitRank(&link_, count_, id, number_), ("device " + std::to_string(device)).c_str());
+    device_ = device;
+  }
+  void queue(const std::vector<Message>& sent, const std::vector<Message>& received, void* stream) override {
+    const auto to = static_cast<cudaStream_t>(stream);
+    check(ncclGroupStart(), "messages");
+    for (const Message& m : sent) check(ncclSend(m.data, m.size, ncclInt8, m.rank, link_, to), "message");
+    for (const Message& m : received) check(ncclRecv(m.data, m.size, ncclInt8, m.rank, link_, to), "message");
+    check(ncclGroupEnd(), "messages");
+  }
+  bool goes_into_graphs() const override { return true; }
+
+  void leave() override { MPI_Finalize(); }
+  void end_all(int code) override {
+    MPI_Abort(MPI_COMM_WORLD, code);
+    std::_Exit(code);
+  }
+
+ private:
+  void check(ncclResult_t status, const char* what) const {
+    if (status == ncclSuccess) return;
+    throw RunError("NCCL: rank " + std::to_string(number_) + ": " + what + ": " + ncclGetErrorString(status) + ": " +
+                   ncclGetLastError(nullptr));
+  }
+
+  int number_ = 0, count_ = 1, number_on_host_ = 0, device_ = -1;
+  ncclComm_t link_ = nullptr;
+};
+
+Ranks* join() {
+  static NcclRanks* const joined = new NcclRanks;  // stays: a communicator may not go after the driver
+  return joined;
+}
+
+}  // namespace
+
+extern "C" {
+extern const RanksPlugin macadam_ranks_plugin;
+const RanksPlugin macadam_ranks_plugin{ranks_interface, MACADAM_VERSION, join};
+}
+
+}  // namespace macadam::kernels

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// device_ranks_test.cpp  One specimen by several processes: the same bits as by one. The ranks are threads here, which
+// share a device; tests/ranks/run takes processes, MPI and NCCL.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "stepper_cases.hpp"
+#include "test_files.hpp"
+#include "thread_ranks.hpp"
+
+namespace macadam::test {
+namespace {
+
+struct Case {
+  const char* name;
+  Precision precision;
+  ContactForm form;
+  Geometry geometry;
+  bool pushed;  // by forces, on a wall and on the particles
+  const char* path;
+};
+
+class RanksOf : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+    const Case& c = GetParam();
+    scene_ = make_scene(random_specimen(3, 16, 16, 20));
+    options_ = slow_options(scene_);
+    options_.precision = c.precision;
+    options_.form = c.form;
+    options_.geometry = c.geometry;
+    options_.devices = {0};
+    options_.multiprocessors = 1;  // no room for the specimen on the chip
+    if (!c.pushed) return;
+    const double mass = std::accumulate(scene_.inertia.mass.begin(), scene_.inertia.mass.end(), 0.0);
+    options_.boundary = {};
+    options_.boundary.load(wall_z_hi, 2, std::make_shared<drives::Ramp>(-10.0, options_.dt, 50), mass);
+    for (const double m : scene_.inertia.mass) options_.boundary.body_force.push_back({0, 100 * m, -981 * m});
+    options_.boundary.fixed = {5};
+  }
+  std::unique_ptr<Stepper> make(Ranks* ranks = nullptr) const {
+    StepperOptions options = options_;
+    options.ranks = ranks;
+    return make_stepper(Backend::cuda, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
+  }
+
+  TestScene scene_;
+  StepperOptions options_;
+};
+
+void expect_same(const std::vector<StateArray>& a, const std::vector<StateArray>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].name, b[i].name);
+    EXPECT_TRUE(a[i].values == b[i].values) << a[i].name;
+  }
+}
+
+void expect_same(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, const char* what) {
+  ASSERT_EQ(a.size(), b.size()) << what;
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) different += a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z;
+  EXPECT_EQ(different, 0u) << what << ", of " << a.size();
+}
+
+template <std::size_t n>
+std::vector<Vec3d> list(const std::array<Vec3d, n>& of) {
+  return {of.begin(), of.end()};
+}
+
+TEST_P(RanksOf, TakeTheStepsOfOne) {
+  const auto alone = make();
+  EXPECT_HAS(alone->description(), GetParam().path);
+  for (const std::int64_t steps : {1, 32, 300}) alone->advance(steps);
+  const auto state = alone->state();
+  const Observation seen = alone->observe();
+  const ParticleState particles = alone->particles();
+  const ContactState contacts = alone->contacts(scene_.network);
+  for (const int count : {2, 3, 8}) {
+    for_ranks(count, [&](Ranks& rank) {
+      SCOPED_TRACE(std::to_string(rank.number()) + " of " + std::to_string(count));
+      const auto part = make(&rank);
+      EXPECT_HAS(part->description(), std::to_string(count) + " ranks");
+      EXPECT_HAS(part->description(), GetParam().path);
+      for (const std::int64_t steps : {1, 32, 300}) part->advance(steps);
+      const Observation now = part->observe();  // before anything is gathered
+      expect_same(list(now.wall_force), list(seen.wall_force), "forces on the walls");
+      expect_same(list(now.wall_displacement), list(seen.wall_displacement), "displacements of the walls");
+      expect_same(list(now.wall_velocity), list(seen.wall_velocity), "velocities of the walls");
+      EXPECT_EQ(part->first_divergent(), -1);
+      expect_same(part->state(), state);
+      expect_same(part->particles().force, particles.force, "forces on the particles");
+      expect_same(part->contacts(scene_.network).force, contacts.force, "forces of the contacts");
+    });
+  }
+}
+
+TEST_P(RanksOf, GoOnFromACheckpointOfAnotherNumber) {
+  const auto alone = make();
+  alone->advance(150);
+  const auto half = alone->state();
+  alone->advance(150);
+  const auto whole = alone->state();
+  std::vector<StateArray> later;
+  for_ranks(2, [&](Ranks& rank) {
+    const auto part = make(&rank);
+    part->set_state(half);
+    part->advance(75);
+    auto state = part->state();
+    if (rank.number() == 1) later = std::move(state);
+  });
+  for_ranks(5, [&](Ranks& rank) {
+    const auto part = make(&rank);
+    part->set_state(later);
+    part->advance(75);
+    expect_same(part->state(), whole);
+  });
+}
+
+// As the next frequency of a test does.
+TEST_P(RanksOf, BeginAnew) {
+  const auto alone = make();
+  alone->advance(100);
+  const auto state = alone->state();
+  for_ranks(3, [&](Ranks& rank) {
+    auto part = make(&rank);
+    part->advance(37);
+    StepperOptions options = options_;
+    options.ranks = &rank;
+    part = make_stepper(Backend::cuda, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options,
+                        std::move(part));
+    part->advance(100);
+    expect_same(part->state(), state);
+  });
+}
+
+// They would wait for each other for ever.
+TEST(Ranks, ThatTakeDifferentNumbersOfStepsAreRefused) {
+  if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+  const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));
+  for_ranks(2, [&](Ranks& rank) {
+    StepperOptions options = slow_options(scene);
+    options.devices = {0};
+    options.ranks = &rank;
+    const auto part = make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+    try {
+      part->advance(10 + rank.number());
+      ADD_FAILURE() << "was not refused";
+    } catch (const RunError& error) {
+      EXPECT_HAS(error.what(), "the number of time steps to take: found 10 and 11, expected the same of all");
+    }
+  });
+}
+
+TEST(Ranks, HaveOneDeviceEach) {
+  if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+  const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));
+  for_ranks(2, [&](Ranks& rank) {
+    StepperOptions options = slow_options(scene);
+    options.devices = {0, 0};
+    options.ranks = &rank;
+    try {
+      make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+      ADD_FAILURE() << "was not refused";
+    } catch (const InputError& error) { EXPECT_HAS(error.what(), "beside 2 ranks, expected one for each rank"); }
+  });
+}
+
+constexpr auto condensed = ContactForm::condensed, points = ContactForm::points;
+constexpr auto fixed = Geometry::fixed, updated = Geometry::updated;
+INSTANTIATE_TEST_SUITE_P(
+    All, RanksOf,
+    testing::Values(Case{"SingleStreamed", Precision::single, condensed, updated, false, "tiles streamed"},
+                    Case{"MixedStreamed", Precision::mixed, condensed, fixed, false, "tiles streamed"},
+                    Case{"DoubleCondensed", Precision::double_, condensed, updated, false, "two kernels a step"},
+                    Case{"DoublePoints", Precision::double_, points, updated, true, "two kernels a step"},
+                    Case{"MixedPushed", Precision::mixed, condensed, updated, true, "two kernels a step"},
+                    Case{"SinglePoints", Precision::single, points, fixed, false, "two kernels a step"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace macadam::test

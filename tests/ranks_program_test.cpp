@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// ranks_program_test.cpp  The program as mpirun begins it several times: who writes, and how all end. The device of
+// each rank is the processor in disguise, which steps all of the specimen; devices that share it are tested in
+// device_ranks_test.cpp and tests/ranks/run.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <thread>
+
+#include "program.hpp"
+
+namespace macadam::test {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class RanksProgram : public Program {
+ protected:
+  void SetUp() override {
+    Program::SetUp();
+    plugins_ = folder_ / "plugins";
+    fs::create_directory(plugins_);
+    fs::create_directory(folder_ / "tmp");
+    use(FAKE_DEVICE_PLUGIN);
+    fs::create_symlink(RANKS_PLUGIN, plugins_ / "libmacadam_ranks.so");
+  }
+  void use(const fs::path& cuda) const {
+    fs::remove(plugins_ / "libmacadam_cuda.so");
+    fs::create_symlink(cuda, plugins_ / "libmacadam_cuda.so");
+  }
+
+  /// The shell's command for two processes, for at most a minute.
+  std::string command(const std::string& arguments) const {
+    return fmt::format(
+        "MACADAM_PLUGIN_PATH='{}' TMPDIR='{}' OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 "
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 60 '{}' --oversubscribe -n 2 '{}' {} >'{}' 2>'{}' </dev/null",
+        plugins_.string(), (folder_ / "tmp").string(), MPIRUN, MACADAM_PROGRAM, arguments,
+        (folder_ / "stdout.txt").string(), (folder_ / "stderr.txt").string());
+  }
+  Outcome together(const std::string& arguments) const {
+    const int status = std::system(command(arguments).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(folder_ / "stdout.txt"), read(folder_ / "stderr.txt")};
+  }
+  static std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t out = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++out;
+    return out;
+  }
+  /// Nothing of the second rank's is left.
+  bool scratch_is_gone() const {
+    for (const auto& entry : fs::directory_iterator(folder_ / "tmp")) {
+      if (entry.path().filename().string().starts_with("macadam-rank")) return false;
+    }
+    return true;
+  }
+
+  fs::path plugins_;
+};
+
+TEST_F(RanksProgram, WritesOnce) {
+  write_scene(quick, "[output]\nfields = [\"particles\", \"contacts\"]\n");
+  const Outcome alone = run_quick("alone");
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  const Outcome two = together(fmt::format("run {} --out {}", path("scene.toml"), path("two")));
+  ASSERT_EQ(two.code, 0) << two.err;
+  EXPECT_EQ(count(two.out, "E*"), count(alone.out, "E*")) << two.out;
+  EXPECT_EQ(read(folder_ / "two" / "response.csv"), read(folder_ / "alone" / "response.csv"));
+  EXPECT_EQ(read(folder_ / "two" / "specimen.csv"), read(folder_ / "alone" / "specimen.csv"));
+  for (const auto& field : fs::directory_iterator(folder_ / "alone" / "fields")) {
+    const fs::path other = folder_ / "two" / "fields" / field.path().filename();
+    EXPECT_TRUE(fs::exists(other)) << other;
+  }
+  EXPECT_EQ(summary("two")["status"], "done");
+  EXPECT_TRUE(scratch_is_gone());
+}
+
+TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
+  write_scene("density_scaling = 1.0\n");
+  std::thread told([&] {  // one rank of the two
+    const fs::path summary = folder_ / "two" / "summary.json";
+    for (int k = 0; k < 600 && !(fs::exists(summary) && contains(read(summary), "running")); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    const std::string kill = fmt::format("pkill -INT -n -f -- '^{} run {}'", MACADAM_PROGRAM, folder_.string());
+    EXPECT_EQ(std::system(kill.c_str()), 0);
+  });
+  const Outcome two = together(fmt::format("run {} --out {}", path("scene.toml"), path("two")));
+  told.join();
+  EXPECT_EQ(two.code, 1) << two.out << two.err;
+  EXPECT_THAT(two.err, HasSubstr("--resume goes on from it"));
+  EXPECT_EQ(count(two.err, "interrupted at"), 1u) << two.err;
+  ASSERT_TRUE(fs::exists(folder_ / "two" / "checkpoint.h5"));
+  EXPECT_TRUE(scratch_is_gone());
+  const Outcome on = together(fmt::format("run {} --out {} --resume", path("scene.toml"), path("two")));
+  ASSERT_EQ(on.code, 0) << on.err;
+  const Outcome alone = run_quick("alone");
+  ASSERT_EQ(alone.code, 0) << alone.err;
+  EXPECT_EQ(read(folder_ / "two" / "response.csv"), read(folder_ / "alone" / "response.csv"));
+}
+
+// An error that all have is told once.
+TEST_F(RanksProgram, FailsAsOne) {
+  const Outcome missing = together(fmt::format("run {} --out {}", path("none.toml"), path("two")));
+  EXPECT_EQ(missing.code, 2) << missing.err;
+  EXPECT_EQ(count(missing.err, "none.toml"), 1u) << missing.err;
+  write_scene();
+  const Outcome harmonic = together(fmt::format("run {} --method harmonic --out {}", path("scene.toml"), path("two")));
+  EXPECT_EQ(harmonic.code, 2) << harmonic.err;
+  EXPECT_THAT(harmonic.err, HasSubstr("one process solves the frequency domain"));
+  const Outcome processor = together(fmt::format("run {} --backend cpu --out {}", path("scene.toml"), path("two")));
+  EXPECT_EQ(processor.code, 2) << processor.err;
+  EXPECT_THAT(processor.err, HasSubstr("cpu beside 2 ranks, expected cuda"));
+  const Outcome several =
+      together(fmt::format("run {} {} --out {}", path("scene.toml"), path("scene.toml"), path("two")));
+  EXPECT_EQ(several.code, 2) << several.err;
+  EXPECT_THAT(several.err, HasSubstr("found 2 beside 2 ranks, expected one"));
+  use(FAKE_PLUGIN);
+  const Outcome paper = together(fmt::format("run {} --out {}", path("scene.toml"), path("two")));
+  EXPECT_EQ(paper.code, 1) << paper.err;
+  EXPECT_THAT(paper.err, HasSubstr("it is made of paper"));
+}
+
+TEST_F(RanksProgram, SaysWhatItNeeds) {
+  write_scene();
+  fs::remove(plugins_ / "libmacadam_ranks.so");
+  fs::copy_file(folder_ / "t8.csv", plugins_ / "libmacadam_ranks.so");
+  const Outcome two = together(fmt::format("run {} --out {}", path("scene.toml"), path("two")));
+  EXPECT_EQ(two.code, 1) << two.err;
+  EXPECT_THAT(two.err, HasSubstr("2 processes were begun to run together, and this one cannot join the others: "));
+}
+
+}  // namespace
+}  // namespace macadam::test
