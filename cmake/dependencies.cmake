@@ -104,6 +104,9 @@ message(STATUS "CUDA backend: ${MACADAM_HAS_CUDA}")
 
 # Several processes with a device each: MPI starts them, NCCL takes the messages of their devices
 set(MACADAM_HAS_RANKS OFF)
+if(MACADAM_RANKS STREQUAL "ON" AND NOT MACADAM_HAS_CUDA)
+  message(FATAL_ERROR "MACADAM_RANKS=ON but there is no CUDA backend; use MACADAM_RANKS=AUTO")
+endif()
 if(MACADAM_HAS_CUDA AND NOT MACADAM_RANKS STREQUAL "OFF")
   find_package(MPI QUIET COMPONENTS C)
   find_path(NCCL_INCLUDE nccl.h HINTS ${CUDAToolkit_INCLUDE_DIRS})

@@ -102,9 +102,15 @@ class CudaBodyArrays {
   }
 
   std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
-    whole_bodies(master_.data(), velocity_words);
     if (!divergence_) divergence_ = std::make_unique<DivergenceSearch<P>>(layout_, radius);
-    return divergence_->first(master_.data(), dt, team_.stream());
+    Ranks* const ranks = team_.ranks();
+    const std::size_t begin = ranks ? cuts_.body(team_.first()) : 0;
+    const std::size_t end = ranks ? std::min(cuts_.body(team_.first() + 1), layout_.particles()) : layout_.particles();
+    const std::int64_t own = divergence_->first(master_.data(), dt, begin, end, team_.stream());
+    if (!ranks) return own;
+    const auto none = static_cast<double>(layout_.particles());
+    const double least = ranks->least(own < 0 ? none : static_cast<double>(own));
+    return least == none ? -1 : static_cast<std::int64_t>(least);
   }
 
   GroupState<P> group_state(std::size_t number, std::size_t chain, std::size_t frame) const {

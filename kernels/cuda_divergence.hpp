@@ -42,12 +42,14 @@ class DivergenceSearch {
     radius_ = DeviceArray<double>::of(sorted);
   }
 
-  /// As Stepper::first_divergent(), of the velocities `velocity` [body][8] on the device.
-  std::int64_t first(const typename P::Particle* velocity, double dt, cudaStream_t stream) {
+  /// As Stepper::first_divergent(), of the bodies `begin` to `end` − 1 and the velocities `velocity` [body][8] on the
+  /// device.
+  std::int64_t first(const typename P::Particle* velocity, double dt, std::size_t begin, std::size_t end,
+                     cudaStream_t stream) {
     const auto search = [&](std::size_t& bytes) {
       check_cuda(cub::DeviceReduce::TransformReduce(
-                     work_.data(), bytes, thrust::make_counting_iterator(0), first_.data(),
-                     static_cast<int>(particle_.size()), ::cuda::minimum<std::uint32_t>{},
+                     work_.data(), bytes, thrust::make_counting_iterator(static_cast<std::int32_t>(begin)),
+                     first_.data(), static_cast<int>(end - begin), ::cuda::minimum<std::uint32_t>{},
                      Divergent<P>{velocity, particle_.data(), radius_.data(), dt}, std::uint32_t{UINT32_MAX}, stream),
                  "divergence");
     };

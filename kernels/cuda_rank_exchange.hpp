@@ -65,16 +65,18 @@ __global__ void move_items(uint2* array, uint2* buffer, const std::uint32_t* ite
 /// Items of some arrays that go together, one message from a rank to another.
 class RankExchange {
  public:
-  /// Items of `array`, which stays where it is. \throws RunError for more than 2^32 of them.
+  /// Items of `array`, which stays where it is: so many words that they are whole words of eight bytes.
   template <class T>
   void add(T* array, std::size_t words_an_item, const RankItems& items) {
     const std::size_t bytes = words_an_item * sizeof(T);
-    static_assert(sizeof(T) % 4 == 0);
+    if (bytes % sizeof(uint2) != 0)
+      throw RunError("ranks: found an item of " + std::to_string(bytes) + " bytes, expected a multiple of 8");
     parts_.push_back({reinterpret_cast<uint2*>(array), static_cast<std::uint32_t>(bytes / sizeof(uint2)), items.sent(),
                       items.received()});
   }
 
-  /// Nothing more is to be added: what the messages need goes to the device.
+  /// Nothing more is to be added: what the messages need goes to the device. \throws RunError for messages of more
+  /// than 2^32 words or items.
   void make_ready(const DeviceTeam& team) {
     make_way(team, &Part::send, sent_);
     make_way(team, &Part::receive, received_);
@@ -136,7 +138,7 @@ class RankExchange {
   }
   static std::uint32_t number(std::size_t n) {
     if (n > UINT32_MAX)
-      throw RunError("ranks: found a message of more than 32 GiB, expected more ranks or a smaller scene");
+      throw RunError("ranks: found " + std::to_string(n) + " words or items of a message, expected fewer than 2^32");
     return static_cast<std::uint32_t>(n);
   }
   template <bool into_buffer>

@@ -126,7 +126,7 @@ class DeviceTeam {
   /// Until all that is queued is done. Every device is asked again and again: what one that fails should have done,
   /// others may wait for in vain.
   void wait(const char* what) const {
-    if (member_.size() == 1) return check_cuda(cudaStreamSynchronize(stream()), what);
+    if (member_.size() == 1 && !ranks_) return check_cuda(cudaStreamSynchronize(stream()), what);
     while (!at_rest(what)) std::this_thread::yield();
   }
   /// The same until an event has come.
@@ -149,6 +149,7 @@ class DeviceTeam {
   /// Whether all that is queued is done. \throws RunError naming a device that has failed.
   bool at_rest(const char* what) const {
     bool out = true;
+    if (ranks_) ranks_->require_link();
     each([&](std::size_t m) {
       const cudaError_t status = cudaStreamQuery(stream(m));
       if (status == cudaErrorNotReady)

@@ -33,13 +33,12 @@ class TilePlaces {
   /// Calls f(member, places) for the slots of each member of a team, until places are on the device.
   template <class F>
   void for_each_slot(const TeamCuts& cuts, F&& f) const {
-    const_cast<TilePlaces&>(*this).for_each_slot(cuts,
-                                                 [&](std::size_t m, uint2& place) { f(m, std::as_const(place)); });
+    each_slot(*this, cuts, f);
   }
   /// Settling reads the first of a slot's places: that is to be one of the slot's member.
   template <class Owner>
   void own_first(const TeamCuts& cuts, Owner&& owner) {
-    for_each_slot(cuts, [&](std::size_t m, uint2& place) {
+    each_slot(*this, cuts, [&](std::size_t m, uint2& place) {
       if (place.y != UINT32_MAX && owner(place.x) != m) std::swap(place.x, place.y);
     });
   }
@@ -103,12 +102,13 @@ class TilePlaces {
   }
 
  private:
-  template <class F>
-  void for_each_slot(const TeamCuts& cuts, F&& f) {
-    for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
+  template <class Self, class F>
+  static void each_slot(Self& self, const TeamCuts& cuts, F&& f) {
+    for (std::size_t g = 0; g < self.layout_.groups.size(); ++g) {
+      const GroupLayout& group = self.layout_.groups[g];
       for (std::size_t m = 0; m < cuts.members(); ++m) {
-        const std::size_t end = cuts.slot(layout_.groups[g], m + 1);
-        for (std::size_t s = cuts.slot(layout_.groups[g], m); s < end; ++s) f(m, places_[first_slot_[g] + s]);
+        for (std::size_t s = cuts.slot(group, m); s < cuts.slot(group, m + 1); ++s)
+          f(m, self.places_[self.first_slot_[g] + s]);
       }
     }
   }

@@ -122,7 +122,7 @@ class TileRunner {
     return constants_.size() * sizeof(float4) + plan_.contact.size() * tile_states * sizeof(float4) +
            (bodies_ + walls) * loads + records * record_words * sizeof(R) + (bodies_ + walls) * 4 * sizeof(ulonglong2) +
            places_.slots() * sizeof(uint2) +
-           (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4 * team_.size();
+           (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4 * (team_.ranks() ? 1 : team_.size());
   }
 
   /// Makes what a block in progress keeps whole, of several processes.
@@ -319,6 +319,7 @@ class TileRunner {
   /// Where the tiles of a team's members begin, but for the first.
   std::vector<bool> begins_share() const {
     std::vector<bool> out;
+    if (team_.ranks()) return out;  // whose arrays are on one device each
     for (std::size_t m = 1; m < team_.size(); ++m) {
       out.resize(cuts_.tile(team_.size()), false);
       out[cuts_.tile(m)] = true;

@@ -25,31 +25,35 @@ class NcclRanks final : public Ranks {
  public:
   NcclRanks() {
     int begun = 0, given = 0;
-    MPI_Initialized(&begun);  // by mpi4py, for example
-    if (!begun) check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given), "start");
-    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+    MPI_Initialized(&begun);  // by mpi4py, for example, which then ends it too
+    began_ = !begun;
+    if (began_) check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given), "start");
+    check_mpi(MPI_Comm_dup(MPI_COMM_WORLD, &all_), "ranks");  // apart from what else the program sends
+    MPI_Comm_set_errhandler(all_, MPI_ERRORS_RETURN);
     MPI_Comm on_host = MPI_COMM_NULL;
-    check_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &number_), "rank");
-    check_mpi(MPI_Comm_size(MPI_COMM_WORLD, &count_), "ranks");
-    check_mpi(MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, number_, MPI_INFO_NULL, &on_host), "hosts");
+    check_mpi(MPI_Comm_rank(all_, &number_), "rank");
+    check_mpi(MPI_Comm_size(all_, &count_), "ranks");
+    check_mpi(MPI_Comm_split_type(all_, MPI_COMM_TYPE_SHARED, number_, MPI_INFO_NULL, &on_host), "hosts");
     check_mpi(MPI_Comm_rank(on_host, &number_on_host_), "hosts");
+    check_mpi(MPI_Comm_size(on_host, &count_on_host_), "hosts");
     MPI_Comm_free(&on_host);
   }
 
   int number() const override { return number_; }
   int count() const override { return count_; }
   int number_on_host() const override { return number_on_host_; }
+  int count_on_host() const override { return count_on_host_; }
 
   void take_of_first(void* data, std::size_t size) override {
     constexpr std::size_t most = std::size_t{1} << 30;  // MPI counts in int
     for (std::size_t done = 0; done < size; done += most) {
       const auto part = static_cast<int>(std::min(most, size - done));
-      check_mpi(MPI_Bcast(static_cast<char*>(data) + done, part, MPI_BYTE, 0, MPI_COMM_WORLD), "broadcast");
+      check_mpi(MPI_Bcast(static_cast<char*>(data) + done, part, MPI_BYTE, 0, all_), "broadcast");
     }
   }
   double least(double value) override {
     double out = value;
-    check_mpi(MPI_Allreduce(&value, &out, 1, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD), "least");
+    check_mpi(MPI_Allreduce(&value, &out, 1, MPI_DOUBLE, MPI_MIN, all_), "least");
     return out;
   }
 
@@ -72,11 +76,19 @@ class NcclRanks final : public Ranks {
     for (const Message& m : received) check(ncclRecv(m.data, m.size, ncclInt8, m.rank, link_, to), "message");
     check(ncclGroupEnd(), "messages");
   }
+  void require_link() override {
+    if (!link_) return;
+    ncclResult_t found = ncclSuccess;
+    check(ncclCommGetAsyncError(link_, &found), "messages");
+    if (found != ncclInProgress) check(found, "messages");
+  }
   bool goes_into_graphs() const override { return true; }
 
-  void leave() override { MPI_Finalize(); }
+  void leave() override {
+    if (began_) MPI_Finalize();
+  }
   void end_all(int code) override {
-    MPI_Abort(MPI_COMM_WORLD, code);
+    MPI_Abort(all_, code);
     std::_Exit(code);
   }
 
@@ -87,7 +99,9 @@ class NcclRanks final : public Ranks {
                    ncclGetLastError(nullptr));
   }
 
-  int number_ = 0, count_ = 1, number_on_host_ = 0, device_ = -1;
+  MPI_Comm all_ = MPI_COMM_NULL;
+  bool began_ = false;
+  int number_ = 0, count_ = 1, number_on_host_ = 0, count_on_host_ = 1, device_ = -1;
   ncclComm_t link_ = nullptr;
 };
 

@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "kernels/checksum.hpp"
 #include "kernels/contact_reading.hpp"
 #include "kernels/executor.hpp"
 #include "kernels/law_list.hpp"
@@ -174,6 +175,7 @@ class StepperImpl final : public Stepper {
   }
 
   DeviceMotion device_motion() const override {
+    exec_.use_device();
     exec_.gather();
     return exec_.device_motion();
   }
@@ -285,6 +287,14 @@ class StepperImpl final : public Stepper {
     for (std::size_t w = 0; w < wall_count; ++w) {  // density scaling as the particles
       const double mass = boundary.wall[w].mass * options.density_scaling;
       if (mass > 0) inverse[2 * (layout_.particles() + w)] = static_cast<R>(options.dt / mass);
+    }
+    if (options.ranks) {
+      Checksum all;
+      all.add(inverse), all.add(std::vector{options.dt});
+      if (const StartState* s = options.start)
+        all.add(s->displacement), all.add(s->rotation), all.add(s->velocity), all.add(s->spin), all.add(s->chain);
+      options.ranks->require_same("checksum of time step, masses and start, which hosts of one kind find alike",
+                                  all.value());
     }
     std::vector<R> weight(boundary.body_force.empty() ? 0 : 4 * layout_.particles(), R(0));
     for (std::size_t b = 0; 4 * b < weight.size(); ++b) {

@@ -136,6 +136,52 @@ TEST_P(RanksOf, BeginAnew) {
   });
 }
 
+// As the cyclic test does where a tolerance is given.
+TEST(Ranks, BeginInTheSteadyState) {
+  if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+  const TestScene scene = make_scene(random_specimen(3, 16, 16, 20));
+  StepperOptions options;
+  options.precision = Precision::mixed;
+  options.density_scaling = 10;
+  options.devices = {0};
+  options.multiprocessors = 1;
+  options.observed_every = 40;
+  drives::Cyclic loading{1e-4 * scene.specimen.box.size.z, 20, 1, 0};
+  const double limit = critical_step(scene.network, scene.laws, scene.inertia, options).dt;
+  loading.steps_per_period = 40 * std::llround(std::ceil(1 / (0.8 * limit * loading.frequency * 40)));
+  options.boundary = moving_top(loading);
+  options.dt = loading.dt();
+  Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, loading.frequency);
+  const StartState start =
+      steady_start(scene.network, scene.laws, harmonic.solve(20, options.density_scaling).motion, loading);
+  options.start = &start;
+  const auto stepped = [&](Ranks* ranks) {
+    StepperOptions given = options;
+    given.ranks = ranks;
+    const auto stepper = make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, given);
+    EXPECT_HAS(stepper->description(), "tiles streamed");
+    for (int k = 0; k < 10; ++k) stepper->advance(40);
+    return stepper->state();
+  };
+  const auto alone = stepped(nullptr);
+  for_ranks(3, [&](Ranks& rank) { expect_same(stepped(&rank), alone); });
+}
+
+TEST(Ranks, ThatStepDifferentMassesAreRefused) {
+  if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+  const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));
+  for_ranks(2, [&](Ranks& rank) {
+    StepperOptions options = slow_options(scene);
+    options.devices = {0};
+    options.ranks = &rank;
+    options.density_scaling = 1 + rank.number();
+    try {
+      make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+      ADD_FAILURE() << "was not refused";
+    } catch (const RunError& error) { EXPECT_HAS(error.what(), "checksum of time step, masses and start"); }
+  });
+}
+
 // They would wait for each other for ever.
 TEST(Ranks, ThatTakeDifferentNumbersOfStepsAreRefused) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
@@ -152,6 +198,24 @@ TEST(Ranks, ThatTakeDifferentNumbersOfStepsAreRefused) {
       EXPECT_HAS(error.what(), "the number of time steps to take: found 10 and 11, expected the same of all");
     }
   });
+}
+
+TEST(Ranks, NameTheFirstParticleThatDiverges) {
+  if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+  const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));
+  const std::size_t n = scene.specimen.size();
+  for (const std::size_t fast : {std::size_t{3}, n / 2, n - 1}) {
+    for_ranks(3, [&](Ranks& rank) {
+      StepperOptions options = slow_options(scene);
+      options.devices = {0};
+      options.ranks = &rank;
+      const auto part = make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+      std::vector<Vec3d> velocity(n), spin(n);
+      velocity[fast] = velocity[n - 1] = {1e12, 0, 0};
+      part->set_velocities(velocity, spin);
+      EXPECT_EQ(part->first_divergent(), static_cast<std::int64_t>(fast));
+    });
+  }
 }
 
 TEST(Ranks, HaveOneDeviceEach) {

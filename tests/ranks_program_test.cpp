@@ -33,7 +33,7 @@ class RanksProgram : public Program {
   /// The shell's command for two processes, for at most a minute.
   std::string command(const std::string& arguments) const {
     return fmt::format(
-        "MACADAM_PLUGIN_PATH='{}' TMPDIR='{}' OMP_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 "
+        "MACADAM_PLUGIN_PATH='{}' TMPDIR='{}' OMPI_ALLOW_RUN_AS_ROOT=1 "
         "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 60 '{}' --oversubscribe -n 2 '{}' {} >'{}' 2>'{}' </dev/null",
         plugins_.string(), (folder_ / "tmp").string(), MPIRUN, MACADAM_PROGRAM, arguments,
         (folder_ / "stdout.txt").string(), (folder_ / "stderr.txt").string());
@@ -59,17 +59,17 @@ class RanksProgram : public Program {
 };
 
 TEST_F(RanksProgram, WritesOnce) {
-  write_scene(quick, "[output]\nfields = [\"particles\", \"contacts\"]\n");
+  write_scene(quick, "[output]\nfields = [\"particles\", \"contacts\"]\nformat = \"vtp\"\n");
   const Outcome alone = run_quick("alone");
   ASSERT_EQ(alone.code, 0) << alone.err;
-  const Outcome two = together(fmt::format("run {} --out {}", path("scene.toml"), path("two")));
+  const Outcome two = together(fmt::format("run {} --ranks --out {}", path("scene.toml"), path("two")));
   ASSERT_EQ(two.code, 0) << two.err;
   EXPECT_EQ(count(two.out, "E*"), count(alone.out, "E*")) << two.out;
   EXPECT_EQ(read(folder_ / "two" / "response.csv"), read(folder_ / "alone" / "response.csv"));
   EXPECT_EQ(read(folder_ / "two" / "specimen.csv"), read(folder_ / "alone" / "specimen.csv"));
   for (const auto& field : fs::directory_iterator(folder_ / "alone" / "fields")) {
     const fs::path other = folder_ / "two" / "fields" / field.path().filename();
-    EXPECT_TRUE(fs::exists(other)) << other;
+    EXPECT_EQ(read(other), read(field.path())) << other;
   }
   EXPECT_EQ(summary("two")["status"], "done");
   EXPECT_TRUE(scratch_is_gone());
@@ -85,14 +85,14 @@ TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
     const std::string kill = fmt::format("pkill -INT -n -f -- '^{} run {}'", MACADAM_PROGRAM, folder_.string());
     EXPECT_EQ(std::system(kill.c_str()), 0);
   });
-  const Outcome two = together(fmt::format("run {} --out {}", path("scene.toml"), path("two")));
+  const Outcome two = together(fmt::format("run {} --ranks --out {}", path("scene.toml"), path("two")));
   told.join();
   EXPECT_EQ(two.code, 1) << two.out << two.err;
   EXPECT_THAT(two.err, HasSubstr("--resume goes on from it"));
   EXPECT_EQ(count(two.err, "interrupted at"), 1u) << two.err;
   ASSERT_TRUE(fs::exists(folder_ / "two" / "checkpoint.h5"));
   EXPECT_TRUE(scratch_is_gone());
-  const Outcome on = together(fmt::format("run {} --out {} --resume", path("scene.toml"), path("two")));
+  const Outcome on = together(fmt::format("run {} --ranks --out {} --resume", path("scene.toml"), path("two")));
   ASSERT_EQ(on.code, 0) << on.err;
   const Outcome alone = run_quick("alone");
   ASSERT_EQ(alone.code, 0) << alone.err;
@@ -101,33 +101,49 @@ TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
 
 // An error that all have is told once.
 TEST_F(RanksProgram, FailsAsOne) {
-  const Outcome missing = together(fmt::format("run {} --out {}", path("none.toml"), path("two")));
+  const Outcome missing = together(fmt::format("run {} --ranks --out {}", path("none.toml"), path("two")));
   EXPECT_EQ(missing.code, 2) << missing.err;
   EXPECT_EQ(count(missing.err, "none.toml"), 1u) << missing.err;
   write_scene();
-  const Outcome harmonic = together(fmt::format("run {} --method harmonic --out {}", path("scene.toml"), path("two")));
+  const Outcome harmonic =
+      together(fmt::format("run {} --ranks --method harmonic --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(harmonic.code, 2) << harmonic.err;
   EXPECT_THAT(harmonic.err, HasSubstr("one process solves the frequency domain"));
-  const Outcome processor = together(fmt::format("run {} --backend cpu --out {}", path("scene.toml"), path("two")));
+  const Outcome processor =
+      together(fmt::format("run {} --ranks --backend cpu --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(processor.code, 2) << processor.err;
   EXPECT_THAT(processor.err, HasSubstr("cpu beside 2 ranks, expected cuda"));
   const Outcome several =
-      together(fmt::format("run {} {} --out {}", path("scene.toml"), path("scene.toml"), path("two")));
+      together(fmt::format("run {} {} --ranks --out {}", path("scene.toml"), path("scene.toml"), path("two")));
   EXPECT_EQ(several.code, 2) << several.err;
-  EXPECT_THAT(several.err, HasSubstr("found 2 beside 2 ranks, expected one"));
+  EXPECT_THAT(several.err, HasSubstr("found several beside 2 ranks, expected one"));
   use(FAKE_PLUGIN);
-  const Outcome paper = together(fmt::format("run {} --out {}", path("scene.toml"), path("two")));
+  const Outcome paper = together(fmt::format("run {} --ranks --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(paper.code, 1) << paper.err;
   EXPECT_THAT(paper.err, HasSubstr("it is made of paper"));
+}
+
+// A farm of runs that mpirun or srun begins is no team, unless it says so.
+TEST_F(RanksProgram, RunsAloneUnlessItIsToldOtherwise) {
+  write_scene();
+  setenv("PMI_SIZE", "2", 1);
+  const Outcome alone = run_quick("alone");
+  const Outcome other = run_quick("other", "--ranks");
+  unsetenv("PMI_SIZE");
+  EXPECT_EQ(alone.code, 0) << alone.err;
+  EXPECT_EQ(other.code, 1) << other.err;
+  EXPECT_THAT(other.err, HasSubstr("found this process alone, expected 2: they were begun by another MPI"));
+  const Outcome one = run_quick("one", "--ranks --backend cpu");
+  EXPECT_EQ(one.code, 0) << one.err;
 }
 
 TEST_F(RanksProgram, SaysWhatItNeeds) {
   write_scene();
   fs::remove(plugins_ / "libmacadam_ranks.so");
   fs::copy_file(folder_ / "t8.csv", plugins_ / "libmacadam_ranks.so");
-  const Outcome two = together(fmt::format("run {} --out {}", path("scene.toml"), path("two")));
+  const Outcome two = together(fmt::format("run {} --ranks --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(two.code, 1) << two.err;
-  EXPECT_THAT(two.err, HasSubstr("2 processes were begun to run together, and this one cannot join the others: "));
+  EXPECT_THAT(two.err, HasSubstr("ranks: this process cannot join others: "));
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <barrier>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <thread>
@@ -40,6 +42,8 @@ class ThreadRank final : public Ranks {
   int number() const override { return number_; }
   int count() const override { return static_cast<int>(hub_.values.size()); }
   int number_on_host() const override { return number_; }
+  int count_on_host() const override { return count(); }
+  void require_link() override {}
   void take_of_first(void* data, std::size_t size) override {
     if (number_ == 0) hub_.first = data;
     hub_.all.arrive_and_wait();
@@ -90,7 +94,12 @@ inline void for_ranks(int count, const std::function<void(Ranks&)>& f) {
     threads.emplace_back([&, number] {
       cudaSetDevice(0);
       ThreadRank rank(hub, number);
-      f(rank);
+      try {
+        f(rank);
+      } catch (const std::exception& error) {  // the others would wait for ever
+        std::fprintf(stderr, "rank %d: %s\n", number, error.what());
+        std::_Exit(1);
+      }
     });
   }
   for (std::thread& t : threads) t.join();

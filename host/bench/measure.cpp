@@ -14,6 +14,7 @@
 
 #include "host/stepping/cuda_code.hpp"
 #include "macadam/error.hpp"
+#include "macadam/ranks.hpp"
 
 namespace macadam::bench {
 namespace {

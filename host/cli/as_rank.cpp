@@ -2,8 +2,12 @@
 // as_rank.cpp  Who speaks, and how all end.
 #include "host/cli/as_rank.hpp"
 
+#include <omp.h>
+
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <new>
 #include <string>
 #include <thread>
 
@@ -13,10 +17,10 @@
 namespace macadam {
 namespace {
 
-/// An error that all have is told by the first alone, which ends the others meanwhile.
+/// An error that all have is told by the first alone, which writes what there is to write and ends the others.
 [[noreturn]] void end_all(Ranks& team, const char* why, int code) {
   const bool first = team.number() == 0;
-  if (!first) std::this_thread::sleep_for(std::chrono::seconds(2));
+  if (!first) std::this_thread::sleep_for(std::chrono::seconds(10));
   say_error("macadam: {}{}\n", first ? "" : fmt::format("rank {}: ", team.number()), why);
   flush_output();
   team.end_all(code);
@@ -28,6 +32,7 @@ namespace {
 void as_rank(Ranks& team, const std::function<void(bool&)>& f) {
   const bool first = team.number() == 0;
   if (!first) silence_output();
+  omp_set_num_threads(std::max(1, omp_get_max_threads() / team.count_on_host()));
   bool together = false;
   try {
     f(together);
@@ -36,8 +41,8 @@ void as_rank(Ranks& team, const std::function<void(bool&)>& f) {
     if (!together) end_all(team, error.what(), 1);
     team.leave();  // the first has written the checkpoint by then
     if (first) throw;
-  } catch (const InputError& error) { end_all(team, error.what(), 2); } catch (const std::exception& error) {
-    end_all(team, error.what(), 1);
+  } catch (const std::bad_alloc&) { end_all(team, "out of memory", 1); } catch (const std::exception& error) {
+    end_all(team, error.what(), dynamic_cast<const InputError*>(&error) ? 2 : 1);
   }
 }
 

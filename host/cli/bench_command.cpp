@@ -21,6 +21,7 @@ struct BenchArguments {
   std::vector<std::string> scenes;
   bench::BenchAxes axes;
   std::string json, against, only;
+  bool ranks = false;
 };
 
 /// A row as a line: time, spread, and what share of what the machine can do.
@@ -111,11 +112,14 @@ void time_scenes(BenchArguments arguments) {
 
 /// Of several processes, steps alone are timed, each on a device of its own; the first writes.
 void bench_command(BenchArguments arguments) {
-  Ranks* const team = ranks();
+  Ranks* const team = arguments.ranks ? join_ranks() : nullptr;
   if (!team) return time_scenes(std::move(arguments));
   as_rank(*team, [&](bool&) {
+    if (!arguments.only.empty() && arguments.only != "step")
+      throw InputError("--only beside --ranks: found " + arguments.only + ", expected step");
+    if (arguments.axes.backend == Backend::cpu) throw InputError("--backend beside --ranks: found cpu, expected cuda");
     arguments.only = "step";
-    if (arguments.axes.devices.empty()) arguments.axes.devices = device_of(*team);
+    arguments.axes.devices = device_of(*team, arguments.axes.devices);
     if (team->number() > 0) arguments.json.clear(), arguments.against.clear();
     time_scenes(std::move(arguments));
   });
@@ -166,6 +170,7 @@ void add_bench_command(CLI::App& app) {
   add_choice(command, "--backend", axes.backend, "what computes",
              {{"auto", Backend::automatic}, {"cuda", Backend::cuda}, {"cpu", Backend::cpu}});
   add_devices(command, axes.devices);
+  add_ranks(command, arguments->ranks);
   add_list(command, "--threads", axes.threads, "of the CPU, one row each; 0: all", 0, 1024);
   add_choices(command, "--form", axes.forms, "condensed,points",
               {{"condensed", ContactForm::condensed}, {"points", ContactForm::points}});

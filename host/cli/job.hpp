@@ -43,6 +43,12 @@ CLI::Option* add_devices(CLI::App& command, Target& target) {
       ->type_name("LIST");
 }
 
+/// --ranks
+inline void add_ranks(CLI::App& command, bool& ranks) {
+  command.add_flag("--ranks", ranks,
+                   "step one specimen by all the processes that mpirun began, each with a CUDA device");
+}
+
 /// Reads the scene. \throws InputError.
 Scene scene_of(const Job& job);
 

@@ -20,7 +20,7 @@ struct RunArguments {
   Job job;
   std::vector<std::string> scenes;
   Overrides instead;
-  bool resume = false;
+  bool resume = false, ranks = false;
   int at_once = 0;
 };
 
@@ -33,7 +33,7 @@ void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
   bool started = false;
   const bool speaks = is_first_rank();
   watcher.progress = [&](const std::string& stage, double share) {
-    if (started) {
+    if (started || !speaks) {  // of several processes, the first looks for signals until all do
       line.show(stage, share);
     } else {
       show_or_stop(line, stage, share);
@@ -77,20 +77,13 @@ void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
 
 void run_command(RunArguments arguments) {
   arguments.job.scene = arguments.scenes.front();
-  const bool several = arguments.scenes.size() > 1;
-  if (Ranks* team = ranks()) {
-    return as_rank(*team, [&](bool& stepping) {
-      if (several) {
-        throw InputError(
-            fmt::format("scenes: found {} beside {} ranks, expected one: without mpirun, one process runs "
-                        "them side by side on all devices of its host",
-                        arguments.scenes.size(), team->count()));
-      }
-      run_one(arguments, &stepping);
-    });
-  }
-  if (!several) return run_one(arguments);
-  run_scenes(arguments.scenes, arguments.job, arguments.instead, arguments.at_once, arguments.resume);
+  const auto run_all = [&](bool* stepping) {
+    if (arguments.scenes.size() == 1) return run_one(arguments, stepping);
+    run_scenes(arguments.scenes, arguments.job, arguments.instead, arguments.at_once, arguments.resume);
+  };
+  Ranks* const team = arguments.ranks ? join_ranks() : nullptr;
+  if (!team) return run_all(nullptr);
+  as_rank(*team, [&](bool& stepping) { run_all(&stepping); });
 }
 
 }  // namespace
@@ -104,13 +97,14 @@ void add_run_command(CLI::App& app) {
   add_out_and_seed(command, arguments->job);
   command.add_flag("--resume", arguments->resume,
                    "go on from the checkpoint that an interrupted run left in the folder");
+  add_ranks(command, arguments->ranks);
   add_number(command, "--at-once", arguments->at_once,
              "scenes at a time, of several; 0: four a CUDA device, all devices, or one a core", 0, 1024);
   add_overrides(command, arguments->instead);
   add_examples(command, {"macadam run examples/demo/scene.toml --out results",
                          "macadam run examples/demo/scene.toml --out results/steady --method harmonic --seed 2",
                          "macadam run mixes/*.toml --out results --at-once 4",
-                         "mpirun -n 2 macadam run examples/demo/scene.toml --out results"});
+                         "mpirun -n 2 macadam run examples/demo/scene.toml --ranks --out results"});
   command.callback([arguments] { run_command(*arguments); });
 }
 

@@ -179,15 +179,16 @@ void Checkpoints::look(const Content& content, const Stepper& stepper, const std
 }
 
 void Checkpoints::write(const Content& content, const Stepper& stepper) const {
+  std::vector<StateArray> state = stepper.state();  // first, as several processes gather it
+  if (!is_first_rank()) return;
   Checkpoint out;
   out.texts = identity(scene_, backend_);
   out.texts[specimen_text] = fingerprint(prepared_);
   content(out);
-  for (StateArray& array : stepper.state()) {
+  for (StateArray& array : state) {
     array.name = state_prefix + array.name;
     out.arrays.push_back(std::move(array));
   }
-  if (!is_first_rank()) return;
   keep_previous();
   write_checkpoint(file_, out);
 }

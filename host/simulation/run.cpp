@@ -230,7 +230,9 @@ RunResult run_alone_or_together(const Scene& scene, const std::filesystem::path&
     require_same_specimen(*team, prepared);
     if (watcher.prepared) watcher.prepared(prepared);
   };
-  return run_scene(own, folder, watching, resume, {}, given);
+  RunResult result = run_scene(own, folder, watching, resume, {}, given);
+  team->any(false);  // the first has written all by then: whoever ends may end the others
+  return result;
 }
 
 }  // namespace

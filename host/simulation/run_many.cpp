@@ -18,6 +18,7 @@
 #include "host/simulation/run_scene.hpp"
 #include "host/stepping/cuda_code.hpp"
 #include "macadam/error.hpp"
+#include "macadam/ranks.hpp"
 
 namespace macadam {
 namespace {
@@ -184,6 +185,10 @@ class Pool {
 }  // namespace
 
 std::vector<JobOutcome> run_many(const std::vector<SceneJob>& jobs, const ManyOptions& options) {
+  if (const Ranks* team = ranks()) {
+    throw InputError("scenes: found several beside " + std::to_string(team->count()) +
+                     " ranks, expected one: a process alone runs them side by side on all devices of its host");
+  }
   require_folders_differ(jobs);
   if (jobs.empty()) return {};
   return Pool(jobs, options).run();

@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
 #include <fstream>
+#include <system_error>
 
 #include "host/experiments/experiment.hpp"
 #include "host/simulation/checkpoints.hpp"
@@ -18,8 +21,9 @@ namespace fs = std::filesystem;
 
 ScratchFolder::ScratchFolder(int rank) {
   std::error_code error;
-  path_ = fs::temp_directory_path(error) / fmt::format("macadam-rank-{}-{}", rank, ::getpid());
-  fs::create_directories(path_, error);
+  std::string name = (fs::temp_directory_path(error) / fmt::format("macadam-rank-{}-XXXXXX", rank)).string();
+  if (!error && !::mkdtemp(name.data())) error.assign(errno, std::generic_category());
+  path_ = name;
   if (error)
     throw RunError(path_.string() + ": cannot make the folder of rank " + std::to_string(rank) + ": " +
                    error.message());
@@ -40,7 +44,8 @@ Scene scene_of_rank(const Ranks& team, Scene scene) {
     throw InputError(scene.file.string(), 0, "backend", to_string(scene.solver.backend) + beside, "cuda");
   }
   scene.solver.backend = Backend::cuda;
-  if (scene.solver.devices.empty()) scene.solver.devices = device_of(team);
+  scene.solver.devices = device_of(team, scene.solver.devices);
+  if (team.number() > 0) scene.output.contacts = false;
   return scene;
 }
 
@@ -50,6 +55,7 @@ void hand_out(Ranks& team, const fs::path& folder, const std::vector<std::string
     if (team.number() == 0) {
       std::ifstream file(folder / name, std::ios::binary);
       bytes.assign(std::istreambuf_iterator<char>(file), {});
+      if (file.bad()) throw RunError((folder / name).string() + ": cannot be read");
     }
     auto size = static_cast<std::uint64_t>(bytes.size());
     team.take_of_first(&size, sizeof size);

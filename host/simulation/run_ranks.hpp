@@ -15,6 +15,7 @@ class ScratchFolder {
   /// \throws RunError
   explicit ScratchFolder(int rank);
   ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
   ~ScratchFolder();
   const std::filesystem::path& path() const { return path_; }
 

@@ -7,7 +7,8 @@
 
 namespace macadam {
 
-/// The device of this rank: those of a host are taken in turn by the ranks there. Empty where none answers.
-DeviceList device_of(const Ranks& team);
+/// The device of this rank: the ranks of a host have those that are asked for, or all, in order. As asked where none
+/// answers. \throws InputError for one that is not there, and for more ranks than devices.
+DeviceList device_of(const Ranks& team, const DeviceList& asked);
 
 }  // namespace macadam

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ranks.cpp  Whether this process is one of several that mpirun began. What joins them is a library of its own,
+// ranks.cpp  The processes that mpirun began with this one. What joins them is a library of its own,
 // libmacadam_ranks.so: nobody else needs MPI and NCCL.
 #include "macadam/ranks.hpp"
 
 #include <cstdlib>
 
+#include "host/stepping/cuda_code.hpp"
 #include "host/stepping/plugin_file.hpp"
 #include "host/stepping/rank_device.hpp"
 #include "macadam/error.hpp"
@@ -12,24 +13,14 @@
 namespace macadam {
 namespace {
 
-/// How many processes were begun together, by what their starter says: Open MPI, then MPICH and Slurm.
+Ranks* joined = nullptr;
+
+/// Processes of one command, as Open MPI, MPICH and Slurm say it to each of them.
 int processes_begun() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
     if (const char* value = std::getenv(name)) return std::atoi(value);
   }
   return 1;
-}
-
-Ranks* join() {
-  if (processes_begun() < 2) return nullptr;
-  std::string why;
-  const PluginFile asked{"libmacadam_ranks.so", "macadam_ranks_plugin", ranks_interface, "MPI, NCCL and CUDA"};
-  const auto* plugin = static_cast<const RanksPlugin*>(find_plugin(asked, why));
-  if (!plugin) {
-    throw RunError(std::to_string(processes_begun()) +
-                   " processes were begun to run together, and this one cannot join the others: " + why);
-  }
-  return plugin->join();
 }
 
 }  // namespace
@@ -42,15 +33,34 @@ void Ranks::require_same(const std::string& what, std::int64_t value) {
                  ", expected the same of all: they no longer run the same scene");
 }
 
-DeviceList device_of(const Ranks& team) {
-  const std::vector<DeviceInfo> devices = report_backends().devices;
-  if (devices.empty()) return {};
-  return {devices[static_cast<std::size_t>(team.number_on_host()) % devices.size()].number};
+DeviceList device_of(const Ranks& team, const DeviceList& asked) {
+  if (report_backends().devices.empty()) return asked;
+  const DeviceList devices = device_numbers(asked.empty() ? DeviceList{every_device} : asked);
+  const auto own = static_cast<std::size_t>(team.number_on_host());
+  if (devices.size() == 1) return devices;  // each process sees another one, or the error of sharing it is NCCL's
+  if (own >= devices.size()) {
+    throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " on this host beside " +
+                     std::to_string(devices.size()) + " devices, expected one for each device");
+  }
+  return {devices[own]};
 }
 
-Ranks* ranks() {
-  static Ranks* const joined = join();
-  return joined;
+Ranks* join_ranks() {
+  if (joined) return joined;
+  std::string why;
+  const PluginFile asked{"libmacadam_ranks.so", "macadam_ranks_plugin", ranks_interface, "MPI, NCCL and CUDA"};
+  const auto* plugin = static_cast<const RanksPlugin*>(find_plugin(asked, why));
+  if (!plugin) throw RunError("ranks: this process cannot join others: " + why);
+  Ranks* const found = plugin->join();
+  if (found->count() == 1 && processes_begun() > 1) {
+    throw RunError("ranks: found this process alone, expected " + std::to_string(processes_begun()) +
+                   ": they were begun by another MPI than that of libmacadam_ranks.so");
+  }
+  if (found->count() > 1) return joined = found;
+  found->leave();
+  return nullptr;
 }
+
+Ranks* ranks() { return joined; }
 
 }  // namespace macadam

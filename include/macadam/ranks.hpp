@@ -16,15 +16,18 @@ class Ranks {
  public:
   virtual ~Ranks() = default;
 
-  /// Of this process, from 0, and of all.
+  /// Of this process, from 0.
   virtual int number() const = 0;
+  /// How many there are.
   virtual int count() const = 0;
   /// Of this process among those on its host, from 0.
   virtual int number_on_host() const = 0;
+  /// How many are on this process's host.
+  virtual int count_on_host() const = 0;
 
-  /// Overwrites `size` bytes on all others by those of the first. Waits for all.
+  /// Overwrites `size` bytes on all others by those of the first. Waits for all. \throws RunError
   virtual void take_of_first(void* data, std::size_t size) = 0;
-  /// The least of what all ranks have. Waits for all.
+  /// The least of what all ranks have. Waits for all. \throws RunError
   virtual double least(double value) = 0;
 
   /// Makes ready for messages between devices, `device` being that in use. Waits for all. \throws RunError naming the
@@ -39,6 +42,8 @@ class Ranks {
   /// Queues messages in the stream, a cudaStream_t, all of which go together. For each that one rank sends to another
   /// there is one that this one receives from it, of the same size. \throws RunError
   virtual void queue(const std::vector<Message>& sent, const std::vector<Message>& received, void* stream) = 0;
+  /// \throws RunError where messages that were queued can no longer arrive.
+  virtual void require_link() = 0;
   /// Whether queue() may be recorded into a graph of launches.
   virtual bool goes_into_graphs() const = 0;
 
@@ -47,12 +52,12 @@ class Ranks {
   /// Ends all processes at once, this one with `code`: after an error, which the others would wait through for ever.
   [[noreturn]] virtual void end_all(int code) = 0;
 
-  /// What the first rank has.
+  /// What the first rank has. Waits for all. \throws RunError
   double of_first(double value) {
     take_of_first(&value, sizeof value);
     return value;
   }
-  /// Whether any rank says so.
+  /// Whether any rank says so. Waits for all. \throws RunError
   bool any(bool value) { return least(value ? 0 : 1) == 0; }
   /// \throws RunError where ranks differ: they no longer run the same scene, and would wait for each other for ever.
   void require_same(const std::string& what, std::int64_t value);
@@ -68,17 +73,20 @@ struct RanksPlugin {
 /// Counted up with every change of Ranks.
 inline constexpr int ranks_interface = 1;
 
-/// The processes that step together with this one, where `mpirun` or its like began several; null where this one is
-/// alone. They meet at the first call. \throws RunError where libmacadam_ranks.so, which needs MPI and NCCL, is not
-/// there or fails.
+/// Joins the processes that `mpirun` or its like began with this one, each of which calls this: from then on they run
+/// scenes together. Returns them, or null where this one was begun alone. \throws RunError where libmacadam_ranks.so,
+/// which needs MPI and NCCL, is not there or fails, or was built with another MPI than that which began them.
+Ranks* join_ranks();
+
+/// The processes that join_ranks() has joined; null where this one is alone.
 Ranks* ranks();
 
-/// Whether this process writes results: one that is alone, or the first of several. \throws as ranks()
+/// Whether this process writes results: one that is alone, or the first of several.
 inline bool is_first_rank() {
   const Ranks* team = ranks();
   return !team || team->number() == 0;
 }
-/// What the first of several processes has; of one that is alone, the value itself. \throws as ranks()
+/// What the first of several processes has; of one that is alone, the value itself.
 inline double of_first_rank(double value) {
   Ranks* team = ranks();
   return team ? team->of_first(value) : value;

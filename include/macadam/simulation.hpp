@@ -114,6 +114,9 @@ struct Watcher {
 /// there, damaged, or of another scene, version, backend or precision, and where another command is writing into the
 /// folder; InterruptedError; RunError (DivergenceError names particle and time), also for a tolerance whose result
 /// cannot be right.
+///
+/// Processes that join_ranks() has joined all call this with the same scene; the first has the files. What `watcher`
+/// does with a stepper, it does on all of them. Where one fails, the others wait for it until Ranks::end_all().
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
 /// The same of what was prepared already, of this scene or of one with the same particles.
 RunResult run(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,

@@ -50,7 +50,8 @@ struct StepperOptions {
   int multiprocessors = 0;     ///< cuda: plan for so many, as if it had no more; 0: all; results do not depend on it
   int side_by_side = 1;        ///< cuda: so many specimens are on the device now: a small one leaves room for others;
                                ///< results do not depend on it
-  Ranks* ranks = nullptr;      ///< cuda: the processes that step this specimen together; null: this one alone
+  Ranks* ranks = nullptr;      ///< cuda: the processes that step this specimen together, which outlive the stepper;
+                               ///< null: this one alone
   Boundary boundary;           ///< what drives the walls, fixes and loads particles; drives' dt() is dt
   const StartState* start = nullptr;  ///< read by make_stepper() only; a cyclic drive must have no ramp then
   /// Mixed and single precision may take steps in blocks, within which laws are not settled (model (6.8)). At least so

@@ -8,6 +8,7 @@
 
 #include "host/simulation/phases.hpp"
 #include "host/stepping/divergence.hpp"
+#include "macadam/ranks.hpp"
 
 namespace macadam {
 namespace {

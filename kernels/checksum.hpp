@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file checksum.hpp  One number for lists of numbers that several processes must have alike.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace macadam::kernels {
+
+class Checksum {
+ public:
+  template <class T>
+  void add(const std::vector<T>& list) {
+    static_assert(sizeof(T) % 4 == 0);
+    for (const T& item : list) {
+      std::uint32_t word[sizeof(T) / 4];
+      std::memcpy(word, &item, sizeof item);
+      for (const std::uint32_t w : word) sum_ = (sum_ ^ w) * 1099511628211u;  // FNV-1a, by words
+    }
+  }
+  std::int64_t value() const { return static_cast<std::int64_t>((sum_ ^ sum_ >> 32) & 0xffffffff); }
+
+ private:
+  std::uint64_t sum_ = 14695981039346656037u;
+};
+
+}  // namespace macadam::kernels
