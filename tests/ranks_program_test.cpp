@@ -113,8 +113,9 @@ TEST_F(RanksProgram, FailsAsOne) {
       together(fmt::format("run {} --ranks --backend cpu --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(processor.code, 2) << processor.err;
   EXPECT_THAT(processor.err, HasSubstr("cpu beside 2 ranks, expected cuda"));
+  fs::copy_file(folder_ / "scene.toml", folder_ / "other.toml");
   const Outcome several =
-      together(fmt::format("run {} {} --ranks --out {}", path("scene.toml"), path("scene.toml"), path("two")));
+      together(fmt::format("run {} {} --ranks --out {}", path("scene.toml"), path("other.toml"), path("two")));
   EXPECT_EQ(several.code, 2) << several.err;
   EXPECT_THAT(several.err, HasSubstr("found several beside 2 ranks, expected one"));
   use(FAKE_PLUGIN);
