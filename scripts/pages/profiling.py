@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""docs/profiling.md: the operations of a step, from bench/steps/operations, and their rate."""
+import re
+
+from pages.data import head, one, rows, table
+from pages.marks import mark
+
+DOCUMENT = "docs/profiling.md"
+COUNTED, TIMED = "operations-h100-2026-11-25.csv", "bench-h100-2026-11-25-operations.csv"
+SCENES = {"ac14_ss_am1": "full specimen", "lattice:1e5": "lattice of 10⁵"}
+
+
+@mark
+def operations_machine():
+    return head(COUNTED)[0].removeprefix("operations a contact and step by ncu, ")
+
+
+def most():
+    """Operations a second that the device can do, in single and in double precision: two of a fused one on 128 and on 64 lanes."""
+    multiprocessors, mhz = map(int, re.search(r"(\d+) multiprocessors at (\d+) MHz", head(COUNTED)[0]).groups())
+    return 256e6 * multiprocessors * mhz, 128e6 * multiprocessors * mhz
+
+
+@mark
+def operations_most():
+    single, double = most()
+    return f"{single / 1e12:.0f} and {double / 1e12:.0f}"
+
+
+@mark
+def operations():
+    lines = []
+    for r in rows(COUNTED):
+        _, scene, _, form, precision, geometry = r["row"].split("/")
+        us = one(rows(TIMED), row=r["row"])["us"]
+        rate = [n * r["contacts"] / us * 1e6 for n in (r["single_per_contact"], r["double_per_contact"])]
+        share = sum(done / possible for done, possible in zip(rate, most()))
+        lines.append((f"{SCENES[scene]}, {precision}, {form}, {geometry}", f"{r['single_per_contact']:.0f}", f"{r['double_per_contact']:.0f}",
+                      f"{us:.1f}", f"{sum(rate) / 1e12:.1f}", f"{100 * share:.0f} %"))
+    return table(["a step", "single a contact", "double a contact", "µs", "10¹² operations a second", "of the most"], lines, range(1, 6))
