@@ -145,6 +145,10 @@ TEST_F(RanksProgram, SaysWhatItNeeds) {
   const Outcome two = together(fmt::format("run {} --ranks --out {}", path("scene.toml"), path("two")));
   EXPECT_EQ(two.code, 1) << two.err;
   EXPECT_THAT(two.err, HasSubstr("ranks: this process cannot join others: "));
+  setenv("MACADAM_PLUGIN_PATH", plugins_.c_str(), 1);
+  EXPECT_THAT(macadam("info").out, HasSubstr("ranks      no: " + (plugins_ / "libmacadam_ranks.so").string()));
+  unsetenv("MACADAM_PLUGIN_PATH");
+  EXPECT_THAT(macadam("info").out, HasSubstr("ranks      yes: "));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "host/cli/streams.hpp"
 #include "host/scene/keys_page.hpp"
 #include "host/stepping/processor_code.hpp"
+#include "host/stepping/rank_device.hpp"
 #include "macadam/macadam.hpp"
 
 namespace macadam {
@@ -31,6 +32,9 @@ void info_command() {
   };
   list(report.devices, "");
   list(report.devices_without_code, "; this build has no code for it");
+  const std::string alone = why_no_ranks();
+  say("ranks      {}\n",
+      alone.empty() ? "yes: mpirun may begin a process for each device, with run --ranks" : "no: " + alone);
   std::string reason;
   const Backend chosen = select_backend(Backend::automatic, &reason);
   say("auto       {} ({})\n", to_string(chosen), reason);

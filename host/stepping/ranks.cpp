@@ -15,6 +15,12 @@ namespace {
 
 Ranks* joined = nullptr;
 
+/// nullptr where it is not there; `why` then says so.
+const RanksPlugin* find(std::string& why) {
+  const PluginFile asked{"libmacadam_ranks.so", "macadam_ranks_plugin", ranks_interface, "MPI, NCCL and CUDA"};
+  return static_cast<const RanksPlugin*>(find_plugin(asked, why));
+}
+
 /// Processes of one command, as Open MPI, MPICH and Slurm say it to each of them.
 int processes_begun() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
@@ -45,11 +51,16 @@ DeviceList device_of(const Ranks& team, const DeviceList& asked) {
   return {devices[own]};
 }
 
+std::string why_no_ranks() {
+  std::string why;
+  find(why);
+  return why;
+}
+
 Ranks* join_ranks() {
   if (joined) return joined;
   std::string why;
-  const PluginFile asked{"libmacadam_ranks.so", "macadam_ranks_plugin", ranks_interface, "MPI, NCCL and CUDA"};
-  const auto* plugin = static_cast<const RanksPlugin*>(find_plugin(asked, why));
+  const RanksPlugin* const plugin = find(why);
   if (!plugin) throw RunError("ranks: this process cannot join others: " + why);
   Ranks* const found = plugin->join();
   if (found->count() == 1 && processes_begun() > 1) {
