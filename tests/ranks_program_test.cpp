@@ -30,11 +30,11 @@ class RanksProgram : public Program {
     fs::create_symlink(cuda, plugins_ / "libmacadam_cuda.so");
   }
 
-  /// The shell's command for two processes, for at most a minute.
+  /// The shell's command for two processes, for at most two minutes.
   std::string command(const std::string& arguments) const {
     return fmt::format(
         "MACADAM_PLUGIN_PATH='{}' TMPDIR='{}' OMPI_ALLOW_RUN_AS_ROOT=1 "
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 60 '{}' --oversubscribe -n 2 '{}' {} >'{}' 2>'{}' </dev/null",
+        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 120 '{}' --oversubscribe -n 2 '{}' {} >'{}' 2>'{}' </dev/null",
         plugins_.string(), (folder_ / "tmp").string(), MPIRUN, MACADAM_PROGRAM, arguments,
         (folder_ / "stdout.txt").string(), (folder_ / "stderr.txt").string());
   }
@@ -76,7 +76,7 @@ TEST_F(RanksProgram, WritesOnce) {
 }
 
 TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
-  write_scene("density_scaling = 1.0\n");
+  write_scene("density_scaling = 10.0\n");
   std::thread told([&] {  // one rank of the two
     const fs::path summary = folder_ / "two" / "summary.json";
     for (int k = 0; k < 600 && !(fs::exists(summary) && contains(read(summary), "running")); ++k)
@@ -136,6 +136,18 @@ TEST_F(RanksProgram, RunsAloneUnlessItIsToldOtherwise) {
   EXPECT_THAT(other.err, HasSubstr("found this process alone, expected 2: they were begun by another MPI"));
   const Outcome one = run_quick("one", "--ranks --backend cpu");
   EXPECT_EQ(one.code, 0) << one.err;
+}
+
+// As where a file is old on one of the hosts.
+TEST_F(RanksProgram, RefusesDifferentScenes) {
+  write_scene();
+  const std::string text = read(folder_ / "scene.toml");
+  std::ofstream(folder_ / "other.toml") << text << "# of another day\n";
+  const Outcome two = together(fmt::format("run {0} --ranks --out {2} : -n 1 '{3}' run {1} --ranks --out {2}",
+                                           path("scene.toml"), path("other.toml"), path("two"), MACADAM_PROGRAM));
+  EXPECT_EQ(two.code, 1) << two.err;
+  EXPECT_THAT(two.err, HasSubstr("ranks: checksum of "));
+  EXPECT_THAT(two.err, HasSubstr("they no longer run the same scene"));
 }
 
 TEST_F(RanksProgram, SaysWhatItNeeds) {

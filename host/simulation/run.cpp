@@ -220,6 +220,7 @@ RunResult run_alone_or_together(const Scene& scene, const std::filesystem::path&
                                 bool resume, const Preparation* given) {
   Ranks* const team = ranks();
   if (!team) return run_scene(scene, out, watcher, resume, {}, given);
+  require_same_scene(*team, scene);
   const Scene own = scene_of_rank(*team, scene);
   std::optional<ScratchFolder> scratch;
   if (!is_first_rank()) scratch.emplace(team->number());

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <cerrno>
 #include <cstdlib>
@@ -47,6 +48,11 @@ Scene scene_of_rank(const Ranks& team, Scene scene) {
   scene.solver.devices = device_of(team, scene.solver.devices);
   if (team.number() > 0) scene.output.contacts = false;
   return scene;
+}
+
+void require_same_scene(Ranks& team, const Scene& scene) {
+  const uLong sum = crc32_z(0, reinterpret_cast<const Bytef*>(scene.text.data()), scene.text.size());
+  team.require_same("checksum of " + scene.file.string(), static_cast<std::int64_t>(sum));
 }
 
 void hand_out(Ranks& team, const fs::path& folder, const std::vector<std::string>& names) {

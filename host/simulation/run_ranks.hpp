@@ -27,6 +27,9 @@ class ScratchFolder {
 /// devices.
 Scene scene_of_rank(const Ranks& team, Scene scene);
 
+/// \throws RunError where the ranks have read different scenes.
+void require_same_scene(Ranks& team, const Scene& scene);
+
 /// Gives all ranks the files of the first rank's folder that a run goes on from: those of `names` that are there.
 /// \throws RunError
 void hand_out(Ranks& team, const std::filesystem::path& folder, const std::vector<std::string>& names);
