@@ -99,7 +99,7 @@ class FieldSeries {
   virtual std::size_t size() const = 0;
   /// Adds one; all of a series have the same arrays. \throws RunError naming the file (disk full, no folder).
   virtual void add(double time, const std::vector<FieldArray>& arrays) = 0;
-  /// After the last: some file systems say only where a file is closed that they could not write it. \throws RunError.
+  /// After the last: some file systems say only where a file is closed that they could not write it. \throws RunError
   virtual void end() {}
 };
 
