@@ -3,8 +3,10 @@
 // share a device; tests/ranks/run takes processes, MPI and NCCL.
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <numeric>
 
+#include "expect_same.hpp"
 #include "stepper_cases.hpp"
 #include "test_files.hpp"
 #include "thread_ranks.hpp"
@@ -49,21 +51,6 @@ class RanksOf : public testing::TestWithParam<Case> {
   TestScene scene_;
   StepperOptions options_;
 };
-
-void expect_same(const std::vector<StateArray>& a, const std::vector<StateArray>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].name, b[i].name);
-    EXPECT_TRUE(a[i].values == b[i].values) << a[i].name;
-  }
-}
-
-void expect_same(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, const char* what) {
-  ASSERT_EQ(a.size(), b.size()) << what;
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) different += a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z;
-  EXPECT_EQ(different, 0u) << what << ", of " << a.size();
-}
 
 template <std::size_t n>
 std::vector<Vec3d> list(const std::array<Vec3d, n>& of) {
@@ -167,37 +154,39 @@ TEST(Ranks, BeginInTheSteadyState) {
   for_ranks(3, [&](Ranks& rank) { expect_same(stepped(&rank), alone); });
 }
 
-TEST(Ranks, ThatStepDifferentMassesAreRefused) {
-  if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
+/// Two ranks, whose options `change` makes differ, make a stepper and take 10 + `more` steps; both are refused.
+void expect_refused(const std::string& why, const std::function<void(int rank, StepperOptions& options)>& change,
+                    const std::function<std::int64_t(int rank)>& more) {
   const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));
   for_ranks(2, [&](Ranks& rank) {
     StepperOptions options = slow_options(scene);
     options.devices = {0};
     options.ranks = &rank;
-    options.density_scaling = 1 + rank.number();
+    change(rank.number(), options);
     try {
-      make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+      make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options)
+          ->advance(10 + more(rank.number()));
       ADD_FAILURE() << "was not refused";
-    } catch (const RunError& error) { EXPECT_HAS(error.what(), "checksum of time step, masses and start"); }
+    } catch (const Error& error) { EXPECT_HAS(error.what(), why); }
   });
 }
 
-// They would wait for each other for ever.
-TEST(Ranks, ThatTakeDifferentNumbersOfStepsAreRefused) {
+// They would wait for each other for ever, or step two specimens.
+TEST(Ranks, ThatDifferAreRefused) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
-  const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));
-  for_ranks(2, [&](Ranks& rank) {
-    StepperOptions options = slow_options(scene);
-    options.devices = {0};
-    options.ranks = &rank;
-    const auto part = make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options);
-    try {
-      part->advance(10 + rank.number());
-      ADD_FAILURE() << "was not refused";
-    } catch (const RunError& error) {
-      EXPECT_HAS(error.what(), "the number of time steps to take: found 10 and 11, expected the same of all");
-    }
-  });
+  const auto as_it_is = [](int, StepperOptions&) {};
+  const auto none = [](int) { return std::int64_t{0}; };
+  expect_refused(
+      "checksum of time step, masses and start", [](int rank, StepperOptions& o) { o.density_scaling = 1 + rank; },
+      none);
+  expect_refused("the number of time steps to take: found 10 and 11, expected the same of all", as_it_is,
+                 [](int rank) { return std::int64_t{rank}; });
+  expect_refused(
+      "beside 2 ranks, expected one for each rank",
+      [](int, StepperOptions& o) {
+        o.devices = {0, 0};
+      },
+      none);
 }
 
 TEST(Ranks, NameTheFirstParticleThatDiverges) {
@@ -216,20 +205,6 @@ TEST(Ranks, NameTheFirstParticleThatDiverges) {
       EXPECT_EQ(part->first_divergent(), static_cast<std::int64_t>(fast));
     });
   }
-}
-
-TEST(Ranks, HaveOneDeviceEach) {
-  if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
-  const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));
-  for_ranks(2, [&](Ranks& rank) {
-    StepperOptions options = slow_options(scene);
-    options.devices = {0, 0};
-    options.ranks = &rank;
-    try {
-      make_stepper(Backend::cuda, scene.specimen, scene.network, scene.laws, scene.inertia, options);
-      ADD_FAILURE() << "was not refused";
-    } catch (const InputError& error) { EXPECT_HAS(error.what(), "beside 2 ranks, expected one for each rank"); }
-  });
 }
 
 constexpr auto condensed = ContactForm::condensed, points = ContactForm::points;

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "kernels/cuda_room.hpp"
+#include "expect_same.hpp"
 #include "stepper_cases.hpp"
 #include "test_files.hpp"
 
@@ -51,21 +52,6 @@ class Team : public testing::TestWithParam<Case> {
   TestScene scene_;
   StepperOptions options_;
 };
-
-void expect_same(const std::vector<StateArray>& a, const std::vector<StateArray>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].name, b[i].name);
-    EXPECT_TRUE(a[i].values == b[i].values) << a[i].name;
-  }
-}
-
-void expect_same(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, const char* what) {
-  ASSERT_EQ(a.size(), b.size()) << what;
-  std::size_t different = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) different += a[i].x != b[i].x || a[i].y != b[i].y || a[i].z != b[i].z;
-  EXPECT_EQ(different, 0u) << what << ", of " << a.size();
-}
 
 TEST_P(Team, TakesTheStepsOfOneDevice) {
   const auto alone = make({0});
