@@ -2,6 +2,7 @@
 // run.cpp  The main job: prepares a scene, solves its frequencies, and leaves whole files whatever happens.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <future>
 #include <new>
@@ -58,9 +59,9 @@ void require_backend_fits(const Scene& scene) {
 }
 
 /// Whoever asks for checkpoints is told at once that there will be none.
-void require_checkpoints(const Scene& scene, Backend backend, bool resume) {
+void require_checkpoints(const Scene& scene, bool resume) {
   std::string why_not;
-  if (keeps_checkpoints(scene, backend, &why_not)) return;
+  if (keeps_checkpoints(scene, scene.solver.backend, &why_not)) return;
   if (resume) throw InputError(scene.file.string() + ": cannot be resumed: " + why_not);
   if (scene.solver.method == SolverMethod::explicit_ && scene.output.checkpoint.value_or(0) > 0) {
     throw InputError(scene.file.string(), 0, "checkpoint in [output]", fmt::format("{} s", *scene.output.checkpoint),
@@ -97,26 +98,32 @@ std::string status_of(const std::exception& error) {
   return std::string("failed: ") + error.what();
 }
 
-/// The backend that runs. A device takes a third of a second to wake: it does so while the specimen is made.
+/// The backend that runs. Devices take some tenths of a second to be counted and to wake: they do so while the specimen
+/// is made.
 class FoundBackend {
  public:
-  /// \throws as select_backend(), before any work; but what a device that is there refuses is known later.
-  explicit FoundBackend(const SolverSpec& solver) {
-    const auto select = [&solver] { return select_backend(solver.backend, nullptr, solver.devices); };
-    const bool may_wake = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
-    if (!may_wake || report_backends().devices.empty()) {
-      backend_ = select();
-      return;
-    }
-    device_numbers(solver.devices);  // whether there are such
-    waking_ = std::async(std::launch::async, select);
+  /// \throws as select_backend(), where no device has a say.
+  explicit FoundBackend(const SolverSpec& solver) : asked_(solver.backend) {
+    const auto select = [solver] { return select_backend(solver.backend, nullptr, solver.devices); };
+    if (asked_ == Backend::cuda || asked_ == Backend::automatic)
+      waking_ = std::async(select);  // by this thread where there can be no other
+    else
+      asked_ = select();
   }
-  Backend expected() const { return backend_; }
+  /// Those that it may be, the likeliest first.
+  std::vector<Backend> possible() const {
+    if (asked_ == Backend::automatic) return {Backend::cuda, Backend::cpu};
+    return {asked_};
+  }
+  /// \throws as select_backend(), if that is known by now: what cannot run is not prepared to its end.
+  void look() {
+    if (waking_.valid() && waking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) get();
+  }
   /// \throws as select_backend().
-  Backend get() { return waking_.valid() ? backend_ = waking_.get() : backend_; }
+  Backend get() { return waking_.valid() ? asked_ = waking_.get() : asked_; }
 
  private:
-  Backend backend_ = Backend::cuda;
+  Backend asked_;
   std::future<Backend> waking_;
 };
 
@@ -129,24 +136,29 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
   FoundBackend backend(scene.solver);
-  result.backend = given || resume ? backend.get() : backend.expected();
-  require_checkpoints(scene, result.backend, resume);
+  require_checkpoints(scene, resume);
   const ResultFolder folder(out);
+  const auto was_begun = [&](Backend by) { return is_checkpoint_of(out / checkpoint_name, scene, by); };
   std::optional<Resumed> resumed;
   std::string damage;  // of the newest checkpoint
   if (resume) {
-    FoundCheckpoint found = find_checkpoint(out, scene, result.backend);
+    FoundCheckpoint found = find_checkpoint(out, scene, backend.get());
     resumed = Resumed{std::move(found.checkpoint), found.file};
     damage = std::move(found.damage);
-  } else if (stepped && watcher.warn && is_checkpoint_of(out / checkpoint_name, scene, result.backend)) {
+  } else if (stepped && watcher.warn && std::ranges::any_of(backend.possible(), was_begun)) {
     watcher.warn((out / checkpoint_name).string() + ": this run was begun before and begins anew; --resume goes on");
   }
   starting.reset();
   std::optional<Preparation> made;
-  if (given)
+  if (given) {
     require_laws(scene, given->specimen, given->network);
-  else
-    made = parts.prepare ? parts.prepare(scene, watcher.progress) : prepare(scene, watcher.progress);
+  } else {
+    const Progress look_too = [&](const std::string& stage, double share) {
+      backend.look();
+      if (watcher.progress) watcher.progress(stage, share);
+    };
+    made = parts.prepare ? parts.prepare(scene, look_too) : prepare(scene, look_too);
+  }
   const Preparation& prepared = given ? *given : *made;
   {
     const InPhase waiting(result.phases, &PhaseSeconds::start);

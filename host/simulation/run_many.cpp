@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <future>
 #include <map>
@@ -13,6 +14,7 @@
 #include <set>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "host/simulation/checkpoints.hpp"
 #include "host/simulation/run_scene.hpp"
@@ -25,7 +27,8 @@ namespace {
 
 constexpr int at_once_on_a_device = 4;
 /// While a device steps one specimen, so many are made, by all cores. More at a time would all be there late; one after
-/// the other they can take longer than their steps (bench/results/many-h100-2026-11-25.csv).
+/// the other they can take longer than their steps (bench/results/many-h100-2026-11-25.csv). Before devices are
+/// counted, one is taken to be there.
 constexpr int prepared_for_a_device = 2;
 
 /// Of devices, those that answer: one that does not would fail a scene after the other.
@@ -48,48 +51,80 @@ void require_folders_differ(const std::vector<SceneJob>& jobs) {
   }
 }
 
+/// Those that some scene may be stepped on. Where there are any, it takes some tenths of a second.
+DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
+  const auto may = [](const SceneJob& job) {
+    return job.scene.solver.backend == Backend::cuda || job.scene.solver.backend == Backend::automatic;
+  };
+  if (std::ranges::none_of(jobs, may)) return {};
+  DeviceList out;
+  for (const DeviceInfo& device : report_backends().devices) {
+    const auto means_it = [&](const SceneJob& job) {
+      const DeviceList& named = job.scene.solver.devices;
+      return may(job) &&
+             (named.empty() || named == DeviceList{every_device} || std::ranges::count(named, device.number));
+    };
+    if (std::ranges::any_of(jobs, means_it)) out.push_back(device.number);
+  }
+  return out;
+}
+
 class Pool {
  public:
   Pool(const std::vector<SceneJob>& jobs, const ManyOptions& options)
-      : jobs_(jobs), options_(options), outcomes_(jobs.size()) {
-    std::set<int> devices;
-    DeviceList there;
-    if (!report_backends().devices.empty()) there = device_numbers({every_device});
-    for (const SceneJob& job : jobs) {
-      const SolverSpec& solver = job.scene.solver;
-      const bool may = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
-      for (const int d : there) {
-        const bool meant = solver.devices.empty() || solver.devices == DeviceList{every_device} ||
-                           std::count(solver.devices.begin(), solver.devices.end(), d) > 0;
-        if (may && meant) devices.insert(d);
-      }
-    }
-    const int cores = omp_get_max_threads(), number = static_cast<int>(devices.size());
-    const int usual = number == 0 ? cores : std::min(at_once_on_a_device * number, cores);
-    workers_ = may_prepare_ = std::clamp(options.at_once > 0 ? options.at_once : usual, 1, int(jobs.size()));
-    if (number > 0) {
-      may_prepare_ = std::min(workers_, prepared_for_a_device * number);
-      beside_ = (workers_ + number - 1) / number;
-      usable_ = std::async(std::launch::async, [there] { return usable(there); }).share();
-    }
-    threads_ = std::max(1, cores / may_prepare_);
-  }
+      : jobs_(jobs), options_(options), outcomes_(jobs.size()) {}
 
   std::vector<JobOutcome> run() {
-    std::vector<std::thread> workers;  // not this one, whose number of threads stays as it is
     try {
-      for (int k = 0; k < workers_; ++k) workers.emplace_back([this] { work(); });
-    } catch (const std::system_error&) {
-      if (workers.empty()) throw;  // else fewer do it
+      constexpr std::chrono::milliseconds where_none_is_there(50);
+      if (devices_.wait_for(where_none_is_there) != std::future_status::ready) {
+        employ(prepared_for_a_device, prepared_for_a_device);  // the first are made while devices are counted
+      }
+      share_out(static_cast<int>(devices_.get().size()));
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      thrown_ = std::current_exception();
+      beside_ = 1, changed_.notify_all();
     }
-    for (std::thread& t : workers) t.join();
+    for (std::thread& t : workers_) t.join();
     if (thrown_) std::rethrow_exception(thrown_);
     return std::move(outcomes_);
   }
 
  private:
+  void share_out(int devices) {
+    const int usual = devices == 0 ? cores_ : std::min(at_once_on_a_device * devices, cores_);
+    const int number = at_most(options_.at_once > 0 ? options_.at_once : usual);
+    if (devices > 0) {
+      const std::lock_guard lock(mutex_);
+      beside_ = (number + devices - 1) / devices;
+    }
+    spared_ = 8 * devices <= cores_ ? devices : 0;  // the threads that wait for a device must not wait for a core
+    employ(number, devices == 0 ? number : prepared_for_a_device * devices);
+  }
+
+  int at_most(int workers) const {
+    const int asked = options_.at_once > 0 ? std::min(workers, options_.at_once) : workers;
+    return std::clamp(asked, 1, static_cast<int>(jobs_.size()));
+  }
+
+  /// So many threads from now on, not fewer than before; of the cores, a specimen that is made has one of so many
+  /// shares.
+  void employ(int number, int shares) {
+    number = at_most(number);
+    {
+      const std::lock_guard lock(mutex_);
+      share_ = std::max(1, (cores_ - spared_) / std::min(number, shares));
+      changed_.notify_all();
+    }
+    try {  // not this one, whose number of threads stays as it is
+      while (std::ssize(workers_) < number) workers_.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {
+      if (workers_.empty()) throw;  // else fewer do it
+    }
+  }
+
   void work() {
-    omp_set_num_threads(threads_);
     for (;;) {
       std::size_t job = 0;
       {
@@ -100,17 +135,20 @@ class Pool {
       JobOutcome& outcome = outcomes_[job];
       std::optional<int> device;
       RunParts parts;
-      parts.prepare = [this](const Scene& scene, const Progress& progress) { return prepare_in_turn(scene, progress); };
-      parts.place = [&](SolverSpec& solver) {
-        device = take_device(solver);
-        solver.devices = {*device}, solver.side_by_side = beside_;
+      std::optional<Cores> cores;
+      parts.prepare = [&](const Scene& scene, const Progress& progress) {
+        return prepare_in_turn(scene, progress, cores);
       };
+      parts.place = [&](SolverSpec& solver) { device = take_device(solver); };
       try {
         if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
         const SceneJob& asked = jobs_[job];
         const bool resume = options_.resume && has_checkpoint(asked.out);
-        outcome.result = run_scene(asked.scene, asked.out, watcher_of(job), resume, parts);
+        Watcher watcher = watcher_of(job);
+        watcher.planned = [&, begun = watcher.planned](const RunResult& result) { cores.reset(), begun(result); };
+        outcome.result = run_scene(asked.scene, asked.out, watcher, resume, parts);
       } catch (...) { outcome.error = std::current_exception(); }
+      cores.reset();
       const std::lock_guard lock(mutex_);
       if (device) --running_[*device], changed_.notify_all();
       try {
@@ -119,26 +157,35 @@ class Pool {
     }
   }
 
-  Preparation prepare_in_turn(const Scene& scene, const Progress& progress) {
-    {
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return may_prepare_ > 0; });
-      --may_prepare_;
+  /// A share of the cores, which a scene has until its steps begin.
+  class Cores {
+   public:
+    explicit Cores(Pool& pool) : pool_(pool) {
+      std::unique_lock lock(pool_.mutex_);
+      pool_.changed_.wait(lock, [&] { return pool_.free_ >= pool_.share_; });
+      pool_.free_ -= number = pool_.share_;
     }
-    struct Turn {
-      Pool& pool;
-      ~Turn() {
-        const std::lock_guard lock(pool.mutex_);
-        ++pool.may_prepare_;
-        pool.changed_.notify_all();
-      }
-    } const turn{*this};
+    Cores(const Cores&) = delete;
+    ~Cores() {
+      const std::lock_guard lock(pool_.mutex_);
+      pool_.free_ += number;
+      pool_.changed_.notify_all();
+    }
+    int number = 0;
+
+   private:
+    Pool& pool_;
+  };
+
+  Preparation prepare_in_turn(const Scene& scene, const Progress& progress, std::optional<Cores>& cores) {
+    cores.emplace(*this);
     if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
+    omp_set_num_threads(cores->number);
     return prepare(scene, progress);
   }
 
   /// Of those that are meant and answer, the one that runs the fewest; waits where all have as many as they may.
-  int take_device(const SolverSpec& solver) {
+  int take_device(SolverSpec& solver) {
     DeviceList meant = solver.devices.empty() ? usable_.get() : usable(device_numbers(solver.devices));
     if (meant.empty()) meant = device_numbers(solver.devices);  // making the stepper says why it cannot
     std::unique_lock lock(mutex_);
@@ -148,6 +195,7 @@ class Pool {
       return running_[least] < beside_;
     });
     ++running_[least];
+    solver.devices = {least}, solver.side_by_side = beside_;
     return least;
   }
 
@@ -171,15 +219,20 @@ class Pool {
 
   const std::vector<SceneJob>& jobs_;
   const ManyOptions& options_;
-  int workers_ = 1, threads_ = 1, beside_ = 1;
-  std::shared_future<DeviceList> usable_;  // known once devices are awake, while the first specimens are made
-  std::mutex mutex_;                       // of what follows, and of the options' functions
+  const int cores_ = omp_get_max_threads();
+  int spared_ = 0;  // cores
+  std::vector<std::thread> workers_;
+  std::mutex mutex_;  // of what follows, and of the options' functions
   std::condition_variable changed_;
-  int may_prepare_ = 1;
+  int free_ = cores_, share_ = 1;  // cores
+  int beside_ = 0;                 // scenes on a device at a time, once devices are counted
   std::size_t next_ = 0;
   std::map<int, int> running_;  // device: scenes
   std::exception_ptr thrown_;   // by an option's function
   std::vector<JobOutcome> outcomes_;
+  // known once they are counted, and once they are awake, while the first specimens are made
+  std::shared_future<DeviceList> devices_ = std::async([this] { return meant_devices(jobs_); });
+  std::shared_future<DeviceList> usable_ = std::async([all = devices_] { return usable(all.get()); });
 };
 
 }  // namespace
