@@ -100,6 +100,35 @@ TEST_F(Check, AContactOfASmallSpecimenTakesLessTime) {
   }
 }
 
+// A fitted law has many Kelvin units, and the state of each is kept.
+TEST_F(Check, KelvinUnitsTakeTheMemoryThatAStepperTakes) {
+  Scene scene = example("demo");
+  scene.solver.backend = Backend::cpu;
+  scene.solver.tolerance.reset();
+  const Preparation made = prepare(scene);
+  const Inertia inertia = make_inertia(made.specimen, scene.materials.aggregate, scene.materials.mastic);
+  for (const auto form : {ContactForm::condensed, ContactForm::points}) {
+    for (const auto precision : {Precision::single, Precision::double_}) {
+      scene.solver.form = form, scene.solver.precision = precision;
+      const auto with_units = [&](std::size_t units) {
+        for (const PairType pair : {PairType::mm, PairType::ma}) {
+          auto& law = std::get<laws::GeneralisedKelvin>(*scene.laws[static_cast<std::size_t>(pair)]);
+          law.E.assign(units, 1e9), law.C.assign(units, 1e9);
+        }
+        StepperOptions options;
+        options.dt = 1e-7;
+        options.form = form, options.precision = precision, options.geometry = Geometry::fixed;
+        const auto stepper = make_stepper(Backend::cpu, made.specimen, made.network, scene.laws, inertia, options);
+        return std::pair(forecast(scene).host_bytes, static_cast<double>(stepper->bytes()));
+      };
+      const auto [few_foretold, few] = with_units(3);
+      const auto [many_foretold, many] = with_units(16);
+      EXPECT_NEAR(many_foretold - few_foretold, many - few, 0.1 * (many - few))
+          << to_string(form) << ", " << to_string(precision);
+    }
+  }
+}
+
 TEST_F(Check, ASpecimenThatIsMadeTakesMoreTimeThanOneFromAFile) {
   Scene scene = example("mastic");
   scene.solver.backend = Backend::cpu;

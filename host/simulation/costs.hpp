@@ -30,17 +30,20 @@ struct Cost {
   // the device's own, and a contact's solutions
   double program = 33e6, a_shape = 7e5, a_contact = 650, a_solved_contact = 850;
   double device = 5.6e8, a_solved_contact_on_device = 655;
-  // on the host, beside a device: of NVIDIA's driver; a contact's solutions, or a share of what the stepper holds there
-  double driver = 2.5e8, a_solved_contact_beside_device = 220, staged = 0.68;
+  // on the host, beside a device: of NVIDIA's driver; a contact's solutions, or a share of what the stepper holds
+  // there, but for chains that are zero at first
+  double driver = 2.5e8, a_solved_contact_beside_device = 220, staged = 0.55;
 };
 
-/// Of a step: seconds a contact (of the CPU: one thread), and bytes a contact that its stepper holds.
+/// Of a step: seconds a contact (of the CPU: one thread), and bytes a contact that its stepper holds, of which so many
+/// are the chains of its law.
 struct StepCost {
-  double seconds, bytes;
+  double seconds = 0, bytes = 0, chain = 0;
 };
 
-/// In the order of ContactForm and Precision, then geometry: fixed, updated.
-inline StepCost step_cost(bool on_device, ContactForm form, Precision precision, Geometry geometry) {
+/// `units`: Kelvin units of the usual contact's law. Measured with three; in the order of ContactForm and Precision,
+/// then geometry: fixed, updated.
+inline StepCost step_cost(bool on_device, ContactForm form, Precision precision, Geometry geometry, double units) {
   enum { single, mixed, double_ };
   // clang-format off
   static constexpr StepCost costs[2][2][3][2] = {
@@ -50,7 +53,15 @@ inline StepCost step_cost(bool on_device, ContactForm form, Precision precision,
        {{{5.1e-10, 1000}, {5.4e-10, 1040}}, {{5.1e-10, 1000}, {5.4e-10, 1040}}, {{5.1e-10, 1000}, {5.4e-10, 1040}}}}};
   // clang-format on
   const int p = precision == Precision::single ? single : precision == Precision::mixed ? mixed : double_;
-  return costs[on_device][form == ContactForm::points][p][geometry == Geometry::updated];
+  const bool points = form == ContactForm::points;
+  StepCost out = costs[on_device][points][p][geometry == Geometry::updated];
+  // three displacements of six points, or six of the contact; a number of each is kept for each unit
+  const double of_unit = (points ? 18 : 6) * (p == single ? 4 : 8);
+  out.chain = (1 + units) * of_unit;
+  const double more = (units - 3) * of_unit;
+  if (points || p == double_) out.seconds *= 1 + more / out.bytes;  // all are moved in every step
+  out.bytes += more;
+  return out;
 }
 
 }  // namespace macadam

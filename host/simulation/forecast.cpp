@@ -26,25 +26,38 @@ double instantaneous(const Law& law) {
   return std::visit([](const auto& l) { return l.instantaneous(); }, law);
 }
 
-/// Order of the specimen's |E*| at a frequency: the mean, in the logarithm, of its mastic pairs.
-double modulus_at(const Scene& scene, double hz) {
+/// The mean of f(law) over the pairs that most contacts are of: those of the mastic, if there is any.
+template <class F>
+std::optional<double> mean_of_most(const Scene& scene, F&& f) {
   double sum = 0;
   int count = 0;
   for (const PairType pair : {PairType::mm, PairType::ma, PairType::inner, PairType::aa}) {
     if (count > 0 && pair > PairType::ma) break;
-    if (const Law* law = law_of(scene, pair)) {
-      const double e = std::visit(
-          [&]<class L>(const L& l) {
-            if constexpr (requires { l.stiffness(std::complex<double>()); })
-              return std::abs(l.stiffness(std::complex<double>(0, 2 * std::numbers::pi * hz)));
-            else
-              return l.instantaneous();
-          },
-          *law);
-      sum += std::log(e), ++count;
-    }
+    if (const Law* law = law_of(scene, pair)) sum += f(*law), ++count;
   }
-  return count > 0 ? std::exp(sum / count) : 1e9;
+  return count > 0 ? std::optional(sum / count) : std::nullopt;
+}
+
+/// Order of the specimen's |E*| at a frequency: the mean in the logarithm.
+double modulus_at(const Scene& scene, double hz) {
+  const auto logarithm = mean_of_most(scene, [hz](const Law& law) {
+    return std::log(std::visit(
+        [hz]<class L>(const L& l) {
+          if constexpr (requires { l.stiffness(std::complex<double>()); })
+            return std::abs(l.stiffness(std::complex<double>(0, 2 * std::numbers::pi * hz)));
+          else
+            return l.instantaneous();
+        },
+        law));
+  });
+  return logarithm ? std::exp(*logarithm) : 1e9;
+}
+
+/// Of a contact's step on the scene's backend.
+StepCost step_cost(const Scene& scene, const Forecast& f) {
+  const auto of_law = [](const auto& law) { return facts_of(law).units; };
+  const auto units = mean_of_most(scene, [&](const Law& law) { return std::visit(of_law, law); });
+  return step_cost(f.backend == Backend::cuda, f.form, f.precision, f.geometry, units.value_or(0));
 }
 
 /// The critical step at true mass: that of a small sphere among the stiffest contacts it can have [s].
@@ -67,6 +80,10 @@ double critical_step(const Scene& scene) {
   return out;
 }
 
+bool starts_steady(const Scene& scene, const experiments::Cyclic& test) {
+  return test.start ? *test.start == Start::steady : scene.solver.tolerance.has_value();
+}
+
 /// Steps of a cyclic test: a whole number of samples a period.
 StepForecast cyclic_steps(const Scene& scene, const experiments::Cyclic& test, std::size_t k, double critical) {
   StepForecast out;
@@ -84,7 +101,7 @@ StepForecast cyclic_steps(const Scene& scene, const experiments::Cyclic& test, s
                                             (inertia_error * density * omega * omega * height * height));
   }
   const double safety = solver.safety.value_or(solver.tolerance ? safety_by_tolerance : usual_safety);
-  const bool steady = test.start ? *test.start == Start::steady : solver.tolerance.has_value();
+  const bool steady = starts_steady(scene, test);
   const int cycles = test.cycles.value_or(steady ? 1 : solver.tolerance ? 4 : 5);
   double dt = solver.time_step.value_or(safety * critical * std::sqrt(out.density_scaling));
   const double sample = 1 / (out.frequency_hz * test.samples_per_cycle);
@@ -151,17 +168,19 @@ std::vector<std::string> files_of_run(const Scene& scene) {
   return out;
 }
 
-void add_memory(Forecast& f, const Cost& cost) {
+void add_memory(const Scene& scene, Forecast& f, const Cost& cost) {
   const bool device = f.backend == Backend::cuda;
-  const double stepped = f.stepped ? step_cost(device, f.form, f.precision, f.geometry).bytes : 0;
+  const StepCost step = f.stepped ? step_cost(scene, f) : StepCost{};
   // what solutions take is given back before the steps
   const double solved = f.solutions == 0 ? 0 : device ? cost.a_solved_contact_beside_device : cost.a_solved_contact;
-  const double beside = std::max(solved, device ? cost.staged * stepped : stepped);
+  const auto* cyclic = std::get_if<experiments::Cyclic>(&scene.experiment);
+  const double at_rest = cyclic && starts_steady(scene, *cyclic) ? 0 : step.chain;
+  const double beside = std::max(solved, device ? cost.staged * (step.bytes - at_rest) : step.bytes);
   f.host_bytes = cost.program + (device ? cost.driver : 0) + cost.a_shape * static_cast<double>(f.census.templates) +
                  (cost.a_contact + beside) * f.contacts;
   if (device)
     f.device_bytes =
-        cost.device + std::max(stepped, f.solutions > 0 ? cost.a_solved_contact_on_device : 0) * f.contacts;
+        cost.device + std::max(step.bytes, f.solutions > 0 ? cost.a_solved_contact_on_device : 0) * f.contacts;
 }
 
 void add_time(const Scene& scene, Forecast& f, const Cost& cost) {
@@ -178,7 +197,7 @@ void add_time(const Scene& scene, Forecast& f, const Cost& cost) {
   }
   f.network_s = (cost.tessellating / threads + cost.triangulating) * n;
   f.harmonic_s = f.solutions * std::pow(n, 4.0 / 3) * (device ? cost.solving_on_device : cost.solving / threads);
-  double rate = step_cost(device, f.form, f.precision, f.geometry).seconds;
+  double rate = step_cost(scene, f).seconds;
   if (device && f.contacts < cost.contacts_on_chip) rate *= cost.on_chip;
   if (!device && f.contacts < cost.contacts_in_cache) rate *= cost.cached;
   const double step = device ? std::max(cost.least_step_on_device, rate * f.contacts) : rate * f.contacts / threads;
@@ -207,7 +226,7 @@ Forecast forecast(const Scene& scene) {
   out.solutions = solutions_of(scene, out.stepped);
   out.skips = skips_of(scene, out.stepped, out.geometry);
   out.files = files_of_run(scene);
-  add_memory(out, cost);
+  add_memory(scene, out, cost);
   add_time(scene, out, cost);
   return out;
 }
