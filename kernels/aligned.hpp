@@ -2,7 +2,10 @@
 /// \file aligned.hpp  Vectors that start on a cache line, so that a packet's load never straddles two.
 #pragma once
 
+#include <sys/mman.h>
+
 #include <cstddef>
+#include <cstring>
 #include <new>
 #include <vector>
 
@@ -35,8 +38,45 @@ struct RawAllocator : AlignedAllocator<T> {
   }
 };
 
+/// Zero without being touched: what is large comes as pages that the system makes when they are first written, near the
+/// processor that does, and that take no memory until then.
+template <class T>
+struct ZeroAllocator {
+  using value_type = T;
+  ZeroAllocator() = default;
+  template <class U>
+  ZeroAllocator(const ZeroAllocator<U>&) {}
+  T* allocate(std::size_t n) {
+    if (!by_pages(n)) return static_cast<T*>(std::memset(AlignedAllocator<T>().allocate(n), 0, n * sizeof(T)));
+    void* p = ::mmap(nullptr, n * sizeof(T), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (p == MAP_FAILED) throw std::bad_alloc();
+    return static_cast<T*>(p);
+  }
+  void deallocate(T* p, std::size_t n) {
+    if (by_pages(n))
+      ::munmap(p, n * sizeof(T));
+    else
+      AlignedAllocator<T>().deallocate(p, n);
+  }
+  template <class U>
+  void construct(U* p) {
+    ::new (static_cast<void*>(p)) U;
+  }
+  template <class U>
+  bool operator==(const ZeroAllocator<U>&) const {
+    return true;
+  }
+
+ private:
+  static bool by_pages(std::size_t n) { return n * sizeof(T) >= std::size_t{1} << 20; }
+};
+
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
+
+/// All zero when it is made with a size. What is resized afterwards is not: assign a new one.
+template <class T>
+using ZeroVector = std::vector<T, ZeroAllocator<T>>;
 
 template <class T>
 using AlignedVector = std::vector<T, AlignedAllocator<T>>;

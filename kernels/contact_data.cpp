@@ -34,10 +34,10 @@ ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layo
   const auto& shape = out.shape = sizes.view;
   const bool turns = !options.skip_rotations, by_points = sizes.by_points;
   const std::size_t lanes = sizes.lanes;
-  out.body_a.resize(sizes.slots);
-  out.body_b.resize(sizes.slots);
-  out.geometry.assign(sizes.geometry(), Geo(0));
-  out.points.assign(sizes.points(), Geo(0));
+  out.body_a = ZeroVector<std::int32_t>(sizes.slots);
+  out.body_b = ZeroVector<std::int32_t>(sizes.slots);
+  out.geometry = ZeroVector<Geo>(sizes.geometry());
+  out.points = ZeroVector<Geo>(sizes.points());
   if (by_points) out.packet_row.assign(group.packet_row.begin(), group.packet_row.end());
 
   for_each_slot(network, layout, group, [&](auto slot, auto packet, auto lane, bool real, const Contact& c) {
@@ -75,8 +75,8 @@ void fill_states(const ContactNetwork& network, const Layout& layout, const Grou
   const std::size_t lanes = sizes.lanes, frame_words = static_cast<std::size_t>(sizes.view.frame_words);
   const auto words = static_cast<std::size_t>(1 + sizes.view.units),
              components = static_cast<std::size_t>(sizes.view.components);
-  out.frame.assign(sizes.frame(), State(0));
-  out.chain.assign(sizes.chain(), State(0));
+  out.frame = ZeroVector<State>(sizes.frame());
+  out.chain = ZeroVector<State>(sizes.chain());
   if (frame_words == 0 && !options.start) return;
 
   for_each_slot(network, layout, group, [&](auto slot, auto packet, auto lane, bool real, const Contact& c) {

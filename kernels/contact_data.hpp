@@ -49,10 +49,10 @@ struct ContactView {
 /// One group's arrays on the host. The device takes copies: for_each_array() walks them all.
 template <class P>
 struct ContactArrays {
-  AlignedVector<std::int32_t> body_a, body_b;
-  AlignedVector<typename P::Geometry> geometry, points;
+  ZeroVector<std::int32_t> body_a, body_b;
+  ZeroVector<typename P::Geometry> geometry, points;
   AlignedVector<std::uint32_t> packet_row;
-  AlignedVector<typename P::State> chain, frame;
+  ZeroVector<typename P::State> chain, frame;
   ContactView<P> shape{};  ///< the numbers of the view; pointers null
 
   /// f(name, unit, array, pointer of the view that it feeds)

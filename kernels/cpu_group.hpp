@@ -129,8 +129,8 @@ struct CpuGroup {
   const GroupLayout* layout = nullptr;
   const std::uint32_t *end_a = nullptr, *end_b = nullptr;  ///< [slot] accumulators
   bool in_blocks = false;
-  AlignedVector<float> state;   ///< [packet][3][components][lane] δf, Σ (δf' + δf), drift
-  AlignedVector<float> placed;  ///< [packet][placed_words][lane]
+  ZeroVector<float> state;   ///< [packet][3][components][lane] δf, Σ (δf' + δf), drift
+  ZeroVector<float> placed;  ///< [packet][placed_words][lane]
 
  private:
   template <class... A>
@@ -188,8 +188,9 @@ struct CpuGroupOf final : CpuGroup<P, width> {
     if constexpr (has_blocks_here) {
       const ContactView<P>& view = forces.view;
       const std::size_t slots = view.packets * width;
-      this->state.assign(this->in_blocks ? 3 * slots * static_cast<std::size_t>(view.components) : 0, 0);
-      this->placed.assign(this->in_blocks && Forces::geometry_of == Geometry::updated ? placed_words * slots : 0, 0);
+      const bool turns = Forces::geometry_of == Geometry::updated;
+      this->state = ZeroVector<float>(this->in_blocks ? 3 * slots * static_cast<std::size_t>(view.components) : 0);
+      this->placed = ZeroVector<float>(this->in_blocks && turns ? placed_words * slots : 0);
       dt_ = dt;
       block_.view = view;
       block_.state = this->state.data();
