@@ -26,36 +26,55 @@ Laws elastic() {
   out[0] = laws::Elastic{1e10, 0};
   return out;
 }
+/// One whose times are longer than any load's.
+Laws lasting() {
+  Laws out;
+  out[0] = laws::GeneralisedKelvin{1e10, 1e15, {}, {}, 0};
+  return out;
+}
 
 TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   StepperOptions options = options_of_10_hz();
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 250);
-  Laws slow = elastic();
+  EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 250);
+  Laws slow = lasting();
   slow[1] = laws::GeneralisedKelvin{1e10, 1e8, {}, {}, 0};  // 2π·0.01 s
   EXPECT_EQ(block_steps(options, facts_of(slow), size), 157);
   options.geometry = Geometry::updated;  // 4e-3 / (1e-4·20π/s) = 0.64 s
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 250);
+  EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 250);
   options.boundary = moving_top(drives::Cyclic(1e-3, 10, 1000000));  // 4e-3 / (1e-2·20π/s) = 6.4e-3 s
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 15);
+  EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 15);
   options.boundary = {};
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 0);
+  EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
+}
+
+TEST(BlockLength, IsLongerWhereNothingHasAMemory) {
+  StepperOptions options = options_of_10_hz();
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), kernels::longest_block);
+  options.blocks = 20000;
+  EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 50);
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 500);
+  Laws one_of_two = elastic();
+  one_of_two[1] = lasting()[0];
+  EXPECT_EQ(block_steps(options, facts_of(one_of_two), size), 50);
+  options.geometry = Geometry::updated;
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 50);
 }
 
 TEST(BlockLength, FollowsTheNumberOfBlocks) {
   StepperOptions options = options_of_10_hz();
   options.blocks = 8000;
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 125);
+  EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 125);
   options.blocks = 1e6 / 3.9;  // three steps do not pay
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 0);
+  EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
   options.blocks = 10;  // sums of so many steps are still good in single precision
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), kernels::longest_block);
+  EXPECT_EQ(block_steps(options, facts_of(lasting()), size), kernels::longest_block);
 }
 
 TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
   StepperOptions options = options_of_10_hz();
   const auto steps = [&](std::int64_t observed_every) {
     options.observed_every = observed_every;
-    return block_steps(options, facts_of(elastic()), size);
+    return block_steps(options, facts_of(lasting()), size);
   };
   EXPECT_EQ(steps(0), 250);
   EXPECT_EQ(steps(500), 250);
