@@ -43,3 +43,10 @@ def foretold_large():
         lines.append(line)
     return table(["scene", "method", "on", "particles", "memory (GB)", "memory", "of the GPU (GB)", "of the GPU", "time (s)", "time"], lines,
                  range(3, 10))
+
+
+@mark
+def filled_host():
+    """Foretold of the host beside the fullest GPU, in GB."""
+    fullest = max(rows("forecast-large.csv"), key=lambda r: r["device_mb"])
+    return f"{fullest['memory_foretold_mb'] / 1e3:.0f}"
