@@ -19,20 +19,25 @@ namespace macadam::kernels {
 /// (bench/block_precision.cpp); beyond, it was not looked at.
 inline constexpr int longest_block = 1024;
 
-/// Where no law has a memory and nothing turns, blocks neglect nothing, and are as many times as long. What is left is
-/// the rounding of a change within a block, which for a 400th of a period is 2e-8 of the force's amplitude.
-inline constexpr double longer_without_memory = 10;
+/// Whether nothing is neglected within a block: no law has a memory, and nothing turns.
+inline bool blocks_are_exact(Geometry geometry, const FactsTable& laws) {
+  const auto has_none = [](const auto& law) { return !law || law->memoryless; };
+  return geometry == Geometry::fixed && std::all_of(laws.begin(), laws.end(), has_none);
+}
+
+/// So many blocks in the load's shortest time are then enough: the change within one, which is rounded, is a small part
+/// of the force's amplitude, and forces are made anew of the displacements when it ends.
+inline constexpr double exact_blocks = 400;
 
 /// Steps of a block: at most longest_block, at most the `options.blocks`-th part of the shortest time in the load or
-/// the laws, or longer_without_memory, and so few that at the specimen's strain a carried normal turns by less than
-/// 1e-6 in a 4,000th of that time. Where this allows it, blocks end at the observations, which otherwise cut them. 0:
-/// blocks would be too short to pay, or nothing says how fast the load changes, a law has no blocks, or a wall follows
-/// a force, which needs the sum on it at every step. `size`: of the specimen [m].
+/// the laws (exact ones up to ten times that), and so few that at the specimen's strain a carried normal turns by less
+/// than 1e-6 in a 4,000th of that time. Where this allows it, blocks end at the observations, which otherwise cut them.
+/// 0: blocks would be too short to pay, or nothing says how fast the load changes, a law has no blocks, or a wall
+/// follows a force, which needs the sum on it at every step. `size`: of the specimen [m].
 inline int block_steps(const StepperOptions& options, const FactsTable& laws, const Vec3d& size) {
   if (!options.boundary.any(DrivenBy::displacement) || options.boundary.any(DrivenBy::force)) return 0;
   constexpr double pi = std::numbers::pi;
   double shortest = std::numeric_limits<double>::infinity();
-  bool memoryless = options.geometry == Geometry::fixed;
   const double extent[3] = {size.x, size.y, size.z};
   for (std::size_t w = 0; w < wall_count; ++w) {
     for (const WallAxis& axis : options.boundary.wall[w].axis) {
@@ -46,10 +51,10 @@ inline int block_steps(const StepperOptions& options, const FactsTable& laws, co
   for (const auto& law : laws) {
     if (!law) continue;
     if (!law->blocks) return 0;
-    memoryless = memoryless && law->memoryless;
     shortest = std::min(shortest, 2 * pi * law->shortest_time);
   }
-  const double blocks = options.blocks / (memoryless ? longer_without_memory : 1);
+  double blocks = options.blocks;
+  if (blocks_are_exact(options.geometry, laws)) blocks = std::min(blocks, std::max(exact_blocks, blocks / 10));
   const auto most =
       static_cast<std::int64_t>(std::min<double>(longest_block, std::floor(shortest / (blocks * options.dt))));
   if (most < 4) return 0;

@@ -53,6 +53,12 @@ TEST(BlockLength, IsLongerWhereNothingHasAMemory) {
   options.blocks = 20000;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 50);
   EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 500);
+  options.blocks = 200;
+  options.dt *= 10;
+  EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 500);
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 500);  // fewer blocks would round more
+  options.blocks = 20000;
+  options.dt /= 10;
   Laws one_of_two = elastic();
   one_of_two[1] = lasting()[0];
   EXPECT_EQ(block_steps(options, facts_of(one_of_two), size), 50);

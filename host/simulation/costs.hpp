@@ -30,9 +30,9 @@ struct Cost {
   // the device's own, and a contact's solutions
   double program = 33e6, a_shape = 7e5, a_contact = 650, a_solved_contact = 850;
   double device = 5.6e8, a_solved_contact_on_device = 655;
-  // on the host, beside a device: of NVIDIA's driver; a contact's solutions, or a share of what the stepper holds
-  // there, but for chains that are zero at first
-  double driver = 2.5e8, a_solved_contact_beside_device = 220, staged = 0.55;
+  // on the host, beside a device: of NVIDIA's driver; a contact's solutions, or shares of what the stepper holds there,
+  // without chains, and of chains that are not zero at first
+  double driver = 2.5e8, a_solved_contact_beside_device = 220, staged = 0.55, staged_chain = 0.77;
 };
 
 /// Of a step: seconds a contact (of the CPU: one thread), and bytes a contact that its stepper holds, of which so many
@@ -41,8 +41,8 @@ struct StepCost {
   double seconds = 0, bytes = 0, chain = 0;
 };
 
-/// `units`: Kelvin units of the usual contact's law. Measured with three; in the order of ContactForm and Precision,
-/// then geometry: fixed, updated.
+/// `units`: Kelvin units of the usual contact's law, -1 where it keeps no chain. Measured with three; in the order of
+/// ContactForm and Precision, then geometry: fixed, updated.
 inline StepCost step_cost(bool on_device, ContactForm form, Precision precision, Geometry geometry, double units) {
   enum { single, mixed, double_ };
   // clang-format off

@@ -55,7 +55,11 @@ double modulus_at(const Scene& scene, double hz) {
 
 /// Of a contact's step on the scene's backend.
 StepCost step_cost(const Scene& scene, const Forecast& f) {
-  const auto of_law = [](const auto& law) { return facts_of(law).units; };
+  constexpr int no_chain = -1;
+  const auto of_law = [&](const auto& law) {
+    const LawFacts facts = facts_of(law);
+    return facts.memoryless && f.geometry == Geometry::fixed ? no_chain : facts.units;
+  };
   const auto units = mean_of_most(scene, [&](const Law& law) { return std::visit(of_law, law); });
   return step_cost(f.backend == Backend::cuda, f.form, f.precision, f.geometry, units.value_or(0));
 }
@@ -174,8 +178,9 @@ void add_memory(const Scene& scene, Forecast& f, const Cost& cost) {
   // what solutions take is given back before the steps
   const double solved = f.solutions == 0 ? 0 : device ? cost.a_solved_contact_beside_device : cost.a_solved_contact;
   const auto* cyclic = std::get_if<experiments::Cyclic>(&scene.experiment);
-  const double at_rest = cyclic && starts_steady(scene, *cyclic) ? 0 : step.chain;
-  const double beside = std::max(solved, device ? cost.staged * (step.bytes - at_rest) : step.bytes);
+  const bool steady = cyclic && starts_steady(scene, *cyclic);
+  const double staged = cost.staged * (step.bytes - step.chain) + (steady ? cost.staged_chain * step.chain : 0);
+  const double beside = std::max(solved, device ? staged : step.bytes);
   f.host_bytes = cost.program + (device ? cost.driver : 0) + cost.a_shape * static_cast<double>(f.census.templates) +
                  (cost.a_contact + beside) * f.contacts;
   if (device)

@@ -2,7 +2,6 @@
 // run.cpp  The main job: prepares a scene, solves its frequencies, and leaves whole files whatever happens.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <exception>
 #include <future>
 #include <new>
@@ -110,11 +109,6 @@ class FoundBackend {
     else
       asked_ = select();
   }
-  /// Those that it may be, the likeliest first.
-  std::vector<Backend> possible() const {
-    if (asked_ == Backend::automatic) return {Backend::cuda, Backend::cpu};
-    return {asked_};
-  }
   /// \throws as select_backend(), if that is known by now: what cannot run is not prepared to its end.
   void look() {
     if (waking_.valid() && waking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) get();
@@ -138,15 +132,12 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   FoundBackend backend(scene.solver);
   require_checkpoints(scene, resume);
   const ResultFolder folder(out);
-  const auto was_begun = [&](Backend by) { return is_checkpoint_of(out / checkpoint_name, scene, by); };
   std::optional<Resumed> resumed;
   std::string damage;  // of the newest checkpoint
   if (resume) {
     FoundCheckpoint found = find_checkpoint(out, scene, backend.get());
     resumed = Resumed{std::move(found.checkpoint), found.file};
     damage = std::move(found.damage);
-  } else if (stepped && watcher.warn && std::ranges::any_of(backend.possible(), was_begun)) {
-    watcher.warn((out / checkpoint_name).string() + ": this run was begun before and begins anew; --resume goes on");
   }
   starting.reset();
   std::optional<Preparation> made;
@@ -164,6 +155,8 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
     const InPhase waiting(result.phases, &PhaseSeconds::start);
     result.backend = backend.get();
   }
+  if (!resume && stepped && watcher.warn && is_checkpoint_of(out / checkpoint_name, scene, result.backend))
+    watcher.warn((out / checkpoint_name).string() + ": this run was begun before and begins anew; --resume goes on");
   if (resumed) require_same_specimen(resumed->file, resumed->checkpoint, prepared);
   if (!damage.empty()) {
     std::error_code error;

@@ -77,9 +77,9 @@ class Pool {
   std::vector<JobOutcome> run() {
     try {
       constexpr std::chrono::milliseconds where_none_is_there(50);
-      if (devices_.wait_for(where_none_is_there) != std::future_status::ready) {
-        employ(prepared_for_a_device, prepared_for_a_device);  // the first are made while devices are counted
-      }
+      const bool are_counted = devices_.wait_for(where_none_is_there) == std::future_status::ready;
+      // the first specimens are made while devices are counted
+      if (!are_counted) employ(std::min(prepared_for_a_device, cores_), prepared_for_a_device, cores_);
       share_out(static_cast<int>(devices_.get().size()));
     } catch (...) {
       const std::lock_guard lock(mutex_);
@@ -95,12 +95,13 @@ class Pool {
   void share_out(int devices) {
     const int usual = devices == 0 ? cores_ : std::min(at_once_on_a_device * devices, cores_);
     const int number = at_most(options_.at_once > 0 ? options_.at_once : usual);
-    if (devices > 0) {
+    {
       const std::lock_guard lock(mutex_);
-      beside_ = (number + devices - 1) / devices;
+      beside_ = devices == 0 ? number : (number + devices - 1) / devices;
     }
-    spared_ = 8 * devices <= cores_ ? devices : 0;  // the threads that wait for a device must not wait for a core
-    employ(number, devices == 0 ? number : prepared_for_a_device * devices);
+    // the threads that wait for a device must not wait for a core
+    const int spared = 8 * devices <= cores_ ? devices : 0;
+    employ(number, devices == 0 ? number : prepared_for_a_device * devices, cores_ - spared);
   }
 
   int at_most(int workers) const {
@@ -108,13 +109,15 @@ class Pool {
     return std::clamp(asked, 1, static_cast<int>(jobs_.size()));
   }
 
-  /// So many threads from now on, not fewer than before; of the cores, a specimen that is made has one of so many
-  /// shares.
-  void employ(int number, int shares) {
-    number = at_most(number);
+  /// So many threads from now on, not fewer than before. Of these cores, so many scenes have a share at a time.
+  void employ(int number, int shares, int cores) {
+    number = at_most(number), shares = std::min(number, shares);
     {
       const std::lock_guard lock(mutex_);
-      share_ = std::max(1, (cores_ - spared_) / std::min(number, shares));
+      share_ = std::max(1, cores / shares);
+      cores = std::max(cores, shares);  // more scenes than cores, if somebody wants that
+      free_ += cores - std::exchange(all_, cores);
+      turns_ += shares - std::exchange(all_turns_, shares);
       changed_.notify_all();
     }
     try {  // not this one, whose number of threads stays as it is
@@ -139,13 +142,16 @@ class Pool {
       parts.prepare = [&](const Scene& scene, const Progress& progress) {
         return prepare_in_turn(scene, progress, cores);
       };
-      parts.place = [&](SolverSpec& solver) { device = take_device(solver); };
+      parts.place = [&](SolverSpec& solver) { device = take_device(solver, cores); };
       try {
         if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
         const SceneJob& asked = jobs_[job];
         const bool resume = options_.resume && has_checkpoint(asked.out);
         Watcher watcher = watcher_of(job);
-        watcher.planned = [&, begun = watcher.planned](const RunResult& result) { cores.reset(), begun(result); };
+        watcher.planned = [&, begun = watcher.planned](const RunResult& result) {
+          if (result.backend == Backend::cuda) cores.reset();
+          begun(result);
+        };
         outcome.result = run_scene(asked.scene, asked.out, watcher, resume, parts);
       } catch (...) { outcome.error = std::current_exception(); }
       cores.reset();
@@ -157,45 +163,55 @@ class Pool {
     }
   }
 
-  /// A share of the cores, which a scene has until its steps begin.
+  /// A share of the cores, which a scene has until a device takes its steps, or to its end.
   class Cores {
    public:
     explicit Cores(Pool& pool) : pool_(pool) {
       std::unique_lock lock(pool_.mutex_);
-      pool_.changed_.wait(lock, [&] { return pool_.free_ >= pool_.share_; });
-      pool_.free_ -= number = pool_.share_;
+      pool_.changed_.wait(lock, [&] { return pool_.turns_ > 0 && pool_.free_ >= pool_.share_; });
+      --pool_.turns_, pool_.free_ -= number_ = pool_.share_;
+      omp_set_num_threads(number_);  // of the thread that does the scene
     }
     Cores(const Cores&) = delete;
     ~Cores() {
       const std::lock_guard lock(pool_.mutex_);
-      pool_.free_ += number;
+      ++pool_.turns_, pool_.free_ += number_;
       pool_.changed_.notify_all();
     }
-    int number = 0;
 
    private:
     Pool& pool_;
+    int number_ = 0;
   };
 
   Preparation prepare_in_turn(const Scene& scene, const Progress& progress, std::optional<Cores>& cores) {
     cores.emplace(*this);
     if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
-    omp_set_num_threads(cores->number);
     return prepare(scene, progress);
   }
 
-  /// Of those that are meant and answer, the one that runs the fewest; waits where all have as many as they may.
-  int take_device(SolverSpec& solver) {
+  /// Of those that are meant and answer, the one that runs the fewest. Waits where all have as many as they may; others
+  /// have the cores meanwhile.
+  int take_device(SolverSpec& solver, std::optional<Cores>& cores) {
     DeviceList meant = solver.devices.empty() ? usable_.get() : usable(device_numbers(solver.devices));
     if (meant.empty()) meant = device_numbers(solver.devices);  // making the stepper says why it cannot
-    std::unique_lock lock(mutex_);
     int least = 0;
-    changed_.wait(lock, [&] {
+    const auto has_room = [&] {
       least = *std::min_element(meant.begin(), meant.end(), [&](int a, int b) { return running_[a] < running_[b]; });
       return running_[least] < beside_;
-    });
+    };
+    std::unique_lock lock(mutex_);
+    const bool waits = !has_room();
+    if (waits) {
+      lock.unlock();
+      cores.reset();
+      lock.lock();
+      changed_.wait(lock, has_room);
+    }
     ++running_[least];
     solver.devices = {least}, solver.side_by_side = beside_;
+    lock.unlock();
+    if (waits) cores.emplace(*this);
     return least;
   }
 
@@ -220,12 +236,12 @@ class Pool {
   const std::vector<SceneJob>& jobs_;
   const ManyOptions& options_;
   const int cores_ = omp_get_max_threads();
-  int spared_ = 0;  // cores
   std::vector<std::thread> workers_;
   std::mutex mutex_;  // of what follows, and of the options' functions
   std::condition_variable changed_;
-  int free_ = cores_, share_ = 1;  // cores
-  int beside_ = 0;                 // scenes on a device at a time, once devices are counted
+  int all_ = 0, free_ = 0, share_ = 1;  // cores
+  int all_turns_ = 0, turns_ = 0;       // scenes that may have a share
+  int beside_ = 0;                      // scenes on a device at a time, once devices are counted
   std::size_t next_ = 0;
   std::map<int, int> running_;  // device: scenes
   std::exception_ptr thrown_;   // by an option's function

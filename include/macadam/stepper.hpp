@@ -56,7 +56,7 @@ struct StepperOptions {
   const StartState* start = nullptr;  ///< read by make_stepper() only; a cyclic drive must have no ramp then
   /// Mixed and single precision may take steps in blocks, within which laws are not settled (model (6.8)). At least so
   /// many blocks go into the shortest of the drives' and the laws' times. What a block neglects is of second order in
-  /// its length.
+  /// its length; where no law has a memory and the geometry is fixed it is nothing, and a tenth of the blocks will do.
   double blocks = 4000;
   /// Steps from one observe() to the next, 0: not known. Blocks end there where they can.
   std::int64_t observed_every = 0;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs a build, then builds and runs an outside project, the tutorial and the installed program:
-#   cmake -D BUILD=<build folder> -D WORK=<scratch folder> -D COMPILER=<C++ compiler> -P run.cmake
+#   cmake -D BUILD=<build folder> -D WORK=<scratch folder> -D COMPILER=<C++ compiler> -D NUMBER=<version> -P run.cmake
 cmake_minimum_required(VERSION 3.25)
 
 function(run)
@@ -14,7 +14,7 @@ endforeach()
 
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G Ninja ${absent}
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK}/build -G Ninja ${absent} -D MACADAM_NUMBER=${NUMBER}
     -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_PREFIX_PATH=${WORK}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 run(${WORK}/build/macadam_user)

@@ -18,6 +18,7 @@
 #include "host/simulation/phases.hpp"
 #include "host/experiments/cyclic/plan.hpp"
 #include "host/experiments/cyclic/methods.hpp"
+#include "kernels/block_length.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -67,8 +68,10 @@ StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
 }
 
 /// Says how long blocks of steps are, where a tolerance decides it and the backend may take them.
-void decide_blocks(const SolverSpec& solver, Backend backend, Plan& plan) {
+void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
+  const SolverSpec& solver = scene.solver;
   const bool may = backend != Backend::reference && plan.form == ContactForm::condensed;
+  if (kernels::blocks_are_exact(plan.geometry, facts_of(scene.laws))) return;
   if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
   const double blocks = common_options(plan, solver).blocks;
   plan.decisions.push_back(
@@ -257,7 +260,7 @@ std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prep
     at = to_run_state(std::move(resumed->checkpoint), resumed->file);
   } else {
     at.plan = make_plan(scene, prepared, inertia, watcher, result.backend, result.phases);
-    decide_blocks(scene.solver, result.backend, at.plan);
+    decide_blocks(scene, result.backend, at.plan);
     if (const auto without = first_without_stiffness(scene.laws)) {
       at.warnings.push_back(fmt::format(
           "law {} of {} has no complex stiffness: |E*| and phi are those of the fundamental of the measured "
