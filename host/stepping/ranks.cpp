@@ -41,7 +41,7 @@ void Ranks::require_same(const std::string& what, std::int64_t value) {
 
 DeviceList device_of(const Ranks& team, const DeviceList& asked) {
   if (report_backends().devices.empty()) return asked;
-  const DeviceList devices = device_numbers(asked.empty() ? DeviceList{every_device} : asked);
+  DeviceList devices = device_numbers(asked.empty() ? DeviceList{every_device} : asked);
   const auto own = static_cast<std::size_t>(team.number_on_host());
   if (devices.size() == 1) return devices;  // each process sees another one, or the error of sharing it is NCCL's
   if (own >= devices.size()) {
