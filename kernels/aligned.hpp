@@ -39,15 +39,14 @@ struct RawAllocator : AlignedAllocator<T> {
 };
 
 /// Zero without being touched: what is large comes as pages that the system makes when they are first written, near the
-/// processor that does, and that take no memory until then.
+/// processor that does, and that take no memory until then. Not where the address sanitizer guards the ends of arrays.
 template <class T>
-struct ZeroAllocator {
-  using value_type = T;
+struct ZeroAllocator : RawAllocator<T> {
   ZeroAllocator() = default;
   template <class U>
   ZeroAllocator(const ZeroAllocator<U>&) {}
   T* allocate(std::size_t n) {
-    if (!by_pages(n)) return static_cast<T*>(std::memset(AlignedAllocator<T>().allocate(n), 0, n * sizeof(T)));
+    if (!by_pages(n)) return static_cast<T*>(std::memset(RawAllocator<T>::allocate(n), 0, n * sizeof(T)));
     void* p = ::mmap(nullptr, n * sizeof(T), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (p == MAP_FAILED) throw std::bad_alloc();
     return static_cast<T*>(p);
@@ -56,19 +55,18 @@ struct ZeroAllocator {
     if (by_pages(n))
       ::munmap(p, n * sizeof(T));
     else
-      AlignedAllocator<T>().deallocate(p, n);
-  }
-  template <class U>
-  void construct(U* p) {
-    ::new (static_cast<void*>(p)) U;
-  }
-  template <class U>
-  bool operator==(const ZeroAllocator<U>&) const {
-    return true;
+      RawAllocator<T>::deallocate(p, n);
   }
 
  private:
-  static bool by_pages(std::size_t n) { return n * sizeof(T) >= std::size_t{1} << 20; }
+  static constexpr bool by_pages(std::size_t n) {
+#ifdef __SANITIZE_ADDRESS__
+    static_cast<void>(n);
+    return false;
+#else
+    return n * sizeof(T) >= std::size_t{1} << 20;
+#endif
+  }
 };
 
 template <class T>

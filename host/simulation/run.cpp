@@ -97,17 +97,19 @@ std::string status_of(const std::exception& error) {
   return std::string("failed: ") + error.what();
 }
 
-/// The backend that runs. Devices take some tenths of a second to be counted and to wake: they do so while the specimen
-/// is made.
+/// The backend that runs. Devices are counted and wake while the specimen is made.
 class FoundBackend {
  public:
-  /// \throws as select_backend(), where no device has a say.
+  /// \throws as select_backend(), before any work; but what a device that is there refuses is known later.
   explicit FoundBackend(const SolverSpec& solver) : asked_(solver.backend) {
     const auto select = [solver] { return select_backend(solver.backend, nullptr, solver.devices); };
-    if (asked_ == Backend::cuda || asked_ == Backend::automatic)
+    if (asked_ == Backend::cuda || asked_ == Backend::automatic) {
       waking_ = std::async(select);  // by this thread where there can be no other
-    else
+      waking_.wait_for(none_is_known_within);
+      look();
+    } else {
       asked_ = select();
+    }
   }
   /// \throws as select_backend(), if that is known by now: what cannot run is not prepared to its end.
   void look() {

@@ -5,7 +5,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <chrono>
 #include <condition_variable>
 #include <future>
 #include <map>
@@ -76,8 +75,7 @@ class Pool {
 
   std::vector<JobOutcome> run() {
     try {
-      constexpr std::chrono::milliseconds where_none_is_there(50);
-      const bool are_counted = devices_.wait_for(where_none_is_there) == std::future_status::ready;
+      const bool are_counted = devices_.wait_for(none_is_known_within) == std::future_status::ready;
       // the first specimens are made while devices are counted
       if (!are_counted) employ(std::min(prepared_for_a_device, cores_), prepared_for_a_device, cores_);
       share_out(static_cast<int>(devices_.get().size()));

@@ -67,11 +67,11 @@ StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
   return options;
 }
 
-/// Says how long blocks of steps are, where a tolerance decides it and the backend may take them.
+/// Says how long blocks of steps are, where a tolerance decides it, the backend may take them, and they cost anything.
 void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
   const SolverSpec& solver = scene.solver;
-  const bool may = backend != Backend::reference && plan.form == ContactForm::condensed;
-  if (kernels::blocks_are_exact(plan.geometry, facts_of(scene.laws))) return;
+  const bool may = backend != Backend::reference && plan.form == ContactForm::condensed &&
+                   !kernels::blocks_are_exact(plan.geometry, facts_of(scene.laws));
   if (!may || plan.precision == Precision::double_ || !solver.tolerance) return;
   const double blocks = common_options(plan, solver).blocks;
   plan.decisions.push_back(
