@@ -42,7 +42,7 @@ struct StepCost {
 };
 
 /// `units`: Kelvin units of the usual contact's law, -1 where it keeps no chain. Measured with three; in the order of
-/// ContactForm and Precision, then geometry: fixed, updated.
+/// ContactForm and Precision, then geometry: fixed, updated. What units change: bench/results/kelvin-units-cpu.csv.
 inline StepCost step_cost(bool on_device, ContactForm form, Precision precision, Geometry geometry, double units) {
   enum { single, mixed, double_ };
   // clang-format off
