@@ -19,7 +19,7 @@ namespace macadam::kernels {
 /// (bench/block_precision.cpp); beyond, it was not looked at.
 inline constexpr int longest_block = 1024;
 
-/// Whether nothing is neglected within a block: no law has a memory, and nothing turns.
+/// Whether a block neglects nothing: no law has a memory, and contacts keep the geometry of the start.
 inline bool blocks_are_exact(Geometry geometry, const FactsTable& laws) {
   const auto has_none = [](const auto& law) { return !law || law->memoryless; };
   return geometry == Geometry::fixed && std::all_of(laws.begin(), laws.end(), has_none);
