@@ -32,7 +32,7 @@ struct alignas(2 * sizeof(R)) Two {
 template <class P>
 struct ResidentMemory {
   using R = typename P::Particle;
-  std::uint32_t velocity, spin, slots, own, rest, halo, diagonal, row, law, others, cache, total;
+  std::uint32_t velocity, slots, own, rest, halo, diagonal, row, law, others, cache, total;
   std::uint32_t cached;  ///< packets
 
   /// Displacements, base loads, Δt/m and Δt/I, and then velocities in full precision: in memory where there is no room.
@@ -40,12 +40,12 @@ struct ResidentMemory {
     const auto numbers = rest == TileRest::all_away ? 14u : 8u;
     return bodies * static_cast<std::uint32_t>(6 * sizeof(double) + numbers * sizeof(R));
   }
-  __host__ __device__ static constexpr std::uint32_t packet_bytes(bool carried) {
-    return static_cast<std::uint32_t>(tile_constants(carried)) * 32 * sizeof(float4);
+  __host__ __device__ static constexpr std::uint32_t packet_bytes(std::uint32_t constants) {
+    return constants * 32 * sizeof(float4);
   }
 
   /// `room`: bytes that there are; no packets have constants here where that is less than the rest needs.
-  __host__ __device__ ResidentMemory(const Tile& tile, bool carried, TileRest where, std::uint32_t room) {
+  __host__ __device__ ResidentMemory(const Tile& tile, std::uint32_t constants, TileRest where, std::uint32_t room) {
     std::uint32_t at = 0;
     const auto take = [&](std::uint32_t bytes) {
       const std::uint32_t here = at;
@@ -53,10 +53,9 @@ struct ResidentMemory {
       return here;
     };
     const std::uint32_t locals = tile.bodies + tile.halo + walls;
-    velocity = take(16 * locals);
-    spin = take(16 * locals);
+    velocity = take(SixTable::bytes(locals));
     law = take(16 * pair_types);
-    slots = take(24 * tile.slots);
+    slots = take(SixTable::bytes(tile.slots));
     own = take(where == TileRest::all_away ? 0 : tile.bodies * static_cast<std::uint32_t>(sizeof(Six<R>)));
     rest = take(where == TileRest::here ? rest_bytes(tile.bodies, where) : 0);
     halo = take(4 * tile.halo);
@@ -64,9 +63,9 @@ struct ResidentMemory {
     row = take(8 * tile.bodies);
     others = take(static_cast<std::uint32_t>(sizeof(WarpPackets)) * resident_threads / 32);
     cache = at;
-    cached = room < at ? 0 : (room - at) / packet_bytes(carried);
+    cached = room < at ? 0 : (room - at) / packet_bytes(constants);
     if (cached > packets_with_states) cached = packets_with_states;
-    total = at + cached * packet_bytes(carried);
+    total = at + cached * packet_bytes(constants);
   }
 };
 
@@ -86,7 +85,7 @@ std::size_t expected_resident_bytes(const ContactNetwork& network, std::size_t t
   tile.bodies = whole(bodies);
   tile.halo = whole(halo);
   tile.slots = whole(fullest * static_cast<double>(slots) / static_cast<double>(tiles));
-  return ResidentMemory<P>(tile, false, TileRest::all_away, 0).total;
+  return ResidentMemory<P>(tile, tile_constants(false), TileRest::all_away, 0).total;
 }
 
 }  // namespace macadam::kernels

@@ -19,12 +19,19 @@
 
 namespace macadam::kernels {
 
+/// Where kernels of several streams are ready.
+enum class KernelOrder {
+  usual,
+  first,  ///< before usual ones: many short kernels would each wait for a long one
+};
+
 /// Streams of the devices that share a specimen. One device named twice takes two shares. Of several processes, each
 /// has one member: that of the number of its rank.
 class DeviceTeam {
  public:
+  /// `order`: of its kernels and those of others on the same device.
   /// \throws RunError for two devices that cannot reach each other's memory.
-  explicit DeviceTeam(const DeviceList& devices, Ranks* ranks = nullptr)
+  explicit DeviceTeam(const DeviceList& devices, Ranks* ranks = nullptr, KernelOrder order = KernelOrder::usual)
       : ranks_(ranks && ranks->count() > 1 ? ranks : nullptr) {
     if (ranks_ && devices.size() > 1) {
       throw InputError("device: found " + to_string(devices) + " beside " + std::to_string(ranks_->count()) +
@@ -34,7 +41,11 @@ class DeviceTeam {
     for (Member& m : member_) {
       for (const Member& other : member_) reach(m.device, other.device);
       check_cuda(cudaSetDevice(m.device), "device");
-      check_cuda(cudaStreamCreateWithFlags(&m.stream, cudaStreamNonBlocking), "stream");
+      int last = 0, first = 0;
+      check_cuda(cudaDeviceGetStreamPriorityRange(&last, &first), "stream");
+      check_cuda(
+          cudaStreamCreateWithPriority(&m.stream, cudaStreamNonBlocking, order == KernelOrder::first ? first : last),
+          "stream");
       check_cuda(cudaEventCreateWithFlags(&m.here, cudaEventDisableTiming), "event");
     }
     use();

@@ -50,11 +50,12 @@ class TileRunner {
   /// Whether this device can run the scene so.
   bool possible() const { return static_cast<bool>(run_); }
   std::string description() const { return resident_ ? "tiles on the chip" : "tiles streamed"; }
-  std::vector<KernelUse> kernels() const { return {use_}; }
+  std::vector<KernelUse> kernels() const { return {memory_ ? use_ : use_without_memory_}; }
 
-  /// Ends whatever ran: the steps to come are of blocks of another length.
-  void begin(int block, bool to_observations) {
+  /// Ends whatever ran: the steps to come are of blocks of another length. `exact`: as blocks_are_exact() says.
+  void begin(int block, bool exact, bool to_observations) {
     block_ = block;
+    memory_ = !exact;
     schedule_.begin(block, to_observations);
   }
 
@@ -218,7 +219,7 @@ class TileRunner {
   }
   /// The same, with what else a step moves, by where from or to.
   Traffic traffic_by_place(std::int64_t all) const {
-    return resident_ ? traffic_on_chip<P>(plan_.tile, scene_, carried_) : traffic_streamed(plan_.tile, all);
+    return resident_ ? traffic_on_chip<P>(plan_.tile, scene_, carried_, memory_) : traffic_streamed(plan_.tile, all);
   }
   /// [slot][6] of group `number`: what f has changed since the block began.
   std::vector<float> changes(std::size_t number) const { return places_.changes(number, scene_.state, state_count_); }
@@ -254,19 +255,27 @@ class TileRunner {
     const auto limit = static_cast<std::uint32_t>(limits_.shared);
     const auto most = [&](TileRest where, std::uint32_t room) {
       std::uint32_t bytes = 0;
-      for (const Tile& tile : plan_.tile) bytes = std::max(bytes, ResidentMemory<P>(tile, carried, where, room).total);
+      for (const Tile& tile : plan_.tile)
+        bytes = std::max(bytes, ResidentMemory<P>(tile, tile_constants(carried), where, room).total);
       return bytes;
     };
     scene_.where = TileRest::all_away;
     for (const TileRest where : {TileRest::away, TileRest::here}) {
       if (most(where, 0) <= limit) scene_.where = where;
     }
-    const auto kernel = scene_.where == TileRest::here   ? run_resident<P, Threads, carried, TileRest::here>
-                        : scene_.where == TileRest::away ? run_resident<P, Threads, carried, TileRest::away>
-                                                         : run_resident<P, Threads, carried, TileRest::all_away>;
+    const auto kernel_of = [&](auto memory) {
+      constexpr bool has = decltype(memory)::value;
+      return scene_.where == TileRest::here   ? run_resident<P, Threads, carried, has, TileRest::here>
+             : scene_.where == TileRest::away ? run_resident<P, Threads, carried, has, TileRest::away>
+                                              : run_resident<P, Threads, carried, has, TileRest::all_away>;
+    };
+    const auto usual = kernel_of(std::true_type{}), without_memory = kernel_of(std::bool_constant<carried>{});
     const std::uint32_t shared = scene_.room = most(scene_.where, limit);
     bool fits = true;
-    team_.each([&](std::size_t m) { fits = fits && fits_resident(limits_, kernel, tiles(m), Threads, shared); });
+    team_.each([&](std::size_t m) {
+      for (const auto kernel : {usual, without_memory})
+        fits = fits && fits_resident(limits_, kernel, tiles(m), Threads, shared);
+    });
     if (!fits) return false;
     resident_ = true;
     team_.each([&](std::size_t m) {
@@ -277,8 +286,10 @@ class TileRunner {
       const std::size_t bytes = ResidentMemory<P>::rest_bytes(plan_.most_bodies, scene_.where);
       team_.each([&](std::size_t m) { tables_[m].rest = store_.template zeros<unsigned char>(tiles(m) * bytes); });
     }
-    use_ = kernel_use("tiles on the chip", kernel, Threads, shared);
-    run_ = [this, kernel](std::uint32_t steps) {
+    use_ = kernel_use("tiles on the chip", usual, Threads, shared);
+    use_without_memory_ = kernel_use("tiles on the chip", without_memory, Threads, shared);
+    run_ = [this, usual, without_memory](std::uint32_t steps) {
+      const auto kernel = memory_ ? usual : without_memory;
       team_.each([&](std::size_t m) {
         const std::string what = "time steps on device " + std::to_string(team_.device(m));
         launch_together(what.c_str(), kernel, tiles(m), Threads, scene_.room, team_.stream(m), scene_of(m), steps,
@@ -297,7 +308,7 @@ class TileRunner {
     const std::uint32_t shared = StreamedMemory(plan_.most_locals, plan_.most_slots).total;
     if (shared > static_cast<std::uint32_t>(limits_.shared)) return;
     team_.each([&](std::size_t) { allow_all_shared_memory(limits_, kernel); });
-    use_ = kernel_use("tiles streamed", kernel, threads, shared);
+    use_ = use_without_memory_ = kernel_use("tiles streamed", kernel, threads, shared);
     run_ = [this, kernel, shared](std::uint32_t steps) {
       team_.each([&](std::size_t m) {
         const auto first = static_cast<std::uint32_t>(owners_.first_place(m));
@@ -442,7 +453,7 @@ class TileRunner {
   const std::optional<Crossing>& crossing_;
   TilePlan plan_;
   TileOwners owners_;
-  bool carried_, resident_ = false, prepared_ = false, released_ = false;
+  bool carried_, memory_ = true, resident_ = false, prepared_ = false, released_ = false;
   int block_ = 0;  // steps
   BlockSchedule schedule_;
   const Layout& layout_;
@@ -466,7 +477,7 @@ class TileRunner {
   Settling<P, AnyLaw> settling_;
   TileMessages<P> messages_;  // of several processes
   std::function<void(std::uint32_t)> run_;
-  KernelUse use_;
+  KernelUse use_, use_without_memory_;
   DeviceStore store_;
 };
 

@@ -21,8 +21,8 @@ enum TileConstant {
   tile_normal,    ///< n, arm_a
   tile_moment_a,  ///< arm_b, moments 0…2
   tile_moment_b,  ///< moments 3…5, EndPair of places in the table of velocities
-  tile_drift_a,   ///< drift of components 0…3
   tile_drift_b,   ///< drift of components 4, 5, EndPair of slots of loads, GroupAndRow
+  tile_drift_a,   ///< drift of components 0…3
   tile_tangent,   ///< s, –; updated geometry only
 };
 enum TileState { tile_change, tile_both, tile_sum, tile_states };  ///< δf 0…3; δf 4, 5, sum 0, 1; sum 2…5
@@ -50,6 +50,10 @@ struct GroupAndRow {
 };
 
 __host__ __device__ constexpr int tile_constants(bool carried) { return carried ? tile_tangent + 1 : tile_tangent; }
+/// The first of them, which a step reads. `memory`: some law has one.
+__host__ __device__ constexpr int tile_constants_read(bool carried, bool memory) {
+  return memory ? tile_constants(carried) : tile_drift_a;
+}
 
 /// What of its bodies a tile on the chip has in shared memory, but for the velocities that contacts see.
 enum class TileRest {
@@ -119,12 +123,48 @@ struct TileScene {
 };
 
 /// What a step reads of a contact besides its state.
-template <bool carried>
+template <bool carried, bool memory>
 struct ContactConstants {
-  float4 word[tile_constants(carried)];
+  static constexpr int words = tile_constants_read(carried, memory);
+  float4 word[words];
   __device__ __forceinline__ void load(const float4* from) {
 #pragma unroll
-    for (int k = 0; k < tile_constants(carried); ++k) word[k] = from[k * 32];
+    for (int k = 0; k < words; ++k) word[k] = from[k * 32];
+  }
+};
+
+/// Six numbers a row, in shared memory. Threads that read or write rows in any order are in each other's way the less,
+/// the fewer bytes these have: 24, as words of 16 and of 8.
+struct SixTable {
+  float4* first;
+  float2* second;
+
+  __host__ __device__ static constexpr std::uint32_t bytes(std::uint32_t rows) { return 24 * rows; }
+  __device__ __forceinline__ static SixTable at(unsigned char* place, std::uint32_t rows) {
+    return {reinterpret_cast<float4*>(place), reinterpret_cast<float2*>(place + 16 * rows)};
+  }
+};
+
+/// Velocities and spins that a tile's contacts see.
+struct TileVelocities : SixTable {
+  __device__ __forceinline__ Twist<float> operator[](std::uint32_t i) const {
+    const float4 a = first[i];
+    const float2 b = second[i];
+    return {{a.x, a.y, a.z}, {a.w, b.x, b.y}};
+  }
+  __device__ __forceinline__ void set(std::uint32_t i, const float (&y)[6]) const {
+    first[i] = {y[0], y[1], y[2], y[3]};
+    second[i] = {y[4], y[5]};
+  }
+  /// One of the two words of an exchange: v, or ω.
+  __device__ __forceinline__ void set_half(std::uint32_t i, bool spin, const float4& y) const {
+    if (spin) {
+      first[i].w = y.x;
+      second[i] = {y.y, y.z};
+    } else {
+      *reinterpret_cast<float2*>(first + i) = {y.x, y.y};
+      first[i].z = y.z;
+    }
   }
 };
 
@@ -135,14 +175,14 @@ struct ContactRun {
 };
 
 /// What is known of a contact without its state.
-template <bool carried>
+template <bool carried, bool memory>
 struct ContactInBlock {
-  const float4 (&word)[tile_constants(carried)];
+  const float4 (&word)[tile_constants_read(carried, memory)];
   Placement<float> frame;
   GroupAndRow of;
   EndPair slots;
 
-  __device__ __forceinline__ explicit ContactInBlock(const ContactConstants<carried>& constant)
+  __device__ __forceinline__ explicit ContactInBlock(const ContactConstants<carried, memory>& constant)
       : word(constant.word), of{__float_as_uint(word[tile_drift_b].w)}, slots{__float_as_uint(word[tile_drift_b].z)} {
     const float4 c0 = word[tile_normal];
     const Vec3<float> n{c0.x, c0.y, c0.z};
@@ -164,71 +204,71 @@ struct ContactInBlock {
   }
 };
 
-/// Steps one contact of a run; `v` and `w` are the tables of velocities and spins. Returns the change of its loads.
+/// Steps one contact of a run. Returns the change of its loads.
 /// `first`: a run begins, which is known when compiled.
-template <bool first, bool carried>
-__device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock<carried>& contact, const float4* law,
-                                                            const float4* v, const float4* w, float (&change)[6],
-                                                            float (&sum)[6], ContactRun& run) {
+template <bool first, bool carried, bool memory>
+__device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock<carried, memory>& contact,
+                                                            const float4* law, const TileVelocities& velocity,
+                                                            float (&change)[6], float (&sum)[6], ContactRun& run) {
   const EndPair end = contact.ends();
   if (first || !run.goes_on) {
-    const float4 va = v[end.a()], wa = w[end.a()];
-    run.linear = {va.x, va.y, va.z};
-    run.angular = {wa.x, wa.y, wa.z};
+    const Twist<float> a = velocity[end.a()];
+    run.linear = a.linear;
+    run.angular = a.angular;
     run.force = run.moment = {0, 0, 0};
   }
   run.goes_on = contact.slots.a() == TilePlan::more_of_run;
-  const float4 vb = v[end.b()], wb = w[end.b()];
   float u[6];
-  relative_rates(contact.frame, Twist<float>{run.linear, run.angular},
-                 Twist<float>{{vb.x, vb.y, vb.z}, {wb.x, wb.y, wb.z}}, u);
-  const float4 l = law[contact.of.group()], c3 = contact.word[tile_drift_a], c4 = contact.word[tile_drift_b];
-  const float drift[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
+  relative_rates(contact.frame, Twist<float>{run.linear, run.angular}, velocity[end.b()], u);
+  const float4 l = law[contact.of.group()];
+  if constexpr (memory) {
+    const float4 c3 = contact.word[tile_drift_a], c4 = contact.word[tile_drift_b];
+    const float drift[6] = {c3.x, c3.y, c3.z, c3.w, c4.x, c4.y};
 #pragma unroll
-  for (int c = 0; c < 6; ++c) {
-    const float before = change[c];
-    change[c] += l.x * u[c] + (drift[c] + l.w * sum[c] - l.y * before);
-    sum[c] += change[c] + before;
+    for (int c = 0; c < 6; ++c) {
+      const float before = change[c];
+      change[c] += l.x * u[c] + (drift[c] + l.w * sum[c] - l.y * before);
+      sum[c] += change[c] + before;
+    }
+  } else {
+#pragma unroll
+    for (int c = 0; c < 6; ++c) change[c] += l.x * u[c];
   }
   return contact.load(change, l.z);
 }
 
-/// Slots of loads in shared memory, three words of two numbers each: so far apart that neighbouring slots are in other
-/// banks.
-struct TileSlots {
-  float2* word;
-
+/// Slots of loads, forces and moments.
+struct TileSlots : SixTable {
   /// Stores nothing for what is no slot. Who reads a slot has met the threads at a barrier, so that the compiler need
   /// not keep these stores in order with what else is in shared memory, as it would those through a pointer.
   __device__ __forceinline__ void put(std::uint32_t slot, const Vec3<float>& force, const Vec3<float>& moment) const {
     static_assert(TilePlan::more_of_run < TilePlan::no_slot);
     asm volatile(
         "{ .reg .pred slot; setp.lt.u32 slot, %0, %1;\n"
-        "@slot st.shared.v2.f32 [%2], {%3, %4};\n"
-        "@slot st.shared.v2.f32 [%2 + 8], {%5, %6};\n"
-        "@slot st.shared.v2.f32 [%2 + 16], {%7, %8}; }" ::"r"(slot),
+        "@slot st.shared.v4.f32 [%2], {%4, %5, %6, %7};\n"
+        "@slot st.shared.v2.f32 [%3], {%8, %9}; }" ::"r"(slot),
         "n"(std::uint32_t{TilePlan::more_of_run}),
-        "r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(word + 3 * slot))), "f"(force.x), "f"(force.y),
+        "r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(first + slot))),
+        "r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(second + slot))), "f"(force.x), "f"(force.y),
         "f"(force.z), "f"(moment.x), "f"(moment.y), "f"(moment.z));
   }
   __device__ __forceinline__ void add(std::uint32_t slot, float (&f)[6]) const {
-    const float2* from = word + 3 * slot;
-    const float2 a = from[0], b = from[1], c = from[2];
-    f[0] += a.x, f[1] += a.y, f[2] += b.x, f[3] += b.y, f[4] += c.x, f[5] += c.y;
+    const float4 a = first[slot];
+    const float2 b = second[slot];
+    f[0] += a.x, f[1] += a.y, f[2] += a.z, f[3] += a.w, f[4] += b.x, f[5] += b.y;
   }
   /// Adds the first `count` of four slots, or all of them: asked for together.
   __device__ __forceinline__ void add(const std::uint32_t (&slot)[4], std::uint32_t count, float (&f)[6]) const {
-    float2 part[4][3];
+    float4 a[4];
+    float2 b[4];
 #pragma unroll
     for (std::uint32_t k = 0; k < 4; ++k) {
-#pragma unroll
-      for (std::uint32_t p = 0; p < 3; ++p) part[k][p] = k < count ? word[3 * slot[k] + p] : float2{0, 0};
+      a[k] = k < count ? first[slot[k]] : float4{0, 0, 0, 0};
+      b[k] = k < count ? second[slot[k]] : float2{0, 0};
     }
 #pragma unroll
-    for (int k = 0; k < 4; ++k) {
-#pragma unroll
-      for (int p = 0; p < 3; ++p) f[2 * p] += part[k][p].x, f[2 * p + 1] += part[k][p].y;
-    }
+    for (int k = 0; k < 4; ++k)
+      f[0] += a[k].x, f[1] += a[k].y, f[2] += a[k].z, f[3] += a[k].w, f[4] += b[k].x, f[5] += b[k].y;
   }
   /// Loads on end A are put when the run ends.
   __device__ __forceinline__ void put(EndPair slots, const ContactLoad<float>& load, ContactRun& run) const {

@@ -33,17 +33,21 @@ inline Traffic traffic_streamed(const std::vector<Tile>& tiles, std::int64_t all
 
 /// Tiles that stay on the chip: nothing goes through memory.
 template <class P>
-Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileScene<P>& scene, bool carried) {
+Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileScene<P>& scene, bool carried, bool memory) {
   constexpr std::int64_t of_packet = 32 * sizeof(float4), of_states = 2 * of_packet * tile_states, of_velocity = 32;
-  const std::int64_t of_constants = of_packet * tile_constants(carried);
+  const int words = tile_constants_read(carried, memory);
+  const std::int64_t of_constants = of_packet * words;
+  constexpr std::int64_t all_but_last = packets_with_states - resident_threads / 32;
   Traffic out;
   for (const Tile& tile : tiles) {
     const std::int64_t packets = tile.packets;
-    const std::int64_t cached =
-        std::min<std::int64_t>(packets, ResidentMemory<P>(tile, carried, scene.where, scene.room).cached);
+    const std::int64_t cached = std::min<std::int64_t>(
+        packets, ResidentMemory<P>(tile, static_cast<std::uint32_t>(words), scene.where, scene.room).cached);
     out.shared += shared_traffic(tile) + of_constants * cached;
-    out.cache += of_constants * (packets - cached) + of_states * (packets - packets_in_registers(tile)) +
-                 of_velocity * (tile.bodies + tile.halo);
+    const std::int64_t kept =
+        memory ? 0 : std::max<std::int64_t>(0, packets_in_registers(tile) - all_but_last);  // with their states
+    out.cache += of_constants * std::max<std::int64_t>(0, packets - cached - kept) +
+                 of_states * (packets - packets_in_registers(tile)) + of_velocity * (tile.bodies + tile.halo);
     const auto rest = static_cast<std::int64_t>(ResidentMemory<P>::rest_bytes(tile.bodies, scene.where));
     (scene.where == TileRest::here ? out.shared : out.cache) += rest;
   }

@@ -8,25 +8,29 @@
 namespace macadam::kernels {
 
 /// A tile in the shared memory of its block, and what the threads do with it in a step. All that a body needs is read
-/// before the first of it is written: a read would wait for a write that may be to the same place.
-template <class P, int Threads, bool carried, TileRest where>
+/// before the first of it is written: a read would wait for a write that may be to the same place. `memory`: some law
+/// has one. Without it, a contact has fewer constants and a smaller state, so that more of them stay here.
+template <class P, int Threads, bool carried, bool memory, TileRest where>
 class ResidentTile {
  public:
   using R = typename P::Particle;
   static constexpr unsigned warps = Threads / 32;
+  using Constants = ContactConstants<carried, memory>;
+  using Contact = ContactInBlock<carried, memory>;
+  /// Words of a packet's constants: in memory, and those that are kept here.
+  static constexpr std::uint32_t words = tile_constants(carried), kept = Constants::words;
 
   __device__ __forceinline__ ResidentTile(const TileScene<P>& scene, const Tile& own_tile, unsigned char* shared,
                                           const ResidentMemory<P>& m)
       : s(scene),
         tile(own_tile),
         body(s.body + tile.first_body),
-        v(reinterpret_cast<float4*>(shared + m.velocity)),
-        w(reinterpret_cast<float4*>(shared + m.spin)),
+        velocity{SixTable::at(shared + m.velocity, tile.bodies + tile.halo + walls)},
         law(reinterpret_cast<float4*>(shared + m.law)),
         cache(reinterpret_cast<float4*>(shared + m.cache)),
         constants(s.constant + std::size_t{tile.first_packet} * words * 32),
         states(s.state + std::size_t{tile.first_packet} * tile_states * 32),
-        slots{reinterpret_cast<float2*>(shared + m.slots)},
+        slots{SixTable::at(shared + m.slots, tile.slots)},
         displacement(reinterpret_cast<Six<double>*>(rest(shared, m))),
         base(reinterpret_cast<Six<R>*>(displacement + tile.bodies)),
         inverse(reinterpret_cast<Two<R>*>(base + tile.bodies)),
@@ -73,6 +77,10 @@ class ResidentTile {
     return j * warps + threadIdx.x / 32;
   }
   static constexpr std::uint32_t in_memory = UINT32_MAX;
+  /// Whether the constants of the packet whose states have this number stay in registers, too.
+  __device__ static constexpr bool keeps_constants(std::uint32_t k) {
+    return !memory && k == groups_in_registers * TilePlan::run - 1;
+  }
   __device__ __forceinline__ float4* state(std::uint32_t packet) const {
     return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
   }
@@ -93,13 +101,13 @@ class ResidentTile {
     for (std::uint32_t e = threadIdx.x; e < TilePlan::longest_short_row; e += Threads)
       diagonal[e] = s.diagonal[s.own_tile() * TilePlan::longest_short_row + e];
     if (threadIdx.x < pair_types) law[threadIdx.x] = s.law[threadIdx.x];
-    if (threadIdx.x < walls) v[first_wall + threadIdx.x] = w[first_wall + threadIdx.x] = {0, 0, 0, 0};
+    if (threadIdx.x < walls) velocity.set(first_wall + threadIdx.x, {0, 0, 0, 0, 0, 0});
     const Share own_share = share();
     const auto keep = [&](const Packets& packets, std::uint32_t first) {
       for (std::uint32_t k = 0; k < packets.count(); ++k) {
         const std::uint32_t at = place_in_cache(first + k);
-        for (std::uint32_t i = threadIdx.x % 32; at < cached && i < words * 32; i += 32)
-          cache[at * words * 32 + i] = constants[std::size_t{packets.first() + k} * words * 32 + i];
+        for (std::uint32_t i = threadIdx.x % 32; at < cached && i < kept * 32; i += 32)
+          cache[at * kept * 32 + i] = constants[std::size_t{packets.first() + k} * words * 32 + i];
       }
     };
     keep(own_share.early, 0);
@@ -122,8 +130,8 @@ class ResidentTile {
       move(r, force.of, tag);
     });
   }
-  __device__ __forceinline__ void set_wall(int wall, const Vec3<float>& velocity) const {
-    v[first_wall + wall] = {velocity.x, velocity.y, velocity.z, 0};
+  __device__ __forceinline__ void set_wall(int wall, const Vec3<float>& v) const {
+    velocity.set(first_wall + static_cast<std::uint32_t>(wall), {v.x, v.y, v.z, 0, 0, 0});
   }
 
   /// Waits for the velocities of the bodies of other tiles.
@@ -131,7 +139,7 @@ class ResidentTile {
     const ulonglong2* from = s.exchange(tag);
     wait_for_words(
         2 * tile.halo, tag, [&](std::uint32_t h) { return from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2; },
-        [&](std::uint32_t h, const float4& numbers) { (h % 2 ? w : v)[tile.bodies + h / 2] = numbers; });
+        [&](std::uint32_t h, const float4& numbers) { velocity.set_half(tile.bodies + h / 2, h % 2 == 1, numbers); });
   }
   /// Displaces all bodies by their velocities of now. The last warps begin, which have least to do.
   __device__ __forceinline__ void displace() const {
@@ -144,18 +152,26 @@ class ResidentTile {
   }
 
   /// `at`: place_in_cache(), or in_memory.
+  __device__ __forceinline__ Constants constants_of(std::uint32_t packet, std::uint32_t at) const {
+    const unsigned lane = threadIdx.x % 32;
+    Constants out;
+    if (at < cached)  // one of the two, for the sake of loads that know where they load from
+      out.load(cache + at * kept * 32 + lane);
+    else
+      out.load(constants + std::size_t{packet} * words * 32 + lane);
+    return out;
+  }
   template <bool first>
-  __device__ __forceinline__ void step(std::uint32_t packet, std::uint32_t at, float (&change)[6], float (&sum)[6],
+  __device__ __forceinline__ void step(const Constants& constant, float (&change)[6], float (&sum)[6],
                                        ContactRun& run) const {
-    const ContactConstants<carried> constant = constants_of(packet, at);
-    const ContactInBlock<carried> contact(constant);
-    const auto load = step_in_block<first>(contact, law, v, w, change, sum, run);
+    const Contact contact(constant);
+    const auto load = step_in_block<first>(contact, law, velocity, change, sum, run);
     slots.put(contact.slots, load, run);
   }
   /// To memory: the loads on walls, after the last step.
   __device__ __forceinline__ void store_wall_loads(std::uint32_t packet, const float (&change)[6]) const {
-    const ContactConstants<carried> constant = constants_of(packet, in_memory);
-    const ContactInBlock<carried> contact(constant);
+    const Constants constant = constants_of(packet, in_memory);
+    const Contact contact(constant);
     store_wall_load(s.wall_load, contact.of, contact.load(change, law[contact.of.group()].z));
   }
 
@@ -172,16 +188,6 @@ class ResidentTile {
   }
 
  private:
-  static constexpr std::uint32_t words = tile_constants(carried);
-  __device__ __forceinline__ ContactConstants<carried> constants_of(std::uint32_t packet, std::uint32_t at) const {
-    const unsigned lane = threadIdx.x % 32;
-    ContactConstants<carried> out;
-    if (at < cached)  // one of the two, for the sake of loads that know where they load from
-      out.load(cache + at * words * 32 + lane);
-    else
-      out.load(constants + std::size_t{packet} * words * 32 + lane);
-    return out;
-  }
   // chosen when compiled: the compiler is to know what is in shared memory
   __device__ __forceinline__ unsigned char* rest(unsigned char* shared, const ResidentMemory<P>& m) const {
     if constexpr (where == TileRest::here)
@@ -203,14 +209,14 @@ class ResidentTile {
     const R(&x)[6] = now.of;
     const float y[6] = {float(x[0]), float(x[1]), float(x[2]), float(x[3]), float(x[4]), float(x[5])};
     put_velocity(s.exchange(tag) + 2 * (static_cast<std::size_t>(tile.first_body) + r), y, tag);
-    v[r] = {y[0], y[1], y[2], 0};
-    w[r] = {y[3], y[4], y[5], 0};
+    velocity.set(r, y);
   }
 
   const TileScene<P>& s;
   const Tile tile;
   const std::int32_t* body;
-  float4 *v, *w, *law, *cache;
+  const TileVelocities velocity;
+  float4 *law, *cache;
   const float4* constants;
   float4* states;
   const TileSlots slots;
@@ -225,38 +231,39 @@ class ResidentTile {
 };
 
 /// Takes `steps` steps from tag `first_tag` on. The states of a warp's first packets stay in registers.
-template <class P, int Threads, bool carried, TileRest where>
+template <class P, int Threads, bool carried, bool memory, TileRest where>
 __global__ void __launch_bounds__(Threads, 1)
     run_resident(const __grid_constant__ TileScene<P> s, std::uint32_t steps, std::uint32_t first_tag) {
   extern __shared__ __align__(16) unsigned char shared[];
   const Tile own_tile = s.tile[s.own_tile()];
-  using OfTile = ResidentTile<P, Threads, carried, where>;
-  const ResidentMemory<P> memory(own_tile, carried, where, s.room);
-  OfTile tile(s, own_tile, shared, memory);
+  using OfTile = ResidentTile<P, Threads, carried, memory, where>;
+  const ResidentMemory<P> places(own_tile, OfTile::kept, where, s.room);
+  OfTile tile(s, own_tile, shared, places);
   const auto share = tile.share();
-  auto& others = reinterpret_cast<WarpPackets*>(shared + memory.others)[threadIdx.x / 32];  // registers are scarce
+  auto& others = reinterpret_cast<WarpPackets*>(shared + places.others)[threadIdx.x / 32];  // registers are scarce
   if (threadIdx.x % 32 == 0) others = share.others;
   tile.load();
   constexpr std::uint32_t run = TilePlan::run;
   float change[groups_in_registers * run][6], sum[groups_in_registers * run][6];
   static_assert(run == 2 && groups_in_registers == 2);
-  const auto each_of = [&](const auto& packets, auto first, auto&& f) {
+  // f(number among the states, packet); numbers are known when compiled, as these are registers
+  const auto each_of = [](const auto& packets, auto begin, auto&& f) {
     const auto one = [&](auto j) {
-      if (j < packets.count())
-        f(std::bool_constant<j() == 0>{}, packets.first() + j, OfTile::place_in_cache(first + j), change[first + j],
-          sum[first + j]);
+      if (j < packets.count()) f(std::integral_constant<std::uint32_t, begin() + j()>{}, packets.first() + j);
     };
     one(std::integral_constant<std::uint32_t, 0>{});
     one(std::integral_constant<std::uint32_t, 1>{});
   };
-  constexpr std::integral_constant<std::uint32_t, 0> early{};  // known when compiled: these are registers
+  constexpr std::integral_constant<std::uint32_t, 0> early{};
   constexpr std::integral_constant<std::uint32_t, run> late{};
   const auto each_resident = [&](auto&& f) {
     each_of(share.early, early, f);
     each_of(share.late, late, f);
   };
-  each_resident([&](auto, std::uint32_t packet, std::uint32_t, auto& df, auto& both) {
-    load_state(tile.state(packet), df, both);
+  typename OfTile::Constants last;  // of the last packet, where states leave room for them
+  each_resident([&](auto k, std::uint32_t packet) {
+    load_state(tile.state(packet), change[k], sum[k]);
+    if constexpr (OfTile::keeps_constants(k())) last = tile.constants_of(packet, OfTile::in_memory);
   });
 
   const bool inner = tile.inner() > 0;
@@ -273,8 +280,13 @@ __global__ void __launch_bounds__(Threads, 1)
       tile.move_by_sums(tag);
     if (drives_wall) tile.set_wall(wall, of_wall);
     ContactRun contacts;
-    const auto step = [&](auto first, std::uint32_t packet, std::uint32_t at, auto& df, auto& both) {
-      tile.template step<decltype(first)::value>(packet, at, df, both, contacts);
+    const auto step = [&](auto k, std::uint32_t packet) {
+      constexpr bool begins_run = k() % run == 0;
+      if constexpr (OfTile::keeps_constants(k()))
+        tile.template step<begins_run>(last, change[k], sum[k], contacts);
+      else
+        tile.template step<begins_run>(tile.constants_of(packet, OfTile::place_in_cache(k)), change[k], sum[k],
+                                       contacts);
     };
     if (inner) __syncthreads();
 #pragma unroll 1
@@ -292,15 +304,15 @@ __global__ void __launch_bounds__(Threads, 1)
       const std::uint32_t packet = others[k];
       float df[6], both[6];
       load_state(tile.state(packet), df, both);
-      step(std::false_type{}, packet, OfTile::in_memory, df, both);
+      tile.template step<false>(tile.constants_of(packet, OfTile::in_memory), df, both, contacts);
       store_state(tile.state(packet), df, both);
     }
     __syncthreads();
   }
 
-  each_resident([&](auto, std::uint32_t packet, std::uint32_t, auto& df, auto& both) {
-    store_state(tile.state(packet), df, both);
-    tile.store_wall_loads(packet, df);
+  each_resident([&](auto k, std::uint32_t packet) {
+    store_state(tile.state(packet), change[k], sum[k]);
+    tile.store_wall_loads(packet, change[k]);
   });
   for (std::uint32_t k = 0; k < others.count(); ++k) {
     float df[6], both[6];

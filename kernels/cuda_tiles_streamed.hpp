@@ -57,9 +57,9 @@ __global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint
 }
 
 struct StreamedMemory {
-  std::uint32_t spin, slots, total;
+  std::uint32_t slots, total;
   __host__ __device__ StreamedMemory(std::uint32_t locals, std::uint32_t slot_count)
-      : spin(16 * locals), slots(32 * locals), total(32 * locals + 24 * slot_count) {}
+      : slots((SixTable::bytes(locals) + 15) / 16 * 16), total(slots + SixTable::bytes(slot_count)) {}
 };
 
 /// The contacts of step k, and then the motion of step k + 1, or `last`: the forces of now.
@@ -69,9 +69,8 @@ __global__ void __launch_bounds__(Threads, Blocks)
   using R = typename P::Particle;
   extern __shared__ __align__(16) unsigned char shared[];
   const StreamedMemory m(s.most_locals, s.most_slots);
-  auto* v = reinterpret_cast<float4*>(shared);
-  auto* w = reinterpret_cast<float4*>(shared + m.spin);
-  const TileSlots slots{reinterpret_cast<float2*>(shared + m.slots)};
+  const TileVelocities velocity{SixTable::at(shared, s.most_locals)};
+  const TileSlots slots{SixTable::at(shared + m.slots, s.most_slots)};
   const unsigned tid = threadIdx.x, lane = tid % 32, warp = tid / 32;
   constexpr unsigned warps = Threads / 32;
   constexpr std::uint32_t words = tile_constants(carried);
@@ -81,14 +80,15 @@ __global__ void __launch_bounds__(Threads, Blocks)
   const int axis = !last && s.moves_walls && blockIdx.x == 0 ? static_cast<int>(tid) - (Threads - wall_axes) : -1;
   WallAxisMotion<P> wall(s, axis, k + 1);
   for (std::uint32_t r = tid; r < 2 * tile.bodies; r += Threads)
-    (r % 2 ? w : v)[r / 2] = from[2 * static_cast<std::size_t>(tile.first_body) + r];
+    velocity.set_half(r / 2, r % 2 == 1, from[2 * static_cast<std::size_t>(tile.first_body) + r]);
   for (std::uint32_t h = tid; h < 2 * tile.halo; h += Threads) {
-    (h % 2 ? w : v)[tile.bodies + h / 2] = from[2 * static_cast<std::size_t>(s.halo[tile.first_halo + h / 2]) + h % 2];
+    velocity.set_half(tile.bodies + h / 2, h % 2 == 1,
+                      from[2 * static_cast<std::size_t>(s.halo[tile.first_halo + h / 2]) + h % 2]);
   }
   if (tid < walls) {
     const std::uint32_t at = tile.bodies + tile.halo + tid;
-    w[at] = {0, 0, 0, 0};
-    v[at] = from[2 * (s.places + tid)];
+    velocity.set_half(at, false, from[2 * (s.places + tid)]);
+    velocity.set_half(at, true, {0, 0, 0, 0});
   }
   __syncthreads();
   if (wall.moves) {
@@ -103,10 +103,10 @@ __global__ void __launch_bounds__(Threads, Blocks)
     float4* state = s.state + at * tile_states * 32 + lane;
     float change[6], sum[6];
     load_state(state, change, sum);
-    ContactConstants<carried> constant;
+    ContactConstants<carried, true> constant;
     constant.load(s.constant + at * words * 32 + lane);
-    const ContactInBlock<carried> contact(constant);
-    const auto load = step_in_block<false>(contact, s.law, v, w, change, sum, run);
+    const ContactInBlock<carried, true> contact(constant);
+    const auto load = step_in_block<false>(contact, s.law, velocity, change, sum, run);
     store_state(state, change, sum);
     slots.put(contact.slots, load, run);
     if (last) store_wall_load(s.wall_load, contact.of, load);

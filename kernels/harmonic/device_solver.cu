@@ -40,7 +40,7 @@ struct Vectors {
 class Solver : public DeviceSolver {
  public:
   Solver(const LinearSystem& system, const DeviceList& devices, std::int64_t& loose)
-      : team_(devices), free_(system.free), bodies_(system.bodies()) {
+      : team_(devices, nullptr, KernelOrder::first), free_(system.free), bodies_(system.bodies()) {
     make_segments(system);
     const Shares rows = share([&](std::size_t body) { return body + (body == bodies_); }),
                  ends = share([&](std::size_t body) { return system.row_begin[body]; });
