@@ -188,14 +188,18 @@ class Pool {
     return prepare(scene, progress);
   }
 
-  /// Of those that are meant and answer, the one that runs the fewest. Waits where all have as many as they may; others
-  /// have the cores meanwhile.
+  /// Of those that are meant and answer, the one that got the fewest so far, unless it runs two more than another: most
+  /// scenes are alike, and none stands still before the others at the end. Waits where all run as many as they may;
+  /// others have the cores meanwhile.
   int take_device(SolverSpec& solver, std::optional<Cores>& cores) {
     DeviceList meant = solver.devices.empty() ? usable_.get() : usable(device_numbers(solver.devices));
     if (meant.empty()) meant = device_numbers(solver.devices);  // making the stepper says why it cannot
     int least = 0;
     const auto has_room = [&] {
-      least = *std::min_element(meant.begin(), meant.end(), [&](int a, int b) { return running_[a] < running_[b]; });
+      int fewest = beside_;
+      for (const int d : meant) fewest = std::min(fewest, running_[d]);
+      const auto rank = [&](int d) { return std::pair(running_[d] >= std::min(beside_, fewest + 2), got_[d]); };
+      least = *std::ranges::min_element(meant, {}, rank);
       return running_[least] < beside_;
     };
     std::unique_lock lock(mutex_);
@@ -206,7 +210,7 @@ class Pool {
       lock.lock();
       changed_.wait(lock, has_room);
     }
-    ++running_[least];
+    ++running_[least], ++got_[least];
     solver.devices = {least}, solver.side_by_side = beside_;
     lock.unlock();
     if (waits) cores.emplace(*this);
@@ -241,8 +245,8 @@ class Pool {
   int all_turns_ = 0, turns_ = 0;       // scenes that may have a share
   int beside_ = 0;                      // scenes on a device at a time, once devices are counted
   std::size_t next_ = 0;
-  std::map<int, int> running_;  // device: scenes
-  std::exception_ptr thrown_;   // by an option's function
+  std::map<int, int> running_, got_;  // device: scenes now, and in all
+  std::exception_ptr thrown_;         // by an option's function
   std::vector<JobOutcome> outcomes_;
   // known once they are counted, and once they are awake, while the first specimens are made
   std::shared_future<DeviceList> devices_ = std::async([this] { return meant_devices(jobs_); });
