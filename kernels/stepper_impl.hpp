@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -51,8 +52,8 @@ class StepperImpl final : public Stepper {
   StepperImpl(const StepperImpl&) = delete;
   ~StepperImpl() override { exec_.use_device(); }
 
-  /// Begins anew with other options, of the network and the laws that it was made of. False, with nothing changed,
-  /// where what is kept does not suit them.
+  /// Begins anew with other options, of the network that it was made of. False, with nothing changed, where what is
+  /// kept does not suit them, or laws of another kind.
   bool begin_again(const ContactNetwork& network, const Laws& laws, const Inertia& inertia,
                    const StepperOptions& options) {
     const FactsTable facts = facts_of(laws);
@@ -61,7 +62,7 @@ class StepperImpl final : public Stepper {
       return std::tie(o.form, o.geometry, o.skip_shear, o.skip_rotations, o.threads, o.devices, o.multiprocessors,
                       o.ranks);
     };
-    if (kept(next) != kept(options_) || network.contacts.size() != contacts_ ||
+    if (kept(next) != kept(options_) || network.contacts.size() != contacts_ || !keep_alike(facts, facts_of(laws_)) ||
         !exec_.suits({next, facts, size_, false, 0}))
       return false;
     options_ = next;
@@ -247,6 +248,15 @@ class StepperImpl final : public Stepper {
   }
 
  private:
+  /// Whether laws keep states of the same kinds and numbers.
+  static bool keep_alike(const FactsTable& a, const FactsTable& b) {
+    const auto kind = [](const LawFacts& f) {
+      return std::tuple(std::string_view(f.name), f.units, f.only_units, f.memoryless, f.linear, f.blocks, f.coupled);
+    };
+    return std::ranges::equal(a, b, [&](const auto& x, const auto& y) {
+      return x && y ? kind(*x) == kind(*y) : x.has_value() == y.has_value();
+    });
+  }
   /// Rotations are skipped only where nothing turns, at the start or later.
   static StepperOptions decided(StepperOptions options, const ContactNetwork& network, const FactsTable& laws) {
     options.skip_rotations = options.skip_rotations && nothing_turns(network, laws);

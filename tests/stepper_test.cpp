@@ -102,6 +102,51 @@ TEST_P(StepperAgainstReference, SlowLoadUnderWaves) {
   compare(scene, options, long_tests ? 300 : 100);
 }
 
+Laws elastic_laws() {
+  Laws out;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    const double stiffer = 1 + static_cast<double>(pair);
+    out[pair] = laws::Elastic{1e10 * stiffer, 0.05 * stiffer};
+  }
+  return out;
+}
+
+/// Two multiprocessors, so that a device's tiles have more contacts than registers hold the states and constants of.
+TEST_P(StepperAgainstReference, ElasticContactsUnderSlowLoad) {
+  const TestScene scene = make_scene(random_specimen(19, 8, 8, 9), {}, elastic_laws());
+  StepperOptions options = slow_options(scene);
+  options.multiprocessors = 2;
+  compare(scene, options, long_tests ? 600 : 100);
+}
+
+/// What a stepper keeps of laws with a memory, those without have no part in.
+TEST_P(StepperAgainstReference, LawsOfAnotherKindThanThoseOfTheUsedStepper) {
+  const auto& [backend, precision, form, geometry] = GetParam();
+  const TestScene scene = make_scene(random_specimen(19, 6, 6, 7));
+  StepperOptions options = slow_options(scene);
+  options.form = form;
+  options.precision = precision;
+  options.geometry = geometry;
+  const Laws elastic = elastic_laws();  // softer: the time step suits both
+  const auto with = [&](const Laws& laws, std::unique_ptr<Stepper> used) {
+    auto out = make_stepper(backend, scene.specimen, scene.network, laws, scene.inertia, options, std::move(used));
+    out->advance(70);
+    return out;
+  };
+  const ParticleState alone = with(elastic, nullptr)->particles();
+  auto stepper = with(scene.laws, nullptr);
+  stepper = with(elastic, std::move(stepper));
+  const ParticleState after = stepper->particles();
+  stepper = with(scene.laws, std::move(stepper));
+  const ParticleState back = stepper->particles(), others = with(scene.laws, nullptr)->particles();
+  for (std::size_t i = 0; i < scene.specimen.size(); ++i) {
+    ASSERT_EQ(after.force[i].x, alone.force[i].x);
+    ASSERT_EQ(after.velocity[i].z, alone.velocity[i].z);
+    ASSERT_EQ(back.force[i].x, others.force[i].x);
+    ASSERT_EQ(back.velocity[i].z, others.velocity[i].z);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, StepperAgainstReference, all_stepper_cases(),
                          [](const auto& info) { return name_of_case(info); });
 

@@ -26,7 +26,7 @@ namespace {
 
 constexpr int at_once_on_a_device = 4;
 /// While a device steps one specimen, so many are made, by all cores. More at a time would all be there late; one after
-/// the other they can take longer than their steps (bench/results/many-h100-2026-11-25.csv). Before devices are
+/// the other they can take longer than their steps (bench/results/many.csv). Before devices are
 /// counted, one is taken to be there.
 constexpr int prepared_for_a_device = 2;
 

@@ -213,7 +213,7 @@ def multiprocessors():
     return table(["µs a step with so many multiprocessors", *map(str, numbers)], lines)
 
 
-CHIP = "bench-h200-2026-11-25-chip.csv"
+CHIP = "bench-h200-2026-11-26-chip.csv"
 CHIP_BARS = {("ac14_ss_am1", "single"): "6.0", ("ac14_ss_am1", "mixed"): "6.3", ("ac14_ms_ico_fine", "single"): "22",
              ("ac14_ms_ico_fine", "mixed"): "25", ("lattice:1e5", "single"): "50", ("lattice:1e5", "mixed"): "53",
              ("lattice:1e6", "single"): "560", ("lattice:1e6", "mixed"): "620"}

@@ -69,12 +69,13 @@ def ranks():
     return table(["a step (µs)", "one GPU", "two processes, a GPU each", "factor", "one process, both GPUs"], lines)
 
 
-MANY = "many-h100-2026-11-25.csv"
+MANY = "many.csv"
 
 
 @mark
 def many_machine():
-    return head(MANY)[0]
+    last = rows(MANY)[-1]
+    return f"two {last['gpu']} of one host, 32 cores, {last['date']}, commit {last['commit']}"
 
 
 def many_rows():
@@ -96,6 +97,13 @@ def many(program):
 def many_factors():
     """Of two GPUs to one, of all but the program before."""
     return span([times[1] / times[2] for times in many_rows()[1:]], "{:.2f}", " to ")
+
+
+@mark
+def many_factor():
+    """Of two GPUs to one, of the program as it is now."""
+    times = many_rows()[-1]
+    return f"{times[1] / times[2]:.2f}"
 
 
 @mark
