@@ -16,6 +16,9 @@ inline constexpr std::uint32_t groups_in_registers = 2;
 /// Of a tile, whose states are in registers, at the most.
 inline constexpr std::uint32_t contacts_in_registers = groups_in_registers * TilePlan::run * resident_threads;
 inline constexpr std::uint32_t packets_with_states = contacts_in_registers / 32;
+/// Packets of a warp whose constants stay in registers besides: the last of those with states. `memory`: some law has
+/// one, whose sums then leave no room.
+__host__ __device__ constexpr std::uint32_t packets_with_constants(bool memory) { return memory ? 0 : 2; }
 
 /// Six numbers of a body, or two, as threads read and write them: neighbours in other banks of shared memory.
 template <class R>

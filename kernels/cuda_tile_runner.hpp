@@ -52,10 +52,11 @@ class TileRunner {
   std::string description() const { return resident_ ? "tiles on the chip" : "tiles streamed"; }
   std::vector<KernelUse> kernels() const { return {memory_ ? use_ : use_without_memory_}; }
 
-  /// Ends whatever ran: the steps to come are of blocks of another length. `exact`: as blocks_are_exact() says.
-  void begin(int block, bool exact, bool to_observations) {
+  /// Ends whatever ran: the steps to come are of blocks of another length. `memory`: some law has one, or the geometry
+  /// is carried.
+  void begin(int block, bool memory, bool to_observations) {
     block_ = block;
-    memory_ = !exact;
+    memory_ = memory;
     schedule_.begin(block, to_observations);
   }
 
@@ -83,6 +84,11 @@ class TileRunner {
   template <Geometry geometry, class L>
   void set_group(int number, const L& law, const ContactView<P>& view, double dt) {
     const auto block = law.block(dt, block_);
+    if (!memory_ && (block.relax != 0 || block.follow != 0)) {
+      throw InputError(std::string("law of ") + to_string(static_cast<PairType>(number)) +
+                       ": found a block with relax " + std::to_string(block.relax) + " and follow " +
+                       std::to_string(block.follow) + ", expected 0 of a memoryless law");
+    }
     scene_.law[number] = {static_cast<float>(block.rate * dt), static_cast<float>(block.relax),
                           static_cast<float>(view.alpha), static_cast<float>(block.follow)};
     settling_.template set_group<geometry>(number, places_.first_slot(static_cast<std::size_t>(number)), law, view, dt);
@@ -212,7 +218,8 @@ class TileRunner {
   }
   /// Bytes of contacts that a step moves at the least: states read and written, constants and base loads read.
   std::int64_t traffic() const {
-    const auto of_packet = static_cast<std::size_t>(tile_constants(carried_) + 2 * tile_states) * 32 * sizeof(float4);
+    const int words = tile_constants_read(carried_, memory_) + 2 * tile_states_moved(memory_);
+    const auto of_packet = static_cast<std::size_t>(words) * 32 * sizeof(float4);
     std::size_t packets = 0;
     for (const Tile& tile : plan_.tile) packets += tile.packets;
     return static_cast<std::int64_t>(packets * of_packet + bodies_ * velocity_words * sizeof(R));
@@ -304,12 +311,17 @@ class TileRunner {
   template <bool carried>
   void use_streamed() {
     constexpr int threads = 256, per_multiprocessor = 2;
-    const auto kernel = run_streamed<P, threads, per_multiprocessor, carried>;
+    const auto usual = run_streamed<P, threads, per_multiprocessor, carried, true>;
+    const auto without_memory = run_streamed<P, threads, per_multiprocessor, carried, carried>;
     const std::uint32_t shared = StreamedMemory(plan_.most_locals, plan_.most_slots).total;
     if (shared > static_cast<std::uint32_t>(limits_.shared)) return;
-    team_.each([&](std::size_t) { allow_all_shared_memory(limits_, kernel); });
-    use_ = use_without_memory_ = kernel_use("tiles streamed", kernel, threads, shared);
-    run_ = [this, kernel, shared](std::uint32_t steps) {
+    team_.each([&](std::size_t) {
+      for (const auto kernel : {usual, without_memory}) allow_all_shared_memory(limits_, kernel);
+    });
+    use_ = kernel_use("tiles streamed", usual, threads, shared);
+    use_without_memory_ = kernel_use("tiles streamed", without_memory, threads, shared);
+    run_ = [this, usual, without_memory, shared](std::uint32_t steps) {
+      const auto kernel = memory_ ? usual : without_memory;
       team_.each([&](std::size_t m) {
         const auto first = static_cast<std::uint32_t>(owners_.first_place(m));
         const auto end =

@@ -27,6 +27,9 @@ enum TileConstant {
 };
 enum TileState { tile_change, tile_both, tile_sum, tile_states };  ///< δf 0…3; δf 4, 5, sum 0, 1; sum 2…5
 
+/// Of them, those that a step reads and writes.
+__host__ __device__ constexpr int tile_states_moved(bool memory) { return memory ? tile_states : tile_sum; }
+
 /// Two numbers of 16 bits in one word: of the ends A and B of a contact.
 struct EndPair {
   std::uint32_t word;
@@ -52,7 +55,7 @@ struct GroupAndRow {
 __host__ __device__ constexpr int tile_constants(bool carried) { return carried ? tile_tangent + 1 : tile_tangent; }
 /// The first of them, which a step reads. `memory`: some law has one.
 __host__ __device__ constexpr int tile_constants_read(bool carried, bool memory) {
-  return memory ? tile_constants(carried) : tile_drift_a;
+  return memory || carried ? tile_constants(carried) : tile_drift_a;
 }
 
 /// What of its bodies a tile on the chip has in shared memory, but for the velocities that contacts see.
@@ -232,7 +235,7 @@ __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock
     }
   } else {
 #pragma unroll
-    for (int c = 0; c < 6; ++c) change[c] += l.x * u[c];
+    for (int c = 0; c < 6; ++c) change[c] = multiply_add(l.x, u[c], change[c]);
   }
   return contact.load(change, l.z);
 }
@@ -347,16 +350,25 @@ struct WallAxisMotion {
 /// Words of a velocity array that move: v and ω without their pads.
 __host__ __device__ constexpr int moving_word(int c) { return c < 3 ? c : c + 1; }
 
-/// A state of a contact in registers, from and to memory.
+/// A state of a contact in registers, from and to memory. Sums are of laws with a memory; of others they stay 0.
+template <bool memory = true>
 __device__ __forceinline__ void load_state(const float4* state, float (&change)[6], float (&sum)[6]) {
-  const float4 a = state[tile_change * 32], b = state[tile_both * 32], c = state[tile_sum * 32];
+  const float4 a = state[tile_change * 32], b = state[tile_both * 32];
   change[0] = a.x, change[1] = a.y, change[2] = a.z, change[3] = a.w, change[4] = b.x, change[5] = b.y;
-  sum[0] = b.z, sum[1] = b.w, sum[2] = c.x, sum[3] = c.y, sum[4] = c.z, sum[5] = c.w;
+  if constexpr (memory) {
+    const float4 c = state[tile_sum * 32];
+    sum[0] = b.z, sum[1] = b.w, sum[2] = c.x, sum[3] = c.y, sum[4] = c.z, sum[5] = c.w;
+  }
 }
+template <bool memory = true>
 __device__ __forceinline__ void store_state(float4* state, const float (&change)[6], const float (&sum)[6]) {
   state[tile_change * 32] = {change[0], change[1], change[2], change[3]};
-  state[tile_both * 32] = {change[4], change[5], sum[0], sum[1]};
-  state[tile_sum * 32] = {sum[2], sum[3], sum[4], sum[5]};
+  if constexpr (memory) {
+    state[tile_both * 32] = {change[4], change[5], sum[0], sum[1]};
+    state[tile_sum * 32] = {sum[2], sum[3], sum[4], sum[5]};
+  } else {
+    state[tile_both * 32] = {change[4], change[5], 0, 0};
+  }
 }
 
 __device__ __forceinline__ void store_wall_load(float4* wall_load, GroupAndRow of, const ContactLoad<float>& load) {

@@ -19,7 +19,7 @@ inline std::int64_t packets_in_registers(const Tile& tile) {
 
 /// Through shared memory: velocities of both ends, once for a whole run of contacts that share an end, and the loads.
 inline std::int64_t shared_traffic(const Tile& tile) {
-  constexpr std::int64_t of_velocity = 32, of_slot = 2 * 24;
+  constexpr std::int64_t of_velocity = SixTable::bytes(1), of_slot = 2 * SixTable::bytes(1);
   const std::int64_t contacts = 32 * std::int64_t{tile.packets};
   return of_velocity * (contacts + contacts / TilePlan::run + tile.bodies + tile.halo) + of_slot * tile.slots;
 }
@@ -34,18 +34,18 @@ inline Traffic traffic_streamed(const std::vector<Tile>& tiles, std::int64_t all
 /// Tiles that stay on the chip: nothing goes through memory.
 template <class P>
 Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileScene<P>& scene, bool carried, bool memory) {
-  constexpr std::int64_t of_packet = 32 * sizeof(float4), of_states = 2 * of_packet * tile_states, of_velocity = 32;
+  constexpr std::int64_t of_packet = 32 * sizeof(float4), of_velocity = 32;
   const int words = tile_constants_read(carried, memory);
-  const std::int64_t of_constants = of_packet * words;
-  constexpr std::int64_t all_but_last = packets_with_states - resident_threads / 32;
+  const std::int64_t of_constants = of_packet * words, of_states = 2 * of_packet * tile_states_moved(memory);
+  // whose constants are in shared memory, as far as there is room; those of the last are in registers
+  const std::int64_t first = packets_with_states - packets_with_constants(memory) * resident_threads / 32;
   Traffic out;
   for (const Tile& tile : tiles) {
     const std::int64_t packets = tile.packets;
     const std::int64_t cached = std::min<std::int64_t>(
-        packets, ResidentMemory<P>(tile, static_cast<std::uint32_t>(words), scene.where, scene.room).cached);
+        {packets, first, ResidentMemory<P>(tile, static_cast<std::uint32_t>(words), scene.where, scene.room).cached});
     out.shared += shared_traffic(tile) + of_constants * cached;
-    const std::int64_t kept =
-        memory ? 0 : std::max<std::int64_t>(0, packets_in_registers(tile) - all_but_last);  // with their states
+    const std::int64_t kept = std::max<std::int64_t>(0, packets_in_registers(tile) - first);
     out.cache += of_constants * std::max<std::int64_t>(0, packets - cached - kept) +
                  of_states * (packets - packets_in_registers(tile)) + of_velocity * (tile.bodies + tile.halo);
     const auto rest = static_cast<std::int64_t>(ResidentMemory<P>::rest_bytes(tile.bodies, scene.where));

@@ -9,7 +9,7 @@ namespace macadam::kernels {
 
 /// A tile in the shared memory of its block, and what the threads do with it in a step. All that a body needs is read
 /// before the first of it is written: a read would wait for a write that may be to the same place. `memory`: some law
-/// has one. Without it, a contact has fewer constants and a smaller state, so that more of them stay here.
+/// has one. Without it, a contact has fewer constants and no sums, so that more constants stay here.
 template <class P, int Threads, bool carried, bool memory, TileRest where>
 class ResidentTile {
  public:
@@ -77,10 +77,8 @@ class ResidentTile {
     return j * warps + threadIdx.x / 32;
   }
   static constexpr std::uint32_t in_memory = UINT32_MAX;
-  /// Whether the constants of the packet whose states have this number stay in registers, too.
-  __device__ static constexpr bool keeps_constants(std::uint32_t k) {
-    return !memory && k == groups_in_registers * TilePlan::run - 1;
-  }
+  /// Of a warp's packets whose states are in registers, the first whose constants are there, too.
+  static constexpr std::uint32_t first_kept = groups_in_registers * TilePlan::run - packets_with_constants(memory);
   __device__ __forceinline__ float4* state(std::uint32_t packet) const {
     return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
   }
@@ -260,10 +258,10 @@ __global__ void __launch_bounds__(Threads, 1)
     each_of(share.early, early, f);
     each_of(share.late, late, f);
   };
-  typename OfTile::Constants last;  // of the last packet, where states leave room for them
+  typename OfTile::Constants constants[groups_in_registers * run];  // from first_kept on
   each_resident([&](auto k, std::uint32_t packet) {
-    load_state(tile.state(packet), change[k], sum[k]);
-    if constexpr (OfTile::keeps_constants(k())) last = tile.constants_of(packet, OfTile::in_memory);
+    load_state<memory>(tile.state(packet), change[k], sum[k]);
+    if constexpr (k() >= OfTile::first_kept) constants[k] = tile.constants_of(packet, OfTile::in_memory);
   });
 
   const bool inner = tile.inner() > 0;
@@ -282,8 +280,8 @@ __global__ void __launch_bounds__(Threads, 1)
     ContactRun contacts;
     const auto step = [&](auto k, std::uint32_t packet) {
       constexpr bool begins_run = k() % run == 0;
-      if constexpr (OfTile::keeps_constants(k()))
-        tile.template step<begins_run>(last, change[k], sum[k], contacts);
+      if constexpr (k() >= OfTile::first_kept)
+        tile.template step<begins_run>(constants[k], change[k], sum[k], contacts);
       else
         tile.template step<begins_run>(tile.constants_of(packet, OfTile::place_in_cache(k)), change[k], sum[k],
                                        contacts);
@@ -303,20 +301,20 @@ __global__ void __launch_bounds__(Threads, 1)
     for (std::uint32_t k = 0; k < others.count(); ++k) {
       const std::uint32_t packet = others[k];
       float df[6], both[6];
-      load_state(tile.state(packet), df, both);
+      load_state<memory>(tile.state(packet), df, both);
       tile.template step<false>(tile.constants_of(packet, OfTile::in_memory), df, both, contacts);
-      store_state(tile.state(packet), df, both);
+      store_state<memory>(tile.state(packet), df, both);
     }
     __syncthreads();
   }
 
   each_resident([&](auto k, std::uint32_t packet) {
-    store_state(tile.state(packet), change[k], sum[k]);
+    store_state<memory>(tile.state(packet), change[k], sum[k]);
     tile.store_wall_loads(packet, change[k]);
   });
   for (std::uint32_t k = 0; k < others.count(); ++k) {
     float df[6], both[6];
-    load_state(tile.state(others[k]), df, both);
+    load_state<memory>(tile.state(others[k]), df, both);
     tile.store_wall_loads(others[k], df);
   }
   tile.store();

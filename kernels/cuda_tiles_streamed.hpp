@@ -62,8 +62,8 @@ struct StreamedMemory {
       : slots((SixTable::bytes(locals) + 15) / 16 * 16), total(slots + SixTable::bytes(slot_count)) {}
 };
 
-/// The contacts of step k, and then the motion of step k + 1, or `last`: the forces of now.
-template <class P, int Threads, int Blocks, bool carried>
+/// The contacts of step k, and then the motion of step k + 1, or `last`: the forces of now. `memory`: some law has one.
+template <class P, int Threads, int Blocks, bool carried, bool memory>
 __global__ void __launch_bounds__(Threads, Blocks)
     run_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k, bool last) {
   using R = typename P::Particle;
@@ -102,12 +102,12 @@ __global__ void __launch_bounds__(Threads, Blocks)
     const std::size_t at = tile.first_packet + mine[packet];
     float4* state = s.state + at * tile_states * 32 + lane;
     float change[6], sum[6];
-    load_state(state, change, sum);
-    ContactConstants<carried, true> constant;
+    load_state<memory>(state, change, sum);
+    ContactConstants<carried, memory> constant;
     constant.load(s.constant + at * words * 32 + lane);
-    const ContactInBlock<carried, true> contact(constant);
+    const ContactInBlock<carried, memory> contact(constant);
     const auto load = step_in_block<false>(contact, s.law, velocity, change, sum, run);
-    store_state(state, change, sum);
+    store_state<memory>(state, change, sum);
     slots.put(contact.slots, load, run);
     if (last) store_wall_load(s.wall_load, contact.of, load);
   }

@@ -62,7 +62,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   void begin(const ExecStart& start) {
     this->rest();
     dt_ = start.options.dt;
-    tiles_.begin(block_of(start.options, start.laws, start.size), blocks_are_exact(start.options.geometry, start.laws),
+    tiles_.begin(block_of(start.options, start.laws, start.size), !blocks_are_exact(start.options.geometry, start.laws),
                  start.options.observed_every > 0);
     if (start.first) this->require_memory(start.group_bytes + tiles_.bytes_to_come(this->rows_.records));
   }

@@ -248,10 +248,11 @@ class StepperImpl final : public Stepper {
   }
 
  private:
-  /// Whether laws keep states of the same kinds and numbers.
+  /// Whether laws keep states of the same kinds and numbers, and act on the same components with the same shear.
   static bool keep_alike(const FactsTable& a, const FactsTable& b) {
     const auto kind = [](const LawFacts& f) {
-      return std::tuple(std::string_view(f.name), f.units, f.only_units, f.memoryless, f.linear, f.blocks, f.coupled);
+      return std::tuple(std::string_view(f.name), f.alpha, f.units, f.only_units, f.memoryless, f.linear, f.blocks,
+                        f.coupled);
     };
     return std::ranges::equal(a, b, [&](const auto& x, const auto& y) {
       return x && y ? kind(*x) == kind(*y) : x.has_value() == y.has_value();

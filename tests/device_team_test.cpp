@@ -30,6 +30,7 @@ struct Case {
   Geometry geometry;
   int multiprocessors;  // few: the specimen does not fit the chip
   const char* path;
+  bool elastic = false;
 };
 
 class Team : public testing::TestWithParam<Case> {
@@ -37,7 +38,8 @@ class Team : public testing::TestWithParam<Case> {
   void SetUp() override {
     if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
     const Case& c = GetParam();
-    scene_ = make_scene(random_specimen(3, 16, 16, 20));  // more than eight multiprocessors take
+    const Laws laws = c.elastic ? elastic_laws() : am1_laws();
+    scene_ = make_scene(random_specimen(3, 16, 16, 20), {}, laws);  // more than eight multiprocessors take
     options_ = slow_options(scene_);
     options_.precision = c.precision;
     options_.form = c.form;
@@ -187,6 +189,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"MixedOnTheChip", Precision::mixed, condensed, updated, 0, "tiles on the chip"},
                     Case{"SingleStreamed", Precision::single, condensed, updated, 1, "tiles streamed"},
                     Case{"MixedStreamed", Precision::mixed, condensed, fixed, 1, "tiles streamed"},
+                    Case{"ElasticOnTheChip", Precision::mixed, condensed, fixed, 0, "tiles on the chip", true},
+                    Case{"ElasticStreamed", Precision::single, condensed, fixed, 1, "tiles streamed", true},
                     Case{"DoubleCondensed", Precision::double_, condensed, updated, 0, "two kernels a step"},
                     Case{"DoublePoints", Precision::double_, points, updated, 0, "two kernels a step"},
                     Case{"SinglePoints", Precision::single, points, fixed, 0, "two kernels a step"}),

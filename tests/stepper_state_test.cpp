@@ -35,6 +35,29 @@ class StepperState : public BackendTest<Case> {
     return out;
   }
 
+  /// Steps of a whole device and of parts of it.
+  void compare_sizes(const TestScene& scene, StepperOptions options) const {
+    std::tie(options.precision, options.form, options.geometry) =
+        std::tie(options_.precision, options_.form, options_.geometry);
+    const auto of = [&](int multiprocessors) {
+      options.multiprocessors = multiprocessors;
+      return make_stepper(backend_, scene.specimen, scene.network, scene.laws, scene.inertia, options);
+    };
+    const auto whole = of(0);
+    whole->advance(150);
+    const std::vector<StateArray> state = whole->state();
+    whole->advance(200);
+    for (const int multiprocessors : {1, 3, 5}) {
+      const auto small = of(multiprocessors), taken = of(multiprocessors);
+      small->advance(350);
+      EXPECT_TRUE(same_bits(small->state(), whole->state())) << multiprocessors;
+      EXPECT_EQ(small->observe().top_force(), whole->observe().top_force()) << multiprocessors;
+      taken->set_state(state);
+      taken->advance(200);
+      EXPECT_TRUE(same_bits(taken->state(), whole->state())) << multiprocessors;
+    }
+  }
+
   TestScene scene_;
   StepperOptions options_;
   Backend backend_{};
@@ -96,32 +119,14 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
 }
 
 // A device with fewer multiprocessors has other tiles, or streams them: the same bits, and a state goes from one to
-// another.
+// another. Elastic scenes have kernels of their own.
 TEST_P(StepperState, IsThatOfADeviceOfAnySize) {
   if (backend_ != Backend::cuda) GTEST_SKIP() << "of devices alone";
-  const TestScene scene = make_scene(random_specimen(22, 9, 9, 9));
-  StepperOptions options = shaking_options(scene);
-  std::tie(options.precision, options.form, options.geometry) =
-      std::tie(options_.precision, options_.form, options_.geometry);
-  const auto of = [&](int multiprocessors) {
-    options.multiprocessors = multiprocessors;
-    return make_stepper(backend_, scene.specimen, scene.network, scene.laws, scene.inertia, options);
-  };
-  const auto whole = of(0);
-  whole->advance(150);
-  const std::vector<StateArray> state = whole->state();
-  whole->advance(200);
-  for (const int multiprocessors : {1, 3, 5}) {
-    const auto small = of(multiprocessors), taken = of(multiprocessors);
-    small->advance(350);
-    EXPECT_TRUE(same_bits(small->state(), whole->state())) << multiprocessors;
-    EXPECT_EQ(small->observe().top_force(), whole->observe().top_force()) << multiprocessors;
-    taken->set_state(state);
-    taken->advance(200);
-    EXPECT_TRUE(same_bits(taken->state(), whole->state())) << multiprocessors;
+  for (const Laws& laws : {am1_laws(), elastic_laws()}) {
+    const TestScene scene = make_scene(random_specimen(22, 9, 9, 9), {}, laws);
+    for (const StepperOptions& load : {shaking_options(scene), slow_options(scene)}) compare_sizes(scene, load);
   }
 }
-
 /// Any complex motion, for a start of no particular meaning.
 std::vector<std::complex<double>> some_motion(std::size_t particles) {
   std::mt19937 random(5);

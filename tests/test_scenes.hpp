@@ -39,6 +39,16 @@ inline Laws am1_laws() {
   return out;
 }
 
+/// Springs, one for each pair type; softer than those of AM1's aggregates.
+inline Laws elastic_laws() {
+  Laws out;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    const double stiffer = 1 + static_cast<double>(pair);
+    out[pair] = laws::Elastic{1e10 * stiffer, 0.05 * stiffer};
+  }
+  return out;
+}
+
 /// The same of binder AM2.
 inline Laws am2_laws() {
   laws::GeneralisedKelvin ma{6.014e10, 7.859e9, {7.184e10, 4.270e10, 3.899e11}, {1.925e9, 3.959e9, 3.614e10}, 0.10};

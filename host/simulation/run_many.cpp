@@ -13,6 +13,7 @@
 #include <set>
 #include <system_error>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "host/simulation/checkpoints.hpp"
@@ -188,9 +189,9 @@ class Pool {
     return prepare(scene, progress);
   }
 
-  /// Of those that are meant and answer, the one that got the fewest so far, unless it runs two more than another: most
-  /// scenes are alike, and none stands still before the others at the end. Waits where all run as many as they may;
-  /// others have the cores meanwhile.
+  /// Of those that are meant and answer, one that is idle, or the one that got the fewest so far, unless it runs two
+  /// more than another: most scenes are alike, and so all devices end at about the same time. Waits where all run as
+  /// many as they may; others have the cores meanwhile.
   int take_device(SolverSpec& solver, std::optional<Cores>& cores) {
     DeviceList meant = solver.devices.empty() ? usable_.get() : usable(device_numbers(solver.devices));
     if (meant.empty()) meant = device_numbers(solver.devices);  // making the stepper says why it cannot
@@ -198,7 +199,9 @@ class Pool {
     const auto has_room = [&] {
       int fewest = beside_;
       for (const int d : meant) fewest = std::min(fewest, running_[d]);
-      const auto rank = [&](int d) { return std::pair(running_[d] >= std::min(beside_, fewest + 2), got_[d]); };
+      const auto rank = [&](int d) {
+        return std::tuple(running_[d] >= std::min(beside_, fewest + 2), running_[d] > 0, got_[d]);
+      };
       least = *std::ranges::min_element(meant, {}, rank);
       return running_[least] < beside_;
     };

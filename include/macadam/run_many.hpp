@@ -40,12 +40,12 @@ struct ManyOptions {
   std::function<bool()> stop;  ///< as Watcher::stop, from several threads; scenes that have not begun do not begin then
 };
 
-/// run() of every scene, each on one device: on the one with the fewest at the moment, of those that its [solver] names
-/// or, where it names none, of all that answer. Small specimens share a device at the same time; of others, the two
-/// that came first are stepped piece by piece. The results are those of run(). An error of one scene ends no other,
-/// unless a device fails for a whole process; scenes that are on a device together share its memory. Outcomes are in
-/// the order of the jobs; one that was not begun has an InterruptedError. \throws InputError where two jobs have one
-/// folder.
+/// run() of every scene, each on one device: an idle one, or the one that got the fewest so far, of those that its
+/// [solver] names or, where it names none, of all that answer. Small specimens share a device at the same time; of
+/// others, the two that came first are stepped piece by piece. The results are those of run(). An error of one scene
+/// ends no other, unless a device fails for a whole process; scenes that are on a device together share its memory.
+/// Outcomes are in the order of the jobs; one that was not begun has an InterruptedError. \throws InputError where two
+/// jobs have one folder.
 std::vector<JobOutcome> run_many(const std::vector<SceneJob>& jobs, const ManyOptions& options = {});
 
 }  // namespace macadam

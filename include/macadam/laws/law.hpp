@@ -52,8 +52,8 @@
 ///     `template <int L, class Units> void settle(double sum, Units&& x) const`. Within the block the change δf of f
 ///     follows δf' = δf + rate·dx + drift + follow·s − relax·δf, with the drift of f and x(l) at its beginning and s
 ///     the sum of δf' + δf over its steps so far; at its end settle() takes Σ (f' + f) and updates x(l): model (6.8)
-///     and (6.9). What is neglected is of second order in the block's length and has no mean over it. Where the law is
-///     memoryless, nothing may be: relax, follow and the drift are 0.
+///     and (6.9). What is neglected is of second order in the block's length and has no mean over it. A memoryless
+///     law must have relax = follow = drift = 0.
 /// S is a number or, on the CPU, a packet of them, so a law has no branches: select() chooses.
 /// Laws own no memory, know no arrays and no threads. A law may use its units for a state of any kind: damage, slip,
 /// plasticity. Add one: a header here, a line in all.hpp, its second writing in host/reference, a test; or in a program
