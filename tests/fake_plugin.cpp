@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // fake_plugin.cpp  What tests have in place of the CUDA backend: of this version with one device that cannot be used,
-// or, with FAKE_INTERFACE, of another, or, with FAKE_DEVICE, with one that is the processor.
+// or, with FAKE_INTERFACE, of another, or, with FAKE_DEVICE, with some that are the processor: as many as FAKE_DEVICES
+// of the environment says, or one. Each line of the file FAKE_DEVICE_LOG is then the device of a stepper that was made.
+#include <cstdlib>
+#include <fstream>
+
 #include "kernels/cuda_plugin.hpp"
 
 #ifndef FAKE_INTERFACE
@@ -11,13 +15,17 @@ namespace macadam::kernels {
 namespace {
 
 void report(BackendReport& out) {
-  out.devices.push_back({0, "paper device", 90, std::int64_t{1} << 30, 1});
-  out.cuda_status = "1 device answers";
+  const char* number = std::getenv("FAKE_DEVICES");
+  const int devices = number ? std::atoi(number) : 1;
+  for (int k = 0; k < devices; ++k) out.devices.push_back({k, "paper device", 90, std::int64_t{1} << 30, 1});
+  out.cuda_status = std::to_string(devices) + (devices == 1 ? " device answers" : " devices answer");
 }
 #ifdef FAKE_DEVICE
 std::string refusal(int) { return ""; }
 std::unique_ptr<Stepper> make(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                               const Inertia& inertia, const StepperOptions& options, std::unique_ptr<Stepper> used) {
+  const char* log = std::getenv("FAKE_DEVICE_LOG");
+  if (log && !used) std::ofstream(log, std::ios::app) << options.devices.front() << '\n';
   StepperOptions given = options;
   given.devices.clear();
   return make_stepper(Backend::cpu, specimen, network, laws, inertia, given, std::move(used));

@@ -24,6 +24,12 @@ class RunMany : public Program {
       fs::copy_file(file, folder_ / (names_.back() + ".toml"));
     }
   }
+  /// Where macadam finds devices that are the processor in disguise.
+  std::string fake_devices() const {
+    fs::create_directory(folder_ / "plugins");
+    fs::create_symlink(FAKE_DEVICE_PLUGIN, folder_ / "plugins" / "libmacadam_cuda.so");
+    return (folder_ / "plugins").string();
+  }
   std::string scenes() const {
     std::string out;
     for (const std::string& name : names_) out += path(name + ".toml") + " ";
@@ -63,11 +69,9 @@ TEST_F(RunMany, LeavesEachSceneTheFilesOfARunOfItsOwn) {
 // The device is the processor in disguise. However many are let to it at a time, each ends, with a processor's
 // response.
 TEST_F(RunMany, SharesOutADevice) {
-  fs::create_directory(folder_ / "plugins");
-  fs::create_symlink(FAKE_DEVICE_PLUGIN, folder_ / "plugins" / "libmacadam_cuda.so");
   const Outcome without = macadam(fmt::format("run {} --out {}", scenes(), path("out")));
   ASSERT_EQ(without.code, 0) << without.err;
-  ASSERT_EQ(::setenv("MACADAM_PLUGIN_PATH", (folder_ / "plugins").c_str(), 1), 0);
+  ASSERT_EQ(::setenv("MACADAM_PLUGIN_PATH", fake_devices().c_str(), 1), 0);
   for (const int at_once : {1, 2, 3, 9}) {
     const std::string out = fmt::format("out_{}", at_once);
     const Outcome all =
@@ -80,6 +84,19 @@ TEST_F(RunMany, SharesOutADevice) {
     }
   }
   ::unsetenv("MACADAM_PLUGIN_PATH");
+}
+
+// Where all are idle, each is given the next scene in turn.
+TEST_F(RunMany, GivesEachDeviceAsMany) {
+  const std::string log = (folder_ / "devices").string();
+  for (const auto& [name, value] : {std::pair("MACADAM_PLUGIN_PATH", fake_devices()),
+                                    std::pair("FAKE_DEVICES", std::string("3")), std::pair("FAKE_DEVICE_LOG", log)}) {
+    ASSERT_EQ(::setenv(name, value.c_str(), 1), 0);
+  }
+  const Outcome all = macadam(fmt::format("run {} --backend cuda --out {} --at-once 1", scenes(), path("out")));
+  for (const char* name : {"MACADAM_PLUGIN_PATH", "FAKE_DEVICES", "FAKE_DEVICE_LOG"}) ::unsetenv(name);
+  EXPECT_EQ(all.code, 0) << all.err;
+  EXPECT_EQ(read(log), "0\n1\n2\n");
 }
 
 TEST_F(RunMany, GoesOnWhereOneFails) {
