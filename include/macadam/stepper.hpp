@@ -213,9 +213,9 @@ inline bool nothing_turns(const ContactNetwork& network, const LawTable& laws) {
   return nothing_turns(network, facts_of(laws));
 }
 
-/// Makes the stepper of a backend (`automatic` is resolved first). `used`: one made of the same specimen and network that
-/// is no longer needed. What it holds that does not depend on time step, masses, loading and start is then kept, if the
-/// laws are of the same kinds and alpha; the new one takes the same steps, to the bit, as if it had been made without it.
+/// Makes the stepper of a backend (`automatic` is resolved first). `used`: one made of the same specimen and network
+/// that is no longer needed. If the laws are of the same kinds and alpha, what it holds that does not depend on time
+/// step, masses, loading and start is kept; the new one takes the same steps, to the bit, as if made without it.
 /// \throws RunError when the backend is not there; InputError when an option does not fit the backend.
 std::unique_ptr<Stepper> make_stepper(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                       const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
