@@ -207,8 +207,8 @@ struct ContactInBlock {
   }
 };
 
-/// Steps one contact of a run. Returns the change of its loads.
-/// `first`: a run begins, which is known when compiled.
+/// Steps one contact of a run. Returns the change of its loads. Known when compiled: `first`, that a run begins;
+/// `memory`, that some law has one.
 template <bool first, bool carried, bool memory>
 __device__ __forceinline__ ContactLoad<float> step_in_block(const ContactInBlock<carried, memory>& contact,
                                                             const float4* law, const TileVelocities& velocity,

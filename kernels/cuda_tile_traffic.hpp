@@ -37,7 +37,7 @@ Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileScene<P>& scen
   constexpr std::int64_t of_packet = 32 * sizeof(float4), of_velocity = 32;
   const int words = tile_constants_read(carried, memory);
   const std::int64_t of_constants = of_packet * words, of_states = 2 * of_packet * tile_states_moved(memory);
-  // whose constants are in shared memory, as far as there is room; those of the last are in registers
+  // packets whose constants are in shared memory, as far as there is room; those that follow have them in registers
   const std::int64_t first = packets_with_states - packets_with_constants(memory) * resident_threads / 32;
   Traffic out;
   for (const Tile& tile : tiles) {

@@ -102,11 +102,12 @@ TEST_P(StepperAgainstReference, SlowLoadUnderWaves) {
   compare(scene, options, long_tests ? 300 : 100);
 }
 
-/// Two multiprocessors, so that a device's tiles have more contacts than registers hold the states and constants of.
+/// On a device of two multiprocessors the tiles are full: all registers that are for contacts are in use.
 TEST_P(StepperAgainstReference, ElasticContactsUnderSlowLoad) {
   const TestScene scene = make_scene(random_specimen(19, 8, 8, 9), {}, elastic_laws());
   StepperOptions options = slow_options(scene);
   options.multiprocessors = 2;
+  EXPECT_GT(scene.network.contacts.size(), 2 * 48 * 32u);  // each of the 16 warps of a tile has more than three packets
   compare(scene, options, long_tests ? 600 : 100);
 }
 
