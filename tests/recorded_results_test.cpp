@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// recorded_results_test.cpp  Everything that commands print and write, against what they did when it was recorded. The
+// other tests say what is right. These say what has changed, down to the ninth digit, whoever meant it to.
+//
+// Each folder of tests/recorded is a case: `commands` has one command of macadam a line, run in the case's folder,
+// which holds what they read and the specimen t8.csv; laws.toml is put behind every scene without contacts.
+// expected.json has what came out. A change that is meant is recorded anew with MACADAM_RECORD=1 in the environment,
+// and its difference is looked at like any other.
+#include <algorithm>
+#include <regex>
+
+#include "program.hpp"
+#include "recorded_files.hpp"
+
+namespace macadam::test {
+namespace {
+
+using nlohmann::ordered_json;
+
+const fs::path cases = MACADAM_RECORDED;
+
+std::vector<std::string> names_of_cases() {
+  std::vector<std::string> out;
+  for (const auto& entry : fs::directory_iterator(cases))
+    if (fs::exists(entry.path() / "commands")) out.push_back(entry.path().filename());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+/// What differs from machine to machine or from one time to the next: times, memory, threads, versions, folders.
+std::string without_surroundings(std::string text, const fs::path& folder) {
+  const auto replace = [&](const std::string& what, const std::string& with) {
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+      text.replace(at, what.size(), with);
+  };
+  replace(folder.string(), "{folder}");
+  std::string out;
+  bool times = false;
+  for (std::string line : lines_of(text)) {
+    static const std::regex amount("[0-9.e+-]+ (s|ms|kB|MB|GB|threads?)\\b"), last_column("[0-9.]+$"),
+        version("0\\.[0-9.]+\\+g[0-9a-f]+");
+    times = line.ends_with("time (s)") || (times && !line.empty());
+    line = std::regex_replace(line, amount, "some $1");
+    line = std::regex_replace(line, version, "version");
+    if (times) line = std::regex_replace(line, last_column, "some");
+    if (!line.starts_with("tessellation errors")) out += line + '\n';  // rounding alone
+  }
+  return out;
+}
+
+/// Values of JSON files that say the same as above.
+bool is_surroundings(const std::string& key) {
+  static const std::regex names(
+      "timing_s\\..*|.*solve_s|macadam|solver\\.bytes|.*\\.?(residual|held_force)|specimen\\.closure.*");
+  return std::regex_match(key, names);
+}
+
+/// A line for each part, so that a difference between two versions can be read.
+std::string lines_of_json(const ordered_json& all) {
+  std::string out;
+  for (const auto& [file, contents] : all.items()) {
+    out += out.empty() ? "{" : "},\n";
+    out += ordered_json(file).dump() + ": {";
+    const char* before = "\n ";
+    for (const auto& [name, value] : contents.items()) {
+      out += before + ordered_json(name).dump() + ": " + value.dump();
+      before = ",\n ";
+    }
+  }
+  return out + "}}\n";
+}
+
+class RecordedResults : public Program, public testing::WithParamInterface<std::string> {
+ protected:
+  fs::path source() const { return cases / GetParam(); }
+
+  void SetUp() override {
+    Program::SetUp();
+    setenv("OMP_NUM_THREADS", "2", 1);  // their number is in descriptions, and in the forecast of times
+    for (const auto& entry : fs::directory_iterator(source()))
+      if (entry.path().filename() != "commands" && entry.path().filename() != "expected.json")
+        fs::copy(entry.path(), folder_ / entry.path().filename(), fs::copy_options::recursive);
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      if (entry.path().extension() != ".toml") continue;
+      const std::string scene = read(entry.path());
+      if (contains(scene, "[specimen]") && !contains(scene, "[[contacts]]"))
+        write(entry.path(), scene + '\n' + read(cases / "laws.toml"));
+    }
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) given_.push_back(entry.path());
+  }
+
+  /// Runs the commands; what they print, and the files that they write.
+  ordered_json happened() const {
+    std::map<std::string, recorded::Contents> all;
+    int number = 0;
+    for (std::string line : lines_of(read(source() / "commands"))) {
+      if (line.empty() || line.starts_with('#')) continue;
+      const Outcome outcome = in_folder(line);
+      recorded::Contents& said = all[fmt::format("command {}", ++number)];
+      recorded::add(said["code"], std::to_string(outcome.code));
+      recorded::add_lines(said, without_surroundings(outcome.out, folder_), "out");
+      recorded::add_lines(said, without_surroundings(outcome.err, folder_), "err");
+    }
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_))
+      if (entry.is_regular_file() && std::find(given_.begin(), given_.end(), entry.path()) == given_.end() &&
+          entry.path().filename() != "stdout.txt" && entry.path().filename() != "stderr.txt")
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    for (const fs::path& file : files) {
+      const fs::path local = file.lexically_relative(folder_);
+      // surfaces of many grains are one list
+      const bool one_of_many = file.extension() == ".off";
+      recorded::Contents& to = all[one_of_many ? (local.parent_path() / "*.off").string() : local.string()];
+      recorded::Contents contents;
+      recorded::add_file(contents, file);
+      for (auto& [name, content] : contents) {
+        if (is_surroundings(name)) continue;
+        to[name].text += without_surroundings(content.text, folder_);
+        to[name].numbers.insert(to[name].numbers.end(), content.numbers.begin(), content.numbers.end());
+      }
+    }
+    ordered_json out;
+    for (const auto& [file, contents] : all)
+      for (const auto& [name, content] : contents) out[file][name] = recorded::digest(content);
+    return out;
+  }
+
+  Outcome in_folder(const std::string& arguments) const {
+    const fs::path before = fs::current_path();
+    fs::current_path(folder_);
+    const Outcome outcome = macadam(arguments);
+    fs::current_path(before);
+    return outcome;
+  }
+
+  /// Numbers to nine digits, which libraries of other versions leave as they are; and to rounding beside larger ones.
+  static bool alike(const ordered_json& a, const ordered_json& b) {
+    if (a.is_array() && b.is_array() && a.size() == b.size()) {
+      double largest = 0;
+      for (const auto& part : a) largest = std::max(largest, std::abs(part.get<double>()));
+      return std::equal(a.begin(), a.end(), b.begin(), [&](double x, double y) {
+        return std::abs(x - y) <= std::max(1e-9 * std::abs(x), 1e-13 * largest);
+      });
+    }
+    if (a.is_object() && b.is_object() && a.size() == b.size())
+      return std::all_of(a.items().begin(), a.items().end(), [&](const auto& item) {
+        return b.contains(item.key()) && alike(item.value(), b[item.key()]);
+      });
+    return a == b;
+  }
+
+  std::vector<fs::path> given_;
+};
+
+TEST_P(RecordedResults, AreAsTheyWere) {
+  const ordered_json now = happened();
+  const fs::path file = source() / "expected.json";
+  if (std::getenv("MACADAM_RECORD")) {
+    write(file, lines_of_json(now));
+    GTEST_SKIP() << "recorded";
+  }
+  const ordered_json before = ordered_json::parse(read(file));
+  for (const auto& [name, contents] : before.items()) {
+    ASSERT_TRUE(now.contains(name)) << name << " is not there any more";
+    for (const auto& [part, value] : contents.items()) {
+      ASSERT_TRUE(now[name].contains(part)) << name << ": " << part << " is not there any more";
+      EXPECT_TRUE(alike(value, now[name][part]))
+          << name << ": " << part << "\nwas " << value << "\nis  " << now[name][part];
+    }
+    EXPECT_EQ(now[name].size(), contents.size()) << name << " has more than it had";
+  }
+  EXPECT_EQ(now.size(), before.size()) << "there are more files than there were";
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, RecordedResults, testing::ValuesIn(names_of_cases()), [](const auto& test) {
+  std::string name = test.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace macadam::test
