@@ -106,10 +106,13 @@ class CudaBodyArrays {
     Ranks* const ranks = team_.ranks();
     const std::size_t begin = ranks ? cuts_.body(team_.first()) : 0;
     const std::size_t end = ranks ? std::min(cuts_.body(team_.first() + 1), layout_.particles()) : layout_.particles();
-    const std::int64_t own = divergence_->first(master_.data(), dt, begin, end, team_.stream());
-    if (!ranks) return own;
+    divergence_->queue(master_.data(), dt, begin, end, team_.stream());
+    check_cuda(cudaStreamSynchronize(team_.stream()), "divergence");
+    std::uint32_t own = UINT32_MAX;
+    copy_now(&own, divergence_->first(), sizeof own, "divergence");
+    if (!ranks) return number_or_none(own);
     const auto none = static_cast<double>(layout_.particles());
-    const double least = ranks->least(own < 0 ? none : static_cast<double>(own));
+    const double least = ranks->least(own == UINT32_MAX ? none : static_cast<double>(own));
     return least == none ? -1 : static_cast<std::int64_t>(least);
   }
 
@@ -230,6 +233,9 @@ class CudaBodyArrays {
                                      rows_.place.bytes() + weight_.bytes() + wall_rows_.bytes());
   }
 
+  static std::int64_t number_or_none(std::uint32_t first_divergent) {
+    return first_divergent == UINT32_MAX ? -1 : static_cast<std::int64_t>(first_divergent);
+  }
   static std::vector<Twist<R>> twists(const std::vector<R>& words) {
     std::vector<Twist<R>> out(words.size() / velocity_words);
     for (std::size_t i = 0; i < out.size(); ++i) {

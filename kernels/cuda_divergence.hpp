@@ -42,10 +42,9 @@ class DivergenceSearch {
     radius_ = DeviceArray<double>::of(sorted);
   }
 
-  /// As Stepper::first_divergent(), of the bodies `begin` to `end` − 1 and the velocities `velocity` [body][8] on the
-  /// device.
-  std::int64_t first(const typename P::Particle* velocity, double dt, std::size_t begin, std::size_t end,
-                     cudaStream_t stream) {
+  /// Queues the search among the bodies `begin` to `end` − 1, of velocities `velocity` [body][8] on the device, for
+  /// first(): what Stepper::first_divergent() says, but UINT32_MAX for none.
+  void queue(const typename P::Particle* velocity, double dt, std::size_t begin, std::size_t end, cudaStream_t stream) {
     const auto search = [&](std::size_t& bytes) {
       check_cuda(cub::DeviceReduce::TransformReduce(
                      work_.data(), bytes, thrust::make_counting_iterator(static_cast<std::int32_t>(begin)),
@@ -59,10 +58,9 @@ class DivergenceSearch {
       work_ = DeviceArray<unsigned char>(bytes);
     }
     search(bytes);
-    check_cuda(cudaStreamSynchronize(stream), "divergence");
-    const std::uint32_t first = first_.download()[0];
-    return first == UINT32_MAX ? -1 : static_cast<std::int64_t>(first);
   }
+  /// On the device.
+  const std::uint32_t* first() const { return first_.data(); }
 
  private:
   DeviceArray<std::int32_t> particle_;

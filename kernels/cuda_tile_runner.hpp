@@ -12,7 +12,7 @@
 #include "kernels/cuda_part_clock.hpp"
 #include "kernels/cuda_record_rows.hpp"
 #include "kernels/block_schedule.hpp"
-#include "kernels/cuda_room.hpp"
+#include "kernels/device_room.hpp"
 #include "kernels/cuda_settling.hpp"
 #include "kernels/cuda_tile_limits.hpp"
 #include "kernels/cuda_tile_messages.hpp"
@@ -168,10 +168,20 @@ class TileRunner {
   }
 
   TileRunner(const TileRunner&) = delete;
+  ~TileRunner() {
+    if (end_) cudaEventDestroy(end_);
+  }
 
+  /// Nothing more is queued until all that was is done.
+  void end_of_steps() {
+    if (!has_room_ || team_.size() > 1) return;
+    if (!end_) check_cuda(cudaEventCreateWithFlags(&end_, cudaEventDisableTiming), "event");
+    check_cuda(cudaEventRecord(end_, team_.stream()), "event");
+    DeviceRoom::is_queued(number_, end_);
+  }
   /// All steps that were queued are done.
   void leave_room() {
-    if (std::exchange(has_room_, false)) DeviceRoom::give(room_);
+    if (std::exchange(has_room_, false)) DeviceRoom::give(number_);
   }
 
   /// After an error of one device: the tiles of the others wait for those of that one no longer, and end.
@@ -191,8 +201,9 @@ class TileRunner {
   void run(std::int64_t first, std::int64_t steps) {
     const Range range("time steps");
     if (resident_ && !has_room_) {
-      DeviceRoom::take(number_, room_, room_of_device_);
+      const auto before = static_cast<cudaEvent_t>(DeviceRoom::take(number_, room_, room_of_device_));
       has_room_ = true;
+      if (before) check_cuda(cudaStreamWaitEvent(team_.stream(), before, 0), "time steps");
     }
     team_.meet();  // with what the start has put into memory
     scene_.motion.wall.table = wall_table_;
@@ -485,6 +496,7 @@ class TileRunner {
   const std::uint64_t number_ = DeviceRoom::next_number();
   DeviceRoom::Share room_, room_of_device_;
   bool has_room_ = false;
+  cudaEvent_t end_ = nullptr;  // of the steps that are queued
   LoadRecords<R> records_{};
   Settling<P, AnyLaw> settling_;
   TileMessages<P> messages_;  // of several processes

@@ -3,11 +3,9 @@
 // takes so many shares, so that one device is enough for most of this.
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <mutex>
 #include <thread>
 
-#include "kernels/cuda_room.hpp"
 #include "expect_same.hpp"
 #include "stepper_cases.hpp"
 #include "test_files.hpp"
@@ -125,36 +123,6 @@ TEST(SideBySide, SpecimensOfOneDeviceTakeTheirOwnSteps) {
   }
   for (std::thread& t : threads) t.join();
   for (std::size_t k = 0; k < specimens; ++k) expect_same(together[k], alone[k]);
-}
-
-// The specimen that is there longest goes first, however large it is, and though it asks last.
-TEST(DeviceRoom, GivesTurnsByTheSpecimensNumbers) {
-  using kernels::DeviceRoom;
-  const DeviceRoom::Share whole{{700, 10}}, small{{700, 4}}, other{{701, 1}}, of_device{{700, 10}, {701, 10}};
-  std::mutex mutex;
-  std::vector<char> order;
-  const std::uint64_t first = DeviceRoom::next_number();
-  for (std::uint64_t k = 1; k < 5; ++k) ASSERT_EQ(DeviceRoom::next_number(), first + k);
-  const auto take = [&](std::uint64_t number, const DeviceRoom::Share& share, char name) {
-    DeviceRoom::take(first + number, share, of_device);
-    {
-      const std::lock_guard lock(mutex);
-      order.push_back(name);
-    }
-    DeviceRoom::give(share);
-  };
-  const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(300)); };
-  DeviceRoom::take(first, small, of_device);
-  std::thread young([&] { take(4, whole, 'y'); });
-  wait();  // so that it waits before the next comes
-  std::thread large([&] { take(2, whole, 'L'); });
-  wait();
-  std::thread late([&] { take(3, small, 's'); });  // there would be room, but not its turn
-  wait();
-  take(1, other, 'o');  // another device is free
-  DeviceRoom::give(small);
-  for (std::thread* t : {&young, &large, &late}) t->join();
-  EXPECT_EQ(order, (std::vector<char>{'o', 'L', 's', 'y'}));
 }
 
 TEST(TeamHarmonic, FindsTheMotionOfOneDevice) {

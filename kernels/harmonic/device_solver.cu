@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "kernels/cuda_team.hpp"
+#include "kernels/device_room.hpp"
 #include "kernels/harmonic/cocg_kernels.hpp"
 #include "kernels/harmonic/cocg_setup.hpp"
 
@@ -40,7 +41,7 @@ struct Vectors {
 class Solver : public DeviceSolver {
  public:
   Solver(const LinearSystem& system, const DeviceList& devices, std::int64_t& loose)
-      : team_(devices, nullptr, KernelOrder::first), free_(system.free), bodies_(system.bodies()) {
+      : devices_(devices), team_(devices, nullptr, KernelOrder::first), free_(system.free), bodies_(system.bodies()) {
     make_segments(system);
     const Shares rows = share([&](std::size_t body) { return body + (body == bodies_); }),
                  ends = share([&](std::size_t body) { return system.row_begin[body]; });
@@ -62,6 +63,7 @@ class Solver : public DeviceSolver {
                                  const std::vector<Complex*>& motion, const std::vector<bool>& begun,
                                  const std::function<void()>& look) override {
     team_.use(0);
+    const DeviceRoom::ShortKernels pauses(devices_);
     if (loads.size() == 1) return solve_with(one_, loads, right, motion, begun, look);
     return solve_with(four_, loads, right, motion, begun, look);
   }
@@ -281,6 +283,7 @@ class Solver : public DeviceSolver {
   static constexpr int batch_length = 8;
   static constexpr std::size_t segments_a_multiprocessor = 16;  ///< few enough for one, enough for two devices
 
+  DeviceList devices_;
   DeviceTeam team_;
   int free_;
   std::size_t bodies_, boxes_ = 0;
