@@ -2,6 +2,7 @@
 // bench_command_test.cpp  macadam bench: rows that mean what they say, in a format that others read.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "host/bench/json.hpp"
 #include "program.hpp"
@@ -96,6 +97,17 @@ TEST_F(BenchCommand, SaysWhatBecameSlowerBeyondNoise) {
   EXPECT_EQ(wrong.code, 2);
   EXPECT_HAS(wrong.err, "found an entry without a name or a time");
   EXPECT_EQ(bench("lattice:500 --against " + path("nowhere.json")).code, 2);
+}
+
+TEST_F(BenchCommand, ARowHasTheNameOfItsSceneAndOfTheUnits) {
+  const Outcome outcome =
+      bench("lattice:5e2 --only step --precision double --geometry fixed --units 0,2 --json " + path("now.json"));
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  std::set<std::string> names;
+  const json all = read_json("now.json");
+  for (const json& entry : all["benchmarks"]) names.insert(entry["run_name"]);
+  EXPECT_TRUE(names.contains("step/lattice:5e2/cpu/condensed/double/fixed/units:0/threads:1")) << json(names);
+  EXPECT_TRUE(names.contains("step/lattice:5e2/cpu/condensed/double/fixed/units:2/threads:1")) << json(names);
 }
 
 TEST_F(BenchCommand, RefusesWhatItCannotTime) {

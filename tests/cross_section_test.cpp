@@ -221,6 +221,7 @@ TEST_P(RandomSection, ThroughVerticesAndOnWalls) {
 TEST(CrossSection, PlanesAreReadAndRefused) {
   const Box box{{0.05, 0.05, 0.08}};
   EXPECT_EQ(read_section_plane("x=0.025", box).position, 0.025);
+  EXPECT_EQ(read_section_plane("x=0", box).position, 0);
   const SectionPlane high = read_section_plane("z=80 mm", box);
   EXPECT_EQ(high.axis, 'z');
   EXPECT_EQ(high.position, 0.08);

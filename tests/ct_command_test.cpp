@@ -76,6 +76,7 @@ TEST_F(CtCommand, TheEdgeOfAVoxelIsThatOfTheFileOrOfTheCommandLine) {
   write_image(folder_ / "pages.tif", scan);
   const std::string tail = " --smallest '1.8 mm' --region whole --out " + path("out");
   EXPECT_EQ(macadam("ct segment " + path("scan.mha") + tail).code, 0);
+  EXPECT_EQ(macadam("ct segment " + path("scan.mha") + " --voxel '100.5 um'" + tail).code, 0) << "within a hundredth";
   const Outcome other = macadam("ct segment " + path("scan.mha") + " --voxel '50 um'" + tail);
   EXPECT_EQ(other.code, 2);
   EXPECT_TRUE(contains(other.err, "as --voxel says")) << other.err;

@@ -106,6 +106,8 @@ TEST_F(CtImage, AStackWithoutOneOfItsSlicesIsRefused) {
   EXPECT_EQ(read_image<std::uint16_t>(folder_).size[2], 4) << "every second one, all of them";
   fs::remove(folder_ / "core2_12.tif");
   EXPECT_NE(fault<std::uint16_t>(folder_).find("core2_14.tif after core2_10.tif"), std::string::npos);
+  write_image(folder_ / "core2_010.tif", slice);  // the same number twice: they are not numbered evenly
+  EXPECT_EQ(read_image<std::uint16_t>(folder_).size[2], 4);
 }
 
 TEST_F(CtImage, WhatIsWrongWithAFileIsSaid) {

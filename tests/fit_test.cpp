@@ -240,6 +240,7 @@ TEST(Fit, AChainStandsForAnAnalogueWithinTheStatedError) {
   EXPECT_HAS(message_of([&] { to_kelvin(mixture, 1, 10, 0.7); }), "a number from 1e-6 to 0.5");
   EXPECT_HAS(message_of([&] { to_kelvin(mixture, 1e-5, 1e5, 1e-6); }), "units reach");
   EXPECT_HAS(message_of([&] { to_kelvin(mixture, 10, 1, 0.01); }), "10 to 1 Hz");
+  EXPECT_HAS(message_of([&] { to_kelvin(mixture, -1, 10, 0.01); }), "-1 to 10 Hz");
 }
 
 /// A spring between limits that are 100 apart: within 1e-6 of that from one of them it is taken to lie there.

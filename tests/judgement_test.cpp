@@ -32,6 +32,9 @@ std::vector<std::string> warnings_of(experiments::SteppedFrequency f, std::optio
 TEST(Judgement, AGoodResultHasNoWarning) {
   EXPECT_TRUE(warnings_of(good_result()).empty());
   EXPECT_TRUE(warnings_of(good_result(), {}).empty());
+  experiments::SteppedFrequency viscous = good_result();
+  viscous.stiffness.phase_deg = 90;
+  EXPECT_TRUE(warnings_of(viscous, {}).empty());
 }
 
 TEST(Judgement, WhatNoPassiveSpecimenHasIsSaid) {

@@ -213,6 +213,19 @@ TEST(Recipe, ReachedCurveByHand) {
   EXPECT_HAS(message_of([&] { gradation_of(d, reached); }), "4 and the mastic");
 }
 
+/// What a scene's reader refuses by itself, of a design that a program makes.
+TEST(Recipe, EnvelopesThatAreNoneAreRefused) {
+  const auto refusal = [](double size, double least, double most) {
+    MixDesign d = ac14();
+    d.envelope = {{size, least, most}};
+    return message_of([&] { volumes_of(d); });
+  };
+  EXPECT_HAS(refusal(0.005, 0.5, 1.2), "50 % to 120 % passing 5 mm");
+  EXPECT_HAS(refusal(0.005, -0.1, 0.7), "-10 % to 70 % passing 5 mm");
+  EXPECT_HAS(refusal(-0.005, 0.5, 0.7), "a size above 0");
+  EXPECT_HAS(refusal(INFINITY, 0.5, 0.7), "a size above 0");
+}
+
 TEST(Recipe, TellsWhereItLeavesTheEnvelope) {
   MixDesign d = ac14();
   d.envelope = {{0.019, 0.9, 1}, {0.0125, 0.7, 0.8}, {0.002, 0.325, 0.4}, {0.000075, 0.06, 0.08}, {0.001, 0, 0.1}};

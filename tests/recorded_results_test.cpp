@@ -48,10 +48,11 @@ std::string without_surroundings(std::string text, const fs::path& folder) {
   return out;
 }
 
-/// Values of JSON files that say the same as above.
+/// Values that do, too; and phases in fields, which are those of rounding where hardly anything moves.
 bool is_surroundings(const std::string& key) {
   static const std::regex names(
-      "timing_s\\..*|.*solve_s|macadam|solver\\.bytes|.*\\.?(residual|held_force)|specimen\\.closure.*");
+      "timing_s\\..*|.*solve_s|VTKHDF/"
+      ".*_phase|macadam|solver\\.bytes|.*\\.?(residual|held_force)|specimen\\.closure.*");
   return std::regex_match(key, names);
 }
 

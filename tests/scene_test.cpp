@@ -448,6 +448,10 @@ TEST_F(SceneFile, VoidsByCountLeaveRoomInTheBox) {
   EXPECT_NE(message(with_voids(45)).find("voids as large as the box"), std::string::npos) << message(with_voids(45));
 }
 
+TEST_F(SceneFile, CountedAggregatesNeedNoMastic) {
+  EXPECT_EQ(message(text_of({{6, "count = 3"}, {7, ""}, {8, ""}, {9, ""}})), "");
+}
+
 // Of the box's 12 cm3, 40 aggregates of 8 mm leave room for 4e7 spheres of 0.04 mm, one of them for 3.5e8.
 TEST_F(SceneFile, MasticHasTheRoomThatCountedAggregatesLeave) {
   const auto with_aggregates = [](int count) {

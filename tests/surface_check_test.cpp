@@ -306,6 +306,12 @@ TEST(RepairSurface, JoinsRepeatedPointsAndDropsWhatIsNoFacet) {
   EXPECT_TRUE(contains(what, "dropped 1 repeated facet")) << what;
 }
 
+TEST(RepairSurface, RefusesPointsThatAreNowhere) {
+  Surface s = icosphere(1);
+  s.points[3].y = std::nan("");
+  EXPECT_THROW(repair_surface(s), InputError);
+}
+
 TEST(RepairSurface, DropsSpecksButDoesNotChooseBetweenBodies) {
   const Surface body = icosphere(2), speck = moved(tetrahedron(0.1), {2, 0, 0});
   EXPECT_EQ(repaired(joined(speck, body), measure_shape(body).volume, 1e-12), "dropped 1 speck");
