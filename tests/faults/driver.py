@@ -14,6 +14,11 @@ def stepped(setting):
     faults(setting, "stepped", ["device.toml", "--method", "explicit"], "two kernels a step")
 
 
+def tiles(setting):
+    """By a device, whose tiles wait for one another on the chip."""
+    faults(setting, "tiles", ["tiles.toml", "--method", "explicit", "--precision", "mixed", "--devices", "0"], "cuda, ", "tiles on the chip")
+
+
 def team(setting):
     """By two devices, whose tiles wait for one another: where one fails, the others must end."""
     faults(setting, "team", ["tiles.toml", "--method", "explicit", "--precision", "mixed", "--devices", "0,1"],
