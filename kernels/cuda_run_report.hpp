@@ -21,7 +21,7 @@ class RunReport {
   struct Content {
     R force[walls * velocity_words], velocity[walls * velocity_words];  ///< of the walls
     double displacement[walls * displacement_words];                    ///< of the walls
-    std::uint32_t divergent;                                            ///< first particle, UINT32_MAX: none
+    std::uint32_t divergent[1];                                         ///< first particle, UINT32_MAX: none
   };
   enum Part : unsigned { force = 1, motion = 2, divergence = 4 };
 
@@ -43,9 +43,6 @@ class RunReport {
   template <class T, std::size_t n>
   void copy(T (Content::*to)[n], const T* from, cudaStream_t stream) {
     check_cuda(cudaMemcpyAsync(content_->*to, from, n * sizeof(T), cudaMemcpyDeviceToHost, stream), "report");
-  }
-  void copy_divergent(const std::uint32_t* from, cudaStream_t stream) {
-    check_cuda(cudaMemcpyAsync(&content_->divergent, from, sizeof *from, cudaMemcpyDeviceToHost, stream), "report");
   }
   /// These parts are there.
   void arrived(unsigned parts) { there_ = parts; }

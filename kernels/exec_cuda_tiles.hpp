@@ -131,7 +131,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   }
   std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
     const auto* report = report_.find(report_.divergence);
-    return report ? Base::number_or_none(report->divergent) : Base::first_divergent(radius, dt);
+    return report ? Base::number_or_none(report->divergent[0]) : Base::first_divergent(radius, dt);
   }
   void set_velocities(const std::vector<R>& v) {
     report_.forget();
@@ -168,7 +168,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
  private:
   /// Queues what was asked for after the last run, of one device; which parts.
   unsigned queue_report() {
-    const unsigned asked = report_.asked();
+    unsigned asked = report_.asked();
+    if (!this->divergence_) asked &= ~report_.divergence;  // asked for in vain, as there was no memory for it
     if (this->team_.ranks() || this->team_.size() > 1) return 0;
     using Content = typename RunReport<R>::Content;
     const cudaStream_t stream = this->team_.stream();
@@ -180,7 +181,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     }
     if (asked & report_.divergence) {
       this->divergence_->queue(this->master_.data(), dt_, 0, walls_from, stream);
-      report_.copy_divergent(this->divergence_->first(), stream);
+      report_.copy(&Content::divergent, this->divergence_->first(), stream);
     }
     return asked;
   }
