@@ -40,7 +40,7 @@ class DrawsAhead {
   template <class Attempt>
   std::optional<Draws> first_good(std::int64_t most, std::size_t size, std::int64_t chunk, const Attempt& attempt) {
     constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
-    for (std::int64_t begin = 0, block = chunk; begin < most; block = std::min(2 * block, 256 * chunk)) {
+    for (std::int64_t begin = 0, block = chunk; begin < most; block = std::min(4 * block, 256 * chunk)) {
       const std::int64_t n = std::min(block, most - begin);
       look(static_cast<std::size_t>(n) * size);
       std::atomic<std::int64_t> good = none;
@@ -53,7 +53,7 @@ class DrawsAhead {
           break;
         }
       };
-      for_each_in_parallel(static_cast<std::size_t>((n + chunk - 1) / chunk), run, n > chunk);
+      for_each_in_parallel(static_cast<std::size_t>((n + chunk - 1) / chunk), run, n > alone * chunk);
       const std::int64_t used = good == none ? n : good + 1;
       const Draws last = draws(used - 1, size);
       used_ += static_cast<std::size_t>(used) * size;
@@ -89,6 +89,8 @@ class DrawsAhead {
   }
 
  private:
+  static constexpr std::int64_t alone = 4;  ///< chunks that one thread has done before it has woken the others
+
   Draws draws(std::int64_t attempt, std::size_t size) const {
     return Draws(drawn_.data() + used_ + static_cast<std::size_t>(attempt) * size);
   }

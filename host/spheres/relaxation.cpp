@@ -18,7 +18,7 @@ namespace {
 // pair's √(m/k). About twelve pairs act on a sphere: the explicit limit is near 2/√(2·12) = 0.4 of that unit.
 constexpr double first_step = 0.1, longest_step = 0.3;
 constexpr double longest_move = 0.1;        // of the mean mastic radius, in one iteration
-constexpr double skin_share = 0.5;          // of the mean mastic radius
+constexpr double skin_share = 1.15;         // of the mean mastic radius
 constexpr double aggregate_stiffness = 20;  // free aggregates: they must not give way to each other as mastic does
 constexpr int most_iterations = 3000, stall_window = 50;
 constexpr double stalled = 5e-4;  // relative fall of the energy in one window
@@ -44,7 +44,7 @@ std::vector<std::int32_t> by_place(const Specimen& s, std::size_t first, std::si
   return order;
 }
 
-/// Works on a copy of the spheres in another order; all arrays but those that are summed have that order.
+/// Works on a copy of the spheres in another order; all arrays but place_ have that order.
 class Relaxation {
  public:
   Relaxation(Specimen& specimen, bool fix_aggregates, const Enclosure& wall)
@@ -61,7 +61,10 @@ class Relaxation {
         acceleration_(s_.size()),
         energy_(s_.size()),
         dots_(s_.size()),
-        strayed_(s_.size()) {}
+        place_(s_.size() - first_),
+        strayed_(s_.size()) {
+    for (std::size_t i = first_; i < s_.size(); ++i) place_[number_[i] - first_] = static_cast<std::int32_t>(i);
+  }
 
   /// Moves the specimen's spheres.
   int relax(const std::function<void(double)>& progress) {
@@ -146,8 +149,8 @@ class Relaxation {
     const double m = mass(i);
     const Vec3d a = (1 / m) * force, v = velocity_[i];
     acceleration_[i] = a;
-    energy_[number_[i]] = energy;
-    dots_[number_[i]] = {m * dot(a, v), m * dot(v, v), m * dot(a, a)};
+    if (with_energy) energy_[i] = energy;
+    dots_[i] = {m * dot(a, v), m * dot(v, v), m * dot(a, a)};
   }
 
   /// Adds what the spheres of a part of a row do to sphere i, in the order of the row. Loops are kept apart so that
@@ -162,9 +165,14 @@ class Relaxation {
     for (const std::int32_t j : near) {  // without a branch: nobody could foresee it
       const Vec3d d = c - ball_[j].centre;
       const double d2 = dot(d, d), touch = r + ball_[j].radius;
-      x[n] = d.x, y[n] = d.y, z[n] = d.z, distance[n] = d2, reach[n] = touch, number[n] = j;
-      stiffness[n] = j < stiff ? aggregate_stiffness : 1;
+      number[n] = j;
       n += static_cast<std::size_t>(d2 < touch * touch) & static_cast<std::size_t>(d2 > 0);
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::int32_t j = number[k];
+      const Vec3d d = c - ball_[j].centre;
+      x[k] = d.x, y[k] = d.y, z[k] = d.z, distance[k] = dot(d, d), reach[k] = r + ball_[j].radius;
+      stiffness[k] = j < stiff ? aggregate_stiffness : 1;
     }
     for (std::size_t k = 0; k < n; ++k) distance[k] = std::sqrt(distance[k]);
     for (std::size_t k = 0; k < n; ++k) push[k] = stiffness[k] * (reach[k] - distance[k]) / distance[k];
@@ -177,17 +185,18 @@ class Relaxation {
     }
   }
 
-  // The sums run over the particles in order, on one thread: the same bits for any number of threads.
+  // The sums run over the particles in the order of their numbers, on one thread: the same bits for any number of
+  // threads. Each thread has written its terms by place: of neighbouring numbers, several threads would write to one
+  // line of the cache.
   double total_energy() const {
     double sum = 0;
-    for (std::size_t i = first_; i < s_.size(); ++i) sum += energy_[i];
+    for (const std::int32_t i : place_) sum += energy_[i];
     return sum;
   }
 
   Dots dot_products() const {
     Dots sum;
-    for (std::size_t i = first_; i < s_.size(); ++i)
-      sum.power += dots_[i].power, sum.v2 += dots_[i].v2, sum.a2 += dots_[i].a2;
+    for (const std::int32_t i : place_) sum.power += dots_[i].power, sum.v2 += dots_[i].v2, sum.a2 += dots_[i].a2;
     return sum;
   }
 
@@ -225,8 +234,9 @@ class Relaxation {
   std::vector<Ball> ball_;
   Neighbours neighbours_;
   std::vector<Vec3d> velocity_, acceleration_;
-  std::vector<double> energy_;  ///< by number
-  std::vector<Dots> dots_;      ///< by number, with the velocity before the move
+  std::vector<double> energy_;
+  std::vector<Dots> dots_;           ///< with the velocity before the move
+  std::vector<std::int32_t> place_;  ///< of the moving spheres, by number
   std::vector<std::uint8_t> strayed_;
 };
 

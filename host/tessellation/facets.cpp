@@ -215,7 +215,10 @@ void make_facets(const Specimen& specimen, const PowerDiagram& diagram, Tessella
     for (std::size_t a = k * block_size; a < std::min(n, (k + 1) * block_size); ++a)
       maker.particle(static_cast<std::int32_t>(a), list + incidence.begin[a], list + incidence.begin[a + 1]);
   });
+  std::size_t facets = 0, vertices = 0;
+  for (const FacetBlock& block : blocks) facets += block.facets.size(), vertices += block.vertices.size();
   out.facets.clear(), out.vertices.clear();
+  out.facets.reserve(facets), out.vertices.reserve(vertices);
   out.null_facets = 0;
   for (FacetBlock& block : blocks) {
     const auto shift = static_cast<std::uint32_t>(out.vertices.size());
