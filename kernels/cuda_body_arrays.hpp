@@ -102,7 +102,7 @@ class CudaBodyArrays {
   }
 
   std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
-    if (!divergence_) divergence_ = std::make_unique<DivergenceSearch<P>>(layout_, radius);
+    require_divergence_search(radius);
     Ranks* const ranks = team_.ranks();
     const std::size_t begin = ranks ? cuts_.body(team_.first()) : 0;
     const std::size_t end = ranks ? std::min(cuts_.body(team_.first() + 1), layout_.particles()) : layout_.particles();
@@ -233,6 +233,10 @@ class CudaBodyArrays {
                                      rows_.place.bytes() + weight_.bytes() + wall_rows_.bytes());
   }
 
+  /// `radius` in specimen order [m]. \throws RunError where there is no memory for it.
+  void require_divergence_search(const std::vector<double>& radius) const {
+    if (!divergence_) divergence_ = std::make_unique<DivergenceSearch<P>>(layout_, radius);
+  }
   static std::int64_t number_or_none(std::uint32_t first_divergent) {
     return first_divergent == UINT32_MAX ? -1 : static_cast<std::int64_t>(first_divergent);
   }

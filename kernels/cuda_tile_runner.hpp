@@ -197,8 +197,8 @@ class TileRunner {
     }
   }
 
-  /// Queues steps first … first + steps − 1, the first of which has the first row of the walls' table.
-  void run(std::int64_t first, std::int64_t steps) {
+  /// Queues steps first … first + steps − 1, the first of which has this row of the walls' table.
+  void run(std::int64_t first, std::int64_t steps, std::int64_t row) {
     const Range range("time steps");
     if (resident_ && !has_room_) {
       const auto before = static_cast<cudaEvent_t>(DeviceRoom::take(number_, room_, room_of_device_));
@@ -206,7 +206,7 @@ class TileRunner {
       if (before) check_cuda(cudaStreamWaitEvent(team_.stream(), before, 0), "time steps");
     }
     team_.meet();  // with what the start has put into memory
-    scene_.motion.wall.table = wall_table_;
+    scene_.motion.wall.table = wall_table_ + static_cast<std::size_t>(row) * scene_.motion.wall.row_words();
     for (std::int64_t done = 0; done < steps;) {
       if (schedule_.is_due()) settle(schedule_.next(first + done));
       const auto n = static_cast<std::uint32_t>(std::min(schedule_.left(), steps - done));

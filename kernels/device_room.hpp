@@ -70,6 +70,13 @@ class DeviceRoom {
     room.changed_.notify_all();
   }
 
+  /// Whether steps on this device are to leave pauses.
+  static bool leaves_pauses(int device) {
+    DeviceRoom& room = instance();
+    const std::lock_guard lock(room.mutex_);
+    return room.has_short_kernels(device);
+  }
+
   /// While it lives, many short kernels run on these devices one after the other, each as soon as a multiprocessor is
   /// free: steps leave pauses for them.
   class ShortKernels {
@@ -96,6 +103,10 @@ class DeviceRoom {
     Event end = nullptr;  // behind all that is queued there; null: there is more to come
   };
 
+  bool has_short_kernels(int device) const {
+    const auto found = short_kernels_.find(device);
+    return found != short_kernels_.end() && found->second > 0;
+  }
   bool is_first(std::uint64_t mine) const {
     const Share& wanted = waiting_.at(mine);
     for (const auto& [earlier, others] : waiting_) {
@@ -121,8 +132,7 @@ class DeviceRoom {
   Event end_before(const Share& wanted) const {
     if (wanted.size() != 1) return nullptr;
     const int device = wanted.begin()->first;
-    const auto short_kernels = short_kernels_.find(device);
-    if (short_kernels != short_kernels_.end() && short_kernels->second > 0) return nullptr;
+    if (has_short_kernels(device)) return nullptr;
     const Taken* only = nullptr;
     for (const auto& [specimen, taken] : taken_) {
       if (!taken.share.contains(device)) continue;

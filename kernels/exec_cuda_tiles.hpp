@@ -7,7 +7,7 @@
 
 #include "kernels/block_length.hpp"
 #include "kernels/cuda_body_arrays.hpp"
-#include "kernels/cuda_run_report.hpp"
+#include "kernels/cuda_notes.hpp"
 #include "kernels/cuda_tile_runner.hpp"
 
 namespace macadam::kernels {
@@ -62,7 +62,6 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
 
   void begin(const ExecStart& start) {
     this->rest();
-    report_.forget();
     dt_ = start.options.dt;
     tiles_.begin(block_of(start.options, start.laws, start.size), !blocks_are_exact(start.options.geometry, start.laws),
                  start.options.observed_every > 0);
@@ -87,19 +86,46 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   void set_wall_rows(const std::vector<R>& rows) {
     noticed([&] { Base::set_wall_rows(rows); });
   }
-  void run(std::int64_t first, std::int64_t steps) {
-    noticed([&] { tiles_.run(first, steps); });
+  /// `row`: of the walls' table, that of the first step.
+  void run(std::int64_t first, std::int64_t steps, std::int64_t row = 0) {
+    noticed([&] { tiles_.run(first, steps, row); });
   }
   void wait() {
     noticed([&] {
-      report_.forget();
-      const unsigned asked = queue_report();
       tiles_.end_of_steps();
       Base::wait();
-      report_.arrived(asked);
     });
     tiles_.leave_room();
   }
+
+  using Base::number_or_none, Base::twists;  // of notes
+
+  /// So many notes can be taken before they are read; 0: none, of several devices. Few while another specimen needs
+  /// pauses between the steps. `radius` in specimen order [m].
+  std::size_t most_notes(const std::vector<double>& radius) {
+    if (this->team_.ranks() || this->team_.size() > 1) return 0;
+    try {
+      this->require_divergence_search(radius);
+    } catch (const RunError&) { return 0; }  // no memory
+    return DeviceRoom::leaves_pauses(this->team_.device(0)) ? 1 : Notes<R>::most;
+  }
+  /// Queues note number `k`, behind the steps that were queued.
+  void note(std::size_t k) {
+    noticed([&] {
+      const cudaStream_t stream = this->team_.stream();
+      const std::size_t walls_from = this->layout_.particles();
+      this->divergence_->queue(this->master_.data(), dt_, 0, walls_from, stream);
+      notes_.take(k, tiles_.forces() + walls_from * velocity_words, this->master_.data() + walls_from * velocity_words,
+                  this->displacement_.data() + walls_from * displacement_words, this->divergence_->first(), stream);
+    });
+  }
+  /// As wait(), and the first `number` of notes are read.
+  const Notes<R>& wait_for_notes(std::size_t number) {
+    noticed([&] { notes_.read(number, this->team_.stream()); });
+    wait();
+    return notes_;
+  }
+
   void end_steps() noexcept {
     if (std::exchange(failed_, false)) tiles_.release();
     Base::end_steps();
@@ -107,10 +133,6 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   }
 
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
-    if (static_cast<std::size_t>(first) == this->layout_.particles() && count == walls) {
-      if (const auto* report = report_.find(report_.force))
-        return Base::twists({std::begin(report->force), std::end(report->force)});
-    }
     std::vector<R> out(count * velocity_words);
     check_cuda(cudaMemcpyAsync(out.data(), tiles_.forces() + static_cast<std::size_t>(first) * velocity_words,
                                out.size() * sizeof(R), cudaMemcpyDeviceToHost, this->team_.stream()),
@@ -119,33 +141,6 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     return Base::twists(out);
   }
   bool forces_with_weight() const { return true; }
-  std::vector<double> wall_displacements() const {
-    const auto* report = report_.find(report_.motion);
-    if (!report) return Base::wall_displacements();
-    return {std::begin(report->displacement), std::end(report->displacement)};
-  }
-  std::vector<R> wall_velocities() const {
-    const auto* report = report_.find(report_.motion);
-    if (!report) return Base::wall_velocities();
-    return {std::begin(report->velocity), std::end(report->velocity)};
-  }
-  std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
-    const auto* report = report_.find(report_.divergence);
-    return report ? Base::number_or_none(report->divergent[0]) : Base::first_divergent(radius, dt);
-  }
-  void set_velocities(const std::vector<R>& v) {
-    report_.forget();
-    Base::set_velocities(v);
-  }
-  void set_displacements(const std::vector<double>& u) {
-    report_.forget();
-    Base::set_displacements(u);
-  }
-  /// Whoever has them may change them.
-  const StateList& states() const {
-    report_.forget();
-    return Base::states();
-  }
   void gather() const {
     if (!this->team_.ranks()) return;
     Base::gather();
@@ -163,29 +158,9 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   std::vector<KernelUse> kernels() const { return tiles_.kernels(); }
   std::int64_t traffic() const { return tiles_.traffic() + this->body_traffic(); }
   Traffic traffic_by_place() const { return tiles_.traffic_by_place(traffic()); }
-  std::int64_t bytes() const { return this->held_bytes() + tiles_.bytes(); }
+  std::int64_t bytes() const { return this->held_bytes() + tiles_.bytes() + notes_.bytes(); }
 
  private:
-  /// Queues what was asked for after the last run, of one device; which parts.
-  unsigned queue_report() {
-    unsigned asked = report_.asked();
-    if (!this->divergence_) asked &= ~report_.divergence;  // asked for in vain, as there was no memory for it
-    if (this->team_.ranks() || this->team_.size() > 1) return 0;
-    using Content = typename RunReport<R>::Content;
-    const cudaStream_t stream = this->team_.stream();
-    const std::size_t walls_from = this->layout_.particles();
-    if (asked & report_.force) report_.copy(&Content::force, tiles_.forces() + walls_from * velocity_words, stream);
-    if (asked & report_.motion) {
-      report_.copy(&Content::velocity, this->master_.data() + walls_from * velocity_words, stream);
-      report_.copy(&Content::displacement, this->displacement_.data() + walls_from * displacement_words, stream);
-    }
-    if (asked & report_.divergence) {
-      this->divergence_->queue(this->master_.data(), dt_, 0, walls_from, stream);
-      report_.copy(&Content::divergent, this->divergence_->first(), stream);
-    }
-    return asked;
-  }
-
   /// f(), whose errors are those of a device.
   template <class F>
   void noticed(F&& f) {
@@ -200,7 +175,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   double dt_ = 0;
   bool failed_ = false;
   TileRunner<P, AnyLaw> tiles_;
-  RunReport<R> report_;
+  Notes<R> notes_;
 };
 
 }  // namespace macadam::kernels

@@ -87,32 +87,20 @@ class StepperImpl final : public Stepper {
     }
   }
 
+  std::vector<Sample> advance_sampled(std::int64_t every, std::int64_t times) override {
+    exec_.use_device();
+    if constexpr (requires { exec_.most_notes(radius_); }) {
+      const auto notes = static_cast<std::int64_t>(exec_.most_notes(radius_));
+      if (notes > 0) return advance_noted(every, std::clamp<std::int64_t>(times, 1, notes));
+    }
+    return Stepper::advance_sampled(every, 1);
+  }
+
   Observation observe() const override {
     exec_.use_device();
-    Observation out;
-    out.step = step_;
-    out.time = static_cast<double>(step_) * options_.dt;
-    std::vector<double> moved;  // under forces: what they came to
-    std::vector<R> speed;
-    if (motion_.wall.by_force) moved = exec_.wall_displacements(), speed = exec_.wall_velocities();
     const auto forces = exec_.forces(static_cast<std::int32_t>(layout_.particles()), walls);
-    for (std::size_t w = 0; w < walls; ++w) {
-      const auto& f = forces[w].linear;
-      out.wall_force[w] = {f.x, f.y, f.z};
-      double* u[3] = {&out.wall_displacement[w].x, &out.wall_displacement[w].y, &out.wall_displacement[w].z};
-      double* v[3] = {&out.wall_velocity[w].x, &out.wall_velocity[w].y, &out.wall_velocity[w].z};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const WallAxis& a = options_.boundary.wall[w].axis[axis];
-        if (a.by == DrivenBy::displacement) {
-          *u[axis] = a.drive->value(step_);
-          if (step_ > 0 || started_) *v[axis] = a.drive->rate(step_ - 1);
-        } else if (a.by == DrivenBy::force) {
-          *u[axis] = moved[w * displacement_words + axis];
-          *v[axis] = static_cast<double>(speed[w * velocity_words + axis]);
-        }
-      }
-    }
-    return out;
+    if (!motion_.wall.by_force) return observation(step_, forces, {}, {});
+    return observation(step_, forces, exec_.wall_displacements(), exec_.wall_velocities());
   }
 
   ParticleState particles() const override {
@@ -376,6 +364,64 @@ class StepperImpl final : public Stepper {
     with_functor(laws[static_cast<std::size_t>(group.pair)].value(), [&](const auto& law, const auto& functor) {
       exec_.set_group(number, first, law, std::move(arrays), functor);
     });
+  }
+
+  /// As advance_sampled(), of an executor that takes notes.
+  std::vector<Sample> advance_noted(std::int64_t every, std::int64_t times) {
+    const std::int64_t begin = step_, end = begin + every * times;
+    std::vector<Sample> out;
+    try {
+      std::int64_t row = 0, rows = 0;
+      for (std::int64_t k = 0; k < times; ++k) {
+        for (const std::int64_t to = step_ + every; step_ < to;) {
+          if (row == rows) {
+            rows = wall_table_.rows(step_ - begin, end - step_), row = 0;
+            exec_.set_wall_rows(wall_table_.fill(step_, rows));
+          }
+          const std::int64_t n = std::min(to - step_, rows - row);
+          exec_.run(step_, n, row);
+          step_ += n, row += n;
+        }
+        exec_.note(static_cast<std::size_t>(k));
+      }
+      const auto& notes = exec_.wait_for_notes(static_cast<std::size_t>(times));
+      for (std::int64_t k = 0; k < times; ++k) {
+        const auto& note = notes[static_cast<std::size_t>(k)];
+        const auto list = [](const auto& of) { return std::vector(std::begin(of), std::end(of)); };
+        out.push_back({observation(begin + (k + 1) * every, Exec::twists(list(note.force)), list(note.displacement),
+                                   list(note.velocity)),
+                       Exec::number_or_none(note.divergent)});
+      }
+    } catch (...) {
+      exec_.end_steps();
+      throw;
+    }
+    return out;
+  }
+
+  /// `moved`, `speed`: of the walls, read only where walls are under forces.
+  Observation observation(std::int64_t step, const std::vector<Twist<R>>& forces, const std::vector<double>& moved,
+                          const std::vector<R>& speed) const {
+    Observation out;
+    out.step = step;
+    out.time = static_cast<double>(step) * options_.dt;
+    for (std::size_t w = 0; w < walls; ++w) {
+      const auto& f = forces[w].linear;
+      out.wall_force[w] = {f.x, f.y, f.z};
+      double* u[3] = {&out.wall_displacement[w].x, &out.wall_displacement[w].y, &out.wall_displacement[w].z};
+      double* v[3] = {&out.wall_velocity[w].x, &out.wall_velocity[w].y, &out.wall_velocity[w].z};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const WallAxis& a = options_.boundary.wall[w].axis[axis];
+        if (a.by == DrivenBy::displacement) {
+          *u[axis] = a.drive->value(step);
+          if (step > 0 || started_) *v[axis] = a.drive->rate(step - 1);
+        } else if (a.by == DrivenBy::force) {
+          *u[axis] = moved[w * displacement_words + axis];
+          *v[axis] = static_cast<double>(speed[w * velocity_words + axis]);
+        }
+      }
+    }
+    return out;
   }
 
   /// Calls f(law, functor) with the functor that steps its contacts, without a view.

@@ -130,12 +130,15 @@ TEST(DeviceRoom, ShortKernelsGetPausesOnTheirDevice) {
   std::future<Event> second, other;
   {
     const DeviceRoom::ShortKernels solution({5});
+    EXPECT_TRUE(DeviceRoom::leaves_pauses(5));
+    EXPECT_FALSE(DeviceRoom::leaves_pauses(6));
     a.queues_all();
     c.queues_all();
     second = b.takes();
     EXPECT_TRUE(waits(second));
     EXPECT_EQ(d.takes().get(), c.end());
   }
+  EXPECT_FALSE(DeviceRoom::leaves_pauses(5));
   EXPECT_EQ(second.get(), a.end());
   for (Specimen* s : {&a, &b, &c, &d}) s->gives();
 }

@@ -65,6 +65,49 @@ class StepperState : public BackendTest<Case> {
 
 INSTANTIATE_TEST_SUITE_P(All, StepperState, all_stepper_cases(), [](const auto& info) { return name_of_case(info); });
 
+// Several samples in one call are those of steps and observations one by one, on a device too, which takes them without
+// a pause.
+TEST_P(StepperState, SamplesAreObservationsOneByOne) {
+  const auto check = [&](const char* what, const StepperOptions& options) {
+    SCOPED_TRACE(what);
+    const auto at_once = stepper(options), one_by_one = stepper(options);
+    for (const std::int64_t every : {3, 1, 60, 300}) {
+      for (std::int64_t times = 90 / every + 2; times > 0;) {
+        const std::vector<Sample> samples = at_once->advance_sampled(every, times);
+        ASSERT_GE(samples.size(), 1u);
+        ASSERT_LE(static_cast<std::int64_t>(samples.size()), times);
+        times -= static_cast<std::int64_t>(samples.size());
+        for (const Sample& sample : samples) {
+          one_by_one->advance(every);
+          const Observation now = one_by_one->observe();
+          EXPECT_EQ(sample.now.step, now.step);
+          EXPECT_EQ(sample.now.time, now.time);
+          for (std::size_t wall = 0; wall < wall_count; ++wall) {
+            for (const auto part : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+              EXPECT_EQ(sample.now.wall_force[wall].*part, now.wall_force[wall].*part) << wall;
+              EXPECT_EQ(sample.now.wall_displacement[wall].*part, now.wall_displacement[wall].*part) << wall;
+              EXPECT_EQ(sample.now.wall_velocity[wall].*part, now.wall_velocity[wall].*part) << wall;
+            }
+          }
+          EXPECT_EQ(sample.divergent, -1);
+        }
+      }
+      EXPECT_TRUE(same_bits(at_once->state(), one_by_one->state())) << every;
+    }
+    std::vector<Vec3d> fast(scene_.specimen.size()), none(scene_.specimen.size());
+    fast[5].y = 1e6;
+    at_once->set_velocities(fast, none);
+    EXPECT_EQ(at_once->advance_sampled(1, 2).front().divergent, 5);
+  };
+  StepperOptions slow = slow_options(scene_);
+  std::tie(slow.precision, slow.form, slow.geometry) = std::tie(options_.precision, options_.form, options_.geometry);
+  check("fast load", options_);
+  check("slow load", slow);
+  slow.observed_every = 60;
+  check("blocks that end at samples", slow);
+  check("a platen, a particle that is held, and weights", pushed());
+}
+
 TEST_P(StepperState, GoesOnToTheSameBits) {
   const auto check = [&](const char* what, const StepperOptions& options) {
     SCOPED_TRACE(what);

@@ -10,6 +10,6 @@ namespace macadam {
 
 /// `of`: what is stepped, in words (may be empty). \throws DivergenceError naming the first particle whose motion is
 /// out of range, or the top wall.
-void require_convergence(const Stepper& stepper, const Observation& now, const std::string& of);
+void require_convergence(const Sample& sample, const std::string& of);
 
 }  // namespace macadam

@@ -10,8 +10,8 @@
 
 namespace macadam {
 
-void require_convergence(const Stepper& stepper, const Observation& now, const std::string& of) {
-  const std::int64_t particle = stepper.first_divergent();
+void require_convergence(const Sample& sample, const std::string& of) {
+  const auto& [now, particle] = sample;
   if (particle < 0 && std::isfinite(now.top_force()) && std::isfinite(now.top_displacement())) return;
   const std::string what =
       particle >= 0 ? fmt::format("particle {} moves more than its radius in a step, or not finitely", particle)
@@ -27,10 +27,9 @@ void sample(Stepper& stepper, std::int64_t every, std::int64_t n, const std::fun
   if (every < 1) throw InputError("sample: found every = " + std::to_string(every) + ", expected at least 1 step");
   f(stepper.observe());
   for (std::int64_t k = 0; k < n; ++k) {
-    stepper.advance(every);
-    const Observation now = stepper.observe();
-    require_convergence(stepper, now, "");
-    f(now);
+    const Sample here = stepper.advance_sampled(every, 1).front();
+    require_convergence(here, "");
+    f(here.now);
   }
 }
 

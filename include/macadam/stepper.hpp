@@ -94,6 +94,12 @@ struct Observation {
   double top_force() const { return wall_force[wall_index(wall_z_hi)].z; }
 };
 
+/// What is looked at where a run is sampled.
+struct Sample {
+  Observation now;
+  std::int64_t divergent = -1;  ///< Stepper::first_divergent() then
+};
+
 /// One array of a stepper's state, in the private order of its backend.
 struct StateArray {
   using Values = std::variant<std::vector<float>, std::vector<double>, std::vector<std::int64_t>>;
@@ -156,6 +162,13 @@ class Stepper {
 
   /// Reaction and displacement of the walls now.
   virtual Observation observe() const = 0;
+
+  /// advance(every), observe() and first_divergent(), `times` times in a row or less often, but once at least. A device
+  /// has no pause in between.
+  virtual std::vector<Sample> advance_sampled(std::int64_t every, [[maybe_unused]] std::int64_t times) {
+    advance(every);
+    return {{observe(), first_divergent()}};
+  }
 
   /// Motion of all particles now, specimen order.
   virtual ParticleState particles() const = 0;

@@ -16,21 +16,41 @@ namespace {
 /// Advances in pieces of some tenths of a second, so that a signal is answered soon however long a step takes.
 class Pieces {
  public:
-  /// Goes from one step to another and calls look() after each piece, once at least.
-  void advance(Stepper& stepper, std::int64_t from, std::int64_t to, const std::function<void(std::int64_t)>& look) {
-    do {
-      const auto start = Clock::now();
-      const std::int64_t piece = std::min(piece_, to - from);
-      if (piece > 0) stepper.advance(piece);
-      from += piece;
-      const double seconds = of_first_rank(seconds_since(start));  // all take the same pieces
-      if (piece == piece_ && seconds < 0.1) piece_ *= 2;
-      if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);
-      look(from);
-    } while (from < to);
+  explicit Pieces(Stepper& stepper) : stepper_(stepper) {}
+
+  /// Takes steps, and calls look() with their number after each piece.
+  void advance(std::int64_t from, std::int64_t to, const std::function<void(std::int64_t)>& look) {
+    while (from < to) {
+      const std::int64_t steps = std::min(piece_, to - from);
+      timed(steps, [&] { stepper_.advance(steps); });
+      look(from += steps);
+    }
+  }
+  /// The same to the next sample, and maybe on to some of up to `times` that follow it at the same distance: these
+  /// samples, one at least. Nobody has looked after the last steps.
+  std::vector<Sample> sample(std::int64_t from, std::int64_t to, std::int64_t times,
+                             const std::function<void(std::int64_t)>& look) {
+    const std::int64_t before = std::max(from, to - piece_);
+    advance(from, before, look);
+    const std::int64_t steps = to - before;
+    if (steps == 0) return {{stepper_.observe(), stepper_.first_divergent()}};
+    const std::int64_t at_once = before == from ? std::min(1 + times, piece_ / steps) : 1;
+    std::vector<Sample> out;
+    timed(steps * at_once, [&] { out = stepper_.advance_sampled(steps, at_once); });
+    return out;
   }
 
  private:
+  template <class F>
+  void timed(std::int64_t steps, F&& f) {
+    const auto start = Clock::now();
+    f();
+    const double seconds = of_first_rank(seconds_since(start));  // all take the same pieces
+    if (2 * steps > piece_ && seconds < 0.1) piece_ *= 2;
+    if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);
+  }
+
+  Stepper& stepper_;
   std::int64_t piece_ = 16;
 };
 
@@ -68,26 +88,46 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
     const InPhase writing(result_.phases, &PhaseSeconds::writing);  // nearly nothing where no checkpoint is due
     checkpoints_.look(course.content, stepper, course.name);
   };
-  Pieces pieces;
-  for (std::int64_t k = course.first; k <= course.last; ++k) {
-    const std::int64_t to = course.step_of(k);
-    do {  // stops on the way where the watcher wants to be told
-      const std::int64_t next = every > 0 ? std::min(to, (step / every + 1) * every) : to;
-      pieces.advance(stepper, step, next, look);
-      if (every > 0 && next > step && next % every == 0) watcher_.stepped(stepper, course.frequency);
-      step = next;
-    } while (step < to);
-    const bool frame = fields_.wants(k);
-    if (!frame && !course.taken(k)) continue;
-    const Observation now = stepper.observe();
-    require_convergence(stepper, now, course.name + ", dt = " + fmt::format("{:.6g} s", course.dt));
-    course.take(k, now);
-    if (frame) {
+  const auto take = [&](std::int64_t k, const Sample& sample) {
+    require_convergence(sample, course.name + ", dt = " + fmt::format("{:.6g} s", course.dt));
+    course.take(k, sample.now);
+    if (fields_.wants(k)) {
       const InPhase writing(result_.phases, &PhaseSeconds::writing);
-      fields_.add(stepper, form, geometry, now.time);
+      fields_.add(stepper, form, geometry, sample.now.time);
     }
     if (watcher_.progress && step > 0) {
       watcher_.progress(course.shown(step, speed(step)), static_cast<double>(step) / static_cast<double>(end));
+    }
+  };
+  // Samples behind number k of which nobody wants more than an observation, at the distance that k has.
+  const auto alike = [&](std::int64_t k) {
+    constexpr std::int64_t most = 64;
+    const std::int64_t distance = course.step_of(k) - step;
+    std::int64_t n = 0;
+    while (n < most && k + n < course.last && !fields_.wants(k + n) && course.taken(k + n + 1) &&
+           course.step_of(k + n + 1) - course.step_of(k + n) == distance)
+      ++n;
+    return n;
+  };
+  Pieces pieces(stepper);
+  for (std::int64_t k = course.first; k <= course.last;) {
+    const std::int64_t to = course.step_of(k);
+    while (every > 0 && step < to) {  // stops on the way where the watcher wants to be told
+      const std::int64_t next = std::min(to, (step / every + 1) * every);
+      pieces.advance(step, next, look);
+      if (next % every == 0) watcher_.stepped(stepper, course.frequency);
+      step = next;
+    }
+    if (!fields_.wants(k) && !course.taken(k)) {
+      pieces.advance(step, to, look);
+      step = to, ++k;
+      continue;
+    }
+    const std::vector<Sample> samples = pieces.sample(step, to, every > 0 ? 0 : alike(k), look);
+    for (const Sample& sample : samples) {
+      step = sample.now.step;
+      if (&sample == &samples.back()) look(step);
+      take(k++, sample);
     }
   }
   const InPhase writing(result_.phases, &PhaseSeconds::writing);

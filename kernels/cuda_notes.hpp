@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cuda_notes.hpp  What is seen of a run at its samples, noted on the device while the run goes on.
+///
+/// The host reads several notes at a time: it waits once for all of them, and the device never for the host.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kernels/cuda_array.hpp"
+#include "kernels/cuda_launch.hpp"
+#include "kernels/layout.hpp"
+
+namespace macadam::kernels {
+
+/// Of particle precision R.
+template <class R>
+struct Note {
+  R force[walls * velocity_words], velocity[walls * velocity_words];  ///< of the walls
+  double displacement[walls * displacement_words];                    ///< of the walls
+  std::uint32_t divergent;                                            ///< first particle, UINT32_MAX: none
+};
+
+/// One block. Arrays are those of a note, on the device.
+template <class R>
+__global__ void take_note(Note<R>* note, const R* force, const R* velocity, const double* displacement,
+                          const std::uint32_t* divergent) {
+  for (unsigned i = threadIdx.x; i < walls * velocity_words; i += blockDim.x) {
+    note->force[i] = force[i];
+    note->velocity[i] = velocity[i];
+  }
+  for (unsigned i = threadIdx.x; i < walls * displacement_words; i += blockDim.x)
+    note->displacement[i] = displacement[i];
+  if (threadIdx.x == 0) note->divergent = *divergent;
+}
+
+template <class R>
+class Notes {
+ public:
+  static constexpr std::size_t most = 64;  ///< at a time
+
+  Notes() : taken_(most) { check_cuda(cudaMallocHost(&read_, most * sizeof(Note<R>)), "pinned memory"); }
+  Notes(const Notes&) = delete;
+  ~Notes() { cudaFreeHost(read_); }
+
+  /// Queues note number `k`.
+  void take(std::size_t k, const R* force, const R* velocity, const double* displacement,
+            const std::uint32_t* divergent, cudaStream_t stream) {
+    launch("notes", take_note<R>, 1, walls * displacement_words, 0, stream, taken_.data() + k, force, velocity,
+           displacement, divergent);
+  }
+  /// Queues that the first `number` are read.
+  void read(std::size_t number, cudaStream_t stream) {
+    check_cuda(cudaMemcpyAsync(read_, taken_.data(), number * sizeof(Note<R>), cudaMemcpyDeviceToHost, stream),
+               "notes");
+  }
+  /// Note number `k` as it was read.
+  const Note<R>& operator[](std::size_t k) const { return read_[k]; }
+  std::int64_t bytes() const { return static_cast<std::int64_t>(taken_.bytes()); }
+
+ private:
+  DeviceArray<Note<R>> taken_;
+  Note<R>* read_ = nullptr;  // memory of the host that a device writes
+};
+
+}  // namespace macadam::kernels
