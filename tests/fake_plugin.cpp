@@ -4,6 +4,8 @@
 // of the environment says, or one. Each line of the file FAKE_DEVICE_LOG is then the device of a stepper that was made.
 #include <cstdlib>
 #include <fstream>
+#include <map>
+#include <mutex>
 
 #include "kernels/cuda_plugin.hpp"
 
@@ -24,11 +26,19 @@ void report(BackendReport& out) {
 std::string refusal(int) { return ""; }
 std::unique_ptr<Stepper> make(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                               const Inertia& inertia, const StepperOptions& options, std::unique_ptr<Stepper> used) {
+  // That a stepper is on, by its place in memory.
+  static std::mutex mutex;
+  static std::map<const Stepper*, int> device_of;
+  const std::lock_guard lock(mutex);
+  const int device = options.devices.front();
+  if (used && device_of[used.get()] != device) used.reset();
   const char* log = std::getenv("FAKE_DEVICE_LOG");
-  if (log && !used) std::ofstream(log, std::ios::app) << options.devices.front() << '\n';
+  if (log && !used) std::ofstream(log, std::ios::app) << device << '\n';
   StepperOptions given = options;
   given.devices.clear();
-  return make_stepper(Backend::cpu, specimen, network, laws, inertia, given, std::move(used));
+  auto made = make_stepper(Backend::cpu, specimen, network, laws, inertia, given, std::move(used));
+  device_of[made.get()] = device;
+  return made;
 }
 #else
 std::string refusal(int) { return "it is made of paper"; }

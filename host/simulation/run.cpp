@@ -100,12 +100,13 @@ std::string status_of(const std::exception& error) {
 /// The backend that runs. Devices are counted and wake while the specimen is made.
 class FoundBackend {
  public:
-  /// \throws as select_backend(), before any work; but what a device that is there refuses is known later.
-  explicit FoundBackend(const SolverSpec& solver) : asked_(solver.backend) {
+  /// \throws as select_backend(): where no device is there, before any work, if that is worth this wait; what a device
+  /// that is there refuses is known later.
+  FoundBackend(const SolverSpec& solver, std::chrono::milliseconds wait) : asked_(solver.backend) {
     const auto select = [solver] { return select_backend(solver.backend, nullptr, solver.devices); };
     if (asked_ == Backend::cuda || asked_ == Backend::automatic) {
       waking_ = std::async(select);  // by this thread where there can be no other
-      waking_.wait_for(none_is_known_within);
+      waking_.wait_for(wait);
       look();
     } else {
       asked_ = select();
@@ -131,7 +132,7 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   RunResult result;
   std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
-  FoundBackend backend(scene.solver);
+  FoundBackend backend(scene.solver, parts.place ? std::chrono::milliseconds(0) : none_is_known_within);
   require_checkpoints(scene, resume);
   const ResultFolder folder(out);
   std::optional<Resumed> resumed;

@@ -7,16 +7,15 @@
 #include <algorithm>
 #include <condition_variable>
 #include <future>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <set>
 #include <system_error>
 #include <thread>
-#include <tuple>
 #include <utility>
 
 #include "host/simulation/checkpoints.hpp"
+#include "host/simulation/device_shares.hpp"
 #include "host/simulation/run_scene.hpp"
 #include "host/stepping/cuda_code.hpp"
 #include "macadam/error.hpp"
@@ -27,8 +26,8 @@ namespace {
 
 constexpr int at_once_on_a_device = 4;
 /// While a device steps one specimen, so many are made, by all cores. More at a time would all be there late; one after
-/// the other they can take longer than their steps (bench/results/many.csv). Before devices are
-/// counted, one is taken to be there.
+/// the other they can take longer than their steps (bench/results/many.csv). Only the first two of each device have the
+/// cores that two others share, or it would wait for the second. Before devices are counted, one is taken to be there.
 constexpr int prepared_for_a_device = 2;
 
 /// Of devices, those that answer: one that does not would fail a scene after the other.
@@ -72,7 +71,7 @@ DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
 class Pool {
  public:
   Pool(const std::vector<SceneJob>& jobs, const ManyOptions& options)
-      : jobs_(jobs), options_(options), outcomes_(jobs.size()) {}
+      : jobs_(jobs), options_(options), devices_taken_(jobs.size()), outcomes_(jobs.size()) {}
 
   std::vector<JobOutcome> run() {
     try {
@@ -94,12 +93,14 @@ class Pool {
   void share_out(int devices) {
     const int usual = devices == 0 ? cores_ : std::min(at_once_on_a_device * devices, cores_);
     const int number = at_most(options_.at_once > 0 ? options_.at_once : usual);
+    // the threads that wait for a device must not wait for a core
+    const int spared = 8 * devices <= cores_ ? devices : 0;
     {
       const std::lock_guard lock(mutex_);
       beside_ = devices == 0 ? number : (number + devices - 1) / devices;
+      urgent_ += prepared_for_a_device * devices;
+      for_urgent_ = (cores_ - spared) / std::max(prepared_for_a_device, devices);
     }
-    // the threads that wait for a device must not wait for a core
-    const int spared = 8 * devices <= cores_ ? devices : 0;
     employ(number, devices == 0 ? number : prepared_for_a_device * devices, cores_ - spared);
   }
 
@@ -135,18 +136,23 @@ class Pool {
         job = next_++;
       }
       JobOutcome& outcome = outcomes_[job];
-      std::optional<int> device;
+      bool on_device = false;
+      double contacts = 0;
       RunParts parts;
       std::optional<Cores> cores;
       parts.prepare = [&](const Scene& scene, const Progress& progress) {
         return prepare_in_turn(scene, progress, cores);
       };
-      parts.place = [&](SolverSpec& solver) { device = take_device(solver, cores); };
+      parts.place = [&](SolverSpec& solver) { take_device(job, solver, cores), on_device = true; };
       try {
         if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
         const SceneJob& asked = jobs_[job];
         const bool resume = options_.resume && has_checkpoint(asked.out);
         Watcher watcher = watcher_of(job);
+        watcher.prepared = [&](const Preparation& all) { contacts = static_cast<double>(all.network.contacts.size()); };
+        watcher.devices = [&](std::int64_t steps) {
+          return on_device ? go_on(job, static_cast<double>(steps) * contacts) : DeviceList();
+        };
         watcher.planned = [&, begun = watcher.planned](const RunResult& result) {
           if (result.backend == Backend::cuda) cores.reset();
           begun(result);
@@ -155,7 +161,7 @@ class Pool {
       } catch (...) { outcome.error = std::current_exception(); }
       cores.reset();
       const std::lock_guard lock(mutex_);
-      if (device) --running_[*device], changed_.notify_all();
+      devices_taken_.end(job), changed_.notify_all();
       try {
         if (options_.done) options_.done(job, outcome);
       } catch (...) { thrown_ = std::current_exception(); }
@@ -167,8 +173,11 @@ class Pool {
    public:
     explicit Cores(Pool& pool) : pool_(pool) {
       std::unique_lock lock(pool_.mutex_);
-      pool_.changed_.wait(lock, [&] { return pool_.turns_ > 0 && pool_.free_ >= pool_.share_; });
-      --pool_.turns_, pool_.free_ -= number_ = pool_.share_;
+      pool_.changed_.wait(lock, [&] {
+        number_ = pool_.urgent_ > 0 ? std::clamp(pool_.for_urgent_, 1, pool_.all_) : pool_.share_;
+        return pool_.turns_ > 0 && pool_.free_ >= number_;
+      });
+      --pool_.turns_, pool_.free_ -= number_, --pool_.urgent_;
       omp_set_num_threads(number_);  // of the thread that does the scene
     }
     Cores(const Cores&) = delete;
@@ -189,22 +198,12 @@ class Pool {
     return prepare(scene, progress);
   }
 
-  /// Of those that are meant and answer, one that is idle, or the one that got the fewest so far, unless it runs two
-  /// more than another: most scenes are alike, and so all devices end at about the same time. Waits where all run as
-  /// many as they may; others have the cores meanwhile.
-  int take_device(SolverSpec& solver, std::optional<Cores>& cores) {
+  /// One of those that are meant and answer. Waits where all run as many as they may; others have the cores meanwhile.
+  void take_device(std::size_t job, SolverSpec& solver, std::optional<Cores>& cores) {
     DeviceList meant = solver.devices.empty() ? usable_.get() : usable(device_numbers(solver.devices));
     if (meant.empty()) meant = device_numbers(solver.devices);  // making the stepper says why it cannot
-    int least = 0;
-    const auto has_room = [&] {
-      int fewest = beside_;
-      for (const int d : meant) fewest = std::min(fewest, running_[d]);
-      const auto rank = [&](int d) {
-        return std::tuple(running_[d] >= std::min(beside_, fewest + 2), running_[d] > 0, got_[d]);
-      };
-      least = *std::ranges::min_element(meant, {}, rank);
-      return running_[least] < beside_;
-    };
+    std::optional<int> device;
+    const auto has_room = [&] { return (device = devices_taken_.choose(meant, beside_)).has_value(); };
     std::unique_lock lock(mutex_);
     const bool waits = !has_room();
     if (waits) {
@@ -213,11 +212,17 @@ class Pool {
       lock.lock();
       changed_.wait(lock, has_room);
     }
-    ++running_[least], ++got_[least];
-    solver.devices = {least}, solver.side_by_side = beside_;
+    solver.devices = {*device}, solver.side_by_side = beside_;
+    devices_taken_.put(job, *device, std::move(meant));
     lock.unlock();
     if (waits) cores.emplace(*this);
-    return least;
+  }
+
+  DeviceList go_on(std::size_t job, double work) {
+    const std::lock_guard lock(mutex_);
+    const int device = devices_taken_.go_on(job, work, beside_);
+    changed_.notify_all();
+    return {device};
   }
 
   Watcher watcher_of(std::size_t job) {
@@ -246,10 +251,11 @@ class Pool {
   std::condition_variable changed_;
   int all_ = 0, free_ = 0, share_ = 1;  // cores
   int all_turns_ = 0, turns_ = 0;       // scenes that may have a share
+  int urgent_ = 0, for_urgent_ = 0;     // scenes to come that devices would wait for, and cores for each
   int beside_ = 0;                      // scenes on a device at a time, once devices are counted
   std::size_t next_ = 0;
-  std::map<int, int> running_, got_;  // device: scenes now, and in all
-  std::exception_ptr thrown_;         // by an option's function
+  DeviceShares devices_taken_;
+  std::exception_ptr thrown_;  // by an option's function
   std::vector<JobOutcome> outcomes_;
   // known once they are counted, and once they are awake, while the first specimens are made
   std::shared_future<DeviceList> devices_ = std::async([this] { return meant_devices(jobs_); });

@@ -27,9 +27,9 @@ struct JobOutcome {
 
 struct ManyOptions {
   /// Scenes at a time; 0: four a device, so that the specimens of some are made while others are stepped, but no more
-  /// than cores; without a device one a core. Two specimens a device are made and planned at a time; they share the
-  /// cores, but for one a device where there are eight for each. Without a device each scene has an equal share of
-  /// them, unless its [solver] threads says otherwise.
+  /// than cores; without a device one a core. Two specimens a device are made and planned at a time, of the first two
+  /// of each only one; they share the cores, but for one a device where there are eight for each. Without a device each
+  /// scene has an equal share of them, unless its [solver] threads says otherwise.
   int at_once = 0;
   bool resume = false;  ///< go on from checkpoints, where folders have them
   /// The functions but `stop` are called by one thread at a time. `job`: position in the list. What `done` throws ends
@@ -41,7 +41,8 @@ struct ManyOptions {
 };
 
 /// run() of every scene, each on one device: an idle one, or the one that got the fewest so far, of those that its
-/// [solver] names or, where it names none, of all that answer. Small specimens share a device at the same time; of
+/// [solver] names or, where it names none, of all that answer. When no scene is to come any more, a cyclic test goes to
+/// the device that has less left to do for its next frequency. Small specimens share a device at the same time; of
 /// others, the two that came first are stepped piece by piece. The results are those of run(). An error of one scene
 /// ends no other, unless a device fails for a whole process; scenes that are on a device together share its memory.
 /// Outcomes are in the order of the jobs; one that was not begun has an InterruptedError. \throws InputError where two

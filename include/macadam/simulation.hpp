@@ -96,6 +96,10 @@ struct Watcher {
   /// Asked before each sample and within a second between samples, and between iterations of the frequency domain: true
   /// ends the run, a stepped one with a checkpoint.
   std::function<bool()> stop;
+  /// Asked before the steps of each frequency of a cyclic test on backend cuda, with the number of steps that are left:
+  /// the devices that take them. Where none is named, they are those of the frequency before, or the scene's. The bits
+  /// are the same on any.
+  std::function<DeviceList(std::int64_t steps)> devices;
   /// Called after every `every` steps of a test that is stepped, with the frequency of a cyclic one, else with 0;
   /// `every` = 0: never.
   std::function<void(const Stepper&, double frequency_hz)> stepped;

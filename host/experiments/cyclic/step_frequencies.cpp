@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // step_frequencies.cpp  The cyclic test stepped in time, one frequency after another.
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <optional>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "host/experiments/stepped/course.hpp"
@@ -83,17 +87,15 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
 /// `used`: that of the frequency before.
 std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepared, const Inertia& inertia,
                                     Backend backend, const Plan& plan, const FrequencyPlan& p,
-                                    const std::vector<StateArray>& from, std::unique_ptr<Stepper> used) {
+                                    const DeviceList& devices, const std::vector<StateArray>& from,
+                                    const StartState* start, std::unique_ptr<Stepper> used) {
   StepperOptions options = common_options(plan, scene.solver);
+  options.devices = devices;
   options.density_scaling = p.density_scaling;
   options.boundary = moving_top(p.loading);
   options.dt = p.loading.dt();
   if (scene.solver.tolerance) options.observed_every = p.loading.steps_per_period / scene.cyclic().samples_per_cycle;
-  StartState start;
-  if (p.start == Start::steady && from.empty()) {
-    start = steady_start(prepared.network, scene.laws, p.motion, p.loading);
-    options.start = &start;
-  }
+  options.start = start;
   return stepper_from(from, backend, scene, prepared, inertia, options, std::move(used));
 }
 
@@ -112,15 +114,15 @@ class Steps : public Solution {
         watcher_(watcher),
         inertia_(inertia),
         at_(std::move(at)),
+        devices_(scene.solver.devices),
         owns_checkpoint_(resumed) {}
 
   /// Makes the first stepper: what it refuses is refused before a file is touched.
   void make_first(RunResult& result, const std::filesystem::path& checkpoint) {
     if (at_.seconds.size() == at_.plan.frequencies.size()) return;
-    const FrequencyPlan& p = at_.plan.frequencies[at_.seconds.size()];
     const bool resumed = !at_.state.empty();
     try {
-      stepper_ = make(p, std::exchange(at_.state, {}), result);
+      stepper_ = make(at_.seconds.size(), std::exchange(at_.state, {}), result);
     } catch (const Error& error) {
       if (resumed) throw InputError(checkpoint.string() + ": checkpoint of another machine: " + error.what());
       throw;
@@ -174,16 +176,41 @@ class Steps : public Solution {
   }
 
   /// From the stepper of another frequency, where there is one.
-  std::unique_ptr<Stepper> make(const FrequencyPlan& p, const std::vector<StateArray>& from, RunResult& result) {
+  std::unique_ptr<Stepper> make(std::size_t i, const std::vector<StateArray>& from, RunResult& result) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
-    return stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, p, from, std::move(stepper_));
+    const auto& all = at_.plan.frequencies;
+    if (watcher_.devices && result.backend == Backend::cuda) {
+      std::int64_t steps = 0;
+      for (std::size_t k = i; k < all.size(); ++k) steps += all[k].loading.steps_per_period * all[k].cycles;
+      if (DeviceList named = watcher_.devices(steps); !named.empty()) devices_ = std::move(named);
+    }
+    std::optional<StartState> start;
+    if (all[i].start == Start::steady && from.empty()) start = next_start_.valid() ? next_start_.get() : start_of(i);
+    auto made = stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, all[i], devices_, from,
+                           start ? &*start : nullptr, std::move(stepper_));
+    if (result.backend == Backend::cuda && i + 1 < all.size() && all[i + 1].start == Start::steady) begin_start(i + 1);
+    return made;
+  }
+
+  /// Makes a start while a device takes the steps of the frequency before.
+  void begin_start(std::size_t i) {
+    try {
+      next_start_ = std::async(std::launch::async, [this, i] {
+        omp_set_num_threads(1);
+        return start_of(i);
+      });
+    } catch (const std::system_error&) {}  // no more threads: when it is needed, then
+  }
+  StartState start_of(std::size_t i) const {
+    const FrequencyPlan& p = at_.plan.frequencies[i];
+    return steady_start(prepared_.network, scene_.laws, p.motion, p.loading);
   }
 
   void step(std::size_t i, LineWriter* writer, Courses& courses, const Saving& save, RunResult& result) {
     const auto start = Clock::now();
     const double before = std::exchange(at_.seconds_running, 0);
     const FrequencyPlan& p = at_.plan.frequencies[i];
-    if (used_) stepper_ = make(p, {}, result);
+    if (used_) stepper_ = make(i, {}, result);
     used_ = true;
     result.solver = stepper_->description();
     std::get<SteppedCyclic>(result.found).bytes = stepper_->bytes();
@@ -242,10 +269,12 @@ class Steps : public Solution {
   const Watcher& watcher_;
   Inertia inertia_;
   RunState at_;
+  DeviceList devices_;                ///< of the stepper
   std::unique_ptr<Stepper> stepper_;  ///< of the frequency that runs, or is to run first
   bool used_ = false;                 ///< it has run one
   std::size_t samples_read_ = 0;      ///< of finished frequencies
   bool owns_checkpoint_;
+  std::future<StartState> next_start_;  ///< of the next frequency; the last member, as it works with others
 };
 
 }  // namespace

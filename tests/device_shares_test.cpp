@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// device_shares_test.cpp  Which device a scene takes, among several scenes and several devices.
+#include "host/simulation/device_shares.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace macadam {
+namespace {
+
+/// Scenes that may take any of these devices, but no more than `most` on one.
+class Scenes : public DeviceShares {
+ public:
+  Scenes(std::size_t number, DeviceList devices, int most)
+      : DeviceShares(number), devices_(std::move(devices)), most_(most) {}
+  /// The device that the next scene takes; −1: none.
+  int next() {
+    const std::optional<int> device = choose(devices_, most_);
+    if (!device) return -1;
+    put(placed_++, *device, devices_);
+    return *device;
+  }
+  int go_on_with(std::size_t scene, double work) { return go_on(scene, work, most_); }
+
+ private:
+  DeviceList devices_;
+  int most_;
+  std::size_t placed_ = 0;
+};
+
+TEST(DeviceShares, GivesEachDeviceAsMany) {
+  Scenes scenes(10, {0, 1, 2}, 2);
+  for (const int device : {0, 1, 2, 0, 1, 2, -1}) EXPECT_EQ(scenes.next(), device);
+  scenes.end(4);  // of device 1
+  EXPECT_EQ(scenes.next(), 1);
+  EXPECT_EQ(scenes.next(), -1);
+}
+
+TEST(DeviceShares, AnIdleDeviceComesFirstAndABusyOneLast) {
+  Scenes scenes(10, {0, 1}, 4);
+  scenes.next(), scenes.next(), scenes.next();  // 0 and 2 on device 0, 1 on device 1
+  scenes.end(0), scenes.end(2);
+  EXPECT_EQ(scenes.next(), 0) << "it is idle, though it got more";
+  EXPECT_EQ(scenes.next(), 1);
+  scenes.end(3);  // of device 0, which got two and runs none; device 1 got two and runs two
+  EXPECT_EQ(scenes.next(), 0);
+  scenes.end(5);
+  EXPECT_EQ(scenes.next(), 0);
+}
+
+TEST(DeviceShares, MovesNoneWhileOthersAreToCome) {
+  Scenes scenes(4, {0, 1}, 4);
+  scenes.next(), scenes.next(), scenes.next();
+  scenes.end(1);
+  for (const double work : {100.0, 10.0}) EXPECT_EQ(scenes.go_on_with(0, work), 0);
+  scenes.end(3);  // which failed before it had a device
+  EXPECT_EQ(scenes.go_on_with(0, 10), 1) << "no other is to come";
+}
+
+TEST(DeviceShares, MovesToWhereLessIsLeft) {
+  Scenes scenes(3, {0, 1}, 4);
+  scenes.next(), scenes.next(), scenes.next();  // 0 and 2 on device 0, 1 on device 1
+  EXPECT_EQ(scenes.go_on_with(1, 100), 1);
+  EXPECT_EQ(scenes.go_on_with(2, 100), 0) << "both devices have as much beside it";
+  EXPECT_EQ(scenes.go_on_with(0, 100), 0);
+  EXPECT_EQ(scenes.go_on_with(1, 40), 1);
+  EXPECT_EQ(scenes.go_on_with(2, 80), 1) << "100 are beside it on device 0, 40 on device 1";
+  EXPECT_EQ(scenes.go_on_with(0, 50), 0) << "alone";
+}
+
+TEST(DeviceShares, MovesForNoSmallGain) {
+  Scenes scenes(3, {0, 1}, 4);
+  scenes.next(), scenes.next(), scenes.next();
+  scenes.go_on_with(1, 95), scenes.go_on_with(0, 100);
+  EXPECT_EQ(scenes.go_on_with(2, 100), 0);
+  scenes.go_on_with(1, 80);
+  EXPECT_EQ(scenes.go_on_with(2, 100), 1);
+}
+
+TEST(DeviceShares, MovesToNoFullAndNoForbiddenDevice) {
+  Scenes full(5, {0, 1}, 2);
+  for (int k = 0; k < 4; ++k) full.next();
+  full.end(4);
+  full.go_on_with(1, 1), full.go_on_with(3, 1);
+  EXPECT_EQ(full.go_on_with(0, 100), 0);
+
+  DeviceShares named(2);
+  named.put(0, 0, {0}), named.put(1, 0, {0, 7});
+  EXPECT_EQ(named.go_on(0, 100, 4), 0);
+  EXPECT_EQ(named.go_on(1, 100, 4), 7);
+}
+
+// Scenes of four equal frequencies, the work of which differs; each device steps its own in turn, a frequency each.
+TEST(DeviceShares, DevicesEndTogether) {
+  const std::vector<double> work{40, 52, 38, 60, 45, 58};
+  Scenes scenes(work.size(), {0, 1}, 4);
+  std::vector<int> device, done(work.size(), 0);
+  for (std::size_t k = 0; k < work.size(); ++k) device.push_back(scenes.next());
+  std::vector<double> clock(2, 0);
+  std::vector<std::size_t> last(2, 0);
+  for (int left = 4 * static_cast<int>(work.size()); left > 0;) {
+    const int now = clock[0] <= clock[1] ? 0 : 1;
+    std::size_t next = work.size();
+    for (std::size_t k = 1; k <= work.size() && next == work.size(); ++k) {
+      const std::size_t scene = (last[static_cast<std::size_t>(now)] + k) % work.size();
+      if (device[scene] == now && done[scene] < 4) next = scene;
+    }
+    if (next == work.size()) {  // idle
+      clock[static_cast<std::size_t>(now)] = clock[static_cast<std::size_t>(1 - now)] + 1e-9;
+      continue;
+    }
+    last[static_cast<std::size_t>(now)] = next;
+    device[next] = scenes.go_on_with(next, work[next] * (4 - done[next]) / 4);
+    if (device[next] != now) continue;
+    clock[static_cast<std::size_t>(now)] += work[next] / 4;
+    ++done[next], --left;
+    if (done[next] == 4) scenes.end(next);
+  }
+  EXPECT_LT(std::abs(clock[0] - clock[1]), 60.0 / 4) << "the longest frequency";
+}
+
+}  // namespace
+}  // namespace macadam
