@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstring>
 #include <mutex>
 #include <new>
 #include <string>
@@ -44,8 +45,10 @@ class QuietHdf5 {
   static herr_t note(hid_t stack, void* to) { return H5Ewalk2(stack, H5E_WALK_UPWARD, note_innermost, to); }
   static herr_t note_innermost(unsigned depth, const H5E_error2_t* error, void* to) {
     auto& why = static_cast<QuietHdf5*>(to)->why_;
-    if (depth == 0 && why[0] == '\0')
-      std::snprintf(why.data(), why.size(), "%s", error->desc ? error->desc : "unknown");
+    if (depth != 0 || why[0] != '\0') return 0;
+    const char* text = error->desc ? error->desc : "unknown";
+    const bool says_memory = error->maj_num != H5E_RESOURCE || std::strstr(text, "memory");  // what HDF5 allocates
+    std::snprintf(why.data(), why.size(), "%s%s", text, says_memory ? "" : ": no memory");
     return 0;
   }
   static std::recursive_mutex& one_at_a_time() {

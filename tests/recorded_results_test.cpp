@@ -3,9 +3,12 @@
 // other tests say what is right. These say what has changed, down to the ninth digit, whoever meant it to.
 //
 // Each folder of tests/recorded is a case: `commands` has one command of macadam a line, run in the case's folder,
-// which holds what they read and the specimen t8.csv; laws.toml is put behind every scene without contacts.
+// which holds what they read and the specimen t8.csv; laws.toml is put behind every scene without contacts. Where a
+// case has a file `library`, its numbers are those of this version of a library, which others do not keep.
 // expected.json has what came out. A change that is meant is recorded anew with MACADAM_RECORD=1 in the environment,
 // and its difference is looked at like any other.
+#include <ceres/version.h>
+
 #include <algorithm>
 #include <regex>
 
@@ -26,6 +29,12 @@ bool is_possible(const std::string& name) {
 #else
   return !name.starts_with("ct-") && name != "words";
 #endif
+}
+
+/// Whether the build has this version of a library.
+bool is_built_with(const std::string& library) {
+  return library == fmt::format("ceres {}.{}", CERES_VERSION_MAJOR, CERES_VERSION_MINOR) ||
+         library == fmt::format("itk {}", MACADAM_ITK_VERSION);
 }
 
 std::vector<std::string> names_of_cases() {
@@ -70,7 +79,8 @@ class RecordedResults : public Program, public testing::WithParamInterface<std::
     version_ = lines_of(macadam("--version").out).at(0);
     setenv("OMP_NUM_THREADS", "2", 1);  // their number is in descriptions, and in the forecast of times
     for (const auto& entry : fs::directory_iterator(source()))
-      if (entry.path().filename() != "commands" && entry.path().filename() != "expected.json")
+      if (const fs::path name = entry.path().filename();
+          name != "commands" && name != "expected.json" && name != "library")
         fs::copy(entry.path(), folder_ / entry.path().filename(), fs::copy_options::recursive);
     for (const auto& entry : fs::directory_iterator(folder_)) {
       if (entry.path().extension() != ".toml") continue;
@@ -168,6 +178,10 @@ class RecordedResults : public Program, public testing::WithParamInterface<std::
 };
 
 TEST_P(RecordedResults, AreAsTheyWere) {
+  if (const fs::path library = source() / "library"; fs::exists(library)) {
+    const std::string recorded = lines_of(read(library)).at(0);
+    if (!is_built_with(recorded)) GTEST_SKIP() << "recorded with " << recorded;
+  }
   const ordered_json now = happened();
   const fs::path file = source() / "expected.json";
   if (std::getenv("MACADAM_RECORD")) {
