@@ -5,6 +5,7 @@
 /// a series here, exact to rounding for what it is used for.
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
 #include "kernels/contact_kinematics.hpp"

@@ -100,6 +100,17 @@ TEST_F(CtImage, PagesOfATiffAndFilesOfAFolderAreSlicesInTheOrderOfTheirNumbers) 
   EXPECT_NE(fault<std::uint16_t>(folder_ / "slices").find("s5.tif"), std::string::npos);
 }
 
+TEST_F(CtImage, WhatIsBehindANumberDoesNotMatterToTheOrderOfSlices) {
+  const auto image = ramp<std::uint16_t>({6, 5, 3});
+  const std::array<const char*, 3> names{"9 of the core.tif", "10 of the core.tif", "11 end.tif"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    Image<std::uint16_t> slice({6, 5, 1}, image.spacing);
+    std::copy_n(image.voxels.begin() + 30 * static_cast<std::ptrdiff_t>(k), 30, slice.voxels.begin());
+    write_image(folder_ / names[k], slice);
+  }
+  expect_same(read_image<std::uint16_t>(folder_), image, false);
+}
+
 TEST_F(CtImage, AStackWithoutOneOfItsSlicesIsRefused) {
   const Image<std::uint16_t> slice({6, 5, 1}, {1e-4, 1e-4, 1e-4});
   for (const int k : {8, 10, 12, 14}) write_image(folder_ / ("core2_" + std::to_string(k) + ".tif"), slice);

@@ -173,6 +173,10 @@ TEST_F(FitCommand, FaultyDataAreNamedByLineAndColumn) {
   EXPECT_HAS(refused(header + "1,nan,10\n"), "data.csv:2: column e_star_pa");
   EXPECT_HAS(refused(header + "1,1e999,10\n"), "data.csv:2: column e_star_pa");
   EXPECT_HAS(refused(header + "1,1e9,-30\n"), "column phase_deg: found \"-30\", expected degrees between");
+  EXPECT_HAS(refused(header + "1,1e9,95\n"), "column phase_deg: found \"95\", expected degrees between");
+  EXPECT_HAS(refused(header + "1,1e9,-5\n"), "column phase_deg: found \"-5\", expected degrees between");
+  EXPECT_HAS(refused(header + "1,inf,10\n"), "data.csv:2: column e_star_pa: found \"inf\"");
+  EXPECT_HAS(refused(header + "0,1e9,10\n"), "data.csv:2: column frequency_hz: found \"0\"");
   EXPECT_HAS(refused(header + "1,1e9\n"), "columns: found 2 in \"1,1e9\", expected 3");
   EXPECT_HAS(refused(header + "1,1e9,10"), "no newline at its end");
   EXPECT_HAS(refused(header), "a header alone");

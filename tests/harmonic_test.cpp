@@ -193,6 +193,17 @@ TEST(Harmonic, ClusterThatFloatsIsNamed) {
   }
 }
 
+TEST(Harmonic, APairWithoutALawIsNamed) {
+  TestScene scene = make_scene(random_specimen(6));
+  scene.laws[static_cast<std::size_t>(PairType::ma)].reset();
+  try {
+    solve(scene, 2);
+    FAIL() << "a pair without a law was accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("M-A"), std::string::npos) << error.what();
+  }
+}
+
 // The contacts of z walls are looked for in pieces of 65,536: here they are in three. The numbers are whole, so that
 // sums of them are exact.
 TEST(ContactOperator, EveryWallContactCountsOnceInALargeNetwork) {

@@ -225,9 +225,13 @@ TEST(Reference, ReportsTheFirstDivergentParticle) {
   EXPECT_EQ(stepper->first_divergent(), -1);
   stepper->set_velocities({{0.9, 0, 0}, {0.9, 0, 0}}, {{}, {}});  // 0.9 mm a step: B's radius is 0.8 mm
   EXPECT_EQ(stepper->first_divergent(), 1);
+  stepper->set_velocities({{}, {}}, {{}, {0, NAN, 0}});
+  EXPECT_EQ(stepper->first_divergent(), 1) << "a spin alone";
   stepper->set_velocities({{NAN, 0, 0}, {}}, {{}, {}});
+  EXPECT_EQ(stepper->first_divergent(), 0) << "a velocity alone";
   stepper->advance(1);
-  EXPECT_EQ(stepper->first_divergent(), 0);
+  stepper->set_velocities({{}, {}}, {{}, {}});
+  EXPECT_EQ(stepper->first_divergent(), 0) << "a displacement alone";
 }
 
 TEST(Reference, RefusesWhatItCannotStep) {
@@ -253,6 +257,8 @@ TEST(Reference, RefusesWhatItCannotStep) {
   expect("M-M", [](HandMade&, test::Laws& l, StepperOptions&) { l[0].reset(); });
   expect("particle 1", [](HandMade& m, test::Laws&, StepperOptions&) { m.inertia.mass[1] = 0; });
   expect("masses", [](HandMade& m, test::Laws&, StepperOptions&) { m.inertia.mass.pop_back(); });
+  expect("contact 0 (2 – 1)", [](HandMade& m, test::Laws&, StepperOptions&) { m.network.contacts[0].a = 2; });
+  expect("contact 0 (0 – 2)", [](HandMade& m, test::Laws&, StepperOptions&) { m.network.contacts[0].b = 2; });
   expect("contact 0 (0 – 7)", [](HandMade& m, test::Laws&, StepperOptions&) { m.network.contacts[0].b = 7; });
   expect("distance", [](HandMade& m, test::Laws&, StepperOptions&) { m.network.contacts[0].distance = 0; });
   expect("contact points", [](HandMade& m, test::Laws&, StepperOptions&) { m.network.point_s.pop_back(); });

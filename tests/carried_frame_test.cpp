@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// carried_frame_test.cpp  The series by which a contact's frame is carried, against closed forms. They are made for the
+// small turns of a step; here turns are so large that the first term left out is seen, and any other that is wrong.
+#include "kernels/carried_frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace macadam::kernels {
+namespace {
+
+/// v turned about the unit vector `axis` (Rodrigues).
+Vec3d turned(const Vec3d& v, const Vec3d& axis, double angle) {
+  return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + ((1 - std::cos(angle)) * dot(axis, v)) * axis;
+}
+
+const Vec3d n = (1 / std::sqrt(14.0)) * Vec3d{1, 2, 3};
+const Vec3d s = (1 / std::sqrt(5.0)) * Vec3d{2, -1, 0};  // at a right angle to n
+constexpr double rounding = 1e-15;
+
+TEST(CarriedFrame, InverseRootIsASeriesOfFiveTerms) {
+  for (const double e : {-0.1, -0.02, 0.0, 0.02, 0.1}) {
+    const double left_out = 63.0 / 256 * std::pow(std::abs(e), 5);
+    EXPECT_NEAR(inverse_root_near_one(1 - e), 1 / std::sqrt(1 - e), 1.2 * left_out + rounding) << e;
+  }
+}
+
+// What is left out of the divisor is e⁴/32, at a vector along the sum of the normals, which is 2 long; the step towards
+// unit length leaves the square of an error.
+TEST(CarriedFrame, ATangentIsSwungWithItsNormal) {
+  for (const double about : {0.0, 1.0, 2.0}) {  // tangents in all directions
+    const Vec3d tangent = turned(s, n, about);
+    for (const double angle : {0.01, 0.1, 0.3, 0.5}) {
+      const Vec3d axis = s, to = turned(n, axis, angle);
+      const double e = 1 - std::cos(angle), left_out = std::pow(e, 4) / 32 * 2 * std::sin(angle);
+      const Vec3d swung_tangent = swung(tangent, n, to), exact = turned(tangent, axis, angle);
+      EXPECT_LE(norm(swung_tangent - exact), 1.2 * left_out + rounding) << angle << ", " << about;
+    }
+  }
+}
+
+TEST(CarriedFrame, ATangentIsSpunAboutItsNormal) {
+  for (const double angle : {-0.2, -0.01, 0.0, 0.01, 0.2}) {
+    const double left_out = std::pow(angle, 4) / 24;  // of the cosine; that of the sine is less
+    EXPECT_LE(norm(spun(s, n, angle) - turned(s, n, angle)), 1.01 * left_out + rounding) << angle;
+  }
+}
+
+}  // namespace
+}  // namespace macadam::kernels
