@@ -47,8 +47,11 @@ class QuietHdf5 {
     auto& why = static_cast<QuietHdf5*>(to)->why_;
     if (depth != 0 || why[0] != '\0') return 0;
     const char* text = error->desc ? error->desc : "unknown";
-    const bool says_memory = error->maj_num != H5E_RESOURCE || std::strstr(text, "memory");  // what HDF5 allocates
-    std::snprintf(why.data(), why.size(), "%s%s", text, says_memory ? "" : ": no memory");
+    // where HDF5 cannot allocate, some of its words say only what for
+    const bool hides_memory = error->maj_num == H5E_RESOURCE &&
+                              (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC) &&
+                              !std::strstr(text, "memory");
+    std::snprintf(why.data(), why.size(), "%s%s", text, hides_memory ? ": no memory" : "");
     return 0;
   }
   static std::recursive_mutex& one_at_a_time() {

@@ -38,6 +38,6 @@ struct CudaPlugin {
 };
 
 /// Counted up with every change of CudaCode, or of what it is handed.
-inline constexpr int cuda_interface = 6;
+inline constexpr int cuda_interface = 7;
 
 }  // namespace macadam::kernels

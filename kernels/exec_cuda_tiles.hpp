@@ -104,9 +104,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   /// pauses between the steps. `radius` in specimen order [m].
   std::size_t most_notes(const std::vector<double>& radius) {
     if (this->team_.ranks() || this->team_.size() > 1) return 0;
-    try {
-      this->require_divergence_search(radius);
-    } catch (const RunError&) { return 0; }  // no memory
+    this->require_divergence_search(radius);
     return DeviceRoom::leaves_pauses(this->team_.device(0)) ? 1 : Notes<R>::most;
   }
   /// Queues note number `k`, behind the steps that were queued.

@@ -74,12 +74,8 @@ class StepperImpl final : public Stepper {
     exec_.use_device();
     if (options_.ranks) options_.ranks->require_same("the number of time steps to take", steps);
     try {
-      for (const std::int64_t begin = step_, end = begin + steps; step_ < end;) {
-        const std::int64_t n = wall_table_.rows(step_ - begin, end - step_);
-        exec_.set_wall_rows(wall_table_.fill(step_, n));
-        exec_.run(step_, n);
-        step_ += n;
-      }
+      StepsToTake all{step_, step_ + steps};
+      queue_until(all.end, all);
       exec_.wait();
     } catch (...) {  // of a drive, or of the device
       exec_.end_steps();
@@ -89,7 +85,7 @@ class StepperImpl final : public Stepper {
 
   std::vector<Sample> advance_sampled(std::int64_t every, std::int64_t times) override {
     exec_.use_device();
-    if constexpr (requires { exec_.most_notes(radius_); }) {
+    if constexpr (takes_notes) {
       const auto notes = static_cast<std::int64_t>(exec_.most_notes(radius_));
       if (notes > 0) return advance_noted(every, std::clamp<std::int64_t>(times, 1, notes));
     }
@@ -366,29 +362,42 @@ class StepperImpl final : public Stepper {
     });
   }
 
+  static constexpr bool takes_notes = requires(Exec & e, const std::vector<double>& radius) { e.most_notes(radius); };
+
+  /// Steps that are queued one part after the other, and the rows of the walls' table that are there for them.
+  struct StepsToTake {
+    std::int64_t begin, end, row = 0, rows = 0;
+  };
+  /// Queues steps up to number `to`: the end or, where notes are taken, any before it.
+  void queue_until(std::int64_t to, StepsToTake& all) {
+    while (step_ < to) {
+      if (all.row == all.rows) {
+        all.rows = wall_table_.rows(step_ - all.begin, all.end - step_), all.row = 0;
+        exec_.set_wall_rows(wall_table_.fill(step_, all.rows));
+      }
+      const std::int64_t n = std::min(to - step_, all.rows - all.row);
+      if constexpr (takes_notes)
+        exec_.run(step_, n, all.row);
+      else
+        exec_.run(step_, n);
+      step_ += n, all.row += n;
+    }
+  }
+
   /// As advance_sampled(), of an executor that takes notes.
   std::vector<Sample> advance_noted(std::int64_t every, std::int64_t times) {
-    const std::int64_t begin = step_, end = begin + every * times;
+    StepsToTake all{step_, step_ + every * times};
     std::vector<Sample> out;
     try {
-      std::int64_t row = 0, rows = 0;
       for (std::int64_t k = 0; k < times; ++k) {
-        for (const std::int64_t to = step_ + every; step_ < to;) {
-          if (row == rows) {
-            rows = wall_table_.rows(step_ - begin, end - step_), row = 0;
-            exec_.set_wall_rows(wall_table_.fill(step_, rows));
-          }
-          const std::int64_t n = std::min(to - step_, rows - row);
-          exec_.run(step_, n, row);
-          step_ += n, row += n;
-        }
+        queue_until(step_ + every, all);
         exec_.note(static_cast<std::size_t>(k));
       }
       const auto& notes = exec_.wait_for_notes(static_cast<std::size_t>(times));
       for (std::int64_t k = 0; k < times; ++k) {
         const auto& note = notes[static_cast<std::size_t>(k)];
         const auto list = [](const auto& of) { return std::vector(std::begin(of), std::end(of)); };
-        out.push_back({observation(begin + (k + 1) * every, Exec::twists(list(note.force)), list(note.displacement),
+        out.push_back({observation(all.begin + (k + 1) * every, Exec::twists(list(note.force)), list(note.displacement),
                                    list(note.velocity)),
                        Exec::number_or_none(note.divergent)});
       }

@@ -2,12 +2,13 @@
 // fake_plugin.cpp  What tests have in place of the CUDA backend: of this version with one device that cannot be used,
 // or, with FAKE_INTERFACE, of another, or, with FAKE_DEVICE, with some that are the processor: as many as FAKE_DEVICES
 // of the environment says, or one. Each line of the file FAKE_DEVICE_LOG is then the device of a stepper that was made.
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <map>
-#include <mutex>
+#include <string>
 
 #include "kernels/cuda_plugin.hpp"
+#include "macadam/error.hpp"
 
 #ifndef FAKE_INTERFACE
 #define FAKE_INTERFACE macadam::kernels::cuda_interface
@@ -24,21 +25,54 @@ void report(BackendReport& out) {
 }
 #ifdef FAKE_DEVICE
 std::string refusal(int) { return ""; }
+/// The processor's stepper, which takes several samples at a time as a device does.
+class InBatches : public Stepper {
+ public:
+  InBatches(std::unique_ptr<Stepper> on, int device) : on_(std::move(on)), device_(device) {}
+  std::unique_ptr<Stepper> release() { return std::move(on_); }
+  int device() const { return device_; }
+
+  std::vector<Sample> advance_sampled(std::int64_t every, std::int64_t times) override {
+    std::vector<Sample> out;
+    for (std::int64_t k = 0; k < std::min<std::int64_t>(times, 7); ++k) {
+      advance(every);
+      out.push_back({observe(), first_divergent()});
+    }
+    return out;
+  }
+  void advance(std::int64_t steps) override { on_->advance(steps); }
+  Observation observe() const override { return on_->observe(); }
+  ParticleState particles() const override { return on_->particles(); }
+  ContactState contacts(const ContactNetwork& network) const override { return on_->contacts(network); }
+  void set_velocities(const std::vector<Vec3d>& velocity, const std::vector<Vec3d>& spin) override {
+    on_->set_velocities(velocity, spin);
+  }
+  std::vector<StateArray> state() const override { return on_->state(); }
+  void set_state(const std::vector<StateArray>& arrays) override { on_->set_state(arrays); }
+  std::int64_t first_divergent() const override { return on_->first_divergent(); }
+  std::string description() const override { return on_->description(); }
+  std::int64_t bytes() const override { return on_->bytes(); }
+
+ private:
+  std::unique_ptr<Stepper> on_;
+  int device_;
+};
+
+/// The device FAKE_DEVICE_FULL of the environment has no memory.
 std::unique_ptr<Stepper> make(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                               const Inertia& inertia, const StepperOptions& options, std::unique_ptr<Stepper> used) {
-  // That a stepper is on, by its place in memory.
-  static std::mutex mutex;
-  static std::map<const Stepper*, int> device_of;
-  const std::lock_guard lock(mutex);
   const int device = options.devices.front();
-  if (used && device_of[used.get()] != device) used.reset();
-  const char* log = std::getenv("FAKE_DEVICE_LOG");
-  if (log && !used) std::ofstream(log, std::ios::app) << device << '\n';
+  if (const char* full = std::getenv("FAKE_DEVICE_FULL"); full && device == std::atoi(full))
+    throw RunError("paper device " + std::to_string(device) + ": no memory");
+  auto* before = dynamic_cast<InBatches*>(used.get());
+  std::unique_ptr<Stepper> begun;
+  if (before && before->device() == device) begun = before->release();
+  if (const char* log = std::getenv("FAKE_DEVICE_LOG"); log && !begun)
+    std::ofstream(log, std::ios::app) << device << '\n';
   StepperOptions given = options;
   given.devices.clear();
-  auto made = make_stepper(Backend::cpu, specimen, network, laws, inertia, given, std::move(used));
-  device_of[made.get()] = device;
-  return made;
+  return std::make_unique<InBatches>(
+      make_stepper(Backend::cpu, specimen, network, laws, inertia, given, std::move(begun)), device);
 }
 #else
 std::string refusal(int) { return "it is made of paper"; }

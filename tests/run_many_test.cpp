@@ -99,37 +99,6 @@ TEST_F(RunMany, GivesEachDeviceAsMany) {
   EXPECT_EQ(read(log), "0\n1\n2\n");
 }
 
-// In this process: no other test here looks for devices in it.
-TEST_F(RunMany, AFrequencyIsSteppedWhereItIsAskedFor) {
-  const std::string log = (folder_ / "devices").string();
-  for (const auto& [name, value] : {std::pair("MACADAM_PLUGIN_PATH", fake_devices()),
-                                    std::pair("FAKE_DEVICES", std::string("2")), std::pair("FAKE_DEVICE_LOG", log)}) {
-    ASSERT_EQ(::setenv(name, value.c_str(), 1), 0);
-  }
-  Scene scene =
-      read_scene(write_scene_of("kind = \"cyclic\"\nfrequencies = [5.0, 10.0, 20.0, 40.0]\ncycles = 2\n", quick));
-  scene.solver.backend = Backend::cuda;
-  scene.solver.devices = {1};
-  std::vector<std::int64_t> asked;
-  Watcher watcher;
-  watcher.devices = [&, named = std::array<DeviceList, 4>{{{}, {0}, {}, {1}}}](std::int64_t steps) {
-    asked.push_back(steps);
-    return named.at(asked.size() - 1);
-  };
-  const RunResult moved = run(scene, folder_ / "moved", watcher);
-  scene.solver.backend = Backend::cpu, scene.solver.devices.clear();
-  run(scene, folder_ / "still", watcher);
-  for (const char* name : {"MACADAM_PLUGIN_PATH", "FAKE_DEVICES", "FAKE_DEVICE_LOG"}) ::unsetenv(name);
-  EXPECT_EQ(read(log), "1\n0\n1\n");
-  EXPECT_EQ(read(folder_ / "moved" / "response.csv"), read(folder_ / "still" / "response.csv"));
-  ASSERT_EQ(asked.size(), 4u) << "of backend cuda alone";
-  for (std::size_t k = 0; k < 4; ++k) {
-    std::int64_t left = 0;
-    for (std::size_t l = k; l < 4; ++l) left += moved.stepped().frequencies[l].steps;
-    EXPECT_EQ(asked[k], left);
-  }
-}
-
 TEST_F(RunMany, SpreadsScenesThatDifferOverDevices) {
   for (const std::string& name : names_) {
     const std::string frequencies = name == "at_10" ? "20.0" : "5.0, 10.0, 20.0, 40.0";

@@ -99,7 +99,7 @@ class Pool {
       const std::lock_guard lock(mutex_);
       beside_ = devices == 0 ? number : (number + devices - 1) / devices;
       urgent_ += prepared_for_a_device * devices;
-      for_urgent_ = (cores_ - spared) / std::max(prepared_for_a_device, devices);
+      for_urgent_ = (cores_ - spared) / std::min(number, std::max(prepared_for_a_device, devices));
     }
     employ(number, devices == 0 ? number : prepared_for_a_device * devices, cores_ - spared);
   }
@@ -136,23 +136,20 @@ class Pool {
         job = next_++;
       }
       JobOutcome& outcome = outcomes_[job];
-      bool on_device = false;
       double contacts = 0;
       RunParts parts;
       std::optional<Cores> cores;
       parts.prepare = [&](const Scene& scene, const Progress& progress) {
         return prepare_in_turn(scene, progress, cores);
       };
-      parts.place = [&](SolverSpec& solver) { take_device(job, solver, cores), on_device = true; };
+      parts.place = [&](SolverSpec& solver) { take_device(job, solver, cores); };
       try {
         if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
         const SceneJob& asked = jobs_[job];
         const bool resume = options_.resume && has_checkpoint(asked.out);
         Watcher watcher = watcher_of(job);
         watcher.prepared = [&](const Preparation& all) { contacts = static_cast<double>(all.network.contacts.size()); };
-        watcher.devices = [&](std::int64_t steps) {
-          return on_device ? go_on(job, static_cast<double>(steps) * contacts) : DeviceList();
-        };
+        watcher.devices = [&](std::int64_t steps) { return go_on(job, static_cast<double>(steps) * contacts); };
         watcher.planned = [&, begun = watcher.planned](const RunResult& result) {
           if (result.backend == Backend::cuda) cores.reset();
           begun(result);
@@ -171,13 +168,12 @@ class Pool {
   /// A share of the cores, which a scene has until a device takes its steps, or to its end.
   class Cores {
    public:
-    explicit Cores(Pool& pool) : pool_(pool) {
+    Cores(Pool& pool, bool first_of_scene) : pool_(pool) {
       std::unique_lock lock(pool_.mutex_);
-      pool_.changed_.wait(lock, [&] {
-        number_ = pool_.urgent_ > 0 ? std::clamp(pool_.for_urgent_, 1, pool_.all_) : pool_.share_;
-        return pool_.turns_ > 0 && pool_.free_ >= number_;
-      });
-      --pool_.turns_, pool_.free_ -= number_, --pool_.urgent_;
+      pool_.changed_.wait(lock, [&] { return pool_.turns_ > 0 && pool_.free_ >= pool_.share_; });
+      number_ = pool_.share_;
+      if (first_of_scene && pool_.urgent_-- > 0) number_ = std::clamp(pool_.for_urgent_, number_, pool_.free_);
+      --pool_.turns_, pool_.free_ -= number_;
       omp_set_num_threads(number_);  // of the thread that does the scene
     }
     Cores(const Cores&) = delete;
@@ -193,7 +189,7 @@ class Pool {
   };
 
   Preparation prepare_in_turn(const Scene& scene, const Progress& progress, std::optional<Cores>& cores) {
-    cores.emplace(*this);
+    cores.emplace(*this, true);
     if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
     return prepare(scene, progress);
   }
@@ -215,14 +211,12 @@ class Pool {
     solver.devices = {*device}, solver.side_by_side = beside_;
     devices_taken_.put(job, *device, std::move(meant));
     lock.unlock();
-    if (waits) cores.emplace(*this);
+    if (waits) cores.emplace(*this, false);
   }
 
   DeviceList go_on(std::size_t job, double work) {
     const std::lock_guard lock(mutex_);
-    const int device = devices_taken_.go_on(job, work, beside_);
-    changed_.notify_all();
-    return {device};
+    return {devices_taken_.go_on(job, work, beside_)};
   }
 
   Watcher watcher_of(std::size_t job) {

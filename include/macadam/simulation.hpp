@@ -93,11 +93,12 @@ struct Watcher {
   /// Decisions, once nothing can refuse the scene any more and the specimen's files are written: before the first step.
   std::function<void(const RunResult&)> planned;
   std::function<void(const std::string&)> warn;  ///< at once; all warnings are in RunResult::warnings too
-  /// Asked before each sample and within a second between samples, and between iterations of the frequency domain: true
-  /// ends the run, a stepped one with a checkpoint.
+  /// Asked before the first sample, once a second at least while steps are taken, and between iterations of the
+  /// frequency domain: true ends the run, a stepped one with a checkpoint.
   std::function<bool()> stop;
-  /// Asked before the steps of each frequency of a cyclic test on backend cuda, with the number of steps that are left:
-  /// the devices that take them. Where none is named, they are those of the frequency before, or the scene's. The bits
+  /// Asked before the steps of each frequency of a cyclic test on backend cuda, with the number of steps that are left,
+  /// this frequency whole: the devices that take them. Where none is named, they are those of the frequency before, or
+  /// the scene's. Where another device cannot take them, the one of before does, and this is asked no more. The bits
   /// are the same on any.
   std::function<DeviceList(std::int64_t steps)> devices;
   /// Called after every `every` steps of a test that is stepped, with the frequency of a cyclic one, else with 0;

@@ -163,8 +163,8 @@ class Stepper {
   /// Reaction and displacement of the walls now.
   virtual Observation observe() const = 0;
 
-  /// advance(every), observe() and first_divergent(), `times` times in a row or less often, but once at least. A device
-  /// has no pause in between.
+  /// advance(every), observe() and first_divergent(), `times` times in a row or less often, but once at least; both
+  /// numbers are 1 or more. Then the stepper is at the last of these samples. A device has no pause in between.
   virtual std::vector<Sample> advance_sampled(std::int64_t every, [[maybe_unused]] std::int64_t times) {
     advance(every);
     return {{observe(), first_divergent()}};

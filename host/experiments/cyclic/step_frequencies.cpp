@@ -179,15 +179,26 @@ class Steps : public Solution {
   std::unique_ptr<Stepper> make(std::size_t i, const std::vector<StateArray>& from, RunResult& result) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
     const auto& all = at_.plan.frequencies;
-    if (watcher_.devices && result.backend == Backend::cuda) {
+    std::optional<StartState> start;
+    if (all[i].start == Start::steady && from.empty()) start = next_start_.valid() ? next_start_.get() : start_of(i);
+    const auto on = [&](const DeviceList& devices) {
+      return stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, all[i], devices, from,
+                        start ? &*start : nullptr, std::move(stepper_));
+    };
+    const DeviceList before = devices_;
+    if (may_move_ && watcher_.devices && result.backend == Backend::cuda) {
       std::int64_t steps = 0;
       for (std::size_t k = i; k < all.size(); ++k) steps += all[k].loading.steps_per_period * all[k].cycles;
       if (DeviceList named = watcher_.devices(steps); !named.empty()) devices_ = std::move(named);
     }
-    std::optional<StartState> start;
-    if (all[i].start == Start::steady && from.empty()) start = next_start_.valid() ? next_start_.get() : start_of(i);
-    auto made = stepper_of(scene_, prepared_, inertia_, result.backend, at_.plan, all[i], devices_, from,
-                           start ? &*start : nullptr, std::move(stepper_));
+    std::unique_ptr<Stepper> made;
+    try {
+      made = on(devices_);
+    } catch (const RunError&) {  // the other device may have no memory: that is no reason to end here
+      if (devices_ == before) throw;
+      devices_ = before, may_move_ = false;
+      made = on(devices_);
+    }
     if (result.backend == Backend::cuda && i + 1 < all.size() && all[i + 1].start == Start::steady) begin_start(i + 1);
     return made;
   }
@@ -270,6 +281,7 @@ class Steps : public Solution {
   Inertia inertia_;
   RunState at_;
   DeviceList devices_;                ///< of the stepper
+  bool may_move_ = true;              ///< to other devices
   std::unique_ptr<Stepper> stepper_;  ///< of the frequency that runs, or is to run first
   bool used_ = false;                 ///< it has run one
   std::size_t samples_read_ = 0;      ///< of finished frequencies

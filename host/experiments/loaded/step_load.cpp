@@ -174,6 +174,7 @@ class SteppedLoad : public Solution {
     course.take = [this, add](std::int64_t k, const Observation& now) {
       if (k > 0) add(point(now));
     };
+    course.looks_at_stepper = true;  // for its kinetic energy
     course.shown = [this](std::int64_t step, double steps_a_second) {
       return fmt::format("{}, t = {:.4g} s of {:g}, {:.0f} steps/s", test_.kind,
                          static_cast<double>(step) * at_.plan.dt, test_.history.times.back(), steps_a_second);

@@ -22,7 +22,10 @@ class Pieces {
   void advance(std::int64_t from, std::int64_t to, const std::function<void(std::int64_t)>& look) {
     while (from < to) {
       const std::int64_t steps = std::min(piece_, to - from);
-      timed(steps, [&] { stepper_.advance(steps); });
+      timed([&] {
+        stepper_.advance(steps);
+        return steps;
+      });
       look(from += steps);
     }
   }
@@ -36,15 +39,19 @@ class Pieces {
     if (steps == 0) return {{stepper_.observe(), stepper_.first_divergent()}};
     const std::int64_t at_once = before == from ? std::min(1 + times, piece_ / steps) : 1;
     std::vector<Sample> out;
-    timed(steps * at_once, [&] { out = stepper_.advance_sampled(steps, at_once); });
+    timed([&] {
+      out = stepper_.advance_sampled(steps, at_once);
+      return steps * std::ssize(out);
+    });
     return out;
   }
 
  private:
+  /// f() takes steps and says how many.
   template <class F>
-  void timed(std::int64_t steps, F&& f) {
+  void timed(F&& f) {
     const auto start = Clock::now();
-    f();
+    const std::int64_t steps = f();
     const double seconds = of_first_rank(seconds_since(start));  // all take the same pieces
     if (2 * steps > piece_ && seconds < 0.1) piece_ *= 2;
     if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);
@@ -101,7 +108,7 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
   };
   // Samples behind number k of which nobody wants more than an observation, at the distance that k has.
   const auto alike = [&](std::int64_t k) {
-    constexpr std::int64_t most = 64;
+    const std::int64_t most = every > 0 || course.looks_at_stepper ? 0 : 64;
     const std::int64_t distance = course.step_of(k) - step;
     std::int64_t n = 0;
     while (n < most && k + n < course.last && !fields_.wants(k + n) && course.taken(k + n + 1) &&
@@ -123,7 +130,7 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
       step = to, ++k;
       continue;
     }
-    const std::vector<Sample> samples = pieces.sample(step, to, every > 0 ? 0 : alike(k), look);
+    const std::vector<Sample> samples = pieces.sample(step, to, alike(k), look);
     for (const Sample& sample : samples) {
       step = sample.now.step;
       if (&sample == &samples.back()) look(step);

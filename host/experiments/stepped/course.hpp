@@ -28,7 +28,9 @@ struct Course {
   std::int64_t first = 0, last = 0;                   ///< numbers of samples; sample 0 is that of step 0
   std::function<std::int64_t(std::int64_t)> step_of;  ///< of a sample, never falling
   std::function<bool(std::int64_t)> taken;            ///< whether anybody wants this sample
+  /// The stepper may have gone on from there.
   std::function<void(std::int64_t sample, const Observation& now)> take;
+  bool looks_at_stepper = false;  ///< `take` does: it stands at the sample then
   std::function<std::string(std::int64_t step, double steps_a_second)> shown;  ///< how far it is, for people
   Content content;                                                             ///< of a checkpoint, but for the state
   /// After the first seconds: how many more it takes. May be empty.
