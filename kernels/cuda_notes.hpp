@@ -13,12 +13,13 @@
 
 namespace macadam::kernels {
 
-/// Of particle precision R.
+/// What is seen of the walls, in words as kernels have them, and of the particles. R: precision of the particles.
 template <class R>
 struct Note {
-  R force[walls * velocity_words], velocity[walls * velocity_words];  ///< of the walls
-  double displacement[walls * displacement_words];                    ///< of the walls
-  std::uint32_t divergent;                                            ///< first particle, UINT32_MAX: none
+  R force[walls * velocity_words];                  ///< by the particles [N, N·m]
+  R velocity[walls * velocity_words];               ///< at the last half step [m/s, rad/s]
+  double displacement[walls * displacement_words];  ///< at the whole step [m, rad]
+  std::uint32_t divergent;                          ///< first particle that left the range of sense, UINT32_MAX: none
 };
 
 /// One block. Arrays are those of a note, on the device.
@@ -34,6 +35,7 @@ __global__ void take_note(Note<R>* note, const R* force, const R* velocity, cons
   if (threadIdx.x == 0) note->divergent = *divergent;
 }
 
+/// Some notes on the device, and the host's copy of them.
 template <class R>
 class Notes {
  public:

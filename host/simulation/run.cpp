@@ -100,8 +100,8 @@ std::string status_of(const std::exception& error) {
 /// The backend that runs. Devices are counted and wake while the specimen is made.
 class FoundBackend {
  public:
-  /// \throws as select_backend(): where no device is there, before any work, if that is worth this wait; what a device
-  /// that is there refuses is known later.
+  /// \throws as select_backend(), where that is known within `wait`. What a device that is there refuses is known
+  /// later.
   FoundBackend(const SolverSpec& solver, std::chrono::milliseconds wait) : asked_(solver.backend) {
     const auto select = [solver] { return select_backend(solver.backend, nullptr, solver.devices); };
     if (asked_ == Backend::cuda || asked_ == Backend::automatic) {

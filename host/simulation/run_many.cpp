@@ -26,8 +26,9 @@ namespace {
 
 constexpr int at_once_on_a_device = 4;
 /// While a device steps one specimen, so many are made, by all cores. More at a time would all be there late; one after
-/// the other they can take longer than their steps (bench/results/many.csv). Only the first two of each device have the
-/// cores that two others share, or it would wait for the second. Before devices are counted, one is taken to be there.
+/// the other they can take longer than their steps (bench/results/many.csv). Of several devices,
+/// each gets its first two one after the other, by the cores that two others share: it would wait for the second
+/// otherwise. Before devices are counted, one is taken to be there.
 constexpr int prepared_for_a_device = 2;
 
 /// Of devices, those that answer: one that does not would fail a scene after the other.

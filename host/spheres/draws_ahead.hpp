@@ -89,7 +89,7 @@ class DrawsAhead {
   }
 
  private:
-  static constexpr std::int64_t alone = 4;  ///< chunks that one thread has done before it has woken the others
+  static constexpr std::int64_t alone = 4;  ///< chunks: waking other threads takes longer than trying so many
 
   Draws draws(std::int64_t attempt, std::size_t size) const {
     return Draws(drawn_.data() + used_ + static_cast<std::size_t>(attempt) * size);

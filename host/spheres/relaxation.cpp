@@ -18,7 +18,7 @@ namespace {
 // pair's √(m/k). About twelve pairs act on a sphere: the explicit limit is near 2/√(2·12) = 0.4 of that unit.
 constexpr double first_step = 0.1, longest_step = 0.3;
 constexpr double longest_move = 0.1;        // of the mean mastic radius, in one iteration
-constexpr double skin_share = 1.15;         // of the mean mastic radius
+constexpr double skin_share = 1.15;         // of the mean mastic radius; less: lists are made too often, more: too long
 constexpr double aggregate_stiffness = 20;  // free aggregates: they must not give way to each other as mastic does
 constexpr int most_iterations = 3000, stall_window = 50;
 constexpr double stalled = 5e-4;  // relative fall of the energy in one window

@@ -108,7 +108,7 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
   };
   // Samples behind number k of which nobody wants more than an observation, at the distance that k has.
   const auto alike = [&](std::int64_t k) {
-    const std::int64_t most = every > 0 || course.looks_at_stepper ? 0 : 64;
+    const std::int64_t most = every > 0 || course.looks_at_stepper ? 0 : 64;  // no stepper takes more in one go
     const std::int64_t distance = course.step_of(k) - step;
     std::int64_t n = 0;
     while (n < most && k + n < course.last && !fields_.wants(k + n) && course.taken(k + n + 1) &&
