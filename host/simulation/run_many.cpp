@@ -171,7 +171,9 @@ class Pool {
    public:
     Cores(Pool& pool, bool first_of_scene) : pool_(pool) {
       std::unique_lock lock(pool_.mutex_);
+      ++pool_.waiting_;
       pool_.changed_.wait(lock, [&] { return pool_.turns_ > 0 && pool_.free_ >= pool_.share_; });
+      --pool_.waiting_;
       number_ = pool_.share_;
       if (first_of_scene && pool_.urgent_-- > 0) number_ = std::clamp(pool_.for_urgent_, number_, pool_.free_);
       --pool_.turns_, pool_.free_ -= number_;
@@ -180,19 +182,36 @@ class Pool {
     Cores(const Cores&) = delete;
     ~Cores() {
       const std::lock_guard lock(pool_.mutex_);
-      ++pool_.turns_, pool_.free_ += number_;
-      pool_.changed_.notify_all();
+      give_back(number_);
+    }
+
+    /// Where others wait for cores, they get half of these, and the turn.
+    void share() {
+      const std::lock_guard lock(pool_.mutex_);
+      if (!has_turn_ || pool_.waiting_ == 0) return;
+      give_back(number_ / 2);
+      omp_set_num_threads(number_);
     }
 
    private:
+    void give_back(int cores) {
+      if (std::exchange(has_turn_, false)) ++pool_.turns_;
+      number_ -= cores, pool_.free_ += cores;
+      pool_.changed_.notify_all();
+    }
+
     Pool& pool_;
     int number_ = 0;
+    bool has_turn_ = true;
   };
 
   Preparation prepare_in_turn(const Scene& scene, const Progress& progress, std::optional<Cores>& cores) {
     cores.emplace(*this, true);
     if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
-    return prepare(scene, progress);
+    return prepare(scene, [&](const std::string& stage, double share) {
+      if (stage == "tessellation") cores->share();  // most of what follows is done by one thread, or by the device
+      progress(stage, share);
+    });
   }
 
   /// One of those that are meant and answer. Waits where all run as many as they may; others have the cores meanwhile.
@@ -245,7 +264,8 @@ class Pool {
   std::mutex mutex_;  // of what follows, and of the options' functions
   std::condition_variable changed_;
   int all_ = 0, free_ = 0, share_ = 1;  // cores
-  int all_turns_ = 0, turns_ = 0;       // scenes that may have a share
+  int all_turns_ = 0, turns_ = 0;       // scenes that may have a whole share
+  int waiting_ = 0;                     // scenes that have none yet
   int urgent_ = 0, for_urgent_ = 0;     // scenes to come that devices would wait for, and cores for each
   int beside_ = 0;                      // scenes on a device at a time, once devices are counted
   std::size_t next_ = 0;
