@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -181,22 +182,26 @@ std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const Vec3d&
   return beyond;
 }
 
-/// Tetrahedra at each particle, ascending: those of particle i are list[begin[i] … begin[i + 1]).
+/// Tetrahedra at each particle, in any order: those of particle i are list[begin[i] … begin[i + 1]).
 struct Incidence {
   std::vector<std::uint32_t> begin;
   std::vector<std::int32_t> list;
 
   Incidence(const PowerDiagram& diagram, std::size_t particles) : begin(particles + 1, 0) {
+    const auto next = [](std::uint32_t& counter) {
+      return std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed);
+    };
     const auto each = [&](auto&& f) {
+#pragma omp parallel for schedule(static)
       for (std::size_t t = 0; t < diagram.tetrahedra.size(); ++t)
         for (const std::int32_t site : diagram.tetrahedra[t].site)
           if (site >= 0) f(static_cast<std::size_t>(site), static_cast<std::int32_t>(t));
     };
-    each([&](std::size_t site, std::int32_t) { ++begin[site + 1]; });
+    each([&](std::size_t site, std::int32_t) { next(begin[site + 1]); });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     list.resize(begin.back());
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    each([&](std::size_t site, std::int32_t t) { list[next[site]++] = t; });
+    std::vector<std::uint32_t> free(begin.begin(), begin.end() - 1);
+    each([&](std::size_t site, std::int32_t t) { list[next(free[site])] = t; });
   }
 };
 
