@@ -88,6 +88,32 @@ void by_place(Segmentation& scan) {
             [](const ScannedGrain& a, const ScannedGrain& b) { return a.measure.volume < b.measure.volume; });
 }
 
+TEST_F(CtLargeScan, ABlockHasItsMeanAndTheVoxelInItsMiddle) {
+  constexpr std::int64_t n = 3;
+  Image<float> scan({3 * n + 1, 2 * n, 2 * n + 2}, {voxel, voxel, voxel});
+  const auto value = [](std::int64_t i, std::int64_t j, std::int64_t k) {
+    return static_cast<float>(i + 10 * j * j + 100 * k);
+  };
+  for (std::int64_t k = 0; k < scan.size[2]; ++k)
+    for (std::int64_t j = 0; j < scan.size[1]; ++j)
+      for (std::int64_t i = 0; i < scan.size[0]; ++i) scan.at(i, j, k) = value(i, j, k);
+  write_image(folder_ / "scan.mha", scan, false);
+  const std::unique_ptr<ct::ImageSlices> file = ct::open_image(folder_ / "scan.mha", {});
+  const ct::CoarseScan coarse = ct::read_coarse({*file, scan.spacing, n}, {});
+  ASSERT_EQ(coarse.means.size, (std::array<std::int64_t, 3>{3, 2, 2}));
+  for (std::int64_t k = 0; k < 2; ++k) {
+    for (std::int64_t j = 0; j < 2; ++j) {
+      for (std::int64_t i = 0; i < 3; ++i) {
+        double sum = 0;
+        for (std::int64_t a = 0; a < n * n * n; ++a) sum += value(n * i + a % n, n * j + a / n % n, n * k + a / n / n);
+        // sums of 27 floats of up to 1000
+        EXPECT_NEAR(coarse.means.at(i, j, k), sum / (n * n * n), 27 * 1000 * 6e-8);
+        EXPECT_EQ(coarse.middles.at(i, j, k), value(n * i + 1, n * j + 1, n * k + 1));
+      }
+    }
+  }
+}
+
 TEST_F(CtLargeScan, TwoLevelsFindTheSameGrainsAsMemoryDoes) {
   Image<float> scan = stones();
   add_noise(scan, 0.1);

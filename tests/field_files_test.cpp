@@ -210,6 +210,9 @@ TEST_F(FieldFiles, AResumedSeriesDropsWhatIsAheadOfIt) {
     EXPECT_EQ(series->size(), 3U);
     // even if nothing follows, arrays are as long as there are steps
     EXPECT_EQ(numbers(open_hdf5(vtkhdf()), "VTKHDF/Steps/Values").size(), 3U);
+    for (const char* name :
+         {"NumberOfParts", "PartOffsets", "PointOffsets", "PointDataOffsets/u", "PointDataOffsets/f"})
+      EXPECT_EQ(shape(open_hdf5(vtkhdf()), std::string("VTKHDF/Steps/") + name).front(), 3U) << name;
     EXPECT_EQ(shape(open_hdf5(vtkhdf()), "VTKHDF/PointData/u").front(), 3 * points);
     EXPECT_EQ(shape(open_hdf5(vtkhdf()), "VTKHDF/PointData/number").front(), points);
   }

@@ -128,6 +128,22 @@ TEST_F(Check, KelvinUnitsCostWhatWasMeasured) {
   }
 }
 
+TEST_F(Check, AStepOfElasticContactsTakesLessTimeThanOneOfChains) {
+  Scene scene = example("demo");
+  scene.solver.backend = Backend::cpu;
+  scene.solver.precision = Precision::double_;
+  scene.solver.geometry = Geometry::fixed;
+  const auto of_a_step = [&] {
+    const Forecast f = forecast(scene);
+    double steps = 0;
+    for (const StepForecast& s : f.steps) steps += s.steps;
+    return f.stepping_s / steps;
+  };
+  const double with_chains = of_a_step();
+  scene.laws = elastic_laws();
+  EXPECT_LT(of_a_step(), 0.8 * with_chains);
+}
+
 // A fitted law has many Kelvin units, and the state of each is kept. To a tenth, as all memory is foretold.
 TEST_F(Check, KelvinUnitsTakeTheMemoryThatAStepperTakes) {
   Scene scene = example("demo");

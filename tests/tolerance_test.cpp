@@ -225,6 +225,18 @@ TEST_F(Tolerance, StepsFollowTheDecayOfViscousDamping) {
   EXPECT_NEAR(run_it(scene).stepped().frequencies[0].dt_s, 2e-5, 1e-6);
 }
 
+TEST_F(Tolerance, AGivenStepIsKeptBesideViscousDamping) {
+  Scene scene = scene_of(t8(), 1e-2);
+  scene.cyclic().frequencies = {20};
+  scene.cyclic().cycles = 1;
+  scene.solver.tolerance = std::nullopt;
+  scene.solver.density_scaling = std::vector<double>{1e7};
+  scene.solver.damping_kind = Damping::viscous;
+  scene.solver.damping = 5e4;  // a decay within 20 us
+  scene.solver.time_step = 5e-5;
+  EXPECT_NEAR(run_it(scene).stepped().frequencies[0].dt_s, 5e-5, 1e-9);
+}
+
 // Large strains: the run keeps its geometry up to date and says that the harmonic solution does not.
 TEST_F(Tolerance, LargeStrainsAreNotLinear) {
   Scene scene = scene_of(t8(), 1e-3);

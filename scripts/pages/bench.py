@@ -317,7 +317,7 @@ def placement_machine():
 
 # ---- what comes before the first step
 
-PREPARATION = "preparation-h200-2026-11-23.csv"
+PREPARATION, BY_ONE_THREAD = "preparation-h100-2026-11-26.csv", "preparation-h200-2026-11-23.csv"
 
 
 @mark
@@ -325,12 +325,24 @@ def preparation_machine():
     return head(PREPARATION)[0]
 
 
+def preparation_of(table, scene):
+    """The row, and seconds of each part."""
+    r = one(rows(table), row=f"preparation/{scene}/cuda/condensed/mixed/fixed")
+    return r, {name: float(us) / 1e6 for name, us in (part.rsplit(" ", 1) for part in r["parts"].split(", "))}
+
+
+@mark
+def preparation_before():
+    """A tessellation of 10⁷ particles by one thread, the contacts, and their machine."""
+    parts = preparation_of(BY_ONE_THREAD, "lattice:1e7")[1]
+    return f"{parts['tessellation']:.0f} s, and the contacts {parts['network']:.0f} s ({head(BY_ONE_THREAD)[0]})"
+
+
 @mark
 def preparation():
     lines = []
     for scene, label in (("ac14_ss_am1", "full specimen"), ("lattice:1e6", "lattice of 10⁶"), ("lattice:1e7", "lattice of 10⁷")):
-        r = one(rows(PREPARATION), row=f"preparation/{scene}/cuda/condensed/mixed/fixed")
-        parts = {name: float(us) / 1e6 for name, us in (part.rsplit(" ", 1) for part in r["parts"].split(", "))}
+        r, parts = preparation_of(PREPARATION, scene)
         lines.append((f"{label}, {r['contacts']:,.0f} contacts", f"{r['us'] / 1e6:.3g}",
                       *(f"{parts[name]:.2g}" for name in ("tessellation", "network", "critical step", "stepper"))))
     return table(["seconds, 16 cores", "all", "tessellation", "contacts", "critical step", "arrays on the GPU"], lines)
