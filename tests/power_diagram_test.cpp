@@ -84,10 +84,25 @@ TEST(PowerDiagram, PartsGiveTheWholeOfSpheresOfManySizes) {
 }
 TEST(PowerDiagram, PartsGiveTheWholeOfALattice) { expect_same_in_parts(lattice(5)); }
 TEST(PowerDiagram, PartsGiveTheWholeOfCrowdsFarApart) { expect_same_in_parts(two_crowds(600)); }
+/// Boulders in sand: what a part needs of a boulder's cell lies behind it, out of the part's reach.
+TEST(PowerDiagram, PartsGiveTheWholeOfBoulders) {
+  Specimen s = random_spheres(3000, 13);
+  for (std::size_t i = 0; i < s.size(); ++i) s.radius[i] = i < 6 ? 0.25 : std::min(s.radius[i], 0.03);
+  expect_same_in_parts(s);
+}
 TEST(PowerDiagram, PartsGiveTheWholeOfAPlane) {
   Specimen s = random_spheres(300, 4);
   for (Vec3d& p : s.centre) p.z = 0.8;
   expect_same_in_parts(s);
+}
+/// Dual points are no numbers then: who is near cannot be told, so all are taken.
+TEST(PowerDiagram, PartsGiveTheWholeOfCentresThatNearlyCoincide) {
+  for (const double distance : {1e-12, 1e-200, 5e-324}) {
+    Specimen s = random_spheres(200, 14);
+    s.centre[40].z = 0;
+    s.centre[117] = s.centre[40] + Vec3d{0, 0, distance};
+    expect_same_in_parts(s);
+  }
 }
 TEST(PowerDiagram, PartsGiveTheWholeOfFewerParticlesThanParts) {
   for (const int number : {1, 2, 7, 20}) expect_same_in_parts(random_spheres(number, 6));
@@ -146,10 +161,10 @@ TEST(SiteTree, FindsWhomALookAtEverybodyFinds) {
   std::size_t found_in_all = 0;
   for (int k = 0; k < 200; ++k) {
     const Vec3d p{share(random), share(random), share(random)};
-    const Range range = Range{p, p}.wider(0.1);
+    const Bounds bounds = Bounds{p, p}.wider(0.1);
     const double most = 0.02 * share(random);
     std::vector<std::int32_t> reaching, of_power, reach_wanted, power_wanted;
-    tree.each_reaching(range, [&](std::int32_t i) { reaching.push_back(i); });
+    tree.each_reaching(bounds, [&](std::int32_t i) { reaching.push_back(i); });
     tree.each_of_power(p, most, [&](std::int32_t i) { of_power.push_back(i); });
     for (std::int32_t i = 0; i < std::ssize(s.centre); ++i) {
       const Vec3d way = s.centre[i] - p;

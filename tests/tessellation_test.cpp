@@ -366,7 +366,7 @@ TEST(Tessellation, NearlyCoincidentCentresAreNamedWithTheirDistance) {
     s.centre[117] = s.centre[40] + Vec3d{0, 0, distance};
     EXPECT_NO_THROW(tessellate(s)) << distance;
   }
-  for (const double distance : {4e-7, 1e-9, 1e-15, 1e-200}) {
+  for (const double distance : {4e-7, 1e-9, 1e-15, 1e-200, 5e-324}) {
     Specimen near = s;
     if (distance < 1e-20) near.centre[40].z = 0;
     near.centre[117] = near.centre[40] + Vec3d{0, 0, distance};

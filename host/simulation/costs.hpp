@@ -16,9 +16,10 @@ struct Cost {
   // spheres; those at free sides are none.
   double contacts = 7.1, contacts_of_single_spheres = 6.5, missing_at_sides = 9;
   // seconds of one thread a particle, an aggregate, a shape of the library
-  double relaxing = 0.9e-4, inserting = 1e-3, packing = 7e-3, packed_shape = 0.085, tessellating = 0.8e-5;
-  // seconds a particle that no second thread shortens: places, sums and lists; the triangulation
-  double placing = 1.6e-5, triangulating = 1.2e-5;
+  double relaxing = 0.9e-4, inserting = 1e-3, packing = 7e-3, packed_shape = 0.085, tessellating = 1.5e-5;
+  // seconds a particle that no second thread shortens: places, sums and lists; cells and contacts that threads found,
+  // put together
+  double placing = 1.6e-5, joining = 3e-6;
   // seconds of one thread a particle^(4/3) and solution: the iterations grow with the specimen's edge
   double solving = 1.1e-6, solving_on_device = 2e-8;
   double start = 0.1, start_on_device = 0.8;

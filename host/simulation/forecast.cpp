@@ -200,7 +200,7 @@ void add_time(const Scene& scene, Forecast& f, const Cost& cost) {
       if (packed) f.specimen_s += cost.packed_shape * static_cast<double>(f.census.templates) / threads;
     }
   }
-  f.network_s = (cost.tessellating / threads + cost.triangulating) * n;
+  f.network_s = (cost.tessellating / threads + cost.joining) * n;
   f.harmonic_s = f.solutions * std::pow(n, 4.0 / 3) * (device ? cost.solving_on_device : cost.solving / threads);
   double rate = step_cost(scene, f).seconds;
   if (device && f.contacts < cost.contacts_on_chip) rate *= cost.on_chip;

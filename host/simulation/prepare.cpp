@@ -8,6 +8,7 @@
 #include "host/results/result_folder.hpp"
 #include "host/seconds_of.hpp"
 #include "host/simulation/preparation_files.hpp"
+#include "host/simulation/run_scene.hpp"
 #include "host/simulation/summary.hpp"
 #include "host/specimen/generate.hpp"
 #include "macadam/error.hpp"
@@ -41,7 +42,7 @@ void make_cells(const Progress& progress, Preparation& out) {
 
 /// Contacts of particles whose cells are there.
 void make_contacts(const Scene& scene, const Progress& progress, Preparation& out) {
-  if (progress) progress("contact network", 0);
+  if (progress) progress(network_stage, 0);
   out.seconds_network = seconds_of([&] {
     out.network = build_network(out.specimen, out.tessellation, scene.network);
     require_laws(scene, out.specimen, out.network);

@@ -172,9 +172,10 @@ class Pool {
     Cores(Pool& pool, bool first_of_scene) : pool_(pool) {
       std::unique_lock lock(pool_.mutex_);
       ++pool_.waiting_;
-      pool_.changed_.wait(lock, [&] { return pool_.turns_ > 0 && pool_.free_ >= pool_.share_; });
+      // half a share is what another scene gives
+      pool_.changed_.wait(lock, [&] { return pool_.turns_ > 0 && pool_.free_ >= (pool_.share_ + 1) / 2; });
       --pool_.waiting_;
-      number_ = pool_.share_;
+      number_ = std::min(pool_.share_, pool_.free_);
       if (first_of_scene && pool_.urgent_-- > 0) number_ = std::clamp(pool_.for_urgent_, number_, pool_.free_);
       --pool_.turns_, pool_.free_ -= number_;
       omp_set_num_threads(number_);  // of the thread that does the scene
@@ -209,7 +210,7 @@ class Pool {
     cores.emplace(*this, true);
     if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
     return prepare(scene, [&](const std::string& stage, double share) {
-      if (stage == "tessellation") cores->share();  // most of what follows is done by one thread, or by the device
+      if (stage == network_stage) cores->share();  // most of what follows is done by one thread, or by the device
       progress(stage, share);
     });
   }

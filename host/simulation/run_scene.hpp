@@ -6,6 +6,9 @@
 
 namespace macadam {
 
+/// The stage of prepare() that follows on the cells.
+inline constexpr const char* network_stage = "contact network";
+
 struct RunParts {
   /// Makes particles and contacts; prepare() where there is none.
   std::function<Preparation(const Scene& scene, const Progress& progress)> prepare;

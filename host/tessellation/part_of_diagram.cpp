@@ -13,8 +13,8 @@ namespace {
 /// Of spacings: how far around a part particles are taken at first. Less, and more is missing; more costs more.
 constexpr double first_margin = 2.5;
 
-/// A dual point, and a bound of its power to the corners. dual_point() is good to 1e-10 of the lengths; who is taken
-/// without need does no harm.
+/// A dual point, and a bound of its power to the corners. dual_point() is good to 1e-10 of the lengths, and powers to
+/// rounding of the weights; who is taken without need does no harm.
 struct DualSphere {
   Vec3d centre;
   double most_power;
@@ -22,39 +22,54 @@ struct DualSphere {
   DualSphere(const WeightedSites& sites, const SiteNumbers& number) : centre(dual_point(sites, number)) {
     const WeightedSite first = sites[number[0]];
     const auto length2 = [&](const Vec3d& p) { return dot(p - first.centre, p - first.centre); };
-    double longest = length2(centre);
-    for (int k = 1; k < 4; ++k) longest = std::max(longest, length2(sites[number[k]].centre));
-    most_power = first.power(centre) + 1e-8 * longest;
+    double longest = length2(centre), heaviest = first.weight;
+    for (int k = 1; k < 4; ++k) {
+      const WeightedSite site = sites[number[k]];
+      longest = std::max(longest, length2(site.centre)), heaviest = std::max(heaviest, site.weight);
+    }
+    most_power = first.power(centre) + 1e-8 * longest + 1e-14 * heaviest;
   }
 };
+
+/// Of the particles' centres: in a layer or a row of them as in a heap.
+double spacing_of(const SiteTree& tree) {
+  const Vec3d edge = tree.bounds().high - tree.bounds().low;
+  const auto n = static_cast<double>(tree.numbers().size());
+  const double face = std::max({edge.x * edge.y, edge.y * edge.z, edge.z * edge.x});
+  return std::max(
+      {std::cbrt(edge.x * edge.y * edge.z / n), std::sqrt(face / n), std::max({edge.x, edge.y, edge.z}) / n});
+}
 
 class Part {
  public:
   Part(const WeightedSites& sites, const std::vector<SiteTree>& all, const SiteTree& own)
       : sites_(sites), all_(all), own_(sites.particles()), state_(sites.particles()) {
     for (const std::int32_t i : own.numbers()) own_[i] = true;
-    const Vec3d edge = own.range().high - own.range().low;
-    const double spacing = std::cbrt(edge.x * edge.y * edge.z / static_cast<double>(own.numbers().size()));
-    searched_ = own.range().wider(first_margin * spacing);
+    const double spacing = spacing_of(own);
+    searched_ = own.bounds().wider(first_margin * spacing);
     for (const SiteTree& tree : all) tree.each_reaching(searched_, [&](std::int32_t i) { take(i); });
   }
 
-  std::vector<Tetrahedron> tetrahedra() {
+  std::vector<Tetrahedron> tetrahedra() { return own_of(all_there()); }
+
+ private:
+  enum class State : std::uint8_t { away, taken, inserted };
+
+  /// Of a triangulation that has all tetrahedra at own particles.
+  std::vector<Tetrahedron> all_there() {
     Triangulation triangulation(sites_);
     std::vector<Tetrahedron> all;
     while (!taken_.empty()) {
       const std::vector<std::int32_t> fresh = std::exchange(taken_, {});
       triangulation.insert(fresh);
+      all = {};  // of a large specimen as much memory as the new ones
       all = triangulation.tetrahedra();
       for (const Tetrahedron& t : all)
         if (is_own(t) && is_new(t)) take_in_conflict(t);
       for (const std::int32_t i : fresh) state_[i] = State::inserted;
     }
-    return own_of(all);
+    return all;
   }
-
- private:
-  enum class State : std::uint8_t { away, taken, inserted };
 
   bool is_own(const Tetrahedron& t) const {
     return std::ranges::any_of(t.site, [&](std::int32_t i) { return i >= 0 && own_[i]; });
@@ -75,8 +90,12 @@ class Part {
     // there
     const double reach = std::sqrt(std::max(sphere.most_power, 0.0));
     if (searched_.wider(-reach).has(sphere.centre)) return;
-    for (const SiteTree& tree : all_)
-      tree.each_of_power(sphere.centre, sphere.most_power, [&](std::int32_t i) { take(i); });
+    for (const SiteTree& tree : all_) {
+      if (std::isfinite(sphere.most_power))
+        tree.each_of_power(sphere.centre, sphere.most_power, [&](std::int32_t i) { take(i); });
+      else  // of centres that coincide but for rounding: which it is can only be told by all
+        for (const std::int32_t i : tree.numbers()) take(i);
+    }
   }
 
   std::vector<Tetrahedron> own_of(const std::vector<Tetrahedron>& all) const {
@@ -97,7 +116,7 @@ class Part {
 
   const WeightedSites& sites_;
   const std::vector<SiteTree>& all_;
-  Range searched_;                   ///< all spheres that reach into it are taken
+  Bounds searched_;                  ///< all spheres that reach into it are taken
   std::vector<bool> own_;            ///< by particle
   std::vector<State> state_;         ///< by particle
   std::vector<std::int32_t> taken_;  ///< and not inserted yet

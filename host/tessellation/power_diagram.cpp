@@ -2,6 +2,7 @@
 /// \file power_diagram.cpp  Parts of the triangulation made side by side, and joined in an order of their own.
 #include "host/tessellation/power_diagram.hpp"
 
+#include <fmt/format.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "host/tessellation/dual_point.hpp"
 #include "host/tessellation/part_of_diagram.hpp"
 #include "kernels/parallel.hpp"
+#include "macadam/error.hpp"
 
 namespace macadam {
 namespace {
@@ -75,7 +77,12 @@ class Joined {
   }
 
   std::int32_t number_of(const Tetrahedron& t) {
-    const auto found = std::ranges::lower_bound(of(t.site[0]), t.site, come_before, &Tetrahedron::site);
+    const auto all = of(t.site[0]);
+    const auto found = std::ranges::lower_bound(all, t.site, come_before, &Tetrahedron::site);
+    if (found == all.end() || found->site != t.site) {
+      throw RunError(fmt::format("tessellation: parts differ in the tetrahedron of particles {}, {}, {}, {}", t.site[0],
+                                 t.site[1], t.site[2], t.site[3]));
+    }
     return static_cast<std::int32_t>(found - out_.tetrahedra.begin());
   }
 
@@ -108,21 +115,23 @@ PowerDiagram power_diagram(const Specimen& specimen, const std::vector<std::uint
   for (std::size_t i = 0; i < specimen.size(); ++i)
     if (active[i]) numbers.push_back(static_cast<std::int32_t>(i));
   if (parts == 0) parts = parts_for(numbers.size());
-  parts = std::clamp<std::size_t>(numbers.size(), 1, parts);
+  parts = std::min(parts, std::max<std::size_t>(1, numbers.size()));
   std::vector<std::int32_t> part_of(specimen.size(), 0);
-  if (parts == 1) return Joined(sites, {all_tetrahedra(sites, numbers)}, part_of).join();
-
-  const std::vector<std::size_t> begin = divide_into(sites, numbers, parts);
-  std::vector<std::optional<SiteTree>> made(parts);
-  for_each_in_parallel(parts, [&](std::size_t p) {
-    const auto own = std::span(numbers).subspan(begin[p], begin[p + 1] - begin[p]);
-    made[p].emplace(sites, own);
-    for (const std::int32_t i : own) part_of[i] = static_cast<std::int32_t>(p);
-  });
-  std::vector<SiteTree> trees;
-  for (auto& tree : made) trees.push_back(std::move(*tree));
   Parts found(parts);
-  for_each_in_parallel(parts, [&](std::size_t p) { found[p] = tetrahedra_at(sites, trees, trees[p]); });
+  if (parts == 1) {
+    found[0] = all_tetrahedra(sites, numbers);
+  } else {
+    const std::vector<std::size_t> begin = divide_into(sites, numbers, parts);
+    std::vector<std::optional<SiteTree>> made(parts);
+    for_each_in_parallel(parts, [&](std::size_t p) {
+      const auto own = std::span(numbers).subspan(begin[p], begin[p + 1] - begin[p]);
+      made[p].emplace(sites, own);
+      for (const std::int32_t i : own) part_of[i] = static_cast<std::int32_t>(p);
+    });
+    std::vector<SiteTree> trees;
+    for (auto& tree : made) trees.push_back(std::move(*tree));
+    for_each_in_parallel(parts, [&](std::size_t p) { found[p] = tetrahedra_at(sites, trees, trees[p]); });
+  }
   return Joined(sites, found, part_of).join();
 }
 

@@ -9,17 +9,17 @@ namespace {
 
 constexpr std::size_t most_in_a_leaf = 8;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr Range empty{{infinite, infinite, infinite}, {-infinite, -infinite, -infinite}};
+constexpr Bounds empty{{infinite, infinite, infinite}, {-infinite, -infinite, -infinite}};
 
-Range range_of(const WeightedSites& sites, std::span<const std::int32_t> numbers) {
-  Range out = empty;
+Bounds bounds_of(const WeightedSites& sites, std::span<const std::int32_t> numbers) {
+  Bounds out = empty;
   for (const std::int32_t i : numbers) out.grow(sites[i].centre);
   return out;
 }
 
 /// Puts those on the lower side, along the longest edge, before place `middle`.
-void halve(const WeightedSites& sites, std::span<std::int32_t> numbers, std::size_t middle, const Range& range) {
-  const Vec3d edge = range.high - range.low;
+void halve(const WeightedSites& sites, std::span<std::int32_t> numbers, std::size_t middle, const Bounds& bounds) {
+  const Vec3d edge = bounds.high - bounds.low;
   const double Vec3d::*along = edge.x >= edge.y && edge.x >= edge.z ? &Vec3d::x
                                : edge.y >= edge.z                   ? &Vec3d::y
                                                                     : &Vec3d::z;
@@ -34,28 +34,28 @@ void divide(const WeightedSites& sites, std::span<std::int32_t> numbers, std::si
     return;
   }
   const std::size_t lower = parts / 2, middle = numbers.size() * lower / parts;
-  halve(sites, numbers, middle, range_of(sites, numbers));
+  halve(sites, numbers, middle, bounds_of(sites, numbers));
   divide(sites, numbers.first(middle), lower, first, begin);
   divide(sites, numbers.subspan(middle), parts - lower, first + middle, begin);
 }
 
 }  // namespace
 
-void Range::grow(const Vec3d& p) {
+void Bounds::grow(const Vec3d& p) {
   low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
   high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
 }
 
-bool Range::has(const Vec3d& p) const {
+bool Bounds::has(const Vec3d& p) const {
   return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z && p.z <= high.z;
 }
 
-bool Range::meets(const Range& other) const {
+bool Bounds::meets(const Bounds& other) const {
   return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
          low.z <= other.high.z && other.low.z <= high.z;
 }
 
-double Range::distance2(const Vec3d& p) const {
+double Bounds::distance2(const Vec3d& p) const {
   const auto beyond = [](double x, double from, double to) { return std::max({from - x, 0.0, x - to}); };
   const Vec3d way{beyond(p.x, low.x, high.x), beyond(p.y, low.y, high.y), beyond(p.z, low.z, high.z)};
   return dot(way, way);
@@ -71,11 +71,11 @@ void SiteTree::divide(std::size_t begin, std::size_t end) {
   const std::span<std::int32_t> numbers = numbers_.subspan(begin, end - begin);
   double most_weight = -infinite;
   for (const std::int32_t i : numbers) most_weight = std::max(most_weight, sites_[i].weight);
-  const Range range = range_of(sites_, numbers);
-  nodes_.push_back({range, most_weight, begin, end, 0});
+  const Bounds bounds = bounds_of(sites_, numbers);
+  nodes_.push_back({bounds, most_weight, begin, end, 0});
   if (numbers.size() <= most_in_a_leaf) return;
   const std::size_t half = numbers.size() / 2;
-  halve(sites_, numbers, half, range);
+  halve(sites_, numbers, half, bounds);
   divide(begin, begin + half);
   nodes_[own].second_half = nodes_.size();
   divide(begin + half, end);

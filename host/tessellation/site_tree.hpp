@@ -11,13 +11,13 @@
 namespace macadam {
 
 /// An upright box [m].
-struct Range {
+struct Bounds {
   Vec3d low, high;
 
   void grow(const Vec3d& p);
-  Range wider(double by) const { return {low - Vec3d{by, by, by}, high + Vec3d{by, by, by}}; }
+  Bounds wider(double by) const { return {low - Vec3d{by, by, by}, high + Vec3d{by, by, by}}; }
   bool has(const Vec3d& p) const;
-  bool meets(const Range& other) const;
+  bool meets(const Bounds& other) const;
   /// From a point to the nearest one of the box, squared. [m²]
   double distance2(const Vec3d& p) const;
 };
@@ -29,22 +29,22 @@ class SiteTree {
   SiteTree(const WeightedSites& sites, std::span<std::int32_t> numbers);
 
   std::span<const std::int32_t> numbers() const { return numbers_; }
-  const Range& range() const { return nodes_.front().range; }
+  const Bounds& bounds() const { return nodes_.front().bounds; }
 
   /// f(number) for those whose centre is in a box that is wider by their radius than this one.
   template <class F>
-  void each_reaching(const Range& range, F&& f) const {
-    visit([&](const Node& node) { return node.range.meets(range.wider(std::sqrt(node.most_weight))); },
+  void each_reaching(const Bounds& bounds, F&& f) const {
+    visit([&](const Node& node) { return node.bounds.meets(bounds.wider(std::sqrt(node.most_weight))); },
           [&](std::int32_t i) {
             const WeightedSite site = sites_[i];
-            if (range.wider(std::sqrt(site.weight)).has(site.centre)) f(i);
+            if (bounds.wider(std::sqrt(site.weight)).has(site.centre)) f(i);
           });
   }
 
   /// f(number) for those with at most this power at a point.
   template <class F>
   void each_of_power(const Vec3d& p, double most, F&& f) const {
-    visit([&](const Node& node) { return node.range.distance2(p) - node.most_weight <= most; },
+    visit([&](const Node& node) { return node.bounds.distance2(p) - node.most_weight <= most; },
           [&](std::int32_t i) {
             if (sites_[i].power(p) <= most) f(i);
           });
@@ -52,7 +52,7 @@ class SiteTree {
 
  private:
   struct Node {
-    Range range;
+    Bounds bounds;
     double most_weight;
     std::size_t begin, end;   ///< in the numbers
     std::size_t second_half;  ///< node; the first half is the next one; 0: a leaf

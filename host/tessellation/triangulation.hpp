@@ -15,8 +15,8 @@ struct Tetrahedron {
   std::array<std::int32_t, 4> neighbour;  ///< tetrahedron across the face opposite to site k; −1: none that matters
 };
 
-/// The bounding sites, and the particles inserted so far. Exact: what it holds does not depend on the order of
-/// insertion, cospherical sites included.
+/// The bounding sites, and the particles inserted so far. Exact: where no two centres are the same, what it holds does
+/// not depend on the order of insertion, cospherical sites included.
 class Triangulation {
  public:
   /// Of sites that outlive it.

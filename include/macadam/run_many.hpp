@@ -29,7 +29,7 @@ struct ManyOptions {
   /// Scenes at a time; 0: four a device, so that the specimens of some are made while others are stepped, but no more
   /// than cores; without a device one a core. Two specimens a device are made and planned at a time; they share the
   /// cores, but for one a device where there are eight for each. Of several devices each has its first two one after
-  /// the other, by twice as many cores, so that it need not wait long. Once the spheres of a scene lie still, it keeps
+  /// the other, by twice as many cores, so that it need not wait long. Once the cells of a scene are made, it keeps
   /// half of its cores where others wait for some. Without a device each scene has an equal share of them, unless its
   /// [solver] threads says otherwise.
   int at_once = 0;
