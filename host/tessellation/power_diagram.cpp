@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <utility>
 
@@ -60,9 +59,8 @@ class Joined {
     return site >= 0 && part_of_[site] == static_cast<std::int32_t>(part);
   }
   /// Those of a particle.
-  auto of(std::int32_t particle) {
-    const auto begin = out_.tetrahedra.begin();
-    return std::ranges::subrange(begin + begin_[particle], begin + begin_[particle + 1]);
+  std::span<Tetrahedron> of(std::int32_t particle) {
+    return std::span(out_.tetrahedra).subspan(begin_[particle], begin_[particle + 1] - begin_[particle]);
   }
 
   void put_in_order(std::size_t part) {
@@ -77,13 +75,13 @@ class Joined {
   }
 
   std::int32_t number_of(const Tetrahedron& t) {
-    const auto all = of(t.site[0]);
+    const std::span<Tetrahedron> all = of(t.site[0]);
     const auto found = std::ranges::lower_bound(all, t.site, come_before, &Tetrahedron::site);
     if (found == all.end() || found->site != t.site) {
       throw RunError(fmt::format("tessellation: parts differ in the tetrahedron of particles {}, {}, {}, {}", t.site[0],
                                  t.site[1], t.site[2], t.site[3]));
     }
-    return static_cast<std::int32_t>(found - out_.tetrahedra.begin());
+    return static_cast<std::int32_t>(begin_[t.site[0]] + (found - all.begin()));
   }
 
   void link(std::size_t part) {
