@@ -12,16 +12,12 @@
 
 #include "host/counted.hpp"
 #include "macadam/error.hpp"
+#include "test_spheres.hpp"
 
 namespace macadam {
 namespace {
 
-void add(Specimen& s, const Vec3d& p, double radius, Phase phase = Phase::mastic, std::int32_t body = -1) {
-  s.centre.push_back(p);
-  s.radius.push_back(radius);
-  s.phase.push_back(phase);
-  s.body.push_back(body);
-}
+using test::add;
 
 Specimen random_specimen(int n = 300, unsigned seed = 4) {
   std::mt19937_64 engine(seed);

@@ -11,16 +11,10 @@
 #include <random>
 
 #include "test_files.hpp"
+#include "test_spheres.hpp"
 
 namespace macadam::test {
 namespace {
-
-void add(Specimen& s, const Vec3d& p, double radius) {
-  s.centre.push_back(p);
-  s.radius.push_back(radius);
-  s.phase.push_back(Phase::mastic);
-  s.body.push_back(-1);
-}
 
 Specimen random_box(int n, double ratio, unsigned seed) {
   std::mt19937_64 engine(seed);

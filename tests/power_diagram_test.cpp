@@ -11,18 +11,13 @@
 #include <numeric>
 #include <random>
 
-#include "host/tessellation/dual_point.hpp"
 #include "host/tessellation/site_tree.hpp"
+#include "test_spheres.hpp"
 
 namespace macadam {
 namespace {
 
-void add(Specimen& s, const Vec3d& p, double radius) {
-  s.centre.push_back(p);
-  s.radius.push_back(radius);
-  s.phase.push_back(Phase::mastic);
-  s.body.push_back(-1);
-}
+using test::add;
 
 /// Spheres anywhere in a box that is not a cube. One in fifty is up to ten times as large: it hides some of the others,
 /// and reaches far beyond a part.

@@ -18,9 +18,12 @@
 
 #include "host/tessellation/polygon.hpp"
 #include "macadam/error.hpp"
+#include "test_spheres.hpp"
 
 namespace macadam {
 namespace {
+
+using test::add;
 
 // Facets come from a handful of operations on coordinates good to ε of the box: about 1e-15 · (box / spacing). With up
 // to ten spacings a box, and room for the tetrahedra that are solved in double down to a flatness of 1e-3, 1e-11.
@@ -30,13 +33,6 @@ Specimen make(const Vec3d& box) {
   Specimen s;
   s.box.size = box;
   return s;
-}
-
-void add(Specimen& s, const Vec3d& p, double radius) {
-  s.centre.push_back(p);
-  s.radius.push_back(radius);
-  s.phase.push_back(Phase::mastic);
-  s.body.push_back(-1);
 }
 
 void expect_invariants(const Specimen& s, const Tessellation& t, double limit = relative) {

@@ -212,7 +212,8 @@ TEST_F(Tolerance, AGivenStepHasTheScalingThatItNeeds) {
   EXPECT_NEAR(f.dt_s, 5e-6, 5e-7);
 }
 
-// Without a tolerance too, steps are as long as stability lets them, but follow a decay with exp(-t / 20 us).
+// Without a tolerance too, steps are as long as stability lets them, but follow a decay with exp(-t / 20 us), unless
+// the scene gives a step.
 TEST_F(Tolerance, StepsFollowTheDecayOfViscousDamping) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -223,16 +224,7 @@ TEST_F(Tolerance, StepsFollowTheDecayOfViscousDamping) {
   scene.solver.damping_kind = Damping::viscous;
   scene.solver.damping = 5e4;
   EXPECT_NEAR(run_it(scene).stepped().frequencies[0].dt_s, 2e-5, 1e-6);
-}
-
-TEST_F(Tolerance, AGivenStepIsKeptBesideViscousDamping) {
-  Scene scene = scene_of(t8(), 1e-2);
-  scene.cyclic().frequencies = {20};
-  scene.cyclic().cycles = 1;
-  scene.solver.tolerance = std::nullopt;
   scene.solver.density_scaling = std::vector<double>{1e7};
-  scene.solver.damping_kind = Damping::viscous;
-  scene.solver.damping = 5e4;         // a decay within 20 us
   scene.solver.time_step = 1e-4 / 3;  // three steps a sample
   EXPECT_NEAR(run_it(scene).stepped().frequencies[0].dt_s, 1e-4 / 3, 1e-9);
 }

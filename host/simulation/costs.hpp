@@ -18,7 +18,8 @@ struct Cost {
   // seconds of one thread a particle, an aggregate, a shape of the library
   double relaxing = 0.9e-4, inserting = 1e-3, packing = 7e-3, packed_shape = 0.085, tessellating = 1.5e-5;
   // seconds a particle that no second thread shortens: places, sums and lists; cells and contacts that threads found,
-  // put together
+  // put together (with `tessellating`, of runs with 2 threads and with 16:
+  // bench/results/preparation-h100-2026-11-26.csv)
   double placing = 1.6e-5, joining = 3e-6;
   // seconds of one thread a particle^(4/3) and solution: the iterations grow with the specimen's edge
   double solving = 1.1e-6, solving_on_device = 2e-8;
