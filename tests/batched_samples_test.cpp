@@ -5,37 +5,15 @@
 
 #include <array>
 
+#include "fake_devices.hpp"
 #include "macadam/error.hpp"
 #include "macadam/simulation.hpp"
-#include "test_folder.hpp"
 
 namespace macadam::test {
 namespace {
 
-/// A variable of the environment while it lives.
-class Environment {
- public:
-  Environment(const char* name, const std::string& value) : name_(name) { ::setenv(name, value.c_str(), 1); }
-  Environment(const Environment&) = delete;
-  ~Environment() { ::unsetenv(name_); }
-
- private:
-  const char* name_;
-};
-
-class BatchedSamples : public TestFolder {
+class BatchedSamples : public FakeDevices {
  protected:
-  /// The backend is looked for once by this process.
-  static void SetUpTestSuite() {
-    std::string name = (fs::path(testing::TempDir()) / "macadam_plugin_XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr) << name;
-    plugins_ = name;
-    fs::create_symlink(FAKE_DEVICE_PLUGIN, plugins_ / "libmacadam_cuda.so");
-    const Environment path("MACADAM_PLUGIN_PATH", plugins_), number("FAKE_DEVICES", "2");
-    ASSERT_EQ(report_backends().devices.size(), 2u);
-  }
-  static void TearDownTestSuite() { fs::remove_all(plugins_); }
-
   /// `loading`, `output`: lines of their tables.
   Scene scene(const std::string& loading, const std::string& solver, Backend backend,
               const std::string& output = "") const {
@@ -47,9 +25,6 @@ class BatchedSamples : public TestFolder {
   void expect_same_files(const std::vector<const char*>& files) const {
     for (const char* file : files) EXPECT_EQ(read(out("device") / file), read(out("processor") / file)) << file;
   }
-
-  const Environment devices_{"FAKE_DEVICES", "2"};
-  static inline fs::path plugins_;
 };
 
 const std::string four = "kind = \"cyclic\"\nfrequencies = [5.0, 10.0, 20.0, 40.0]\ncycles = 2\n";
