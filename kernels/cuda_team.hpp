@@ -10,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -133,6 +134,11 @@ class DeviceTeam {
       cudaStreamSynchronize(m.stream);
     }
     use();
+  }
+  /// Makes what the first member queues from now on wait for an event of another stream.
+  std::function<void(void*)> behind() const {
+    return
+        [this](void* event) { check_cuda(cudaStreamWaitEvent(stream(), static_cast<cudaEvent_t>(event), 0), "event"); };
   }
   /// Until all that is queued is done. Every device is asked again and again: what one that fails should have done,
   /// others may wait for in vain.

@@ -201,9 +201,8 @@ class TileRunner {
   void run(std::int64_t first, std::int64_t steps, std::int64_t row) {
     const Range range("time steps");
     if (resident_ && !has_room_) {
-      const auto before = static_cast<cudaEvent_t>(DeviceRoom::take(number_, room_, room_of_device_));
+      DeviceRoom::take(number_, room_, room_of_device_, team_.behind());
       has_room_ = true;
-      if (before) check_cuda(cudaStreamWaitEvent(team_.stream(), before, 0), "time steps");
     }
     team_.meet();  // with what the start has put into memory
     scene_.motion.wall.table = wall_table_ + static_cast<std::size_t>(row) * scene_.motion.wall.row_words();

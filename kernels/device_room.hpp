@@ -10,10 +10,15 @@
 /// A device whose multiprocessors one specimen has, all of whose steps are queued, may be taken by the next one
 /// already: its steps are queued behind an event at the end of those. So the device has no pause in which hosts wake
 /// each other.
+///
+/// A solution in the frequency domain goes before all steps, and has its devices to itself. It is hundreds of short
+/// kernels one after the other, of which each would else wait for steps to end: a specimen that is being planned took
+/// a second to be solved beside steps, and a tenth of that alone.
 #pragma once
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 
@@ -27,17 +32,23 @@ class DeviceRoom {
   using Share = std::map<int, int>;
   /// An event of CUDA, of which nothing but its place is looked at here.
   using Event = void*;
+  /// Makes what is queued from now on wait for an event.
+  using QueueBehind = std::function<void(Event)>;
+  /// What needs room.
+  enum class Work { steps, solution };
 
-  /// The number of a specimen that is to be stepped: one more than that of the specimen before.
-  static std::uint64_t next_number() {
+  /// The number of a specimen that is to be stepped, or of a solution: one more than that of the one before. All
+  /// solutions have lower numbers than all specimens.
+  static std::uint64_t next_number(Work work = Work::steps) {
+    constexpr std::uint64_t first_of_steps = std::uint64_t{1} << 63;
     DeviceRoom& room = instance();
     const std::lock_guard lock(room.mutex_);
-    return room.next_++;
+    return room.next_++ + (work == Work::steps ? first_of_steps : 0);
   }
-  /// Waits until it is the turn of `wanted`: no specimen with a lower number waits for one of these devices, and all of
-  /// it is free, or will be at the event that is returned, which what is queued must wait for. `of_device`: what each
-  /// device has.
-  static Event take(std::uint64_t number, const Share& wanted, const Share& of_device) {
+  /// Waits until it is the turn of `wanted`: no lower number waits for one of these devices, and all of it is free, or
+  /// will be at an event, behind which it is queued here: until then the event's owner cannot give its room back, and
+  /// keeps the event. `of_device`: what each device has.
+  static void take(std::uint64_t number, const Share& wanted, const Share& of_device, const QueueBehind& queue_behind) {
     DeviceRoom& room = instance();
     std::unique_lock lock(room.mutex_);
     room.waiting_[number] = wanted;
@@ -47,10 +58,9 @@ class DeviceRoom {
       return room.is_first(number) && (room.is_free(wanted, of_device) || (end = room.end_before(wanted)));
     });
     room.waiting_.erase(number);
+    room.changed_.notify_all();  // who is next may have room beside this one, or in its place
+    if (end) queue_behind(end);
     room.taken_[number] = {wanted, nullptr};
-    lock.unlock();
-    room.changed_.notify_all();  // who is next may have room beside this one
-    return end;
   }
   /// All that a specimen does in its room is queued, and `end` behind it.
   static void is_queued(std::uint64_t number, Event end) {
@@ -70,31 +80,20 @@ class DeviceRoom {
     room.changed_.notify_all();
   }
 
-  /// Whether steps on this device are to leave pauses.
-  static bool leaves_pauses(int device) {
-    DeviceRoom& room = instance();
-    const std::lock_guard lock(room.mutex_);
-    return room.has_short_kernels(device);
-  }
-
-  /// While it lives, many short kernels run on these devices one after the other, each as soon as a multiprocessor is
-  /// free: steps leave pauses for them.
-  class ShortKernels {
+  /// While it lives, a solution has its devices to itself.
+  class ForSolution {
    public:
-    explicit ShortKernels(const DeviceList& devices) : devices_(devices) { count(+1); }
-    ShortKernels(const ShortKernels&) = delete;
-    ~ShortKernels() { count(-1); }
+    ForSolution(const DeviceList& devices, const QueueBehind& queue_behind) {
+      constexpr int more_than_any_has = 1 << 20;
+      Share whole;
+      for (const int device : devices) whole[device] = more_than_any_has;
+      take(number_, whole, whole, queue_behind);
+    }
+    ForSolution(const ForSolution&) = delete;
+    ~ForSolution() { give(number_); }
 
    private:
-    void count(int change) {
-      DeviceRoom& room = instance();
-      {
-        const std::lock_guard lock(room.mutex_);
-        for (const int device : devices_) room.short_kernels_[device] += change;
-      }
-      room.changed_.notify_all();
-    }
-    DeviceList devices_;
+    const std::uint64_t number_ = next_number(Work::solution);
   };
 
  private:
@@ -103,10 +102,6 @@ class DeviceRoom {
     Event end = nullptr;  // behind all that is queued there; null: there is more to come
   };
 
-  bool has_short_kernels(int device) const {
-    const auto found = short_kernels_.find(device);
-    return found != short_kernels_.end() && found->second > 0;
-  }
   bool is_first(std::uint64_t mine) const {
     const Share& wanted = waiting_.at(mine);
     for (const auto& [earlier, others] : waiting_) {
@@ -132,7 +127,6 @@ class DeviceRoom {
   Event end_before(const Share& wanted) const {
     if (wanted.size() != 1) return nullptr;
     const int device = wanted.begin()->first;
-    if (has_short_kernels(device)) return nullptr;
     const Taken* only = nullptr;
     for (const auto& [specimen, taken] : taken_) {
       if (!taken.share.contains(device)) continue;
@@ -147,9 +141,8 @@ class DeviceRoom {
   }
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::map<std::uint64_t, Taken> taken_;    // by the specimens' numbers
-  std::map<std::uint64_t, Share> waiting_;  // by the specimens' numbers
-  std::map<int, int> short_kernels_;        // by device
+  std::map<std::uint64_t, Taken> taken_;    // by numbers
+  std::map<std::uint64_t, Share> waiting_;  // by numbers
   std::uint64_t next_ = 0;
 };
 

@@ -100,12 +100,11 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
 
   using Base::number_or_none, Base::twists;  // of notes
 
-  /// So many notes can be taken before they are read; 0: none, of several devices. Few while another specimen needs
-  /// pauses between the steps. `radius` in specimen order [m].
+  /// So many notes can be taken before they are read; 0: none, of several devices. `radius` in specimen order [m].
   std::size_t most_notes(const std::vector<double>& radius) {
     if (this->team_.ranks() || this->team_.size() > 1) return 0;
     this->require_divergence_search(radius);
-    return DeviceRoom::leaves_pauses(this->team_.device(0)) ? 1 : Notes<R>::most;
+    return Notes<R>::most;
   }
   /// Queues note number `k`, behind the steps that were queued.
   void note(std::size_t k) {

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <future>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -27,7 +28,9 @@ class Specimen {
     return std::async(std::launch::async, [this] {
       Share all;
       for (const auto& [device, number] : share_) all[device] = 100;
-      return DeviceRoom::take(number_, share_, all);
+      Event behind = nullptr;
+      DeviceRoom::take(number_, share_, all, [&](Event end) { behind = end; });
+      return behind;
     });
   }
   void queues_all() { DeviceRoom::is_queued(number_, end()); }
@@ -40,6 +43,7 @@ class Specimen {
   char end_ = 0;
 };
 
+void nowhere(Event) {}
 bool waits(std::future<Event>& taken) { return taken.wait_for(50ms) == std::future_status::timeout; }
 
 TEST(DeviceRoom, ASecondSpecimenIsQueuedBehindTheStepsOfTheFirst) {
@@ -72,7 +76,7 @@ TEST(DeviceRoom, GivesTurnsByTheSpecimensNumbers) {
   const std::uint64_t first = DeviceRoom::next_number();
   for (std::uint64_t k = 1; k < 5; ++k) ASSERT_EQ(DeviceRoom::next_number(), first + k);
   const auto take = [&](std::uint64_t number, const DeviceRoom::Share& share, char name) {
-    DeviceRoom::take(first + number, share, of_device);
+    DeviceRoom::take(first + number, share, of_device, nowhere);
     {
       const std::lock_guard lock(mutex);
       order.push_back(name);
@@ -80,7 +84,7 @@ TEST(DeviceRoom, GivesTurnsByTheSpecimensNumbers) {
     DeviceRoom::give(first + number);
   };
   const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(300)); };
-  DeviceRoom::take(first, small, of_device);
+  DeviceRoom::take(first, small, of_device, nowhere);
   std::thread young([&] { take(4, whole, 'y'); });
   wait();  // so that it waits before the next comes
   std::thread large([&] { take(2, whole, 'L'); });
@@ -123,24 +127,84 @@ TEST(DeviceRoom, SpecimensOnSeveralDevicesWaitForAllOfThem) {
   b.gives();
 }
 
-TEST(DeviceRoom, ShortKernelsGetPausesOnTheirDevice) {
-  Specimen a(Share{{5, 90}}), b(Share{{5, 90}}), c(Share{{6, 90}}), d(Share{{6, 90}});
-  a.takes().get();
-  c.takes().get();
-  std::future<Event> second, other;
-  {
-    const DeviceRoom::ShortKernels solution({5});
-    EXPECT_TRUE(DeviceRoom::leaves_pauses(5));
-    EXPECT_FALSE(DeviceRoom::leaves_pauses(6));
-    a.queues_all();
-    c.queues_all();
-    second = b.takes();
-    EXPECT_TRUE(waits(second));
-    EXPECT_EQ(d.takes().get(), c.end());
+/// A solution on its way in a thread of its own, until it is told to end; what it waits for on the device.
+class Solution {
+ public:
+  explicit Solution(DeviceList devices)
+      : thread_([this, devices = std::move(devices)] {
+          Event behind = nullptr;
+          const DeviceRoom::ForSolution room(devices, [&](Event end) { behind = end; });
+          begun_.set_value(behind);
+          end_.get_future().wait();
+        }) {}
+  ~Solution() { ends(); }
+  std::future<Event>& begins() { return taken_; }
+  void ends() {
+    if (!thread_.joinable()) return;
+    end_.set_value();
+    thread_.join();
   }
-  EXPECT_FALSE(DeviceRoom::leaves_pauses(5));
-  EXPECT_EQ(second.get(), a.end());
-  for (Specimen* s : {&a, &b, &c, &d}) s->gives();
+
+ private:
+  std::promise<Event> begun_;
+  std::promise<void> end_;
+  std::future<Event> taken_ = begun_.get_future();
+  std::thread thread_;  // the last, as it works with the others
+};
+
+TEST(DeviceRoom, ASolutionGoesBeforeStepsThatWait) {
+  Specimen a(Share{{5, 90}}), b(Share{{5, 90}});
+  a.takes().get();
+  std::future<Event> second = b.takes();
+  Solution solution({5});
+  EXPECT_TRUE(waits(solution.begins())) << "more of the steps may come";
+  a.queues_all();
+  EXPECT_EQ(solution.begins().get(), a.end());
+  a.gives();
+  EXPECT_TRUE(waits(second));
+  solution.ends();
+  EXPECT_EQ(second.get(), nullptr);
+  b.gives();
+}
+
+TEST(DeviceRoom, ASolutionHasItsDevicesToItself) {
+  Specimen small(Share{{6, 1}}), other(Share{{7, 1}}), elsewhere(Share{{8, 1}});
+  Solution both({6, 7});
+  EXPECT_EQ(both.begins().get(), nullptr);
+  Solution next({7});
+  EXPECT_TRUE(waits(next.begins()));
+  std::future<Event> first = small.takes(), second = other.takes();
+  EXPECT_TRUE(waits(first)) << "however little it takes";
+  EXPECT_EQ(elsewhere.takes().get(), nullptr) << "another device is free";
+  both.ends();
+  EXPECT_EQ(first.get(), nullptr);
+  EXPECT_EQ(next.begins().get(), nullptr);
+  EXPECT_TRUE(waits(second)) << "solutions go first";
+  next.ends();
+  EXPECT_EQ(second.get(), nullptr);
+  for (Specimen* s : {&small, &other, &elsewhere}) s->gives();
+}
+
+TEST(DeviceRoom, NobodyGivesRoomWhileAnotherIsQueuedBehind) {
+  Specimen a(Share{{9, 90}});
+  a.takes().get();
+  a.queues_all();
+  std::future<void> given;
+  const DeviceRoom::ForSolution solution({9}, [&](Event) {
+    given = std::async(std::launch::async, [&] { a.gives(); });
+    EXPECT_EQ(given.wait_for(50ms), std::future_status::timeout) << "its event might be gone";
+  });
+  given.get();
+}
+
+TEST(DeviceRoom, WhoCannotBeQueuedHasNoRoom) {
+  Specimen a(Share{{10, 90}}), b(Share{{10, 90}});
+  a.takes().get();
+  a.queues_all();
+  EXPECT_THROW(DeviceRoom::ForSolution({10}, [](Event) { throw std::runtime_error("lost"); }), std::runtime_error);
+  EXPECT_EQ(b.takes().get(), a.end());
+  a.gives();
+  b.gives();
 }
 
 }  // namespace

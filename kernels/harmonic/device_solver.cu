@@ -63,7 +63,6 @@ class Solver : public DeviceSolver {
                                  const std::vector<Complex*>& motion, const std::vector<bool>& begun,
                                  const std::function<void()>& look) override {
     team_.use(0);
-    const DeviceRoom::ShortKernels pauses(devices_);
     if (loads.size() == 1) return solve_with(one_, loads, right, motion, begun, look);
     return solve_with(four_, loads, right, motion, begun, look);
   }
@@ -180,21 +179,26 @@ class Solver : public DeviceSolver {
       launch("loads", to_lanes<F>, blocks, cocg_threads, 0, team_.stream(), staged.data(), to.data(), size, int(f));
       team_.wait("loads");
     };
-    const auto from_right_sides = [&](const CocgScalars<F>& start) {
+    const auto start_from_right_sides = [&](const CocgScalars<F>& start) {
       v.scalars.upload(&start);
       v.p.clear();
       v.r.clear();
       for (std::size_t f = 0; f < loads.size(); ++f) take(right[f], f, v.r);
-      return iterate(v, look);
     };
     v.x.clear();
     for (std::size_t f = 0; f < loads.size(); ++f) {
       if (begun[f]) take(motion[f], f, v.x);
     }
     CocgScalars<F> start = scalars_of<F>(loads);
-    const CocgScalars<F> end = from_right_sides(start);
-    start.most_iterations = 0;  // only judges
-    const CocgScalars<F> judged = from_right_sides(start);
+    start_from_right_sides(start);
+    CocgScalars<F> end, judged;
+    {
+      const DeviceRoom::ForSolution room(devices_, team_.behind());
+      end = iterate(v, look);
+      start.most_iterations = 0;  // only judges
+      start_from_right_sides(start);
+      judged = iterate(v, look);
+    }
     std::vector<LinearState> out;
     for (std::size_t f = 0; f < loads.size(); ++f) {
       launch("motions", from_lanes<F>, blocks, cocg_threads, 0, team_.stream(), v.x.data(), staged.data(), size,
