@@ -148,7 +148,7 @@ void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor,
                                  const Vector& motion, Vector& out, std::vector<double>* largest) const {
   out.resize(6 * particles_);
   if (largest) largest->resize(6 * particles_);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(dynamic, 64)  // large particles, with hundreds of contacts, stand together
   for (std::size_t i = 0; i < particles_; ++i) {
     Complex sum[6] = {};
     double force = 0, moment = 0;  // by magnitude

@@ -67,25 +67,19 @@ __device__ inline double conjugate_product(const double* straight, int f) {
   return straight[2 * f] + straight[2 * f + 1];
 }
 
-/// The largest of a warp's numbers, on all of its threads.
-__device__ inline unsigned largest_in_warp(unsigned value) {
-#if __CUDA_ARCH__ >= 800
-  return __reduce_max_sync(0xffffffffu, value);
-#else
-  for (int lanes = 16; lanes > 0; lanes /= 2) value = max(value, __shfl_xor_sync(0xffffffffu, value, lanes));
-  return value;
-#endif
-}
+/// From so many contacts on, all warps of a block work on a body: a large aggregate has hundreds, which take one warp
+/// longer than the rest of the specimen takes all others.
+inline constexpr unsigned many_contacts = 64;
 
-/// Eight threads a body: one a lane, and where there are fewer lanes several share its contacts.
+/// A warp a body: a thread a lane, as often as a warp has room for, and these share the contacts.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads)
     cocg_apply(CocgView<F> d, unsigned first_segment, const double* from, bool first) {
-  constexpr unsigned W = 2 * F, group = 8, slices = group / W;
+  constexpr unsigned W = 2 * F, slices = 32 / W, warps = cocg_threads / 32;
   CocgScalars<F>& s = *d.scalars;
   if (!s.running) return;
   __shared__ double own_k[pair_types][W], cross_k[pair_types][W], alpha[pair_types];
-  const unsigned lane = threadIdx.x % W, slice = threadIdx.x % group / W;
+  const unsigned lane = threadIdx.x % W, slice = threadIdx.x % 32 / W, warp = threadIdx.x / 32;
   const bool imaginary = lane % 2;
   if (threadIdx.x < W) {
     for (int pair = 0; pair < pair_types; ++pair) {
@@ -97,24 +91,23 @@ __global__ void __launch_bounds__(cocg_threads)
   __syncthreads();
   const unsigned number = first_segment + blockIdx.x;
   const Segment segment = d.segment[number];
-  double product[2] = {0, 0};
-  for (int base = segment.first; base < segment.end; base += cocg_threads / group) {
-    const int asked = base + static_cast<int>(threadIdx.x / group);
-    const bool active = asked < segment.end;
-    const std::size_t body = static_cast<std::size_t>(active ? asked : segment.first);
+  const auto contacts_of = [&](std::size_t body) {
+    return static_cast<unsigned>(d.row_begin[body + 1] - d.row_begin[body]);
+  };
+  const auto twist = [&](std::size_t i) {
+    double v[6];
+    for (int c = 0; c < 6; ++c) v[c] = __ldg(&from[(6 * i + c) * W + lane]);
+    return to_twist(v);
+  };
+  // Σ of the loads on a body by its contacts number mine, mine + step, …, over the slices of a warp.
+  const auto add_loads = [&](std::size_t body, unsigned mine, unsigned step, double(&held)[6]) {
     const std::size_t begin = d.row_begin[body];
-    const auto count = static_cast<unsigned>(d.row_begin[body + 1] - begin);
-    const unsigned trips = largest_in_warp((count + slices - 1) / slices);
-    const auto twist = [&](std::size_t i) {
-      double v[6];
-      for (int c = 0; c < 6; ++c) v[c] = from[(6 * i + c) * W + lane];
-      return to_twist(v);
-    };
+    const unsigned count = contacts_of(body);
     const Twist<double> own = twist(body);
     Twist<double> sum;
-    for (unsigned trip = 0; trip < trips; ++trip) {  // alike for a whole warp, whose lanes exchange numbers
-      const unsigned i = trip * slices + slice;
-      const ContactEnd e = d.ends[begin + (i < count ? i : 0)];
+    for (unsigned base = 0; base < count; base += step) {  // alike for a whole warp, whose lanes exchange numbers
+      const unsigned i = base + mine;
+      const ContactEnd& e = d.ends[begin + (i < count ? i : 0)];
       const LaneFactor k{own_k[e.pair][lane], cross_k[e.pair][lane]};
       const Twist<double> load =
           end_load(e, own, e.other >= 0 ? twist(static_cast<std::size_t>(e.other)) : Twist<double>{}, k, alpha[e.pair]);
@@ -123,20 +116,61 @@ __global__ void __launch_bounds__(cocg_threads)
         sum.angular += load.angular;
       }
     }
-    double held[6], at[6];
     to_array(sum, held);
-    to_array(own, at);
     for (int c = 0; c < 6; ++c) {
-      for (unsigned step = W; step < group; step *= 2) held[c] += __shfl_xor_sync(0xffffffffu, held[c], step);
+      for (unsigned far = W; far < 32; far *= 2) held[c] += __shfl_xor_sync(0xffffffffu, held[c], far);
+    }
+  };
+  double product[2] = {0, 0};
+  const auto finish = [&](std::size_t body, const double(&held)[6]) {
+    double at[6];
+    to_array(twist(body), at);
+    for (int c = 0; c < 6; ++c) {
       double q = -held[c];
-      if (!s.inert) q -= d.mass[2 * body + c / 3] * inertia(at[c]);
+      if (!s.inert) q -= __ldg(&d.mass[2 * body + c / 3]) * inertia(at[c]);
       const double q_partner = partner(q);
-      if (active && slice == 0) {
+      if (slice == 0) {
         d.q[(6 * body + c) * W + lane] = q;
         product[0] += at[c] * q;
         product[1] += at[c] * q_partner;
       }
     }
+  };
+  for (int i = segment.first + static_cast<int>(warp); i < segment.end; i += warps) {
+    const auto body = static_cast<std::size_t>(i);
+    if (contacts_of(body) >= many_contacts) continue;
+    double held[6];
+    add_loads(body, slice, slices, held);
+    finish(body, held);
+  }
+  __shared__ double of_warps[warps][6][W];
+  __shared__ unsigned has_many[warps];  // a bit a body
+  for (int base = segment.first; base < segment.end; base += cocg_threads) {
+    const int asked = base + static_cast<int>(threadIdx.x);
+    const bool has = asked < segment.end && contacts_of(static_cast<std::size_t>(asked)) >= many_contacts;
+    const unsigned bits = __ballot_sync(0xffffffffu, has);
+    if (threadIdx.x % 32 == 0) has_many[warp] = bits;
+    __syncthreads();
+    for (unsigned word = 0; word < warps; ++word) {
+      for (unsigned left = has_many[word]; left != 0; left &= left - 1) {
+        const auto body =
+            static_cast<std::size_t>(base + static_cast<int>(32 * word) + __ffs(static_cast<int>(left)) - 1);
+        double held[6];
+        add_loads(body, warp * slices + slice, warps * slices, held);
+        for (int c = 0; c < 6; ++c) {
+          if (slice == 0) of_warps[warp][c][lane] = held[c];
+        }
+        __syncthreads();
+        if (warp == 0) {
+          for (int c = 0; c < 6; ++c) {
+            for (unsigned other = 1; other < warps; ++other) held[c] += of_warps[other][c][lane];
+          }
+          finish(body, held);
+        }
+        __syncthreads();
+      }
+    }
+    __syncthreads();
   }
   block_sum<2, W>(product, &d.products[number * 2 * W]);
   if (!comes_last(d.ticket, d.segments, d.several)) return;
@@ -165,28 +199,36 @@ __global__ void __launch_bounds__(cocg_threads) cocg_advance(CocgView<F> d, unsi
     const int asked = base + static_cast<int>(threadIdx.x / W);
     const bool active = asked < segment.end;
     const std::size_t body = static_cast<std::size_t>(active ? asked : segment.first);
-    double r[6];
+    // All is asked for before the first is stored: each load would else wait for the one before.
+    double x[6], r[6], z[6] = {};
     for (int c = 0; c < 6; ++c) {
       const std::size_t at = (6 * body + c) * W + lane;
-      const double go = step(d.p[at]), back = step(d.q[at]);
-      r[c] = d.r[at] - back;
-      if (active) {
-        d.x[at] += go;
-        d.r[at] = r[c];
-      }
+      x[c] = d.x[at] + step(d.p[at]);
+      r[c] = d.r[at] - step(d.q[at]);
     }
     const double* inverse = &d.inverse[36 * body];
     for (int a = 0; a < 6; ++a) {
-      double z = 0;
-      for (int b = 0; b < 6; ++b) z += inverse[6 * a + b] * r[b];
-      const double z_partner = partner(z);
-      if (!active) continue;
-      d.z[(6 * body + a) * W + lane] = z;
-      sums[0] += r[a] * z;
-      sums[1] += r[a] * z_partner;
-      sums[sums_rr] += r[a] * r[a];
+      for (int b = 0; b < 6; ++b) z[a] += __ldg(&inverse[6 * a + b]) * r[b];
+    }
+    double z_partner[6];
+    for (int a = 0; a < 6; ++a) z_partner[a] = partner(z[a]);
+    if (active) {
+      for (int a = 0; a < 6; ++a) {
+        sums[0] += r[a] * z[a];
+        sums[1] += r[a] * z_partner[a];
+        sums[sums_rr] += r[a] * r[a];
+      }
       for (int m = 0; m < most_free_motions; ++m) {
-        if (m < d.free) sums[sums_drop + m] += d.mass[2 * body + a / 3] * d.motion[(body * d.free + m) * 6 + a] * z;
+        if (m >= d.free) break;
+        for (int a = 0; a < 6; ++a)
+          sums[sums_drop + m] +=
+              __ldg(&d.mass[2 * body + a / 3]) * __ldg(&d.motion[(body * d.free + m) * 6 + a]) * z[a];
+      }
+      for (int c = 0; c < 6; ++c) {
+        const std::size_t at = (6 * body + c) * W + lane;
+        d.x[at] = x[c];
+        d.r[at] = r[c];
+        d.z[at] = z[c];
       }
     }
     if (active) {
@@ -244,6 +286,7 @@ __global__ void __launch_bounds__(cocg_threads) cocg_coarse(CocgView<F> d) {
   const auto load_of = [&](unsigned b) { return &d.sums[(b / 6 * box_sums + sums_load + b % 6) * W]; };
   if (row < size) {
     double sum[W] = {};
+#pragma unroll 3  // a row is long: some of its terms are asked for at a time
     for (unsigned b = lane; b < size; b += 32) {
       const double k = d.coarse[static_cast<std::size_t>(row) * size + b];
       const double* load = load_of(b);
@@ -259,6 +302,7 @@ __global__ void __launch_bounds__(cocg_threads) cocg_coarse(CocgView<F> d) {
   sum_rows<sums_load, W>(d.sums, d.boxes, box_sums * W, sums);
   double own[2 + most_free_motions] = {};
   const unsigned mine = threadIdx.x % W;
+#pragma unroll 6
   for (unsigned a = threadIdx.x / W; a < size; a += cocg_threads / W) {
     const double move = __ldcg(&d.boxes_move[a * W + mine]);
     own[0] += load_of(a)[mine] * move;
@@ -292,16 +336,18 @@ __global__ void __launch_bounds__(cocg_threads) cocg_turn(CocgView<F> d, unsigne
     const int asked = base + static_cast<int>(threadIdx.x / W);
     const bool active = asked < segment.end;
     const std::size_t body = static_cast<std::size_t>(active ? asked : segment.first);
-    double add[6];
-    to_array(moved_with_box(d.lever[body], y), add);
-    for (int c = 0; c < 6; ++c) {
+    double p[6], add[6];
+    for (int c = 0; c < 6; ++c) {  // all is asked for before the first is stored
       const std::size_t at = (6 * body + c) * W + lane;
-      double z = d.z[at] + add[c];
-      for (int m = 0; m < most_free_motions; ++m) {
-        if (m < d.free) z -= d.motion[(body * d.free + m) * 6 + c] * drop[m];
-      }
-      const double p = z + turn(d.p[at]);
-      if (active) d.p[at] = p;
+      p[c] = d.z[at] + turn(d.p[at]);
+    }
+    to_array(moved_with_box(d.lever[body], y), add);
+    for (int m = 0; m < most_free_motions; ++m) {
+      if (m >= d.free) break;
+      for (int c = 0; c < 6; ++c) add[c] -= __ldg(&d.motion[(body * d.free + m) * 6 + c]) * drop[m];
+    }
+    for (int c = 0; c < 6; ++c) {
+      if (active) d.p[(6 * body + c) * W + lane] = p[c] + add[c];
     }
   }
 }
