@@ -2,13 +2,9 @@
 /// \file cuda_divergence.hpp  Finds on the device the first particle that moves beyond sense.
 #pragma once
 
-#include <cub/device/device_reduce.cuh>
-#include <cuda/functional>
-#include <cuda/std/functional>
-#include <thrust/iterator/counting_iterator.h>
-
 #include "kernels/contact_forces.hpp"
 #include "kernels/cuda_array.hpp"
+#include "kernels/cuda_launch.hpp"
 #include "kernels/layout.hpp"
 
 namespace macadam::kernels {
@@ -30,43 +26,40 @@ struct Divergent {
   }
 };
 
+/// Among the bodies `begin` to `end` − 1; `first` was no less than what is to be found.
+template <class P>
+__global__ void find_divergent(const Divergent<P> of_body, std::int32_t begin, std::int32_t end, std::uint32_t* first) {
+  const auto body = begin + static_cast<std::int32_t>(blockIdx.x * blockDim.x + threadIdx.x);
+  if (body >= end) return;
+  const std::uint32_t found = of_body(body);
+  if (found != UINT32_MAX) atomicMin(first, found);
+}
+
 /// Owns what the search needs.
 template <class P>
 class DivergenceSearch {
  public:
   /// `radius` in specimen order [m].
   DivergenceSearch(const Layout& layout, const std::vector<double>& radius)
-      : particle_(DeviceArray<std::int32_t>::of(layout.particle)), first_(1) {
+      : particle_(DeviceArray<std::int32_t>::of(layout.particle)) {
     std::vector<double> sorted;
     for (const auto i : layout.particle) sorted.push_back(radius[static_cast<std::size_t>(i)]);
     radius_ = DeviceArray<double>::of(sorted);
   }
 
-  /// Queues the search among the bodies `begin` to `end` − 1, of velocities `velocity` [body][8] on the device, for
-  /// first(): what Stepper::first_divergent() says, but UINT32_MAX for none.
-  void queue(const typename P::Particle* velocity, double dt, std::size_t begin, std::size_t end, cudaStream_t stream) {
-    const auto search = [&](std::size_t& bytes) {
-      check_cuda(cub::DeviceReduce::TransformReduce(
-                     work_.data(), bytes, thrust::make_counting_iterator(static_cast<std::int32_t>(begin)),
-                     first_.data(), static_cast<int>(end - begin), ::cuda::minimum<std::uint32_t>{},
-                     Divergent<P>{velocity, particle_.data(), radius_.data(), dt}, std::uint32_t{UINT32_MAX}, stream),
-                 "divergence");
-    };
-    std::size_t bytes = work_.size();
-    if (bytes == 0) {  // the first call only says how much room it needs
-      search(bytes);
-      work_ = DeviceArray<unsigned char>(bytes);
-    }
-    search(bytes);
+  /// Queues the search among the bodies `begin` to `end` − 1, of velocities `velocity` [body][8] on the device.
+  /// `first`, on the device, is UINT32_MAX, and becomes what Stepper::first_divergent() says, if it finds any.
+  void queue(const typename P::Particle* velocity, double dt, std::size_t begin, std::size_t end, std::uint32_t* first,
+             cudaStream_t stream) const {
+    constexpr unsigned threads = 256;
+    launch("divergence", find_divergent<P>, (end - begin + threads - 1) / threads, threads, 0, stream,
+           Divergent<P>{velocity, particle_.data(), radius_.data(), dt}, static_cast<std::int32_t>(begin),
+           static_cast<std::int32_t>(end), first);
   }
-  /// On the device.
-  const std::uint32_t* first() const { return first_.data(); }
 
  private:
   DeviceArray<std::int32_t> particle_;
   DeviceArray<double> radius_;
-  DeviceArray<std::uint32_t> first_;
-  DeviceArray<unsigned char> work_;
 };
 
 }  // namespace macadam::kernels

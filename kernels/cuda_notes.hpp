@@ -22,17 +22,15 @@ struct Note {
   std::uint32_t divergent;                          ///< first particle that left the range of sense, UINT32_MAX: none
 };
 
-/// One block. Arrays are those of a note, on the device.
+/// One block: all but `divergent`. Arrays are those of a note, on the device.
 template <class R>
-__global__ void take_note(Note<R>* note, const R* force, const R* velocity, const double* displacement,
-                          const std::uint32_t* divergent) {
+__global__ void take_note(Note<R>* note, const R* force, const R* velocity, const double* displacement) {
   for (unsigned i = threadIdx.x; i < walls * velocity_words; i += blockDim.x) {
     note->force[i] = force[i];
     note->velocity[i] = velocity[i];
   }
   for (unsigned i = threadIdx.x; i < walls * displacement_words; i += blockDim.x)
     note->displacement[i] = displacement[i];
-  if (threadIdx.x == 0) note->divergent = *divergent;
 }
 
 /// Some notes on the device, and the host's copy of them.
@@ -45,12 +43,15 @@ class Notes {
   Notes(const Notes&) = delete;
   ~Notes() { cudaFreeHost(read_); }
 
-  /// Queues note number `k`.
-  void take(std::size_t k, const R* force, const R* velocity, const double* displacement,
-            const std::uint32_t* divergent, cudaStream_t stream) {
+  /// Queues that all say of no particle that it has diverged.
+  void clear(cudaStream_t stream) { check_cuda(cudaMemsetAsync(taken_.data(), 0xff, taken_.bytes(), stream), "notes"); }
+  /// Queues note number `k`, but for its particle that has diverged.
+  void take(std::size_t k, const R* force, const R* velocity, const double* displacement, cudaStream_t stream) {
     launch("notes", take_note<R>, 1, walls * displacement_words, 0, stream, taken_.data() + k, force, velocity,
-           displacement, divergent);
+           displacement);
   }
+  /// Where that particle of note number `k` is written.
+  std::uint32_t* divergent(std::size_t k) { return &(taken_.data() + k)->divergent; }
   /// Queues that the first `number` are read.
   void read(std::size_t number, cudaStream_t stream) {
     check_cuda(cudaMemcpyAsync(read_, taken_.data(), number * sizeof(Note<R>), cudaMemcpyDeviceToHost, stream),

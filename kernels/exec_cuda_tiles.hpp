@@ -111,9 +111,10 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     noticed([&] {
       const cudaStream_t stream = this->team_.stream();
       const std::size_t walls_from = this->layout_.particles();
-      this->divergence_->queue(this->master_.data(), dt_, 0, walls_from, stream);
+      if (k == 0) notes_.clear(stream);
+      this->divergence_->queue(this->master_.data(), dt_, 0, walls_from, notes_.divergent(k), stream);
       notes_.take(k, tiles_.forces() + walls_from * velocity_words, this->master_.data() + walls_from * velocity_words,
-                  this->displacement_.data() + walls_from * displacement_words, this->divergence_->first(), stream);
+                  this->displacement_.data() + walls_from * displacement_words, stream);
     });
   }
   /// As wait(), and the first `number` of notes are read.
