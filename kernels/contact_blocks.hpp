@@ -48,18 +48,22 @@ struct BlockSettling {
     else
       out.frame = canonical_placement(n0, ::copysign(1.0, n0.z), word(arm_a), word(arm_b));
 
-    double f[6] = {0, 0, 0, 0, 0, 0};
+    double f[6] = {0, 0, 0, 0, 0, 0}, m[6];
+    for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
     for (float& d : out.drift) d = 0;
     if (!view.chain) {  // f follows from the displacements of now
       const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
       double x[6];
       relative_rates(out.frame, Twist<double>{{0, 0, 0}, vector(now, a, 4)},
                      Twist<double>{vector(now, b, 0) - vector(now, a, 0), vector(now, b, 4)}, x);
-      for (int c = 0; c < view.components; ++c) f[c] = law.rate * x[c];
+      for (int c = 0; c < 6; ++c) {
+        if (c < view.components) f[c] = law.rate * x[c];
+      }
     }
-    // Where the number of units is known, all chains are asked for before the first is stored.
+    // Where the number of units is known, all chains are asked for before the first is stored. Loops are of numbers
+    // that are known then: a device has arrays in registers only where each place is.
     constexpr int together = Units >= 0 ? 6 : 1, most = Units >= 0 ? Units : Block::most_units;
-    for (int first = 0; view.chain && first < view.components; first += together) {
+    for (int first = 0; view.chain && first < (Units >= 0 ? 1 : view.components); first += together) {
       State held[together][1 + most];
       const auto each = [&](auto&& each_word) {
         for (int c = 0; c < together; ++c) {
@@ -70,7 +74,8 @@ struct BlockSettling {
         }
       };
       each([](State& here, const State& there) { here = there; });
-      for (int c = 0; c < together && first + c < view.components; ++c) {
+      for (int c = 0; c < together; ++c) {
+        if (first + c >= view.components) continue;
         double x[most > 0 ? most : 1];
         for (int l = 0; l < units; ++l) x[l] = held[c][1 + l];
         const auto unit = [&](int l) -> double& { return x[l]; };
@@ -84,8 +89,6 @@ struct BlockSettling {
       }
       each([](State& here, State& there) { there = here; });
     }
-    double m[6];
-    for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
     const auto load = to_centres(out.frame, condensed_load(f, static_cast<double>(view.alpha), m));
     const auto rounded = [](const Vec3<double>& a) { return Vec3<R>{R(a.x), R(a.y), R(a.z)}; };
     out.load = {rounded(load.force_a), rounded(load.moment_a), rounded(load.moment_b)};

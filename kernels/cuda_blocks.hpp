@@ -19,7 +19,7 @@ struct SettleContact {
 
   /// `place`: where the contact is among the tiles', UINT32_MAX for none. `steps`: of the block that ends; 0: none;
   /// settling_starts.
-  __device__ void operator()(std::uint32_t slot, uint2 place, float4* constant, float4* state, const double* now,
+  __device__ void operator()(std::uint32_t slot, uint2 place, float4* constant, const float4* state, const double* now,
                              const double* before, int steps, const LoadRecords<typename P::Particle>& records,
                              std::uint32_t record) const {
     if (place.x == UINT32_MAX) return;
@@ -33,10 +33,8 @@ struct SettleContact {
     const auto [frame, drift, load] = settling(LaneItem{slot % 32}, slot / 32, change, sum, now, before, steps);
     records.store(record, load);
 
-    const float none[6] = {0, 0, 0, 0, 0, 0};
     for (const std::uint32_t p : {place.x, place.y}) {
       if (p == UINT32_MAX) continue;
-      store_state(at(state, p, tile_states), none, none);
       float4* out = at(constant, p, tile_constants(carried));
       out[tile_drift_a * 32] = {drift[0], drift[1], drift[2], drift[3]};
       *reinterpret_cast<float2*>(out + tile_drift_b * 32) = {drift[4], drift[5]};
@@ -49,7 +47,8 @@ struct SettleContact {
   }
 
  private:
-  __device__ __forceinline__ static float4* at(float4* words, std::uint32_t place, int count) {
+  template <class Word>
+  __device__ __forceinline__ static Word* at(Word* words, std::uint32_t place, int count) {
     return words + static_cast<std::size_t>(place / 32) * count * 32 + place % 32;
   }
 
@@ -117,8 +116,9 @@ struct SettleRanges {
 template <class P, class AnyLaw, Geometry geometry>
 __global__ void __launch_bounds__(contact_threads)
     settle_contacts(const __grid_constant__ SettleGroups<P, AnyLaw, geometry> groups,
-                    const __grid_constant__ SettleRanges ranges, float4* constant, float4* state, const double* now,
-                    const double* before, int steps, const LoadRecords<typename P::Particle> records) {
+                    const __grid_constant__ SettleRanges ranges, float4* constant, const float4* state,
+                    const double* now, const double* before, int steps,
+                    const LoadRecords<typename P::Particle> records) {
   int number = 0;
   while (number + 1 < pair_types && ranges.of[number + 1].first_block <= blockIdx.x) ++number;
   const auto& group = groups.group[number];

@@ -15,7 +15,8 @@ namespace macadam::kernels {
 /// The arrays that settling works on besides a group's own.
 template <class P>
 struct SettledArrays {
-  float4 *constant, *state;    ///< of the tiles' contacts
+  float4* constant;            ///< of the tiles' contacts
+  const float4* state;         ///< likewise
   const double *now, *before;  ///< displacements, and those when the block began [body][8]
   LoadRecords<typename P::Particle> records;
   const uint2* place;  ///< [slot of all groups] among the tiles' contacts

@@ -48,7 +48,7 @@ class TileMessages {
   void make_ready(const DeviceTeam& team, const Layout& layout, const TeamCuts& cuts, const TilePlan& plan,
                   const TileOwners& owners, const TilePlaces& places, const Crossing& crossing,
                   const TileScene<P>& scene, const SettledArrays<P>& settled, double* before, R* base, bool carried) {
-    RankItems halo(team), constants(team), states(team), wall_rows(team), wall_bodies(team);
+    RankItems halo(team), constants(team), wall_rows(team), wall_bodies(team);
     for (std::size_t m = 0; m < team.size(); ++m) {
       for (std::size_t t = cuts.tile(m); t < cuts.tile(m + 1); ++t) {
         for (std::uint32_t h = 0; h < plan.tile[t].halo; ++h) {
@@ -65,7 +65,6 @@ class TileMessages {
           to.add((p / 32 * static_cast<std::size_t>(words) + static_cast<std::size_t>(w)) * 32 + p % 32, m, reader);
         };
         for (const int w : settled_constants(carried)) add(constants, w, tile_constants(carried));
-        for (int w = 0; w < tile_states; ++w) add(states, w, tile_states);
       }
     });
     for (std::size_t i = 0; i < plan.contact.size(); ++i) {
@@ -78,7 +77,6 @@ class TileMessages {
     now_.add(scene.motion.body.displacement, displacement_words, crossing.bodies);
     settled_.add(settled.records.words, record_words, crossing.records);
     settled_.add(settled.constant, 1, constants);
-    settled_.add(settled.state, 1, states);
     before_.add(before, displacement_words, crossing.bodies);
     walls_.add(scene.wall_load, 2, wall_rows);
     walls_.add(base, velocity_words, wall_bodies);

@@ -118,6 +118,7 @@ struct TileScene {
   std::uint32_t places;
   std::uint32_t first_tile;  ///< of this device
   bool moves_walls;          ///< its first tile does, of streamed ones
+  bool begins_block;         ///< with the launch's first step: states are 0, whatever memory has
 
   /// The tile of this block of threads.
   __device__ __forceinline__ std::uint32_t own_tile() const { return first_tile + blockIdx.x; }
@@ -359,6 +360,12 @@ __device__ __forceinline__ void load_state(const float4* state, float (&change)[
     const float4 c = state[tile_sum * 32];
     sum[0] = b.z, sum[1] = b.w, sum[2] = c.x, sum[3] = c.y, sum[4] = c.z, sum[5] = c.w;
   }
+}
+/// The state before a step: `begins`, the first of a block.
+template <bool memory>
+__device__ __forceinline__ void state_before(bool begins, const float4* state, float (&change)[6], float (&sum)[6]) {
+  if (!begins) return load_state<memory>(state, change, sum);
+  for (int c = 0; c < 6; ++c) change[c] = sum[c] = 0;
 }
 template <bool memory = true>
 __device__ __forceinline__ void store_state(float4* state, const float (&change)[6], const float (&sum)[6]) {

@@ -2,6 +2,8 @@
 /// \file cuda_tiles_resident.hpp  Many steps in one launch, where every tile has a multiprocessor of its own.
 #pragma once
 
+#include <cuda_pipeline_primitives.h>
+
 #include "kernels/cuda_resident_memory.hpp"
 #include "kernels/cuda_tile_exchange.hpp"
 
@@ -87,13 +89,16 @@ class ResidentTile {
   __device__ __forceinline__ void load() const {
     for (std::uint32_t r = threadIdx.x; r < tile.bodies; r += Threads) {
       const auto i = static_cast<std::size_t>(body[r]);
+      Six<R> velocities, loads;
+      Six<double> moved;
       for (int c = 0; c < 6; ++c) {
-        own[r].of[c] = s.motion.body.master[i * velocity_words + moving_word(c)];
-        base[r].of[c] = s.base[i * velocity_words + moving_word(c)];
-        displacement[r].of[c] = s.motion.body.displacement[i * displacement_words + moving_word(c)];
+        velocities.of[c] = s.motion.body.master[i * velocity_words + moving_word(c)];
+        loads.of[c] = s.base[i * velocity_words + moving_word(c)];
+        moved.of[c] = s.motion.body.displacement[i * displacement_words + moving_word(c)];
       }
-      inverse[r] = {s.motion.body.inverse[2 * i], s.motion.body.inverse[2 * i + 1]};
-      row[r] = s.row[tile.first_body + r];
+      const Two<R> by{s.motion.body.inverse[2 * i], s.motion.body.inverse[2 * i + 1]};
+      const uint2 of_row = s.row[tile.first_body + r];
+      own[r] = velocities, base[r] = loads, displacement[r] = moved, inverse[r] = by, row[r] = of_row;
     }
     for (std::uint32_t h = threadIdx.x; h < tile.halo; h += Threads) halo[h] = s.halo[tile.first_halo + h];
     for (std::uint32_t e = threadIdx.x; e < TilePlan::longest_short_row; e += Threads)
@@ -104,13 +109,18 @@ class ResidentTile {
     const auto keep = [&](const Packets& packets, std::uint32_t first) {
       for (std::uint32_t k = 0; k < packets.count(); ++k) {
         const std::uint32_t at = place_in_cache(first + k);
-        for (std::uint32_t i = threadIdx.x % 32; at < cached && i < kept * 32; i += 32)
-          cache[at * kept * 32 + i] = constants[std::size_t{packets.first() + k} * words * 32 + i];
+        for (std::uint32_t i = threadIdx.x % 32; at < cached && i < kept * 32; i += 32) {
+          __pipeline_memcpy_async(&cache[at * kept * 32 + i],
+                                  &constants[std::size_t{packets.first() + k} * words * 32 + i], sizeof(float4));
+        }
       }
     };
     keep(own_share.early, 0);
     keep(own_share.late, TilePlan::run);
+    __pipeline_commit();
   }
+  /// Until all that load() has asked for is here, for the thread that asked.
+  __device__ __forceinline__ static void wait_for_load() { __pipeline_wait_prior(0); }
 
   /// Moves all bodies by their loads in memory, or by those that the last contacts left in shared memory.
   __device__ __forceinline__ void move_by_memory(std::uint32_t tag) const {
@@ -260,13 +270,14 @@ __global__ void __launch_bounds__(Threads, 1)
   };
   typename OfTile::Constants constants[groups_in_registers * run];  // from first_kept on
   each_resident([&](auto k, std::uint32_t packet) {
-    load_state<memory>(tile.state(packet), change[k], sum[k]);
+    state_before<memory>(s.begins_block, tile.state(packet), change[k], sum[k]);
     if constexpr (k() >= OfTile::first_kept) constants[k] = tile.constants_of(packet, OfTile::in_memory);
   });
 
   const bool inner = tile.inner() > 0;
   const int wall = static_cast<int>(threadIdx.x) - (Threads - walls);
   const bool drives_wall = wall >= 0 && s.motion.wall.moves(wall);
+  OfTile::wait_for_load();
   __syncthreads();
   for (std::uint32_t k = 0; k < steps; ++k) {
     const std::uint32_t tag = first_tag + k;
@@ -301,7 +312,7 @@ __global__ void __launch_bounds__(Threads, 1)
     for (std::uint32_t k = 0; k < others.count(); ++k) {
       const std::uint32_t packet = others[k];
       float df[6], both[6];
-      load_state<memory>(tile.state(packet), df, both);
+      state_before<memory>(s.begins_block && tag == first_tag, tile.state(packet), df, both);
       tile.template step<false>(tile.constants_of(packet, OfTile::in_memory), df, both, contacts);
       store_state<memory>(tile.state(packet), df, both);
     }

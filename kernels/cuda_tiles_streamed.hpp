@@ -102,7 +102,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
     const std::size_t at = tile.first_packet + mine[packet];
     float4* state = s.state + at * tile_states * 32 + lane;
     float change[6], sum[6];
-    load_state<memory>(state, change, sum);
+    state_before<memory>(s.begins_block && k == 0, state, change, sum);
     ContactConstants<carried, memory> constant;
     constant.load(s.constant + at * words * 32 + lane);
     const ContactInBlock<carried, memory> contact(constant);
