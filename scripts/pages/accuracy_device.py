@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/accuracy.md: the frequency domain on a CUDA device, as `macadam bench --only harmonic` times it."""
-from pages.data import head, minus, plain, power, rows, table, thousands
+from pages.data import head, minus, one, plain, power, rows, table, thousands
 from pages.marks import mark
 
 FILE = "harmonic-h200.csv"
@@ -18,3 +18,23 @@ def harmonic_device():
                  [(r["network"], thousands(r["particles"]), thousands(r["contacts"]), f"{r['frequencies']:.0f}",
                    r["backend"], plain(r["setup_s"], 2), plain(r["solve_s"], 2), plain(r["first_s"], 2),
                    f"{r['iterations']:.0f}", minus(power(r["residual"])), f"{r['process_gb']:g}") for r in rows(FILE)])
+
+
+KERNELS = "harmonic-kernels-h200.csv"
+
+
+@mark
+def harmonic_kernels_machine():
+    return head(KERNELS)[0].split(", ", 2)[2].split(";")[0]
+
+
+@mark
+def harmonic_kernels():
+    found = rows(KERNELS)
+    before, now = dict.fromkeys(r["commit"] for r in found)
+    lines = []
+    for scene, label in (("ac14_ss_am1", "ac14_ss_am1"), ("lattice:1e5", "lattice of 10⁵"), ("lattice:1e6", "lattice of 10⁶")):
+        for loads in (1, 4):
+            times = [one(found, commit=commit, row=f"harmonic/{scene}/cuda/loads:{loads}")["ms"] for commit in (before, now)]
+            lines.append((label, loads, *(plain(t, 2) for t in times), f"{times[0] / times[1]:.1f}"))
+    return table(["network", "frequencies", "before (ms)", "now (ms)", "factor"], lines)
