@@ -420,5 +420,13 @@ TEST(Calibration, ParametersAreChecked) {
   EXPECT_EQ(calibrate(t8_scene(), data, bounded(0.5, 2)).warnings.size(), 0u);
 }
 
+TEST(Calibration, TargetsInAnotherUnitAreSuspected) {
+  for (const double factor : {1e6, 1e-6}) {
+    ModulusData data = measured(t8_scene(), {2, 20});
+    for (ModulusPoint& p : data.points) p.e_star_pa *= factor;
+    EXPECT_SAYS([&] { calibrate(t8_scene(), data, freeing({"M-A.delta"})); }, "is it in Pa?");
+  }
+}
+
 }  // namespace
 }  // namespace macadam::test

@@ -269,6 +269,33 @@ TEST_F(CtLargeScan, GrainsThatWereCutFromEachOtherMeetAtTheCutAlongEachAxis) {
   }
 }
 
+TEST_F(CtLargeScan, GrainsAreCutFromEachOtherUpToTheFirstVoxelsOfTheScan) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // As above, but from the scan's first voxel on along this axis; the cut is between 19 and 20 along the next one.
+    const std::size_t along = (axis + 1) % 3;
+    std::array<std::int64_t, 3> size{24, 24, 24}, begin{4, 4, 4}, end{20, 20, 20};
+    size[along] = 40, end[along] = 36, begin[axis] = 0;
+    Image<float> scan(size, {voxel, voxel, voxel}, {}, mastic);
+    for (std::int64_t k = begin[2]; k < end[2]; ++k)
+      for (std::int64_t j = begin[1]; j < end[1]; ++j)
+        for (std::int64_t i = begin[0]; i < end[0]; ++i) scan.at(i, j, k) = aggregate;
+    const auto number = [&](const std::array<std::int64_t, 3>& at) -> std::uint32_t {
+      for (std::size_t a = 0; a < 3; ++a)
+        if (at[a] < begin[a] / 2 || at[a] >= end[a] / 2) return 0;
+      return at[along] < 10 ? 1 : 2;
+    };
+    const std::vector<ScannedGrain> grains = refined(scan, 2, number, 0, Denoising::none);
+    ASSERT_EQ(grains.size(), 2u);
+    for (const auto& [at, grain] : {std::pair{18.75, 0u}, {20.25, 1u}, {22.0, 1u}}) {
+      double beside[3] = {11.4, 11.7, 11.2};
+      beside[axis] = 0.2, beside[along] = at;
+      const Vec3d point{beside[0] * voxel, beside[1] * voxel, beside[2] * voxel};
+      for (const std::size_t g : {0u, 1u})
+        EXPECT_NEAR(test::winding(grains[g].surface, point), g == grain, 1e-6) << axis << ", " << at << ", " << g;
+    }
+  }
+}
+
 TEST_F(CtLargeScan, NoiseThatMeansOfVoxelsAreRidOfTakesNoRoundOfDiffusion) {
   Image<float> scan = scan_of({76, 76, 76}, {ball(37.5, 37.5, 37.5, 33)});
   add_noise(scan, 0.03);

@@ -13,6 +13,7 @@
 #include "host/ct/grain_surfaces.hpp"
 #include "host/ct/grains.hpp"
 #include "host/ct/isosurface.hpp"
+#include "host/ct/labels.hpp"
 #include "host/ct/overlay.hpp"
 #include "host/ct/paper_recipe.hpp"
 #include "host/ct/region.hpp"
@@ -111,6 +112,34 @@ TEST(CtFragments, BasinsLessThanHalfAVoxelDeepAreOne) {
   };
   EXPECT_EQ(fragments(2.6), 1u);
   EXPECT_EQ(fragments(2.4), 2u);
+}
+
+TEST(CtFragments, ABasinHasItsHighestDistance) {
+  Image<float> distance({3, 1, 1}, {voxel, voxel, voxel});
+  const double depth[] = {4.97, 5, 4.98};  // voxels; less than 3/64 apart
+  for (std::size_t n = 0; n < 3; ++n) distance.voxels[n] = static_cast<float>(depth[n] * voxel);
+  const Image<float> grey = Image<float>::like(distance, 1);
+  const ct::Fragments found = ct::flood(distance, grey, 1);
+  ASSERT_EQ(found.radius.size(), 2u);
+  EXPECT_EQ(found.radius[1], static_cast<double>(distance.voxels[1]));
+  EXPECT_EQ(ct::flood(Image<float>::like(distance), grey, 1).radius.size(), 1u) << "nothing lies inside";
+}
+
+// One voxel behind the other in memory, at opposite ends of the scan.
+TEST(CtLabels, DoNotSpreadFromOneEndOfTheScanToTheOther) {
+  using Place = std::array<std::int64_t, 3>;
+  const auto spread = [](const Place& from, const Place& to) {
+    Image<std::uint8_t> phases({3, 3, 3}, {voxel, voxel, voxel}, {}, std::uint8_t(VoxelPhase::mastic));
+    Image<std::uint32_t> coarse = Image<std::uint32_t>::like(phases);
+    for (const Place& p : {from, to}) phases.at(p[0], p[1], p[2]) = std::uint8_t(VoxelPhase::aggregate);
+    coarse.at(from[0], from[1], from[2]) = 5;
+    return ct::spread(phases, coarse, 1).at(to[0], to[1], to[2]);
+  };
+  EXPECT_EQ(spread({1, 1, 1}, {1, 2, 1}), 5u);
+  for (const auto& [a, b] : {std::pair<Place, Place>{{2, 0, 0}, {0, 1, 0}}, {{1, 2, 0}, {1, 0, 1}}}) {
+    EXPECT_EQ(spread(a, b), 0u);
+    EXPECT_EQ(spread(b, a), 0u);
+  }
 }
 
 TEST(CtSegment, ABallAndABlockAreMeasured) {

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "program.hpp"
 
@@ -114,6 +115,16 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfThePairsThatArePresent) {
   EXPECT_DOUBLE_EQ(stiffest_contact(scene, prepared.network, 20), 1.151e11);         // A-A, elastic
   scene.laws[static_cast<std::size_t>(PairType::inner)] = laws::Elastic{1e13, 0.5};  // no such contact is there
   EXPECT_DOUBLE_EQ(stiffest_contact(scene, prepared.network, 20), 1.151e11);
+}
+
+// A spring and a dashpot in series that are equally stiff at 20 Hz: 1/√2 of the spring.
+TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
+  Scene scene = read_scene(write_scene());
+  const Preparation prepared = prepare(scene);
+  for (auto& law : scene.laws) law = laws::Elastic{1e6, 0};
+  const double spring = 1e10, omega = 2 * std::numbers::pi * 20;
+  scene.laws[static_cast<std::size_t>(PairType::mm)] = laws::GeneralisedKelvin{spring, spring / omega, {}, {}, 0};
+  EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20) / (spring / std::numbers::sqrt2), 1, 1e-12);
 }
 
 // A particle that nothing joins leaves no harmonic solution; so heavy a specimen is far beyond its resonance.

@@ -228,5 +228,13 @@ TEST_F(PlannedPrecision, IsMixedBeyondTheStepsOfSingle) {
   EXPECT_NE(said(made).find("not single precision, which was not measured so far: "), std::string::npos) << said(made);
 }
 
+TEST_F(PlannedPrecision, TheContrastIsThatOfTheFrequency) {
+  Scene scene = asked(1e-3);
+  for (auto& law : scene.laws) law = laws::Elastic{1e10, 0};
+  const double omega = 2 * std::numbers::pi * 20;  // a spring and a dashpot that are equally stiff there
+  scene.laws[static_cast<std::size_t>(PairType::mm)] = laws::GeneralisedKelvin{1e10, 1e10 / omega, {}, {}, 0};
+  EXPECT_NEAR(rounding_scale(scene, prepare(scene), 20, 1000, 1).contrast, std::numbers::sqrt2, 1e-12);
+}
+
 }  // namespace
 }  // namespace macadam::test

@@ -433,5 +433,21 @@ TEST(ShapePlacement, DirectionsStayEvenAndClassesMixed) {
   }
 }
 
+/// Two balls of 8 mm fit into a cube of 12.62 mm; in a smaller one they reach their size, squeezed by 2 gaps or so.
+TEST(ShapePlacement, FullSizeWithOverlapsIsNoPacking) {
+  const ShapeTemplate shape = shape_template(test::stone(2, 1));
+  const ShapeGeometry geometry(shape);
+  constexpr double edge = 0.0123;
+  std::vector<ShapeBody> bodies(2, ShapeBody(geometry, 0.008, true));
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double at = (i == 0 ? 0.3 : 0.7) * edge;
+    bodies[i].scale *= 0.1;
+    bodies[i].centre = {at, at, at};
+  }
+  const double reached = pack({{edge, edge, edge}}, bodies, 0.1, 0.02, [](double) {});
+  EXPECT_GT(reached, 0.999);
+  EXPECT_LT(reached, 1);
+}
+
 }  // namespace
 }  // namespace macadam

@@ -309,5 +309,25 @@ TEST(PlatenBalance, OfMomentumAndEnergy) {
   EXPECT_LT(stored, 1e-2 * most_work) << "and the springs gave back what they held";
 }
 
+TEST_F(SteppedLoad, AWarningOutlivesAnInterruption) {
+  const Scene asked = scene(
+      "kind = \"creep\"\nstress = -1e5\nramp = 2e-3\nrelease = 4e-3\ntimes = [1e-4, 2e-2]\npoints_per_decade = 8\n",
+      "density_scaling = 100\n", "fields = [\"particles\"]\n");
+  ASSERT_TRUE(run_until(asked, "out", 6));
+  fs::remove_all(out("out") / "fields");
+  Watcher watcher;
+  std::string said;
+  int looked = 0;
+  bool planned = false;
+  watcher.planned = [&](const RunResult&) { planned = true; };
+  watcher.stop = [&] { return planned && ++looked >= 4; };
+  watcher.warn = [&](const std::string& warning) { said = warning; };
+  EXPECT_THROW(run(asked, out("out"), watcher, true), InterruptedError);
+  EXPECT_HAS(said, "had no frame to go on with");
+  const RunResult result = run(asked, out("out"), {}, true);
+  ASSERT_FALSE(result.warnings.empty());
+  EXPECT_EQ(result.warnings.front(), said);
+}
+
 }  // namespace
 }  // namespace macadam::test

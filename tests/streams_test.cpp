@@ -76,6 +76,13 @@ TEST_F(Streams, AFileBeyondItsLimitIsAnErrorAndLeavesNoPart) {
   EXPECT_FALSE(fs::exists(folder_ / "out/specimen.csv.part"));
 }
 
+TEST_F(Streams, ANewSceneBeyondItsLimitIsAnErrorAndLeavesNoPart) {
+  const Outcome outcome = shell("ulimit -f 1; timeout -k 5 20 $M new other.toml");
+  EXPECT_EQ(outcome.code, 1) << "124: it tries for ever";
+  EXPECT_HAS(outcome.err, "other.toml: cannot be written");
+  EXPECT_FALSE(fs::exists(folder_ / "other.toml"));
+}
+
 // OpenBLAS tries for ever where it cannot map its buffer, for its own threads as it is loaded already.
 TEST_F(Streams, TooLittleMemoryEndsARun) {
 #ifdef __SANITIZE_ADDRESS__

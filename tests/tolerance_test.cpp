@@ -276,7 +276,10 @@ TEST_F(Tolerance, AStartWithoutARampIsSaid) {
   scene.cyclic().frequencies = {20};
   scene.cyclic().start = Start::rest;
   scene.cyclic().cycles = 1;
-  EXPECT_TRUE(says(run_it(scene), "no ramp"));
+  const RunResult result = run_it(scene);
+  EXPECT_TRUE(says(result, "no ramp"));
+  EXPECT_TRUE(says(result, "start from rest"));
+  EXPECT_FALSE(says(result, "steady start from the harmonic solution"));
 }
 
 // A ramp that leaves no cycle to fit makes the run longer.

@@ -61,14 +61,13 @@ Around around(const Segmentation& out, std::uint32_t id, const GrainBox& box) {
   for (std::int64_t k = 0; k < size[2]; ++k) {
     for (std::int64_t j = 0; j < size[1]; ++j) {
       for (std::int64_t i = 0; i < size[0]; ++i) {
-        const std::int64_t x = a.first[0] + i, y = a.first[1] + j, z = a.first[2] + k;
-        if (x < 0 || y < 0 || z < 0 || x >= out.labels.size[0] || y >= out.labels.size[1] || z >= out.labels.size[2]) {
-          a.inside.at(i, j, k) = 0.5f;  // where the scan ends, its grey values end the grain, at the end itself
-          continue;
-        }
-        const auto phase = static_cast<VoxelPhase>(out.phases.at(x, y, z));
-        if (phase != VoxelPhase::outside) a.inside.at(i, j, k) = 0.5f;
-        if (phase == VoxelPhase::aggregate && out.labels.at(x, y, z) != id) a.own.at(i, j, k) = -0.5f;
+        const std::array<std::int64_t, 3> place{a.first[0] + i, a.first[1] + j, a.first[2] + k};
+        auto near = place;  // in the scan
+        for (std::size_t c = 0; c < 3; ++c) near[c] = std::clamp<std::int64_t>(place[c], 0, out.labels.size[c] - 1);
+        const auto phase = static_cast<VoxelPhase>(out.phases.at(near[0], near[1], near[2]));
+        // Where the scan ends, its grey values end the grain, at the end itself. A cut goes on beyond.
+        if (phase != VoxelPhase::outside || near != place) a.inside.at(i, j, k) = 0.5f;
+        if (phase == VoxelPhase::aggregate && out.labels.at(near[0], near[1], near[2]) != id) a.own.at(i, j, k) = -0.5f;
       }
     }
   }
