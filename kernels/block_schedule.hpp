@@ -21,6 +21,8 @@ class BlockSchedule {
   /// Whether a block is to begin before the next step.
   bool is_due() const { return steps_ > 0 && (taken_ == length_ || !begun_); }
   bool has_begun() const { return begun_; }
+  /// Whether the next step is the first of its block.
+  bool begins() const { return taken_ == 0; }
   /// Steps of the block that ends, 0: none.
   int ended() const { return begun_ ? taken_ : 0; }
   /// Steps of the block that begins with step `first`. A steady start begins at step −1: a block of one step, and those

@@ -61,7 +61,7 @@ struct BlockSettling {
       }
     }
     // Where the number of units is known, all chains are asked for before the first is stored. Loops are of numbers
-    // that are known then: a device has arrays in registers only where each place is.
+    // that are known then: a device has arrays in registers only where every index is known when compiled.
     constexpr int together = Units >= 0 ? 6 : 1, most = Units >= 0 ? Units : Block::most_units;
     for (int first = 0; view.chain && first < (Units >= 0 ? 1 : view.components); first += together) {
       State held[together][1 + most];

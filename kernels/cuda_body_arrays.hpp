@@ -106,12 +106,7 @@ class CudaBodyArrays {
     Ranks* const ranks = team_.ranks();
     const std::size_t begin = ranks ? cuts_.body(team_.first()) : 0;
     const std::size_t end = ranks ? std::min(cuts_.body(team_.first() + 1), layout_.particles()) : layout_.particles();
-    std::uint32_t own = UINT32_MAX;
-    DeviceArray<std::uint32_t> first(1);
-    first.upload(&own);
-    divergence_->queue(master_.data(), dt, begin, end, first.data(), team_.stream());
-    check_cuda(cudaStreamSynchronize(team_.stream()), "divergence");
-    copy_now(&own, first.data(), sizeof own, "divergence");
+    const std::uint32_t own = divergence_->find(master_.data(), dt, begin, end, team_.stream());
     if (!ranks) return number_or_none(own);
     const auto none = static_cast<double>(layout_.particles());
     const double least = ranks->least(own == UINT32_MAX ? none : static_cast<double>(own));

@@ -26,7 +26,7 @@ struct Divergent {
   }
 };
 
-/// Among the bodies `begin` to `end` − 1; `first` was no less than what is to be found.
+/// Among the bodies `begin` to `end` − 1; `first` is UINT32_MAX before.
 template <class P>
 __global__ void find_divergent(const Divergent<P> of_body, std::int32_t begin, std::int32_t end, std::uint32_t* first) {
   const auto body = begin + static_cast<std::int32_t>(blockIdx.x * blockDim.x + threadIdx.x);
@@ -41,7 +41,7 @@ class DivergenceSearch {
  public:
   /// `radius` in specimen order [m].
   DivergenceSearch(const Layout& layout, const std::vector<double>& radius)
-      : particle_(DeviceArray<std::int32_t>::of(layout.particle)) {
+      : particle_(DeviceArray<std::int32_t>::of(layout.particle)), first_(1) {
     std::vector<double> sorted;
     for (const auto i : layout.particle) sorted.push_back(radius[static_cast<std::size_t>(i)]);
     radius_ = DeviceArray<double>::of(sorted);
@@ -57,9 +57,21 @@ class DivergenceSearch {
            static_cast<std::int32_t>(end), first);
   }
 
+  /// The same, now.
+  std::uint32_t find(const typename P::Particle* velocity, double dt, std::size_t begin, std::size_t end,
+                     cudaStream_t stream) const {
+    std::uint32_t out = UINT32_MAX;
+    copy_now(first_.data(), &out, sizeof out, "divergence");
+    queue(velocity, dt, begin, end, first_.data(), stream);
+    check_cuda(cudaStreamSynchronize(stream), "divergence");
+    copy_now(&out, first_.data(), sizeof out, "divergence");
+    return out;
+  }
+
  private:
   DeviceArray<std::int32_t> particle_;
   DeviceArray<double> radius_;
+  DeviceArray<std::uint32_t> first_;  // of find()
 };
 
 }  // namespace macadam::kernels

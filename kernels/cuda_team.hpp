@@ -135,7 +135,8 @@ class DeviceTeam {
     }
     use();
   }
-  /// Makes what the first member queues from now on wait for an event of another stream.
+  /// Makes what the first member queues from now on wait for an event of another stream; meet() brings it to the
+  /// others.
   std::function<void(void*)> behind() const {
     return
         [this](void* event) { check_cuda(cudaStreamWaitEvent(stream(), static_cast<cudaEvent_t>(event), 0), "event"); };

@@ -209,9 +209,9 @@ class TileRunner {
     for (std::int64_t done = 0; done < steps;) {
       if (schedule_.is_due()) settle(schedule_.next(first + done));
       const auto n = static_cast<std::uint32_t>(std::min(schedule_.left(), steps - done));
+      scene_.begins_block = schedule_.begins();
       run_(n);
       parts_.end_of(resident_ ? "tiles on the chip" : "tiles streamed", team_.stream());
-      scene_.begins_block = false;
       scene_.motion.wall.table += n * scene_.motion.wall.row_words();
       tag_ += n;
       schedule_.take(n);
@@ -459,7 +459,6 @@ class TileRunner {
     messages_.after_base(team_);
     parts_.end_of("base loads", team_.stream());
     schedule_.start(steps);
-    scene_.begins_block = true;
   }
 
   /// What each device has of its own.

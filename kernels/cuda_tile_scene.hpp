@@ -118,7 +118,7 @@ struct TileScene {
   std::uint32_t places;
   std::uint32_t first_tile;  ///< of this device
   bool moves_walls;          ///< its first tile does, of streamed ones
-  bool begins_block;         ///< with the launch's first step: states are 0, whatever memory has
+  bool begins_block;         ///< with the first step of these launches: states are 0, whatever memory has
 
   /// The tile of this block of threads.
   __device__ __forceinline__ std::uint32_t own_tile() const { return first_tile + blockIdx.x; }
@@ -367,7 +367,7 @@ __device__ __forceinline__ void state_before(bool begins, const float4* state, f
   if (!begins) return load_state<memory>(state, change, sum);
   for (int c = 0; c < 6; ++c) change[c] = sum[c] = 0;
 }
-template <bool memory = true>
+template <bool memory>
 __device__ __forceinline__ void store_state(float4* state, const float (&change)[6], const float (&sum)[6]) {
   state[tile_change * 32] = {change[0], change[1], change[2], change[3]};
   if constexpr (memory) {

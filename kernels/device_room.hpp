@@ -11,9 +11,8 @@
 /// already: its steps are queued behind an event at the end of those. So the device has no pause in which hosts wake
 /// each other.
 ///
-/// A solution in the frequency domain goes before all steps, and has its devices to itself. It is hundreds of short
-/// kernels one after the other, of which each would else wait for steps to end: a specimen that is being planned took
-/// a second to be solved beside steps, and a tenth of that alone.
+/// A solution in the frequency domain goes before all steps that need room, and has its devices to itself but for steps
+/// that need none. It is hundreds of short kernels one after the other, of which each would else wait for steps to end.
 #pragma once
 
 #include <condition_variable>
@@ -37,8 +36,8 @@ class DeviceRoom {
   /// What needs room.
   enum class Work { steps, solution };
 
-  /// The number of a specimen that is to be stepped, or of a solution: one more than that of the one before. All
-  /// solutions have lower numbers than all specimens.
+  /// The number of a specimen that is to be stepped, or of a solution. Numbers of a kind rise; those of all solutions
+  /// are below those of all specimens.
   static std::uint64_t next_number(Work work = Work::steps) {
     constexpr std::uint64_t first_of_steps = std::uint64_t{1} << 63;
     DeviceRoom& room = instance();
@@ -46,8 +45,8 @@ class DeviceRoom {
     return room.next_++ + (work == Work::steps ? first_of_steps : 0);
   }
   /// Waits until it is the turn of `wanted`: no lower number waits for one of these devices, and all of it is free, or
-  /// will be at an event, behind which it is queued here: until then the event's owner cannot give its room back, and
-  /// keeps the event. `of_device`: what each device has.
+  /// will be at an event. Then `queue_behind` is called with that event before its owner can give its room back, so
+  /// that the event still exists. `of_device`: what each device has.
   static void take(std::uint64_t number, const Share& wanted, const Share& of_device, const QueueBehind& queue_behind) {
     DeviceRoom& room = instance();
     std::unique_lock lock(room.mutex_);
@@ -80,7 +79,7 @@ class DeviceRoom {
     room.changed_.notify_all();
   }
 
-  /// While it lives, a solution has its devices to itself.
+  /// While it lives, nobody else has room on the devices of a solution.
   class ForSolution {
    public:
     ForSolution(const DeviceList& devices, const QueueBehind& queue_behind) {

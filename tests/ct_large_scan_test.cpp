@@ -242,57 +242,56 @@ TEST_F(CtLargeScan, GrainsAreCutAlikeByBothEndsOfEachAxis) {
   }
 }
 
-TEST_F(CtLargeScan, GrainsThatWereCutFromEachOtherMeetAtTheCutAlongEachAxis) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    // Aggregate from 4 to 35 along the axis and to 19 across, cut between 19 and 20: only labels tell the two apart.
-    std::array<std::int64_t, 3> size{24, 24, 24}, end{20, 20, 20};
-    size[axis] = 40, end[axis] = 36;
-    Image<float> scan(size, {voxel, voxel, voxel}, {}, mastic);
-    for (std::int64_t k = 4; k < end[2]; ++k)
-      for (std::int64_t j = 4; j < end[1]; ++j)
-        for (std::int64_t i = 4; i < end[0]; ++i) scan.at(i, j, k) = aggregate;
-    const auto number = [&](const std::array<std::int64_t, 3>& at) -> std::uint32_t {
-      for (std::size_t a = 0; a < 3; ++a)
-        if (at[a] < 2 || at[a] >= end[a] / 2) return 0;
-      return at[axis] < 10 ? 1 : 2;
-    };
-    const std::vector<ScannedGrain> grains = refined(scan, 2, number, 0, Denoising::none);
-    ASSERT_EQ(grains.size(), 2u);
-    EXPECT_NEAR(grains[1].measure.volume / grains[0].measure.volume, 1, 0.005) << axis;  // each the other's mirror
-    for (const double place : {19.3, 19.7}) {
-      double beside[3] = {11.4, 11.7, 11.2};
-      beside[axis] = place;
-      const Vec3d point{beside[0] * voxel, beside[1] * voxel, beside[2] * voxel};
-      EXPECT_NEAR(test::winding(grains[0].surface, point), place < 19.5 ? 1 : 0, 1e-6) << axis;
-      EXPECT_NEAR(test::winding(grains[1].surface, point), place < 19.5 ? 0 : 1, 1e-6) << axis;
-    }
-  }
-}
-
-TEST_F(CtLargeScan, GrainsAreCutFromEachOtherUpToTheFirstVoxelsOfTheScan) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    // As above, but from the scan's first voxel on along this axis; the cut is between 19 and 20 along the next one.
-    const std::size_t along = (axis + 1) % 3;
-    std::array<std::int64_t, 3> size{24, 24, 24}, begin{4, 4, 4}, end{20, 20, 20};
-    size[along] = 40, end[along] = 36, begin[axis] = 0;
+/// Aggregate from one place to another, cut between 19 and 20 along an axis: only labels tell the two grains apart.
+class CutGrains : public CtLargeScan {
+ protected:
+  using Place = std::array<std::int64_t, 3>;
+  std::vector<ScannedGrain> cut(const Place& size, const Place& begin, const Place& end, std::size_t along) {
     Image<float> scan(size, {voxel, voxel, voxel}, {}, mastic);
     for (std::int64_t k = begin[2]; k < end[2]; ++k)
       for (std::int64_t j = begin[1]; j < end[1]; ++j)
         for (std::int64_t i = begin[0]; i < end[0]; ++i) scan.at(i, j, k) = aggregate;
-    const auto number = [&](const std::array<std::int64_t, 3>& at) -> std::uint32_t {
+    const auto number = [&](const Place& at) -> std::uint32_t {
       for (std::size_t a = 0; a < 3; ++a)
         if (at[a] < begin[a] / 2 || at[a] >= end[a] / 2) return 0;
       return at[along] < 10 ? 1 : 2;
     };
-    const std::vector<ScannedGrain> grains = refined(scan, 2, number, 0, Denoising::none);
-    ASSERT_EQ(grains.size(), 2u);
-    for (const auto& [at, grain] : {std::pair{18.75, 0u}, {20.25, 1u}, {22.0, 1u}}) {
-      double beside[3] = {11.4, 11.7, 11.2};
-      beside[axis] = 0.2, beside[along] = at;
-      const Vec3d point{beside[0] * voxel, beside[1] * voxel, beside[2] * voxel};
-      for (const std::size_t g : {0u, 1u})
-        EXPECT_NEAR(test::winding(grains[g].surface, point), g == grain, 1e-6) << axis << ", " << at << ", " << g;
+    return refined(scan, 2, number, 0, Denoising::none);
+  }
+  /// The first grain ends there, and the second begins, at this place along another axis.
+  void expect_parted(const std::vector<ScannedGrain>& grains, std::size_t along, double before, double behind,
+                     std::size_t other, double there) {
+    for (const double at : {before, behind}) {
+      double place[3] = {11.4, 11.7, 11.2};
+      place[other] = there, place[along] = at;
+      const Vec3d point{place[0] * voxel, place[1] * voxel, place[2] * voxel};
+      for (const std::size_t g : {0u, 1u}) {
+        EXPECT_NEAR(test::winding(grains[g].surface, point), g == (at == behind), 1e-6)
+            << "grain " << g << " at " << place[0] << ", " << place[1] << ", " << place[2];
+      }
     }
+  }
+};
+
+TEST_F(CutGrains, MeetAtTheCutAlongEachAxis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Place size{24, 24, 24}, end{20, 20, 20};
+    size[axis] = 40, end[axis] = 36;
+    const std::vector<ScannedGrain> grains = cut(size, {4, 4, 4}, end, axis);
+    ASSERT_EQ(grains.size(), 2u);
+    EXPECT_NEAR(grains[1].measure.volume / grains[0].measure.volume, 1, 0.005) << axis;  // each the other's mirror
+    expect_parted(grains, axis, 19.3, 19.7, (axis + 1) % 3, 11.4);
+  }
+}
+
+TEST_F(CutGrains, ArePartedUpToTheFirstAndTheLastVoxelsOfTheScan) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t along = (axis + 1) % 3;
+    Place size{24, 24, 24}, begin{4, 4, 4}, end{20, 20, 20};
+    size[along] = 40, end[along] = 36, begin[axis] = 0, end[axis] = size[axis];
+    const std::vector<ScannedGrain> grains = cut(size, begin, end, along);
+    ASSERT_EQ(grains.size(), 2u);
+    for (const double face : {0.2, 22.8}) expect_parted(grains, along, 18.75, 20.25, axis, face);
   }
 }
 

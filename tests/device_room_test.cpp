@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_room_test.cpp  Whose steps have the multiprocessors of a device. Events are addresses here: no device is
-// needed.
+// device_room_test.cpp  Whose steps, or which solution, have the multiprocessors of a device. Events are addresses
+// here: no device is needed.
 #include "kernels/device_room.hpp"
 
 #include <gtest/gtest.h>

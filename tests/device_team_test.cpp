@@ -127,24 +127,26 @@ TEST(SideBySide, SpecimensOfOneDeviceTakeTheirOwnSteps) {
 
 TEST(TeamHarmonic, FindsTheMotionOfOneDevice) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
-  const TestScene scene = make_scene(random_specimen(3, 16, 16, 20));
-  const auto solve = [&](const DeviceList& devices) {
-    HarmonicOptions options;
-    options.backend = Backend::cuda;
-    options.devices = devices;
-    Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, options, 10);
-    auto found =
-        harmonic.solve(std::vector<HarmonicLoad>{{.frequency_hz = 2}, {.frequency_hz = 20, .density_scaling = 1}});
-    found.push_back(harmonic.solve(5));  // alone, by kernels of its own
-    return found;
-  };
-  const auto alone = solve({0});
-  for (const DeviceList& devices : teams()) {
-    const auto team = solve(devices);
-    ASSERT_EQ(team.size(), alone.size());
-    for (std::size_t k = 0; k < alone.size(); ++k) {
-      EXPECT_TRUE(team[k].motion == alone[k].motion) << to_string(devices) << ", load " << k;
-      EXPECT_EQ(team[k].iterations, alone[k].iterations) << to_string(devices);
+  for (const Specimen& specimen : {random_specimen(3, 16, 16, 20), boulders(3)}) {
+    const TestScene scene = make_scene(specimen);
+    const auto solve = [&](const DeviceList& devices) {
+      HarmonicOptions options;
+      options.backend = Backend::cuda;
+      options.devices = devices;
+      Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, options, 10);
+      auto found =
+          harmonic.solve(std::vector<HarmonicLoad>{{.frequency_hz = 2}, {.frequency_hz = 20, .density_scaling = 1}});
+      found.push_back(harmonic.solve(5));  // alone, by kernels of its own
+      return found;
+    };
+    const auto alone = solve({0});
+    for (const DeviceList& devices : teams()) {
+      const auto team = solve(devices);
+      ASSERT_EQ(team.size(), alone.size());
+      for (std::size_t k = 0; k < alone.size(); ++k) {
+        EXPECT_TRUE(team[k].motion == alone[k].motion) << to_string(devices) << ", load " << k;
+        EXPECT_EQ(team[k].iterations, alone[k].iterations) << to_string(devices);
+      }
     }
   }
 }

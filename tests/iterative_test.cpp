@@ -108,6 +108,16 @@ std::vector<std::pair<std::string, TestScene>> hostile_networks() {
   return out;
 }
 
+// On a device a block of threads works on each of them.
+TEST_P(Iterative, AgreesWithFactorsWhereParticlesTouchAHundredOthers) {
+  const TestScene scene = make_scene(boulders(test_seed()));
+  std::size_t with_many = 0;
+  for (std::size_t i = 0; i < scene.specimen.size(); ++i) with_many += scene.network.row(i).size() >= 80;
+  EXPECT_EQ(with_many, 2u);
+  expect_same(scene, loads_of(), "four loads");
+  expect_same(scene, {{10}}, "one");
+}
+
 // Where loads far larger than the wall's cancel, a residual of 1e-11 is below rounding; E* is as exact for it.
 TEST_P(Iterative, AgreesWithFactorsOnHostileNetworks) {
   for (const auto& [name, scene] : hostile_networks()) expect_same(scene, {{10}}, name);

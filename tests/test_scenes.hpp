@@ -2,12 +2,14 @@
 /// \file test_scenes.hpp  Random specimens with their networks, laws and masses, fresh for every seed.
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <random>
 
 #include "long_tests.hpp"
 #include "macadam/macadam.hpp"
 #include "test_networks.hpp"
+#include "test_spheres.hpp"
 
 namespace macadam::test {
 
@@ -80,6 +82,23 @@ inline Specimen random_specimen(unsigned seed, int nx = 4, int ny = 4, int nz = 
       }
     }
   }
+  return out;
+}
+
+/// The same with two boulders among them, each of which touches a hundred others.
+inline Specimen boulders(unsigned seed) {
+  const double cell = 2e-3, radius = 3.1 * cell;
+  const Specimen small = random_specimen(seed, 15, 9, 9);
+  const Vec3d centres[] = {cell * Vec3d{4.3, 4.5, 4.5}, cell * Vec3d{10.7, 4.5, 4.5}};
+  Specimen out;
+  out.box = small.box;
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    const auto is_near = [&](const Vec3d& c) { return norm(small.centre[i] - c) < radius + 0.8e-3; };
+    if (std::ranges::none_of(centres, is_near))
+      add(out, small.centre[i], small.radius[i], small.phase[i], small.body[i]);
+  }
+  auto body = static_cast<std::int32_t>(small.size());
+  for (const Vec3d& c : centres) add(out, c, radius, Phase::aggregate, body++);
   return out;
 }
 

@@ -71,7 +71,7 @@ __device__ inline double conjugate_product(const double* straight, int f) {
 /// longer than the rest of the specimen takes all others.
 inline constexpr unsigned many_contacts = 64;
 
-/// A warp a body: a thread a lane, as often as a warp has room for, and these share the contacts.
+/// A warp a body. W threads, one a lane, take a contact; the 32/W such groups of a warp share the body's contacts.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads)
     cocg_apply(CocgView<F> d, unsigned first_segment, const double* from, bool first) {
