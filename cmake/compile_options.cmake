@@ -34,6 +34,9 @@ if(MACADAM_SANITIZE)
   target_compile_options(macadam_options INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${MACADAM_SANITIZE};${MACADAM_CHECKS}>")
   # Functions of the library call its own copies of templates, not those of a program built without checks.
   target_link_options(macadam_options INTERFACE -fsanitize=${MACADAM_SANITIZE} -Wl,-Bsymbolic-functions)
+  # Eigen would pad what it allocates in files that the address sanitizer watches, and not in those that are left out: what
+  # one allocates another frees.
+  target_compile_definitions(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:EIGEN_MALLOC_ALREADY_ALIGNED=1>)
   set(MACADAM_SANITIZE_STEP ${MACADAM_CHECKS_OF_STEP})
   # CGAL's wraps, trees and hulls take gcc up to ten minutes a file: those files are thin shells around them.
   set(MACADAM_SANITIZE_CGAL "-fno-sanitize=all")
