@@ -33,6 +33,8 @@ void twin_command(CtTwinArguments arguments) {
   TwinSpec& spec = arguments.spec;
   if (!arguments.box.empty()) spec.box = box_of(arguments.box);
   spec.least_void = length_of(arguments.least_void, "--least-void");
+  if (spec.least_void < 0)
+    throw InputError("command line", 0, "--least-void", '"' + arguments.least_void + '"', "a length of 0 or more");
   const Scene scene = read_scene(arguments.scene);
   listen_to_stop_signals();
   ProgressLine line;

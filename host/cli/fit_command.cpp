@@ -26,6 +26,24 @@ struct FitArguments {
   FitOptions fit;
 };
 
+/// Nobody is to believe that an option did something where what else is given leaves it nothing to do.
+void require_uses(const CLI::App& command, const FitArguments& arguments) {
+  const auto refuse = [&](const char* beside, std::initializer_list<const char*> names) {
+    for (const char* name : names)
+      if (command.count(name) > 0)
+        throw InputError("command line", 0, name, std::string("it beside ") + beside,
+                         "one of the two: it has no use there");
+  };
+  if (!arguments.parameters.empty())
+    refuse("--parameters", {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson",
+                            "--shift", "--reference-temperature"});
+  else if (arguments.fit.model == FitModel::kelvin)
+    refuse("--model kelvin", {"--from", "--to", "--error"});
+  else
+    refuse("another model than kelvin", {"--units", "--most-units", "--criterion", "--flow", "--no-flow"});
+  if (arguments.fit.units) refuse("--units", {"--most-units"});
+}
+
 /// No data: a model that somebody else has fitted becomes a chain.
 void convert(const FitArguments& arguments) {
   const ShiftedAnalogue analogue = read_analogue(arguments.parameters);
@@ -37,12 +55,13 @@ void convert(const FitArguments& arguments) {
   say("files in {}: law.toml\n", arguments.out);
 }
 
-void fit_command(FitArguments arguments) {
+void fit_command(const CLI::App& command, FitArguments arguments) {
   if (arguments.data.empty() == arguments.parameters.empty()) {
     throw InputError("command line", 0, "what to fit",
                      arguments.data.empty() ? "nothing" : "both data and --parameters",
                      "a CSV file of measurements, or --parameters with a model's TOML file");
   }
+  require_uses(command, arguments);
   if (arguments.data.empty()) return convert(arguments);
   if (arguments.flow || arguments.no_flow) arguments.fit.flow = arguments.flow;
   const Fit fit = fit_modulus(read_modulus_data(arguments.data, arguments.poisson), arguments.fit);
@@ -104,7 +123,7 @@ void add_fit_command(CLI::App& app) {
   for (const char* name : {"--parameters", "--from", "--to", "--error"}) command.get_option(name)->group(chain);
   add_examples(command, {"macadam fit examples/laws/mastic.csv --out results/law",
                          "macadam fit examples/laws/mastic.csv --out results/law --model 2s2p1d --shift wlf"});
-  command.callback([arguments] { fit_command(*arguments); });
+  command.callback([arguments, &command] { fit_command(command, *arguments); });
 }
 
 }  // namespace macadam

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "host/experiments/stepped/settings.hpp"
+#include "host/simulation/combination.hpp"
 #include "host/simulation/costs.hpp"
 
 namespace macadam {
@@ -212,6 +213,7 @@ void add_time(const Scene& scene, Forecast& f, const Cost& cost) {
 }  // namespace
 
 Forecast forecast(const Scene& scene) {
+  require_combination(scene);
   const Cost cost;
   Forecast out;
   out.backend = select_backend(scene.solver.backend, &out.reason, scene.solver.devices);

@@ -35,7 +35,8 @@ struct Forecast {
   std::vector<std::string> files;  ///< that the run leaves
 };
 
-/// \throws InputError for a specimen that a run would refuse, RunError for a backend that is not there.
+/// \throws InputError for a specimen, or a combination of method, backend and test, that a run would refuse; RunError
+/// for a backend that is not there.
 Forecast forecast(const Scene& scene);
 
 }  // namespace macadam

@@ -11,6 +11,7 @@
 #include "host/results/files.hpp"
 #include "host/results/result_folder.hpp"
 #include "host/simulation/checkpoints.hpp"
+#include "host/simulation/combination.hpp"
 #include "host/simulation/phases.hpp"
 #include "host/simulation/preparation_files.hpp"
 #include "host/simulation/run_ranks.hpp"
@@ -25,37 +26,6 @@
 
 namespace macadam {
 namespace {
-
-/// What the command line may have combined.
-void require_backend_fits(const Scene& scene) {
-  if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
-    throw InputError(scene.file.string(), 0, "method",
-                     std::string("\"explicit\" beside kind \"") + kind_of(scene.experiment) + "\"",
-                     "\"harmonic\": it is not stepped in time");
-  }
-  if (scene.solver.method == SolverMethod::explicit_ && scene.solver.inertia) {
-    throw InputError(scene.file.string(), 0, "inertia", "true beside method \"explicit\", which always has inertia",
-                     "false, or method \"harmonic\"");
-  }
-  if (scene.solver.method == SolverMethod::explicit_ && !temperatures_of(scene.experiment).empty()) {
-    throw InputError(scene.file.string(), 0, "temperatures in [loading]",
-                     fmt::format("{} of them beside method \"explicit\"", temperatures_of(scene.experiment).size()),
-                     "method \"harmonic\", or one as temperature in [materials]");
-  }
-  if (scene.output.fields.any() && !has_fields(scene)) {
-    throw InputError(scene.file.string(), 0, "fields in [output]",
-                     std::string("some beside method \"harmonic\" of kind \"") + kind_of(scene.experiment) + "\"",
-                     "none, or method \"explicit\"");
-  }
-  if (scene.solver.method != SolverMethod::explicit_ || scene.solver.backend != Backend::reference) return;
-  const auto refuse = [&](const char* what, const char* found, const char* expected) {
-    throw InputError(scene.file.string(), 0, std::string(what) + " with backend reference", found, expected);
-  };
-  if (scene.solver.precision.value_or(Precision::double_) != Precision::double_) {
-    refuse("precision", to_string(*scene.solver.precision), "double");
-  }
-  if (scene.network.quadrature == Quadrature::exact) refuse("quadrature", "exact", "lumped: it works per point");
-}
 
 /// Whoever asks for checkpoints is told at once that there will be none.
 void require_checkpoints(const Scene& scene, bool resume) {
@@ -128,7 +98,7 @@ class FoundBackend {
 
 RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher& watcher, bool resume,
                     const RunParts& parts, const Preparation* given) {
-  require_backend_fits(scene);
+  require_combination(scene);
   RunResult result;
   std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
   const bool stepped = scene.solver.method == SolverMethod::explicit_;

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// combination.cpp  Refuses what a scene and the command line ask for together.
+#include "host/simulation/combination.hpp"
+
+#include <fmt/format.h>
+
+#include "host/experiments/experiment.hpp"
+#include "host/harmonic/law_stiffness.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+
+void require_combination(const Scene& scene) {
+  if (scene.solver.method == SolverMethod::explicit_ && stepping_of(scene.experiment) == experiments::Stepping::never) {
+    throw InputError(scene.file.string(), 0, "method",
+                     std::string("\"explicit\" beside kind \"") + kind_of(scene.experiment) + "\"",
+                     "\"harmonic\": it is not stepped in time");
+  }
+  if (scene.solver.method == SolverMethod::explicit_ && scene.solver.inertia) {
+    throw InputError(scene.file.string(), 0, "inertia", "true beside method \"explicit\", which always has inertia",
+                     "false, or method \"harmonic\"");
+  }
+  if (scene.solver.method == SolverMethod::explicit_ && !temperatures_of(scene.experiment).empty()) {
+    throw InputError(scene.file.string(), 0, "temperatures in [loading]",
+                     fmt::format("{} of them beside method \"explicit\"", temperatures_of(scene.experiment).size()),
+                     "method \"harmonic\", or one as temperature in [materials]");
+  }
+  if (scene.output.fields.any() && !has_fields(scene)) {
+    throw InputError(scene.file.string(), 0, "fields in [output]",
+                     std::string("some beside method \"harmonic\" of kind \"") + kind_of(scene.experiment) + "\"",
+                     "none, or method \"explicit\"");
+  }
+  if (scene.solver.method == SolverMethod::harmonic) require_stiffness(scene.laws);
+  if (scene.solver.method != SolverMethod::explicit_ || scene.solver.backend != Backend::reference) return;
+  const auto refuse = [&](const char* what, const char* found, const char* expected) {
+    throw InputError(scene.file.string(), 0, std::string(what) + " with backend reference", found, expected);
+  };
+  if (scene.solver.precision.value_or(Precision::double_) != Precision::double_) {
+    refuse("precision", to_string(*scene.solver.precision), "double");
+  }
+  if (scene.network.quadrature == Quadrature::exact) refuse("quadrature", "exact", "lumped: it works per point");
+}
+
+}  // namespace macadam

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// edited_inputs_test.cpp  What readers say of good files with one change each, against what they said when it was
+// recorded: tests/recorded/edits has a text for each file. A change that is meant is recorded anew with
+// MACADAM_RECORD=1 in the environment, and its difference is looked at like any other. Other tests say what is right.
+#include <functional>
+#include <map>
+
+#include "host/scene/known_keys.hpp"
+#include "host/simulation/forecast.hpp"
+#include "program.hpp"
+#include "text_edits.hpp"
+
+namespace macadam::test {
+namespace {
+
+const fs::path recorded = MACADAM_RECORDED;
+
+/// Reads a file that was written for it, and says what it found.
+using Reading = std::function<std::string(const fs::path&)>;
+
+/// A number as every compiler has it.
+std::string few_digits(double value) { return fmt::format("{:.6g}", value); }
+
+/// A run that the scene would be, but for what the machine decides.
+std::string run_of(const fs::path& file) {
+  Scene scene = read_scene(file);
+  scene.solver.backend = Backend::cpu;
+  const Forecast f = forecast(scene);
+  std::string out = fmt::format("{}, {}; {} particles, {} aggregates, {} voids, {} contacts; {} solutions",
+                                kind_of(scene.experiment), f.stepped ? "stepped" : "harmonic", f.census.particles(),
+                                f.census.aggregates, f.census.voids, few_digits(f.contacts), f.solutions);
+  if (f.stepped) out += fmt::format("; {}, {}, {}", to_string(f.precision), to_string(f.form), to_string(f.geometry));
+  for (const StepForecast& s : f.steps)
+    out += fmt::format("; {} Hz: {} steps of {} s, scaling {}", s.frequency_hz, few_digits(s.steps), few_digits(s.dt_s),
+                       few_digits(s.density_scaling));
+  return out + fmt::format("; skips {}; files {}", fmt::join(f.skips, ", "), fmt::join(f.files, " "));
+}
+
+std::string sums_of(std::size_t number, const std::vector<double>& values) {
+  double sum = 0, moment = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += values[i], moment += static_cast<double>(i + 1) * values[i];
+  return fmt::format("{}: {} {}", number, few_digits(sum), few_digits(moment));
+}
+
+std::string moduli_of(const fs::path& file) {
+  const ModulusData data = read_modulus_data(file, 0.4);
+  std::vector<double> all;
+  for (const ModulusPoint& p : data.points)
+    all.insert(all.end(), {p.frequency_hz, p.e_star_pa, p.phase_deg, p.temperature_c, p.e_star_std, p.phase_std});
+  return sums_of(data.points.size(), all) + (data.temperatures ? ", temperatures" : "") +
+         (data.deviations ? ", deviations" : "");
+}
+
+std::string model_of(const fs::path& file) {
+  const ShiftedAnalogue read = read_analogue(file);
+  const AnalogueModel& m = read.model;
+  return sums_of(7, {m.E_00, m.E_0, m.k, m.h, m.delta, m.tau, std::isinf(m.beta) ? -1 : m.beta});
+}
+
+std::string specimen_of(const fs::path& file) {
+  const Specimen s = read_specimen_csv(file, {{0.008, 0.008, 0.011}});
+  std::vector<double> all;
+  for (std::size_t i = 0; i < s.size(); ++i)
+    all.insert(all.end(), {s.centre[i].x, s.centre[i].y, s.centre[i].z, s.radius[i], static_cast<double>(s.phase[i]),
+                           static_cast<double>(s.body[i])});
+  return sums_of(s.size(), all);
+}
+
+std::string surface_of(const fs::path& file) {
+  const Surface s = read_surface(file);
+  std::vector<double> all;
+  for (const Vec3d& p : s.points) all.insert(all.end(), {p.x, p.y, p.z});
+  for (const auto& f : s.facets) all.insert(all.end(), f.begin(), f.end());
+  return sums_of(s.points.size(), all) + ", " + check_surface(s).text();
+}
+
+/// What is read, and which changes are made to it.
+struct Input {
+  std::string file;  ///< below tests/recorded, or "t8.csv"
+  Reading read;
+  std::vector<std::string> sections;  ///< of a scene: all keys of these are tried
+};
+
+const std::vector<Input>& inputs() {
+  static const std::vector<std::string> test{"[loading]", "[solver]", "[output]"};
+  static const std::vector<Input> all{
+      {"specimen-recipe/mix.toml", run_of, {"[specimen]", "[specimen.recipe]", "[materials]", "[materials.mastic]"}},
+      {"specimen-recipe/measured.toml", run_of, {"[specimen.recipe]", "[network]"}},
+      {"specimen-shapes/packed.toml", run_of, {"[specimen.shapes]", "[specimen.voids]"}},
+      {"specimen-shapes/inserted.toml", run_of, {"[specimen.shapes]", "[specimen.mastic]", "[[specimen.aggregate]]"}},
+      {"specimen-spheres/counted.toml", run_of, {"[specimen]", "[specimen.mastic]", "[[specimen.aggregate]]"}},
+      {"run-cyclic/stepped.toml", run_of, {"[loading]", "[solver]", "[output]", "[network]", "[[contacts]]"}},
+      {"run-cyclic/tolerance.toml", run_of, {"[loading]", "[solver]"}},
+      {"run-cyclic/inertia.toml", run_of, {"[loading]", "[solver]", "[output]"}},
+      {"run-tests/sweep.toml", run_of, test},
+      {"run-tests/creep.toml", run_of, test},
+      {"run-tests/stepped-creep.toml", run_of, test},
+      {"run-tests/relaxation.toml", run_of, test},
+      {"run-tests/stepped-monotonic.toml", run_of, test},
+      {"run-tests/bonds.toml", run_of, {"[loading]", "[[contacts]]"}},
+      {"fit/one.csv", moduli_of, {}},
+      {"fit/two.csv", moduli_of, {}},
+      {"calibrate/parts.csv", moduli_of, {}},
+      {"fit/model.toml", model_of, {}},
+      {"fit/huet.toml", model_of, {}},
+      {"t8.csv", specimen_of, {}},
+      {"shapes/cube.stl", surface_of, {}},
+      {"shapes/box.ply", surface_of, {}},
+      {"shapes/box.obj", surface_of, {}},
+      {"shapes/stones/aggregate_04.off", surface_of, {}},
+  };
+  return all;
+}
+
+/// Making the library of crushed aggregates takes a hundred times as long as the rest of a forecast.
+void quick_shapes(std::string& scene) {
+  for (const std::string slow : {"\"aggregates\"", "\"aggregates and icosahedron\""})
+    if (const std::size_t at = scene.find(slow); at != std::string::npos)
+      scene.replace(at, slow.size(), "\"icosahedron\"");
+}
+
+/// Of `all`, the first and the last two: what comes between is more of the same.
+std::vector<std::size_t> lines_to_change(const std::vector<std::string>& all, const std::string& ending) {
+  std::vector<std::size_t> out;
+  std::size_t rows = 0;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    if (all[n].empty() || all[n].starts_with('#') || all[n].starts_with('[')) continue;
+    ++rows;
+    if (ending == ".toml" || rows <= 12 || n + 2 >= all.size()) out.push_back(n);
+  }
+  return out;
+}
+
+/// Of the first `own_lines` lines; of those behind, the laws, where their section is named.
+std::vector<TextEdit> edits_of(const std::string& text, std::size_t own_lines, const std::string& ending,
+                               const std::vector<std::string>& sections) {
+  const auto is_named = [&](const std::string& section) {
+    return std::find(sections.begin(), sections.end(), section) != sections.end();
+  };
+  std::vector<TextEdit> out;
+  std::vector<std::string> lines = edits::lines(text);
+  if (!is_named("[[contacts]]")) lines.resize(own_lines);
+  const std::vector<std::size_t> which = lines_to_change(lines, ending);
+  if (ending == ".toml") {
+    edits::replace_parts(out, text, which, {"0", "-1", "1", "1e-6", "1e9", "nan"}, edits::numbers);
+    for (const scene::KnownKey& key : scene::known_keys()) {
+      if (!is_named(key.section)) continue;
+      std::vector<std::string> values{"0", "-1", "1", "2.5", "1e9", "true", "\"5 %\"", "[]", "[0.5, 2.0]"};
+      for (const std::string& choice : key.words.choices) values.push_back('"' + choice + '"');
+      edits::set_key(out, text, key.section, key.name, values);
+    }
+  } else {
+    const std::string separators = ending == ".csv" ? "," : " /";
+    edits::replace_parts(out, text, which, {"", "0", "-1", "1", "3", "100", "nan", "1e400", "x"},
+                         [&](const std::string& line) { return edits::cells(line, separators); });
+  }
+  edits::replace_lines(out, text, which);
+  return out;
+}
+
+class EditedInputs : public Program, public testing::WithParamInterface<Input> {
+ protected:
+  std::string said(const Input& input, const fs::path& file, const std::string& text) const {
+    write(file, text);
+    std::string out;
+    try {
+      out = input.read(file);
+    } catch (const Error& error) { out = error.what(); }
+    for (const std::string folder = folder_.string() + '/';;) {
+      const std::size_t at = out.find(folder);
+      if (at == std::string::npos) return out;
+      out.erase(at, folder.size());
+    }
+  }
+
+  /// A line for each place, and one for each thing that is said of some of its changes.
+  std::string happened(const Input& input) const {
+    const bool is_specimen = input.file == "t8.csv";
+    const fs::path file = folder_ / fs::path(input.file).filename();
+    std::string text = read(is_specimen ? file : recorded / input.file);
+    const std::size_t own_lines = edits::lines(text).size();
+    if (contains(text, "[specimen]") && !contains(text, "[[contacts]]")) text += '\n' + read(recorded / "laws.toml");
+    quick_shapes(text);
+    const std::string good = said(input, file, text);
+    std::string out = "as it is: " + good + '\n';
+    const std::vector<TextEdit> all = edits_of(text, own_lines, file.extension(), input.sections);
+    for (std::size_t i = 0; i < all.size();) {
+      const std::string& place = all[i].place;
+      out += place + '\n';
+      std::vector<std::pair<std::string, std::string>> groups;  // what is said, and of which changes
+      for (; i < all.size() && all[i].place == place; ++i) {
+        std::string now = said(input, file, all[i].text);
+        if (now == good) now = "the same";
+        const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == now; });
+        if (group == groups.end())
+          groups.emplace_back(now, all[i].change);
+        else
+          group->second += " | " + all[i].change;
+      }
+      for (const auto& [what, changes] : groups) out += "  " + changes + ": " + what + '\n';
+    }
+    return out;
+  }
+};
+
+TEST_P(EditedInputs, AreReadOrRefusedAsTheyWere) {
+  const Input& input = GetParam();
+  std::string name = input.file;
+  std::replace(name.begin(), name.end(), '/', '-');
+  const fs::path file = recorded / "edits" / (name + ".txt");
+  const std::string now = happened(input);
+  if (std::getenv("MACADAM_RECORD")) {
+    fs::create_directories(file.parent_path());
+    write(file, now);
+    return;
+  }
+  const std::vector<std::string> expected = lines_of(read(file)), found = lines_of(now);
+  EXPECT_EQ(found.size(), expected.size());
+  int shown = 0;
+  for (std::size_t n = 0; n < std::min(found.size(), expected.size()) && shown < 10; ++n)
+    if (found[n] != expected[n]) {
+      ADD_FAILURE() << file << ":" << n + 1 << ": found\n" << found[n] << "\nexpected\n" << expected[n];
+      ++shown;
+    }
+}
+
+std::string name_of(const testing::TestParamInfo<Input>& info) {
+  std::string out = info.param.file;
+  std::replace_if(
+      out.begin(), out.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+  return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, EditedInputs, testing::ValuesIn(inputs()), name_of);
+
+}  // namespace
+}  // namespace macadam::test
