@@ -38,8 +38,10 @@ if(MACADAM_SANITIZE)
   # one allocates another frees.
   target_compile_definitions(macadam_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:EIGEN_MALLOC_ALREADY_ALIGNED=1>)
   set(MACADAM_SANITIZE_STEP ${MACADAM_CHECKS_OF_STEP})
-  # CGAL's wraps, trees and hulls take gcc up to ten minutes a file: those files are thin shells around them.
-  set(MACADAM_SANITIZE_CGAL "-fno-sanitize=all")
+  # CGAL's wraps, trees and hulls take gcc up to ten minutes a file: those files are thin shells around them. Clang checks them.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set(MACADAM_SANITIZE_CGAL "-fno-sanitize=all")
+  endif()
 endif()
 if(MACADAM_COVERAGE)
   # Of the library only, and counted without atomics, which made a step of two threads ten times slower: a lost count

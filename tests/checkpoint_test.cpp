@@ -426,6 +426,7 @@ TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
   EXPECT_HAS(read(folder_ / "stderr.txt"), "this run was begun before and begins anew; --resume goes on");
   EXPECT_FALSE(fs::exists(file("copy")));
   ASSERT_EQ(end_of(start("out", true)), 0) << read(folder_ / "stderr.txt");
+  EXPECT_EQ(read(folder_ / "stderr.txt").find("begins anew"), std::string::npos);
   expect_same("out", "one");
   EXPECT_EQ(end_of(start("out", true)), 2);
   EXPECT_HAS(read(folder_ / "stderr.txt"), "no such file");

@@ -151,6 +151,18 @@ std::pair<double, double> statistics(const Phantom& p, const Choose& chosen) {
   return {sum / n, std::sqrt(squares / n - sum / n * (sum / n))};
 }
 
+TEST_F(CtPhantom, SamplesThatAreNoneOrTooManyAreRefused) {
+  PhantomSpec spec = clean(0.5e-3);
+  for (const int samples : {0, 17}) {
+    spec.samples = samples;
+    EXPECT_THROW(make_phantom(spheres_scene(), spec), InputError) << samples;
+  }
+  for (const int samples : {1, 16}) {
+    spec.samples = samples;
+    EXPECT_NO_THROW(make_phantom(spheres_scene(), spec)) << samples;
+  }
+}
+
 TEST_F(CtPhantom, FaultsAreAsLargeAsAsked) {
   const Scene scene = spheres_scene();
   const auto scanned = [&](double PhantomSpec::*fault, double value) {

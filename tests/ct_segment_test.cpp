@@ -482,5 +482,39 @@ TEST(CtCuts, AreReadAsTheyWereWritten) {
   std::filesystem::remove(file);
 }
 
+// Three fragments of which each touches the two others.
+TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
+  ct::Fragments fragments;
+  fragments.labels = Image<std::uint32_t>({1, 1, 1}, {voxel, voxel, voxel});
+  fragments.radius = {0, 1e-3, 1e-3, 1e-3};
+  std::vector<GrainCut> good;
+  for (const auto& [a, b] : {std::pair{1u, 2u}, std::pair{1u, 3u}, std::pair{2u, 3u}}) {
+    const Vec3d middle{a * 1e-3, b * 1e-3, 0};
+    fragments.faces.push_back({a, b, 1e-3, 0, 4, 4.0 * middle});
+    good.push_back({a, b, middle, 1, 1, 1, -1, a == 1 && b == 2});
+  }
+  good[1].cut = true;  // 2 and 3 are one grain, 1 is another
+  EXPECT_EQ(ct::decide(fragments, good).grain, (std::vector<std::uint32_t>{0, 1, 2, 2}));
+  const auto fault_of = [&](const std::vector<GrainCut>& cuts) -> std::string {
+    try {
+      ct::decide(fragments, cuts);
+    } catch (const InputError& error) { return error.what(); }
+    return "none";
+  };
+  std::vector<GrainCut> cuts = good;
+  cuts[1].cut = false;  // 1 and 2 would be cut, and joined by way of 3
+  EXPECT_NE(fault_of(cuts).find("fragments 1 and 2"), std::string::npos) << fault_of(cuts);
+  EXPECT_NE(fault_of(cuts).find("other rows join them"), std::string::npos) << fault_of(cuts);
+  cuts = good;
+  cuts[2].place.x += 1.9 * voxel;  // within two voxels of the face
+  EXPECT_EQ(fault_of(cuts), "none");
+  cuts[2].place.x += 0.2 * voxel;
+  EXPECT_NE(fault_of(cuts).find("row 3"), std::string::npos) << fault_of(cuts);
+  cuts = good, std::swap(cuts[0], cuts[1]);
+  EXPECT_NE(fault_of(cuts).find("another scan"), std::string::npos) << fault_of(cuts);
+  cuts = good, cuts.pop_back();
+  EXPECT_NE(fault_of(cuts).find("found 2, expected 3"), std::string::npos) << fault_of(cuts);
+}
+
 }  // namespace
 }  // namespace macadam

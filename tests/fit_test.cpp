@@ -105,6 +105,18 @@ TEST(Fit, MoreUnitsAreWantedOnlyWhereTheCriterionChoseTheMost) {
   EXPECT_FALSE(warned(options)) << "as many as were asked for";
 }
 
+TEST(Fit, NumbersOfUnitsBeyondALawsAreRefused) {
+  const ModulusData data = measured(mastic_am1(), frequencies(1e-3, 1e3, 31));
+  const int most = laws::GeneralisedKelvin::max_units;
+  for (const int units : {-1, most + 1}) {
+    FitOptions options;
+    options.units = units;
+    EXPECT_THROW(fit_modulus(data, options), InputError) << units;
+    options.units.reset(), options.most_units = units;
+    EXPECT_THROW(fit_modulus(data, options), InputError) << units;
+  }
+}
+
 /// n = 20 numbers and p = 3 parameters: n − p − 1 = 16. Without stated deviations the size of the errors is a
 /// parameter.
 TEST(Fit, CriteriaAreThoseOfTheirFormulae) {

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "host/results/shape_files.hpp"
 #include "host/shapes/stabbing.hpp"
 #include "host/shapes/statistics.hpp"
 #include "long_tests.hpp"
@@ -36,6 +37,13 @@ void in_all_poses(const Surface& surface, const std::function<void(const ShapeMe
     const Vec3d centre{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     expect(measure_shape(mapped(surface, random_pose(random, 1, centre))));
   }
+}
+
+TEST(ShapeFiles, AreScaledToALengthAboveZero) {
+  const Surface ball = subdivided_icosahedron(1);
+  EXPECT_NEAR(measure_shape(scaled_to(ball, 0.003)).d_intermediate, 0.006, 1e-15);
+  for (const double length : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(scaled_to(ball, length), InputError) << length;
 }
 
 TEST(Stabbing, AnIntervalHoldsWhatIsBeyondItsEndsByTheToleranceAndNoMore) {

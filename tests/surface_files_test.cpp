@@ -166,7 +166,10 @@ TEST_F(SurfaceFiles, BrokenOnesAreInputErrorsWithTheCulprit) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(&nan_stl[84 + 50 * 2 + 12], &nan, 4);
   }
+  std::string header_alone(84, ' ');  // of a binary file whose count asks for one facet
+  header_alone[80] = 1, header_alone[81] = header_alone[82] = header_alone[83] = 0;
   std::vector<Case> cases{
+      {"header.stl", header_alone, "neither the bytes that a binary file's count asks for"},
       {"nan.stl", nan_stl, "facet 2: found coordinate nan"},
       {"nan.stl", replaced(ascii_stl(tetrahedron(std::sqrt(8.0))), "vertex 1", "vertex nan"),
        ":4: facet 0: found \"nan\""},

@@ -209,6 +209,15 @@ TEST_F(SurfacePly, BrokenHeadersAreNamedByLine) {
   }
 }
 
+// The last number of a text needs no blank behind it: three numbers may take five bytes. A file of one point is refused
+// for having no facet, not for being too short.
+TEST_F(SurfacePly, ATextMayEndWithItsLastNumber) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+  EXPECT_HAS(message_for(header + "0 1 2"), "facet");
+  EXPECT_HAS(message_for(header + "0 1 "), "no more than the 4 bytes after the header can hold");
+}
+
 TEST_F(SurfacePly, NumbersBeyondTheirTypesAreRefused) {
   const std::string good = tetrahedron_ply("ascii", "uchar", "float", "char", "int", false);
   for (const auto& [what, by, word] : {std::tuple{"100 0 0", "100 256 0", ":13: point 1: found \"256\""},

@@ -8,7 +8,7 @@ from pages.data import head, rows, table
 from pages.marks import mark
 
 DOCUMENT = "docs/reliability.md"
-MUTATION = ("mutation", "mutation-second", "mutation-third", "mutation-fourth", "mutation-fifth")  # by draw
+MUTATION = ("mutation", "mutation-second", "mutation-third", "mutation-fourth", "mutation-fifth", "mutation-sixth")  # by draw
 SOAK = (("cpu", "soak-cpu.csv"), ("cuda", "soak-cuda.csv"), ("cuda", "soak-cuda-h100.csv"))
 READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specimen": "specimens (CSV)",
          "specimen_gz": "specimens (CSV in gzip)", "laboratory": "laboratory data (CSV)", "checkpoint": "checkpoints (HDF5)",
@@ -69,19 +69,41 @@ def soak():
 
 
 @mark
+def checked():
+    """Tests in builds with sanitizers."""
+    return table(["build", "tests", "failed", "left out"],
+                 [(r["what"], f"{r['tests']:,.0f}", f"{r['failed']:.0f}", f"{r['skipped']:.0f}") for r in rows("checked.csv")], right=(1, 2, 3))
+
+
+@mark
+def coverage(what):
+    row = next(r for r in rows("coverage.csv") if r["what"] == what)
+    return f"{100 * row['covered'] / row['of']:.1f} %"
+
+
+@mark
 def races_programs():
     return f"{sum(r['tests'] > 0 for r in rows('races.csv'))}"
 
 
-@mark
-def gpu_sanitizers():
+def ended_under_sanitizers(name):
     """Tests that ended of those that use the GPU, by program and check."""
     programs = collections.defaultdict(dict)
-    for r in rows("gpu-sanitizers.csv"):
+    for r in rows(f"{name}.csv"):
         programs[r["program"]][r["check"]] = f"{r['ended']:.0f} of {r['tests'] - r['unused']:.0f}"
     checks = ("memcheck", "initcheck", "racecheck", "synccheck")
     return table(["program", *(f"`{check}`" for check in checks)],
                  [(f"`{program}`", *(ended.get(check, "") for check in checks)) for program, ended in programs.items()], right=range(1, 5))
+
+
+@mark
+def gpu_sanitizers():
+    return ended_under_sanitizers("gpu-sanitizers")
+
+
+@mark
+def gpu_sanitizers_again():
+    return ended_under_sanitizers("gpu-sanitizers-again")
 
 
 @mark
@@ -137,8 +159,8 @@ def survivors():
             "beyond": "read or written beyond an array, which only the tests with sanitizers can see",
             "tested since": "a test notices it since", "open": "a test could notice it"}
     found = [looked_at(name) for name in MUTATION]
-    return table(["mistakes that no test noticed", *(f"{n} draw" for n in ("first", "second", "third", "fourth", "fifth"))],
-                 [(words, *(count[kind] for count in found)) for kind, words in said.items()], right=range(1, 6))
+    return table(["mistakes that no test noticed", *(f"{n} draw" for n in ("first", "second", "third", "fourth", "fifth", "sixth"))],
+                 [(words, *(count[kind] for count in found)) for kind, words in said.items()], right=range(1, 7))
 
 
 @mark
