@@ -83,6 +83,19 @@ TEST_F(Check, StepsOfACreepTestAreThoseOfItsCriticalStep) {
   EXPECT_NEAR(foretold.dt_s / expected, 1, 0.5);
 }
 
+// The smallest spheres are then those of the file.
+TEST_F(Check, StepsOfASpecimenFromAFileAreThoseOfTheMixtureThatItWasMadeOf) {
+  Scene scene = example("stepped_creep");
+  const StepForecast of_mixture = forecast(scene).steps.front();
+  write_specimen_csv(folder_ / "made.csv", prepare(scene).specimen);
+  scene.specimen.file = folder_ / "made.csv";
+  scene.specimen.mastic.reset(), scene.specimen.aggregate.clear();
+  const StepForecast of_file = forecast(scene).steps.front();
+  EXPECT_GE(of_file.dt_s, of_mixture.dt_s);
+  EXPECT_NEAR(of_file.dt_s / of_mixture.dt_s, 1, 0.02);  // of hundreds of spheres, one is nearly the smallest
+  EXPECT_NEAR(of_file.steps / of_mixture.steps, 1, 0.02);
+}
+
 // What fits into a processor's cache, or onto a device's chip, takes less time a contact. A cube of 20 mm has 10,000
 // contacts, one of 40 mm 86,000, and one of 100 mm 1.4 million.
 TEST_F(Check, AContactOfASmallSpecimenTakesLessTime) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "program.hpp"
+
 namespace macadam::test {
 
 /// A changed text, where it is changed, and how.
@@ -18,15 +20,6 @@ struct TextEdit {
 };
 
 namespace edits {
-
-inline std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> out;
-  std::size_t at = 0;
-  for (std::size_t end; (end = text.find('\n', at)) != std::string::npos; at = end + 1)
-    out.push_back(text.substr(at, end - at));
-  if (at < text.size()) out.push_back(text.substr(at));
-  return out;
-}
 
 inline std::string joined(const std::vector<std::string>& lines) {
   std::string out;
@@ -37,16 +30,17 @@ inline std::string joined(const std::vector<std::string>& lines) {
 /// Begin and length.
 using Part = std::pair<std::size_t, std::size_t>;
 
-/// Numbers of a line, but for those that are a part of a word.
+/// Numbers of a line with their signs, but for those that are a part of a word.
 inline std::vector<Part> numbers(const std::string& line) {
   std::vector<Part> out;
   const auto part_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.'; };
   for (std::size_t at = 0; at < line.size();) {
     const char* const begin = line.c_str() + at;
     char* end = nullptr;
-    if ((at == 0 || !part_of_word(line[at - 1])) && std::isdigit(static_cast<unsigned char>(*begin)))
+    const bool sign = *begin == '-' && std::isdigit(static_cast<unsigned char>(begin[1]));
+    if ((at == 0 || !part_of_word(line[at - 1])) && (sign || std::isdigit(static_cast<unsigned char>(*begin))))
       std::strtod(begin, &end);
-    if (end && end != begin) {
+    if (end && end != begin && !part_of_word(*end)) {
       out.emplace_back(at, end - begin);
       at += static_cast<std::size_t>(end - begin);
     } else {
@@ -72,7 +66,7 @@ inline std::vector<Part> cells(const std::string& line, const std::string& separ
 template <class PartsOf>
 void replace_parts(std::vector<TextEdit>& out, const std::string& text, const std::vector<std::size_t>& which,
                    const std::vector<std::string>& instead, const PartsOf& parts_of) {
-  const std::vector<std::string> all = lines(text);
+  const std::vector<std::string> all = lines_of(text);
   for (const std::size_t n : which) {
     std::size_t number = 0;
     std::string before;
@@ -94,7 +88,7 @@ void replace_parts(std::vector<TextEdit>& out, const std::string& text, const st
 
 /// Each line of `which` left out, and twice.
 inline void replace_lines(std::vector<TextEdit>& out, const std::string& text, const std::vector<std::size_t>& which) {
-  const std::vector<std::string> all = lines(text);
+  const std::vector<std::string> all = lines_of(text);
   for (const std::size_t n : which) {
     const std::string place = fmt::format("line {}: {}", n + 1, all[n]);
     std::vector<std::string> changed = all;
@@ -109,7 +103,7 @@ inline void replace_lines(std::vector<TextEdit>& out, const std::string& text, c
 /// A key of a section of TOML, whose value is one line where it has one: each of `values` in its place, and left out.
 inline void set_key(std::vector<TextEdit>& out, const std::string& text, const std::string& section,
                     const std::string& key, const std::vector<std::string>& values) {
-  std::vector<std::string> all = lines(text);
+  std::vector<std::string> all = lines_of(text);
   std::size_t at = 0;
   while (at < all.size() && all[at] != section) ++at;
   if (at == all.size()) all.push_back(section);

@@ -28,20 +28,27 @@ struct FitArguments {
 
 /// Nobody is to believe that an option did something where what else is given leaves it nothing to do.
 void require_uses(const CLI::App& command, const FitArguments& arguments) {
-  const auto refuse = [&](const char* beside, std::initializer_list<const char*> names) {
+  const auto refuse = [&](const std::string& found, const char* expected, std::initializer_list<const char*> names) {
     for (const char* name : names)
-      if (command.count(name) > 0)
-        throw InputError("command line", 0, name, std::string("it beside ") + beside,
-                         "one of the two: it has no use there");
+      if (command.count(name) > 0) throw InputError("command line", 0, name, found, expected);
   };
+  const FitModel model = arguments.fit.model;
   if (!arguments.parameters.empty())
-    refuse("--parameters", {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson",
-                            "--shift", "--reference-temperature"});
-  else if (arguments.fit.model == FitModel::kelvin)
-    refuse("--model kelvin", {"--from", "--to", "--error"});
+    refuse("this option beside --parameters", "it with measurements, or not at all",
+           {"--model", "--units", "--most-units", "--criterion", "--flow", "--no-flow", "--poisson", "--shift",
+            "--reference-temperature"});
+  else if (model == FitModel::kelvin)
+    refuse("this option with model kelvin", "it with model 2s2p1d or huet-sayegh, which a chain is made of",
+           {"--from", "--to", "--error"});
   else
-    refuse("another model than kelvin", {"--units", "--most-units", "--criterion", "--flow", "--no-flow"});
-  if (arguments.fit.units) refuse("--units", {"--most-units"});
+    refuse(std::string("this option with model ") + (model == FitModel::two_s2p1d ? "2s2p1d" : "huet-sayegh"),
+           "it with model kelvin, or not at all", {"--units", "--most-units", "--criterion", "--flow", "--no-flow"});
+  if (arguments.fit.units) {
+    refuse("this option beside --units", "one of the two", {"--most-units"});
+    if (arguments.flow || arguments.no_flow)
+      refuse("this option beside --units and --flow or --no-flow", "not all of them: there is nothing left to choose",
+             {"--criterion"});
+  }
 }
 
 /// No data: a model that somebody else has fitted becomes a chain.

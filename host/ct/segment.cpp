@@ -46,6 +46,9 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   }
   if (options.cuts && options.recipe == SegmentRecipe::paper)
     throw InputError("cuts", 0, "recipe", "the paper's, which has no cuts to change", "our own");
+  if (const double both = options.air_voids.value_or(0) + options.aggregate.value_or(0); both >= 1)
+    throw InputError("the scan", 0, "shares of air voids and aggregate that are given",
+                     fmt::format("{:g} together", both), "less than 1: the rest is mastic");
   Segmentation out;
   say(options, "region");
   const Image<std::uint8_t> region =

@@ -6,6 +6,7 @@
 
 #include "host/experiments/experiment.hpp"
 #include "host/harmonic/law_stiffness.hpp"
+#include "host/simulation/checkpoints.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -30,8 +31,19 @@ void require_combination(const Scene& scene) {
                      std::string("some beside method \"harmonic\" of kind \"") + kind_of(scene.experiment) + "\"",
                      "none, or method \"explicit\"");
   }
-  if (scene.solver.method == SolverMethod::harmonic) require_stiffness(scene.laws);
-  if (scene.solver.method != SolverMethod::explicit_ || scene.solver.backend != Backend::reference) return;
+  if (scene.solver.method == SolverMethod::harmonic) {
+    if (const auto without = first_without_stiffness(scene.laws))
+      throw InputError(scene.file.string(), 0, "method",
+                       fmt::format("\"harmonic\" beside law {} of {}", without->law, to_string(without->pair)),
+                       "\"explicit\": this law has no place in the frequency domain");
+    return;
+  }
+  std::string why_not;
+  if (scene.output.checkpoint.value_or(0) > 0 && !keeps_checkpoints(scene, scene.solver.backend, &why_not)) {
+    throw InputError(scene.file.string(), 0, "checkpoint in [output]", fmt::format("{} s", *scene.output.checkpoint),
+                     "0: " + why_not);
+  }
+  if (scene.solver.backend != Backend::reference) return;
   const auto refuse = [&](const char* what, const char* found, const char* expected) {
     throw InputError(scene.file.string(), 0, std::string(what) + " with backend reference", found, expected);
   };

@@ -66,7 +66,7 @@ StepCost step_cost(const Scene& scene, const Forecast& f) {
 }
 
 /// The critical step at true mass: that of a small sphere among the stiffest contacts it can have [s].
-double critical_step(const Scene& scene) {
+double critical_step(const Scene& scene, const Census& census) {
   constexpr double mastic_share = 0.377, cluster_share = 0.58;  // of radius·√(density/modulus), measured
   const auto step = [&](double share, double radius, double density, std::initializer_list<PairType> pairs) {
     double stiffest = 0;
@@ -75,13 +75,17 @@ double critical_step(const Scene& scene) {
     return stiffest > 0 && density > 0 && radius > 0 ? share * radius * std::sqrt(density / stiffest) : INFINITY;
   };
   const SpecimenSpec& s = scene.specimen;
-  double out = INFINITY;
-  if (s.mastic) out = step(mastic_share, s.mastic->radius_min, scene.materials.mastic, {PairType::mm, PairType::ma});
+  double mastic = census.smallest_mastic, aggregate = census.smallest_in_aggregates;
+  if (s.mastic) mastic = s.mastic->radius_min;
   if (s.shapes)
-    out = std::min(out, step(cluster_share, s.shapes->fill.radius_min, scene.materials.aggregate, {PairType::inner}));
-  else if (!s.mastic && !s.aggregate.empty())
-    out =
-        std::min(out, step(mastic_share, s.aggregate.back().sieve_min / 2, scene.materials.aggregate, {PairType::aa}));
+    aggregate = s.shapes->fill.radius_min;
+  else if (!s.aggregate.empty())
+    aggregate = s.aggregate.back().sieve_min / 2;
+  double out = step(mastic_share, mastic, scene.materials.mastic, {PairType::mm, PairType::ma});
+  if (census.in_aggregates > census.aggregates)
+    out = std::min(out, step(cluster_share, aggregate, scene.materials.aggregate, {PairType::inner}));
+  else if (mastic == 0)
+    out = step(mastic_share, aggregate, scene.materials.aggregate, {PairType::aa});
   return out;
 }
 
@@ -125,8 +129,8 @@ double end_of(const Experiment& experiment) {
       experiment);
 }
 
-std::vector<StepForecast> steps_of(const Scene& scene) {
-  const double critical = critical_step(scene);
+std::vector<StepForecast> steps_of(const Scene& scene, const Census& census) {
+  const double critical = critical_step(scene, census);
   std::vector<StepForecast> out;
   if (const auto* test = std::get_if<experiments::Cyclic>(&scene.experiment)) {
     for (std::size_t k = 0; k < test->frequencies.size(); ++k) out.push_back(cyclic_steps(scene, *test, k, critical));
@@ -229,7 +233,7 @@ Forecast forecast(const Scene& scene) {
   const bool chosen = out.stepped && scene.solver.tolerance.has_value();
   out.geometry = scene.solver.geometry.value_or(chosen ? Geometry::fixed : Geometry::updated);
   out.precision = scene.solver.precision.value_or(chosen ? Precision::single : Precision::double_);
-  if (out.stepped) out.steps = steps_of(scene);
+  if (out.stepped) out.steps = steps_of(scene, out.census);
   out.solutions = solutions_of(scene, out.stepped);
   out.skips = skips_of(scene, out.stepped, out.geometry);
   out.files = files_of_run(scene);

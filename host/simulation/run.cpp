@@ -27,15 +27,10 @@
 namespace macadam {
 namespace {
 
-/// Whoever asks for checkpoints is told at once that there will be none.
-void require_checkpoints(const Scene& scene, bool resume) {
+void require_resumable(const Scene& scene) {
   std::string why_not;
-  if (keeps_checkpoints(scene, scene.solver.backend, &why_not)) return;
-  if (resume) throw InputError(scene.file.string() + ": cannot be resumed: " + why_not);
-  if (scene.solver.method == SolverMethod::explicit_ && scene.output.checkpoint.value_or(0) > 0) {
-    throw InputError(scene.file.string(), 0, "checkpoint in [output]", fmt::format("{} s", *scene.output.checkpoint),
-                     "0: " + why_not);
-  }
+  if (!keeps_checkpoints(scene, scene.solver.backend, &why_not))
+    throw InputError(scene.file.string() + ": cannot be resumed: " + why_not);
 }
 
 /// None of an older run may stay beside ours. A checkpoint may: it is no result.
@@ -103,7 +98,7 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
   FoundBackend backend(scene.solver, parts.place ? std::chrono::milliseconds(0) : none_is_known_within);
-  require_checkpoints(scene, resume);
+  if (resume) require_resumable(scene);
   const ResultFolder folder(out);
   std::optional<Resumed> resumed;
   std::string damage;  // of the newest checkpoint

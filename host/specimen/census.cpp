@@ -19,6 +19,10 @@ Census of_file(const SpecimenSpec& spec) {
   out.mastic = std::count(specimen.phase.begin(), specimen.phase.end(), Phase::mastic);
   out.in_aggregates = static_cast<std::int64_t>(specimen.size()) - out.mastic;
   out.voids = static_cast<std::int64_t>(specimen.voids.size());
+  for (std::size_t i = 0; i < specimen.size(); ++i) {
+    double& smallest = specimen.phase[i] == Phase::mastic ? out.smallest_mastic : out.smallest_in_aggregates;
+    if (smallest == 0 || specimen.radius[i] < smallest) smallest = specimen.radius[i];
+  }
   return out;
 }
 

@@ -13,6 +13,8 @@ struct Census {
   std::int64_t in_aggregates = 0;  ///< spheres of them: as many, or more where shapes are filled
   std::int64_t mastic = 0, voids = 0;
   std::int64_t templates = 0;  ///< shapes that they are copies of
+  /// Radii of the smallest spheres of a file [m]; 0: there is none, or no file.
+  double smallest_mastic = 0, smallest_in_aggregates = 0;
   std::int64_t particles() const { return in_aggregates + mastic; }
 };
 
