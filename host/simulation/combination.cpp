@@ -32,10 +32,13 @@ void require_combination(const Scene& scene) {
                      "none, or method \"explicit\"");
   }
   if (scene.solver.method == SolverMethod::harmonic) {
-    if (const auto without = first_without_stiffness(scene.laws))
-      throw InputError(scene.file.string(), 0, "method",
-                       fmt::format("\"harmonic\" beside law {} of {}", without->law, to_string(without->pair)),
-                       "\"explicit\": this law has no place in the frequency domain");
+    if (const auto without = first_without_stiffness(scene.laws)) {
+      const bool linear = facts_of(scene.laws)[static_cast<std::size_t>(without->pair)]->linear;
+      throw InputError(
+          scene.file.string(), 0, std::string("law of ") + to_string(without->pair) + " beside method \"harmonic\"",
+          std::string(without->law) + ", which has no complex stiffness" + (linear ? "" : ": it is not linear"),
+          "a law that has one, or method = \"explicit\", where the test can be stepped");
+    }
     return;
   }
   std::string why_not;
