@@ -172,7 +172,8 @@ std::vector<std::size_t> lines_to_change(const std::vector<std::string>& all, co
   return out;
 }
 
-/// Of the first `own_lines` lines; of those behind, the laws, where their section is named.
+/// All changes that are tried of a text. Behind the first `own_lines` lines stand laws that many scenes share: they are
+/// changed only where `sections` names theirs.
 std::vector<TextEdit> edits_of(const std::string& text, std::size_t own_lines, const std::string& ending,
                                const std::vector<std::string>& sections) {
   const auto is_named = [&](const std::string& section) {
