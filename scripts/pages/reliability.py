@@ -141,7 +141,7 @@ def noticed(name):
 @mark
 def noticed_at_once(name):
     """Share of those that change anything, whether or not a test comes by, without the tests that were written for them."""
-    return f"{100 * verdicts(name)['killed'] / (len(rows(f'{name}.csv')) - looked_at(name)['same']):.0f} %"
+    return f"{100 * verdicts(name)['killed'] / (len(rows(f'{name}.csv')) - looked_at(name)['same']):.1f} %"
 
 
 @mark
@@ -156,7 +156,7 @@ def chance_of_draw(name):
 def noticed_since(name):
     """The same, with them."""
     killed = verdicts(name)["killed"] + looked_at(name)["tested since"]
-    return f"{100 * killed / (len(rows(f'{name}.csv')) - looked_at(name)['same']):.0f} %"
+    return f"{100 * killed / (len(rows(f'{name}.csv')) - looked_at(name)['same']):.1f} %"
 
 
 @mark
