@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Image files of computed tomography: what is written is read back, and what is wrong with a file is said.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -141,6 +144,25 @@ TEST_F(CtImage, WhatIsWrongWithAFileIsSaid) {
   EXPECT_NE(fault<std::uint8_t>(folder_ / "large.mha").find("from 0 to 255"), std::string::npos);
 }
 
+// In a process of its own: what a limit of the address space leaves is what the process has not taken of it.
+TEST_F(CtImage, MemoryIsWhatALimitLeaves) {
+  const pid_t child = fork();
+  if (child == 0) {
+    constexpr double gigabyte = 1e9;
+    double pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t limit =
+        static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + rlim_t{1'000'000'000};
+    const rlimit lower{limit, limit};
+    const bool set = setrlimit(RLIMIT_AS, &lower) == 0;
+    const double left = memory_available();
+    _exit(set && left > 0.9 * gigabyte && left < 1.01 * gigabyte ? 0 : 1);
+  }
+  int status = 1;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+}
+
 TEST_F(CtImage, HeadersOnWhichItkWouldNotEndAreRefused) {
   const auto refused = [&](const char* file, std::string bytes, const char* word) {
     write(file, bytes);
@@ -148,8 +170,28 @@ TEST_F(CtImage, HeadersOnWhichItkWouldNotEndAreRefused) {
   };
   refused("dimensions.mha", "ObjectType = Image\nNDims = 2147483648\nDimSize = 4 3 2\n",
           ":2: NDims: found \"2147483648\"");
+  const auto with_line = [](std::string line) { return "ObjectType = Image\n" + line + "\nDimSize = 4 3 2\n"; };
+  for (const char* dimensions : {"3e9", "3 3", "+3", "1", "4", ""})
+    refused("dimensions.mha", with_line("NDims = " + std::string(dimensions)),
+            (":2: NDims: found \"" + std::string(dimensions) + "\", expected two or three").c_str());
+  refused("colon.mha", with_line("NDims: 3e9 = 3"), ":2: NDims: found \"3e9 = 3\"");
+  refused("control.mha", with_line("Comment = a\rNDims = 3e9"),
+          "found \"Comment = a?NDims = 3e9\", expected text without");
+  refused("zero.mha", with_line(std::string("a\0 = b", 6)), ":2: header of a MetaImage: found \"a? = b\"");
+  write("lines.mha", "ObjectType = Image\r\n\r\nNDims: 2 \r\nOther = " + std::string(400, 'o') +
+                         "\r\nComment = " + std::string(254, 'c') +
+                         "\r\nDimSize = 2 1\r\nElementType: MET_UCHAR\r\nElementDataFile = LOCAL\nab");
+  EXPECT_EQ(read_image<std::uint8_t>(folder_ / "lines.mha").voxels, (std::vector<std::uint8_t>{'a', 'b'}));
+  refused("no_sign.mha", with_line("a line"), ":2: header of a MetaImage: found \"a line\", expected KEY = VALUE");
   refused("key.mha", "ObjectType = Image\n" + std::string(255, 'k') + " = 3\n",
           ":2: header of a MetaImage: found a key of 255 bytes, expected 254 at the most");
+  const std::string text(255, 'c');
+  for (const char* key : {"Comment", "ObjectType", "ObjectSubType", "Name"})
+    refused("value.mha", with_line(key + (" = " + text)), ":2: header of a MetaImage: found a value of 255 bytes");
+  refused("next.mha", with_line("Comment =\n\na = " + text), ":4: header of a MetaImage: found a line of 259 bytes");
+  for (const char* files : {"", ".", "none.raw", "LIST", "slice%03d.raw 1 2 1"})
+    refused("files.mha", with_line("ElementDataFile = " + std::string(files)),
+            (":2: ElementDataFile: found \"" + std::string(files) + "\", expected LOCAL or one file").c_str());
   refused("type.mha",
           "ObjectType = Image\nNDims = 2\nDimSize = 1 1\nElementType = MET_OTHER\nElementDataFile = LOCAL\na",
           "type.mha");

@@ -6,8 +6,8 @@
 
 namespace macadam::ct {
 
-/// ITK's MetaIO counts to whatever number of dimensions a header names, and reads on through any bytes for lines that
-/// are none. \throws InputError naming the line.
+/// ITK's MetaIO counts to whatever number of dimensions a header names, ends the program at a long comment, and reads
+/// on through any bytes for lines that are none. \throws InputError naming the line.
 void check_meta_header(const std::filesystem::path& file);
 
 }  // namespace macadam::ct

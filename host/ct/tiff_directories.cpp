@@ -45,6 +45,8 @@ class Numbers {
 /// Texts whose end libtiff sees to: names of the document, the maker, the program and the like (TIFF 6.0).
 constexpr std::uint64_t known_texts[] = {269, 270, 271, 272, 285, 305, 306, 315, 316, 333, 337, 33432};
 
+constexpr std::uint64_t samples_per_pixel = 277;
+
 /// The tag whose entry in a directory begins at `entry`.
 void check_tag(const std::filesystem::path& file, Numbers& numbers, std::uint64_t size, bool wide,
                std::uint64_t entry) {
@@ -59,10 +61,12 @@ void check_tag(const std::filesystem::path& file, Numbers& numbers, std::uint64_
   if (bytes > 0 && values > size / bytes)
     refuse(std::to_string(values) + " values of " + std::to_string(bytes) + " bytes",
            "as many as the " + std::to_string(size) + " bytes of the file hold");
+  const std::uint64_t inside = entry + 4 + place_bytes;
+  if (tag == samples_per_pixel && bytes > 0 && numbers.at(inside, static_cast<int>(bytes)) != 1)
+    refuse(std::to_string(numbers.at(inside, static_cast<int>(bytes))) + " values a voxel", "one grey value a voxel");
   const bool known = std::ranges::count(known_texts, tag) > 0;
   if (known && type != text) refuse("type " + std::to_string(type), "a text, type " + std::to_string(text));
   if (type != text || values == 0 || known) return;
-  const std::uint64_t inside = entry + 4 + place_bytes;
   const std::uint64_t begin = values <= place_bytes ? inside : numbers.at(inside, static_cast<int>(place_bytes));
   if (begin >= size || values > size - begin || numbers.at(begin + values - 1, 1) != 0)
     refuse("a text without an end", "a last byte of 0");

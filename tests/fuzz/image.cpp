@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// image.cpp  What an image of a scan says of itself, in the format of the program's name.
+// image.cpp  An image of a scan, in the format of the program's name: what it says of itself, and its voxels.
 #include "host/ct/image_slices.hpp"
 #include "tests/fuzz/forged_hdf5.hpp"
 #include "tests/fuzz/mutate.hpp"
@@ -7,6 +7,8 @@
 
 namespace macadam::fuzz {
 namespace {
+
+constexpr std::int64_t most_voxels = 100'000;  // that are read: a header may stand for 4000 bytes a byte
 
 MemoryFile& file() {
   static MemoryFile one("." MACADAM_FUZZ_ENDING);
@@ -18,13 +20,18 @@ MemoryFile& file() {
 std::string file_name() { return file().path().string(); }
 
 void read(std::string_view bytes) {
+  std::unique_ptr<ct::ImageSlices> image;
 #ifdef MACADAM_FUZZ_HDF5  // a recipe, but for whole files among the seeds
   if (!bytes.starts_with("\x89HDF")) {
-    ct::open_image(file().with(forged_hdf5(bytes, {"/", "scan"}, {"data", "grey", "b"}, {"element_size_um"})), {});
-    return;
+    image =
+        ct::open_image(file().with(forged_hdf5(bytes, {"/", "scan"}, {"data", "grey", "b"}, {"element_size_um"})), {});
   }
 #endif
-  ct::open_image(file().with(bytes), {});
+  if (!image) image = ct::open_image(file().with(bytes), {});
+  const auto [nx, ny, nz] = image->header().size;
+  if (nx * ny * nz > most_voxels) return;
+  std::vector<float> voxels(static_cast<std::size_t>(nx * ny * nz));
+  image->read(0, nz, voxels.data());
 }
 
 }  // namespace macadam::fuzz
