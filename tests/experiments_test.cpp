@@ -282,6 +282,16 @@ TEST_F(Experiments, AreSteppedWhereTheSceneAsksForIt) {
   }
 }
 
+TEST_F(Experiments, DampingHasNoPartWhereMotionHasNoInertia) {
+  const auto result_of = [&](const std::string& solver) {
+    run_t8("kind = \"cyclic\"\nfrequencies = [20]\n", "summary.json", "method = \"harmonic\"\n" + solver);
+    return summary("out").at("results").at(0).at("e_star_pa").dump();
+  };
+  const std::string viscous = "damping = \"3000 1/s\"\ndamping_kind = \"viscous\"\n", alone = result_of("");
+  EXPECT_EQ(result_of(viscous), alone);
+  EXPECT_NE(result_of("inertia = true\n" + viscous), result_of("inertia = true\n"));
+}
+
 TEST_F(Experiments, ResultsOfAnotherTestDoNotStay) {
   run_t8("kind = \"relaxation\"\ntimes = [0.1, 1]\n", "relaxation.csv");
   run_t8("kind = \"sweep\"\nfrequencies = [1]\n", "sweep.csv");
@@ -302,7 +312,13 @@ TEST_F(Experiments, WhatMakesNoSenseIsRefused) {
   EXPECT_HAS(refusal(relaxation + "frequencies = [1]\n"), "frequencies");
   EXPECT_HAS(refusal("kind = \"creep\"\ntimes = [1]\n"), "stress");
   EXPECT_HAS(refusal("kind = \"creep\"\nstress = 1\nramp = 2\nrelease = 1\ntimes = [1]\n"), "end of the ramp");
+  EXPECT_HAS(refusal("kind = \"creep\"\nstress = 1\nrelease = 2\ntimes = [1, 2]\n"),
+             "less than the last of the times, 2 s");
   EXPECT_HAS(refusal("kind = \"monotonic\"\nrate = 0\ntimes = [1]\n"), "not 0");
+  EXPECT_HAS(refusal("kind = \"monotonic\"\nrate = 1\nstrain = 1\n"), "between -1 and 1");
+  EXPECT_HAS(
+      refusal("kind = \"cyclic\"\nfrequencies = [20]\n", "method = \"explicit\"\n[output]\nsensitivities = true\n"),
+      "sensitivities in [output]: found true beside method");
   EXPECT_HAS(refusal("kind = \"sweep\"\nfrequencies = [1]\ncycles = 3\n"), "cycles");
   EXPECT_HAS(refusal(relaxation, "inertia = true\n"), "inertia");
   const std::string sweep = "kind = \"sweep\"\nfrequencies = [1]\n";

@@ -223,6 +223,23 @@ TEST_F(Check, SaysWhatARunWouldDoAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "summary.json"));
 }
 
+// Of a file in metres beside a box in millimetres, and the other way round as far as that can run.
+TEST_F(Check, WarnsOfABoxThatIsAlmostEmpty) {
+  const fs::path scene = write_scene("method = \"harmonic\"\n");
+  const std::string usual = read(scene), box = "box = [0.008, 0.008, 0.011]";
+  ASSERT_TRUE(contains(usual, box));
+  EXPECT_FALSE(contains(macadam("check " + path("scene.toml")).out, "warning"));
+  std::string large = usual;
+  write(scene, large.replace(large.find(box), box.size(), "box = [8, 8, 11]"));
+  const char* words = "% of the box of 8 x 8 x 11 m, expected half or more: are both in metres?";
+  EXPECT_HAS(macadam("check " + path("scene.toml")).out, words);
+  EXPECT_TRUE(
+      contains(nlohmann::json::parse(macadam("check --json " + path("scene.toml")).out).at("warnings").at(0), words));
+  EXPECT_HAS(run_quick("out").out, words);
+  EXPECT_TRUE(contains(summary("out").at("warnings").at(0), words));
+  EXPECT_HAS(macadam(fmt::format("specimen {} --out {}", path("scene.toml"), path("specimen"))).out, words);
+}
+
 TEST_F(Check, RefusesWhatARunRefuses) {
   write(folder_ / "wrong.toml", "[specimen]\nbox = [1, 1, 1]\nsede = 3\n");
   const Outcome outcome = macadam("check " + path("wrong.toml"));

@@ -10,6 +10,7 @@
 
 #include "host/shapes/convex_hull.hpp"
 #include "host/shapes/surface_numbers.hpp"
+#include "host/shapes/unit_vector.hpp"
 #include "macadam/ct.hpp"
 
 namespace macadam {
@@ -47,7 +48,7 @@ double opening(const std::vector<Vec3d>& points, const Vec3d& way) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const Vec3d other = std::abs(way.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
   Vec3d u = cross(way, other);
-  u = (1 / norm(u)) * u;
+  u = unit(u);
   const Vec3d v = cross(way, u);
   std::vector<Kernel::Point_2> flat, hull;
   for (const Vec3d& p : points) flat.emplace_back(dot(p, u), dot(p, v));
@@ -72,7 +73,7 @@ double square_sieve(const Surface& surface) {
   double best = std::numeric_limits<double>::infinity();
   Vec3d way{};
   const auto attempt = [&](Vec3d d) {
-    d = (1 / norm(d)) * d;
+    d = unit(d);
     const double side = opening(points, d);
     if (side < best) best = side, way = d;
   };

@@ -15,7 +15,7 @@ namespace {
 
 // Wider than any road stone, slag, filler or binder: what lies outside is a slip of units, such as 2.65 for 2650.
 constexpr double lightest = 200, heaviest = 10'000;  // [kg/m³]
-constexpr double most_binder = 10;  // of the aggregate's mass: beyond it the aggregate is lost in rounding
+constexpr double most_binder = 3;  // of the aggregate's mass: that of a thin mastic; 5.2 was meant as 5.2 %
 
 bool is_share(double v) { return v >= 0 && v <= 1; }  // false for NaN
 
@@ -91,7 +91,7 @@ void check_contents(const MixDesign& design) {
            "below 100 %");
   if (!(design.binder > 0 && design.binder <= most_binder))
     refuse(design, "binder", in_percent(design.binder),
-           of_mix ? "above 0" : "above 0 and at most 1000 % of the aggregate");
+           of_mix ? "above 0" : "above 0 and at most 300 % of the aggregate");
   if (design.absorbed_binder && design.maximum_density)
     refuse(design, "absorbed_binder", "absorbed_binder and maximum_density",
            "one of them: each follows from the other");

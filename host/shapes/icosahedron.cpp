@@ -8,12 +8,11 @@
 #include <map>
 #include <utility>
 
+#include "host/shapes/unit_vector.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
 namespace {
-
-Vec3d unit(const Vec3d& a) { return (1 / norm(a)) * a; }
 
 Surface icosahedron() {
   const double g = (1 + std::sqrt(5.0)) / 2;  // three golden rectangles, each in a coordinate plane

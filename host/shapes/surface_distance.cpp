@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/shapes/surface_numbers.hpp"
+#include "host/shapes/unit_vector.hpp"
 
 namespace macadam {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 constexpr int deepest_level = 4;           // leaves of 1/16 of the box
 constexpr std::size_t few_candidates = 6;  // searched as fast as a level is descended
 enum Feature { corner_0, edge_01 = 3, edge_12, edge_20, face };
-
-Vec3d unit(const Vec3d& v) { return (1 / norm(v)) * v; }
 
 double angle_between(const Vec3d& a, const Vec3d& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
 

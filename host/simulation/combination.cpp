@@ -21,6 +21,10 @@ void require_combination(const Scene& scene) {
     throw InputError(scene.file.string(), 0, "inertia", "true beside method \"explicit\", which always has inertia",
                      "false, or method \"harmonic\"");
   }
+  if (scene.solver.method == SolverMethod::explicit_ && scene.output.sensitivities) {
+    throw InputError(scene.file.string(), 0, "sensitivities in [output]", "true beside method \"explicit\"",
+                     "false, or method \"harmonic\"");
+  }
   if (scene.solver.method == SolverMethod::explicit_ && !temperatures_of(scene.experiment).empty()) {
     throw InputError(scene.file.string(), 0, "temperatures in [loading]",
                      fmt::format("{} of them beside method \"explicit\"", temperatures_of(scene.experiment).size()),

@@ -19,6 +19,7 @@
 #include "host/simulation/sparing_save.hpp"
 #include "host/simulation/solution.hpp"
 #include "host/simulation/summary.hpp"
+#include "host/specimen/sparse_box.hpp"
 #include "host/stepping/choose_devices.hpp"
 #include "host/stepping/cuda_code.hpp"
 #include "macadam/error.hpp"
@@ -158,6 +159,7 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   }
   if (!devices_decision.empty()) result.decisions.push_back(devices_decision);
   if (!damage.empty()) result.warnings.push_back(damage);
+  if (const std::string sparse = sparse_box(prepared.specimen); !sparse.empty()) result.warnings.push_back(sparse);
   if (scene.network.lateral_walls) {
     result.warnings.emplace_back(
         "the sides are held: moduli are those of a confined specimen, not |E*| or E(t) of a free one");

@@ -6,6 +6,7 @@
 
 #include "host/specimen/composition.hpp"
 #include "host/specimen/shaped_aggregates.hpp"
+#include "host/specimen/sparse_box.hpp"
 
 namespace macadam {
 namespace {
@@ -23,6 +24,7 @@ Census of_file(const SpecimenSpec& spec) {
     double& smallest = specimen.phase[i] == Phase::mastic ? out.smallest_mastic : out.smallest_in_aggregates;
     if (smallest == 0 || specimen.radius[i] < smallest) smallest = specimen.radius[i];
   }
+  out.warning = sparse_box(specimen);
   return out;
 }
 

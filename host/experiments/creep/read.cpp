@@ -31,6 +31,10 @@ Creep ExperimentOf<Creep>::read(const scene::Section& section) {
     section.refuse("release", fmt::format("{} s", *out.release),
                    fmt::format("the end of the ramp, {} s, or later", out.ramp));
   }
+  if (out.release && *out.release >= out.times.back()) {
+    section.refuse("release", fmt::format("{} s", *out.release),
+                   fmt::format("less than the last of the times, {} s", out.times.back()));
+  }
   return out;
 }
 

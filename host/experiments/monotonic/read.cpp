@@ -2,6 +2,8 @@
 // read.cpp  `[loading]` of kind "monotonic".
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "host/experiments/loaded/load_test.hpp"
 #include "host/experiments/read_points.hpp"
 
@@ -13,7 +15,7 @@ template <>
 Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
   using namespace scene;
   constexpr Rule rule{[](double v) { return v != 0; }, "a rate that is not 0"};
-  constexpr Rule any{[](double v) { return v != 0 && v > -1; }, "a strain above -1 that is not 0"};
+  constexpr Rule any{[](double v) { return v != 0 && std::abs(v) < 1; }, "a strain between -1 and 1 that is not 0"};
   constexpr int usual_points = 100;
   Monotonic out;
   Points times;

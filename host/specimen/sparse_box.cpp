@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sparse_box.cpp  Volumes of spheres, each counted whole, over that of the box.
+#include "host/specimen/sparse_box.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace macadam {
+
+std::string sparse_box(const Specimen& specimen) {
+  constexpr double least = 0.1;  // random packings fill more than half, porous asphalt a third after its voids
+  double filled = 0;
+  for (const double r : specimen.radius) filled += 4 * std::numbers::pi / 3 * r * r * r / specimen.box.volume();
+  if (filled >= least) return {};
+  return fmt::format(
+      "spheres fill {:.2g} % of the box of {:g} x {:g} x {:g} m, expected half or more: are both in metres?",
+      100 * filled, specimen.box.size.x, specimen.box.size.y, specimen.box.size.z);
+}
+
+}  // namespace macadam
