@@ -187,6 +187,26 @@ TEST(CtFaults, ClippedGreyValuesTellNothing) {
   EXPECT_EQ(outcome(in_8_bit(scan, 0, 40000)).warnings, "");
 }
 
+TEST(CtFaults, ClippedVoxelsAreThoseWithoutConfidence) {
+  const Image<float> scan = in_8_bit(balls(), 20000, 32000);
+  SegmentOptions options;
+  options.region = ScanRegion::whole;
+  options.smallest = 1.4e-3;
+  const Segmentation found = segment_scan(scan, options);
+  double sum = 0, clipped = 0;
+  for (std::size_t i = 0; i < scan.count(); ++i) {
+    if (scan.voxels[i] == 0 || scan.voxels[i] == 255) {
+      ASSERT_EQ(found.confidence.voxels[i], 0) << i;
+      ++clipped;
+    } else {
+      sum += found.confidence.voxels[i];
+    }
+  }
+  EXPECT_GT(clipped, 0.02 * static_cast<double>(scan.count()));
+  EXPECT_GT(sum, 0.5 * 255 * (static_cast<double>(scan.count()) - clipped))
+      << "of the others the phase is as clear as ever";
+}
+
 TEST(CtFaults, HalfAStackEndsWithTheScanAtOneEnd) {
   const Image<float> whole = in_air(balls());
   Image<float> half({whole.size[0], whole.size[1], whole.size[2] / 2}, whole.spacing);

@@ -138,6 +138,8 @@ TEST_F(CtLargeScan, TwoLevelsFindTheSameGrainsAsMemoryDoes) {
     EXPECT_LT(norm(b.measure.centroid - a.measure.centroid), 0.3 * voxel) << g;
     EXPECT_EQ(a.border, b.border) << g;
     EXPECT_TRUE(check_surface(b.surface).good()) << g;
+    for (const ScannedGrain* grain : {&a, &b})
+      EXPECT_EQ(grain->surface.name, "grain_000" + std::to_string(grain->id)) << "its file's name";
   }
   EXPECT_NEAR(parts.grains[0].measure.volume / (4 * pi / 3 * std::pow(24 * voxel, 3)), 1, 0.02);
   EXPECT_NEAR(parts.grains[3].measure.volume / (4 * pi / 3 * std::pow(40 * voxel, 3)), 1, 0.01);

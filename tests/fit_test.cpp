@@ -272,6 +272,21 @@ TEST(Fit, AParameterNearItsBoundIsNotDetermined) {
   EXPECT_FALSE(determined(120 - 5e-5));
 }
 
+// A unit so stiff that it changes |E*| by 1e-13 of what E_m does is not determined, however small the deviations that
+// the residuals are counted in.
+TEST(Fit, WhatTheDataDoNotDetermineIsMarked) {
+  const fitting::Unknowns chain{FitModel::kelvin, 1, false};
+  const auto undetermined = [&](double stiff, double deviation) {
+    std::vector<fitting::Target> targets;
+    for (const double omega : {0.1, 1.0, 10.0}) targets.push_back({{omega}, 20, 0.3, deviation, deviation});
+    return fitting::covariance_at(chain, targets, {std::log(1e9), std::log(stiff), std::log(stiff)}).undetermined;
+  };
+  for (const double deviation : {1e-6, 1.0, 1e6}) {
+    EXPECT_EQ(undetermined(1e22, deviation), (std::vector<bool>{false, true, true})) << deviation;
+    EXPECT_EQ(undetermined(1e10, deviation), (std::vector<bool>{false, false, false})) << deviation;
+  }
+}
+
 TEST(Fit, WhatCannotBeFittedIsRefused) {
   ModulusData data = measured(mastic_am1(), frequencies(0.1, 10, 6));
   FitOptions options;

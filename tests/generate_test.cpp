@@ -356,6 +356,15 @@ TEST(Generate, WhatCannotBeMetIsNamedWithItsLine) {
 }
 
 /// Errors in OpenMP's threads are exceptions like any other, not the end of the process.
+TEST(Relax, AggregatesAloneMoveApart) {
+  Specimen s{{{1, 1, 1}}, {{0.4, 0.5, 0.5}, {0.6, 0.5, 0.5}}, {0.2, 0.2}, {Phase::aggregate, Phase::aggregate}, {0, 1}};
+  relax(s, false, [](double) {});
+  // downhill until the energy has stalled: what is left of the overlap of 0.2 is a thousandth of a radius at most
+  EXPECT_LT(largest_aggregate_overlap(s), 2e-4);
+  EXPECT_NEAR(s.centre[0].x + s.centre[1].x, 1, 1e-12) << "both give way alike";
+  EXPECT_LT(s.centre[1].x - s.centre[0].x, 0.5) << "and stop soon after";
+}
+
 TEST(Relax, WhatAWallThrowsIsThrown) {
   Specimen s{{{1, 1, 1}}, {}, {}, {}, {}};
   for (int i = 0; i < 1500; ++i) {

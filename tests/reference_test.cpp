@@ -128,6 +128,15 @@ TEST(Reference, AUnitWithoutASpringIsADashpot) {
   EXPECT_THROW(force_under({1e10, 3e9, {-1}, {6e9}, 0.1}), InputError);
 }
 
+TEST(Reference, BondsWithoutStrengthAreRefused) {
+  const HandMade made = test::two_sphere_network();
+  const auto made_of = [&](const laws::BrittleBond& bond) { make(made, bond, options_of(1e-6, Geometry::fixed)); };
+  EXPECT_NO_THROW(made_of({1e9, 1e5, 1e5, 0.1}));
+  EXPECT_THROW(made_of({0, 1e5, 1e5, 0.1}), InputError);
+  EXPECT_THROW(made_of({1e9, 0, 1e5, 0.1}), InputError);
+  EXPECT_THROW(made_of({1e9, 1e5, 0, 0.1}), InputError);
+}
+
 TEST(Reference, ViscousDampingDecaysAsItsClosedForm) {
   const HandMade made = test::two_sphere_network();
   StepperOptions options = options_of(1e-4, Geometry::fixed);

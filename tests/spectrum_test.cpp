@@ -178,6 +178,25 @@ TEST(Spectrum, OfANetworkIsTheInversionOfItsSolutions) {
   }
 }
 
+TEST(Spectrum, TheErrorThatIsStatedHolds) {
+  const TestScene scene = make_scene(random_specimen(3));
+  const auto known_to = [&](double tolerance) {
+    SpectrumOptions options;
+    options.tolerance = tolerance;
+    return spectrum_of(scene.specimen, scene.network, scene.laws, options);
+  };
+  const Spectrum truth = known_to(1e-10);
+  int solutions = 0;
+  for (const double tolerance : {0.1, 1e-3, 1e-5, 1e-7}) {
+    const Spectrum found = known_to(tolerance);
+    EXPECT_LE(found.error, tolerance);
+    EXPECT_LE(difference(found.relaxation, truth.relaxation, 1e-3, 1e4), found.error + truth.error) << tolerance;
+    EXPECT_GE(found.solutions, solutions);
+    solutions = found.solutions;
+  }
+  EXPECT_GE(truth.solutions, solutions);
+}
+
 TEST(Spectrum, ElasticNetworksDoNotRelax) {
   TestScene scene = make_scene(random_specimen(3));
   for (auto& law : scene.laws)
