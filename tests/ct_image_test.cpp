@@ -195,6 +195,17 @@ TEST_F(CtImage, HeadersOnWhichItkWouldNotEndAreRefused) {
   refused("type.mha",
           "ObjectType = Image\nNDims = 2\nDimSize = 1 1\nElementType = MET_OTHER\nElementDataFile = LOCAL\na",
           "type.mha");
+  const auto nrrd = [](const std::string& sizes, const std::string& more = "") {
+    return "NRRD0004\r\ntype: uchar\r\ndimension: 3\r\nencoding: raw\r\n" + sizes + "\r\n" + more + "\r\nabcdef";
+  };
+  write("good.nrrd", nrrd("sizes: 3 2 1"));
+  EXPECT_EQ(read_image<std::uint8_t>(folder_ / "good.nrrd").voxels.back(), 'f');
+  for (const char* sizes : {"1 4294967324 1", "3 2 0", "3 2 1.0", "3 x 1"})  // the first is 28 to ITK
+    refused("sizes.nrrd", nrrd("sizes: " + std::string(sizes)),
+            (":5: sizes: found \" " + std::string(sizes) + "\", expected whole numbers").c_str());
+  refused("pattern.nrrd", nrrd("Sizes: 3 2 1", "data file: %n%d 1 1 1\r\n"),
+          ":6: datafile: found \" %n%d 1 1 1\", expected one");
+  refused("list.nrrd", nrrd("sizes: 3 2 1", "datafile: LIST\r\n"), ":6: datafile: found \" LIST\", expected one file");
   write_image(folder_ / "whole.tif", Image<std::uint8_t>({4, 3, 1}, {1e-4, 1e-4, 1e-4}));
   std::ifstream in(folder_ / "whole.tif", std::ios::binary);
   const std::string whole{std::istreambuf_iterator<char>(in), {}};
@@ -209,6 +220,23 @@ TEST_F(CtImage, HeadersOnWhichItkWouldNotEndAreRefused) {
   refused("again.tif", bytes.replace(next, 4, whole.substr(4, 4)), "again, expected a chain that ends");
   bytes = whole;
   refused("tag.tif", bytes.replace(directory + 6, 4, "\xff\xff\xff\x7f"), "2147483647 values");
+  const auto entry_of = [&](std::size_t tag) {
+    std::size_t at = directory + 2;
+    while (at < next && number(at, 2) != tag) at += 12;
+    return at;
+  };
+  bytes = whole;
+  refused("values.tif", bytes.replace(entry_of(277) + 8, 2, std::string("\3\0", 2)),
+          "found 3 values a voxel, expected one");
+  bytes = whole;
+  refused("bits.tif", bytes.replace(entry_of(258) + 8, 2, std::string("\1\0", 2)),
+          "found 1 bits a voxel, expected 8, 16");
+  bytes = whole;
+  refused("no_bits.tif", bytes.replace(entry_of(258), 2, std::string("\x32\1", 2)),
+          "306 of the TIFF file: found type 3");
+  bytes = whole;
+  refused("other.tif", bytes.replace(entry_of(258), 2, std::string("\0\x60", 2)),
+          "without the bits of a voxel (tag 258)");
   bytes = whole;
   refused("outside.tif", bytes.replace(4, 4, "\xff\xff\xff\x7f"), "one at byte 2147483647");
   bytes = whole;

@@ -12,6 +12,7 @@
 #include "host/ct/slice_names.hpp"
 #include "host/ct/itk_io.hpp"
 #include "host/ct/meta_header.hpp"
+#include "host/ct/nrrd_header.hpp"
 #include "host/ct/tiff_directories.hpp"
 #include "macadam/error.hpp"
 
@@ -118,6 +119,7 @@ ImageHeader header_of(itk::ImageIOBase& io) {
   if (!fs::exists(file)) throw InputError(file, 0, "image", "no such file", "a file that can be read");
   if (is_tiff(file)) check_tiff_directories(file);
   if (dynamic_cast<itk::MetaImageIO*>(&io)) check_meta_header(file);
+  if (dynamic_cast<itk::NrrdImageIO*>(&io)) check_nrrd_header(file);
   std::size_t bytes = 0;  // of a voxel
   attempt(file, "image", "a whole image file", [&] {
     io.ReadImageInformation();

@@ -45,11 +45,11 @@ class Numbers {
 /// Texts whose end libtiff sees to: names of the document, the maker, the program and the like (TIFF 6.0).
 constexpr std::uint64_t known_texts[] = {269, 270, 271, 272, 285, 305, 306, 315, 316, 333, 337, 33432};
 
-constexpr std::uint64_t samples_per_pixel = 277;
+constexpr std::uint64_t bits_per_sample = 258, samples_per_pixel = 277;
 
-/// The tag whose entry in a directory begins at `entry`.
-void check_tag(const std::filesystem::path& file, Numbers& numbers, std::uint64_t size, bool wide,
-               std::uint64_t entry) {
+/// The tag whose entry in a directory begins at `entry`; its number.
+std::uint64_t check_tag(const std::filesystem::path& file, Numbers& numbers, std::uint64_t size, bool wide,
+                        std::uint64_t entry) {
   constexpr std::uint64_t text = 2;
   const std::uint64_t place_bytes = wide ? 8 : 4;
   const std::uint64_t tag = numbers.at(entry, 2), type = numbers.at(entry + 2, 2);
@@ -62,14 +62,18 @@ void check_tag(const std::filesystem::path& file, Numbers& numbers, std::uint64_
     refuse(std::to_string(values) + " values of " + std::to_string(bytes) + " bytes",
            "as many as the " + std::to_string(size) + " bytes of the file hold");
   const std::uint64_t inside = entry + 4 + place_bytes;
-  if (tag == samples_per_pixel && bytes > 0 && numbers.at(inside, static_cast<int>(bytes)) != 1)
-    refuse(std::to_string(numbers.at(inside, static_cast<int>(bytes))) + " values a voxel", "one grey value a voxel");
+  const std::uint64_t value = bytes > 0 ? numbers.at(inside, static_cast<int>(bytes)) : 0;
+  if (tag == samples_per_pixel && value != 1)
+    refuse(std::to_string(value) + " values a voxel", "one grey value a voxel");
+  if (tag == bits_per_sample && value != 8 && value != 16 && value != 32 && value != 64)
+    refuse(std::to_string(value) + " bits a voxel", "8, 16, 32 or 64");
   const bool known = std::ranges::count(known_texts, tag) > 0;
   if (known && type != text) refuse("type " + std::to_string(type), "a text, type " + std::to_string(text));
-  if (type != text || values == 0 || known) return;
+  if (type != text || values == 0 || known) return tag;
   const std::uint64_t begin = values <= place_bytes ? inside : numbers.at(inside, static_cast<int>(place_bytes));
   if (begin >= size || values > size - begin || numbers.at(begin + values - 1, 1) != 0)
     refuse("a text without an end", "a last byte of 0");
+  return tag;
 }
 
 }  // namespace
@@ -91,9 +95,16 @@ void check_tiff_directories(const std::filesystem::path& file) {
       throw InputError(file.string(), 0, "directories of the TIFF file",
                        "one at byte " + std::to_string(place) + " with " + std::to_string(entries) + " entries",
                        "as many as the " + std::to_string(size) + " bytes of the file hold");
+    bool says_bits = false;
     for (std::uint64_t e = 0; e < entries; ++e)
-      check_tag(file, numbers, size, wide,
-                place + static_cast<std::uint64_t>(count_bytes) + e * static_cast<std::uint64_t>(entry_bytes));
+      if (check_tag(file, numbers, size, wide,
+                    place + static_cast<std::uint64_t>(count_bytes) + e * static_cast<std::uint64_t>(entry_bytes)) ==
+          bits_per_sample)
+        says_bits = true;
+    if (!says_bits)  // libtiff takes 1 then, for which ITK has no room
+      throw InputError(file.string(), 0, "directories of the TIFF file",
+                       "one at byte " + std::to_string(place) + " without the bits of a voxel (tag 258)",
+                       "one with them");
     place =
         numbers.at(place + static_cast<std::uint64_t>(count_bytes) + entries * static_cast<std::uint64_t>(entry_bytes),
                    place_bytes);

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file nrrd_header.hpp  The header of an NRRD file, looked at before ITK reads it.
+#pragma once
+
+#include <filesystem>
+
+namespace macadam::ct {
+
+/// ITK keeps 32 bits of a size, while its reader of NRRD takes memory for all of it, and hands patterns of file names
+/// to printf. \throws InputError naming the line.
+void check_nrrd_header(const std::filesystem::path& file);
+
+}  // namespace macadam::ct
