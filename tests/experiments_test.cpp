@@ -289,6 +289,7 @@ TEST_F(Experiments, DampingHasNoPartWhereMotionHasNoInertia) {
   };
   const std::string viscous = "damping = \"3000 1/s\"\ndamping_kind = \"viscous\"\n", alone = result_of("");
   EXPECT_EQ(result_of(viscous), alone);
+  EXPECT_HAS(run_quick("again").out, "viscous damping has no part in it");
   EXPECT_NE(result_of("inertia = true\n" + viscous), result_of("inertia = true\n"));
 }
 
