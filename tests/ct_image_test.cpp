@@ -148,103 +148,17 @@ TEST_F(CtImage, WhatIsWrongWithAFileIsSaid) {
 TEST_F(CtImage, MemoryIsWhatALimitLeaves) {
   const pid_t child = fork();
   if (child == 0) {
-    constexpr double gigabyte = 1e9;
     double pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
-    const rlim_t limit =
-        static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + rlim_t{1'000'000'000};
+    const rlim_t limit = static_cast<rlim_t>(pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + rlim_t{100'000'000};
     const rlimit lower{limit, limit};
     const bool set = setrlimit(RLIMIT_AS, &lower) == 0;
     const double left = memory_available();
-    _exit(set && left > 0.9 * gigabyte && left < 1.01 * gigabyte ? 0 : 1);
+    _exit(set && left > 9e7 && left < 1.01e8 ? 0 : 1);
   }
   int status = 1;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   EXPECT_EQ(status, 0);
-}
-
-TEST_F(CtImage, HeadersOnWhichItkWouldNotEndAreRefused) {
-  const auto refused = [&](const char* file, std::string bytes, const char* word) {
-    write(file, bytes);
-    EXPECT_NE(fault<std::uint8_t>(folder_ / file).find(word), std::string::npos) << fault<std::uint8_t>(folder_ / file);
-  };
-  refused("dimensions.mha", "ObjectType = Image\nNDims = 2147483648\nDimSize = 4 3 2\n",
-          ":2: NDims: found \"2147483648\"");
-  const auto with_line = [](std::string line) { return "ObjectType = Image\n" + line + "\nDimSize = 4 3 2\n"; };
-  for (const char* dimensions : {"3e9", "3 3", "+3", "1", "4", ""})
-    refused("dimensions.mha", with_line("NDims = " + std::string(dimensions)),
-            (":2: NDims: found \"" + std::string(dimensions) + "\", expected two or three").c_str());
-  refused("colon.mha", with_line("NDims: 3e9 = 3"), ":2: NDims: found \"3e9 = 3\"");
-  refused("control.mha", with_line("Comment = a\rNDims = 3e9"),
-          "found \"Comment = a?NDims = 3e9\", expected text without");
-  refused("zero.mha", with_line(std::string("a\0 = b", 6)), ":2: header of a MetaImage: found \"a? = b\"");
-  write("lines.mha", "ObjectType = Image\r\n\r\nNDims: 2 \r\nOther = " + std::string(400, 'o') +
-                         "\r\nComment = " + std::string(254, 'c') +
-                         "\r\nDimSize = 2 1\r\nElementType: MET_UCHAR\r\nElementDataFile = LOCAL\nab");
-  EXPECT_EQ(read_image<std::uint8_t>(folder_ / "lines.mha").voxels, (std::vector<std::uint8_t>{'a', 'b'}));
-  refused("no_sign.mha", with_line("a line"), ":2: header of a MetaImage: found \"a line\", expected KEY = VALUE");
-  refused("key.mha", "ObjectType = Image\n" + std::string(255, 'k') + " = 3\n",
-          ":2: header of a MetaImage: found a key of 255 bytes, expected 254 at the most");
-  const std::string text(255, 'c');
-  for (const char* key : {"Comment", "ObjectType", "ObjectSubType", "Name"})
-    refused("value.mha", with_line(key + (" = " + text)), ":2: header of a MetaImage: found a value of 255 bytes");
-  refused("next.mha", with_line("Comment =\n\na = " + text), ":4: header of a MetaImage: found a line of 259 bytes");
-  for (const char* files : {"", ".", "none.raw", "LIST", "slice%03d.raw 1 2 1"})
-    refused("files.mha", with_line("ElementDataFile = " + std::string(files)),
-            (":2: ElementDataFile: found \"" + std::string(files) + "\", expected LOCAL or one file").c_str());
-  refused("type.mha",
-          "ObjectType = Image\nNDims = 2\nDimSize = 1 1\nElementType = MET_OTHER\nElementDataFile = LOCAL\na",
-          "type.mha");
-  const auto nrrd = [](const std::string& sizes, const std::string& more = "") {
-    return "NRRD0004\r\ntype: uchar\r\ndimension: 3\r\nencoding: raw\r\n" + sizes + "\r\n" + more + "\r\nabcdef";
-  };
-  write("good.nrrd", nrrd("sizes: 3 2 1"));
-  EXPECT_EQ(read_image<std::uint8_t>(folder_ / "good.nrrd").voxels.back(), 'f');
-  for (const char* sizes : {"1 4294967324 1", "3 2 0", "3 2 1.0", "3 x 1"})  // the first is 28 to ITK
-    refused("sizes.nrrd", nrrd("sizes: " + std::string(sizes)),
-            (":5: sizes: found \" " + std::string(sizes) + "\", expected whole numbers").c_str());
-  refused("pattern.nrrd", nrrd("Sizes: 3 2 1", "data file: %n%d 1 1 1\r\n"),
-          ":6: datafile: found \" %n%d 1 1 1\", expected one");
-  refused("list.nrrd", nrrd("sizes: 3 2 1", "datafile: LIST\r\n"), ":6: datafile: found \" LIST\", expected one file");
-  write_image(folder_ / "whole.tif", Image<std::uint8_t>({4, 3, 1}, {1e-4, 1e-4, 1e-4}));
-  std::ifstream in(folder_ / "whole.tif", std::ios::binary);
-  const std::string whole{std::istreambuf_iterator<char>(in), {}};
-  const auto number = [&](std::size_t at, int bytes) {  // little-endian
-    std::size_t out = 0;
-    for (int k = bytes; k-- > 0;) out = out << 8 | static_cast<unsigned char>(whole[at + static_cast<std::size_t>(k)]);
-    return out;
-  };
-  ASSERT_EQ(whole.substr(0, 2), "II");
-  const std::size_t directory = number(4, 4), next = directory + 2 + 12 * number(directory, 2);
-  std::string bytes = whole;
-  refused("again.tif", bytes.replace(next, 4, whole.substr(4, 4)), "again, expected a chain that ends");
-  bytes = whole;
-  refused("tag.tif", bytes.replace(directory + 6, 4, "\xff\xff\xff\x7f"), "2147483647 values");
-  const auto entry_of = [&](std::size_t tag) {
-    std::size_t at = directory + 2;
-    while (at < next && number(at, 2) != tag) at += 12;
-    return at;
-  };
-  bytes = whole;
-  refused("values.tif", bytes.replace(entry_of(277) + 8, 2, std::string("\3\0", 2)),
-          "found 3 values a voxel, expected one");
-  bytes = whole;
-  refused("bits.tif", bytes.replace(entry_of(258) + 8, 2, std::string("\1\0", 2)),
-          "found 1 bits a voxel, expected 8, 16");
-  bytes = whole;
-  refused("no_bits.tif", bytes.replace(entry_of(258), 2, std::string("\x32\1", 2)),
-          "306 of the TIFF file: found type 3");
-  bytes = whole;
-  refused("other.tif", bytes.replace(entry_of(258), 2, std::string("\0\x60", 2)),
-          "without the bits of a voxel (tag 258)");
-  bytes = whole;
-  refused("outside.tif", bytes.replace(4, 4, "\xff\xff\xff\x7f"), "one at byte 2147483647");
-  bytes = whole;
-  refused("text.tif", bytes.replace(directory + 2, 12, std::string("\x15\xfa\2\0\1\0\0\0x\0\0\0", 12)),
-          "tag 64021 of the TIFF file: found a text without an end");
-  bytes = whole;
-  refused("date.tif", bytes.replace(directory + 2, 12, std::string("\x32\1\3\0\1\0\0\0\x10\0\0\0", 12)),
-          "tag 306 of the TIFF file: found type 3, expected a text, type 2");
 }
 
 }  // namespace

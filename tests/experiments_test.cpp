@@ -316,7 +316,9 @@ TEST_F(Experiments, WhatMakesNoSenseIsRefused) {
   EXPECT_HAS(refusal("kind = \"creep\"\nstress = 1\nrelease = 2\ntimes = [1, 2]\n"),
              "less than the last of the times, 2 s");
   EXPECT_HAS(refusal("kind = \"monotonic\"\nrate = 0\ntimes = [1]\n"), "not 0");
-  EXPECT_HAS(refusal("kind = \"monotonic\"\nrate = 1\nstrain = 1\n"), "between -1 and 1");
+  EXPECT_HAS(refusal("kind = \"monotonic\"\nrate = 1\nstrain = 11\n"), "above -1 and at most 10");
+  EXPECT_HAS(refusal("kind = \"monotonic\"\nrate = -1\nstrain = -1\n"), "above -1 and at most 10");
+  EXPECT_HAS(refusal("kind = \"monotonic\"\nrate = -1\ntimes = [0.1, 2]\n"), "found a strain of -2 at the last");
   EXPECT_HAS(
       refusal("kind = \"cyclic\"\nfrequencies = [20]\n", "method = \"explicit\"\n[output]\nsensitivities = true\n"),
       "sensitivities in [output]: found true beside method");

@@ -355,7 +355,6 @@ TEST(Generate, WhatCannotBeMetIsNamedWithItsLine) {
   expect(bad, "mix.toml:3: particles: found 0");
 }
 
-/// Errors in OpenMP's threads are exceptions like any other, not the end of the process.
 TEST(Relax, AggregatesAloneMoveApart) {
   Specimen s{{{1, 1, 1}}, {{0.4, 0.5, 0.5}, {0.6, 0.5, 0.5}}, {0.2, 0.2}, {Phase::aggregate, Phase::aggregate}, {0, 1}};
   relax(s, false, [](double) {});
@@ -365,6 +364,7 @@ TEST(Relax, AggregatesAloneMoveApart) {
   EXPECT_LT(s.centre[1].x - s.centre[0].x, 0.5) << "and stop soon after";
 }
 
+/// Errors in OpenMP's threads are exceptions like any other, not the end of the process.
 TEST(Relax, WhatAWallThrowsIsThrown) {
   Specimen s{{{1, 1, 1}}, {}, {}, {}, {}};
   for (int i = 0; i < 1500; ++i) {

@@ -156,6 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
          "below 100 %"},
         {"NoBinder", {{9, "binder = 0"}}, 9, "0 %", "above 0"},
         {"NoAggregateLeft", {{9, "binder = 1e300"}}, 9, "1e+302 %", "at most 300 %"},
+        {"MostlyBinder", {{9, "binder = 0.9"}, {10, "binder_of = \"mix\""}}, 9, "90 %", "at most 75 % of the mix"},
         {"BinderOfNothing", {{10, ""}}, 3, "binder_of: found nothing", "required"},
         {"BinderOfSomethingElse", {{10, "binder_of = \"box\""}}, 10, "\"box\"", "\"mix\", \"aggregate\""},
         {"GramsWithoutUnit", {{13, "binder_density = 1.03"}}, 13, "1.03 kg/m3", "200 to 10000 kg/m3"},

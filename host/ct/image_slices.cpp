@@ -34,22 +34,17 @@ void convert(const std::string& file, const From* from, std::size_t count, std::
   }
 }
 
-/// Bytes that hold the voxels of a file, where that is known: those of a header beside them are not looked for.
-double bytes_behind(const fs::path& path) {
-  if (fs::is_directory(path) || lower_ending(path) == ".mhd" || lower_ending(path) == ".nhdr")
-    return std::numeric_limits<double>::infinity();
-  return static_cast<double>(fs::file_size(path));
-}
-
-/// \throws InputError where a header counts what its file cannot hold.
-void check_counts(const ImageHeader& header, const fs::path& path) {
+/// \throws InputError where a header counts what the file of its voxels cannot hold.
+void check_counts(const ImageHeader& header, const fs::path& path, const fs::path& voxels) {
   double bytes = header.bits / 8.0;
   for (const std::int64_t n : header.size) bytes *= n > 0 ? static_cast<double>(n) : 0;
   const std::string found =
       fmt::format("{} x {} x {} of {} bits", header.size[0], header.size[1], header.size[2], header.bits);
   if (!(bytes > 0 && bytes < 0x1p46)) throw InputError(path.string(), 0, "voxels", found, "at least one, and a scan");
   // a byte of deflate stands for 1032 at most, one of LZW for 2730
-  if (const double there = bytes_behind(path); bytes > 4000 * there)
+  const double there =
+      fs::is_directory(voxels) ? std::numeric_limits<double>::infinity() : static_cast<double>(fs::file_size(voxels));
+  if (bytes > 4000 * there)
     throw InputError(path.string(), 0, "voxels", found, fmt::format("no more than {:.0f} bytes can hold", there));
 }
 
@@ -111,7 +106,7 @@ std::unique_ptr<ImageSlices> open_image(const fs::path& path, const std::string&
   if (!dataset.empty() && !hdf5)
     throw InputError(path.string(), 0, "dataset", "\"" + dataset + "\"", "none: the file is not HDF5");
   std::unique_ptr<ImageSlices> image = hdf5 ? open_hdf5(path, dataset) : open_itk(path);
-  check_counts(image->header(), path);
+  check_counts(image->header(), path, image->voxel_file().empty() ? path : image->voxel_file());
   return image;
 }
 

@@ -20,6 +20,8 @@ class ImageSlices {
  public:
   virtual ~ImageSlices() = default;
   const ImageHeader& header() const { return header_; }
+  /// The file that holds the voxels; empty: that which was opened, or those of a folder.
+  const std::filesystem::path& voxel_file() const { return voxels_; }
   /// Whether some slices can be read without the others. Where not, all are held once one was read.
   virtual bool apart() const = 0;
   /// Slices [first, first + count) as T. \throws InputError naming the first voxel that T cannot hold or that is not
@@ -31,6 +33,7 @@ class ImageSlices {
   /// The same as bytes of the file's type.
   virtual void read_bytes(std::int64_t first, std::int64_t count, char* to) = 0;
   std::string file_;  ///< for messages
+  std::filesystem::path voxels_;
   ImageHeader header_;
   VoxelType type_{};
 

@@ -107,19 +107,27 @@ void attempt(const std::string& file, const char* what, const std::string& expec
     const Overheard overheard;
     try {
       read();
-    } catch (const itk::ExceptionObject& error) { fault = error.GetDescription(); }
+    } catch (const itk::ExceptionObject& error) { fault = error.GetDescription(); } catch (const std::bad_alloc&) {
+      fault = "it asks for more memory than there is";
+    }
     if (!overheard.text().empty()) fault = overheard.text();
   }
   if (!fault.empty()) throw InputError(file, 0, what, "one that ITK cannot read (" + fault + ")", expected);
 }
 
+/// Looks at a file before ITK does. Returns the one that holds its voxels. \throws InputError for what ITK cannot bear.
+fs::path check_file(const itk::ImageIOBase& io) {
+  const std::string file = io.GetFileName();
+  if (!fs::is_regular_file(file)) throw InputError(file, 0, "image", "no such file", "a file that can be read");
+  if (dynamic_cast<const itk::MetaImageIO*>(&io)) return check_meta_header(file);
+  if (dynamic_cast<const itk::NrrdImageIO*>(&io)) return check_nrrd_header(file);
+  check_tiff_directories(file);
+  return file;
+}
+
 /// The header of one file. \throws InputError.
 ImageHeader header_of(itk::ImageIOBase& io) {
   const std::string file = io.GetFileName();
-  if (!fs::exists(file)) throw InputError(file, 0, "image", "no such file", "a file that can be read");
-  if (is_tiff(file)) check_tiff_directories(file);
-  if (dynamic_cast<itk::MetaImageIO*>(&io)) check_meta_header(file);
-  if (dynamic_cast<itk::NrrdImageIO*>(&io)) check_nrrd_header(file);
   std::size_t bytes = 0;  // of a voxel
   attempt(file, "image", "a whole image file", [&] {
     io.ReadImageInformation();
@@ -194,6 +202,7 @@ class FileSlices : public ImageSlices {
  public:
   explicit FileSlices(const fs::path& path) : io_(io_of(path)) {
     file_ = path.string();
+    voxels_ = check_file(*io_);
     header_ = header_of(*io_);
     type_ = type_of(*io_);
   }
@@ -220,10 +229,12 @@ class FolderSlices : public ImageSlices {
   explicit FolderSlices(const fs::path& path) : slices_(slices_in(path)) {
     file_ = path.string();
     const itk::ImageIOBase::Pointer first = io_of(slices_.front());
+    check_file(*first);
     header_ = header_of(*first);
     type_ = type_of(*first);
     for (const fs::path& slice : slices_) {
       const itk::ImageIOBase::Pointer io = io_of(slice);
+      check_file(*io);
       const ImageHeader own = header_of(*io);
       if (own.size != header_.size || own.size[2] != 1 || type_of(*io) != type_) {
         throw InputError(slice.string(), 0, "slice",

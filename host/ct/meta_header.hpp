@@ -7,7 +7,7 @@
 namespace macadam::ct {
 
 /// ITK's MetaIO counts to whatever number of dimensions a header names, ends the program at a long comment, and reads
-/// on through any bytes for lines that are none. \throws InputError naming the line.
-void check_meta_header(const std::filesystem::path& file);
+/// on through any bytes for lines that are none. Returns the file of the voxels. \throws InputError naming the line.
+std::filesystem::path check_meta_header(const std::filesystem::path& file);
 
 }  // namespace macadam::ct

@@ -3,22 +3,22 @@
 #include "host/ct/nrrd_header.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
-#include <fstream>
 #include <sstream>
 #include <string>
 
-#include "host/in_quotes.hpp"
+#include "host/ct/header_lines.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::ct {
 namespace {
 
 /// Whole numbers that ITK keeps whole.
-bool are_sizes(const std::string& text) {
+bool are_sizes(std::string_view text) {
   constexpr std::int64_t most = 2147483647;
-  std::istringstream in(text);
+  std::istringstream in{std::string(text)};
   for (std::string word; in >> word;) {
     std::int64_t size = 0;
     const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), size);
@@ -27,30 +27,45 @@ bool are_sizes(const std::string& text) {
   return true;
 }
 
+/// `%`, digits, `d`: a number of a file to ITK.
+bool is_pattern(std::string_view text) {
+  for (std::size_t at = text.find('%'); at < text.size(); at = text.find('%', at + 1)) {
+    const std::size_t behind = text.find_first_not_of("0123456789", at + 1);
+    if (behind < text.size() && text[behind] == 'd') return true;
+  }
+  return false;
+}
+
+/// As ITK compares them: in any letters, and some with a blank or without.
+std::string name_of(std::string_view field) {
+  std::string out(field);
+  std::erase(out, ' ');
+  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
+  return out;
+}
+
 }  // namespace
 
-void check_nrrd_header(const std::filesystem::path& file) {
-  constexpr std::size_t longest = 65536;  // bytes of a line
-  std::ifstream in(file, std::ios::binary);
-  std::string buffer(longest, '\0');
-  for (int number = 1; in.getline(buffer.data(), longest); ++number) {
-    std::string line(buffer.c_str());
-    if (line.ends_with('\r')) line.pop_back();
-    if (line.empty()) return;
-    const std::size_t sign = std::min(line.find(':'), line.size());
-    std::string field = line.substr(0, sign), value = line.substr(std::min(sign + 1, line.size()));
-    std::erase(field, ' ');
-    std::transform(field.begin(), field.end(), field.begin(), [](unsigned char c) { return std::tolower(c); });
-    const auto refuse = [&](const std::string& expected) {
-      throw InputError(file.string(), number, field, in_quotes(value), expected);
-    };
-    if (field == "sizes" && !are_sizes(value)) refuse("whole numbers from 1 to 2147483647");
-    const bool names_files = field == "datafile";
-    if (names_files && (value.find("LIST") != std::string::npos || value.find('%') != std::string::npos))
-      refuse("one file (slices in files of their own: a folder of .tif)");
+std::filesystem::path check_nrrd_header(const std::filesystem::path& file) {
+  HeaderLines lines(file, "header of an NRRD file");
+  std::filesystem::path voxels = file;
+  bool raw = false, skips_to_end = false;
+  while (const std::optional<std::string> line = lines.next()) {
+    if (line->empty()) break;
+    const std::size_t sign = line->find(':');
+    if (sign == std::string::npos || line->front() == '#' || line->substr(sign, 2) == ":=") continue;
+    const std::string_view text = *line, field = trimmed(text.substr(0, sign)), value = trimmed(text.substr(sign + 1));
+    const std::string name = name_of(field);
+    if (name == "sizes" && !are_sizes(value)) lines.refuse(field, value, "whole numbers from 1 to 2147483647");
+    if (name == "encoding") raw = name_of(value) == "raw";
+    if (name == "byteskip") skips_to_end = value.starts_with('-');
+    if (name != "datafile") continue;
+    if (value.starts_with("LIST") || is_pattern(value)) lines.refuse_voxels(field, value);
+    voxels = lines.beside(field, value);
   }
-  if (in.gcount() + 1 == static_cast<std::streamsize>(longest))
-    throw InputError(file.string(), 0, "header of an NRRD file", "a line of more than 65535 bytes", "a shorter one");
+  if (skips_to_end && !raw)  // ITK unpacks all there is, to find its end
+    throw InputError(file.string(), 0, "byte skip", "below 0 beside an encoding that is not raw", "encoding: raw");
+  return voxels;
 }
 
 }  // namespace macadam::ct

@@ -6,8 +6,9 @@
 
 namespace macadam::ct {
 
-/// ITK keeps 32 bits of a size, while its reader of NRRD takes memory for all of it, and hands patterns of file names
-/// to printf. \throws InputError naming the line.
-void check_nrrd_header(const std::filesystem::path& file);
+/// ITK keeps 32 bits of a size, while its reader of NRRD takes memory for all of it, waits for ever for files that are
+/// none, and hands patterns of file names to printf. Returns the file of the voxels. \throws InputError naming the
+/// line.
+std::filesystem::path check_nrrd_header(const std::filesystem::path& file);
 
 }  // namespace macadam::ct

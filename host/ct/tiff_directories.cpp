@@ -2,10 +2,13 @@
 // tiff_directories.cpp  Both kinds of TIFF, with numbers of 4 and of 8 bytes for places, in either order of bytes.
 #include "host/ct/tiff_directories.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 
@@ -45,35 +48,86 @@ class Numbers {
 /// Texts whose end libtiff sees to: names of the document, the maker, the program and the like (TIFF 6.0).
 constexpr std::uint64_t known_texts[] = {269, 270, 271, 272, 285, 305, 306, 315, 316, 333, 337, 33432};
 
-constexpr std::uint64_t bits_per_sample = 258, samples_per_pixel = 277;
+/// What ITK asks the first page for and takes for that of all, by tag: kind of page, width, height, bits of a voxel,
+/// what its values mean, values a voxel, and whether these are whole numbers.
+namespace tags {
+constexpr std::uint64_t kind = 254, width = 256, height = 257, bits = 258, meaning = 262, values = 277, format = 339;
+}
+constexpr std::uint64_t of_page[] = {tags::kind,    tags::width,  tags::height, tags::bits,
+                                     tags::meaning, tags::values, tags::format};
+using Page = std::map<std::uint64_t, std::uint64_t>;  // numbers of those that it has
 
-/// The tag whose entry in a directory begins at `entry`; its number.
-std::uint64_t check_tag(const std::filesystem::path& file, Numbers& numbers, std::uint64_t size, bool wide,
-                        std::uint64_t entry) {
-  constexpr std::uint64_t text = 2;
-  const std::uint64_t place_bytes = wide ? 8 : 4;
-  const std::uint64_t tag = numbers.at(entry, 2), type = numbers.at(entry + 2, 2);
-  const std::uint64_t values = numbers.at(entry + 4, static_cast<int>(place_bytes));
-  const std::uint64_t bytes = type < std::size(bytes_of_type) ? bytes_of_type[type] : 0;
-  const auto refuse = [&](const std::string& found, const std::string& expected) {
-    throw InputError(file.string(), 0, "tag " + std::to_string(tag) + " of the TIFF file", found, expected);
-  };
-  if (bytes > 0 && values > size / bytes)
-    refuse(std::to_string(values) + " values of " + std::to_string(bytes) + " bytes",
-           "as many as the " + std::to_string(size) + " bytes of the file hold");
-  const std::uint64_t inside = entry + 4 + place_bytes;
-  const std::uint64_t value = bytes > 0 ? numbers.at(inside, static_cast<int>(bytes)) : 0;
-  if (tag == samples_per_pixel && value != 1)
-    refuse(std::to_string(value) + " values a voxel", "one grey value a voxel");
-  if (tag == bits_per_sample && value != 8 && value != 16 && value != 32 && value != 64)
-    refuse(std::to_string(value) + " bits a voxel", "8, 16, 32 or 64");
-  const bool known = std::ranges::count(known_texts, tag) > 0;
-  if (known && type != text) refuse("type " + std::to_string(type), "a text, type " + std::to_string(text));
-  if (type != text || values == 0 || known) return tag;
-  const std::uint64_t begin = values <= place_bytes ? inside : numbers.at(inside, static_cast<int>(place_bytes));
-  if (begin >= size || values > size - begin || numbers.at(begin + values - 1, 1) != 0)
-    refuse("a text without an end", "a last byte of 0");
-  return tag;
+/// A directory of a file.
+struct Directory {
+  const std::filesystem::path& file;
+  Numbers& numbers;
+  std::uint64_t size;  ///< of the file [bytes]
+  bool wide;
+
+  /// The tag whose entry begins at `entry`.
+  void check_tag(std::uint64_t entry, Page& page) const {
+    const int place_bytes = wide ? 8 : 4;
+    const std::uint64_t tag = numbers.at(entry, 2), type = numbers.at(entry + 2, 2);
+    const std::uint64_t values = numbers.at(entry + 4, place_bytes);
+    const std::uint64_t inside = entry + 4 + static_cast<std::uint64_t>(place_bytes);
+    const std::uint64_t bytes = type < std::size(bytes_of_type) ? bytes_of_type[type] : 0;
+    if (bytes > 0 && values > size / bytes)
+      refuse(tag, fmt::format("{} values of {} bytes", values, bytes),
+             fmt::format("as many as the {} bytes of the file hold", size));
+    // libtiff writes both of its numbers where ITK has room for a pointer to them
+    if (tag == 336) refuse(tag, "a range of dots", "none, as in a scan");
+    if (std::ranges::count(of_page, tag) > 0) {
+      if (tag == tags::bits && values > 1)
+        refuse(tag, fmt::format("bits of {} values a voxel", values), "of one grey value");
+      const bool whole = type == 1 || type == 3 || type == 4 || (type == 16 && wide);
+      if (values != 1 || !whole)
+        refuse(tag, fmt::format("{} values of type {}", values, type), "one whole number, of type 1, 3 or 4");
+      if (!page.emplace(tag, numbers.at(inside, static_cast<int>(bytes))).second) refuse(tag, "two of it", "one");
+    }
+    check_text(tag, type, values, inside);
+  }
+
+  /// All tags of a page together. \throws InputError for voxels that ITK reads as others, or not at all.
+  void check_voxels(const Page& page) const {
+    if (page.contains(tags::values) && page.at(tags::values) != 1)
+      refuse(tags::values, fmt::format("{} values a voxel", page.at(tags::values)), "one grey value a voxel");
+    const char* known = "8 or 16 as a whole number, or 32 as a float";
+    if (!page.contains(tags::bits)) refuse(tags::bits, "no bits of a voxel", known);
+    constexpr std::uint64_t whole = 1, floating = 3;
+    const std::uint64_t n = page.at(tags::bits), as = page.contains(tags::format) ? page.at(tags::format) : whole;
+    const bool is_known = as == floating ? n == 32 : (as == 1 || as == 2) && (n == 8 || n == 16);
+    if (!is_known)
+      refuse(tags::bits, fmt::format("{} bits a voxel, of format {} (tag {})", n, as, tags::format), known);
+  }
+
+  [[noreturn]] void refuse(std::uint64_t tag, const std::string& found, const std::string& expected) const {
+    throw InputError(file.string(), 0, fmt::format("tag {} of the TIFF file", tag), found, expected);
+  }
+
+ private:
+  void check_text(std::uint64_t tag, std::uint64_t type, std::uint64_t values, std::uint64_t inside) const {
+    constexpr std::uint64_t text = 2;
+    const bool known = std::ranges::count(known_texts, tag) > 0;
+    if (known && type != text) refuse(tag, fmt::format("type {}", type), fmt::format("a text, type {}", text));
+    if (type != text || values == 0 || known) return;
+    const std::uint64_t begin = values <= (wide ? 8 : 4) ? inside : numbers.at(inside, wide ? 8 : 4);
+    if (begin >= size || values > size - begin || numbers.at(begin + values - 1, 1) != 0)
+      refuse(tag, "a text without an end", "a last byte of 0");
+  }
+};
+
+/// Pages of one volume, of which ITK asks the first alone, and leaves out those of another kind where it counts them,
+/// but not where it reads them.
+void check_alike(const Directory& directory, const Page& first, const Page& page, int number) {
+  for (const std::uint64_t tag : of_page) {
+    const auto value_of = [&](const Page& p) { return p.contains(tag) ? fmt::format("{}", p.at(tag)) : "none"; };
+    if (value_of(first) != value_of(page))
+      directory.refuse(tag, fmt::format("{} in page {}", value_of(page), number),
+                       value_of(first) + ", as in the first page");
+  }
+  constexpr std::uint64_t reduced_or_mask = 1 | 4;
+  if (page.contains(tags::kind) && (page.at(tags::kind) & reduced_or_mask))
+    directory.refuse(tags::kind, fmt::format("a reduced image or a mask in page {}", number), "slices alone");
 }
 
 }  // namespace
@@ -85,6 +139,8 @@ void check_tiff_directories(const std::filesystem::path& file) {
   if (!numbers.good() || (version != 42 && !wide)) return;
   const int place_bytes = wide ? 8 : 4, count_bytes = wide ? 8 : 2, entry_bytes = wide ? 20 : 12;
   const std::uint64_t size = std::filesystem::file_size(file);
+  const Directory directory{file, numbers, size, wide};
+  Page first;
   std::set<std::uint64_t> seen;
   for (std::uint64_t place = numbers.at(wide ? 8 : 4, place_bytes); numbers.good() && place != 0;) {
     if (!seen.insert(place).second)
@@ -95,16 +151,13 @@ void check_tiff_directories(const std::filesystem::path& file) {
       throw InputError(file.string(), 0, "directories of the TIFF file",
                        "one at byte " + std::to_string(place) + " with " + std::to_string(entries) + " entries",
                        "as many as the " + std::to_string(size) + " bytes of the file hold");
-    bool says_bits = false;
+    Page page;
     for (std::uint64_t e = 0; e < entries; ++e)
-      if (check_tag(file, numbers, size, wide,
-                    place + static_cast<std::uint64_t>(count_bytes) + e * static_cast<std::uint64_t>(entry_bytes)) ==
-          bits_per_sample)
-        says_bits = true;
-    if (!says_bits)  // libtiff takes 1 then, for which ITK has no room
-      throw InputError(file.string(), 0, "directories of the TIFF file",
-                       "one at byte " + std::to_string(place) + " without the bits of a voxel (tag 258)",
-                       "one with them");
+      directory.check_tag(place + static_cast<std::uint64_t>(count_bytes) + e * static_cast<std::uint64_t>(entry_bytes),
+                          page);
+    directory.check_voxels(page);
+    if (seen.size() == 1) first = page;
+    if (seen.size() > 1) check_alike(directory, first, page, static_cast<int>(seen.size()));
     place =
         numbers.at(place + static_cast<std::uint64_t>(count_bytes) + entries * static_cast<std::uint64_t>(entry_bytes),
                    place_bytes);

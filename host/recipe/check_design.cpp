@@ -89,9 +89,10 @@ void check_contents(const MixDesign& design) {
            fmt::format("{} of the mix, which leaves {} of aggregate", in_percent(design.binder),
                        in_percent(1 - design.binder)),
            "below 100 %");
-  if (!(design.binder > 0 && design.binder <= most_binder))
+  const double of_aggregate = of_mix ? design.binder / (1 - design.binder) : design.binder;
+  if (!(design.binder > 0 && of_aggregate <= most_binder))
     refuse(design, "binder", in_percent(design.binder),
-           of_mix ? "above 0" : "above 0 and at most 300 % of the aggregate");
+           of_mix ? "above 0 and at most 75 % of the mix" : "above 0 and at most 300 % of the aggregate");
   if (design.absorbed_binder && design.maximum_density)
     refuse(design, "absorbed_binder", "absorbed_binder and maximum_density",
            "one of them: each follows from the other");

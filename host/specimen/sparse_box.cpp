@@ -9,13 +9,15 @@
 namespace macadam {
 
 std::string sparse_box(const Specimen& specimen) {
-  constexpr double least = 0.1;  // random packings fill more than half, porous asphalt a third after its voids
+  constexpr double least = 0.1;  // spheres that touch fill half of a box at the least, those of porous asphalt a third
   double filled = 0;
   for (const double r : specimen.radius) filled += 4 * std::numbers::pi / 3 * r * r * r / specimen.box.volume();
   if (filled >= least) return {};
   return fmt::format(
-      "spheres fill {:.2g} % of the box of {:g} x {:g} x {:g} m, expected half or more: are both in metres?",
-      100 * filled, specimen.box.size.x, specimen.box.size.y, specimen.box.size.z);
+      "spheres fill {:.2g} % of the box of {:g} x {:g} x {:g} m, expected {:g} % or more: lengths of spheres and of "
+      "the "
+      "box are in metres",
+      100 * filled, specimen.box.size.x, specimen.box.size.y, specimen.box.size.z, 100 * least);
 }
 
 }  // namespace macadam

@@ -31,6 +31,8 @@ void read(std::string_view bytes) {
   const auto [nx, ny, nz] = image->header().size;
   if (nx * ny * nz > most_voxels) return;
   std::vector<float> voxels(static_cast<std::size_t>(nx * ny * nz));
+  if (image->apart())
+    for (std::int64_t k = 0; k < nz; ++k) image->read(k, 1, voxels.data() + k * nx * ny);
   image->read(0, nz, voxels.data());
 }
 

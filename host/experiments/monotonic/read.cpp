@@ -2,8 +2,6 @@
 // read.cpp  `[loading]` of kind "monotonic".
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "host/experiments/loaded/load_test.hpp"
 #include "host/experiments/read_points.hpp"
 
@@ -15,7 +13,8 @@ template <>
 Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
   using namespace scene;
   constexpr Rule rule{[](double v) { return v != 0; }, "a rate that is not 0"};
-  constexpr Rule any{[](double v) { return v != 0 && std::abs(v) < 1; }, "a strain between -1 and 1 that is not 0"};
+  // shorter than nothing is no specimen; longer than tenfold no test of a mixture or a binder is carried on
+  constexpr Rule any{[](double v) { return v != 0 && v > -1 && v <= 10; }, "a strain above -1 and at most 10, not 0"};
   constexpr int usual_points = 100;
   Monotonic out;
   Points times;
@@ -31,6 +30,8 @@ Monotonic ExperimentOf<Monotonic>::read(const scene::Section& section) {
   if (!strain) {
     if (!section.has("times")) section.refuse("times", "nothing", "times, or the strain at which the test ends");
     out.times = times.all(section, "times", "s", "time");
+    if (const double last = out.rate * out.times.back(); last != 0 && !any.holds(last))
+      section.refuse("times", fmt::format("a strain of {:g} at the last", last), any.words);
     return out;
   }
   for (const char* key : {"times", "points_per_decade"}) {

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Headers of images on which ITK would not end, ends the program, or says nothing: refused, and what is near them is
+// read.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+
+#include "host/ct/image_slices.hpp"
+#include "macadam/ct.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CtHeaders : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path folder_ = fs::path(testing::TempDir()) /
+                     ("ct_headers_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+
+  void write(const std::string& name, const std::string& bytes) {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  }
+  std::string voxels(const std::string& name) {
+    const auto image = read_image<std::uint8_t>(folder_ / name);
+    return {image.voxels.begin(), image.voxels.end()};
+  }
+  /// The file is refused with these words.
+  void refused(const std::string& name, const std::string& bytes, const std::string& words) {
+    write(name, bytes);
+    std::string said = "nothing was said";
+    try {
+      voxels(name);
+    } catch (const InputError& error) { said = error.what(); }
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  }
+};
+
+std::string mha(const std::string& line, const std::string& data = "LOCAL") {
+  return "ObjectType = Image\n" + line + "\nDimSize = 2 1\nElementType = MET_UCHAR\nElementDataFile = " + data + "\nab";
+}
+
+TEST_F(CtHeaders, OfAMetaImage) {
+  for (const char* dimensions : {"3e9", "3 3", "+3", "1", "4", "", "2147483648"})
+    refused("a.mha", mha("NDims = " + std::string(dimensions)),
+            ":2: NDims: found \"" + std::string(dimensions) + "\", expected two or three");
+  refused("a.mha", mha("NDims: 3e9 = 3"), ":2: NDims: found \"3e9 = 3\"");
+  refused("a.mha", mha("Comment = a\rNDims = 3e9"), "found \"Comment = a?NDims = 3e9\", expected text without zero");
+  refused("a.mha", mha(std::string("a\0 = b", 6)), ":2: header of a MetaImage: found \"a? = b\"");
+  refused("a.mha", mha("a line"), ":2: header of a MetaImage: found \"a line\", expected KEY = VALUE");
+  refused("a.mha", mha(std::string(255, 'k') + " = 3"),
+          ":2: header of a MetaImage: found a key of 255 bytes, expected 254");
+  refused("a.mha", mha("a = " + std::string(65536, 'a')),
+          ":2: header of a MetaImage: found a line of 65535 bytes or more");
+  const std::string text(255, 'c');
+  for (const std::string key : {"Comment", "ObjectType", "ObjectSubType", "Name", "AcquisitionDate"})
+    refused("a.mha", mha(key + " = " + text),
+            ":2: header of a MetaImage: found " + key + " of 255 bytes, expected 254");
+  refused("a.mha", mha("Comment =\n\na = " + text), ":4: header of a MetaImage: found a line of 259 bytes behind");
+  refused("a.mha", mha("BinaryData = False"), ":2: BinaryData: found \"False\", expected True");
+  for (const std::string& files :
+       std::vector<std::string>{"", ".", "none.raw", "LIST", "slice%03d.raw 1 2 1", std::string(300, 'n')})
+    refused("a.mha", mha("NDims = 2", files), ":5: ElementDataFile: found \"" + files.substr(0, 60));
+  refused("a.mha", "ObjectType = Image\n", "found no line ElementDataFile");
+  refused("a.mha", "ObjectType = Image\nNDims = 2\nDimSize = 1 1\nElementType = MET_OTHER\nElementDataFile = LOCAL\na",
+          "a.mha");
+  refused("a.mha", mha("NDims = 2\nCompressedData = True\nCompressedDataSize = 1e18"), "a.mha");
+}
+
+TEST_F(CtHeaders, OfAMetaImageThatAreUnusualAndGood) {
+  const std::string more = "Other = " + std::string(400, 'o') + "\r\nComment = " + std::string(254, 'c') +
+                           "\r\n0008|0090 =\r\nLong = " + std::string(300, 'l') + "\r\nName = \xc3\xa4\x1b";
+  write("lines.mha", "ObjectType = Image\r\n\r\nNDims: 2 \r\nBinaryData = True\r\n" + more +
+                         "\r\nDimSize = 2 1\r\nElementType: MET_UCHAR\r\nElementDataFile = LOCAL\nab");
+  EXPECT_EQ(voxels("lines.mha"), "ab");
+  write("beside.raw", "cd");
+  write("beside.mhd", mha("NDims = 2", "beside.raw"));
+  EXPECT_EQ(voxels("beside.mhd"), "cd");
+  write(
+      "large.mhd",
+      "ObjectType = Image\nNDims = 3\nDimSize = 900 900 900\nElementType = MET_UCHAR\nElementDataFile = beside.raw\n");
+  refused(
+      "large.mhd",
+      "ObjectType = Image\nNDims = 3\nDimSize = 900 900 900\nElementType = MET_UCHAR\nElementDataFile = beside.raw\n",
+      "900 x 900 x 900 of 8 bits, expected no more than 2 bytes can hold");
+}
+
+std::string nrrd(const std::string& sizes, const std::string& more = "") {
+  return "NRRD0004\r\ntype: uchar\r\ndimension: 3\r\nencoding: raw\r\n" + sizes + "\r\n" + more + "\r\nabcdef";
+}
+
+TEST_F(CtHeaders, OfAnNrrd) {
+  for (const std::string sizes : {"1 4294967324 1", "3 2 0", "3 2 1.0", "3 x 1"})  // the first is 28 to ITK
+    refused("a.nrrd", nrrd("sizes: " + sizes), ":5: sizes: found \"" + sizes + "\", expected whole numbers");
+  refused("a.nrrd", nrrd("content: x\rsizes: 1 4294967324 1"), ":5: header of an NRRD file: found \"content: x?sizes");
+  refused("a.nrrd", nrrd(std::string("\0content: x", 11)), ":5: header of an NRRD file: found \"?content");
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  for (const std::string data : {"%n%d 1 1 1", "x%03d.raw 1 3 1", "LIST", "-", "pipe", "/dev/zero", "none.raw"})
+    for (const std::string field : {"data file", "datafile", "Data File"})
+      refused("a.nhdr", nrrd("sizes: 3 2 1", field + ": " + data + "\r\n"),
+              ":6: " + field + ": found \"" + data + "\", expected one file");
+  refused("a.nrrd", nrrd("sizes: 3 2 1", "byte skip: -1\r\nencoding: gzip\r\n"), "byte skip: found below 0");
+}
+
+TEST_F(CtHeaders, OfAnNrrdThatAreUnusualAndGood) {
+  write("a.nrrd", nrrd("sizes: 3 2 1", "# sizes: x\r\nsizes:=many\r\ndata file:=LIST\r\nbyte skip: -1\r\n"));
+  EXPECT_EQ(voxels("a.nrrd"), "abcdef");
+  write("core 50% of MINERALIST.raw", "ghijkl");
+  write("a.nhdr", nrrd("sizes: 3 2 1", "data file: core 50% of MINERALIST.raw\r\n"));
+  EXPECT_EQ(voxels("a.nhdr"), "ghijkl");
+}
+
+/// Type, number of values, and value or place of an entry in a directory.
+using Entry = std::array<std::uint32_t, 3>;
+using Page = std::map<std::uint32_t, std::optional<Entry>>;  // by tag; nothing: leave it out
+
+/// A little-endian TIFF of pages of 3 x 2 voxels, all of which are the bytes abcdef, changed so.
+std::string tiff(const std::vector<Page>& pages, std::uint32_t last = 0) {
+  std::string out;
+  const auto add = [&](std::uint32_t value, int bytes) {
+    for (int k = 0; k < bytes; ++k) out += static_cast<char>(value >> 8 * k & 0xff);
+  };
+  out = std::string("II*\0", 4);
+  add(32, 4);
+  out += "abcdefabcdefabcdefabcdef";
+  for (std::size_t n = 0; n < pages.size(); ++n) {
+    Page all{{256, Entry{3, 1, 3}}, {257, Entry{3, 1, 2}}, {258, Entry{3, 1, 8}}, {259, Entry{3, 1, 1}},
+             {262, Entry{3, 1, 1}}, {273, Entry{4, 1, 8}}, {277, Entry{3, 1, 1}}, {278, Entry{3, 1, 2}},
+             {279, Entry{4, 1, 6}}, {339, Entry{3, 1, 1}}};
+    for (const auto& [tag, entry] : pages[n]) all[tag] = entry;
+    std::erase_if(all, [](const auto& one) { return !one.second; });
+    add(static_cast<std::uint32_t>(all.size()), 2);
+    for (const auto& [tag, entry] : all) {
+      add(tag, 2), add((*entry)[0], 2), add((*entry)[1], 4);
+      add((*entry)[2], 4);
+    }
+    const bool ends = n + 1 == pages.size();
+    add(ends ? last : static_cast<std::uint32_t>(out.size() + 4), 4);
+  }
+  return out;
+}
+
+TEST_F(CtHeaders, OfATiff) {
+  const auto refused_page = [&](const Page& page, const std::string& words) { refused("a.tif", tiff({page}), words); };
+  refused_page({{277, Entry{3, 1, 3}}}, "tag 277 of the TIFF file: found 3 values a voxel, expected one grey");
+  refused_page({{258, Entry{3, 3, 8}}, {277, Entry{3, 1, 3}}},
+               "tag 258 of the TIFF file: found bits of 3 values a voxel");
+  refused_page({{258, {}}}, "tag 258 of the TIFF file: found no bits of a voxel, expected 8 or 16");
+  for (const auto& [bits, format] :
+       {std::pair{1u, 1u}, {12u, 1u}, {32u, 1u}, {32u, 2u}, {64u, 1u}, {64u, 3u}, {16u, 3u}, {8u, 4u}})
+    refused_page({{258, Entry{3, 1, bits}}, {339, Entry{3, 1, format}}},
+                 "found " + std::to_string(bits) + " bits a voxel, of format " + std::to_string(format));
+  refused_page({{339, {}}, {258, Entry{3, 1, 32}}}, "found 32 bits a voxel, of format 1");
+  refused_page({{257, Entry{5, 1, 8}}},
+               "tag 257 of the TIFF file: found 1 values of type 5, expected one whole number");
+  refused_page({{336, Entry{3, 2, 5}}}, "tag 336 of the TIFF file: found a range of dots");
+  refused_page({{280, Entry{3, 0x7fffffff, 8}}}, "found 2147483647 values of 2 bytes, expected as many as");
+  refused_page({{64021, Entry{2, 1, 'x'}}}, "tag 64021 of the TIFF file: found a text without an end");
+  refused_page({{306, Entry{3, 1, 16}}}, "tag 306 of the TIFF file: found type 3, expected a text, type 2");
+  refused("a.tif", tiff({{}}, 32), "found byte 32 again, expected a chain that ends");
+  refused("a.tif", tiff({{}}, 0x7fffffff), "one at byte 2147483647");
+}
+
+TEST_F(CtHeaders, OfATiffWithPages) {
+  write("a.tif", tiff({{}, {}}));
+  EXPECT_EQ(voxels("a.tif"), "abcdefabcdef");
+  const auto kind = [](std::uint32_t of) { return Page{{254, Entry{4, 1, of}}}; };
+  write("pages.tif", tiff({kind(2), kind(2), kind(2)}));
+  EXPECT_EQ(voxels("pages.tif"), "abcdefabcdefabcdef");
+  refused("a.tif", tiff({kind(0), {}, {}}),
+          "tag 254 of the TIFF file: found none in page 2, expected 0, as in the first");
+  refused("a.tif", tiff({{}, kind(1), {}}), "tag 254 of the TIFF file: found 1 in page 2, expected none");
+  refused("a.tif", tiff({kind(5), kind(5)}), "tag 254 of the TIFF file: found a reduced image or a mask in page 2");
+  refused("a.tif", tiff({{}, {{256, Entry{3, 1, 2}}}}), "tag 256 of the TIFF file: found 2 in page 2, expected 3");
+  refused("a.tif", tiff({{}, {}, {{257, Entry{3, 1, 1}}}}), "tag 257 of the TIFF file: found 1 in page 3, expected 2");
+  refused("a.tif", tiff({{{258, Entry{3, 1, 16}}}, {}}), "tag 258 of the TIFF file: found 8 in page 2, expected 16");
+  refused("a.tif", tiff({{}, {{339, Entry{3, 1, 2}}}}), "tag 339 of the TIFF file: found 2 in page 2, expected 1");
+  refused("a.tif", tiff({{}, {{262, Entry{3, 1, 0}}}}), "tag 262 of the TIFF file: found 0 in page 2, expected 1");
+}
+
+}  // namespace
+}  // namespace macadam
