@@ -173,6 +173,9 @@ TEST_F(CtHeaders, OfATiff) {
 TEST_F(CtHeaders, OfATiffWithPages) {
   write("a.tif", tiff({{}, {}}));
   EXPECT_EQ(voxels("a.tif"), "abcdefabcdef");
+  // a colour profile, and what a camera noted: programs for photographs write them
+  write("saved.tif", tiff({{{34675, Entry{7, 12, 8}}, {34665, Entry{4, 1, 8}}}}));
+  EXPECT_EQ(voxels("saved.tif"), "abcdef");
   const auto kind = [](std::uint32_t of) { return Page{{254, Entry{4, 1, of}}}; };
   write("pages.tif", tiff({kind(2), kind(2), kind(2)}));
   EXPECT_EQ(voxels("pages.tif"), "abcdefabcdefabcdef");

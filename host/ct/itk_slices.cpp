@@ -99,6 +99,19 @@ class Overheard {
   std::streambuf *out_, *error_;
 };
 
+/// Without the warnings that ITK has for tags of a TIFF which it keeps no copy of, such as colour profiles.
+void read_information(itk::ImageIOBase& io) {
+  const bool warns = itk::Object::GetGlobalWarningDisplay();
+  itk::Object::SetGlobalWarningDisplay(warns && !is_tiff(io.GetFileName()));
+  try {
+    io.ReadImageInformation();
+  } catch (...) {
+    itk::Object::SetGlobalWarningDisplay(warns);
+    throw;
+  }
+  itk::Object::SetGlobalWarningDisplay(warns);
+}
+
 /// Does `read`. \throws InputError where it throws, or says anything.
 template <class Read>
 void attempt(const std::string& file, const char* what, const std::string& expected, Read&& read) {
@@ -130,7 +143,7 @@ ImageHeader header_of(itk::ImageIOBase& io) {
   const std::string file = io.GetFileName();
   std::size_t bytes = 0;  // of a voxel
   attempt(file, "image", "a whole image file", [&] {
-    io.ReadImageInformation();
+    read_information(io);
     bytes = io.GetComponentSize();  // which throws where the type is not known
   });
   if (io.GetNumberOfComponents() != 1 || io.GetNumberOfDimensions() < 2 || io.GetNumberOfDimensions() > 3) {
@@ -251,7 +264,7 @@ class FolderSlices : public ImageSlices {
   void read_bytes(std::int64_t first, std::int64_t count, char* to) override {
     for (std::int64_t k = first; k < first + count; ++k) {
       const itk::ImageIOBase::Pointer io = io_of(slices_[static_cast<std::size_t>(k)]);
-      io->ReadImageInformation();
+      read_information(*io);
       read_region(*io, 0, 1, to);
       to += header_.size[0] * header_.size[1] * bytes_of(type_);
     }
