@@ -13,8 +13,8 @@ SOAK = (("cpu", "soak-cpu.csv"), ("cuda", "soak-cuda.csv"), ("cuda", "soak-cuda-
 READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specimen": "specimens (CSV)",
          "specimen_gz": "specimens (CSV in gzip)", "laboratory": "laboratory data (CSV)", "checkpoint": "checkpoints (HDF5)",
          "off": "surfaces (OFF)", "obj": "surfaces (OBJ)", "stl": "surfaces (STL)", "ply": "surfaces (PLY)",
-         "mha": "headers of scans (MetaImage)", "nrrd": "headers of scans (NRRD)", "tif": "headers of scans (TIFF)",
-         "h5": "headers of scans (HDF5)"}
+         "mha": "scans (MetaImage)", "nrrd": "scans (NRRD)", "tif": "scans (TIFF)",
+         "h5": "scans (HDF5)"}
 
 
 @mark
