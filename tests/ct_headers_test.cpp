@@ -73,7 +73,11 @@ TEST_F(CtHeaders, OfAMetaImage) {
   refused("a.mha", "ObjectType = Image\n", "found no line ElementDataFile");
   refused("a.mha", "ObjectType = Image\nNDims = 2\nDimSize = 1 1\nElementType = MET_OTHER\nElementDataFile = LOCAL\na",
           "a.mha");
-  refused("a.mha", mha("NDims = 2\nCompressedData = True\nCompressedDataSize = 1e18"), "a.mha");
+  for (const std::string size : {"1e18", "-1", ""})
+    refused("a.mha", mha("CompressedDataSize = " + size),
+            ":2: CompressedDataSize: found \"" + size + "\", expected a whole");
+  refused("a.mha", mha("NDims = 2\nCompressedData = True\nCompressedDataSize = 4294967296"),
+          "CompressedDataSize: found 4294967296, expected at most the 147 bytes of a.mha");
 }
 
 TEST_F(CtHeaders, OfAMetaImageThatAreUnusualAndGood) {

@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <string_view>
-#include <utility>
+#include <system_error>
 
 #include "host/ct/header_lines.hpp"
 #include "host/in_quotes.hpp"
@@ -21,6 +24,11 @@ bool is_copied(std::string_view key) {
 }
 
 bool is_local(std::string_view value) { return value == "LOCAL" || value == "Local" || value == "local"; }
+
+bool is_number(std::string_view text, std::uintmax_t& number) {
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return fault == std::errc{} && end == text.data() + text.size();
+}
 
 void check(const HeaderLines& lines, std::string_view key, std::string_view value) {
   if (key.size() > copied)
@@ -39,6 +47,7 @@ void check(const HeaderLines& lines, std::string_view key, std::string_view valu
 std::filesystem::path check_meta_header(const std::filesystem::path& file) {
   HeaderLines lines(file, "header of a MetaImage");
   bool copies_next = false;  // some versions of ITK take the next line for a value where there is none
+  std::uintmax_t packed = 0;
   while (const std::optional<std::string> line = lines.next()) {
     const std::size_t sign = std::min(line->find_first_of("=:"), line->size());
     const std::string_view text = *line, key = trimmed(text.substr(0, sign));
@@ -50,11 +59,15 @@ std::filesystem::path check_meta_header(const std::filesystem::path& file) {
     const std::string_view value = trimmed(text.substr(sign + 1));
     check(lines, key, value);
     copies_next = value.empty() && is_copied(key);
+    if (key == "CompressedDataSize" && !is_number(value, packed)) lines.refuse(key, value, "a whole number of bytes");
     if (key != "ElementDataFile") continue;
-    if (is_local(value)) return file;
     // ITK counts the files of a list, and fills in a pattern as printf does, whatever they are
     if (value.starts_with("LIST") || value.find('%') != std::string_view::npos) lines.refuse_voxels(key, value);
-    return lines.beside(key, value);
+    const std::filesystem::path voxels = is_local(value) ? file : lines.beside(key, value);
+    if (const std::uintmax_t there = std::filesystem::file_size(voxels); packed > there)  // ITK takes memory for them
+      throw InputError(file.string(), 0, "CompressedDataSize", fmt::format("{}", packed),
+                       fmt::format("at most the {} bytes of {}", there, voxels.filename().string()));
+    return voxels;
   }
   throw InputError(file.string(), 0, "header of a MetaImage", "no line ElementDataFile", "one, at its end");
 }
