@@ -48,6 +48,8 @@ def is_worker(process: psutil.Process) -> bool:
     """Or the program that it runs; not Parsl's manager of the workers."""
     try:
         line, above = " ".join(process.cmdline()), process.parent()
+        if "macadam.study.manager" in line:  # which watches the manager
+            return False
         return "macadam-1" in line or (above is not None and "process_worker_pool.py" in " ".join(above.cmdline()[:2]))
     except psutil.Error:
         return False
@@ -127,3 +129,23 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
     before = len(lines(log, "begin"))
     again = subprocess.run(line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=120)
     assert again.returncode == 0 and len(lines(log, "begin")) == before, "a finished study computes nothing"
+
+
+def test_a_manager_that_waits_for_ever_ends_with_its_study() -> None:
+    """A worker killed with the queue of results in its hands leaves such a manager: here a program that just waits."""
+    study = subprocess.Popen(["sleep", "600"])
+    line = [sys.executable, "-m", "macadam.study.manager", str(study.pid), "1", "sleep", "600"]
+    manager = subprocess.Popen(line, env=ENVIRONMENT)
+    try:
+        with pytest.raises(subprocess.TimeoutExpired):
+            manager.wait(timeout=4)
+        watcher = psutil.Process(manager.pid).children()
+        assert len(watcher) == 1 and psutil.Process(manager.pid).cmdline() == ["sleep", "600"]
+        study.kill()
+        study.wait()
+        assert manager.wait(timeout=30) == -signal.SIGKILL
+        _, left = psutil.wait_procs(watcher, timeout=30)
+        assert not [p for p in left if p.status() != psutil.STATUS_ZOMBIE], left
+    finally:
+        for process in (study, manager):  # does nothing where it has ended
+            process.kill()

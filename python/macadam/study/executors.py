@@ -115,6 +115,7 @@ def _gpus(run: dict[str, Any]) -> int:
 def _config(run: dict[str, Any], place: str, folder: Path) -> Any:
     from parsl.config import Config
     from parsl.executors import HighThroughputExecutor
+    from parsl.executors.high_throughput.executor import DEFAULT_LAUNCH_CMD
     from parsl.providers import LocalProvider, SlurmProvider
 
     more: dict[str, Any] = {}
@@ -127,7 +128,12 @@ def _config(run: dict[str, Any], place: str, folder: Path) -> Any:
         more = {"max_workers_per_node": run.get("workers") or _gpus(run) or None}
     else:
         provider = LocalProvider(init_blocks=1, min_blocks=1, max_blocks=1)
-        more = {"max_workers_per_node": workers(run), "address": "127.0.0.1"}
+        watched = f"{_quoted(sys.executable)} -m macadam.study.manager {os.getpid()} {8 * _BEAT}"
+        more = {
+            "max_workers_per_node": workers(run),
+            "address": "127.0.0.1",
+            "launch_cmd": f"{watched} {DEFAULT_LAUNCH_CMD}",
+        }
     gpus = _gpus(run)
     pool = HighThroughputExecutor(
         label="macadam",
