@@ -14,19 +14,15 @@
 #include "host/ct/image_slices.hpp"
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"
+#include "tests/ct_folder.hpp"
 
 namespace macadam {
 namespace {
 
 namespace fs = std::filesystem;
 
-class CtHeaders : public testing::Test {
+class CtHeaders : public CtFolder {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_ = fs::path(testing::TempDir()) /
-                     ("ct_headers_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-
   void write(const std::string& name, const std::string& bytes) {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
   }
@@ -160,7 +156,7 @@ TEST_F(CtHeaders, OfATiff) {
                "tag 258 of the TIFF file: found bits of 3 values a voxel");
   refused_page({{258, {}}}, "tag 258 of the TIFF file: found no bits of a voxel, expected 8 or 16");
   for (const auto& [bits, format] :
-       {std::pair{1u, 1u}, {12u, 1u}, {32u, 1u}, {32u, 2u}, {64u, 1u}, {64u, 3u}, {16u, 3u}, {8u, 4u}})
+       {std::pair{1u, 1u}, {12u, 1u}, {32u, 1u}, {32u, 2u}, {64u, 1u}, {64u, 3u}, {16u, 3u}})
     refused_page({{258, Entry{3, 1, bits}}, {339, Entry{3, 1, format}}},
                  "found " + std::to_string(bits) + " bits a voxel, of format " + std::to_string(format));
   refused_page({{339, {}}, {258, Entry{3, 1, 32}}}, "found 32 bits a voxel, of format 1");
@@ -180,6 +176,8 @@ TEST_F(CtHeaders, OfATiffWithPages) {
   // a colour profile, and what a camera noted: programs for photographs write them
   write("saved.tif", tiff({{{34675, Entry{7, 12, 8}}, {34665, Entry{4, 1, 8}}}}));
   EXPECT_EQ(voxels("saved.tif"), "abcdef");
+  write("undefined.tif", tiff({{{339, Entry{3, 1, 4}}}}));
+  EXPECT_EQ(voxels("undefined.tif"), "abcdef");
   const auto kind = [](std::uint32_t of) { return Page{{254, Entry{4, 1, of}}}; };
   write("pages.tif", tiff({kind(2), kind(2), kind(2)}));
   EXPECT_EQ(voxels("pages.tif"), "abcdefabcdefabcdef");

@@ -13,19 +13,15 @@
 #include "host/ct/image_slices.hpp"
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"
+#include "tests/ct_folder.hpp"
 
 namespace macadam {
 namespace {
 
 namespace fs = std::filesystem;
 
-class CtImage : public testing::Test {
+class CtImage : public CtFolder {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_ = fs::path(testing::TempDir()) /
-                     ("ct_image_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-
   /// What reading a file says of it.
   template <class T>
   std::string fault(const fs::path& file) {

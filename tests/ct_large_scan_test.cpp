@@ -10,6 +10,7 @@
 #include "host/ct/grain_surfaces.hpp"
 #include "host/ct/refine.hpp"
 #include "macadam/error.hpp"
+#include "tests/ct_folder.hpp"
 #include "tests/ct_scans.hpp"
 #include "tests/shape_tests.hpp"
 
@@ -20,13 +21,8 @@ using namespace ct_scans;
 namespace fs = std::filesystem;
 constexpr double pi = std::numbers::pi, voxel = 1e-4;
 
-class CtLargeScan : public testing::Test {
+class CtLargeScan : public CtFolder {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-  fs::path folder_ = fs::path(testing::TempDir()) /
-                     ("ct_large_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-
   static SegmentOptions options_of(double smallest_voxels) {
     SegmentOptions options;
     options.region = ScanRegion::whole;
