@@ -2,7 +2,12 @@
 /// \file parallel_blocks.hpp  Many small pieces of work on all threads, where one of them may throw.
 #pragma once
 
+#include <omp.h>
+
 #include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <vector>
 
 #include "kernels/parallel.hpp"
 
@@ -18,6 +23,29 @@ void for_each_in_blocks(std::size_t n, bool threads, F&& f) {
   };
   if (!threads) return run(0, n);
   for_each_in_parallel((n + block - 1) / block, [&](std::size_t b) { run(b * block, std::min(n, (b + 1) * block)); });
+}
+
+/// How many ranges for_each_range() makes.
+inline std::size_t number_of_ranges(bool threads) {
+  return threads ? static_cast<std::size_t>(omp_get_max_threads()) : 1;
+}
+
+/// f(number, from, to) for ranges of the numbers below n, one for each thread, ascending. A thread has the same range
+/// each time, which its cache still holds then. Exceptions as with for_each_in_parallel(): that of the lowest range.
+template <class F>
+void for_each_range(std::size_t n, bool threads, F&& f) {
+  const std::size_t parts = number_of_ranges(threads);
+  if (parts == 1) return f(std::size_t{0}, std::size_t{0}, n);
+  std::vector<std::exception_ptr> thrown(parts);
+#pragma omp parallel for schedule(static, 1)
+  for (std::size_t p = 0; p < parts; ++p) {
+    try {
+      f(p, n * p / parts, n * (p + 1) / parts);
+    } catch (...) { thrown[p] = std::current_exception(); }
+  }
+  for (const std::exception_ptr& e : thrown) {
+    if (e) std::rethrow_exception(e);
+  }
 }
 
 }  // namespace macadam

@@ -61,8 +61,8 @@ class Relaxation {
         acceleration_(s_.size()),
         energy_(s_.size()),
         dots_(s_.size()),
-        place_(s_.size() - first_),
-        strayed_(s_.size()) {
+        by_number_(s_.size() - first_),
+        place_(s_.size() - first_) {
     for (std::size_t i = first_; i < s_.size(); ++i) place_[number_[i] - first_] = static_cast<std::int32_t>(i);
   }
 
@@ -121,9 +121,12 @@ class Relaxation {
   }
 
   void compute_accelerations(bool with_energy) {
-    for_each_in_blocks(s_.size() - first_, s_.size() >= parallel_from,
-                       [&](std::size_t k) { accelerate(first_ + k, with_energy); });
+    for_each_range(moving(), on_threads(), [&](std::size_t, std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) accelerate(first_ + k, with_energy);
+    });
   }
+  std::size_t moving() const { return s_.size() - first_; }
+  bool on_threads() const { return s_.size() >= parallel_from; }
 
   void accelerate(std::size_t i, bool with_energy) {  // a wall may throw
     const auto [c, r] = ball_[i];
@@ -187,40 +190,47 @@ class Relaxation {
 
   // The sums run over the particles in the order of their numbers, on one thread: the same bits for any number of
   // threads. Each thread has written its terms by place: of neighbouring numbers, several threads would write to one
-  // line of the cache.
+  // line of the cache. They put them in order together, as one thread would wait for every line that others have.
   double total_energy() const {
     double sum = 0;
     for (const std::int32_t i : place_) sum += energy_[i];
     return sum;
   }
 
-  Dots dot_products() const {
+  Dots dot_products() {
+    for_each_range(moving(), on_threads(), [&](std::size_t, std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) by_number_[k] = dots_[place_[k]];
+    });
     Dots sum;
-    for (const std::int32_t i : place_) sum.power += dots_[i].power, sum.v2 += dots_[i].v2, sum.a2 += dots_[i].a2;
+    for (const Dots& d : by_number_) sum.power += d.power, sum.v2 += d.v2, sum.a2 += d.a2;
     return sum;
   }
 
   void move(double dt, double mixing, double v_per_a) {
+    strayed_.resize(number_of_ranges(on_threads()));
+    for_each_range(moving(), on_threads(), [&](std::size_t number, std::size_t from, std::size_t to) {
+      std::vector<std::int32_t>& strayed = strayed_[number];
+      strayed.clear();
+      for (std::size_t i = first_ + from; i < first_ + to; ++i) {
+        move_sphere(i, dt, mixing, v_per_a);
+        if (neighbours_.strayed(i)) strayed.push_back(static_cast<std::int32_t>(i));
+      }
+    });
+    std::vector<std::int32_t> all;
+    for (const auto& some : strayed_) all.insert(all.end(), some.begin(), some.end());
+    if (!all.empty()) neighbours_.relist(all);
+  }
+
+  void move_sphere(std::size_t i, double dt, double mixing, double v_per_a) {
     const double most = longest_move * unit_ / dt;
-    bool any = false;
-#pragma omp parallel for schedule(static) if (s_.size() >= parallel_from) reduction(|| : any)
-    for (std::size_t i = first_; i < s_.size(); ++i) {
-      Vec3d v = (1 - mixing) * velocity_[i] + (dt + mixing * v_per_a) * acceleration_[i];
-      const double speed = norm(v);
-      if (speed > most) v = (most / speed) * v;
-      velocity_[i] = v;
-      const Vec3d p = ball_[i].centre + dt * v;
-      // No centre may reach a wall: beyond it there is no cell.
-      const auto inside = [&](double x, double length) { return std::clamp(x, 1e-3 * length, 0.999 * length); };
-      ball_[i].centre = {inside(p.x, box_.x), inside(p.y, box_.y), inside(p.z, box_.z)};
-      strayed_[i] = neighbours_.strayed(i);
-      any = any || strayed_[i];
-    }
-    if (!any) return;
-    std::vector<std::int32_t> strayed;
-    for (std::size_t i = first_; i < s_.size(); ++i)
-      if (strayed_[i]) strayed.push_back(static_cast<std::int32_t>(i));
-    neighbours_.relist(strayed);
+    Vec3d v = (1 - mixing) * velocity_[i] + (dt + mixing * v_per_a) * acceleration_[i];
+    const double speed = norm(v);
+    if (speed > most) v = (most / speed) * v;
+    velocity_[i] = v;
+    const Vec3d p = ball_[i].centre + dt * v;
+    // No centre may reach a wall: beyond it there is no cell.
+    const auto inside = [&](double x, double length) { return std::clamp(x, 1e-3 * length, 0.999 * length); };
+    ball_[i].centre = {inside(p.x, box_.x), inside(p.y, box_.y), inside(p.z, box_.z)};
   }
 
   static constexpr std::size_t most_at_once = 64;  // pairs
@@ -235,9 +245,10 @@ class Relaxation {
   Neighbours neighbours_;
   std::vector<Vec3d> velocity_, acceleration_;
   std::vector<double> energy_;
-  std::vector<Dots> dots_;           ///< with the velocity before the move
-  std::vector<std::int32_t> place_;  ///< of the moving spheres, by number
-  std::vector<std::uint8_t> strayed_;
+  std::vector<Dots> dots_;                          ///< with the velocity before the move
+  std::vector<Dots> by_number_;                     ///< the same of the moving spheres, by number
+  std::vector<std::int32_t> place_;                 ///< of the moving spheres, by number
+  std::vector<std::vector<std::int32_t>> strayed_;  ///< [range], ascending: by place
 };
 
 }  // namespace
