@@ -170,6 +170,15 @@ TEST_F(CtHeaders, OfATiff) {
   refused("a.tif", tiff({{}}, 0x7fffffff), "one at byte 2147483647");
 }
 
+TEST_F(CtHeaders, OfATiffWhoseTextEndsTheFile) {
+  const auto with_text_at = [](std::uint32_t at) { return tiff({Page{{64021, Entry{2, 6, at}}}}); };
+  const auto end = static_cast<std::uint32_t>(with_text_at(0).size());
+  const std::string whole = with_text_at(end) + std::string("words\0", 6);
+  write("a.tif", whole);
+  EXPECT_EQ(voxels("a.tif"), "abcdef");
+  refused("a.tif", whole.substr(0, whole.size() - 1), "tag 64021 of the TIFF file: found a text without an end");
+}
+
 TEST_F(CtHeaders, OfATiffWithPages) {
   write("a.tif", tiff({{}, {}}));
   EXPECT_EQ(voxels("a.tif"), "abcdefabcdef");

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "ct_scenes.hpp"
+#include "host/ct/voxelise.hpp"
 
 namespace macadam::test {
 namespace {
@@ -30,6 +31,22 @@ std::vector<double> label_volumes(const Phantom& p) {
   std::vector<double> out(p.grains.size() + 1);
   for (const std::uint32_t label : p.labels.voxels) out.at(label) += p.labels.voxel_volume();
   return out;
+}
+
+TEST(CtCoverage, OfAGridThatBeginsElsewhereIsTheSame) {
+  const Vec3d shift{3e-3, -2e-3, 5e-3};
+  const auto of = [](const Vec3d& at) {
+    const Image<float> grid({20, 21, 22}, {1e-3, 1.1e-3, 1.2e-3}, at);
+    const ct::SawnCore core{at + Vec3d{2e-3, 2e-3, 2e-3}, at + Vec3d{18e-3, 18e-3, 18e-3}};
+    return ct::cover({nullptr, at + Vec3d{9.1e-3, 8.2e-3, 10.3e-3}, 4e-3}, core, grid, 4);
+  };
+  const ct::Coverage here = of({}), there = of(shift);
+  EXPECT_EQ(there.begin, here.begin);
+  EXPECT_EQ(there.end, here.end);
+  EXPECT_NEAR(there.volume / here.volume, 1, 1e-9);
+  EXPECT_LT(norm(there.centroid - here.centroid - shift), 1e-12);
+  ASSERT_EQ(there.share.size(), here.share.size());
+  for (std::size_t i = 0; i < here.share.size(); ++i) EXPECT_NEAR(there.share[i], here.share[i], 1e-5) << i;
 }
 
 TEST_F(CtPhantom, ASphereHasItsVolumeInGreyValuesAndLabels) {

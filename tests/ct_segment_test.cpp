@@ -69,6 +69,29 @@ TEST(CtIsosurface, OfABallHasItsVolumeAndItsArea) {
   EXPECT_NEAR(measure_shape(fewer.surface).volume / m.volume, 1, 0.005);
 }
 
+TEST(CtIsosurface, HasTheEdgesOfVoxelsThatAreNoCubes) {
+  Image<float> field({30, 30, 30}, {voxel, 1.5 * voxel, 2 * voxel});
+  const Body body = ball(14.3, 14.6, 14.1, 12);
+  for (std::int64_t k = 0; k < 30; ++k)
+    for (std::int64_t j = 0; j < 30; ++j)
+      for (std::int64_t i = 0; i < 30; ++i)
+        field.at(i, j, k) =
+            static_cast<float>(body(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
+  const Surface surface = ct::isosurface(field);
+  EXPECT_TRUE(check_surface(surface).good()) << check_surface(surface).text();
+  Vec3d low = surface.points.front(), high = low;
+  for (const Vec3d& p : surface.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  // between nodes the surface is straight: it passes within a hundredth of a voxel or so of the ball's ends
+  const Vec3d edge = (1 / (24 * voxel)) * (high - low);
+  EXPECT_NEAR(edge.x, 1, 0.01);
+  EXPECT_NEAR(edge.y, 1.5, 0.01);
+  EXPECT_NEAR(edge.z, 2, 0.01);
+  EXPECT_NEAR(measure_shape(surface).volume / (4 * pi / 3 * std::pow(12 * voxel, 3) * 3), 1, 0.01);
+}
+
 TEST(CtIsosurface, OfAFieldThatIsPositiveEverywhereIsClosedAtItsEnds) {
   Image<float> field({5, 6, 7}, {voxel, voxel, voxel}, {}, 0.5f);
   ct::close_ends(field);

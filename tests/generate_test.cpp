@@ -382,6 +382,14 @@ TEST(Relax, WhatAWallThrowsIsThrown) {
                std::bad_alloc);
 }
 
+TEST(Generate, AClassMayHaveNoVolume) {
+  SpecimenSpec spec = small_mix();
+  spec.aggregate[0].volume_fraction = 0;
+  const auto made = generate_specimen(spec);
+  EXPECT_EQ(made.composition.at(0).count, 0);
+  EXPECT_GT(made.composition.at(1).count, 0);
+}
+
 TEST(Generate, ImpossibleRecipesAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto spoilt = [](const std::function<void(SpecimenSpec&)>& spoil) {

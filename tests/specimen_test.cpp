@@ -11,7 +11,9 @@
 #include <fstream>
 #include <functional>
 #include <limits>
+#include <numbers>
 
+#include "host/specimen/sparse_box.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -93,6 +95,25 @@ TEST_F(SpecimenCsv, KeepsFileOrderAndToleratesWindowsLineEnds) {
   ASSERT_EQ(s.size(), 2u);
   EXPECT_EQ(s.centre[0].x, 0.01);
   EXPECT_EQ(s.phase[1], Phase::mastic);
+}
+
+TEST_F(SpecimenCsv, BlankLinesMayEndALongFile) {
+  std::string text = header;
+  for (int i = 0; i < 1500; ++i)
+    text += std::to_string(i) + "," + std::to_string(0.01 + 1e-5 * i) + ",0.02,0.03,0.001,mastic,-1\n";
+  EXPECT_EQ(read_specimen_csv(written(text + "\n\n\n"), box).size(), 1500u);
+}
+
+TEST(SparseBox, IsOneOfWhichSpheresFillLessThanATenth) {
+  const auto filled = [](double share) {
+    Specimen s;
+    s.box.size = {0.02, 0.03, 0.04};
+    s.radius.assign(7, std::cbrt(share * s.box.volume() / 7 * 3 / (4 * std::numbers::pi)));
+    return sparse_box(s);
+  };
+  EXPECT_EQ(filled(0.101), "");
+  EXPECT_EQ(filled(0.099).rfind("spheres fill 9.9 % of the box of 0.02 x 0.03 x 0.04 m, expected 10 % or more", 0), 0u)
+      << filled(0.099);
 }
 
 TEST_F(SpecimenCsv, BadFilesAreNamedByLine) {

@@ -8,7 +8,8 @@ from pages.data import head, rows, table
 from pages.marks import mark
 
 DOCUMENT = "docs/reliability.md"
-MUTATION = ("mutation", "mutation-second", "mutation-third", "mutation-fourth", "mutation-fifth", "mutation-sixth")  # by draw
+DRAWS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh")
+MUTATION = ("mutation", *(f"mutation-{draw}" for draw in DRAWS[1:]))
 SOAK = (("cpu", "soak-cpu.csv"), ("cuda", "soak-cuda.csv"), ("cuda", "soak-cuda-h100.csv"))
 READS = {"scene": "scenes (TOML)", "model": "models of a binder (TOML)", "specimen": "specimens (CSV)",
          "specimen_gz": "specimens (CSV in gzip)", "laboratory": "laboratory data (CSV)", "checkpoint": "checkpoints (HDF5)",
@@ -111,7 +112,8 @@ def mutation():
     """By folder of the sources, all draws together."""
     folders = collections.defaultdict(collections.Counter)
     for r in (r for name in MUTATION for r in rows(f"{name}.csv")):
-        folders["/".join(r["file"].split("/")[:2]) if r["file"].startswith("host/") else "kernels"][r["verdict"]] += 1
+        folder = r["file"].split("/")[:-1][:2]
+        folders["/".join(folder) if folder[0] == "host" else "kernels"][r["verdict"]] += 1
     verdicts = ("killed", "survived", "not reached")
     listed = [(f"`{name}`", sum(c.values()), *(c[v] for v in verdicts)) for name, c in sorted(folders.items())]
     listed.append(("all", *(sum(row[k] for row in listed) for k in range(1, 5))))
@@ -167,8 +169,8 @@ def survivors():
             "beyond": "read or written beyond an array, which only the tests with sanitizers can see",
             "tested since": "a test notices it since", "open": "a test could notice it"}
     found = [looked_at(name) for name in MUTATION]
-    return table(["mistakes that no test noticed", *(f"{n} draw" for n in ("first", "second", "third", "fourth", "fifth", "sixth"))],
-                 [(words, *(count[kind] for count in found)) for kind, words in said.items()], right=range(1, 7))
+    return table(["mistakes that no test noticed", *(f"{draw} draw" for draw in DRAWS)],
+                 [(words, *(count[kind] for count in found)) for kind, words in said.items()], right=range(1, 1 + len(DRAWS)))
 
 
 @mark
