@@ -106,6 +106,40 @@ def many_factor():
     return f"{times[1] / times[2]:.2f}"
 
 
+def courses(devices):
+    """One list for each run on so many GPUs: of each GPU a row."""
+    runs = {}
+    for r in rows("many-course.csv"):
+        if r["devices"] == devices:
+            runs.setdefault(r["run"], []).append(r)
+    return list(runs.values())
+
+
+def of_one_gpu():
+    """Seconds to the first steps, of a specimen, and behind the last steps, of twenty on one GPU."""
+    ((r,),) = courses(1)
+    return r["first_steps_s"], (r["last_steps_s"] - r["first_steps_s"]) / 20, r["process_s"] - r["last_steps_s"]
+
+
+@mark
+def many_parts(part):
+    return f"{of_one_gpu()[['first', 'specimen', 'end'].index(part)]:.1f} s"
+
+
+@mark
+def many_limit():
+    """Two GPUs to one, if they did not disturb each other."""
+    first, specimen, end = of_one_gpu()
+    return f"{(first + 20 * specimen + end) / (first + 10 * specimen + end):.2f}"
+
+
+@mark
+def many_apart(part):
+    """How far two GPUs begin or end apart, at the most."""
+    column = {"begin": "first_steps_s", "end": "last_steps_s"}[part]
+    return f"{max(abs(a[column] - b[column]) for a, b in courses(2)):.1f} s"
+
+
 @mark
 def many_worst():
     """Of all but the program before, with one GPU and with two."""
