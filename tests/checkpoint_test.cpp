@@ -10,6 +10,7 @@
 #include <chrono>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <thread>
 
@@ -315,6 +316,19 @@ TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
   run(scene, out("out"), {}, true);
   run(scene, out("one"));
   expect_same("out", "one");
+}
+
+TEST_F(CheckpointedRun, KeepsItsWarningsWhereItGoesOn) {
+  const Scene often = scene(steady, "density_scaling = 1e4\n", "checkpoint = \"1 ms\"\n");
+  std::optional<FileLimit> limit(std::in_place, 40'000);  // bytes: too few for a checkpoint, enough for the rest
+  std::vector<std::string> warned;
+  Watcher watcher;
+  watcher.warn = [&](const std::string& warning) { warned.push_back(warning), limit.reset(); };
+  watcher.stop = [&] { return !warned.empty(); };
+  EXPECT_THROW(run(often, out("out"), watcher), InterruptedError);
+  ASSERT_EQ(warned.size(), 1u);
+  EXPECT_HAS(warned[0], "no checkpoint at");
+  EXPECT_EQ(run(often, out("out"), {}, true).warnings, warned);
 }
 
 TEST_F(CheckpointedRun, ARunOfAnotherKindLeavesTheCheckpointAlone) {

@@ -2,27 +2,18 @@
 // Grains, surfaces and phases of small scans of which everything is known, and what is said of scans that are none.
 #include <gtest/gtest.h>
 #include <omp.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "host/ct/fragments.hpp"
-#include "host/ct/grain_surfaces.hpp"
 #include "host/ct/grains.hpp"
-#include "host/ct/isosurface.hpp"
 #include "host/ct/labels.hpp"
-#include "host/ct/overlay.hpp"
 #include "host/ct/paper_recipe.hpp"
 #include "host/ct/region.hpp"
 #include "host/ct/segment_files.hpp"
 #include "macadam/error.hpp"
 #include "tests/ct_scans.hpp"
-#include "tests/png_picture.hpp"
-#include "tests/shape_tests.hpp"
-#include "tests/test_surfaces.hpp"
 
 namespace macadam {
 namespace {
@@ -44,87 +35,6 @@ std::string fault(const Image<float>& scan, const SegmentOptions& options) {
     segment_scan(scan, options);
   } catch (const InputError& error) { return error.what(); }
   return "segmented";
-}
-
-TEST(CtIsosurface, OfABallHasItsVolumeAndItsArea) {
-  Image<float> field({30, 30, 30}, {voxel, voxel, voxel});
-  const Body body = ball(14.3, 14.6, 14.1, 12);
-  for (std::int64_t k = 0; k < 30; ++k)
-    for (std::int64_t j = 0; j < 30; ++j)
-      for (std::int64_t i = 0; i < 30; ++i) {
-        field.at(i, j, k) = static_cast<float>(
-            std::clamp(0.5 * body(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)), -0.5, 0.5));
-      }
-  const Surface fine = ct::isosurface(field);
-  EXPECT_TRUE(check_surface(fine).good()) << check_surface(fine).text();
-  const ShapeMeasure m = measure_shape(fine);
-  const double r = 12 * voxel;
-  // Chords of a ball of 12 voxels cut off (1/12)²/10 or so; a surface of whole voxels would have 7 % too much.
-  EXPECT_NEAR(m.area / (4 * pi * r * r), 1, 0.01);
-  EXPECT_NEAR(m.volume / (4 * pi / 3 * r * r * r), 1, 0.01);
-  const ct::Simplified fewer = ct::simplified(fine, 400, 800, 0.5 * voxel);
-  EXPECT_LE(fewer.surface.facets.size(), 400u);
-  EXPECT_LE(fewer.error, 0.5 * voxel);
-  EXPECT_TRUE(check_surface(fewer.surface).good()) << check_surface(fewer.surface).text();
-  EXPECT_NEAR(measure_shape(fewer.surface).volume / m.volume, 1, 0.005);
-}
-
-TEST(CtIsosurface, HasTheEdgesOfVoxelsThatAreNoCubes) {
-  Image<float> field({30, 30, 30}, {voxel, 1.5 * voxel, 2 * voxel});
-  const Body body = ball(14.3, 14.6, 14.1, 12);
-  for (std::int64_t k = 0; k < 30; ++k)
-    for (std::int64_t j = 0; j < 30; ++j)
-      for (std::int64_t i = 0; i < 30; ++i)
-        field.at(i, j, k) =
-            static_cast<float>(body(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
-  const Surface surface = ct::isosurface(field);
-  EXPECT_TRUE(check_surface(surface).good()) << check_surface(surface).text();
-  Vec3d low = surface.points.front(), high = low;
-  for (const Vec3d& p : surface.points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  // between nodes the surface is straight: it passes within a hundredth of a voxel or so of the ball's ends
-  const Vec3d edge = (1 / (24 * voxel)) * (high - low);
-  EXPECT_NEAR(edge.x, 1, 0.01);
-  EXPECT_NEAR(edge.y, 1.5, 0.01);
-  EXPECT_NEAR(edge.z, 2, 0.01);
-  EXPECT_NEAR(measure_shape(surface).volume / (4 * pi / 3 * std::pow(12 * voxel, 3) * 3), 1, 0.01);
-}
-
-TEST(CtIsosurface, OfAFieldThatIsPositiveEverywhereIsClosedAtItsEnds) {
-  Image<float> field({5, 6, 7}, {voxel, voxel, voxel}, {}, 0.5f);
-  ct::close_ends(field);
-  EXPECT_EQ(std::count(field.voxels.begin(), field.voxels.end(), 0.5f), 3 * 4 * 5);  // all but the outermost nodes
-  const Surface surface = ct::isosurface(field);
-  EXPECT_TRUE(check_surface(surface).good()) << check_surface(surface).text();
-}
-
-TEST(CtGrainSurfaces, OfTwoGrainsMeetAtTheCutBetweenThem) {
-  // Aggregate from x = 4 to 39, cut between 19 and 20: only labels tell the two from each other.
-  Segmentation scan;
-  scan.phases = Image<std::uint8_t>({44, 24, 24}, {voxel, voxel, voxel}, {}, std::uint8_t(VoxelPhase::mastic));
-  scan.confidence = Image<std::uint8_t>::like(scan.phases, 255);
-  scan.labels = Image<std::uint32_t>::like(scan.phases);
-  scan.grey = Image<float>::like(scan.phases, mastic);
-  scan.levels = {air, mastic, aggregate, 0, true};
-  for (std::int64_t k = 4; k < 20; ++k)
-    for (std::int64_t j = 4; j < 20; ++j)
-      for (std::int64_t i = 4; i < 40; ++i) {
-        scan.phases.at(i, j, k) = std::uint8_t(VoxelPhase::aggregate);
-        scan.labels.at(i, j, k) = i < 20 ? 1 : 2;
-        scan.grey.at(i, j, k) = aggregate;
-      }
-  std::vector<std::string> warnings;
-  const auto grains =
-      ct::surfaces_of(scan, {0.5 * (air + mastic), mastic + contrast / 2},
-                      ct::boxes_of(scan.labels, scan.phases, scan.confidence), options_of(16), warnings);
-  ASSERT_EQ(grains.size(), 2u);
-  for (const double x : {19.4, 19.6}) {
-    const Vec3d beside{x * voxel, 11.4 * voxel, 11.7 * voxel};
-    EXPECT_NEAR(test::winding(grains[0].surface, beside), x < 19.5 ? 1 : 0, 1e-6);
-    EXPECT_NEAR(test::winding(grains[1].surface, beside), x < 19.5 ? 0 : 1, 1e-6);
-  }
 }
 
 TEST(CtFragments, BasinsLessThanHalfAVoxelDeepAreOne) {
@@ -238,101 +148,6 @@ TEST(CtSegment, AnEdgeAlongTheSideOfAnotherGrainStaysWithItsOwn) {
 TEST(CtSegment, AMarginIsTheSurenessOfACut) {
   EXPECT_NEAR(ct::margin_of(0.8, 0.93, 0.85), 0, 1e-12);
   EXPECT_NEAR(ct::margin_of(0.7, 0.93, 0.85), std::tanh(0.5 * 0.4), 1e-12);
-}
-
-TEST(CtSegment, ViewsAreWritten) {
-  const Segmentation found = segment_scan(many_balls(48), options_of(14));
-  for (const auto write : {ct::write_view, ct::write_overlay}) {
-    const auto file =
-        std::filesystem::path(testing::TempDir()) / ("macadam_ct_segment_" + std::to_string(getpid()) + ".png");
-    write(file, found);
-    std::ifstream in(file, std::ios::binary);
-    std::string begin(8, '\0');
-    in.read(begin.data(), 8);
-    EXPECT_EQ(begin, "\x89PNG\r\n\x1a\n");
-    std::filesystem::remove(file);
-  }
-}
-
-class CtPictures : public testing::Test {
- protected:
-  void TearDown() override { std::filesystem::remove(file_); }
-  std::filesystem::path file_ =
-      std::filesystem::path(testing::TempDir()) /
-      ("ct_" + std::to_string(getpid()) + "_" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".png");
-};
-
-TEST_F(CtPictures, ThreePlanesLieSideBySideWithNothingBetweenThem) {
-  Segmentation scan;
-  scan.phases = Image<std::uint8_t>({6, 5, 4}, {voxel, voxel, voxel}, {}, std::uint8_t(VoxelPhase::mastic));
-  scan.labels = Image<std::uint32_t>::like(scan.phases);
-  scan.grey = Image<float>::like(scan.phases, mastic);
-  scan.levels = {air, mastic, aggregate, 0, true};
-  scan.labels.at(1, 2, 2) = 1;  // in the planes z = 2 and y = 2, not in x = 3
-  ct::write_overlay(file_, scan);
-  const test::PngPicture picture = test::read_png(file_);
-  ASSERT_EQ(picture.width, 6u + 8 + 6 + 8 + 5);
-  ASSERT_EQ(picture.height, 5u);
-  for (std::size_t y = 0; y < picture.height; ++y) {
-    for (std::size_t x = 0; x < picture.width; ++x) {
-      const auto& [red, green, blue] = picture.at(x, y);
-      const bool plane = x < 6 || (y < 4 && ((x >= 14 && x < 20) || x >= 28));
-      const bool grain = (x == 1 && y == 2) || (x == 14 + 1 && y == 1);  // y and z run upwards
-      EXPECT_EQ(red == green && green == blue, !grain) << x << ' ' << y;
-      EXPECT_EQ(red == 255 && green == 255 && blue == 255, !plane) << x << ' ' << y;
-    }
-  }
-}
-
-TEST_F(CtPictures, TheNearerGrainHidesWhatIsBehindIt) {
-  Segmentation scan;
-  scan.labels = Image<std::uint32_t>({40, 40, 40}, {voxel, voxel, voxel});
-  // Seen from the front left and 30° above. Balls 1 and 2 behind the scan's middle, as it is seen; 3 above the middle.
-  const Vec3d eye{-std::sqrt(3.0) / 4, -0.75, 0.5};
-  const auto add_ball = [&](std::uint32_t id, const Vec3d& place, double radius) {
-    ScannedGrain grain;
-    grain.id = id;
-    grain.surface = test::mapped(test::icosphere(3), [&](const Vec3d& p) {
-      return voxel * (Vec3d{19.5, 19.5, 19.5} + place + radius * p);
-    });
-    scan.grains.push_back(std::move(grain));
-  };
-  add_ball(1, -14.0 * eye, 3), add_ball(2, -20.0 * eye, 5), add_ball(3, {0, 0, 12}, 3);
-  ct::write_view(file_, scan);
-  const test::PngPicture picture = test::read_png(file_);
-  ASSERT_EQ(picture.width, picture.height);
-  const double middle = static_cast<double>(picture.width) / 2;
-  // the colours of 1, 2 and 3 are bluish, greenish and reddish; in full shade nothing tells them from each other
-  enum { red, green, blue, white, dark };
-  struct Pixel {
-    double from_middle;
-    int colour;
-  };
-  std::vector<Pixel> pixels;
-  double farthest[5] = {}, reds = 0, red_x = 0, red_y = 0;
-  for (std::size_t y = 0; y < picture.height; ++y) {
-    for (std::size_t x = 0; x < picture.width; ++x) {
-      const auto& rgb = picture.at(x, y);
-      const auto most = std::max_element(rgb.begin(), rgb.end());
-      const bool same = rgb[0] == rgb[1] && rgb[1] == rgb[2];
-      const int colour = !same ? static_cast<int>(most - rgb.begin()) : rgb[0] == 255 ? white : dark;
-      const double right = static_cast<double>(x) - middle, down = static_cast<double>(y) - middle;
-      if (colour == red) ++reds, red_x += right, red_y += down;
-      pixels.push_back({std::hypot(right, down), colour});
-      farthest[colour] = std::max(farthest[colour], pixels.back().from_middle);
-    }
-  }
-  EXPECT_NEAR(farthest[blue] / farthest[green], 3.0 / 5, 0.03);  // whole pixels of some 37 and 62
-  const auto other = [&](int colour, double from, double to) {  // pixels that are not of this colour, nor in full shade
-    return std::count_if(pixels.begin(), pixels.end(), [&](const Pixel& p) {
-      return p.from_middle > from && p.from_middle < to && p.colour != colour && p.colour != dark;
-    });
-  };
-  EXPECT_EQ(other(blue, -1, farthest[blue] - 2), 0);
-  EXPECT_EQ(other(green, farthest[blue] + 2, farthest[green] - 2), 0);
-  ASSERT_GT(reds, 0);
-  EXPECT_NEAR(red_x / reds, 0, 2);
-  EXPECT_LT(red_y / reds, -farthest[green]);
 }
 
 TEST(CtSegment, ThreadsDoNotChangeTheAnswer) {
@@ -480,63 +295,6 @@ TEST(CtSieve, OfABlockAndABall) {
   block.facets = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
   EXPECT_NEAR(square_sieve(block), 0.006, 6e-5);  // it passes end on
-}
-
-TEST(CtCuts, AreReadAsTheyWereWritten) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "ct_cuts.csv";
-  const auto fault_of = [&](const std::string& text) -> std::string {
-    std::ofstream(file) << text;
-    try {
-      ct::read_cuts(file);
-    } catch (const InputError& error) { return error.what(); }
-    return "read";
-  };
-  const std::vector<GrainCut> cuts{{1, 2, {0.001, 0.002, 0.003}, 0.5, 0.9, 0.8, 0.25, true},
-                                   {2, 7, {}, 0.9, 1, 1, -0.5, false}};
-  std::ofstream(file) << ct::cuts_csv(cuts);
-  const std::vector<GrainCut> read = ct::read_cuts(file);
-  EXPECT_EQ(ct::cuts_csv(read), ct::cuts_csv(cuts));
-  const std::string header = "a,b,x,y,z,neck,solidity,valley,margin,cut\n";
-  EXPECT_NE(fault_of("a,b\n").find(":1"), std::string::npos);
-  EXPECT_NE(fault_of(header + "1,2,0,0,0,1,1,1,0.5,2\n").find("0 or 1"), std::string::npos);
-  EXPECT_NE(fault_of(header + "1,2,0,0,0,1,1,1,0.5\n").find(":2"), std::string::npos);
-  EXPECT_NE(fault_of(header + "1,2,0,x,0,1,1,1,0.5,1\n").find("\"x\""), std::string::npos);
-  EXPECT_NE(fault_of(header + "-1,2,0,0,0,1,1,1,0.5,1\n").find("fragment"), std::string::npos);
-  std::filesystem::remove(file);
-}
-
-// Three fragments of which each touches the two others.
-TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
-  ct::Fragments fragments;
-  fragments.labels = Image<std::uint32_t>({1, 1, 1}, {voxel, voxel, voxel});
-  fragments.radius = {0, 1e-3, 1e-3, 1e-3};
-  std::vector<GrainCut> good;
-  for (const auto& [a, b] : {std::pair{1u, 2u}, std::pair{1u, 3u}, std::pair{2u, 3u}}) {
-    const Vec3d middle{a * 1e-3, b * 1e-3, 0};
-    fragments.faces.push_back({a, b, 1e-3, 0, 4, 4.0 * middle});
-    good.push_back({a, b, middle, 1, 1, 1, -1, a == 1 && b == 2});
-  }
-  good[1].cut = true;  // 2 and 3 are one grain, 1 is another
-  EXPECT_EQ(ct::decide(fragments, good).grain, (std::vector<std::uint32_t>{0, 1, 2, 2}));
-  const auto fault_of = [&](const std::vector<GrainCut>& cuts) -> std::string {
-    try {
-      ct::decide(fragments, cuts);
-    } catch (const InputError& error) { return error.what(); }
-    return "none";
-  };
-  std::vector<GrainCut> cuts = good;
-  cuts[1].cut = false;  // 1 and 2 would be cut, and joined by way of 3
-  EXPECT_NE(fault_of(cuts).find("fragments 1 and 2"), std::string::npos) << fault_of(cuts);
-  EXPECT_NE(fault_of(cuts).find("other rows join them"), std::string::npos) << fault_of(cuts);
-  cuts = good;
-  cuts[2].place.x += 1.9 * voxel;  // within two voxels of the face
-  EXPECT_EQ(fault_of(cuts), "none");
-  cuts[2].place.x += 0.2 * voxel;
-  EXPECT_NE(fault_of(cuts).find("row 3"), std::string::npos) << fault_of(cuts);
-  cuts = good, std::swap(cuts[0], cuts[1]);
-  EXPECT_NE(fault_of(cuts).find("another scan"), std::string::npos) << fault_of(cuts);
-  cuts = good, cuts.pop_back();
-  EXPECT_NE(fault_of(cuts).find("found 2, expected 3"), std::string::npos) << fault_of(cuts);
 }
 
 }  // namespace

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tessellation_test.cpp  Lattices with known cells, walls, degenerate and hostile input, random specimens.
+/// \file tessellation_test.cpp  Few particles, degenerate and hostile input, random specimens.
 #include "macadam/tessellation.hpp"
 
-#include <gtest/gtest.h>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
@@ -10,64 +9,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <random>
 
-#include "host/tessellation/polygon.hpp"
 #include "macadam/error.hpp"
 #include "test_spheres.hpp"
+#include "tests/tessellation_checks.hpp"
 
 namespace macadam {
 namespace {
 
-using test::add;
-
-// Facets come from a handful of operations on coordinates good to ε of the box: about 1e-15 · (box / spacing). With up
-// to ten spacings a box, and room for the tetrahedra that are solved in double down to a flatness of 1e-3, 1e-11.
-constexpr double relative = 1e-11;
-
-Specimen make(const Vec3d& box) {
-  Specimen s;
-  s.box.size = box;
-  return s;
-}
-
-void expect_invariants(const Specimen& s, const Tessellation& t, double limit = relative) {
-  const TessellationInvariants i = measure_invariants(s, t);
-  EXPECT_LT(i.volume, 1e-12);
-  EXPECT_LT(i.walls, 1e-12);
-  EXPECT_LT(i.closure, limit);
-  EXPECT_LT(i.flatness, limit);
-  EXPECT_LT(i.power, limit);
-}
-
-void expect_order_and_orientation(const Tessellation& t) {
-  for (std::size_t k = 0; k < t.facets.size(); ++k) {
-    const Facet& f = t.facets[k];
-    const auto p = t.polygon(f);
-    ASSERT_GE(p.size(), 3U);
-    EXPECT_GT(f.area, 0);
-    EXPECT_TRUE(f.b < 0 || f.a < f.b);
-    if (k > 0) {
-      const Facet& e = t.facets[k - 1];
-      EXPECT_TRUE(e.a < f.a || (e.a == f.a && e.b < f.b)) << "facet " << k;
-    }
-    Vec3d twice{};
-    for (std::size_t v = 1; v + 1 < p.size(); ++v) twice += cross(p[v] - p[0], p[v + 1] - p[0]);
-    EXPECT_NEAR(0.5 * dot(twice, f.normal), f.area, 1e-12 * f.area);
-  }
-}
-
-/// Facets of one particle: area and number of corners, by the other side.
-std::map<int, std::pair<double, std::size_t>> cell(const Tessellation& t, int particle) {
-  std::map<int, std::pair<double, std::size_t>> out;
-  for (const Facet& f : t.facets)
-    if (f.a == particle || f.b == particle) out[f.a == particle ? f.b : f.a] = {f.area, t.polygon(f).size()};
-  return out;
-}
+using test::add, test::cell, test::expect_invariants, test::expect_order_and_orientation, test::make, test::relative;
 
 Specimen random_specimen(int n, double smallest, double largest, unsigned seed) {
   std::mt19937_64 engine(seed);
@@ -78,185 +31,6 @@ Specimen random_specimen(int n, double smallest, double largest, unsigned seed) 
     add(s, {u(engine), 0.7 * u(engine), 1.3 * u(engine)}, r);
   }
   return s;
-}
-
-// Lattices: every vertex is shared by more cells than four, and (in decimals) only up to rounding.
-
-/// `unit` 1: coordinates exact in binary; 1e-3: millimetres turned into metres, with all their rounding.
-struct Lattice : ::testing::TestWithParam<double> {
-  double unit = GetParam(), a = GetParam() == 1 ? 8 : 7;  ///< 7 mm is no binary fraction of a metre
-  double length(double x) const { return x * unit; }
-
-  /// `cells` periods of the basis (in periods), all in the box's interior, none on its boundary.
-  Specimen build(std::array<int, 3> cells, const Vec3d& period, const std::vector<Vec3d>& basis, double radius) {
-    Specimen s = make({length(cells[0] * period.x), length(cells[1] * period.y), length(cells[2] * period.z)});
-    for (int i = 0; i < cells[0]; ++i)
-      for (int j = 0; j < cells[1]; ++j)
-        for (int k = 0; k < cells[2]; ++k)
-          for (const Vec3d& b : basis)
-            add(s, {length((i + b.x) * period.x), length((j + b.y) * period.y), length((k + b.z) * period.z)},
-                length(radius));
-    return s;
-  }
-
-  /// Calls `check` with the facets of each cell whose neighbours are all in the box; there must be some.
-  void interior(const Specimen& s,
-                const std::function<void(const std::map<int, std::pair<double, std::size_t>>&)>& check) {
-    const Tessellation t = tessellate(s);
-    EXPECT_TRUE(t.hidden.empty());
-    expect_invariants(s, t);
-    expect_order_and_orientation(t);
-    int found = 0;
-    for (int i = 0; i < static_cast<int>(s.size()); ++i) {
-      const Vec3d &p = s.centre[i], &box = s.box.size;
-      const double margin = length(1.1 * a);
-      if (std::min({p.x, p.y, p.z, box.x - p.x, box.y - p.y, box.z - p.z}) < margin) continue;
-      check(cell(t, i));
-      ++found;
-    }
-    EXPECT_GT(found, 0);
-  }
-};
-INSTANTIATE_TEST_SUITE_P(Units, Lattice, ::testing::Values(1.0, 1e-3));
-
-TEST_P(Lattice, SimpleCubic) {
-  const std::array<int, 3> n{5, 6, 7};
-  const Specimen s = build(n, {a, a, a}, {{0.5, 0.5, 0.5}}, a / 2);
-  const Tessellation t = tessellate(s);
-  const double area = length(a) * length(a);
-  EXPECT_EQ(t.facets.size(),
-            static_cast<std::size_t>(3 * n[0] * n[1] * n[2] + n[0] * n[1] + n[1] * n[2] + n[2] * n[0]));
-  std::vector<int> facets(s.size(), 0);
-  for (const Facet& f : t.facets) {
-    EXPECT_EQ(t.polygon(f).size(), 4U);
-    EXPECT_NEAR(f.area, area, relative * area);
-    ++facets[f.a];
-    if (f.b >= 0) ++facets[f.b];
-  }
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    EXPECT_EQ(facets[i], 6) << "particle " << i;
-    EXPECT_NEAR(t.cell_volume[i], area * length(a), relative * area * length(a));
-  }
-  expect_invariants(s, t);
-  expect_order_and_orientation(t);
-}
-
-TEST_P(Lattice, BodyCentredCubicIsTruncatedOctahedra) {
-  const double square = length(a) * length(a) / 8, hexagon = length(a) * length(a) * 3 * std::sqrt(3.0) / 16;
-  interior(build({4, 4, 4}, {a, a, a}, {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}}, 0.4 * a), [&](const auto& facets) {
-    EXPECT_EQ(facets.size(), 14U);
-    for (const auto& [other, facet] : facets) {
-      ASSERT_TRUE(facet.second == 4 || facet.second == 6) << facet.second;
-      const double area = facet.second == 4 ? square : hexagon;
-      EXPECT_NEAR(facet.first, area, relative * area);
-    }
-  });
-}
-
-TEST_P(Lattice, FaceCentredCubicIsRhombicDodecahedra) {
-  const double area = length(a) * length(a) * std::sqrt(2.0) / 8;
-  const std::vector<Vec3d> basis{{0.25, 0.25, 0.25}, {0.75, 0.75, 0.25}, {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}};
-  interior(build({4, 4, 4}, {a, a, a}, basis, 0.35 * a), [&](const auto& facets) {
-    EXPECT_EQ(facets.size(), 12U);
-    for (const auto& [other, facet] : facets) {
-      EXPECT_EQ(facet.second, 4U);
-      EXPECT_NEAR(facet.first, area, relative * area);
-    }
-  });
-}
-
-TEST_P(Lattice, HexagonalLayersArePrisms) {
-  const double c = 0.9 * a, side = length(a) / std::sqrt(3.0) * length(c);
-  const double top = length(a) * length(a) * std::sqrt(3.0) / 2;
-  interior(build({5, 3, 5}, {a, a * std::sqrt(3.0), c}, {{0.25, 0.25, 0.5}, {0.75, 0.75, 0.5}}, a / 2),
-           [&](const auto& facets) {
-             EXPECT_EQ(facets.size(), 8U);
-             for (const auto& [other, facet] : facets) {
-               ASSERT_TRUE(facet.second == 4 || facet.second == 6) << facet.second;
-               const double area = facet.second == 4 ? side : top;
-               EXPECT_NEAR(facet.first, area, relative * area);
-             }
-           });
-}
-
-TEST_P(Lattice, ParticlesOnTheBoxBoundary) {
-  // A grid that starts and ends on the walls: cells are cut in half, quarters and eighths.
-  const int n = 5;
-  Specimen s = make({length(a * (n - 1)), length(a * (n - 1)), length(a * (n - 1))});
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j)
-      for (int k = 0; k < n; ++k) add(s, {length(a * i), length(a * j), length(a * k)}, length(a / 2));
-  const Tessellation t = tessellate(s);
-  EXPECT_TRUE(t.hidden.empty());
-  EXPECT_EQ(t.facets.size(), static_cast<std::size_t>(3 * n * n * (n - 1) + 6 * n * n));
-  EXPECT_NEAR(t.cell_volume[0], std::pow(length(a), 3) / 8, relative * std::pow(length(a), 3));
-  expect_invariants(s, t);
-}
-
-/// Vertices in the middle of an edge come and go with the rounding of the unit, and with them contact points.
-TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
-  const std::vector<std::vector<Vec3d>> bases{
-      {{0.5, 0.5, 0.5}},
-      {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}},
-      {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.25}, {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}},
-      {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}},
-      {{0, 0, 0},
-       {0.5, 0.5, 0},
-       {0.5, 0, 0.5},
-       {0, 0.5, 0.5},  // diamond: up to 144 such vertices
-       {0.25, 0.25, 0.25},
-       {0.75, 0.75, 0.25},
-       {0.75, 0.25, 0.75},
-       {0.25, 0.75, 0.75}}};
-  for (std::size_t b = 0; b < bases.size(); ++b) {
-    const auto build = [&](double unit) {
-      constexpr int n = 3;
-      Specimen s = make({n * unit, n * unit, n * unit});
-      for (int i = 0; i <= n; ++i)
-        for (int j = 0; j <= n; ++j)
-          for (int k = 0; k <= n; ++k)
-            for (const Vec3d& p : bases[b]) {
-              const Vec3d c = unit * (Vec3d(i, j, k) + p);
-              if (std::max({c.x, c.y, c.z}) <= n * unit) add(s, c, 0.35 * unit);
-            }
-      return s;
-    };
-    const Tessellation exact = tessellate(build(1));
-    for (const double unit : {1e-3, 3.7e-2, 0.1, 7.3e-4, 1.9, 1e3, 1.0 / 3}) {
-      const Tessellation t = tessellate(build(unit));
-      ASSERT_EQ(t.facets.size(), exact.facets.size()) << "lattice " << b << ", unit " << unit;
-      for (std::size_t f = 0; f < t.facets.size(); ++f) {
-        const auto p = t.polygon(t.facets[f]), q = exact.polygon(exact.facets[f]);
-        ASSERT_EQ(p.size(), q.size()) << "lattice " << b << ", unit " << unit << ", facet " << f;
-        EXPECT_NEAR(t.facets[f].area, exact.facets[f].area * unit * unit, relative * unit * unit);
-        // About the centroid, as the contact points have it: a fan triangle's thirds of Σ|x|².
-        const auto moment = [](const Facet& facet, const auto& polygon) {
-          double sum = 0;
-          for (std::size_t v = 0; v < polygon.size(); ++v) {
-            const Vec3d x = polygon[v] - facet.centroid, y = polygon[(v + 1) % polygon.size()] - facet.centroid;
-            sum += norm(cross(x, y)) / 6 * (dot(x, x) + dot(y, y));
-          }
-          return sum;
-        };
-        EXPECT_NEAR(moment(t.facets[f], p), moment(exact.facets[f], q) * std::pow(unit, 4),
-                    relative * std::pow(unit, 4));
-      }
-    }
-  }
-}
-
-TEST(Polygons, LoseVerticesWithinTheToleranceOfALineOnly) {
-  const Polygon square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  Polygon p = square;
-  drop_collinear(p, 1e-10);
-  EXPECT_EQ(p.size(), 4U);
-  p = {{0, 0.3, 0}, {0, 0, 0}, {0.5, -1e-11, 0}, {0.7, 1e-12, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0.7, 1e-12}};
-  drop_collinear(p, 1e-10);
-  ASSERT_EQ(p.size(), 4U);
-  for (int k = 0; k < 4; ++k) EXPECT_EQ(norm(p[k] - square[k]), 0) << k;
-  p = {{0, 0, 0}, {0.5, -1e-9, 0}, {1, 0, 0}, {1, 1, 0}};
-  drop_collinear(p, 1e-10);
-  EXPECT_EQ(p.size(), 4U);
 }
 
 // Few particles.

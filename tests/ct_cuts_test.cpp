@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The file of cuts between fragments, and cuts that do not fit a scan.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "host/ct/fragments.hpp"
+#include "host/ct/grains.hpp"
+#include "host/ct/segment_files.hpp"
+#include "macadam/error.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr double voxel = 1e-4;
+
+TEST(CtCuts, AreReadAsTheyWereWritten) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "ct_cuts.csv";
+  const auto fault_of = [&](const std::string& text) -> std::string {
+    std::ofstream(file) << text;
+    try {
+      ct::read_cuts(file);
+    } catch (const InputError& error) { return error.what(); }
+    return "read";
+  };
+  const std::vector<GrainCut> cuts{{1, 2, {0.001, 0.002, 0.003}, 0.5, 0.9, 0.8, 0.25, true},
+                                   {2, 7, {}, 0.9, 1, 1, -0.5, false}};
+  std::ofstream(file) << ct::cuts_csv(cuts);
+  const std::vector<GrainCut> read = ct::read_cuts(file);
+  EXPECT_EQ(ct::cuts_csv(read), ct::cuts_csv(cuts));
+  const std::string header = "a,b,x,y,z,neck,solidity,valley,margin,cut\n";
+  EXPECT_NE(fault_of("a,b\n").find(":1"), std::string::npos);
+  EXPECT_NE(fault_of(header + "1,2,0,0,0,1,1,1,0.5,2\n").find("0 or 1"), std::string::npos);
+  EXPECT_NE(fault_of(header + "1,2,0,0,0,1,1,1,0.5\n").find(":2"), std::string::npos);
+  EXPECT_NE(fault_of(header + "1,2,0,x,0,1,1,1,0.5,1\n").find("\"x\""), std::string::npos);
+  EXPECT_NE(fault_of(header + "-1,2,0,0,0,1,1,1,0.5,1\n").find("fragment"), std::string::npos);
+  std::filesystem::remove(file);
+}
+
+// Three fragments of which each touches the two others.
+TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
+  ct::Fragments fragments;
+  fragments.labels = Image<std::uint32_t>({1, 1, 1}, {voxel, voxel, voxel});
+  fragments.radius = {0, 1e-3, 1e-3, 1e-3};
+  std::vector<GrainCut> good;
+  for (const auto& [a, b] : {std::pair{1u, 2u}, std::pair{1u, 3u}, std::pair{2u, 3u}}) {
+    const Vec3d middle{a * 1e-3, b * 1e-3, 0};
+    fragments.faces.push_back({a, b, 1e-3, 0, 4, 4.0 * middle});
+    good.push_back({a, b, middle, 1, 1, 1, -1, a == 1 && b == 2});
+  }
+  good[1].cut = true;  // 2 and 3 are one grain, 1 is another
+  EXPECT_EQ(ct::decide(fragments, good).grain, (std::vector<std::uint32_t>{0, 1, 2, 2}));
+  const auto fault_of = [&](const std::vector<GrainCut>& cuts) -> std::string {
+    try {
+      ct::decide(fragments, cuts);
+    } catch (const InputError& error) { return error.what(); }
+    return "none";
+  };
+  std::vector<GrainCut> cuts = good;
+  cuts[1].cut = false;  // 1 and 2 would be cut, and joined by way of 3
+  EXPECT_NE(fault_of(cuts).find("fragments 1 and 2"), std::string::npos) << fault_of(cuts);
+  EXPECT_NE(fault_of(cuts).find("other rows join them"), std::string::npos) << fault_of(cuts);
+  cuts = good;
+  cuts[2].place.x += 1.9 * voxel;  // within two voxels of the face
+  EXPECT_EQ(fault_of(cuts), "none");
+  cuts[2].place.x += 0.2 * voxel;
+  EXPECT_NE(fault_of(cuts).find("row 3"), std::string::npos) << fault_of(cuts);
+  cuts = good, std::swap(cuts[0], cuts[1]);
+  EXPECT_NE(fault_of(cuts).find("another scan"), std::string::npos) << fault_of(cuts);
+  cuts = good, cuts.pop_back();
+  EXPECT_NE(fault_of(cuts).find("found 2, expected 3"), std::string::npos) << fault_of(cuts);
+}
+
+}  // namespace
+}  // namespace macadam

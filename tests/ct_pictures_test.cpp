@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pictures of a segmented scan, pixel by pixel.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "host/ct/overlay.hpp"
+#include "tests/ct_scans.hpp"
+#include "tests/png_picture.hpp"
+#include "tests/test_surfaces.hpp"
+
+namespace macadam {
+namespace {
+
+using namespace ct_scans;
+constexpr double voxel = 1e-4;
+
+TEST(CtSegment, ViewsAreWritten) {
+  SegmentOptions options;
+  options.region = ScanRegion::whole;
+  options.smallest = 14 * voxel;
+  const Segmentation found = segment_scan(many_balls(48), options);
+  for (const auto write : {ct::write_view, ct::write_overlay}) {
+    const auto file =
+        std::filesystem::path(testing::TempDir()) / ("macadam_ct_segment_" + std::to_string(getpid()) + ".png");
+    write(file, found);
+    std::ifstream in(file, std::ios::binary);
+    std::string begin(8, '\0');
+    in.read(begin.data(), 8);
+    EXPECT_EQ(begin, "\x89PNG\r\n\x1a\n");
+    std::filesystem::remove(file);
+  }
+}
+
+class CtPictures : public testing::Test {
+ protected:
+  void TearDown() override { std::filesystem::remove(file_); }
+  std::filesystem::path file_ =
+      std::filesystem::path(testing::TempDir()) /
+      ("ct_" + std::to_string(getpid()) + "_" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".png");
+};
+
+TEST_F(CtPictures, ThreePlanesLieSideBySideWithNothingBetweenThem) {
+  Segmentation scan;
+  scan.phases = Image<std::uint8_t>({6, 5, 4}, {voxel, voxel, voxel}, {}, std::uint8_t(VoxelPhase::mastic));
+  scan.labels = Image<std::uint32_t>::like(scan.phases);
+  scan.grey = Image<float>::like(scan.phases, mastic);
+  scan.levels = {air, mastic, aggregate, 0, true};
+  scan.labels.at(1, 2, 2) = 1;  // in the planes z = 2 and y = 2, not in x = 3
+  ct::write_overlay(file_, scan);
+  const test::PngPicture picture = test::read_png(file_);
+  ASSERT_EQ(picture.width, 6u + 8 + 6 + 8 + 5);
+  ASSERT_EQ(picture.height, 5u);
+  for (std::size_t y = 0; y < picture.height; ++y) {
+    for (std::size_t x = 0; x < picture.width; ++x) {
+      const auto& [red, green, blue] = picture.at(x, y);
+      const bool plane = x < 6 || (y < 4 && ((x >= 14 && x < 20) || x >= 28));
+      const bool grain = (x == 1 && y == 2) || (x == 14 + 1 && y == 1);  // y and z run upwards
+      EXPECT_EQ(red == green && green == blue, !grain) << x << ' ' << y;
+      EXPECT_EQ(red == 255 && green == 255 && blue == 255, !plane) << x << ' ' << y;
+    }
+  }
+}
+
+TEST_F(CtPictures, TheNearerGrainHidesWhatIsBehindIt) {
+  Segmentation scan;
+  scan.labels = Image<std::uint32_t>({40, 40, 40}, {voxel, voxel, voxel});
+  // Seen from the front left and 30° above. Balls 1 and 2 behind the scan's middle, as it is seen; 3 above the middle.
+  const Vec3d eye{-std::sqrt(3.0) / 4, -0.75, 0.5};
+  const auto add_ball = [&](std::uint32_t id, const Vec3d& place, double radius) {
+    ScannedGrain grain;
+    grain.id = id;
+    grain.surface = test::mapped(test::icosphere(3), [&](const Vec3d& p) {
+      return voxel * (Vec3d{19.5, 19.5, 19.5} + place + radius * p);
+    });
+    scan.grains.push_back(std::move(grain));
+  };
+  add_ball(1, -14.0 * eye, 3), add_ball(2, -20.0 * eye, 5), add_ball(3, {0, 0, 12}, 3);
+  ct::write_view(file_, scan);
+  const test::PngPicture picture = test::read_png(file_);
+  ASSERT_EQ(picture.width, picture.height);
+  const double middle = static_cast<double>(picture.width) / 2;
+  // the colours of 1, 2 and 3 are bluish, greenish and reddish; in full shade nothing tells them from each other
+  enum { red, green, blue, white, dark };
+  struct Pixel {
+    double from_middle;
+    int colour;
+  };
+  std::vector<Pixel> pixels;
+  double farthest[5] = {}, reds = 0, red_x = 0, red_y = 0;
+  for (std::size_t y = 0; y < picture.height; ++y) {
+    for (std::size_t x = 0; x < picture.width; ++x) {
+      const auto& rgb = picture.at(x, y);
+      const auto most = std::max_element(rgb.begin(), rgb.end());
+      const bool same = rgb[0] == rgb[1] && rgb[1] == rgb[2];
+      const int colour = !same ? static_cast<int>(most - rgb.begin()) : rgb[0] == 255 ? white : dark;
+      const double right = static_cast<double>(x) - middle, down = static_cast<double>(y) - middle;
+      if (colour == red) ++reds, red_x += right, red_y += down;
+      pixels.push_back({std::hypot(right, down), colour});
+      farthest[colour] = std::max(farthest[colour], pixels.back().from_middle);
+    }
+  }
+  EXPECT_NEAR(farthest[blue] / farthest[green], 3.0 / 5, 0.03);  // whole pixels of some 37 and 62
+  const auto other = [&](int colour, double from, double to) {  // pixels that are not of this colour, nor in full shade
+    return std::count_if(pixels.begin(), pixels.end(), [&](const Pixel& p) {
+      return p.from_middle > from && p.from_middle < to && p.colour != colour && p.colour != dark;
+    });
+  };
+  EXPECT_EQ(other(blue, -1, farthest[blue] - 2), 0);
+  EXPECT_EQ(other(green, farthest[blue] + 2, farthest[green] - 2), 0);
+  ASSERT_GT(reds, 0);
+  EXPECT_NEAR(red_x / reds, 0, 2);
+  EXPECT_LT(red_y / reds, -farthest[green]);
+}
+
+}  // namespace
+}  // namespace macadam

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces of fields and of grains in a scan.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "host/ct/grain_surfaces.hpp"
+#include "host/ct/isosurface.hpp"
+#include "tests/ct_scans.hpp"
+#include "tests/shape_tests.hpp"
+
+namespace macadam {
+namespace {
+
+using namespace ct_scans;
+constexpr double pi = std::numbers::pi, voxel = 1e-4;
+
+TEST(CtIsosurface, OfABallHasItsVolumeAndItsArea) {
+  Image<float> field({30, 30, 30}, {voxel, voxel, voxel});
+  const Body body = ball(14.3, 14.6, 14.1, 12);
+  for (std::int64_t k = 0; k < 30; ++k)
+    for (std::int64_t j = 0; j < 30; ++j)
+      for (std::int64_t i = 0; i < 30; ++i) {
+        field.at(i, j, k) = static_cast<float>(
+            std::clamp(0.5 * body(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)), -0.5, 0.5));
+      }
+  const Surface fine = ct::isosurface(field);
+  EXPECT_TRUE(check_surface(fine).good()) << check_surface(fine).text();
+  const ShapeMeasure m = measure_shape(fine);
+  const double r = 12 * voxel;
+  // Chords of a ball of 12 voxels cut off (1/12)²/10 or so; a surface of whole voxels would have 7 % too much.
+  EXPECT_NEAR(m.area / (4 * pi * r * r), 1, 0.01);
+  EXPECT_NEAR(m.volume / (4 * pi / 3 * r * r * r), 1, 0.01);
+  const ct::Simplified fewer = ct::simplified(fine, 400, 800, 0.5 * voxel);
+  EXPECT_LE(fewer.surface.facets.size(), 400u);
+  EXPECT_LE(fewer.error, 0.5 * voxel);
+  EXPECT_TRUE(check_surface(fewer.surface).good()) << check_surface(fewer.surface).text();
+  EXPECT_NEAR(measure_shape(fewer.surface).volume / m.volume, 1, 0.005);
+}
+
+TEST(CtIsosurface, HasTheEdgesOfVoxelsThatAreNoCubes) {
+  Image<float> field({30, 30, 30}, {voxel, 1.5 * voxel, 2 * voxel});
+  const Body body = ball(14.3, 14.6, 14.1, 12);
+  for (std::int64_t k = 0; k < 30; ++k)
+    for (std::int64_t j = 0; j < 30; ++j)
+      for (std::int64_t i = 0; i < 30; ++i)
+        field.at(i, j, k) =
+            static_cast<float>(body(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
+  const Surface surface = ct::isosurface(field);
+  EXPECT_TRUE(check_surface(surface).good()) << check_surface(surface).text();
+  Vec3d low = surface.points.front(), high = low;
+  for (const Vec3d& p : surface.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  // between nodes the surface is straight: it passes within a hundredth of a voxel or so of the ball's ends
+  const Vec3d edge = (1 / (24 * voxel)) * (high - low);
+  EXPECT_NEAR(edge.x, 1, 0.01);
+  EXPECT_NEAR(edge.y, 1.5, 0.01);
+  EXPECT_NEAR(edge.z, 2, 0.01);
+  EXPECT_NEAR(measure_shape(surface).volume / (4 * pi / 3 * std::pow(12 * voxel, 3) * 3), 1, 0.01);
+}
+
+TEST(CtIsosurface, OfAFieldThatIsPositiveEverywhereIsClosedAtItsEnds) {
+  Image<float> field({5, 6, 7}, {voxel, voxel, voxel}, {}, 0.5f);
+  ct::close_ends(field);
+  EXPECT_EQ(std::count(field.voxels.begin(), field.voxels.end(), 0.5f), 3 * 4 * 5);  // all but the outermost nodes
+  const Surface surface = ct::isosurface(field);
+  EXPECT_TRUE(check_surface(surface).good()) << check_surface(surface).text();
+}
+
+TEST(CtGrainSurfaces, OfTwoGrainsMeetAtTheCutBetweenThem) {
+  // Aggregate from x = 4 to 39, cut between 19 and 20: only labels tell the two from each other.
+  Segmentation scan;
+  scan.phases = Image<std::uint8_t>({44, 24, 24}, {voxel, voxel, voxel}, {}, std::uint8_t(VoxelPhase::mastic));
+  scan.confidence = Image<std::uint8_t>::like(scan.phases, 255);
+  scan.labels = Image<std::uint32_t>::like(scan.phases);
+  scan.grey = Image<float>::like(scan.phases, mastic);
+  scan.levels = {air, mastic, aggregate, 0, true};
+  for (std::int64_t k = 4; k < 20; ++k)
+    for (std::int64_t j = 4; j < 20; ++j)
+      for (std::int64_t i = 4; i < 40; ++i) {
+        scan.phases.at(i, j, k) = std::uint8_t(VoxelPhase::aggregate);
+        scan.labels.at(i, j, k) = i < 20 ? 1 : 2;
+        scan.grey.at(i, j, k) = aggregate;
+      }
+  SegmentOptions options;
+  options.region = ScanRegion::whole;
+  options.smallest = 16 * voxel;
+  std::vector<std::string> warnings;
+  const auto grains = ct::surfaces_of(scan, {0.5 * (air + mastic), mastic + contrast / 2},
+                                      ct::boxes_of(scan.labels, scan.phases, scan.confidence), options, warnings);
+  ASSERT_EQ(grains.size(), 2u);
+  for (const double x : {19.4, 19.6}) {
+    const Vec3d beside{x * voxel, 11.4 * voxel, 11.7 * voxel};
+    EXPECT_NEAR(test::winding(grains[0].surface, beside), x < 19.5 ? 1 : 0, 1e-6);
+    EXPECT_NEAR(test::winding(grains[1].surface, beside), x < 19.5 ? 0 : 1, 1e-6);
+  }
+}
+
+}  // namespace
+}  // namespace macadam

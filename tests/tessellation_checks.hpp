@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file tessellation_checks.hpp  What every tessellation must have, for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <utility>
+
+#include "macadam/tessellation.hpp"
+
+namespace macadam::test {
+
+// Facets come from a handful of operations on coordinates good to ε of the box: about 1e-15 · (box / spacing). With up
+// to ten spacings a box, and room for the tetrahedra that are solved in double down to a flatness of 1e-3, 1e-11.
+inline constexpr double relative = 1e-11;
+
+inline Specimen make(const Vec3d& box) {
+  Specimen s;
+  s.box.size = box;
+  return s;
+}
+
+inline void expect_invariants(const Specimen& s, const Tessellation& t, double limit = relative) {
+  const TessellationInvariants i = measure_invariants(s, t);
+  EXPECT_LT(i.volume, 1e-12);
+  EXPECT_LT(i.walls, 1e-12);
+  EXPECT_LT(i.closure, limit);
+  EXPECT_LT(i.flatness, limit);
+  EXPECT_LT(i.power, limit);
+}
+
+inline void expect_order_and_orientation(const Tessellation& t) {
+  for (std::size_t k = 0; k < t.facets.size(); ++k) {
+    const Facet& f = t.facets[k];
+    const auto p = t.polygon(f);
+    ASSERT_GE(p.size(), 3U);
+    EXPECT_GT(f.area, 0);
+    EXPECT_TRUE(f.b < 0 || f.a < f.b);
+    if (k > 0) {
+      const Facet& e = t.facets[k - 1];
+      EXPECT_TRUE(e.a < f.a || (e.a == f.a && e.b < f.b)) << "facet " << k;
+    }
+    Vec3d twice{};
+    for (std::size_t v = 1; v + 1 < p.size(); ++v) twice += cross(p[v] - p[0], p[v + 1] - p[0]);
+    EXPECT_NEAR(0.5 * dot(twice, f.normal), f.area, 1e-12 * f.area);
+  }
+}
+
+/// Facets of one particle: area and number of corners, by the other side.
+inline std::map<int, std::pair<double, std::size_t>> cell(const Tessellation& t, int particle) {
+  std::map<int, std::pair<double, std::size_t>> out;
+  for (const Facet& f : t.facets)
+    if (f.a == particle || f.b == particle) out[f.a == particle ? f.b : f.a] = {f.area, t.polygon(f).size()};
+  return out;
+}
+
+}  // namespace macadam::test
