@@ -24,6 +24,9 @@ namespace {
 constexpr const char* steady = "frequencies = [10.0, 20.0]\nstart = \"steady\"\nsamples_per_cycle = 40\n";
 constexpr const char* rest = "frequencies = [20.0]\ncycles = 3\nramp_cycles = 1\nsamples_per_cycle = 40\n";
 
+/// Bytes of all files but a checkpoint, which has ten times as many.
+constexpr rlim_t enough_for_the_rest = 40'000;
+
 class CheckpointedRun : public TestFolder {
  protected:
   Scene scene(const std::string& loading, const std::string& solver = "density_scaling = 1e5\n",
@@ -282,7 +285,6 @@ TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
   const Scene scene = this->scene(steady);
   ASSERT_TRUE(run_until(scene, "out", 20, false));
   const std::string kept = read(file("out"));
-  constexpr rlim_t enough_for_the_rest = 40'000;  // bytes; a checkpoint has ten times as many
   ASSERT_GT(kept.size(), 2 * enough_for_the_rest);
   const Scene often = this->scene(steady, "density_scaling = 1e4\n", "checkpoint = \"1 ms\"\n");
   {
@@ -320,7 +322,7 @@ TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
 
 TEST_F(CheckpointedRun, KeepsItsWarningsWhereItGoesOn) {
   const Scene often = scene(steady, "density_scaling = 1e4\n", "checkpoint = \"1 ms\"\n");
-  std::optional<FileLimit> limit(std::in_place, 40'000);  // bytes: too few for a checkpoint, enough for the rest
+  std::optional<FileLimit> limit(std::in_place, enough_for_the_rest);
   std::vector<std::string> warned;
   Watcher watcher;
   watcher.warn = [&](const std::string& warning) { warned.push_back(warning), limit.reset(); };

@@ -46,12 +46,13 @@ TEST(CtBlocks, HaveTheMeansTheEdgesAndThePlaceOfTheirVoxels) {
   region.at(3, 5, 1) = 0;
   const auto [means, inside] = ct::means_of_blocks(scan, region, {2, 3, 4});
   EXPECT_EQ(means.size, (std::array<std::int64_t, 3>{2, 2, 1}));  // what is left over at the ends is no block
-  EXPECT_LT(norm(means.spacing - Vec3d{2e-3, 6e-3, 12e-3}), 1e-15);
-  EXPECT_LT(norm(means.centre(0, 0, 0) - Vec3d{0.1 + 0.5e-3, 0.2 + 2e-3, 0.3 + 4.5e-3}), 1e-15);
+  constexpr double rounding = 1e-15;                              // of coordinates below 1 m
+  EXPECT_LT(norm(means.spacing - Vec3d{2e-3, 6e-3, 12e-3}), rounding);
+  EXPECT_LT(norm(means.centre(0, 0, 0) - Vec3d{0.1 + 0.5e-3, 0.2 + 2e-3, 0.3 + 4.5e-3}), rounding);
   EXPECT_EQ(inside.voxels, (std::vector<std::uint8_t>{1, 1, 1, 0}));
   const auto middle = [&](double i, double j, double k) { return static_cast<float>(i + 5 * j + 35 * k); };
-  EXPECT_EQ(means.at(1, 0, 0), middle(2.5, 1, 1.5));
-  EXPECT_EQ(means.at(0, 1, 0), middle(0.5, 4, 1.5));
+  EXPECT_FLOAT_EQ(means.at(1, 0, 0), middle(2.5, 1, 1.5));
+  EXPECT_FLOAT_EQ(means.at(0, 1, 0), middle(0.5, 4, 1.5));
 }
 
 TEST_F(CtCorrection, SlicesThatDriftGetTheLevelsOfAll) {

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The file of cuts between fragments, and cuts that do not fit a scan.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "host/ct/fragments.hpp"
 #include "host/ct/grains.hpp"
@@ -13,10 +17,11 @@
 namespace macadam {
 namespace {
 
-constexpr double voxel = 1e-4;
+constexpr double voxel = 1e-4;  // [m]
 
 TEST(CtCuts, AreReadAsTheyWereWritten) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "ct_cuts.csv";
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / ("ct_cuts_" + std::to_string(getpid()) + ".csv");
   const auto fault_of = [&](const std::string& text) -> std::string {
     std::ofstream(file) << text;
     try {

@@ -19,16 +19,10 @@ namespace {
 
 using namespace ct_scans;
 namespace fs = std::filesystem;
-constexpr double pi = std::numbers::pi, voxel = 1e-4;
+constexpr double pi = std::numbers::pi;
 
 class CtLargeScan : public CtFolder {
  protected:
-  static SegmentOptions options_of(double smallest_voxels) {
-    SegmentOptions options;
-    options.region = ScanRegion::whole;
-    options.smallest = smallest_voxels * voxel;
-    return options;
-  }
   /// Less than what the scan takes whole, somewhat more than 12 bytes a voxel and 100 MB.
   static double little(const Image<float>& scan) { return 1e8 + 12.1 * static_cast<double>(scan.count()); }
   std::string fault(const fs::path& file, const SegmentOptions& options, double memory) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of a segmented scan, pixel by pixel.
+// Pictures of a segmented scan: that they are pictures, and what their pixels show.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -16,25 +17,6 @@ namespace macadam {
 namespace {
 
 using namespace ct_scans;
-constexpr double voxel = 1e-4;
-
-TEST(CtSegment, ViewsAreWritten) {
-  SegmentOptions options;
-  options.region = ScanRegion::whole;
-  options.smallest = 14 * voxel;
-  const Segmentation found = segment_scan(many_balls(48), options);
-  for (const auto write : {ct::write_view, ct::write_overlay}) {
-    const auto file =
-        std::filesystem::path(testing::TempDir()) / ("macadam_ct_segment_" + std::to_string(getpid()) + ".png");
-    write(file, found);
-    std::ifstream in(file, std::ios::binary);
-    std::string begin(8, '\0');
-    in.read(begin.data(), 8);
-    EXPECT_EQ(begin, "\x89PNG\r\n\x1a\n");
-    std::filesystem::remove(file);
-  }
-}
-
 class CtPictures : public testing::Test {
  protected:
   void TearDown() override { std::filesystem::remove(file_); }
@@ -42,6 +24,18 @@ class CtPictures : public testing::Test {
       std::filesystem::path(testing::TempDir()) /
       ("ct_" + std::to_string(getpid()) + "_" + testing::UnitTest::GetInstance()->current_test_info()->name() + ".png");
 };
+
+TEST_F(CtPictures, AreWritten) {
+  const Segmentation found = segment_scan(many_balls(48), options_of(14));
+  for (const auto write : {ct::write_view, ct::write_overlay}) {
+    write(file_, found);
+    std::ifstream in(file_, std::ios::binary);
+    std::string begin(8, '\0');
+    in.read(begin.data(), 8);
+    EXPECT_EQ(begin, "\x89PNG\r\n\x1a\n");
+    std::filesystem::remove(file_);
+  }
+}
 
 TEST_F(CtPictures, ThreePlanesLieSideBySideWithNothingBetweenThem) {
   Segmentation scan;

@@ -11,6 +11,7 @@
 
 namespace macadam::ct_scans {
 
+constexpr double voxel = 1e-4;  // of these scans [m]
 constexpr float air = 2000, mastic = 20000, aggregate = 32000;
 constexpr float contrast = aggregate - mastic;
 
@@ -45,6 +46,14 @@ inline Image<float> scan_of(std::array<std::int64_t, 3> size, const std::vector<
     }
   }
   return scan;
+}
+
+/// Of grains of so many voxels and more, in the whole scan.
+inline SegmentOptions options_of(double smallest_voxels) {
+  SegmentOptions options;
+  options.region = ScanRegion::whole;
+  options.smallest = smallest_voxels * voxel;
+  return options;
 }
 
 /// Noise of a standard deviation that is this share of the contrast.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grains, surfaces and phases of small scans of which everything is known, and what is said of scans that are none.
+// Grains and phases of small scans of which everything is known, and what is said of scans that are none.
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -19,14 +20,7 @@ namespace macadam {
 namespace {
 
 using namespace ct_scans;
-constexpr double pi = std::numbers::pi, voxel = 1e-4;
-
-SegmentOptions options_of(double smallest_voxels) {
-  SegmentOptions options;
-  options.region = ScanRegion::whole;
-  options.smallest = smallest_voxels * voxel;
-  return options;
-}
+constexpr double pi = std::numbers::pi;
 
 bool by_volume(const ScannedGrain& a, const ScannedGrain& b) { return a.measure.volume < b.measure.volume; }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file lattice_test.cpp  Tessellations of lattices, whose cells are known.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <vector>
 
 #include "host/tessellation/polygon.hpp"
 #include "test_spheres.hpp"
@@ -12,7 +14,8 @@
 namespace macadam {
 namespace {
 
-using test::add, test::cell, test::expect_invariants, test::expect_order_and_orientation, test::make, test::relative;
+using test::add, test::facets_of, test::expect_invariants, test::expect_order_and_orientation, test::empty_box,
+    test::facet_tolerance;
 
 // Lattices: every vertex is shared by more cells than four, and (in decimals) only up to rounding.
 
@@ -23,7 +26,7 @@ struct Lattice : ::testing::TestWithParam<double> {
 
   /// `cells` periods of the basis (in periods), all in the box's interior, none on its boundary.
   Specimen build(std::array<int, 3> cells, const Vec3d& period, const std::vector<Vec3d>& basis, double radius) {
-    Specimen s = make({length(cells[0] * period.x), length(cells[1] * period.y), length(cells[2] * period.z)});
+    Specimen s = empty_box({length(cells[0] * period.x), length(cells[1] * period.y), length(cells[2] * period.z)});
     for (int i = 0; i < cells[0]; ++i)
       for (int j = 0; j < cells[1]; ++j)
         for (int k = 0; k < cells[2]; ++k)
@@ -45,7 +48,7 @@ struct Lattice : ::testing::TestWithParam<double> {
       const Vec3d &p = s.centre[i], &box = s.box.size;
       const double margin = length(1.1 * a);
       if (std::min({p.x, p.y, p.z, box.x - p.x, box.y - p.y, box.z - p.z}) < margin) continue;
-      check(cell(t, i));
+      check(facets_of(t, i));
       ++found;
     }
     EXPECT_GT(found, 0);
@@ -63,13 +66,13 @@ TEST_P(Lattice, SimpleCubic) {
   std::vector<int> facets(s.size(), 0);
   for (const Facet& f : t.facets) {
     EXPECT_EQ(t.polygon(f).size(), 4U);
-    EXPECT_NEAR(f.area, area, relative * area);
+    EXPECT_NEAR(f.area, area, facet_tolerance * area);
     ++facets[f.a];
     if (f.b >= 0) ++facets[f.b];
   }
   for (std::size_t i = 0; i < s.size(); ++i) {
     EXPECT_EQ(facets[i], 6) << "particle " << i;
-    EXPECT_NEAR(t.cell_volume[i], area * length(a), relative * area * length(a));
+    EXPECT_NEAR(t.cell_volume[i], area * length(a), facet_tolerance * area * length(a));
   }
   expect_invariants(s, t);
   expect_order_and_orientation(t);
@@ -82,7 +85,7 @@ TEST_P(Lattice, BodyCentredCubicIsTruncatedOctahedra) {
     for (const auto& [other, facet] : facets) {
       ASSERT_TRUE(facet.second == 4 || facet.second == 6) << facet.second;
       const double area = facet.second == 4 ? square : hexagon;
-      EXPECT_NEAR(facet.first, area, relative * area);
+      EXPECT_NEAR(facet.first, area, facet_tolerance * area);
     }
   });
 }
@@ -94,7 +97,7 @@ TEST_P(Lattice, FaceCentredCubicIsRhombicDodecahedra) {
     EXPECT_EQ(facets.size(), 12U);
     for (const auto& [other, facet] : facets) {
       EXPECT_EQ(facet.second, 4U);
-      EXPECT_NEAR(facet.first, area, relative * area);
+      EXPECT_NEAR(facet.first, area, facet_tolerance * area);
     }
   });
 }
@@ -108,7 +111,7 @@ TEST_P(Lattice, HexagonalLayersArePrisms) {
              for (const auto& [other, facet] : facets) {
                ASSERT_TRUE(facet.second == 4 || facet.second == 6) << facet.second;
                const double area = facet.second == 4 ? side : top;
-               EXPECT_NEAR(facet.first, area, relative * area);
+               EXPECT_NEAR(facet.first, area, facet_tolerance * area);
              }
            });
 }
@@ -116,14 +119,14 @@ TEST_P(Lattice, HexagonalLayersArePrisms) {
 TEST_P(Lattice, ParticlesOnTheBoxBoundary) {
   // A grid that starts and ends on the walls: cells are cut in half, quarters and eighths.
   const int n = 5;
-  Specimen s = make({length(a * (n - 1)), length(a * (n - 1)), length(a * (n - 1))});
+  Specimen s = empty_box({length(a * (n - 1)), length(a * (n - 1)), length(a * (n - 1))});
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       for (int k = 0; k < n; ++k) add(s, {length(a * i), length(a * j), length(a * k)}, length(a / 2));
   const Tessellation t = tessellate(s);
   EXPECT_TRUE(t.hidden.empty());
   EXPECT_EQ(t.facets.size(), static_cast<std::size_t>(3 * n * n * (n - 1) + 6 * n * n));
-  EXPECT_NEAR(t.cell_volume[0], std::pow(length(a), 3) / 8, relative * std::pow(length(a), 3));
+  EXPECT_NEAR(t.cell_volume[0], std::pow(length(a), 3) / 8, facet_tolerance * std::pow(length(a), 3));
   expect_invariants(s, t);
 }
 
@@ -145,7 +148,7 @@ TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
   for (std::size_t b = 0; b < bases.size(); ++b) {
     const auto build = [&](double unit) {
       constexpr int n = 3;
-      Specimen s = make({n * unit, n * unit, n * unit});
+      Specimen s = empty_box({n * unit, n * unit, n * unit});
       for (int i = 0; i <= n; ++i)
         for (int j = 0; j <= n; ++j)
           for (int k = 0; k <= n; ++k)
@@ -162,7 +165,7 @@ TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
       for (std::size_t f = 0; f < t.facets.size(); ++f) {
         const auto p = t.polygon(t.facets[f]), q = exact.polygon(exact.facets[f]);
         ASSERT_EQ(p.size(), q.size()) << "lattice " << b << ", unit " << unit << ", facet " << f;
-        EXPECT_NEAR(t.facets[f].area, exact.facets[f].area * unit * unit, relative * unit * unit);
+        EXPECT_NEAR(t.facets[f].area, exact.facets[f].area * unit * unit, facet_tolerance * unit * unit);
         // About the centroid, as the contact points have it: a fan triangle's thirds of Σ|x|².
         const auto moment = [](const Facet& facet, const auto& polygon) {
           double sum = 0;
@@ -173,7 +176,7 @@ TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
           return sum;
         };
         EXPECT_NEAR(moment(t.facets[f], p), moment(exact.facets[f], q) * std::pow(unit, 4),
-                    relative * std::pow(unit, 4));
+                    facet_tolerance * std::pow(unit, 4));
       }
     }
   }

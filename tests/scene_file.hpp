@@ -15,8 +15,9 @@
 #include "macadam/scene.hpp"
 
 namespace macadam::test {
+
 /// A good scene with every kind of section; line k of the scene is entry k − 1.
-inline const std::vector<std::string> good = {
+inline const std::vector<std::string> good_scene = {
     "[specimen]",                           // 1
     "box = [0.02, \"20 mm\", 0.03]",        // 2
     "seed = 7",                             // 3
@@ -73,7 +74,7 @@ inline const std::vector<std::string> good = {
 using Edits = std::map<int, std::string>;
 
 inline std::string text_of(const Edits& edits = {}) {
-  std::vector<std::string> lines = good;
+  std::vector<std::string> lines = good_scene;
   for (const auto& [line, text] : edits) lines.at(static_cast<std::size_t>(line - 1)) = text;
   std::string text;
   for (const std::string& line : lines) text += line + "\n";
@@ -107,4 +108,5 @@ class SceneFile : public ::testing::Test {
 
   std::filesystem::path folder_;
 };
+
 }  // namespace macadam::test

@@ -3,14 +3,13 @@
 #include "macadam/scene.hpp"
 
 #include <cmath>
-#include <sstream>
 
 #include "tests/scene_file.hpp"
 
 namespace macadam {
 namespace {
 
-using test::Edits, test::good, test::SceneFile, test::text_of;
+using test::Edits, test::good_scene, test::SceneFile, test::text_of;
 
 TEST_F(SceneFile, ReadsEveryKindOfSectionInSIUnits) {
   const Scene scene = read(text_of());
@@ -135,7 +134,7 @@ TEST_F(SceneFile, ASpecimenFileIsTakenFromTheScenesFolder) {
 
 TEST_F(SceneFile, WindowsLineEndsAndByteOrderMarkAreRead) {
   std::string text = "\xef\xbb\xbf";
-  for (const std::string& line : good) text += line + "\r\n";
+  for (const std::string& line : good_scene) text += line + "\r\n";
   EXPECT_EQ(read(text).specimen.seed, 7u);
 }
 

@@ -46,6 +46,12 @@ TEST(ShapeFiles, AreScaledToALengthAboveZero) {
     EXPECT_THROW(scaled_to(ball, length), InputError) << length;
 }
 
+TEST(Stabbing, AnIntervalHoldsItsEnds) {
+  std::vector<std::size_t> found;
+  stab({{0, 1}}, {0, 1}, 0, [&](std::size_t, std::size_t p) { found.push_back(p); });
+  EXPECT_EQ(found, (std::vector<std::size_t>{0, 1}));
+}
+
 TEST(Stabbing, AnIntervalHoldsWhatIsBeyondItsEndsByTheToleranceAndNoMore) {
   const std::vector<Interval> intervals{{0, 1}, {2, 2}};
   const std::vector<double> positions{1.2, -0.05, 2.05, 1.05, 0.5, 1.95, 1};

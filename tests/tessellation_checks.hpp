@@ -13,15 +13,15 @@ namespace macadam::test {
 
 // Facets come from a handful of operations on coordinates good to ε of the box: about 1e-15 · (box / spacing). With up
 // to ten spacings a box, and room for the tetrahedra that are solved in double down to a flatness of 1e-3, 1e-11.
-inline constexpr double relative = 1e-11;
+inline constexpr double facet_tolerance = 1e-11;
 
-inline Specimen make(const Vec3d& box) {
+inline Specimen empty_box(const Vec3d& box) {
   Specimen s;
   s.box.size = box;
   return s;
 }
 
-inline void expect_invariants(const Specimen& s, const Tessellation& t, double limit = relative) {
+inline void expect_invariants(const Specimen& s, const Tessellation& t, double limit = facet_tolerance) {
   const TessellationInvariants i = measure_invariants(s, t);
   EXPECT_LT(i.volume, 1e-12);
   EXPECT_LT(i.walls, 1e-12);
@@ -48,7 +48,7 @@ inline void expect_order_and_orientation(const Tessellation& t) {
 }
 
 /// Facets of one particle: area and number of corners, by the other side.
-inline std::map<int, std::pair<double, std::size_t>> cell(const Tessellation& t, int particle) {
+inline std::map<int, std::pair<double, std::size_t>> facets_of(const Tessellation& t, int particle) {
   std::map<int, std::pair<double, std::size_t>> out;
   for (const Facet& f : t.facets)
     if (f.a == particle || f.b == particle) out[f.a == particle ? f.b : f.a] = {f.area, t.polygon(f).size()};

@@ -20,12 +20,13 @@
 namespace macadam {
 namespace {
 
-using test::add, test::cell, test::expect_invariants, test::expect_order_and_orientation, test::make, test::relative;
+using test::add, test::facets_of, test::expect_invariants, test::expect_order_and_orientation, test::empty_box,
+    test::facet_tolerance;
 
 Specimen random_specimen(int n, double smallest, double largest, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> u(0, 1);
-  Specimen s = make({1, 0.7, 1.3});
+  Specimen s = empty_box({1, 0.7, 1.3});
   for (int i = 0; i < n; ++i) {
     const double r = smallest * std::pow(largest / smallest, u(engine));
     add(s, {u(engine), 0.7 * u(engine), 1.3 * u(engine)}, r);
@@ -37,7 +38,7 @@ Specimen random_specimen(int n, double smallest, double largest, unsigned seed) 
 
 TEST(Tessellation, OneParticleOwnsTheBox) {
   for (const Vec3d& p : {Vec3d{0.3, 0.4, 0.5}, Vec3d{0, 0, 0}, Vec3d{1, 0.4, 0}, Vec3d{1, 2, 3}}) {
-    Specimen s = make({1, 2, 3});
+    Specimen s = empty_box({1, 2, 3});
     add(s, p, 0.1);
     const Tessellation t = tessellate(s);
     ASSERT_EQ(t.facets.size(), 6U);
@@ -54,7 +55,7 @@ TEST(Tessellation, OneParticleOwnsTheBox) {
 }
 
 TEST(Tessellation, TwoParticlesWithTheWeightedPlane) {
-  Specimen s = make({1, 1, 1});
+  Specimen s = empty_box({1, 1, 1});
   add(s, {0.25, 0.5, 0.5}, 0.3);
   add(s, {0.75, 0.5, 0.5}, 0.1);
   const Tessellation t = tessellate(s);
@@ -70,7 +71,7 @@ TEST(Tessellation, TwoParticlesWithTheWeightedPlane) {
 }
 
 TEST(Tessellation, CentreOutsideItsOwnCell) {
-  Specimen s = make({1, 1, 1});
+  Specimen s = empty_box({1, 1, 1});
   add(s, {0.5, 0.5, 0.5}, 0.4);
   add(s, {0.6, 0.5, 0.5}, 0.3);  // plane at 0.5 + (0.01 + 0.16 − 0.09)/0.2 = 0.9
   const Tessellation t = tessellate(s);
@@ -82,10 +83,10 @@ TEST(Tessellation, CentreOutsideItsOwnCell) {
 // Degenerate positions.
 
 TEST(Tessellation, CollinearCentresGiveSlabs) {
-  Specimen s = make({1, 1, 1});
+  Specimen s = empty_box({1, 1, 1});
   for (int i = 0; i < 9; ++i) add(s, {0.1 * (i + 1), 0.3, 0.7}, 0.05);
   const Tessellation t = tessellate(s);
-  for (int i = 0; i + 1 < 9; ++i) EXPECT_NEAR(cell(t, i).at(i + 1).first, 1, relative);
+  for (int i = 0; i + 1 < 9; ++i) EXPECT_NEAR(facets_of(t, i).at(i + 1).first, 1, facet_tolerance);
   EXPECT_EQ(t.facets.size(), 8U + 9 * 4 + 2);
   expect_invariants(s, t);
 }
@@ -94,7 +95,7 @@ TEST(Tessellation, CoplanarAndCosphericalCentres) {
   std::mt19937_64 engine(7);
   std::uniform_real_distribution<double> u(0, 1);
   std::normal_distribution<double> g;
-  Specimen plane = make({1, 1, 1}), ball = make({1, 1, 1});
+  Specimen plane = empty_box({1, 1, 1}), ball = empty_box({1, 1, 1});
   for (int i = 0; i < 300; ++i) {
     add(plane, {u(engine), u(engine), 0.3}, 0.02);
     Vec3d v{g(engine), g(engine), g(engine)};
@@ -114,11 +115,11 @@ TEST(Tessellation, ThinFacetsAreKeptAndRoundingIsNot) {
   // A square of centres whose corner is pushed in by δ: it meets the opposite one in a strip between the points
   // (½, ½ − δ) and (½ − δ, ½) of equal distance to three corners.
   for (const double delta : {1e-3, 1e-6, 1e-8, 0.0, 1e-14}) {
-    Specimen s = make({2, 2, 1});
+    Specimen s = empty_box({2, 2, 1});
     for (const Vec3d& p : {Vec3d{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}, {0.5, 1.5, 0.5}, {1.5 - delta, 1.5 - delta, 0.5}})
       add(s, p, 0.5);
     const Tessellation t = tessellate(s);
-    const auto facets = cell(t, 0);
+    const auto facets = facets_of(t, 0);
     if (delta < 1e-12) {
       EXPECT_EQ(facets.count(3), 0U) << delta;
       continue;
@@ -174,7 +175,7 @@ TEST(Tessellation, NamesFileAndLine) {
 // Hidden particles.
 
 TEST(Tessellation, HiddenParticlesAreNamed) {
-  Specimen s = make({1, 1, 1});
+  Specimen s = empty_box({1, 1, 1});
   add(s, {0.50, 0.5, 0.5}, 0.3);
   add(s, {0.52, 0.5, 0.5}, 0.01);  // pow_0 < pow_1 at every point of the box: its cell lies beyond x = 2.7
   add(s, {0.2, 0.2, 0.2}, 0.1);
@@ -191,20 +192,20 @@ TEST(Tessellation, SheetsOfRoundingAreNotCells) {
   // R_a² − R_b² = d², exact in binary: the planes of a–b and b–c are the same, b's cell is a sheet of no thickness.
   // The same with b's radius a little too large by rounding; and with one that does open a cell.
   for (const double more : {0.0, 1e-15, -1e-15, 1e-13, 1e-6}) {
-    Specimen s = make({1, 1, 1});
+    Specimen s = empty_box({1, 1, 1});
     add(s, {0.25, 0.5, 0.5}, 0.3125);
     add(s, {0.50, 0.5, 0.5}, 0.1875 * (1 + more));
     add(s, {0.75, 0.5, 0.5}, 0.3125);
     const Tessellation t = tessellate(s);
     const bool open = more > 1e-9;
     EXPECT_EQ(t.hidden.size(), open ? 0U : 1U) << more;
-    EXPECT_EQ(cell(t, 0).count(2), open ? 0U : 1U) << more;
+    EXPECT_EQ(facets_of(t, 0).count(2), open ? 0U : 1U) << more;
     expect_invariants(s, t);
   }
 }
 
 TEST(Tessellation, CellThatOnlyTouchesTheWallIsHidden) {
-  Specimen s = make({1, 1, 1});
+  Specimen s = empty_box({1, 1, 1});
   add(s, {0.5, 0.5, 0.5}, 0.5);  // plane at 0.5 + (1/16 + 1/4 − 1/16)/(1/2) = 1, the wall
   add(s, {0.75, 0.5, 0.5}, 0.25);
   const Tessellation t = tessellate(s);

@@ -44,7 +44,7 @@ std::vector<std::int32_t> by_place(const Specimen& s, std::size_t first, std::si
   return order;
 }
 
-/// Works on a copy of the spheres in another order; all arrays but place_ have that order.
+/// Works on a copy of the spheres in another order, which arrays have where nothing else is said of them.
 class Relaxation {
  public:
   Relaxation(Specimen& specimen, bool fix_aggregates, const Enclosure& wall)
@@ -113,6 +113,8 @@ class Relaxation {
   }
 
   bool is_aggregate(std::size_t i) const { return i < first_mastic_; }
+  std::size_t moving() const { return s_.size() - first_; }
+  bool on_threads() const { return s_.size() >= parallel_from; }
 
   /// Aggregates are heavier by volume, and by stiffness too, so that they allow the mastic's time step.
   double mass(std::size_t i) const {
@@ -121,12 +123,15 @@ class Relaxation {
   }
 
   void compute_accelerations(bool with_energy) {
-    for_each_range(moving(), on_threads(), [&](std::size_t, std::size_t from, std::size_t to) {
-      for (std::size_t k = from; k < to; ++k) accelerate(first_ + k, with_energy);
-    });
+    const auto one = [&](std::size_t k) { accelerate(first_ + k, with_energy); };
+    if (first_ < first_mastic_) {  // aggregates come first, and have many more neighbours than mastic has
+      for_each_in_blocks(moving(), on_threads(), one);
+    } else {
+      for_each_range(moving(), on_threads(), [&](std::size_t, std::size_t from, std::size_t to) {
+        for (std::size_t k = from; k < to; ++k) one(k);
+      });
+    }
   }
-  std::size_t moving() const { return s_.size() - first_; }
-  bool on_threads() const { return s_.size() >= parallel_from; }
 
   void accelerate(std::size_t i, bool with_energy) {  // a wall may throw
     const auto [c, r] = ball_[i];
@@ -190,13 +195,15 @@ class Relaxation {
 
   // The sums run over the particles in the order of their numbers, on one thread: the same bits for any number of
   // threads. Each thread has written its terms by place: of neighbouring numbers, several threads would write to one
-  // line of the cache. They put them in order together, as one thread would wait for every line that others have.
+  // line of the cache.
   double total_energy() const {
     double sum = 0;
     for (const std::int32_t i : place_) sum += energy_[i];
     return sum;
   }
 
+  // All threads first copy the terms into the order of numbers: one alone would fetch nearly every line from the cache
+  // of another core.
   Dots dot_products() {
     for_each_range(moving(), on_threads(), [&](std::size_t, std::size_t from, std::size_t to) {
       for (std::size_t k = from; k < to; ++k) by_number_[k] = dots_[place_[k]];

@@ -78,10 +78,13 @@ def many_machine():
     return f"two {last['gpu']} of one host, 32 cores, {last['date']}, commit {last['commit']}"
 
 
-def many_rows():
-    """Mean times by number of GPUs, of each commit in the order of the rows: first of the program before, last as it is now."""
+def many_rows(tried=True):
+    """Mean times by number of GPUs, of each commit in the order of the rows: first of the program before, last as it is now. `tried`: and
+    what was tried and not kept."""
     out = {}
     for r in rows(MANY):
+        if not tried and r["how"].startswith("tried: "):
+            continue
         out.setdefault(r["commit"], {}).setdefault(r["devices"], []).append(r["seconds"])
     return [{devices: sum(seconds) / len(seconds) for devices, seconds in times.items()} for times in out.values()]
 
@@ -90,13 +93,13 @@ def many_rows():
 def many(program):
     """`before` or `now`."""
     found = many_rows()[{"before": 0, "now": -1}[program]]
-    return f"{found[1]:.0f} s on one GPU and {found[2]:.0f} s on two"
+    return f"{found[1]:.1f} s on one GPU and {found[2]:.1f} s on two"
 
 
 @mark
 def many_factors():
     """Of two GPUs to one, of all but the program before."""
-    return span([times[1] / times[2] for times in many_rows()[1:]], "{:.2f}", " to ")
+    return span([times[1] / times[2] for times in many_rows(tried=False)[1:]], "{:.2f}", " to ")
 
 
 @mark
@@ -131,6 +134,13 @@ def many_limit():
     """Two GPUs to one, if they did not disturb each other."""
     first, specimen, end = of_one_gpu()
     return f"{(first + 20 * specimen + end) / (first + 10 * specimen + end):.2f}"
+
+
+@mark
+def many_factor_there():
+    """Of the runs that were looked at."""
+    ((one_gpu,),), two = courses(1), [run[0]["process_s"] for run in courses(2)]
+    return f"{one_gpu['process_s'] * len(two) / sum(two):.2f}"
 
 
 @mark

@@ -115,7 +115,7 @@ def mutation():
         folder = r["file"].split("/")[:-1][:2]
         folders["/".join(folder) if folder[0] == "host" else "kernels"][r["verdict"]] += 1
     verdicts = ("killed", "survived", "not reached")
-    listed = [(f"`{name}`", sum(c.values()), *(c[v] for v in verdicts)) for name, c in sorted(folders.items())]
+    listed = [("`host` itself" if name == "host" else f"`{name}`", sum(c.values()), *(c[v] for v in verdicts)) for name, c in sorted(folders.items())]
     listed.append(("all", *(sum(row[k] for row in listed) for k in range(1, 5))))
     return table(["sources", "mistakes", "noticed", "not noticed", "no test comes by"], listed, right=range(1, 5))
 
