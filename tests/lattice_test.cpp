@@ -53,6 +53,16 @@ struct Lattice : ::testing::TestWithParam<double> {
     }
     EXPECT_GT(found, 0);
   }
+
+  /// A cell has so many facets, each of the area that those of its number of corners have.
+  void expect_facets(const std::map<int, std::pair<double, std::size_t>>& facets, std::size_t number,
+                     const std::map<std::size_t, double>& area) const {
+    EXPECT_EQ(facets.size(), number);
+    for (const auto& [other, facet] : facets) {
+      ASSERT_TRUE(area.contains(facet.second)) << facet.second << " corners";
+      EXPECT_NEAR(facet.first, area.at(facet.second), facet_tolerance * area.at(facet.second));
+    }
+  }
 };
 INSTANTIATE_TEST_SUITE_P(Units, Lattice, ::testing::Values(1.0, 1e-3));
 
@@ -81,12 +91,7 @@ TEST_P(Lattice, SimpleCubic) {
 TEST_P(Lattice, BodyCentredCubicIsTruncatedOctahedra) {
   const double square = length(a) * length(a) / 8, hexagon = length(a) * length(a) * 3 * std::sqrt(3.0) / 16;
   interior(build({4, 4, 4}, {a, a, a}, {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}}, 0.4 * a), [&](const auto& facets) {
-    EXPECT_EQ(facets.size(), 14U);
-    for (const auto& [other, facet] : facets) {
-      ASSERT_TRUE(facet.second == 4 || facet.second == 6) << facet.second;
-      const double area = facet.second == 4 ? square : hexagon;
-      EXPECT_NEAR(facet.first, area, facet_tolerance * area);
-    }
+    expect_facets(facets, 14, {{4, square}, {6, hexagon}});
   });
 }
 
@@ -94,11 +99,7 @@ TEST_P(Lattice, FaceCentredCubicIsRhombicDodecahedra) {
   const double area = length(a) * length(a) * std::sqrt(2.0) / 8;
   const std::vector<Vec3d> basis{{0.25, 0.25, 0.25}, {0.75, 0.75, 0.25}, {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}};
   interior(build({4, 4, 4}, {a, a, a}, basis, 0.35 * a), [&](const auto& facets) {
-    EXPECT_EQ(facets.size(), 12U);
-    for (const auto& [other, facet] : facets) {
-      EXPECT_EQ(facet.second, 4U);
-      EXPECT_NEAR(facet.first, area, facet_tolerance * area);
-    }
+    expect_facets(facets, 12, {{4, area}});
   });
 }
 
@@ -107,12 +108,7 @@ TEST_P(Lattice, HexagonalLayersArePrisms) {
   const double top = length(a) * length(a) * std::sqrt(3.0) / 2;
   interior(build({5, 3, 5}, {a, a * std::sqrt(3.0), c}, {{0.25, 0.25, 0.5}, {0.75, 0.75, 0.5}}, a / 2),
            [&](const auto& facets) {
-             EXPECT_EQ(facets.size(), 8U);
-             for (const auto& [other, facet] : facets) {
-               ASSERT_TRUE(facet.second == 4 || facet.second == 6) << facet.second;
-               const double area = facet.second == 4 ? side : top;
-               EXPECT_NEAR(facet.first, area, facet_tolerance * area);
-             }
+             expect_facets(facets, 8, {{4, side}, {6, top}});
            });
 }
 

@@ -93,10 +93,10 @@ struct Directory {
       refuse(tags::values, fmt::format("{} values a voxel", page.at(tags::values)), "one grey value a voxel");
     const char* known = "8 or 16 as a whole number, or 32 as a float";
     if (!page.contains(tags::bits)) refuse(tags::bits, "no bits of a voxel", known);
-    constexpr std::uint64_t whole = 1,
-                            floating = 3;  // 2: with a sign; 4: not said, which is a whole number too (TIFF 6.0)
+    // 2: with a sign; 4: not said, which is a whole number too (TIFF 6.0)
+    constexpr std::uint64_t whole = 1, floating = 3;
     const std::uint64_t n = page.at(tags::bits), as = page.contains(tags::format) ? page.at(tags::format) : whole;
-    const bool is_known = as == floating ? n == 32 : (as == 1 || as == 2 || as == 4) && (n == 8 || n == 16);
+    const bool is_known = as == floating ? n == 32 : (as == whole || as == 2 || as == 4) && (n == 8 || n == 16);
     if (!is_known)
       refuse(tags::bits, fmt::format("{} bits a voxel, of format {} (tag {})", n, as, tags::format), known);
   }
