@@ -8,6 +8,7 @@
 #include "cluster_specimens.hpp"
 #include "host/harmonic/iterative/apply_row.hpp"
 #include "host/harmonic/iterative/make_system.hpp"
+#include "host/harmonic/check_solutions.hpp"
 #include "host/harmonic/linear_solver.hpp"
 #include "macadam/harmonic.hpp"
 #include "stepper_cases.hpp"
@@ -223,9 +224,9 @@ TEST(CoarseSpace, SavesIterationsAndChangesNoSolution) {
   asked.stiffness = stiffness;
   asked.tolerance = 1e-10;
   const harmonic::ContactOperator contacts(scene.network, n);
-  contacts.wall_forces(stiffness, asked.right);
+  asked.right = contacts.wall_loads(stiffness);
   const auto modulus = [&](const harmonic::LinearTask& t) {
-    return contacts.energy_parts(stiffness, t.motion, 1.0).modulus();
+    return harmonic::check_solutions(scene.network, scene.inertia, {&t}, 0).front().parts.modulus();
   };
   const auto solved = [&](std::optional<std::size_t> boxes) {
     harmonic::LinearTask task = asked;

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "host/harmonic/check_solutions.hpp"
 #include "host/harmonic/linear_solver.hpp"
 #include "macadam/macadam.hpp"
 
@@ -55,7 +56,7 @@ class Case {
     inertia_ = make_inertia(specimen_, scene.materials.aggregate, scene.materials.mastic);
     stiffness_ = pair_stiffness(scene.laws, Complex(0, 2 * std::numbers::pi * frequency_hz));
     free_ = find_free_motions(specimen_, network_, stiffness_, inertia_);
-    ContactOperator(network_, specimen_.size()).wall_forces(stiffness_, right_);
+    right_ = ContactOperator(network_, specimen_.size()).wall_loads(stiffness_);
   }
 
   void solve() const {
@@ -81,10 +82,7 @@ class Case {
  private:
   /// ‖f − K·u‖ / ‖f‖, computed anew.
   double residual(const LinearTask& task) const {
-    Vector rest;
-    ContactOperator(network_, specimen_.size()).resistance(stiffness_, 0, inertia_, task.motion, rest);
-    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] = right_[i] - rest[i];
-    return length(rest) / length(right_);
+    return check_solutions(network_, inertia_, {&task}, 0).front().residual / length(right_);
   }
 
   Specimen specimen_;
@@ -92,7 +90,7 @@ class Case {
   Inertia inertia_;
   PairStiffness stiffness_;
   FreeMotions free_;
-  Vector right_;
+  Loads right_;
   double prepared_s_ = 0;
   Backend backend_ = select_backend(Backend::automatic);
 };

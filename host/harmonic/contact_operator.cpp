@@ -34,27 +34,6 @@ std::array<double, 6> moments_over_distance(const Contact& c) {
           c.moments.ss / c.distance, c.moments.st / c.distance, c.moments.tt / c.distance};
 }
 
-/// Force and moment about x0 if nothing cancelled between the ends' motions: rounding of a load is a share of them.
-std::pair<double, double> largest_load(const Contact& c, const PairStiffness& stiffness, const Vector& motion) {
-  double linear = 0, angular = 0;
-  const auto add = [&](std::int32_t end, double arm) {
-    if (end < 0) return;
-    const Complex* x = &motion[6 * static_cast<std::size_t>(end)];
-    const auto size = [](const Complex* three) {
-      double out = 0;
-      for (int k = 0; k < 3; ++k) out += std::abs(three[k].real()) + std::abs(three[k].imag());
-      return out;
-    };
-    linear += size(x) + std::abs(arm) * size(x + 3);
-    angular += size(x + 3);
-  };
-  add(c.a, c.arm_a);
-  add(c.b, c.arm_b);
-  const Complex k = stiffness.k[static_cast<std::size_t>(c.pair)] / c.distance;
-  const double stiff = std::abs(k.real()) + std::abs(k.imag());
-  return {stiff * c.moments.a * linear, stiff * (c.moments.ss + c.moments.tt) * angular};
-}
-
 /// `a`, `b`: motions of the ends, none for walls.
 std::array<Complex, 6> relative_motion(const Contact& c, const Complex* a, const Complex* b, Complex wall) {
   const auto twist = [&](std::int32_t end, const Complex* x, auto part) -> Twist<double> {
@@ -76,6 +55,14 @@ std::array<Complex, 6> relative_motion(const Contact& c, const Complex* a, const
 
 double length(const Vector& x) {
   return std::sqrt(sum_in_parallel<double>(x.size(), [&](std::size_t i) { return std::norm(x[i]); }));
+}
+
+double length(const Loads& loads) {
+  double squares = 0;
+  for (const ParticleLoad& l : loads) {
+    for (const Complex& z : l.load) squares += std::norm(z);
+  }
+  return std::sqrt(squares);
 }
 
 std::array<Complex, 6> relative_motion(const Contact& c, const Vector& motion, Complex wall) {
@@ -130,69 +117,42 @@ ContactOperator::ContactOperator(const ContactNetwork& network, std::size_t part
     on_bottom_.insert(on_bottom_.end(), bottom.begin(), bottom.end());
     on_top_.insert(on_top_.end(), top.begin(), top.end());
   }
-}
-
-void ContactOperator::wall_forces(const PairStiffness& stiffness, Vector& out) const {
-  const Complex rest[6] = {};
-  out.resize(6 * particles_);
-#pragma omp parallel for schedule(static)
-  for (Complex& f : out) f = 0;
-  for (const std::uint32_t number : on_top_) {
-    const Contact& c = network_.contacts[number];
-    const Load load = contact_load(c, stiffness, relative_motion(c, rest, nullptr, 1.0));
-    for (std::size_t k = 0; k < 6; ++k) out[6 * static_cast<std::size_t>(c.a) + k] += load.a[k];
+  const auto by_particle = [&](std::uint32_t x, std::uint32_t y) {
+    return network.contacts[x].a < network.contacts[y].a;
+  };
+  for (auto* contacts_of_wall : {&on_bottom_, &on_top_}) {  // as they are, where the network is in order
+    std::stable_sort(contacts_of_wall->begin(), contacts_of_wall->end(), by_particle);
   }
 }
 
+Loads ContactOperator::wall_loads(const PairStiffness& stiffness) const {
+  const Complex rest[6] = {};
+  Loads out;
+  for (const std::uint32_t number : on_top_) {
+    const Contact& c = network_.contacts[number];
+    const Load load = contact_load(c, stiffness, relative_motion(c, rest, nullptr, 1.0));
+    if (out.empty() || out.back().particle != c.a) out.push_back({c.a, {}});
+    for (std::size_t k = 0; k < 6; ++k) out.back().load[k] += load.a[k];
+  }
+  return out;
+}
+
 void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia,
-                                 const Vector& motion, Vector& out, std::vector<double>* largest) const {
+                                 const Vector& motion, Vector& out) const {
   out.resize(6 * particles_);
-  if (largest) largest->resize(6 * particles_);
 #pragma omp parallel for schedule(dynamic, 64)  // large particles, with hundreds of contacts, stand together
   for (std::size_t i = 0; i < particles_; ++i) {
     Complex sum[6] = {};
-    double force = 0, moment = 0;  // by magnitude
     for (const std::uint32_t number : network_.row(i)) {
       const Contact& c = network_.contacts[number];
       const Load load = contact_load(c, stiffness, relative_motion(c, motion, 0.0));
       const bool is_a = static_cast<std::size_t>(c.a) == i;
       for (std::size_t k = 0; k < 6; ++k) sum[k] -= is_a ? load.a[k] : load.b[k];
-      if (!largest) continue;
-      const auto [linear, angular] = largest_load(c, stiffness, motion);
-      force += linear;
-      moment += angular + std::abs(is_a ? c.arm_a : c.arm_b) * linear;
     }
     for (std::size_t k = 0; k < 6; ++k) {
       out[6 * i + k] = sum[k] - factor * inertia_at(inertia, 6 * i + k) * motion[6 * i + k];
-      if (largest) (*largest)[6 * i + k] = k < 3 ? force : moment;
     }
   }
-}
-
-ModulusParts ContactOperator::energy_parts(const PairStiffness& stiffness, const Vector& motion, Complex wall) const {
-  // sums of pieces and then of these, in order: the same bits for any number of threads
-  constexpr std::size_t piece = 4096;
-  const auto& contacts = network_.contacts;
-  std::vector<ModulusParts> pieces((contacts.size() + piece - 1) / piece);
-  for_each_in_parallel(pieces.size(), [&](std::size_t number) {
-    ModulusParts& own = pieces[number];
-    for (std::size_t i = number * piece; i < std::min(contacts.size(), (number + 1) * piece); ++i) {
-      const Contact& c = contacts[i];
-      const auto pair = static_cast<std::size_t>(c.pair);
-      const std::array<Complex, 6> u = relative_motion(c, motion, wall);
-      const kernels::FacetLoad<Complex> load = facet_load(c, stiffness, u);
-      own.normal[pair] += load.n * u[0] - load.moment_t * u[1] + load.moment_s * u[2];
-      own.shear[pair] += load.s * u[3] + load.t * u[4] + load.moment_n * u[5];
-    }
-  });
-  ModulusParts out;
-  for (const ModulusParts& p : pieces) {
-    for (std::size_t pair = 0; pair < pair_types; ++pair) {
-      out.normal[pair] += p.normal[pair];
-      out.shear[pair] += p.shear[pair];
-    }
-  }
-  return out;
 }
 
 Complex ContactOperator::bottom_force(const PairStiffness& stiffness, const Vector& motion) const {

@@ -2,7 +2,9 @@
 /// \file contact_operator.hpp  Forces of all contacts for given complex motions: K*(s) without a matrix.
 #pragma once
 
+#include <array>
 #include <complex>
+#include <cstdint>
 #include <vector>
 
 #include "kernels/contact_kinematics.hpp"
@@ -19,8 +21,16 @@ inline double inertia_at(const Inertia& inertia, std::size_t dof) {
   return dof % 6 < 3 ? inertia.mass[dof / 6] : inertia.inertia[dof / 6];
 }
 
+/// Force and moment on a particle.
+struct ParticleLoad {
+  std::int32_t particle;
+  std::array<Complex, 6> load;
+};
+using Loads = std::vector<ParticleLoad>;  ///< by particle, ascending; nothing on the others
+
 /// ‖x‖.
 double length(const Vector& x);
+double length(const Loads& loads);
 
 /// Complex stiffness per unit of area over distance, and α, of each pair type.
 struct PairStiffness {
@@ -46,17 +56,12 @@ class ContactOperator {
   ContactOperator(const ContactNetwork& network, std::size_t particles);
 
   /// Forces and moments on the particles at rest while the top wall moves by one.
-  void wall_forces(const PairStiffness& stiffness, Vector& out) const;
+  Loads wall_loads(const PairStiffness& stiffness) const;
 
   /// (K* − factor·M)·motion: the loads that hold the motion; factor: −(s² + s·β)·density scaling.
-  /// Every particle sums its own row, so that the bits do not depend on the number of threads. `largest`, where given:
-  /// [6·particles], what each load would be if nothing cancelled, of which rounding is a share.
+  /// Every particle sums its own row, so that the bits do not depend on the number of threads.
   void resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia, const Vector& motion,
-                  Vector& out, std::vector<double>* largest = nullptr) const;
-
-  /// Σ u·k*·u over the contacts of each pair, u their relative displacements, without conjugates: twice the energy,
-  /// where real. Not yet over the specimen's size, and without inertia.
-  ModulusParts energy_parts(const PairStiffness& stiffness, const Vector& motion, Complex wall) const;
+                  Vector& out) const;
 
   /// Force of the bottom wall, which is at rest, on its particles along z.
   Complex bottom_force(const PairStiffness& stiffness, const Vector& motion) const;
@@ -70,7 +75,7 @@ class ContactOperator {
 
   const ContactNetwork& network_;
   std::size_t particles_;
-  std::vector<std::uint32_t> on_bottom_, on_top_;  ///< contacts of the two walls, ascending
+  std::vector<std::uint32_t> on_bottom_, on_top_;  ///< contacts of the two walls, by particle
 };
 
 }  // namespace macadam::harmonic

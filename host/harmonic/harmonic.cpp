@@ -10,7 +10,9 @@
 #include <limits>
 #include <numbers>
 
+#include "host/harmonic/check_solutions.hpp"
 #include "host/harmonic/linear_solver.hpp"
+#include "host/stepping/processor_code.hpp"
 #include "kernels/parallel.hpp"
 #include "macadam/error.hpp"
 
@@ -41,7 +43,7 @@ Stiffness modulus(Complex e) { return {std::abs(e), std::arg(e) * 180 / std::num
 /// A task with what was found of it so far.
 struct Work {
   LinearTask task;
-  ModulusParts parts;  ///< of the motion, as sums over contacts
+  ModulusParts parts;  ///< of the motion
   double residual = 0, beyond_rounding = 0, energy_error = 0;
   LinearMethod method = LinearMethod::iterative;
   std::string why_factors;
@@ -97,7 +99,6 @@ class Harmonic::Implementation {
     for (std::size_t i = 0; i < works.size(); ++i) {
       if (!works[i].good) throw RunError("harmonic: " + refusal(works[i], loads[i]));
       out.push_back(result_of(works[i], loads[i]));
-      spare_.push_back(std::move(works[i].task.right));
     }
     for (HarmonicResult& r : out) r.seconds = seconds_since(start) / static_cast<double>(works.size());
     return out;
@@ -121,11 +122,7 @@ class Harmonic::Implementation {
     LinearTask& task = out.task;
     task.stiffness = pair_stiffness(laws_, s);
     task.inertia = -load.density_scaling * (s * s + s * load.viscous_damping);
-    if (!spare_.empty()) {
-      task.right = std::move(spare_.back());
-      spare_.pop_back();
-    }
-    contacts_.wall_forces(task.stiffness, task.right);
+    task.right = contacts_.wall_loads(task.stiffness);
     task.tolerance = 0.3 * options_.tolerance;  // rounding parts the solver's own residual from the true one
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       const Complex k = task.stiffness.k[pair];
@@ -173,27 +170,33 @@ class Harmonic::Implementation {
       std::vector<LinearTask*> tasks;
       for (Work* w : open) tasks.push_back(&w->task), w->method = method, w->tried = true;
       solver.solve(tasks, options_.stop);
-      for (Work* w : open) check(*w);
+      check(open);
     }
   }
 
-  /// The residual computed anew, and the error in the energy norm.
-  void check(Work& w) {
+  /// Residuals computed anew, and errors in the energy norm.
+  void check(const std::vector<Work*>& works) {
+    std::vector<const LinearTask*> tasks;
+    for (const Work* w : works) tasks.push_back(&w->task);
+    const auto checked = [&](double rounding) {
+      return processor_code().check_solutions(network_, inertia_, tasks, rounding);
+    };
+    std::vector<SolutionCheck> found = checked(0);
+    bool within = true;
+    for (std::size_t i = 0; i < works.size(); ++i) {
+      within = within && found[i].residual <= options_.tolerance * length(tasks[i]->right);
+    }
+    if (!within) found = checked(std::numeric_limits<double>::epsilon());
+    for (std::size_t i = 0; i < works.size(); ++i) take(*works[i], found[i]);
+  }
+
+  void take(Work& w, const SolutionCheck& found) const {
     LinearTask& task = w.task;
-    Vector& rest = rest_;
-    contacts_.resistance(task.stiffness, task.inertia, inertia_, task.motion, rest, &largest_);
-    w.parts = contacts_.energy_parts(task.stiffness, task.motion, 1.0);
-    const double whole = std::abs(w.parts.modulus()), scale = length(task.right);
-    const double beyond = sum_in_parallel<double>(rest.size(), [&](std::size_t i) {
-      rest[i] = task.right[i] - rest[i];
-      // Motions are known to rounding, and loads of stiff contacts to that of them: where the load is far less, that is
-      // all that can be asked.
-      const double rounding = std::numeric_limits<double>::epsilon() * largest_[i];
-      const double excess = std::max(std::sqrt(std::norm(rest[i])) - rounding, 0.0);
-      return excess * excess;
-    });
-    w.residual = length(rest) / scale;
-    w.beyond_rounding = std::sqrt(beyond) / scale;
+    const double whole = std::abs(found.parts.modulus()), scale = length(task.right);
+    w.parts = found.parts;
+    w.parts.inertia = -task.inertia * found.inertia;
+    w.residual = found.residual / scale;
+    w.beyond_rounding = found.beyond_rounding / scale;
     w.energy_error = std::sqrt(task.energy / whole);
     w.good = task.converged && w.beyond_rounding <= options_.tolerance && w.energy_error <= energy_tolerance();
     task.energy_limit = 0.1 * energy_tolerance() * energy_tolerance() * whole;
@@ -219,11 +222,6 @@ class Harmonic::Implementation {
     const Vector& x = task.motion;
     HarmonicResult out;
     out.parts = w.parts;
-    if (task.inertia != 0.0) {
-      out.parts.inertia -= task.inertia * sum_in_parallel<Complex>(x.size(), [&](std::size_t i) {
-                             return inertia_at(inertia_, i) * x[i] * x[i];
-                           });
-    }
     const double top = std::abs(out.parts.modulus());
     const Vec3d& box = specimen_.box.size;
     const double to_modulus = box.z / (box.x * box.y);  // stress per strain of a unit displacement
@@ -257,10 +255,6 @@ class Harmonic::Implementation {
   FreeMotions free_;
   std::unique_ptr<LinearSolver> iterative_, direct_;
   std::string why_factors_;  ///< where no iteration can be set up
-  // Kept from one solution to the next: new memory of this size takes longer than what is done with it.
-  std::vector<Vector> spare_;  ///< right sides
-  Vector rest_;
-  std::vector<double> largest_;
 };
 
 Harmonic::Harmonic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,

@@ -15,11 +15,11 @@
 
 namespace macadam::harmonic {
 
-/// One system to be solved.
+/// One system to be solved: six numbers a particle.
 struct LinearTask {
   PairStiffness stiffness;
   Complex inertia = 0;   ///< −(s² + s·β)·density scaling; 0: without inertia
-  Vector right;          ///< f
+  Loads right;           ///< f: nothing on all other particles
   double tolerance = 0;  ///< of ‖f − K·u‖ / ‖f‖
   double energy_limit = std::numeric_limits<double>::infinity();  ///< of rᴴ·P⁻¹·r, P the solver's preconditioner
   Vector motion;                                                  ///< where to begin, then the solution

@@ -34,7 +34,7 @@ std::unique_ptr<Stepper> make(const Specimen& specimen, const ContactNetwork& ne
 
 extern "C" {
 extern const ProcessorCode MACADAM_CODE;
-const ProcessorCode MACADAM_CODE{MACADAM_CODE_NAME, make, harmonic::solve_block};
+const ProcessorCode MACADAM_CODE{MACADAM_CODE_NAME, make, harmonic::solve_block, harmonic::check_solutions};
 }
 
 }  // namespace macadam

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "host/harmonic/check_solutions.hpp"
 #include "host/harmonic/linear_solver.hpp"
 #include "kernels/harmonic/linear_system.hpp"
 #include "kernels/layout.hpp"
@@ -13,7 +14,7 @@
 
 namespace macadam {
 
-/// The time step and the iteration of the frequency domain, of one generation.
+/// The time step, and the iteration of the frequency domain with its check, of one generation.
 struct ProcessorCode {
   const char* name;  ///< "native": compiled for this machine; "x86-64", "x86-64-v3" (AVX2), "x86-64-v4" (AVX-512)
   std::unique_ptr<Stepper> (*make_stepper)(const Specimen& specimen, const ContactNetwork& network,
@@ -22,6 +23,9 @@ struct ProcessorCode {
   void (*solve_block)(const kernels::LinearSystem& system, const std::vector<double>& inverse,
                       const kernels::Layout& layout, std::vector<harmonic::LinearTask*> tasks,
                       const std::function<bool()>& stop);
+  std::vector<harmonic::SolutionCheck> (*check_solutions)(const ContactNetwork& network, const Inertia& inertia,
+                                                          const std::vector<const harmonic::LinearTask*>& tasks,
+                                                          double rounding);
 };
 
 /// The newest that this processor runs. A build for this machine alone (MACADAM_NATIVE) has one. MACADAM_PROCESSOR in

@@ -23,16 +23,29 @@ inline __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_
   for (int c = 0; c < 36; ++c) inverse[36 * i + c] = block[c];
 }
 
-/// One load's numbers between an array of its own and the lanes of all.
+/// One load's numbers, [6·particles] in the order of the specimen, and the lanes of all, [6·bodies].
 template <int F>
-__global__ void to_lanes(const double2* one, double* all, std::size_t size, int f) {
+__global__ void to_lanes(const double2* one, const std::int32_t* particle, double* all, std::size_t size, int f) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
-  if (i < size) all[i * 2 * F + 2 * f] = one[i].x, all[i * 2 * F + 2 * f + 1] = one[i].y;
+  if (i >= size) return;
+  const double2 z = one[6 * static_cast<std::size_t>(particle[i / 6]) + i % 6];
+  all[i * 2 * F + 2 * f] = z.x, all[i * 2 * F + 2 * f + 1] = z.y;
 }
 template <int F>
-__global__ void from_lanes(const double* all, double2* one, std::size_t size, int f) {
+__global__ void from_lanes(const double* all, const std::int32_t* particle, double2* one, std::size_t size, int f) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
-  if (i < size) one[i] = {all[i * 2 * F + 2 * f], all[i * 2 * F + 2 * f + 1]};
+  if (i >= size) return;
+  one[6 * static_cast<std::size_t>(particle[i / 6]) + i % 6] = {all[i * 2 * F + 2 * f], all[i * 2 * F + 2 * f + 1]};
+}
+
+/// Loads on bodies into the lanes of one of F.
+template <int F>
+__global__ void set_loads(const BodyLoad* on, std::size_t bodies, double* all, int f) {
+  const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
+  if (i >= 6 * bodies) return;
+  const auto* z = reinterpret_cast<const double*>(&on[i / 6].load[i % 6]);
+  double* to = &all[(6 * static_cast<std::size_t>(on[i / 6].body) + i % 6) * 2 * F + 2 * f];
+  to[0] = z[0], to[1] = z[1];
 }
 
 }  // namespace macadam::kernels

@@ -46,6 +46,7 @@ class Solver : public DeviceSolver {
     const Shares rows = share([&](std::size_t body) { return body + (body == bodies_); }),
                  ends = share([&](std::size_t body) { return system.row_begin[body]; });
     by_body_ = share([](std::size_t body) { return body; });
+    particle_ = DeviceArray<std::int32_t>::of(system.particle, by_body_);
     row_begin_ = DeviceArray<std::size_t>::of(system.row_begin, rows);
     ends_ = DeviceArray<ContactEnd>::of(system.ends, ends);
     mass_ = DeviceArray<double>::of(system.mass, by_body_);
@@ -59,12 +60,18 @@ class Solver : public DeviceSolver {
     loose = invert(system.typical);
   }
 
-  std::vector<LinearState> solve(const std::vector<LinearLoad>& loads, const std::vector<const Complex*>& right,
-                                 const std::vector<Complex*>& motion, const std::vector<bool>& begun,
-                                 const std::function<void()>& look) override {
+  std::vector<LinearState> solve(const std::vector<LinearLoad>& loads, const std::function<void()>& look) override {
     team_.use(0);
-    if (loads.size() == 1) return solve_with(one_, loads, right, motion, begun, look);
-    return solve_with(four_, loads, right, motion, begun, look);
+    last_single_ = loads.size() == 1;
+    return last_single_ ? solve_with(one_, loads, look) : solve_with(four_, loads, look);
+  }
+
+  void solution(std::size_t load, Complex* out) override {
+    team_.use(0);
+    if (last_single_)
+      fetch(*one_, load, out);
+    else
+      fetch(*four_, load, out);
   }
 
  private:
@@ -168,27 +175,27 @@ class Solver : public DeviceSolver {
 
   template <int F>
   std::vector<LinearState> solve_with(std::unique_ptr<Vectors<F>>& own, const std::vector<LinearLoad>& loads,
-                                      const std::vector<const Complex*>& right, const std::vector<Complex*>& motion,
-                                      const std::vector<bool>& begun, const std::function<void()>& look) {
+                                      const std::function<void()>& look) {
     if (!own) own = std::make_unique<Vectors<F>>(by_body_, segment_.size(), boxes_);
     Vectors<F>& v = *own;
-    const std::size_t size = 6 * bodies_, blocks = (size + cocg_threads - 1) / cocg_threads;
-    DeviceArray<double2> staged(size);
-    const auto take = [&](const Complex* from, std::size_t f, DeviceArray<double>& to) {
-      staged.upload(reinterpret_cast<const double2*>(from));
-      launch("loads", to_lanes<F>, blocks, cocg_threads, 0, team_.stream(), staged.data(), to.data(), size, int(f));
-      team_.wait("loads");
-    };
+    v.x.clear();
+    for (std::size_t f = 0; f < loads.size(); ++f) {
+      if (!loads[f].start) continue;
+      DeviceArray<double2> staged(6 * bodies_);
+      staged.upload(reinterpret_cast<const double2*>(loads[f].start));
+      over_numbers("starts", to_lanes<F>, 6 * bodies_, staged.data(), particle_.data(), v.x.data(), 6 * bodies_,
+                   int(f));
+    }
+    std::vector<DeviceArray<BodyLoad>> right;
+    for (const LinearLoad& load : loads) right.push_back(DeviceArray<BodyLoad>::of(load.right));
     const auto start_from_right_sides = [&](const CocgScalars<F>& start) {
       v.scalars.upload(&start);
       v.p.clear();
       v.r.clear();
-      for (std::size_t f = 0; f < loads.size(); ++f) take(right[f], f, v.r);
+      for (std::size_t f = 0; f < loads.size(); ++f) {
+        over_numbers("loads", set_loads<F>, 6 * right[f].size(), right[f].data(), right[f].size(), v.r.data(), int(f));
+      }
     };
-    v.x.clear();
-    for (std::size_t f = 0; f < loads.size(); ++f) {
-      if (begun[f]) take(motion[f], f, v.x);
-    }
     CocgScalars<F> start = scalars_of<F>(loads);
     start_from_right_sides(start);
     CocgScalars<F> end, judged;
@@ -201,14 +208,26 @@ class Solver : public DeviceSolver {
     }
     std::vector<LinearState> out;
     for (std::size_t f = 0; f < loads.size(); ++f) {
-      launch("motions", from_lanes<F>, blocks, cocg_threads, 0, team_.stream(), v.x.data(), staged.data(), size,
-             int(f));
-      team_.wait("motions");
-      copy_now(motion[f], staged.data(), staged.bytes(), "motions");
       out.push_back(end.state[f]);
       out.back().energy = judged.state[f].energy;
     }
     return out;
+  }
+
+  template <int F>
+  void fetch(const Vectors<F>& v, std::size_t load, Complex* out) {
+    DeviceArray<double2> staged(6 * bodies_);
+    over_numbers("solutions", from_lanes<F>, 6 * bodies_, v.x.data(), particle_.data(), staged.data(), 6 * bodies_,
+                 int(load));
+    copy_now(out, staged.data(), staged.bytes(), "solutions");
+  }
+
+  /// A kernel of a thread for each of `count`, on the first device, to its end.
+  template <class Kernel, class... Arguments>
+  void over_numbers(const char* name, Kernel kernel, std::size_t count, Arguments... arguments) {
+    if (count == 0) return;
+    launch(name, kernel, (count + cocg_threads - 1) / cocg_threads, cocg_threads, 0, team_.stream(), arguments...);
+    team_.wait(name);
   }
 
   /// Some iterations are always queued ahead of those that are looked at; once all is done they do nothing.
@@ -292,7 +311,9 @@ class Solver : public DeviceSolver {
   int free_;
   std::size_t bodies_, boxes_ = 0;
   std::vector<std::size_t> first_segment_, first_body_;  // [member + 1]
+  bool last_single_ = false;                             ///< of the last solve(): its solution is in one_
   Shares by_body_;
+  DeviceArray<std::int32_t> particle_;
   DeviceArray<std::size_t> row_begin_;
   DeviceArray<ContactEnd> ends_;
   DeviceArray<double> mass_, inverse_, coarse_, motion_, weight_;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <complex>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -27,6 +28,7 @@ struct RealStiffness {
 
 /// The preconditioner is z = (Σ_i K_ii⁻¹ + R·(RᵀKR)⁻¹·Rᵀ)·r with K of `typical`; R has the six motions of each box.
 struct LinearSystem {
+  std::vector<std::int32_t> particle;  ///< body → particle of the specimen
   std::vector<std::size_t> row_begin;  ///< body → first of its ends; bodies + 1 entries
   RawVector<ContactEnd> ends;
   std::vector<double> mass;  ///< [body][2]: mass [kg], moment of inertia [kg·m²]
@@ -42,8 +44,18 @@ struct LinearSystem {
   std::size_t boxes() const { return box_body.size() - 1; }
 };
 
-/// One system to be solved; vectors in the order of bodies, six numbers each.
+/// Force and moment on a body.
+struct BodyLoad {
+  std::int64_t body;
+  std::complex<double> load[6];
+};
+
+/// One system to be solved.
 struct LinearLoad {
+  std::vector<BodyLoad> right;  ///< f: each body once, nothing on the others
+  const std::complex<double>* start =
+      nullptr;  ///< where to begin, [6·particles] in the order of the specimen, if anywhere
+
   std::array<std::complex<double>, pair_types> k{};
   std::array<double, pair_types> alpha{};
   std::complex<double> inertia = 0;  ///< taken off K: inertia·M
@@ -73,12 +85,10 @@ inline constexpr int most_loads = 4;
 class DeviceSolver {
  public:
   virtual ~DeviceSolver() = default;
-  /// `right` and `motion`: of each load, [6·bodies]; motion: where to begin (nowhere: `begun` is false), then the
-  /// solution. `look` is called between iterations and may throw.
-  virtual std::vector<LinearState> solve(const std::vector<LinearLoad>& loads,
-                                         const std::vector<const std::complex<double>*>& right,
-                                         const std::vector<std::complex<double>*>& motion,
-                                         const std::vector<bool>& begun, const std::function<void()>& look) = 0;
+  /// Up to four loads. `look` is called between iterations and may throw.
+  virtual std::vector<LinearState> solve(const std::vector<LinearLoad>& loads, const std::function<void()>& look) = 0;
+  /// The solution of a load of the last solve(), by its number there: [6·particles] in the order of the specimen.
+  virtual void solution(std::size_t load, std::complex<double>* out) = 0;
 };
 
 /// Only in builds with CUDA: as CudaCode::make_solver.

@@ -50,7 +50,7 @@ class DirectSolver : public LinearSolver {
 
   void iterate(LinearTask& task, const std::function<bool()>& stop) const {
     Vector& x = task.motion;
-    if (x.empty()) x.assign(task.right.size(), 0);
+    if (x.empty()) x.assign(6 * inertia_.mass.size(), 0);
     Vector r, z, p, q;
     rest(task, r);
     const double scale = length(task.right);
@@ -83,7 +83,10 @@ class DirectSolver : public LinearSolver {
   /// r = f − K·x
   void rest(const LinearTask& task, Vector& r) const {
     apply(task, task.motion, r);
-    for (std::size_t i = 0; i < r.size(); ++i) r[i] = task.right[i] - r[i];
+    for (Complex& z : r) z = -z;
+    for (const ParticleLoad& f : task.right) {
+      for (std::size_t c = 0; c < 6; ++c) r[6 * static_cast<std::size_t>(f.particle) + c] += f.load[c];
+    }
   }
 
   void precondition(const LinearTask& task, const Vector& r, Vector& z) const {

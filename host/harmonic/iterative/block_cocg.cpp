@@ -106,7 +106,13 @@ class BlockCocg {
     }
   }
   void load_right() {
-    load(r_, [](const LinearTask& task, std::size_t i) { return task.right[i]; });
+    load(r_, [](const LinearTask&, std::size_t) { return Complex(0); });
+    for (int f = 0; f < F; ++f) {
+      for (const ParticleLoad& on : tasks_[static_cast<std::size_t>(f)]->right) {
+        const std::size_t at = 6 * static_cast<std::size_t>(layout_.body_of(on.particle));
+        for (std::size_t c = 0; c < 6; ++c) r_[at + c].set(f, on.load[c]);
+      }
+    }
   }
   void load_tasks() {
     load_right();

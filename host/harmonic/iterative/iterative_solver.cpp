@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <future>
 
 #include "host/harmonic/iterative/make_system.hpp"
 #include "host/stepping/cuda_code.hpp"
@@ -56,51 +57,38 @@ class CudaSolver : public LinearSolver {
  private:
   void solve_some(const std::vector<LinearTask*>& tasks, const std::function<bool()>& stop) {
     std::vector<kernels::LinearLoad> loads;
-    std::vector<const Complex*> rights;
-    std::vector<Complex*> motions;
-    std::vector<bool> begun;
-    right_.resize(std::max(right_.size(), tasks.size()));
-    motion_.resize(right_.size());
-    for (std::size_t t = 0; t < tasks.size(); ++t) {
-      const LinearTask& task = *tasks[t];
-      loads.push_back({task.stiffness.k, task.stiffness.alpha, task.inertia, length(task.right), task.tolerance,
-                       task.energy_limit});
-      put_in_order(task.right, right_[t]);
-      motion_[t].resize(task.right.size());
-      begun.push_back(!task.motion.empty());
-      if (begun.back()) put_in_order(task.motion, motion_[t]);
-      rights.push_back(right_[t].data()), motions.push_back(motion_[t].data());
+    for (const LinearTask* task : tasks) {
+      loads.push_back({{},
+                       task->motion.empty() ? nullptr : task->motion.data(),
+                       task->stiffness.k,
+                       task->stiffness.alpha,
+                       task->inertia,
+                       length(task->right),
+                       task->tolerance,
+                       task->energy_limit});
+      for (const ParticleLoad& on : task->right) {
+        kernels::BodyLoad& load = loads.back().right.emplace_back();
+        load.body = layout_.body_of(on.particle);
+        std::copy(on.load.begin(), on.load.end(), load.load);
+      }
     }
-    const std::vector<kernels::LinearState> states =
-        solver_->solve(loads, rights, motions, begun, [&] { require_not_stopped(stop); });
+    // The pages of large vectors take the processor as long as the device takes for tens of iterations: beside these.
+    const auto room = std::async(std::launch::async, [&] {
+      for (LinearTask* task : tasks) task->motion.resize(6 * layout_.particles());
+    });
+    const std::vector<kernels::LinearState> states = solver_->solve(loads, [&] { require_not_stopped(stop); });
+    room.wait();
     for (std::size_t t = 0; t < tasks.size(); ++t) {
       LinearTask& task = *tasks[t];
       task.energy = states[t].energy;
       task.iterations += states[t].iterations;
       task.converged = states[t].converged;
-      task.motion.resize(task.right.size());
-      for_each_number([&](std::size_t body, std::size_t particle) { task.motion[particle] = motion_[t][body]; });
-    }
-  }
-
-  void put_in_order(const Vector& by_particle, Vector& out) const {
-    out.resize(by_particle.size());
-    for_each_number([&](std::size_t body, std::size_t particle) { out[body] = by_particle[particle]; });
-  }
-
-  /// f(where a number stands in the order of bodies, in that of particles)
-  template <class F>
-  void for_each_number(F&& f) const {
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < layout_.particles(); ++i) {
-      const std::size_t particle = 6 * static_cast<std::size_t>(layout_.particle[i]);
-      for (std::size_t c = 0; c < 6; ++c) f(6 * i + c, particle + c);
+      solver_->solution(t, task.motion.data());
     }
   }
 
   kernels::Layout layout_;
   std::unique_ptr<kernels::DeviceSolver> solver_;
-  std::vector<Vector> right_, motion_;  // kept: new memory of this size takes longer than what is done with it
 };
 
 }  // namespace

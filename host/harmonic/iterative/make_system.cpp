@@ -50,6 +50,7 @@ ContactEnd seen_from_b(const Contact& c, const kernels::Layout& layout) {
 
 void make_rows(const ContactNetwork& network, const kernels::Layout& layout, LinearSystem& out) {
   const std::size_t n = layout.particles();
+  out.particle = layout.particle;
   out.row_begin.assign(n + 1, 0);
 #pragma omp parallel for schedule(static)
   for (std::size_t body = 0; body < n; ++body) {
