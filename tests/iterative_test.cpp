@@ -192,6 +192,23 @@ TEST_P(Iterative, OneAtATimeGivesTheSame) {
   EXPECT_NEAR(three[2].top.e_star_pa / together[3].top.e_star_pa, 1, 1e-10);
 }
 
+// On a device, large enough that a solution comes from it in parts.
+TEST_P(Iterative, BeginsAtASolutionAndStaysThere) {
+  const bench::BenchCase lattice = bench::lattice(backend() == Backend::cuda ? 380'000 : 15'000, true);
+  const TestScene scene{lattice.specimen, lattice.network, lattice.laws, lattice.inertia};
+  const HarmonicResult found = solve(scene, LinearMethod::iterative, {{.frequency_hz = 20}}, 1e-6)[0];
+  EXPECT_GT(found.iterations, 0);
+  EXPECT_LE(found.residual, 1e-6);  // the host's own sum over the contacts
+  const HarmonicLoad there{.frequency_hz = 20, .near = &found.motion};
+  const HarmonicResult again = solve(scene, LinearMethod::iterative, {there}, 1e-5)[0];
+  EXPECT_EQ(again.iterations, 0);
+  double apart = 0;  // by rounding of the free motions that are taken out of where it begins
+  for (std::size_t i = 0; i < found.motion.size(); ++i) {
+    apart = std::max(apart, std::abs(again.motion[i] - found.motion[i]));
+  }
+  EXPECT_LT(apart, 1e-10);  // the top moves by 1
+}
+
 // Large enough that the order of particles, the rows, the coarse matrix and all sums are made in several pieces.
 TEST_P(Iterative, SameBitsForAnyNumberOfThreads) {
   const bench::BenchCase lattice = bench::lattice(15000, true);

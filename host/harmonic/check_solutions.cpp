@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // check_solutions.cpp  Every particle adds up the loads of its own contacts, which are computed from the network and
-// not from the arrays of the solvers.
+// not from the arrays of the solvers: one contact of four solutions at a time, or four contacts of one.
 #include "host/harmonic/check_solutions.hpp"
 
 #include <algorithm>
@@ -16,16 +16,36 @@ namespace {
 using kernels::Placement;
 using kernels::Twist;
 
-constexpr std::size_t piece = 64;  ///< particles: large ones, with hundreds of contacts, stand together
+constexpr int width = kernels::most_loads;
+/// Particles of a piece: few enough that no thread waits long for the last (large particles, with hundreds of contacts,
+/// stand together), and enough that pieces are added up in no time.
+std::size_t piece_of(std::size_t particles) { return std::max<std::size_t>(64, particles / 4096); }
 
-/// |Re| + |Im| of each frequency, in both of its lanes.
-template <int F>
-Lanes<F> size_of(Lanes<F> x) {
-  const Lanes<F> positive = x.v < 0 ? -x.v : x.v;
+using L = Lanes<width>;
+
+/// |Re| + |Im| of each number, in both of its lanes.
+L size_of(L x) {
+  const L positive = x.v < 0 ? -x.v : x.v;
   return positive + positive.swapped();
 }
 
-/// Sums over a piece, of each frequency.
+/// The real number of(f) for each f, in both of its lanes. Written out: a compiler makes a loop of one lane after the
+/// other of it.
+template <class Of>
+L real_lanes(Of&& of) {
+  static_assert(width == 4);
+  const double a = of(0), b = of(1), c = of(2), d = of(3);
+  return L::Register{a, b, c, d, a, b, c, d};
+}
+
+/// The complex number of(f) for each f.
+template <class Of>
+L complex_lanes(Of&& of) {
+  const Complex a = of(0), b = of(1), c = of(2), d = of(3);
+  return L::Register{a.real(), b.real(), c.real(), d.real(), a.imag(), b.imag(), c.imag(), d.imag()};
+}
+
+/// Sums over a piece, of one solution.
 struct Sums {
   double residual = 0, beyond = 0;  ///< squares
   Complex inertia = 0;
@@ -39,66 +59,85 @@ struct Sums {
     }
   }
 };
+using AllSums = std::array<Sums, width>;
 
-template <int F>
+/// `single`: one solution, whose contacts are taken four at a time.
+template <bool single>
 class Check {
-  using L = Lanes<F>;
-
  public:
   Check(const ContactNetwork& network, const Inertia& inertia, const std::vector<const LinearTask*>& tasks,
         double rounding)
       : network_(network), inertia_(inertia), rounding_(rounding) {
-    for (std::size_t f = 0; f < F; ++f) {
-      const LinearTask& task = *tasks[std::min(f, tasks.size() - 1)];  // the first fill the block
-      const int lane = static_cast<int>(f);
+    for (int f = 0; f < width; ++f) {  // the last of fewer than four fill the block
+      const LinearTask& task = *tasks[std::min(static_cast<std::size_t>(f), tasks.size() - 1)];
       motion_[f] = task.motion.data();
       for (std::size_t pair = 0; pair < pair_types; ++pair) {
-        const Complex k = task.stiffness.k[pair];
-        k_[pair].set(lane, k);
-        stiff_[pair].set(lane, {std::abs(k.real()) + std::abs(k.imag()), std::abs(k.real()) + std::abs(k.imag())});
-        alpha_[pair] = L(task.stiffness.alpha[pair]);
+        k_[pair].set(f, task.stiffness.k[pair]);
+        alpha_[pair] = task.stiffness.alpha[pair];
       }
-      mass_factor_.set(lane, task.inertia);
+      mass_factor_.set(f, task.inertia);
       if (task.inertia != 0.0) inert_ = false;
-      wall_.set(lane, 1.0);
     }
   }
 
-  /// Of each frequency.
-  std::array<Sums, F> sums() const {
+  AllSums sums() const {
     const std::size_t particles = inertia_.mass.size();
-    std::vector<std::array<Sums, F>> pieces((particles + piece - 1) / piece);
+    const std::size_t piece = piece_of(particles);
+    std::vector<AllSums> pieces((particles + piece - 1) / piece);
 #pragma omp parallel for schedule(dynamic, 1)
     for (std::size_t k = 0; k < pieces.size(); ++k) {
       pieces[k] = sums_of(k * piece, std::min(particles, (k + 1) * piece));
     }
-    std::array<Sums, F> out;
-    for (const auto& sums : pieces) {
-      for (std::size_t f = 0; f < F; ++f) out[f].add(sums[f]);
+    AllSums out;
+    for (const AllSums& sums : pieces) {
+      for (std::size_t f = 0; f < width; ++f) out[f].add(sums[f]);
     }
     return out;
   }
 
  private:
   struct PairProducts {
-    Products<F> normal, shear;
+    Products<width> normal, shear;
+    void add(const kernels::FacetLoad<L>& load, const L (&u)[6], L share) {
+      normal.add(load.n * share, u[0]), normal.add(-load.moment_t * share, u[1]);
+      normal.add(load.moment_s * share, u[2]);
+      shear.add(load.s * share, u[3]), shear.add(load.t * share, u[4]), shear.add(load.moment_n * share, u[5]);
+    }
   };
   /// Loads on a particle: their sum, and force and moment by magnitude if nothing cancelled.
-  struct Loads {
+  struct Total {
     Twist<L> sum;
     L force, moment;
   };
+  /// Contacts as their particle sees them, the normal pointing away from it; where there are fewer, the first of them
+  /// again, without stiffness.
+  struct Group {
+    const Contact* contact[width];
+    bool is_first[width];
+    double sign[width], over_d[width], own_arm[width], far_arm[width];
+    std::int32_t far[width];
+    std::size_t pair[width];
+    int count;
+    bool alike;  ///< all are of the same pair
+  };
+  static constexpr int step = single ? width : 1;  ///< contacts of a group
 
-  std::array<Sums, F> sums_of(std::size_t begin, std::size_t end) const {
+  /// What is of a contact, and alike for all solutions.
+  template <class Of>
+  static L of_contact(Of&& of) {
+    return single ? real_lanes(of) : L(of(0));
+  }
+
+  AllSums sums_of(std::size_t begin, std::size_t end) const {
+    AllSums out;
     PairProducts pairs[pair_types];
-    Products<F> rest_squared, motion_squared;
-    double beyond[F] = {};
+    Products<width> rest_squared, motion_squared;
     for (std::size_t i = begin; i < end; ++i) {
-      const Twist<L> own = motion_of(static_cast<std::int32_t>(i));
-      const Loads loads = loads_on(static_cast<std::int32_t>(i), own, pairs);
+      const Twist<L> own = motion_of([i](int) { return static_cast<std::int32_t>(i); });
+      const Total total = loads_on(i, own, pairs);
       L x[6], rest[6];
       kernels::to_array(own, x);
-      kernels::to_array(loads.sum, rest);
+      kernels::to_array(total.sum, rest);
       for (std::size_t c = 0; c < 6; ++c) {
         if (!inert_) {
           const double mass = inertia_at(inertia_, 6 * i + c);
@@ -106,100 +145,181 @@ class Check {
           motion_squared.add(mass * x[c], x[c]);
         }
         rest_squared.add(rest[c], rest[c]);
-        if (rounding_ > 0) add_beyond(rest[c], c < 3 ? loads.force : loads.moment, beyond);
+        if (rounding_ > 0) add_beyond(rest[c], c < 3 ? total.force : total.moment, out);
       }
     }
-    std::array<Sums, F> out;
-    for (int f = 0; f < F; ++f) {
+    for (int f = 0; f < width; ++f) {
       Sums& own = out[static_cast<std::size_t>(f)];
       own.residual = rest_squared.conjugated(f);
-      own.beyond = beyond[f];
       own.inertia = motion_squared.plain(f);
-      for (std::size_t pair = 0; pair < pair_types; ++pair) {
-        own.parts.normal[pair] = pairs[pair].normal.plain(f);
-        own.parts.shear[pair] = pairs[pair].shear.plain(f);
+    }
+    for (std::size_t pair = 0; pair < pair_types; ++pair) {
+      for (int f = 0; f < width; ++f) {
+        ModulusParts& parts = out[single ? 0 : static_cast<std::size_t>(f)].parts;
+        parts.normal[pair] += pairs[pair].normal.plain(f);
+        parts.shear[pair] += pairs[pair].shear.plain(f);
       }
     }
     return out;
   }
 
-  void add_beyond(L rest, L largest, double (&beyond)[F]) const {
-    for (int f = 0; f < F; ++f) {
+  void add_beyond(L rest, L largest, AllSums& sums) const {
+    for (int f = 0; f < width; ++f) {
       const double excess = std::max(std::abs(rest.at(f)) - rounding_ * largest.at(f).real(), 0.0);
-      beyond[f] += excess * excess;
+      sums[static_cast<std::size_t>(f)].beyond += excess * excess;
     }
   }
 
-  Twist<L> motion_of(std::int32_t end) const {
-    if (end < 0) return {{L(), L(), end == wall_z_hi ? wall_ : L()}, {}};
-    L x[6];
-    for (int c = 0; c < 6; ++c) {
-      for (int f = 0; f < F; ++f) {
-        x[c].set(f,
-                 motion_[static_cast<std::size_t>(f)][6 * static_cast<std::size_t>(end) + static_cast<std::size_t>(c)]);
-      }
+  /// Of a particle or wall, which may be another one in each lane.
+  template <class End>
+  Twist<L> motion_of(End&& end) const {
+    static constexpr Complex at_rest[6] = {}, moved[6] = {0, 0, 1, 0, 0, 0};
+    const Complex* motion[width];
+    for (int f = 0; f < width; ++f) {
+      const std::int32_t particle = end(single ? f : 0);
+      motion[f] = particle >= 0 ? motion_[single ? 0 : f] + 6 * static_cast<std::size_t>(particle)
+                                : (particle == wall_z_hi ? moved : at_rest);
     }
+    L x[6];
+    for (int c = 0; c < 6; ++c) x[c] = complex_lanes([&](int f) { return motion[f][c]; });
     return kernels::to_twist(x);
   }
 
-  /// `pairs`: added to by the contacts whose first end the particle is.
-  Loads loads_on(std::int32_t particle, const Twist<L>& own, PairProducts (&pairs)[pair_types]) const {
-    Loads out;
-    for (const std::uint32_t number : network_.row(static_cast<std::size_t>(particle))) {
-      const Contact& c = network_.contacts[number];
-      const auto pair = static_cast<std::size_t>(c.pair);
-      const bool is_a = c.a == particle;
-      const std::int32_t far = is_a ? c.b : c.a;
-      const Twist<L> other = motion_of(far);
-      const auto wide = [](const Vec3d& v) { return Vec3<L>{L(v.x), L(v.y), L(v.z)}; };
-      const Placement<L> frame{wide(c.n), wide(c.s), wide(c.t), L(c.arm_a), L(c.arm_b)};
-      const AreaMoments& of = c.moments;
-      const double over_d = 1 / c.distance;
-      const L m[6] = {L(of.a * over_d),  L(of.s * over_d),  L(of.t * over_d),
-                      L(of.ss * over_d), L(of.st * over_d), L(of.tt * over_d)};
-      L u[6], density[6];
-      kernels::relative_rates(frame, is_a ? own : other, is_a ? other : own, u);
-      for (std::size_t k = 0; k < 6; ++k) density[k] = k_[pair](u[k]);
-      const kernels::FacetLoad<L> load = kernels::condensed_load(density, alpha_[pair], m);
-      const auto at = kernels::to_centres(frame, load);
-      if (is_a) {
-        out.sum.linear += at.force_a, out.sum.angular += at.moment_a;
-        PairProducts& products = pairs[pair];
-        products.normal.add(load.n, u[0]), products.normal.add(-load.moment_t, u[1]);
-        products.normal.add(load.moment_s, u[2]);
-        products.shear.add(load.s, u[3]), products.shear.add(load.t, u[4]), products.shear.add(load.moment_n, u[5]);
-      } else {
-        out.sum.linear -= at.force_a, out.sum.angular += at.moment_b;
-      }
-      if (rounding_ > 0) {
-        const auto three = [](const Vec3<L>& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };
-        const double own_arm = std::abs(is_a ? c.arm_a : c.arm_b), far_arm = std::abs(is_a ? c.arm_b : c.arm_a);
-        L linear = three(own.linear) + own_arm * three(own.angular), angular = three(own.angular);
-        if (far >= 0) {  // what a wall moves by is known without rounding
-          linear += three(other.linear) + far_arm * three(other.angular);
-          angular += three(other.angular);
-        }
-        const L force = (of.a * over_d) * stiff_[pair] * linear;
-        out.force += force;
-        out.moment += ((of.ss + of.tt) * over_d) * stiff_[pair] * angular + own_arm * force;
+  /// Contacts of which a particle is the second end lie anywhere in memory: they are asked for before it is their turn,
+  /// which makes a pass over a million particles more than twice as fast.
+  void ask_for(std::size_t at) const {
+    if (at >= network_.rows.size()) return;
+    const auto* contact = reinterpret_cast<const char*>(&network_.contacts[network_.rows[at]]);
+    for (std::size_t line = 0; line < sizeof(Contact); line += 64) __builtin_prefetch(contact + line);
+  }
+
+  Group group_at(std::size_t at, std::size_t end, std::size_t particle) const {
+    Group g;
+    g.count = static_cast<int>(std::min<std::size_t>(step, end - at));
+    g.alike = true;
+    for (int f = 0; f < step; ++f) {
+      const std::size_t own = at + static_cast<std::size_t>(f);
+      ask_for(own + 16);
+      const Contact& c = network_.contacts[network_.rows[f < g.count ? own : at]];
+      const bool first = static_cast<std::size_t>(c.a) == particle;
+      g.contact[f] = &c;
+      g.sign[f] = first ? 1 : -1;
+      g.over_d[f] = 1 / c.distance;
+      g.own_arm[f] = first ? c.arm_a : c.arm_b;
+      g.far_arm[f] = first ? c.arm_b : c.arm_a;
+      g.far[f] = first ? c.b : c.a;
+      g.pair[f] = static_cast<std::size_t>(c.pair);
+      g.alike = g.alike && g.pair[f] == g.pair[0];
+    }
+    return g;
+  }
+
+  Total loads_on(std::size_t particle, const Twist<L>& own, PairProducts (&pairs)[pair_types]) const {
+    Total out;
+    const std::size_t end = network_.row_begin[particle + 1];
+    for (std::size_t at = network_.row_begin[particle]; at < end; at += step) {
+      add_loads(group_at(at, end, particle), own, out, pairs);
+    }
+    if (single) {
+      for (L* x : {&out.sum.linear.x, &out.sum.linear.y, &out.sum.linear.z, &out.sum.angular.x, &out.sum.angular.y,
+                   &out.sum.angular.z, &out.force, &out.moment}) {
+        *x = in_first(*x);
       }
     }
     return out;
+  }
+
+  /// The sum over all lanes in the first.
+  static L in_first(L x) {
+    Complex sum = 0;
+    for (int f = 0; f < width; ++f) sum += x.at(f);
+    L out;
+    out.set(0, sum);
+    return out;
+  }
+
+  void add_loads(const Group& g, const Twist<L>& own, Total& out, PairProducts (&pairs)[pair_types]) const {
+    const auto at = [&g](int f) -> const Contact& { return *g.contact[f]; };
+    const Twist<L> other = motion_of([&](int f) { return g.far[f]; });
+    const Placement<L> frame{
+        {of_contact([&](int f) { return g.sign[f] * at(f).n.x; }),
+         of_contact([&](int f) { return g.sign[f] * at(f).n.y; }),
+         of_contact([&](int f) { return g.sign[f] * at(f).n.z; })},
+        {of_contact([&](int f) { return at(f).s.x; }), of_contact([&](int f) { return at(f).s.y; }),
+         of_contact([&](int f) { return at(f).s.z; })},
+        {of_contact([&](int f) { return g.sign[f] * at(f).t.x; }),
+         of_contact([&](int f) { return g.sign[f] * at(f).t.y; }),
+         of_contact([&](int f) { return g.sign[f] * at(f).t.z; })},
+        of_contact([&](int f) { return g.own_arm[f]; }),
+        of_contact([&](int f) { return g.far_arm[f]; })};
+    const L over_d = of_contact([&](int f) { return g.over_d[f]; }),
+            turned = of_contact([&](int f) { return g.sign[f]; }) * over_d;
+    const auto moment = [&](double AreaMoments::*which) {
+      return of_contact([&](int f) { return at(f).moments.*which; });
+    };
+    const L m[6] = {moment(&AreaMoments::a) * over_d,  moment(&AreaMoments::s) * over_d,
+                    moment(&AreaMoments::t) * turned,  moment(&AreaMoments::ss) * over_d,
+                    moment(&AreaMoments::st) * turned, moment(&AreaMoments::tt) * over_d};
+    const Factor<width> k = single ? stiffness_of(g) : k_[g.pair[0]];
+    const L alpha = of_contact([&](int f) { return alpha_[g.pair[f]]; });
+    L u[6], density[6];
+    kernels::relative_rates(frame, own, other, u);
+    for (std::size_t c = 0; c < 6; ++c) density[c] = k(u[c]);
+    const kernels::FacetLoad<L> load = kernels::condensed_load(density, alpha, m);
+    const auto on = kernels::to_centres(frame, load);
+    out.sum.linear += on.force_a, out.sum.angular += on.moment_a;
+    if (g.alike) {
+      pairs[g.pair[0]].add(load, u, of_contact([&](int f) { return share(g.far[f]); }));
+    } else {
+      for (int i = 0; i < g.count; ++i) {
+        pairs[g.pair[i]].add(load, u, of_contact([&](int f) { return f == i ? share(g.far[f]) : 0.0; }));
+      }
+    }
+    if (rounding_ > 0) add_largest(g, k, own, other, out);
+  }
+
+  /// Of a contact that is seen from one end, in the sum over both.
+  static double share(std::int32_t far) { return far < 0 ? 1 : 0.5; }
+
+  Factor<width> stiffness_of(const Group& g) const {
+    if (g.alike && g.count == width) return k_[g.pair[0]];
+    Factor<width> k{};
+    for (int f = 0; f < g.count; ++f) k.set(f, k_[g.pair[f]].real.v[0] + Complex(0, k_[g.pair[f]].imaginary.v[width]));
+    return k;
+  }
+
+  /// Force and moment of contacts if nothing cancelled between the motions of their ends.
+  void add_largest(const Group& g, const Factor<width>& k, const Twist<L>& own, const Twist<L>& other,
+                   Total& out) const {
+    const auto three = [](const Vec3<L>& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };
+    const auto moments = [&g](int f) -> const AreaMoments& { return g.contact[f]->moments; };
+    const L own_arm = of_contact([&](int f) { return std::abs(g.own_arm[f]); }),
+            far_arm = of_contact([&](int f) { return std::abs(g.far_arm[f]); }),
+            moves = of_contact([&](int f) { return g.far[f] < 0 ? 0.0 : 1.0; }),  // a wall's motion is not rounded
+        area = of_contact([&](int f) { return moments(f).a * g.over_d[f]; }),
+            second = of_contact([&](int f) { return (moments(f).ss + moments(f).tt) * g.over_d[f]; }),
+            stiff = real_lanes([&](int f) { return std::abs(k.real.v[f]) + std::abs(k.imaginary.v[f]); });
+    const L turns = three(own.angular) + moves * three(other.angular);
+    const L force = area * stiff *
+                    (three(own.linear) + own_arm * three(own.angular) +
+                     moves * (three(other.linear) + far_arm * three(other.angular)));
+    out.force += force;
+    out.moment += second * stiff * turns + own_arm * force;
   }
 
   const ContactNetwork& network_;
   const Inertia& inertia_;
   double rounding_;
-  const Complex* motion_[F];
-  Factor<F> k_[pair_types], mass_factor_{};
-  L stiff_[pair_types], alpha_[pair_types], wall_;  ///< stiff: |Re k| + |Im k|
+  const Complex* motion_[width];
+  Factor<width> k_[pair_types], mass_factor_{};
+  double alpha_[pair_types];
   bool inert_ = true;
 };
 
-template <int F>
+template <bool single>
 void check(const ContactNetwork& network, const Inertia& inertia, const std::vector<const LinearTask*>& tasks,
            double rounding, std::vector<SolutionCheck>& out) {
-  const std::array<Sums, F> sums = Check<F>(network, inertia, tasks, rounding).sums();
+  const AllSums sums = Check<single>(network, inertia, tasks, rounding).sums();
   for (std::size_t f = 0; f < tasks.size(); ++f) {
     const double residual = std::sqrt(sums[f].residual);
     out.push_back({residual, rounding > 0 ? std::sqrt(sums[f].beyond) : residual, sums[f].inertia, sums[f].parts});
@@ -210,16 +330,16 @@ void check(const ContactNetwork& network, const Inertia& inertia, const std::vec
 
 std::vector<SolutionCheck> check_solutions(const ContactNetwork& network, const Inertia& inertia,
                                            const std::vector<const LinearTask*>& tasks, double rounding) {
-  constexpr std::size_t most = kernels::most_loads;
+  constexpr std::size_t most = width;
   std::vector<SolutionCheck> out;
   for (std::size_t first = 0; first < tasks.size(); first += most) {
     const auto begin = tasks.begin() + static_cast<std::ptrdiff_t>(first);
     const std::vector<const LinearTask*> some(
         begin, begin + static_cast<std::ptrdiff_t>(std::min(most, tasks.size() - first)));
     if (some.size() == 1)
-      check<1>(network, inertia, some, rounding, out);
+      check<true>(network, inertia, some, rounding, out);
     else
-      check<kernels::most_loads>(network, inertia, some, rounding, out);
+      check<false>(network, inertia, some, rounding, out);
   }
   return out;
 }

@@ -4,12 +4,12 @@
 
 #include <cuda_runtime.h>
 
-#include "kernels/harmonic/linear_system.hpp"
+#include "kernels/harmonic/cocg_view.hpp"
 #include "kernels/harmonic/particle_block.hpp"
 
 namespace macadam::kernels {
 
-/// K_ii⁻¹ of every body; the first whose own stiffness is singular goes to `loose`.
+/// K_ii⁻¹ of every body, packed; the first whose own stiffness is singular goes to `loose`.
 inline __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
                                      RealStiffness typical, double* inverse, unsigned long long* loose) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
@@ -20,7 +20,9 @@ inline __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_
     add_block(ends[at], typical.k[pair], typical.alpha[pair], block);
   }
   if (!invert_block(block)) atomicMin(loose, static_cast<unsigned long long>(i));
-  for (int c = 0; c < 36; ++c) inverse[36 * i + c] = block[c];
+  for (int a = 0; a < 6; ++a) {
+    for (int b = 0; b <= a; ++b) inverse[packed_block * i + packed_at(a, b)] = block[6 * a + b];
+  }
 }
 
 /// One load's numbers, [6·particles] in the order of the specimen, and the lanes of all, [6·bodies].

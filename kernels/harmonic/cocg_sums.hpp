@@ -1,29 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file cocg_sums.hpp  Sums over a block of threads and over the blocks of a launch, in an order that never changes.
-///
-/// Every vector holds the real and imaginary part of F loads side by side: W = 2F lanes. A thread works on one lane,
-/// its number modulo W; the partner of a real part is its imaginary part.
 #pragma once
 
-#include <cuda_runtime.h>
+#include "kernels/harmonic/cocg_lanes.hpp"
 
 namespace macadam::kernels {
 
 inline constexpr unsigned cocg_threads = 256;
-
-__device__ inline double partner(double v) { return __shfl_xor_sync(0xffffffffu, v, 1); }
-
-/// A complex factor as one lane needs it: factor·x = own·x + cross·partner(x).
-struct LaneFactor {
-  double own, cross;
-  __device__ double operator()(double x) const { return own * x + cross * partner(x); }
-};
-__device__ inline LaneFactor lane_factor(double2 z, bool imaginary) { return {z.x, imaginary ? z.y : -z.y}; }
-
-__device__ inline double2 over(double2 a, double2 b) {
-  const double scale = 1 / (fabs(b.x) + fabs(b.y)), x = scale * b.x, y = scale * b.y, square = x * x + y * y;
-  return {scale * (a.x * x + a.y * y) / square, scale * (a.y * x - a.x * y) / square};
-}
 
 /// Adds up v over the threads of a block that share a lane, to out[N][W] (global or shared memory).
 template <int N, int W>
@@ -44,8 +27,8 @@ __device__ void block_sum(const double (&v)[N], double* out) {
   __syncthreads();
 }
 
-/// Whether this block is the last of `blocks` to come here, maybe from several devices: it then sees what the others
-/// wrote.
+/// Whether this block is the last of `blocks` to come here, from several devices or from one: it then sees what the
+/// others wrote.
 __device__ inline bool comes_last(unsigned* counter, unsigned blocks, bool several) {
   __shared__ bool last;
   const auto fence = [several] {
@@ -69,6 +52,7 @@ __device__ inline bool comes_last(unsigned* counter, unsigned blocks, bool sever
 template <int N, int W>
 __device__ void sum_rows(const double* rows_of, unsigned rows, unsigned stride, double* out) {
   double own[N] = {};
+#pragma unroll 5  // rows are few, and each is asked for before the one before is there
   for (unsigned r = threadIdx.x / W; r < rows; r += cocg_threads / W) {
     for (int n = 0; n < N; ++n)
       own[n] += __ldcg(&rows_of[static_cast<std::size_t>(r) * stride + n * W + threadIdx.x % W]);

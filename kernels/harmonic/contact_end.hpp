@@ -11,8 +11,8 @@
 
 namespace macadam::kernels {
 
-/// The normal points away from this end. Two cache lines.
-struct alignas(64) ContactEnd {
+/// The normal points away from this end. Two cache lines, where an array begins with one.
+struct alignas(16) ContactEnd {
   double n[3], s[3];  ///< t = n × s
   double arm, arm_other;
   double moments[6];   ///< over the distance [m] [m²] [m³]

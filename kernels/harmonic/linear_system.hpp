@@ -87,8 +87,11 @@ class DeviceSolver {
   virtual ~DeviceSolver() = default;
   /// Up to four loads. `look` is called between iterations and may throw.
   virtual std::vector<LinearState> solve(const std::vector<LinearLoad>& loads, const std::function<void()>& look) = 0;
-  /// The solution of a load of the last solve(), by its number there: [6·particles] in the order of the specimen.
-  virtual void solution(std::size_t load, std::complex<double>* out) = 0;
+  /// take(first, numbers, count): `count` numbers of a solution, from number `first` on.
+  using TakePart = std::function<void(std::size_t first, const std::complex<double>* numbers, std::size_t count)>;
+  /// The solution of a load of the last solve(), by its number there: [6·particles] in the order of the specimen, in
+  /// parts one after the other.
+  virtual void solution(std::size_t load, const TakePart& take) = 0;
 };
 
 /// Only in builds with CUDA: as CudaCode::make_solver.

@@ -83,7 +83,10 @@ class CudaSolver : public LinearSolver {
       task.energy = states[t].energy;
       task.iterations += states[t].iterations;
       task.converged = states[t].converged;
-      solver_->solution(t, task.motion.data());
+      solver_->solution(t, [&task](std::size_t first, const Complex* numbers, std::size_t count) {
+#pragma omp parallel for schedule(static)
+        for (std::size_t i = 0; i < count; ++i) task.motion[first + i] = numbers[i];
+      });
     }
   }
 

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cocg_lanes.hpp  How threads share the complex numbers of F loads.
+///
+/// Every vector holds the real and imaginary part of F loads side by side: W = 2F lanes. A thread works on one lane,
+/// its number modulo W; the partner of a real part is its imaginary part. What is linear is computed lane by lane. In
+/// memory a lane and its partner take whole complex numbers, every second component each, so that no line is asked for
+/// twice.
+#pragma once
+
+#include <cuda_runtime.h>
+
+#include <cstddef>
+
+namespace macadam::kernels {
+
+__device__ inline double partner(double v) { return __shfl_xor_sync(0xffffffffu, v, 1); }
+
+/// A complex factor as one lane needs it: factor·x = own·x + cross·partner(x).
+struct LaneFactor {
+  double own, cross;
+  __device__ double operator()(double x) const { return own * x + cross * partner(x); }
+};
+__device__ inline LaneFactor lane_factor(double2 z, bool imaginary) { return {z.x, imaginary ? z.y : -z.y}; }
+
+__device__ inline double2 times(double2 a, double2 b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
+__device__ inline double2 over(double2 a, double2 b) {
+  const double scale = 1 / (fabs(b.x) + fabs(b.y)), x = scale * b.x, y = scale * b.y, square = x * x + y * y;
+  return {scale * (a.x * x + a.y * y) / square, scale * (a.y * x - a.x * y) / square};
+}
+
+/// Components 0, 2, 4 of a body's six in an even lane, 1, 3, 5 in an odd one, of the lane's load.
+struct ComplexThree {
+  double2 z[3];
+};
+
+/// Where the three of a body lie in a vector; they are W apart.
+template <unsigned W, class Number>
+__device__ auto* three_at(Number* vector, std::size_t body, unsigned lane) {
+  const unsigned odd = lane % 2;
+  auto* const first = vector + (6 * body + odd) * W + (lane - odd);
+  if constexpr (std::is_const_v<Number>)
+    return reinterpret_cast<const double2*>(first);
+  else
+    return reinterpret_cast<double2*>(first);
+}
+template <unsigned W>
+__device__ ComplexThree load_three(const double* vector, std::size_t body, unsigned lane) {
+  const double2* at = three_at<W>(vector, body, lane);
+  return {{at[0], at[W], at[2 * W]}};
+}
+/// Of a vector that the kernel does not change.
+template <unsigned W>
+__device__ ComplexThree load_constant_three(const double* vector, std::size_t body, unsigned lane) {
+  const double2* at = three_at<W>(vector, body, lane);
+  return {{__ldg(at), __ldg(at + W), __ldg(at + 2 * W)}};
+}
+template <unsigned W>
+__device__ void store_three(double* vector, std::size_t body, unsigned lane, const ComplexThree& v) {
+  double2* at = three_at<W>(vector, body, lane);
+  for (int k = 0; k < 3; ++k) at[k * W] = v.z[k];
+}
+
+/// All six components in the lane. By a whole warp, as the next.
+__device__ inline void to_lane(const ComplexThree& v, unsigned lane, double (&six)[6]) {
+  const bool odd = lane % 2;
+  for (int k = 0; k < 3; ++k) {
+    const double given = partner(odd ? v.z[k].x : v.z[k].y);
+    six[2 * k] = odd ? given : v.z[k].x;
+    six[2 * k + 1] = odd ? v.z[k].y : given;
+  }
+}
+__device__ inline ComplexThree to_three(const double (&six)[6], unsigned lane) {
+  const bool odd = lane % 2;
+  ComplexThree out;
+  for (int k = 0; k < 3; ++k) {
+    const double given = partner(odd ? six[2 * k] : six[2 * k + 1]);
+    out.z[k] = odd ? double2{given, six[2 * k + 1]} : double2{six[2 * k], given};
+  }
+  return out;
+}
+
+/// Sums over the groups of W threads of a warp, of which each thread then has one or two: which, and how many.
+template <unsigned W>
+struct SpreadSums {
+  static constexpr int most = W <= 4 ? 1 : 2;
+  double sum[most];
+  int first, count;
+};
+
+/// Σ of v over the threads of a warp that share a lane. In each step, two threads add up half of the numbers for both.
+template <unsigned W>
+__device__ SpreadSums<W> spread_sums(const double (&v)[6]) {
+  double held[6];
+  for (int k = 0; k < 6; ++k) held[k] = v[k];
+  SpreadSums<W> out{{}, 0, 6};
+  int size = 6;  // numbers that a thread holds, known to the compiler
+#pragma unroll
+  for (unsigned far = W; far < 32; far *= 2) {
+    const bool upper = threadIdx.x & far;
+    if (size == 1) {  // both have the same number: one of them counts it
+      held[0] += __shfl_xor_sync(0xffffffffu, held[0], far);
+      if (upper) out.count = 0;
+      continue;
+    }
+    const int half = (size + 1) / 2;
+#pragma unroll
+    for (int k = 0; k < 3; ++k) {
+      if (k >= half) continue;
+      const double high = half + k < size ? held[half + k] : 0;
+      held[k] = (upper ? high : held[k]) + __shfl_xor_sync(0xffffffffu, upper ? held[k] : high, far);
+    }
+    if (upper) out.first += half;
+    out.count = upper ? max(out.count - half, 0) : min(out.count, half);
+    size = half;
+  }
+  for (int k = 0; k < SpreadSums<W>::most; ++k) out.sum[k] = held[k];
+  return out;
+}
+
+}  // namespace macadam::kernels

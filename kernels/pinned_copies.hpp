@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file pinned_copies.hpp  Copies from a device that goes on, by way of memory that it writes itself.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+
+#include "kernels/cuda_team.hpp"
+
+namespace macadam::kernels {
+
+/// Two copies of up to `size` items, by turns, on the stream of a team's first member.
+template <class T>
+class PinnedCopies {
+ public:
+  explicit PinnedCopies(const DeviceTeam& team, std::size_t size = 1) : team_(team), size_(size) {
+    check_cuda(cudaMallocHost(&host_, 2 * size * sizeof(T)), "pinned memory");
+    for (cudaEvent_t& e : copied_) check_cuda(cudaEventCreateWithFlags(&e, cudaEventDisableTiming), "event");
+  }
+  PinnedCopies(const PinnedCopies&) = delete;
+  ~PinnedCopies() {
+    team_.wait_for_the_last();  // a copy may be under way, and kernels before it on other members
+    cudaFreeHost(host_);
+    for (cudaEvent_t e : copied_) cudaEventDestroy(e);
+  }
+  std::size_t size() const { return size_; }
+  void copy(const T* from, std::size_t count, int slot) const {
+    check_cuda(cudaMemcpyAsync(host_ + slot * size_, from, count * sizeof(T), cudaMemcpyDeviceToHost, team_.stream()),
+               "copy from the device");
+    check_cuda(cudaEventRecord(copied_[slot], team_.stream()), "copy from the device");
+  }
+  const T* wait(int slot) const {
+    check_cuda(cudaEventSynchronize(copied_[slot]), "copy from the device");
+    return host_ + slot * size_;
+  }
+
+ private:
+  const DeviceTeam& team_;
+  std::size_t size_;
+  T* host_ = nullptr;
+  cudaEvent_t copied_[2] = {};
+};
+
+/// A long array in parts: while one is taken, the next is copied. A copy into usual memory is the work of one thread,
+/// and takes five times as long.
+template <class T>
+class PinnedParts {
+ public:
+  explicit PinnedParts(const DeviceTeam& team) : copies_(team, (std::size_t{8} << 20) / sizeof(T)) {}
+
+  /// take(number of the part's first item, part, count) for each part in turn; what is in `from` is there by now.
+  template <class Take>
+  void copy(const T* from, std::size_t count, Take&& take) const {
+    const std::size_t part = copies_.size(), parts = (count + part - 1) / part;
+    const auto length = [&](std::size_t k) { return std::min(part, count - k * part); };
+    for (std::size_t k = 0; k <= parts; ++k) {
+      if (k < parts) copies_.copy(from + k * part, length(k), static_cast<int>(k % 2));
+      if (k > 0) take((k - 1) * part, copies_.wait(static_cast<int>((k - 1) % 2)), length(k - 1));
+    }
+  }
+
+ private:
+  PinnedCopies<T> copies_;
+};
+
+}  // namespace macadam::kernels
