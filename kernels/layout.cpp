@@ -3,6 +3,7 @@
 #include "kernels/layout.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -59,7 +60,8 @@ class Bisection {
     order(items.subspan(cut));
   }
 
-  /// Parts the items along an axis, left of the whole weight before the cut.
+  /// Parts the items along an axis, left of the whole weight before the cut, which is found by halves: all of them need
+  /// no order.
   std::size_t cut_at(std::span<Item> items, int axis, std::size_t left, std::size_t whole) {
     const double share = static_cast<double>(left) / static_cast<double>(whole);
     if (weight_.empty()) {
@@ -67,14 +69,29 @@ class Bisection {
       std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(cut), items.end(), Before{axis});
       return cut;
     }
-    std::sort(items.begin(), items.end(), Before{axis});
-    double total = 0, sum = 0;
-    for (const Item& i : items) total += weight(i);
-    std::size_t cut = 0;
-    while (cut < items.size() && sum < share * total) sum += weight(items[cut++]);
-    return cut;
+    const auto at = [&](std::size_t k) { return items.begin() + static_cast<std::ptrdiff_t>(k); };
+    const double before = share * weight(items);
+    double sum = 0;
+    std::size_t low = 0, high = items.size();  // the cut is between them, and what is below `low` weighs `sum`
+    constexpr std::size_t short_enough = 32;
+    while (high - low > short_enough) {
+      const std::size_t middle = (low + high) / 2;
+      std::nth_element(at(low), at(middle), at(high), Before{axis});
+      const double half = weight(items.subspan(low, middle - low));
+      if (sum + half < before)
+        sum += half, low = middle;
+      else
+        high = middle;
+    }
+    std::sort(at(low), at(high), Before{axis});
+    while (low < high && sum < before) sum += weight(items.subspan(low++, 1));
+    return low;
   }
-  double weight(const Item& i) const { return weight_[static_cast<std::size_t>(i.particle)]; }
+  double weight(std::span<const Item> items) const {
+    double sum = 0;
+    for (const Item& i : items) sum += weight_[static_cast<std::size_t>(i.particle)];
+    return sum;
+  }
 
   /// Along one axis; the particle's number breaks ties, so that the order does not depend on the sort.
   struct Before {
@@ -120,24 +137,22 @@ void order_particles(const Specimen& specimen, const std::vector<double>& weight
   }
 }
 
-/// Fills one group: sorts its contacts by (tile, points, body) and pads every tile's run to whole packets.
+/// Fills one group: sorts its contacts by (tile, points, body) and pads every tile's run to whole packets. `numbers`:
+/// its contacts in the network.
 GroupLayout make_group(const ContactNetwork& network, const Layout& layout, const std::vector<std::int32_t>& tile_of,
-                       PairType pair) {
+                       PairType pair, const std::vector<std::uint32_t>& numbers) {
   using Key = std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint32_t>;  // points, bodies, number
   const auto tile_of_contact = [&](const Contact& c) {  // that of the lower body; a wall is none
     const std::int32_t low = std::min(layout.body_of(c.a), layout.body_of(c.b));
     return static_cast<std::size_t>(tile_of[static_cast<std::size_t>(low)]);
   };
   std::vector<std::size_t> begin(layout.tiles() + 1, 0);
-  for (const Contact& c : network.contacts) {
-    if (c.pair == pair) ++begin[tile_of_contact(c) + 1];
-  }
+  for (const std::uint32_t number : numbers) ++begin[tile_of_contact(network.contacts[number]) + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   RawVector<Key> keys(begin.back());
   std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (std::uint32_t number = 0; number < network.contacts.size(); ++number) {
+  for (const std::uint32_t number : numbers) {
     const Contact& c = network.contacts[number];
-    if (c.pair != pair) continue;
     const std::int32_t a = layout.body_of(c.a), b = layout.body_of(c.b);
     keys[next[tile_of_contact(c)]++] = {c.point_end - c.point_begin, std::min(a, b), std::max(a, b), number};
   }
@@ -172,19 +187,29 @@ GroupLayout make_group(const ContactNetwork& network, const Layout& layout, cons
 /// others lighter.
 void weigh_by_touched(const ContactNetwork& network, const Layout& layout, const std::vector<std::int32_t>& tile_of,
                       std::vector<double>& weight) {
-  std::vector<double> touched(layout.tiles());
-  double all = static_cast<double>(layout.particles());
+  std::vector<std::int64_t> touched(layout.tiles());
   for (std::size_t t = 0; t < touched.size(); ++t) touched[t] = layout.tile_body[t + 1] - layout.tile_body[t];
   const auto tile_at = [&](std::int32_t end) {
     return static_cast<std::size_t>(tile_of[static_cast<std::size_t>(layout.body_of(end))]);
   };
-  for (const Contact& c : network.contacts) {
-    const std::size_t a = tile_at(c.a), b = c.b < 0 ? a : tile_at(c.b);
-    touched[a] += 1, all += 1;
-    if (a != b) touched[b] += 1, all += 1;
+#pragma omp parallel
+  {
+    std::vector<std::int64_t> own(touched.size());
+#pragma omp for schedule(static) nowait
+    for (const Contact& c : network.contacts) {
+      const std::size_t a = tile_at(c.a), b = c.b < 0 ? a : tile_at(c.b);
+      ++own[a];
+      if (a != b) ++own[b];
+    }
+#pragma omp critical
+    for (std::size_t t = 0; t < own.size(); ++t) touched[t] += own[t];
   }
+  const auto all = static_cast<double>(std::accumulate(touched.begin(), touched.end(), std::int64_t{0}));
   const double mean = all / static_cast<double>(touched.size());
-  for (std::size_t i = 0; i < weight.size(); ++i) weight[i] *= touched[tile_at(static_cast<std::int32_t>(i))] / mean;
+#pragma omp parallel for schedule(static)
+  for (std::size_t i = 0; i < weight.size(); ++i) {
+    weight[i] *= static_cast<double>(touched[tile_at(static_cast<std::int32_t>(i))]) / mean;
+  }
 }
 
 }  // namespace
@@ -209,6 +234,7 @@ Layout make_layout(const Specimen& specimen, const ContactNetwork& network, int 
   layout.lanes = lanes;
   const std::size_t n = specimen.size(), tiles = network.contacts.size() / std::max<std::size_t>(size.contacts, 1);
   std::vector<double> weight(n, 1.0);
+#pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < n; ++i) weight[i] += static_cast<double>(network.row(i).size());
   std::vector<std::int32_t> tile_of;
   const int rounds = size.even ? 4 : 1;  // tile_plan_test shows what they give
@@ -217,10 +243,16 @@ Layout make_layout(const Specimen& specimen, const ContactNetwork& network, int 
     order_particles(specimen, weight, tiles, layout);
     tile_of = tiles_of(layout);
   }
-  for (int pair = 0; pair < pair_types; ++pair) {
-    if (network.count[static_cast<std::size_t>(pair)] > 0) {
-      layout.groups.push_back(make_group(network, layout, tile_of, static_cast<PairType>(pair)));
-    }
+  std::array<std::vector<std::uint32_t>, pair_types> numbers;
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    numbers[pair].reserve(static_cast<std::size_t>(network.count[pair]));
+  }
+  for (std::uint32_t number = 0; number < network.contacts.size(); ++number) {
+    numbers[static_cast<std::size_t>(network.contacts[number].pair)].push_back(number);
+  }
+  for (std::size_t pair = 0; pair < pair_types; ++pair) {
+    if (numbers[pair].empty()) continue;
+    layout.groups.push_back(make_group(network, layout, tile_of, static_cast<PairType>(pair), numbers[pair]));
   }
   return layout;
 }

@@ -88,6 +88,11 @@ class Harmonic::Implementation {
     const auto start = Clock::now();
     std::vector<Work> works;
     for (const HarmonicLoad& load : loads) works.push_back(work_of(load));
+    std::vector<LinearTask*> tasks;
+    for (Work& w : works) tasks.push_back(&w.task);
+    for_each_in_parallel(loads.size(), [&](std::size_t i) {
+      if (loads[i].near) tasks[i]->motion = without_free_motions(*loads[i].near);
+    });
     if (iterative_) attempt(works, *iterative_, LinearMethod::iterative);
     if (options_.linear != LinearMethod::iterative && !all_good(works) && specimen_.size() <= largest_direct) {
       for (std::size_t i = 0; i < works.size(); ++i) {
@@ -132,7 +137,6 @@ class Harmonic::Implementation {
                         to_string(static_cast<PairType>(pair)), s.real(), s.imag(), k.real(), k.imag()));
       }
     }
-    if (load.near) task.motion = without_free_motions(*load.near);
     return out;
   }
 

@@ -2,9 +2,9 @@
 // make_system.cpp  Contacts between boxes make up the coarse matrix: a rigid motion strains none inside.
 #include "host/harmonic/iterative/make_system.hpp"
 
+#include "host/harmonic/iterative/invert.hpp"
 #include "host/harmonic/linear_solver.hpp"
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,8 +22,6 @@ using kernels::LinearSystem;
 using kernels::Twist;
 
 namespace {
-
-using Coarse = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 ContactEnd seen_from_a(const Contact& c, const kernels::Layout& layout) {
   const double d = c.distance;
@@ -103,11 +101,11 @@ Twist<double> box_motion(const Lever& lever, int c) {
 }
 
 /// RᵀKR, every box its own six rows.
-Coarse coarse_stiffness(const LinearSystem& system) {
+Eigen::MatrixXd coarse_stiffness(const LinearSystem& system) {
   const auto size = static_cast<Eigen::Index>(6 * system.boxes());
   std::vector<std::int32_t> box_of(system.bodies());
   for_each_body(system, [&](std::size_t b, std::size_t i) { box_of[i] = static_cast<std::int32_t>(b); });
-  Coarse k = Coarse::Zero(size, size);
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size, size);  // symmetric: rows are written as columns
   for_each_body(system, [&](std::size_t box, std::size_t i) {
     const auto row = static_cast<Eigen::Index>(6 * box);
     for (std::size_t at = system.row_begin[i]; at < system.row_begin[i + 1]; ++at) {
@@ -122,7 +120,7 @@ Coarse coarse_stiffness(const LinearSystem& system) {
             kernels::end_load(
                 e, own, far, [&](double u) { return system.typical.k[pair] * u; }, system.typical.alpha[pair]),
             y);
-        for (int c = 0; c < 6; ++c) k(row + c, column) -= y[c];
+        for (int c = 0; c < 6; ++c) k(column, row + c) -= y[c];
       };
       for (int c = 0; c < 6; ++c) {
         add(row + c, box_motion(system.lever[i], c), {});
@@ -146,22 +144,6 @@ Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
         l.width * turn.y, l.width * turn.z;
   }
   return out;
-}
-
-/// Columns of the inverse side by side on all threads.
-void invert(Coarse& k, std::vector<double>& out) {
-  const Eigen::LLT<Eigen::MatrixXd> factor(k);
-  if (factor.info() != Eigen::Success) throw NotIterable("harmonic: boxes of particles can move without force");
-  const Eigen::Index size = k.rows(), strip = 48;
-  out.resize(static_cast<std::size_t>(size * size));
-  Eigen::Map<Eigen::MatrixXd> inverse(out.data(), size, size);  // symmetric: rows are columns
-  for_each_in_parallel(static_cast<std::size_t>((size + strip - 1) / strip), [&](std::size_t number) {
-    const Eigen::Index first = strip * static_cast<Eigen::Index>(number), columns = std::min(strip, size - first);
-    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size, columns);
-    for (Eigen::Index c = 0; c < columns; ++c) unit(first + c, c) = 1;
-    factor.solveInPlace(unit);
-    inverse.middleCols(first, columns) = unit;
-  });
 }
 
 void make_motions(const kernels::Layout& layout, const Inertia& inertia, const FreeMotions& free, LinearSystem& out) {
@@ -207,7 +189,7 @@ LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen
   make_levers(specimen, layout, out);
   make_motions(layout, inertia, free, out);
   make_weights(out);
-  Coarse k = coarse_stiffness(out);
+  Eigen::MatrixXd k = coarse_stiffness(out);
   // Motions of the whole that no wall resists have no stiffness among the boxes either. They are given some: what of
   // them gets into z is taken out of it anyway.
   const double usual = k.trace() / static_cast<double>(k.rows());
@@ -215,7 +197,8 @@ LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen
     const Eigen::VectorXd boxes_move = motions_of_boxes(out, m);
     k += usual / boxes_move.squaredNorm() * boxes_move * boxes_move.transpose();
   }
-  invert(k, out.coarse);
+  if (!invert_in_parallel(k)) throw NotIterable("harmonic: boxes of particles can move without force");
+  out.coarse.assign(k.data(), k.data() + k.size());
   return out;
 }
 
