@@ -25,17 +25,34 @@ KERNELS = "harmonic-kernels-h200.csv"
 
 @mark
 def harmonic_kernels_machine():
-    return head(KERNELS)[0].split(", ", 2)[2].split(";")[0]
+    return "NVIDIA" + head(KERNELS)[0].split("NVIDIA")[1].split(";")[0]
 
 
 @mark
 def harmonic_kernels():
     found = rows(KERNELS)
-    before, now = dict.fromkeys(r["commit"] for r in found)
+    commits = list(dict.fromkeys(r["commit"] for r in found))
     lines = []
     for scene, label in (("ac14_ss_am1", "ac14_ss_am1"), ("lattice:1e5", "lattice of 10⁵"), ("lattice:1e6", "lattice of 10⁶")):
         for loads in (1, 4):
-            both = [one(found, commit=commit, row=f"harmonic/{scene}/cuda/loads:{loads}") for commit in (before, now)]
-            times = [r["ms"] for r in both]
-            lines.append((label, loads, *(plain(t, 2) for t in times), f"{times[0] / times[1]:.1f}", *(f"{r['spread_percent']:.0f}" for r in both)))
-    return table(["network", "frequencies", "before (ms)", "now (ms)", "factor", "spread before (%)", "now (%)"], lines)
+            each = [one(found, commit=commit, row=f"harmonic/{scene}/cuda/loads:{loads}") for commit in commits]
+            times = [r["ms"] for r in each]
+            lines.append((label, loads, *(plain(t, 2) for t in times), f"{times[0] / times[-1]:.1f}", *(f"{r['spread_percent']:.0f}" for r in each)))
+    return table(["network", "frequencies", "at first (ms)", "then (ms)", "now (ms)", "factor", "spread at first (%)", "then (%)", "now (%)"], lines)
+
+
+ITERATION = "harmonic-iteration-h200.csv"
+
+
+@mark
+def harmonic_iteration():
+    found = rows(ITERATION)
+    before, now = dict.fromkeys(r["commit"] for r in found)
+    columns = [(commit, loads) for loads in (1, 4) for commit in (before, now)]
+    parts = (("turn", "direction"), ("apply", "stiffness times direction"), ("advance", "solution and residual"), ("coarse", "coarse correction"),
+             ("iteration", "whole iteration"))
+    lines = []
+    for devices, label in ((1, "one GPU"), (2, "two GPUs")):
+        for part, name in parts:
+            lines.append((f"{label}, {name}", *(plain(one(found, commit=c, devices=devices, loads=n)[part], 3) for c, n in columns)))
+    return table(["µs", "one frequency, before", "now", "four frequencies, before", "now"], lines)

@@ -36,10 +36,19 @@ def team():
     return table(["a step (µs)", "one GPU", "two GPUs", "factor", "on two"], lines)
 
 
+TEAM_HARMONIC = "team-harmonic-h200-2026-11-27.csv"
+
+
+@mark
+def team_harmonic_machine():
+    return "two NVIDIA" + head(TEAM_HARMONIC)[0].split("two NVIDIA")[1].split(";")[0]
+
+
 @mark
 def team_harmonic(loads):
-    alone, both = pair(f"harmonic/lattice:1e6/cuda/loads:{loads}")
-    return f"{alone / 1e6:.2f} s on one GPU and {both / 1e6:.2f} s on two"
+    row = f"harmonic/lattice:1e6/cuda/loads:{loads}"
+    alone, both = (one(rows(TEAM_HARMONIC), row=row + more)["us"] for more in ("", "/devices:2"))
+    return f"{alone / 1e6:.2f} s on one GPU and {both / 1e6:.2f} s on two, {alone / both:.2f} times as fast"
 
 
 @mark
@@ -119,9 +128,21 @@ def courses(devices):
 
 
 def of_one_gpu():
-    """Seconds to the first steps, of a specimen, and behind the last steps, of twenty on one GPU."""
+    """Seconds to the first steps, of a specimen, and behind the last steps, on one GPU."""
     ((r,),) = courses(1)
-    return r["first_steps_s"], (r["last_steps_s"] - r["first_steps_s"]) / 20, r["process_s"] - r["last_steps_s"]
+    return r["first_steps_s"], (r["last_steps_s"] - r["first_steps_s"]) / r["specimens"], r["process_s"] - r["last_steps_s"]
+
+
+@mark
+def many_step(devices):
+    """Of each GPU, from its first step to its last one."""
+    return span([1e6 * (r["last_steps_s"] - r["first_steps_s"]) / r["steps"] for run in courses(int(devices)) for r in run], "{:.1f}", " to ")
+
+
+@mark
+def many_idle():
+    """Of two GPUs, between their first and last steps."""
+    return span([r["idle_s"] for run in courses(2) for r in run], "{:.1f}", " to ")
 
 
 @mark
@@ -131,16 +152,9 @@ def many_parts(part):
 
 @mark
 def many_limit():
-    """Two GPUs to one, if they did not disturb each other."""
+    """Two GPUs to one, of twenty specimens, if both began and ended at the same time."""
     first, specimen, end = of_one_gpu()
     return f"{(first + 20 * specimen + end) / (first + 10 * specimen + end):.2f}"
-
-
-@mark
-def many_factor_there():
-    """Of the runs that were looked at."""
-    ((one_gpu,),), two = courses(1), [run[0]["process_s"] for run in courses(2)]
-    return f"{one_gpu['process_s'] * len(two) / sum(two):.2f}"
 
 
 @mark
