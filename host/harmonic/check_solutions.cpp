@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/harmonic/iterative/lanes.hpp"
-#include "kernels/harmonic/linear_system.hpp"
+#include "host/harmonic/contact_group.hpp"
 #include "kernels/harmonic/particle_block.hpp"
 
 namespace macadam::harmonic {
@@ -16,34 +15,9 @@ namespace {
 using kernels::Placement;
 using kernels::Twist;
 
-constexpr int width = kernels::most_loads;
 /// Particles of a piece: few enough that no thread waits long for the last (large particles, with hundreds of contacts,
 /// stand together), and enough that pieces are added up in no time.
 std::size_t piece_of(std::size_t particles) { return std::max<std::size_t>(64, particles / 4096); }
-
-using L = Lanes<width>;
-
-/// |Re| + |Im| of each number, in both of its lanes.
-L size_of(L x) {
-  const L positive = x.v < 0 ? -x.v : x.v;
-  return positive + positive.swapped();
-}
-
-/// The real number of(f) for each f, in both of its lanes. Written out: a compiler makes a loop of one lane after the
-/// other of it.
-template <class Of>
-L real_lanes(Of&& of) {
-  static_assert(width == 4);
-  const double a = of(0), b = of(1), c = of(2), d = of(3);
-  return L::Register{a, b, c, d, a, b, c, d};
-}
-
-/// The complex number of(f) for each f.
-template <class Of>
-L complex_lanes(Of&& of) {
-  const Complex a = of(0), b = of(1), c = of(2), d = of(3);
-  return L::Register{a.real(), b.real(), c.real(), d.real(), a.imag(), b.imag(), c.imag(), d.imag()};
-}
 
 /// Sums over a piece, of one solution.
 struct Sums {
@@ -109,23 +83,16 @@ class Check {
     Twist<L> sum;
     L force, moment;
   };
-  /// Contacts as their particle sees them, the normal pointing away from it; where there are fewer, the first of them
-  /// again, without stiffness.
-  struct Group {
-    const Contact* contact[width];
-    bool is_first[width];
-    double sign[width], over_d[width], own_arm[width], far_arm[width];
-    std::int32_t far[width];
-    std::size_t pair[width];
-    int count;
-    bool alike;  ///< all are of the same pair
-  };
   static constexpr int step = single ? width : 1;  ///< contacts of a group
+  using Group = ContactGroup<step>;
 
   /// What is of a contact, and alike for all solutions.
   template <class Of>
   static L of_contact(Of&& of) {
-    return single ? real_lanes(of) : L(of(0));
+    if constexpr (single)
+      return real_lanes(of);
+    else
+      return L(of(0));
   }
 
   AllSums sums_of(std::size_t begin, std::size_t end) const {
@@ -185,40 +152,11 @@ class Check {
     return kernels::to_twist(x);
   }
 
-  /// Contacts of which a particle is the second end lie anywhere in memory: they are asked for before it is their turn,
-  /// which makes a pass over a million particles more than twice as fast.
-  void ask_for(std::size_t at) const {
-    if (at >= network_.rows.size()) return;
-    const auto* contact = reinterpret_cast<const char*>(&network_.contacts[network_.rows[at]]);
-    for (std::size_t line = 0; line < sizeof(Contact); line += 64) __builtin_prefetch(contact + line);
-  }
-
-  Group group_at(std::size_t at, std::size_t end, std::size_t particle) const {
-    Group g;
-    g.count = static_cast<int>(std::min<std::size_t>(step, end - at));
-    g.alike = true;
-    for (int f = 0; f < step; ++f) {
-      const std::size_t own = at + static_cast<std::size_t>(f);
-      ask_for(own + 16);
-      const Contact& c = network_.contacts[network_.rows[f < g.count ? own : at]];
-      const bool first = static_cast<std::size_t>(c.a) == particle;
-      g.contact[f] = &c;
-      g.sign[f] = first ? 1 : -1;
-      g.over_d[f] = 1 / c.distance;
-      g.own_arm[f] = first ? c.arm_a : c.arm_b;
-      g.far_arm[f] = first ? c.arm_b : c.arm_a;
-      g.far[f] = first ? c.b : c.a;
-      g.pair[f] = static_cast<std::size_t>(c.pair);
-      g.alike = g.alike && g.pair[f] == g.pair[0];
-    }
-    return g;
-  }
-
   Total loads_on(std::size_t particle, const Twist<L>& own, PairProducts (&pairs)[pair_types]) const {
     Total out;
     const std::size_t end = network_.row_begin[particle + 1];
     for (std::size_t at = network_.row_begin[particle]; at < end; at += step) {
-      add_loads(group_at(at, end, particle), own, out, pairs);
+      add_loads(Group(network_, at, end, particle), own, out, pairs);
     }
     if (single) {
       for (L* x : {&out.sum.linear.x, &out.sum.linear.y, &out.sum.linear.z, &out.sum.angular.x, &out.sum.angular.y,
