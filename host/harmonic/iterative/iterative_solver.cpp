@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <future>
+#include <system_error>
 
 #include "host/harmonic/iterative/make_system.hpp"
 #include "host/stepping/cuda_code.hpp"
@@ -73,11 +74,18 @@ class CudaSolver : public LinearSolver {
       }
     }
     // The pages of large vectors take the processor as long as the device takes for tens of iterations: beside these.
-    const auto room = std::async(std::launch::async, [&] {
+    const auto make_room = [&] {
       for (LinearTask* task : tasks) task->motion.resize(6 * layout_.particles());
-    });
+    };
+    std::future<void> room;
+    try {
+      room = std::async(std::launch::async, make_room);
+    } catch (const std::system_error&) {}  // no more threads: then behind these
     const std::vector<kernels::LinearState> states = solver_->solve(loads, [&] { require_not_stopped(stop); });
-    room.wait();
+    if (room.valid())
+      room.get();  // which says if there was no memory
+    else
+      make_room();
     for (std::size_t t = 0; t < tasks.size(); ++t) {
       LinearTask& task = *tasks[t];
       task.energy = states[t].energy;
