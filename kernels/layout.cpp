@@ -60,8 +60,8 @@ class Bisection {
     order(items.subspan(cut));
   }
 
-  /// Parts the items along an axis, left of the whole weight before the cut, which is found by halves: all of them need
-  /// no order.
+  /// Parts the items along an axis, so that `left` of `whole` shares of the weight lie before the cut. The range in
+  /// which the cut lies is halved until it is short: to sort all items would take longer.
   std::size_t cut_at(std::span<Item> items, int axis, std::size_t left, std::size_t whole) {
     const double share = static_cast<double>(left) / static_cast<double>(whole);
     if (weight_.empty()) {

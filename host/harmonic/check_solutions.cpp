@@ -12,6 +12,7 @@
 namespace macadam::harmonic {
 namespace {
 
+using L = FourNumbers;
 using kernels::Placement;
 using kernels::Twist;
 
@@ -33,7 +34,7 @@ struct Sums {
     }
   }
 };
-using AllSums = std::array<Sums, width>;
+using AllSums = std::array<Sums, at_once>;
 
 /// `single`: one solution, whose contacts are taken four at a time.
 template <bool single>
@@ -42,7 +43,7 @@ class Check {
   Check(const ContactNetwork& network, const Inertia& inertia, const std::vector<const LinearTask*>& tasks,
         double rounding)
       : network_(network), inertia_(inertia), rounding_(rounding) {
-    for (int f = 0; f < width; ++f) {  // the last of fewer than four fill the block
+    for (int f = 0; f < at_once; ++f) {  // the last of fewer than four fill the block
       const LinearTask& task = *tasks[std::min(static_cast<std::size_t>(f), tasks.size() - 1)];
       motion_[f] = task.motion.data();
       for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -64,14 +65,14 @@ class Check {
     }
     AllSums out;
     for (const AllSums& sums : pieces) {
-      for (std::size_t f = 0; f < width; ++f) out[f].add(sums[f]);
+      for (std::size_t f = 0; f < at_once; ++f) out[f].add(sums[f]);
     }
     return out;
   }
 
  private:
   struct PairProducts {
-    Products<width> normal, shear;
+    Products<at_once> normal, shear;
     void add(const kernels::FacetLoad<L>& load, const L (&u)[6], L share) {
       normal.add(load.n * share, u[0]), normal.add(-load.moment_t * share, u[1]);
       normal.add(load.moment_s * share, u[2]);
@@ -83,7 +84,7 @@ class Check {
     Twist<L> sum;
     L force, moment;
   };
-  static constexpr int step = single ? width : 1;  ///< contacts of a group
+  static constexpr int step = single ? at_once : 1;  ///< contacts of a group
   using Group = ContactGroup<step>;
 
   /// What is of a contact, and alike for all solutions.
@@ -98,7 +99,7 @@ class Check {
   AllSums sums_of(std::size_t begin, std::size_t end) const {
     AllSums out;
     PairProducts pairs[pair_types];
-    Products<width> rest_squared, motion_squared;
+    Products<at_once> rest_squared, motion_squared;
     for (std::size_t i = begin; i < end; ++i) {
       const Twist<L> own = motion_of([i](int) { return static_cast<std::int32_t>(i); });
       const Total total = loads_on(i, own, pairs);
@@ -115,13 +116,13 @@ class Check {
         if (rounding_ > 0) add_beyond(rest[c], c < 3 ? total.force : total.moment, out);
       }
     }
-    for (int f = 0; f < width; ++f) {
+    for (int f = 0; f < at_once; ++f) {
       Sums& own = out[static_cast<std::size_t>(f)];
       own.residual = rest_squared.conjugated(f);
       own.inertia = motion_squared.plain(f);
     }
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
-      for (int f = 0; f < width; ++f) {
+      for (int f = 0; f < at_once; ++f) {
         ModulusParts& parts = out[single ? 0 : static_cast<std::size_t>(f)].parts;
         parts.normal[pair] += pairs[pair].normal.plain(f);
         parts.shear[pair] += pairs[pair].shear.plain(f);
@@ -131,7 +132,7 @@ class Check {
   }
 
   void add_beyond(L rest, L largest, AllSums& sums) const {
-    for (int f = 0; f < width; ++f) {
+    for (int f = 0; f < at_once; ++f) {
       const double excess = std::max(std::abs(rest.at(f)) - rounding_ * largest.at(f).real(), 0.0);
       sums[static_cast<std::size_t>(f)].beyond += excess * excess;
     }
@@ -141,8 +142,8 @@ class Check {
   template <class End>
   Twist<L> motion_of(End&& end) const {
     static constexpr Complex at_rest[6] = {}, moved[6] = {0, 0, 1, 0, 0, 0};
-    const Complex* motion[width];
-    for (int f = 0; f < width; ++f) {
+    const Complex* motion[at_once];
+    for (int f = 0; f < at_once; ++f) {
       const std::int32_t particle = end(single ? f : 0);
       motion[f] = particle >= 0 ? motion_[single ? 0 : f] + 6 * static_cast<std::size_t>(particle)
                                 : (particle == wall_z_hi ? moved : at_rest);
@@ -170,7 +171,7 @@ class Check {
   /// The sum over all lanes in the first.
   static L in_first(L x) {
     Complex sum = 0;
-    for (int f = 0; f < width; ++f) sum += x.at(f);
+    for (int f = 0; f < at_once; ++f) sum += x.at(f);
     L out;
     out.set(0, sum);
     return out;
@@ -198,7 +199,7 @@ class Check {
     const L m[6] = {moment(&AreaMoments::a) * over_d,  moment(&AreaMoments::s) * over_d,
                     moment(&AreaMoments::t) * turned,  moment(&AreaMoments::ss) * over_d,
                     moment(&AreaMoments::st) * turned, moment(&AreaMoments::tt) * over_d};
-    const Factor<width> k = single ? stiffness_of(g) : k_[g.pair[0]];
+    const Factor<at_once> k = single ? stiffness_of(g) : k_[g.pair[0]];
     const L alpha = of_contact([&](int f) { return alpha_[g.pair[f]]; });
     L u[6], density[6];
     kernels::relative_rates(frame, own, other, u);
@@ -219,21 +220,23 @@ class Check {
   /// Of a contact that is seen from one end, in the sum over both.
   static double share(std::int32_t far) { return far < 0 ? 1 : 0.5; }
 
-  Factor<width> stiffness_of(const Group& g) const {
-    if (g.alike && g.count == width) return k_[g.pair[0]];
-    Factor<width> k{};
-    for (int f = 0; f < g.count; ++f) k.set(f, k_[g.pair[f]].real.v[0] + Complex(0, k_[g.pair[f]].imaginary.v[width]));
+  Factor<at_once> stiffness_of(const Group& g) const {
+    if (g.alike && g.count == at_once) return k_[g.pair[0]];
+    Factor<at_once> k{};
+    for (int f = 0; f < g.count; ++f)
+      k.set(f, k_[g.pair[f]].real.v[0] + Complex(0, k_[g.pair[f]].imaginary.v[at_once]));
     return k;
   }
 
   /// Force and moment of contacts if nothing cancelled between the motions of their ends.
-  void add_largest(const Group& g, const Factor<width>& k, const Twist<L>& own, const Twist<L>& other,
+  void add_largest(const Group& g, const Factor<at_once>& k, const Twist<L>& own, const Twist<L>& other,
                    Total& out) const {
     const auto three = [](const Vec3<L>& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };
     const auto moments = [&g](int f) -> const AreaMoments& { return g.contact[f]->moments; };
     const L own_arm = of_contact([&](int f) { return std::abs(g.own_arm[f]); }),
             far_arm = of_contact([&](int f) { return std::abs(g.far_arm[f]); }),
-            moves = of_contact([&](int f) { return g.far[f] < 0 ? 0.0 : 1.0; }),  // a wall's motion is not rounded
+            moves =
+                of_contact([&](int f) { return g.far[f] < 0 ? 0.0 : 1.0; }),  // what a wall moves by has no rounding
         area = of_contact([&](int f) { return moments(f).a * g.over_d[f]; }),
             second = of_contact([&](int f) { return (moments(f).ss + moments(f).tt) * g.over_d[f]; }),
             stiff = real_lanes([&](int f) { return std::abs(k.real.v[f]) + std::abs(k.imaginary.v[f]); });
@@ -248,8 +251,8 @@ class Check {
   const ContactNetwork& network_;
   const Inertia& inertia_;
   double rounding_;
-  const Complex* motion_[width];
-  Factor<width> k_[pair_types], mass_factor_{};
+  const Complex* motion_[at_once];
+  Factor<at_once> k_[pair_types], mass_factor_{};
   double alpha_[pair_types];
   bool inert_ = true;
 };
@@ -268,7 +271,7 @@ void check(const ContactNetwork& network, const Inertia& inertia, const std::vec
 
 std::vector<SolutionCheck> check_solutions(const ContactNetwork& network, const Inertia& inertia,
                                            const std::vector<const LinearTask*>& tasks, double rounding) {
-  constexpr std::size_t most = width;
+  constexpr std::size_t most = at_once;
   std::vector<SolutionCheck> out;
   for (std::size_t first = 0; first < tasks.size(); first += most) {
     const auto begin = tasks.begin() + static_cast<std::ptrdiff_t>(first);

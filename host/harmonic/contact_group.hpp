@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_group.hpp  Four numbers in a register, and the contacts of a particle as it sees them, some at a time.
+/// \file contact_group.hpp  Four complex numbers in a register, and some contacts of a particle seen from that
+/// particle.
 #pragma once
 
 #include <algorithm>
@@ -11,29 +12,29 @@
 
 namespace macadam::harmonic {
 
-/// Four complex numbers: of solutions, or of contacts.
-inline constexpr int width = kernels::most_loads;
-using L = Lanes<width>;
+/// Complex numbers in a register: one of each of four solutions, or one of each of four contacts.
+inline constexpr int at_once = kernels::most_loads;
+using FourNumbers = Lanes<at_once>;
 
 /// The real number of(f) for each f, in both of its lanes. Written out: a compiler makes a loop of one lane after the
 /// other of it.
 template <class Of>
-L real_lanes(Of&& of) {
-  static_assert(width == 4);
+FourNumbers real_lanes(Of&& of) {
+  static_assert(at_once == 4);
   const double a = of(0), b = of(1), c = of(2), d = of(3);
-  return L::Register{a, b, c, d, a, b, c, d};
+  return FourNumbers::Register{a, b, c, d, a, b, c, d};
 }
 
 /// The complex number of(f) for each f.
 template <class Of>
-L complex_lanes(Of&& of) {
+FourNumbers complex_lanes(Of&& of) {
   const std::complex<double> a = of(0), b = of(1), c = of(2), d = of(3);
-  return L::Register{a.real(), b.real(), c.real(), d.real(), a.imag(), b.imag(), c.imag(), d.imag()};
+  return FourNumbers::Register{a.real(), b.real(), c.real(), d.real(), a.imag(), b.imag(), c.imag(), d.imag()};
 }
 
 /// |Re| + |Im| of each number, in both of its lanes.
-inline L size_of(L x) {
-  const L positive = x.v < 0 ? -x.v : x.v;
+inline FourNumbers size_of(FourNumbers x) {
+  const FourNumbers positive = x.v < 0 ? -x.v : x.v;
   return positive + positive.swapped();
 }
 

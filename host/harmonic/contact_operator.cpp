@@ -117,12 +117,9 @@ ContactOperator::ContactOperator(const ContactNetwork& network, std::size_t part
     on_bottom_.insert(on_bottom_.end(), bottom.begin(), bottom.end());
     on_top_.insert(on_top_.end(), top.begin(), top.end());
   }
-  const auto by_particle = [&](std::uint32_t x, std::uint32_t y) {
-    return network.contacts[x].a < network.contacts[y].a;
-  };
-  for (auto* contacts_of_wall : {&on_bottom_, &on_top_}) {  // as they are, where the network is in order
-    std::stable_sort(contacts_of_wall->begin(), contacts_of_wall->end(), by_particle);
-  }
+  // so that wall_loads() finds all contacts of a particle side by side, in networks made by hand too
+  std::stable_sort(on_top_.begin(), on_top_.end(),
+                   [&](std::uint32_t x, std::uint32_t y) { return network.contacts[x].a < network.contacts[y].a; });
 }
 
 Loads ContactOperator::wall_loads(const PairStiffness& stiffness) const {

@@ -75,7 +75,7 @@ class ContactOperator {
 
   const ContactNetwork& network_;
   std::size_t particles_;
-  std::vector<std::uint32_t> on_bottom_, on_top_;  ///< contacts of the two walls, by particle
+  std::vector<std::uint32_t> on_bottom_, on_top_;  ///< contacts of the two walls: ascending; by particle
 };
 
 }  // namespace macadam::harmonic

@@ -10,6 +10,7 @@
 #include <cuda_runtime.h>
 
 #include <cstddef>
+#include <type_traits>
 
 namespace macadam::kernels {
 
@@ -87,7 +88,8 @@ struct SpreadSums {
   int first, count;
 };
 
-/// Σ of v over the threads of a warp that share a lane. In each step, two threads add up half of the numbers for both.
+/// Σ of v over the threads of a warp that share a lane. In each step, of two threads one adds up half of the numbers
+/// for both, and one the other half.
 template <unsigned W>
 __device__ SpreadSums<W> spread_sums(const double (&v)[6]) {
   double held[6];

@@ -10,7 +10,7 @@
 namespace macadam::kernels {
 
 /// K_ii⁻¹ of every body, packed; the first whose own stiffness is singular goes to `loose`.
-inline __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
+static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
                                      RealStiffness typical, double* inverse, unsigned long long* loose) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
   if (i >= bodies) return;

@@ -53,9 +53,8 @@ struct BodyLoad {
 /// One system to be solved.
 struct LinearLoad {
   std::vector<BodyLoad> right;  ///< f: each body once, nothing on the others
-  const std::complex<double>* start =
-      nullptr;  ///< where to begin, [6·particles] in the order of the specimen, if anywhere
-
+  /// Where to begin, [6·particles] in the order of the specimen; nullptr: at rest.
+  const std::complex<double>* start = nullptr;
   std::array<std::complex<double>, pair_types> k{};
   std::array<double, pair_types> alpha{};
   std::complex<double> inertia = 0;  ///< taken off K: inertia·M

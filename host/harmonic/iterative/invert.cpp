@@ -55,7 +55,7 @@ bool invert_in_parallel(Eigen::MatrixXd& matrix) {
   if (!factor(blocks)) return false;
   const Eigen::Index size = matrix.rows();
   Eigen::MatrixXd inverse(size, size);
-  // Of a block of columns, all above its diagonal is that of others below theirs.
+  // The inverse is symmetric: of a block of columns, the part from the diagonal down is computed, and mirrored.
   for_each_in_parallel(static_cast<std::size_t>(blocks.count), [&](std::size_t number) {
     const auto j = static_cast<Eigen::Index>(number);
     const Eigen::Index first = width * j, rest = size - first, columns = blocks.size(j);

@@ -73,14 +73,15 @@ class CudaSolver : public LinearSolver {
         std::copy(on.load.begin(), on.load.end(), load.load);
       }
     }
-    // The pages of large vectors take the processor as long as the device takes for tens of iterations: beside these.
+    // To make memory for large solutions takes the processor as long as tens of iterations take the device: it is done
+    // while the device iterates.
     const auto make_room = [&] {
       for (LinearTask* task : tasks) task->motion.resize(6 * layout_.particles());
     };
     std::future<void> room;
     try {
       room = std::async(std::launch::async, make_room);
-    } catch (const std::system_error&) {}  // no more threads: then behind these
+    } catch (const std::system_error&) {}  // no more threads: then it is done afterwards
     const std::vector<kernels::LinearState> states = solver_->solve(loads, [&] { require_not_stopped(stop); });
     if (room.valid())
       room.get();  // which says if there was no memory

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// invert_test.cpp  The inverse of a dense matrix by all threads: below, at and above the size of its blocks.
+#include "host/harmonic/iterative/invert.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <limits>
+
+namespace macadam::test {
+namespace {
+
+/// Symmetric, with eigenvalues from 1 to some ten times `size`.
+Eigen::MatrixXd positive_matrix(Eigen::Index size) {
+  std::srand(1);  // Eigen's numbers
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(size, size);
+  return a * a.transpose() + Eigen::MatrixXd::Identity(size, size);
+}
+
+TEST(Invert, TimesTheMatrixIsOne) {
+  for (const Eigen::Index size : {1, 6, 47, 48, 49, 96, 200}) {
+    const Eigen::MatrixXd matrix = positive_matrix(size);
+    Eigen::MatrixXd inverse = matrix;
+    inverse.triangularView<Eigen::StrictlyUpper>().setConstant(std::numeric_limits<double>::quiet_NaN());
+    ASSERT_TRUE(harmonic::invert_in_parallel(inverse)) << size;
+    EXPECT_TRUE(inverse == inverse.transpose()) << size;
+    // condition times rounding times terms: some 10·200 · 1.1e-16 · 200
+    EXPECT_LT((matrix * inverse - Eigen::MatrixXd::Identity(size, size)).cwiseAbs().maxCoeff(), 5e-11) << size;
+  }
+}
+
+TEST(Invert, SameBitsForAnyNumberOfThreads) {
+  const Eigen::MatrixXd matrix = positive_matrix(150);
+  const int before = omp_get_max_threads();
+  Eigen::MatrixXd first;
+  for (const int threads : {1, 2, 5}) {
+    omp_set_num_threads(threads);
+    Eigen::MatrixXd inverse = matrix;
+    ASSERT_TRUE(harmonic::invert_in_parallel(inverse));
+    if (threads == 1) first = inverse;
+    EXPECT_TRUE(inverse == first) << threads;
+  }
+  omp_set_num_threads(before);
+}
+
+// An eigenvalue of −1 that only the last block meets.
+TEST(Invert, AMatrixThatIsNotPositiveDefiniteIsRefused) {
+  Eigen::MatrixXd matrix = positive_matrix(100);
+  matrix.bottomRows(1).setZero();
+  matrix.rightCols(1).setZero();
+  matrix(99, 99) = -1;
+  EXPECT_FALSE(harmonic::invert_in_parallel(matrix));
+}
+
+}  // namespace
+}  // namespace macadam::test
