@@ -2,11 +2,12 @@
 """README.md."""
 import re
 
-from pages import accuracy_asked, accuracy_elsewhere, common, data
+from pages import accuracy_asked, accuracy_elsewhere, common, data, paper_met
 from pages.data import between, plain, rows, text, upto, where
 from pages.marks import mark
 
 DOCUMENT = "README.md"
+PARTS = (paper_met,)
 
 
 def without_times(lines):

@@ -174,6 +174,13 @@ def survivors():
 
 
 @mark
+def not_looked_at():
+    """Mistakes that no test noticed or came by, and that nobody examined, by draw."""
+    left = {draw: len(rows(f"{name}.csv")) - verdicts(name)["killed"] - sum(looked_at(name).values()) for name, draw in zip(MUTATION, DRAWS)}
+    return " and ".join(f"{number} of the {draw} draw, which no test comes by" for draw, number in left.items() if number)
+
+
+@mark
 def same_bits():
     files = ("specimen.csv", "response.csv", "contacts.csv")
     return table(["compiler", "optimised", "for the processor", "runs", *(f"other bytes in `{name}`" for name in files)],

@@ -93,6 +93,11 @@ def failures(table_of):
     return text
 
 
+def shown(found):
+    """All lines but details that pass."""
+    return [r for r in found if r["detail"] != 1 or r["verdict"] != "pass"]
+
+
 def page():
     about = head(file())
     where_and_when = re.sub(r"^stability_bench, ", "", about[0])
@@ -101,12 +106,13 @@ def page():
     out = ["# Stability under stress", "",
            f"Written by `scripts/documents` from [{file()}](../bench/results/{file()}), which `bench/stability/run`",
            "makes; not to be edited. Each line states what must come out and why, what was measured, and the verdict",
-           "that follows from the two. Lines that only prepare others are in the file alone.", "",
+           f"that follows from the two. Of {len(found)} lines, {len(shown(found))} are shown; the others, which pass, repeat one",
+           "of these with another seed, number of threads or precision, and are in the file alone.", "",
            where_and_when[0].upper() + where_and_when[1:] + ".", ""]
     for sentence in (failures, bounded, ringing, drift, strain):
         out += [f"- {text}" for text in [sentence(found)] if text]
     for name, title in cases:
-        of = [r for r in found if r["case"] == name and (r["detail"] != 1 or r["verdict"] != "pass")]
+        of = [r for r in shown(found) if r["case"] == name]
         out += ["", f"## {title} (`{name}`)", "",
                 *table(COLUMNS, [(cell(r["variant"]), r["setting"] or "", cell(r["quantity"] or ""), expected(r),
                                   cell(r["because"] or ""), minus(number(r["measured"])), r["verdict"]) for r in of])]

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """docs/start.md: what its command prints."""
+import re
+
+from pages.data import text
 from pages.marks import mark
 from pages.readme import shown
 
@@ -14,3 +17,24 @@ def specimen():
 @mark
 def moduli():
     return shown("start-output.txt", [r" +f \(Hz\)", r" +[\d.]+ +[\d.]+ +[\d.]+ +\d.*e-"])
+
+
+def number(pattern):
+    return next(float(m[1]) for m in (re.search(pattern, line) for line in text("start-output.txt")) if m)
+
+
+@mark
+def took():
+    """The whole command, from the comment of the committed output."""
+    return f"{number(r'^the whole command: ([0-9.]+) s'):.0f} seconds"
+
+
+@mark
+def aggregates():
+    return f"{number(r'^aggregates: ([0-9]+)'):.0f}"
+
+
+@mark
+def single():
+    """Aggregates that are one sphere."""
+    return f"{number(r'^of these single spheres: ([0-9]+)'):.0f}"

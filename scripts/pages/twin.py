@@ -65,3 +65,25 @@ def worst(kind, key):
     """Over all cases, seeds and frequencies."""
     values = [abs(d) for case in CASES for hz in frequencies() for d in differences(case, kind, hz, key)]
     return f"{max(values):.1f} %" if key == "e_star_pa" else f"{max(values):.2f}°"
+
+
+@mark
+def lower_frequency():
+    return f"{frequencies()[0]:g} Hz"
+
+
+@mark
+def phase_difference(case):
+    """Mean over the seeds of the segmentation's twins, and its standard error."""
+    of = differences(case, "segmented", frequencies()[0], "phase_deg")
+    error = (sum((d - mean(of)) ** 2 for d in of) / (len(of) - 1) / len(of)) ** 0.5
+    if abs(mean(of)) > 2 * error:
+        raise LookupError("the sentence says that the difference is not significant, and it is")
+    return minus(f"{mean(of):+.2f} ± {error:.2f}°")
+
+
+@mark
+def stiffer(kind):
+    """|E*| of twins of sawn specimens over that of their sources."""
+    of = [d for hz in frequencies() for d in differences("sawn", kind, hz, "e_star_pa")]
+    return minus(f"{mean(of):+.1f} %")

@@ -59,3 +59,35 @@ def a_point():
 def of_phase():
     most = fractions()[-1]
     return minus(between([turned(s, most, hz) for s in radii() for hz in FREQUENCIES], "{:+.2f}")) + "°"
+
+
+@mark
+def up_to():
+    return f"voids of up to {100 * fractions()[-1]:g} % of the box"
+
+
+@mark
+def smallest_fraction():
+    return f"{100 * fractions()[1]:g} %"
+
+
+@mark
+def first_points():
+    """Loss of |E*| for each point of the smallest fraction, %."""
+    least = fractions()[1]
+    return between([-over_none(s, least, hz) / (100 * least) for s in radii() for hz in FREQUENCIES], "{:.1f}") + " %"
+
+
+def risen():
+    """Change of the phase angle, and the fraction at which it is."""
+    return [(turned(s, f, hz), f) for s in radii() for hz in FREQUENCIES for f in fractions()[1:]]
+
+
+@mark
+def most_phase():
+    return f"{max(risen())[0]:.2f}°"
+
+
+@mark
+def most_phase_at():
+    return f"{100 * max(risen())[1]:g} %"

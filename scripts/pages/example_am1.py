@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""examples/ac14_ss_am1/README.md."""
+from pages import single_spheres
+
+DOCUMENT = "examples/ac14_ss_am1/README.md"
+PARTS = (single_spheres,)
