@@ -72,6 +72,8 @@ FAULTS = [
     ("docs/shapes.md", lambda t: t + "\n<!-- table saved -->\n\n<!-- end -->\n", "no module of this document"),
     ("docs/skips.md", lambda t: t + "\n<!-- not shown: <!--= twice -->0 %<!--/--> -->\n", "within an HTML comment"),
     ("docs/skips.md", lambda t: t + "\n<!--\n<!--= machine -->x<!--/-->\n-->\n", "within an HTML comment"),
+    ("docs/voids.md", lambda t: t + "\nThe angle is low, and this is no chance.\n", "a claim without a number"),
+    ("examples/demo/README.md", in_table, "expected"),
     ("docs/skips.md", lambda t: t + "\nIt is 3.5e-7 of it.\n", "'3.5e-7' stands in no mark"),
     ("docs/accuracy.md", lambda t: t + "\n- It takes 12 s.\n", "'12 s' stands in no mark"),
     ("README.md", lambda t: t + "\nIt is 2 % more.\n", "'2 %' stands in no mark"),
@@ -142,6 +144,9 @@ def main():
         (folder / "bench" / "results").mkdir(parents=True)
         for file in ("README.md", "bench/README.md", "bench/results/accuracy-tables.md"):
             shutil.copy(ROOT / file, folder / file)
+        for file in (ROOT / "examples").glob("*/README.md"):
+            (folder / "examples" / file.parent.name).mkdir(parents=True)
+            shutil.copy(file, folder / "examples" / file.parent.name)
         (folder / "more.md").write_text("# More\n", encoding="utf-8")
         documents(folder)  # so that this test does not depend on documents_test
         code, said = documents(folder, "--check")

@@ -14,6 +14,7 @@ DIGITS = re.compile(r"[+\-−±~≈<>≤≥]*\d[\d.,]*(e[+\-−]?\d+)?[⁻⁰¹�
 UNITS = set("""a about above and at below by contacts cycle cycles day days each from GB GPa GiB h Hz hour hours in KiB
 kg least less many MB MiB m minute minutes mm more most MPa ms ns µs of or over Pa particles per s second seconds
 several spheres step steps TB than the times to up within x e""".split())
+CLAIM = re.compile(r"\b(?:no chance|by chance alone|negligib\w+|insignificant)\b|\bis (?:low|high)\b(?! enough)")
 DEFINES = ("default", "key")  # heads of columns that define and do not measure
 STRICT = ("README.md", "bench/README.md", "docs/accuracy.md", "docs/skips.md")  # whose sentences are looked at too
 MEASURED = re.compile(r"(?<![\w.])\d[\d.,]*(?:e[+\-−]?\d+|[  ]?(?:%|°|s\b|ms\b|µs\b|GB\b))")
@@ -91,6 +92,19 @@ def sentences(name, lines, by_hand):
         wrong += [f"{name}:{k + 1}: '{m[0]}' stands in no mark, nor is it in scripts/pages/by-hand.csv"
                   for m in MEASURED.finditer(plain(line))]
     return wrong + [f"{name}:1: scripts/pages/by-hand.csv allows '{text}', which is not there" for text in missing]
+
+
+def claims(name, text):
+    """Sentences that judge a size without a number: "φ is low, and this is no chance"."""
+    wrong = []
+    for paragraph in re.split(r"\n\s*\n", text):
+        if paragraph.lstrip().startswith(("|", "    ")):
+            continue
+        for sentence in re.split(r"(?<=[.;:])\s+", paragraph):
+            if (m := CLAIM.search(plain(sentence))) and not re.search(r"\d", VALUE.sub(r"\2", sentence)):
+                number = text.count("\n", 0, text.index(sentence)) + 1
+                wrong.append(f"{name}:{number}: '{m[0]}' is a claim without a number")
+    return wrong
 
 
 def copied(name, lines, written):
