@@ -60,6 +60,68 @@ TEST_F(CtCommand, ARegionByCoordinatesHoldsWhatLiesInIt) {
   }
 }
 
+TEST_F(CtCommand, FractionsAreNumbersOrPerCent) {
+  write_image(folder_ / "scan.mha", two_balls(), false);
+  const std::string segment =
+      "ct segment " + path("scan.mha") + " --smallest '1.8 mm' --region whole --out " + path("out");
+  const Outcome number = macadam(segment + " --aggregate 0.125 --air-voids 0.0025");
+  const Outcome per_cent = macadam(segment + " --aggregate '12.5 %' --air-voids '0.25%'");
+  EXPECT_EQ(per_cent.code, 0) << per_cent.err;
+  EXPECT_EQ(per_cent.out, number.out);
+  for (const std::string wrong : {"60 %", "4", "%", "4 mm", "nan", "-1 %"}) {
+    const Outcome refused = macadam(segment + " --air-voids='" + wrong + "'");
+    EXPECT_EQ(refused.code, 2) << wrong;
+    EXPECT_HAS(refused.err, "--air-voids: found \"" + wrong + "\", expected a number from 0 to 0.5, or 0 % to 50 %");
+  }
+}
+
+TEST_F(CtCommand, AggregateInNoGrainIsPrintedAndWarnedOf) {
+  // a ball of radius 12 voxels, 2.4 mm wide, beside a row of eight of radius 5, 1 mm wide
+  std::vector<Body> balls{ball(20, 20, 20, 12)};
+  for (int n = 0; n < 8; ++n) balls.push_back(ball(44 + 14 * (n % 4), 12 + 16 * (n / 4), 20, 5));
+  Image<float> scan = scan_of({100, 40, 40}, balls, {ball(70, 34, 34, 4)});
+  add_noise(scan, 0.05);
+  write_image(folder_ / "scan.mha", scan, false);
+  const std::string segment = "ct segment " + path("scan.mha") + " --region whole --out " + path("out");
+  // volumes: 8·5³ / (12³ + 8·5³) = 36.7 % is in the small balls
+  const Outcome coarse = macadam(segment + " --smallest '2.4 mm'");
+  EXPECT_EQ(coarse.code, 0) << coarse.err;
+  EXPECT_HAS(coarse.out, "1 grains, 0 of them cut by the end of the specimen; 3");
+  EXPECT_HAS(coarse.out,
+             "% of the aggregate's volume is in no grain: pieces below half of --smallest, 1.2 mm, are left out");
+  EXPECT_HAS(coarse.out, "These voxels allow a --smallest of 0.4 mm and more");
+  const Outcome fine = macadam(segment + " --smallest '1 mm'");
+  EXPECT_EQ(fine.code, 0) << fine.err;
+  EXPECT_HAS(fine.out, "9 grains, 0 of them cut by the end of the specimen; 0.");
+  EXPECT_FALSE(contains(fine.out, "is in no grain:")) << fine.out;
+}
+
+TEST_F(CtCommand, WhatAHeaderSaysOfTheScanIsPrinted) {
+  Image<float> scan = two_balls();
+  write_image(folder_ / "scan.mhd", scan, false);
+  std::string header = read(folder_ / "scan.mhd");
+  const std::size_t matrix = header.find("TransformMatrix = 1 ");
+  ASSERT_NE(matrix, std::string::npos);
+  std::ofstream(folder_ / "scan.mhd") << header.replace(matrix, 20, "TransformMatrix = -1 ");
+  const Outcome outcome =
+      macadam("ct segment " + path("scan.mhd") + " --smallest '1.8 mm' --region whole --out " + path("out"));
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_HAS(outcome.out, "warning: the file's direction matrix (-1 0 0, 0 1 0, 0 0 1) is not applied");
+  EXPECT_HAS(outcome.out, "mirror images");
+}
+
+TEST_F(CtCommand, OneSliceIsNoScan) {
+  Image<float> scan = two_balls();
+  Image<float> slice({70, 40, 1}, scan.spacing);
+  std::copy_n(&scan.at(0, 0, 20), slice.count(), slice.voxels.begin());
+  write_image(folder_ / "slice.mha", slice, false);
+  const Outcome outcome =
+      macadam("ct segment " + path("slice.mha") + " --smallest '1.8 mm' --region whole --out " + path("out"));
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_HAS(outcome.err, "the scan: slices: found 1, expected at least 4: grains are found in a volume");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
 TEST_F(CtCommand, MemoryIsAnAmountWithAUnit) {
   write_image(folder_ / "scan.mha", two_balls(), false);
   const std::string segment = "ct segment " + path("scan.mha") + " --smallest '1.8 mm' --out " + path("out");
@@ -77,9 +139,13 @@ TEST_F(CtCommand, TheEdgeOfAVoxelIsThatOfTheFileOrOfTheCommandLine) {
   const std::string tail = " --smallest '1.8 mm' --region whole --out " + path("out");
   EXPECT_EQ(macadam("ct segment " + path("scan.mha") + tail).code, 0);
   EXPECT_EQ(macadam("ct segment " + path("scan.mha") + " --voxel '100.5 um'" + tail).code, 0) << "within a hundredth";
-  const Outcome other = macadam("ct segment " + path("scan.mha") + " --voxel '50 um'" + tail);
-  EXPECT_EQ(other.code, 2);
-  EXPECT_TRUE(contains(other.err, "as --voxel says")) << other.err;
+  const Outcome near = macadam("ct segment " + path("scan.mha") + " --voxel '100.5 um'" + tail);
+  EXPECT_FALSE(contains(near.out, "--voxel")) << near.out;
+  const Outcome other = macadam("ct segment " + path("scan.mha") + " --voxel '200 um'" + tail);
+  EXPECT_EQ(other.code, 0) << other.err;
+  EXPECT_HAS(other.out,
+             "warning: the file says that a voxel is 0.1 x 0.1 x 0.1 mm; --voxel takes precedence: 0.2 x 0.2 x 0.2 mm");
+  EXPECT_NEAR(read_image_header(folder_ / "out/labels.mha").spacing.z, 2e-4, 1e-12);
   const Outcome none = macadam("ct segment " + path("pages.tif") + tail);
   EXPECT_EQ(none.code, 2);
   EXPECT_TRUE(contains(none.err, "none in the file")) << none.err;

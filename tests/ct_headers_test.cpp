@@ -30,6 +30,12 @@ class CtHeaders : public CtFolder {
     const auto image = read_image<std::uint8_t>(folder_ / name);
     return {image.voxels.begin(), image.voxels.end()};
   }
+  /// The notes for the user, one behind another.
+  std::string notes(const std::string& name) {
+    std::string all;
+    for (const std::string& note : read_image_header(folder_ / name).notes) all += note;
+    return all;
+  }
   /// The file is refused with these words.
   void refused(const std::string& name, const std::string& bytes, const std::string& words) {
     write(name, bytes);
@@ -119,6 +125,73 @@ TEST_F(CtHeaders, OfAnNrrdThatAreUnusualAndGood) {
   EXPECT_EQ(voxels("a.nhdr"), "ghijkl");
 }
 
+// A length of 250 in each unit; "" stands for a file that names none.
+constexpr std::pair<const char*, double> lengths[] = {{"um", 250e-6},
+                                                      {"microns", 250e-6},
+                                                      {"Micrometers", 250e-6},
+                                                      {"micrometre", 250e-6},
+                                                      {"\u00b5m", 250e-6},
+                                                      {"\xb5m", 250e-6},
+                                                      {"mm", 0.25},
+                                                      {"millimetres", 0.25},
+                                                      {"cm", 2.5},
+                                                      {"", 0.25}};
+
+TEST_F(CtHeaders, LengthsOfAnNrrdAreInItsUnits) {
+  const std::string space =
+      "space: left-posterior-superior\r\nspace directions: (250,0,0) (0,250,0) (0,0,250)\r\nspace origin: "
+      "(10,20,30)\r\n";
+  for (const auto& [unit, length] : lengths) {
+    const std::string list = std::string(" \"") + unit + "\" \"" + unit + "\" \"" + unit + "\"\r\n";
+    write("space.nrrd", nrrd("sizes: 3 2 1", space + "space units:" + list));
+    write("plain.nrrd", nrrd("sizes: 3 2 1", "spacings: 250 250 250\r\nunits:" + list));
+    const ImageHeader header = read_image_header(folder_ / "space.nrrd");
+    EXPECT_NEAR(header.spacing.x / length, 1, 1e-12) << unit;
+    EXPECT_NEAR(header.spacing.z / length, 1, 1e-12) << unit;
+    EXPECT_NEAR(header.origin.y / length, 20.0 / 250, 1e-12) << unit;
+    EXPECT_NEAR(read_image_header(folder_ / "plain.nrrd").spacing.y / length, 1, 1e-12) << unit;
+    EXPECT_EQ(notes("space.nrrd"), "");
+  }
+  for (const std::string list : {"\"furlong\" \"furlong\" \"furlong\"", "\"mm\" \"mm\" \"um\""}) {
+    write("other.nrrd", nrrd("sizes: 3 2 1", space + "space units: " + list + "\r\n"));
+    EXPECT_EQ(read_image_header(folder_ / "other.nrrd").spacing.x, 0) << list;
+    EXPECT_NE(notes("other.nrrd").find("which is not a known unit: they are not used"), std::string::npos) << list;
+  }
+}
+
+TEST_F(CtHeaders, LengthsOfAMetaImageAreInItsUnits) {
+  const auto with = [](const std::string& more) {
+    return "ObjectType = Image\nNDims = 3\n" + more +
+           "ElementSpacing = 250 250 250\nDimSize = 2 1 1\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nab";
+  };
+  for (const auto& [unit, length] : {std::pair{"um", 250e-6}, {"mm", 0.25}, {"cm", 2.5}, {"?", 0.25}}) {
+    write("a.mha", with("DistanceUnits = " + std::string(unit) + "\n"));
+    EXPECT_NEAR(read_image_header(folder_ / "a.mha").spacing.x / length, 1, 1e-12) << unit;
+  }
+  write("a.mha", with(""));
+  EXPECT_NEAR(read_image_header(folder_ / "a.mha").spacing.x, 0.25, 1e-12);
+}
+
+TEST_F(CtHeaders, AxesThatAreTurnedOrMirroredAreNoted) {
+  const auto with = [](const std::string& matrix) {
+    return "ObjectType = Image\nNDims = 3\nTransformMatrix = " + matrix +
+           "\nDimSize = 2 1 1\nElementType = MET_UCHAR\nElementDataFile = LOCAL\nab";
+  };
+  write("a.mha", with("1 0 0 0 1 0 0 0 1"));
+  EXPECT_EQ(notes("a.mha"), "");
+  write("a.mha", with("-1 0 0 0 1 0 0 0 1"));
+  EXPECT_NE(notes("a.mha").find("direction matrix (-1 0 0, 0 1 0, 0 0 1) is not applied"), std::string::npos)
+      << notes("a.mha");
+  EXPECT_NE(notes("a.mha").find("mirror images of those that were scanned"), std::string::npos) << notes("a.mha");
+  EXPECT_EQ(voxels("a.mha"), "ab");
+  write("a.mha", with("-1 0 0 0 -1 0 0 0 1"));
+  EXPECT_NE(notes("a.mha").find("turned against those that were scanned"), std::string::npos) << notes("a.mha");
+  const std::string directions = "space directions: (0,1,0) (1,0,0) (0,0,1)\r\n";
+  write("a.nrrd", nrrd("sizes: 3 2 1", "space: left-posterior-superior\r\n" + directions));
+  EXPECT_NE(notes("a.nrrd").find("(0 1 0, 1 0 0, 0 0 1) is not applied"), std::string::npos) << notes("a.nrrd");
+  EXPECT_NE(notes("a.nrrd").find("mirror images"), std::string::npos) << notes("a.nrrd");
+}
+
 /// Type, number of values, and value or place of an entry in a directory.
 using Entry = std::array<std::uint32_t, 3>;
 using Page = std::map<std::uint32_t, std::optional<Entry>>;  // by tag; nothing: leave it out
@@ -165,6 +238,12 @@ TEST_F(CtHeaders, OfATiff) {
   refused_page({{336, Entry{3, 2, 5}}}, "tag 336 of the TIFF file: found a range of dots");
   refused_page({{280, Entry{3, 0x7fffffff, 8}}}, "found 2147483647 values of 2 bytes, expected as many as");
   refused_page({{64021, Entry{2, 1, 'x'}}}, "tag 64021 of the TIFF file: found a text without an end");
+  refused_page({{262, Entry{3, 1, 2}}}, "tag 262 of the TIFF file: found PhotometricInterpretation 2, expected grey");
+  refused_page({{262, Entry{3, 1, 0}}, {258, Entry{3, 1, 32}}, {339, Entry{3, 1, 3}}},
+               "tag 262 of the TIFF file: found PhotometricInterpretation 0 (white is 0) of floats");
+  for (const std::uint32_t tag : {322u, 323u, 324u, 325u})
+    refused_page({{tag, Entry{3, 1, 16}}},
+                 "tag " + std::to_string(tag) + " of the TIFF file: found tiles, expected rows of voxels");
   refused_page({{306, Entry{3, 1, 16}}}, "tag 306 of the TIFF file: found type 3, expected a text, type 2");
   refused("a.tif", tiff({{}}, 32), "found byte 32 again, expected a chain that ends");
   refused("a.tif", tiff({{}}, 0x7fffffff), "one at byte 2147483647");
@@ -177,6 +256,69 @@ TEST_F(CtHeaders, OfATiffWhoseTextEndsTheFile) {
   write("a.tif", whole);
   EXPECT_EQ(voxels("a.tif"), "abcdef");
   refused("a.tif", whole.substr(0, whole.size() - 1), "tag 64021 of the TIFF file: found a text without an end");
+}
+
+TEST_F(CtHeaders, GreyValuesOfATiffWhoseWhiteIsZeroAreInverted) {
+  const Page inverted{{262, Entry{3, 1, 0}}};
+  write("a.tif", tiff({inverted, inverted}));
+  EXPECT_EQ(voxels("a.tif"), "\x9e\x9d\x9c\x9b\x9a\x99\x9e\x9d\x9c\x9b\x9a\x99");  // 255 less than a, b, ...
+  EXPECT_NE(notes("a.tif").find("0 is white (PhotometricInterpretation 0): its grey values were inverted"),
+            std::string::npos);
+  write("16.tif", tiff({{{262, Entry{3, 1, 0}}, {258, Entry{3, 1, 16}}, {279, Entry{4, 1, 12}}}}));
+  const auto image = read_image<std::uint16_t>(folder_ / "16.tif");
+  EXPECT_EQ(image.voxels.front(), 65535 - ('a' + 256 * 'b'));
+  EXPECT_EQ(image.voxels.back(), 65535 - ('e' + 256 * 'f'));
+  write("right.tif", tiff({{}}));
+  EXPECT_EQ(notes("right.tif"), "");
+  fs::create_directories(folder_ / "slices");
+  for (const char* name : {"slices/s0.tif", "slices/s1.tif"}) write(name, tiff({inverted}));
+  EXPECT_EQ(voxels("slices").substr(0, 6), "\x9e\x9d\x9c\x9b\x9a\x99");
+  EXPECT_NE(notes("slices").find("inverted"), std::string::npos);
+  refused("slices/s1.tif", tiff({{}}), "nothing was said");
+  try {
+    voxels("slices");
+    FAIL() << "a folder of both kinds was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("s1.tif: PhotometricInterpretation (tag 262): found 1 (black is 0)"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+/// A file of one directory with ImageJ's description, and behind it bytes.
+std::string imagej(const std::string& lines, const Page& more, const std::string& behind) {
+  const std::string text = "ImageJ=1.54f\n" + lines + '\0';
+  Page page = more;
+  page[270] = Entry{2, static_cast<std::uint32_t>(text.size()), 0};
+  const auto end = static_cast<std::uint32_t>(tiff({page}).size());
+  (*page[270])[2] = end;
+  if (!page.contains(273)) page[273] = Entry{4, 1, end + static_cast<std::uint32_t>(text.size())};
+  return tiff({page}) + text + behind;
+}
+
+TEST_F(CtHeaders, AStackOfImageJWithOneDirectoryHasAllItsSlices) {
+  const std::string bytes = "0123456789abcdefgh";
+  write("a.tif", imagej("images=3\nslices=3\n", {}, bytes));
+  EXPECT_EQ(voxels("a.tif"), bytes);
+  const std::unique_ptr<ct::ImageSlices> slices = ct::open_image(folder_ / "a.tif", {});
+  EXPECT_TRUE(slices->apart());
+  std::string some(6, ' ');
+  slices->read(2, 1, reinterpret_cast<std::uint8_t*>(some.data()));
+  EXPECT_EQ(some, "cdefgh");
+  write("b.tif", imagej("images=3\n", {{262, Entry{3, 1, 0}}}, bytes));
+  EXPECT_EQ(voxels("b.tif").front(), static_cast<char>(255 - '0'));
+  EXPECT_NE(notes("b.tif").find("inverted"), std::string::npos);
+  const std::string found = "slices: found 1 slice, the description says 3, expected ";
+  refused("c.tif", imagej("images=3\n", {}, bytes.substr(1)), found + "a file of");
+  refused("c.tif", imagej("images=3\n", {{259, Entry{3, 1, 5}}}, bytes), found + "a directory for each slice");
+  refused("c.tif", imagej("images=3\n", {{273, Entry{4, 2, 8}}}, bytes), found + "a directory for each slice");
+  refused("c.tif", imagej("images=6\nchannels=2\n", {}, bytes + bytes), "found channels=2, expected one grey value");
+  refused("c.tif", imagej("images=6\nframes=2\n", {}, bytes + bytes), "found frames=2, expected one grey value");
+  refused("c.tif", imagej("images=9223372036854775807\n", {}, bytes), "the description says 9223372036854775807");
+  write("d.tif", imagej("images=1\n", {}, bytes));
+  EXPECT_EQ(voxels("d.tif"), "012345");
+  write("e.tif", tiff({{}, {}}));
+  EXPECT_EQ(voxels("e.tif").size(), 12u);
 }
 
 TEST_F(CtHeaders, OfATiffWithPages) {

@@ -116,8 +116,37 @@ TEST_F(CtImage, AStackWithoutOneOfItsSlicesIsRefused) {
   EXPECT_EQ(read_image<std::uint16_t>(folder_).size[2], 4) << "every second one, all of them";
   fs::remove(folder_ / "core2_12.tif");
   EXPECT_NE(fault<std::uint16_t>(folder_).find("core2_14.tif after core2_10.tif"), std::string::npos);
-  write_image(folder_ / "core2_010.tif", slice);  // the same number twice: they are not numbered evenly
+  write_image(folder_ / "core2_010.tif", slice);
+  EXPECT_NE(fault<std::uint16_t>(folder_).find("core2_010.tif beside core2_10.tif, expected one file for each number"),
+            std::string::npos)
+      << fault<std::uint16_t>(folder_);
+}
+
+TEST_F(CtImage, AStrayImageBesideTheSlicesIsRefused) {
+  const Image<std::uint16_t> slice({6, 5, 1}, {1e-4, 1e-4, 1e-4});
+  for (int k = 0; k < 12; ++k) write_image(folder_ / ("slice_" + std::to_string(k) + ".tif"), slice);
+  EXPECT_EQ(read_image<std::uint16_t>(folder_).size[2], 12);
+  for (const std::string stray : {"preview.tif", "preview_12.tif", "a.tif", "Slice_12.tif", "slice_x_12.tif"}) {
+    write_image(folder_ / stray, slice);
+    EXPECT_NE(fault<std::uint16_t>(folder_).find("slices: found " + stray + " beside 12 files such as slice_"),
+              std::string::npos)
+        << fault<std::uint16_t>(folder_);
+    fs::remove(folder_ / stray);
+  }
+  write_image(folder_ / "slice_7_preview.tif", slice);
+  EXPECT_NE(fault<std::uint16_t>(folder_).find("slice_7_preview.tif"), std::string::npos);
+  fs::remove(folder_ / "slice_7_preview.tif");
+  write_image(folder_ / "slice_12.tif", slice);
+  EXPECT_EQ(read_image<std::uint16_t>(folder_).size[2], 13);
+}
+
+TEST_F(CtImage, TheOnlyNumberInWhichNamesDifferCountsTheSlices) {
+  const Image<std::uint16_t> slice({6, 5, 1}, {1e-4, 1e-4, 1e-4});
+  for (int k = 8; k < 12; ++k) write_image(folder_ / (std::to_string(k) + "_25um.tif"), slice);
   EXPECT_EQ(read_image<std::uint16_t>(folder_).size[2], 4);
+  fs::remove(folder_ / "10_25um.tif");
+  EXPECT_NE(fault<std::uint16_t>(folder_).find("11_25um.tif after 9_25um.tif"), std::string::npos)
+      << fault<std::uint16_t>(folder_);
 }
 
 TEST_F(CtImage, WhatIsWrongWithAFileIsSaid) {

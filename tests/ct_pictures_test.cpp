@@ -46,17 +46,44 @@ TEST_F(CtPictures, ThreePlanesLieSideBySideWithNothingBetweenThem) {
   scan.labels.at(1, 2, 2) = 1;  // in the planes z = 2 and y = 2, not in x = 3
   ct::write_overlay(file_, scan);
   const test::PngPicture picture = test::read_png(file_);
-  ASSERT_EQ(picture.width, 6u + 8 + 6 + 8 + 5);
-  ASSERT_EQ(picture.height, 5u);
-  for (std::size_t y = 0; y < picture.height; ++y) {
+  constexpr std::size_t edge = 8, gap = 16;  // pixels of a voxel in a small scan, and between planes
+  constexpr std::size_t second = 6 * edge + gap, third = 2 * second;
+  ASSERT_EQ(picture.width, third + 5 * edge);
+  ASSERT_EQ(picture.height, 5 * edge + 2 * gap + 14);
+  for (std::size_t y = 0; y < 5 * edge; ++y) {
     for (std::size_t x = 0; x < picture.width; ++x) {
       const auto& [red, green, blue] = picture.at(x, y);
-      const bool plane = x < 6 || (y < 4 && ((x >= 14 && x < 20) || x >= 28));
-      const bool grain = (x == 1 && y == 2) || (x == 14 + 1 && y == 1);  // y and z run upwards
+      const bool plane = x < 6 * edge || (y < 4 * edge && ((x >= second && x < second + 6 * edge) || x >= third));
+      const bool grain = (x / edge == 1 && y / edge == 2) ||  // y and z run upwards
+                         (x >= second && (x - second) / edge == 1 && y / edge == 1);
       EXPECT_EQ(red == green && green == blue, !grain) << x << ' ' << y;
       EXPECT_EQ(red == 255 && green == 255 && blue == 255, !plane) << x << ' ' << y;
     }
   }
+}
+
+TEST_F(CtPictures, VoxelsHaveTheirEdgesAndTheScaleItsLength) {
+  Segmentation scan;  // 20 x 10 x 15 mm
+  scan.phases = Image<std::uint8_t>({80, 40, 30}, {0.25e-3, 0.25e-3, 0.5e-3}, {}, std::uint8_t(VoxelPhase::mastic));
+  scan.labels = Image<std::uint32_t>::like(scan.phases);
+  scan.grey = Image<float>::like(scan.phases, mastic);
+  scan.levels = {air, mastic, aggregate, 0, true};
+  ct::write_overlay(file_, scan);
+  const test::PngPicture picture = test::read_png(file_);
+  // 50 mm at 0.25 mm are 200 pixels: six for each voxel make 1200
+  constexpr std::size_t gap = 16, mm = 24;
+  ASSERT_EQ(picture.width, 50 * mm + 2 * gap);
+  ASSERT_EQ(picture.height, 15 * mm + 2 * gap + 14);
+  const auto is_black = [&](std::size_t x, std::size_t y) { return picture.at(x, y)[0] == 0; };
+  EXPECT_EQ(picture.at(20 * mm + gap, 15 * mm - 1)[0] == 255, false) << "30 voxels of twice the height";
+  std::size_t longest = 0;  // row of black pixels below the planes: the scale
+  for (std::size_t y = 15 * mm; y < picture.height; ++y) {
+    for (std::size_t x = 0, row = 0; x < picture.width; ++x) {
+      row = is_black(x, y) ? row + 1 : 0;
+      longest = std::max(longest, row);
+    }
+  }
+  EXPECT_EQ(longest, 5 * mm) << "5 mm is the round length below 0.4 of 20 mm";
 }
 
 TEST_F(CtPictures, TheNearerGrainHidesWhatIsBehindIt) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "host/cli/fractions.hpp"
 #include "host/cli/job.hpp"
 #include "host/scene/lengths.hpp"
 #include "host/cli/help.hpp"
@@ -59,10 +60,10 @@ void add_ct_phantom(CLI::App& ct) {
   add_text(command, "--air", arguments->air, "around the specimen", "LENGTH");
   add_number(command, "--samples", spec.samples, "columns along each edge of a voxel", 1, 16);
   add_number(command, "--blur", spec.blur, "standard deviation in voxels", 0.0, 10.0);
-  add_number(command, "--noise", spec.noise, "standard deviation, share of aggregate - air", 0.0, 1.0);
-  add_number(command, "--cupping", spec.cupping, "loss of grey value on the axis, share", 0.0, 1.0);
-  add_number(command, "--rings", spec.rings, "offsets of the rings, share of aggregate - air", 0.0, 1.0);
-  add_number(command, "--drift", spec.drift, "brightness of the slices, share", 0.0, 1.0);
+  add_fraction(command, "--noise", spec.noise, "standard deviation, fraction of aggregate - air", 0.0, 1.0);
+  add_fraction(command, "--cupping", spec.cupping, "loss of grey value on the axis, fraction", 0.0, 1.0);
+  add_fraction(command, "--rings", spec.rings, "offsets of the rings, fraction of aggregate - air", 0.0, 1.0);
+  add_fraction(command, "--drift", spec.drift, "brightness of the slices, fraction", 0.0, 1.0);
   add_number(command, "--grey-air", spec.grey_air, "of air", 0.0, 65535.0);
   add_number(command, "--grey-mastic", spec.grey_mastic, "of mastic", 0.0, 65535.0);
   add_number(command, "--grey-aggregate", spec.grey_aggregate, "of aggregate", 0.0, 65535.0);

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "host/ct/segment_texts.hpp"
+#include "host/cli/fractions.hpp"
 #include "host/cli/job.hpp"
 #include "host/scene/lengths.hpp"
 #include "host/cli/help.hpp"
@@ -39,14 +40,13 @@ void segment(CtSegmentArguments arguments) {
   if (!arguments.gradation.empty()) options.gradation = ct::read_gradation(arguments.gradation);
   if (arguments.threads) omp_set_num_threads(*arguments.threads);
   if (!arguments.region.empty()) ct::read_region(arguments.region, options);
-  std::optional<Vec3d> given;
-  if (!arguments.voxel.empty()) given = lengths_of(arguments.voxel, "--voxel");
-  const Vec3d voxel = ct::spacing_of({arguments.images, arguments.dataset}, given);
+  ScanFile scan{arguments.images, arguments.dataset, {}};
+  if (!arguments.voxel.empty()) scan.spacing = lengths_of(arguments.voxel, "--voxel");
+  const double memory = ct::memory_of(arguments.memory);
   ProgressLine line;
   options.progress = [&](const std::string& stage, double share) { show_or_stop(line, stage, share); };
   options.progress("reading", 0);
-  const Segmentation out =
-      segment_file({arguments.images, arguments.dataset, voxel}, options, ct::memory_of(arguments.memory));
+  const Segmentation out = segment_file(scan, options, memory);
   options.progress("writing", 0);
   const fs::path folder = arguments.out;
   ct::write_segmentation(folder, out, options);
@@ -62,7 +62,8 @@ void segment(CtSegmentArguments arguments) {
     say("larger than memory: images are of blocks of {0} x {0} x {0} voxels, {1} surfaces are finer\n", out.block,
         out.refined);
   }
-  say("{} grains, {} of them cut by the end of the specimen\n", out.grains.size(), border);
+  say("{} grains, {} of them cut by the end of the specimen; {:.2f} % of the aggregate is in no grain\n",
+      out.grains.size(), border, 100 * out.in_no_grain);
   for (const std::string& warning : out.warnings) say("warning: {}\n", warning);
   say("files in {}: library border grains.csv gradation.csv cuts.csv labels.mha phases.mha confidence.mha planes.png "
       "grains.png\n",
@@ -81,7 +82,7 @@ void add_ct_segment(CLI::App& ct) {
   add_text(command, "--dataset", arguments->dataset, "of an HDF5 file: the dataset; z, y, x", "NAME");
   command
       .add_option("--voxel", arguments->voxel,
-                  "edges of a voxel: \"25 um\", or three: \"25 um,25 um,50 um\"; where the file has none")
+                  "edges of a voxel: \"25 um\", or three: \"25 um,25 um,50 um\"; in place of those in the file")
       ->delimiter(',')
       ->expected(1, 3)
       ->type_name("LENGTH");
@@ -96,10 +97,10 @@ void add_ct_segment(CLI::App& ct) {
                    "grey levels over radius and height are left as they are");
   add_choice(command, "--denoise", options.denoising, "how noise is taken out; diffusion keeps edges",
              {{"diffusion", Denoising::diffusion}, {"median", Denoising::median}, {"none", Denoising::none}});
-  add_number(command, "--air-voids", options.air_voids, "share of the specimen's volume, from the laboratory", 0.0,
-             0.5);
-  add_number(command, "--aggregate", options.aggregate, "share of the specimen's volume, from the laboratory", 0.05,
-             0.95);
+  add_fraction(command, "--air-voids", options.air_voids,
+               "fraction of the specimen's volume, from the laboratory (0.04, \"4 %\")", 0.0, 0.5);
+  add_fraction(command, "--aggregate", options.aggregate,
+               "fraction of the specimen's volume, from the laboratory (0.4, \"40 %\")", 0.05, 0.95);
   add_text(command, "--memory", arguments->memory,
            "that may be taken (\"3 GB\"; four fifths of what is free): a larger scan is decided on block means",
            "BYTES");

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "host/cli/fractions.hpp"
 #include "host/cli/job.hpp"
 #include "host/scene/lengths.hpp"
 #include "host/cli/help.hpp"
@@ -66,7 +67,7 @@ void add_ct_twin(CLI::App& ct) {
       ->delimiter(',')
       ->expected(6)
       ->type_name("LENGTH");
-  add_number(command, "--porosity", arguments->spec.porosity, "of the mastic, in place of the scene's", -1.0, 1.0);
+  add_fraction(command, "--porosity", arguments->spec.porosity, "of the mastic, in place of the scene's", -1.0, 1.0);
   add_text(command, "--least-void", arguments->least_void, "radius below which a void is left out; 0: two voxels",
            "LENGTH");
   add_number(command, "--seed", arguments->spec.seed, "of the mastic and of the fillings", 0,

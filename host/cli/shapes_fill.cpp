@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "host/scene/lengths.hpp"
+#include "host/cli/fractions.hpp"
 #include "host/cli/help.hpp"
 #include "host/cli/options.hpp"
 #include "host/cli/streams.hpp"
@@ -75,7 +76,7 @@ void add_shapes_fill(CLI::App& shapes) {
       ->delimiter(',')
       ->expected(1, 2)
       ->type_name("LENGTH");
-  add_number(*fill, "--porosity", spec.porosity, "1 - sum of the spheres' volumes / volume of the shape", -0.5, 1.0);
+  add_fraction(*fill, "--porosity", spec.porosity, "1 - sum of the spheres' volumes / volume of the shape", -0.5, 1.0);
   add_number(*fill, "--least", spec.least, "fewer spheres than this: a single one", 1, 1'000'000);
   add_choice(*fill, "--single", spec.single,
              "radius of a single sphere: D^I/2, that of the sphere around, of the volume",

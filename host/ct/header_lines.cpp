@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "host/ct/length_units.hpp"
 #include "host/in_quotes.hpp"
 #include "macadam/error.hpp"
 
@@ -20,6 +21,12 @@ std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t";
   const std::size_t begin = text.find_first_not_of(blank);
   return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(blank) - begin + 1);
+}
+
+void HeaderFacts::take_unit(std::string_view name) {
+  unit = metres_of_unit(name);
+  if (!unit)
+    notes.push_back("the file's lengths are in " + in_quotes(name) + ", which is not a known unit: they are not used");
 }
 
 HeaderLines::HeaderLines(const std::filesystem::path& file, std::string what)

@@ -7,8 +7,21 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace macadam::ct {
+
+/// Facts in the header of an image that ITK does not report.
+struct HeaderFacts {
+  std::filesystem::path voxels;  ///< the file that holds them
+  std::optional<double> unit =
+      1e-3;                        ///< of lengths [m]; millimetres where the file names none, empty if it is not known
+  bool white_is_zero = false;      ///< the grey values have to be inverted
+  std::vector<std::string> notes;  ///< for the user
+
+  /// Takes the unit that a header names, or makes it unknown with a note.
+  void take_unit(std::string_view name);
+};
 
 class HeaderLines {
  public:

@@ -56,9 +56,21 @@ std::string lower_ending(const fs::path& path) {
   return ending;
 }
 
+bool is_tiff(const fs::path& path) {
+  const std::string ending = lower_ending(path);
+  return ending == ".tif" || ending == ".tiff";
+}
+
 int bytes_of(VoxelType type) {
   constexpr int bytes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
   return bytes[static_cast<std::size_t>(type)];
+}
+
+void ImageSlices::invert_grey() {
+  inverts_ = true;
+  header_.notes.push_back(
+      "the file says that 0 is white (PhotometricInterpretation 0): its grey values were inverted, so that air is "
+      "dark");
 }
 
 template <class T>
@@ -67,6 +79,8 @@ void ImageSlices::read(std::int64_t first, std::int64_t count, T* to) {
   const std::size_t voxels = slice * static_cast<std::size_t>(count);
   bytes_.resize(voxels * static_cast<std::size_t>(bytes_of(type_)));
   read_bytes(first, count, bytes_.data());
+  if (inverts_)  // the complement of all bits: 255 - v of a byte, -1 - v of a number with a sign
+    for (char& byte : bytes_) byte = static_cast<char>(~byte);
   const auto as = [&](auto kind) {
     convert(file_, reinterpret_cast<const decltype(kind)*>(bytes_.data()), voxels,
             slice * static_cast<std::size_t>(first), to);

@@ -32,12 +32,15 @@ class ImageSlices {
  protected:
   /// The same as bytes of the file's type.
   virtual void read_bytes(std::int64_t first, std::int64_t count, char* to) = 0;
+  /// Inverts all grey values that are read, whole numbers, and notes it in the header.
+  void invert_grey();
   std::string file_;  ///< for messages
   std::filesystem::path voxels_;
   ImageHeader header_;
   VoxelType type_{};
 
  private:
+  bool inverts_ = false;
   std::vector<char> bytes_;
 };
 
@@ -47,6 +50,8 @@ std::unique_ptr<ImageSlices> open_image(const std::filesystem::path& path, const
 
 /// The ending in small letters.
 std::string lower_ending(const std::filesystem::path& path);
+
+bool is_tiff(const std::filesystem::path& path);
 
 /// The two kinds of them. \throws InputError.
 std::unique_ptr<ImageSlices> open_itk(const std::filesystem::path& path);

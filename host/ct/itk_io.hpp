@@ -10,8 +10,6 @@ namespace macadam::ct {
 
 inline constexpr double mm = 1e-3;  ///< what lengths in image files are in [m]
 
-bool is_tiff(const std::filesystem::path& path);
-
 /// The one that the ending of a file asks for. \throws InputError.
 itk::ImageIOBase::Pointer io_of(const std::filesystem::path& path);
 

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "host/ct/image_slices.hpp"
+#include "host/ct/imagej_stack.hpp"
 #include "host/ct/slice_names.hpp"
 #include "host/ct/itk_io.hpp"
 #include "host/ct/meta_header.hpp"
@@ -19,11 +20,6 @@
 namespace macadam::ct {
 
 namespace fs = std::filesystem;
-
-bool is_tiff(const fs::path& path) {
-  const std::string ending = lower_ending(path);
-  return ending == ".tif" || ending == ".tiff";
-}
 
 itk::ImageIOBase::Pointer io_of(const fs::path& path) {
   const std::string ending = lower_ending(path);
@@ -40,41 +36,6 @@ itk::ImageIOBase::Pointer io_of(const fs::path& path) {
 }
 
 namespace {
-
-/// Less by letters, and by value where both have digits: slice_2 comes before slice_10.
-bool natural_less(const std::string& a, const std::string& b) {
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-    if (!digit(a[i]) || !digit(b[j])) {
-      if (a[i] != b[j]) return a[i] < b[j];
-      ++i, ++j;
-      continue;
-    }
-    const auto number = [&](const std::string& s, std::size_t& at) {
-      while (at < s.size() && s[at] == '0') ++at;
-      const std::size_t begin = at;
-      while (at < s.size() && digit(s[at])) ++at;
-      return s.substr(begin, at - begin);
-    };
-    const std::string x = number(a, i), y = number(b, j);
-    if (x.size() != y.size()) return x.size() < y.size();
-    if (x != y) return x < y;
-  }
-  return a.size() != b.size() ? a.size() < b.size() : a < b;
-}
-
-std::vector<fs::path> slices_in(const fs::path& folder) {
-  std::vector<fs::path> slices;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && is_tiff(entry.path())) slices.push_back(entry.path());
-  }
-  if (slices.empty()) throw InputError(folder.string(), 0, "slices", "no .tif file", "a folder of .tif files");
-  std::sort(slices.begin(), slices.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().string(), b.filename().string());
-  });
-  ct::check_slice_numbers(slices);
-  return slices;
-}
 
 /// MetaIO says on the standard streams what is wrong, and goes on: while one of these lives, they lead into a text.
 class Overheard {
@@ -128,18 +89,48 @@ void attempt(const std::string& file, const char* what, const std::string& expec
   if (!fault.empty()) throw InputError(file, 0, what, "one that ITK cannot read (" + fault + ")", expected);
 }
 
-/// Looks at a file before ITK does. Returns the one that holds its voxels. \throws InputError for what ITK cannot bear.
-fs::path check_file(const itk::ImageIOBase& io) {
+/// Looks at a file before ITK does. Returns the facts in its header that ITK does not report. \throws InputError for what ITK
+/// cannot bear.
+HeaderFacts check_file(const itk::ImageIOBase& io) {
   const std::string file = io.GetFileName();
   if (!fs::is_regular_file(file)) throw InputError(file, 0, "image", "no such file", "a file that can be read");
   if (dynamic_cast<const itk::MetaImageIO*>(&io)) return check_meta_header(file);
   if (dynamic_cast<const itk::NrrdImageIO*>(&io)) return check_nrrd_header(file);
-  check_tiff_directories(file);
-  return file;
+  const TiffPages pages = check_tiff_directories(file);
+  if (pages.described > pages.pages)
+    throw InputError(file, 0, "slice", fmt::format("1 slice, the description says {}", pages.described),
+                     "one slice in each file of a folder");
+  HeaderFacts facts;
+  facts.voxels = file, facts.white_is_zero = pages.white_is_zero;
+  return facts;
+}
+
+/// Adds a note if the voxels' axes differ from the axes of the space in which a scanner or viewer placed the image.
+void note_directions(const itk::ImageIOBase& io, std::vector<std::string>& notes) {
+  if (io.GetNumberOfDimensions() != 3) return;
+  double d[3][3];  // columns are the axes of the voxels
+  bool identity = true;
+  for (unsigned column = 0; column < 3; ++column) {
+    const std::vector<double> axis = io.GetDirection(column);
+    for (unsigned row = 0; row < 3; ++row) {
+      d[row][column] = row < axis.size() ? axis[row] : 0;
+      identity = identity && std::abs(d[row][column] - (row == column ? 1 : 0)) < 1e-6;
+    }
+  }
+  if (identity) return;
+  const double determinant = d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) -
+                             d[0][1] * (d[1][0] * d[2][2] - d[1][2] * d[2][0]) +
+                             d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
+  notes.push_back(fmt::format(
+      "the file's direction matrix ({:.4g} {:.4g} {:.4g}, {:.4g} {:.4g} {:.4g}, {:.4g} {:.4g} {:.4g}) is not applied: "
+      "x, "
+      "y and z of the results are the axes of the voxels, and grains and specimen are {} those that were scanned",
+      d[0][0], d[0][1], d[0][2], d[1][0], d[1][1], d[1][2], d[2][0], d[2][1], d[2][2],
+      determinant < 0 ? "mirror images of" : "turned against"));
 }
 
 /// The header of one file. \throws InputError.
-ImageHeader header_of(itk::ImageIOBase& io) {
+ImageHeader header_of(itk::ImageIOBase& io, const HeaderFacts& facts) {
   const std::string file = io.GetFileName();
   std::size_t bytes = 0;  // of a voxel
   attempt(file, "image", "a whole image file", [&] {
@@ -164,8 +155,11 @@ ImageHeader header_of(itk::ImageIOBase& io) {
     known = known || spacing[axis] != 1;
   }
   known = known && !is_tiff(file);  // its resolution is meant for paper, and knows two axes
-  if (known) header.spacing = {mm * spacing[0], mm * spacing[1], mm * spacing[2]};
-  header.origin = {mm * origin[0], mm * origin[1], mm * origin[2]};
+  header.notes = facts.notes;
+  note_directions(io, header.notes);
+  const double unit = facts.unit.value_or(0);
+  if (known) header.spacing = {unit * spacing[0], unit * spacing[1], unit * spacing[2]};
+  header.origin = {unit * origin[0], unit * origin[1], unit * origin[2]};
   header.bits = static_cast<int>(8 * bytes);
   const auto type = io.GetComponentType();
   header.floating = type == itk::IOComponentEnum::FLOAT || type == itk::IOComponentEnum::DOUBLE;
@@ -215,9 +209,11 @@ class FileSlices : public ImageSlices {
  public:
   explicit FileSlices(const fs::path& path) : io_(io_of(path)) {
     file_ = path.string();
-    voxels_ = check_file(*io_);
-    header_ = header_of(*io_);
+    const HeaderFacts facts = check_file(*io_);
+    voxels_ = facts.voxels;
+    header_ = header_of(*io_, facts);
     type_ = type_of(*io_);
+    if (facts.white_is_zero) invert_grey();
   }
   bool apart() const override { return io_->CanStreamRead(); }
 
@@ -242,13 +238,18 @@ class FolderSlices : public ImageSlices {
   explicit FolderSlices(const fs::path& path) : slices_(slices_in(path)) {
     file_ = path.string();
     const itk::ImageIOBase::Pointer first = io_of(slices_.front());
-    check_file(*first);
-    header_ = header_of(*first);
+    const HeaderFacts facts = check_file(*first);
+    header_ = header_of(*first, facts);
     type_ = type_of(*first);
+    if (facts.white_is_zero) invert_grey();
     for (const fs::path& slice : slices_) {
       const itk::ImageIOBase::Pointer io = io_of(slice);
-      check_file(*io);
-      const ImageHeader own = header_of(*io);
+      const HeaderFacts own_facts = check_file(*io);
+      const ImageHeader own = header_of(*io, own_facts);
+      if (own_facts.white_is_zero != facts.white_is_zero)
+        throw InputError(slice.string(), 0, "PhotometricInterpretation (tag 262)",
+                         own_facts.white_is_zero ? "0 (white is 0)" : "1 (black is 0)",
+                         "that of " + slices_.front().filename().string());
       if (own.size != header_.size || own.size[2] != 1 || type_of(*io) != type_) {
         throw InputError(slice.string(), 0, "slice",
                          fmt::format("{} x {} x {} voxels of {} bits", own.size[0], own.size[1], own.size[2], own.bits),
@@ -276,6 +277,9 @@ class FolderSlices : public ImageSlices {
 
 std::unique_ptr<ImageSlices> open_itk(const fs::path& path) {
   if (fs::is_directory(path)) return std::make_unique<FolderSlices>(path);
+  if (is_tiff(path) && fs::is_regular_file(path)) {
+    if (std::unique_ptr<ImageSlices> stack = open_imagej_stack(path, check_tiff_directories(path))) return stack;
+  }
   return std::make_unique<FileSlices>(path);
 }
 

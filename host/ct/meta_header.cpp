@@ -44,10 +44,11 @@ void check(const HeaderLines& lines, std::string_view key, std::string_view valu
 
 }  // namespace
 
-std::filesystem::path check_meta_header(const std::filesystem::path& file) {
+HeaderFacts check_meta_header(const std::filesystem::path& file) {
   HeaderLines lines(file, "header of a MetaImage");
   bool copies_next = false;  // some versions of ITK take the next line for a value where there is none
   std::uintmax_t packed = 0;
+  HeaderFacts facts;
   while (const std::optional<std::string> line = lines.next()) {
     const std::size_t sign = std::min(line->find_first_of("=:"), line->size());
     const std::string_view text = *line, key = trimmed(text.substr(0, sign));
@@ -59,15 +60,17 @@ std::filesystem::path check_meta_header(const std::filesystem::path& file) {
     const std::string_view value = trimmed(text.substr(sign + 1));
     check(lines, key, value);
     copies_next = value.empty() && is_copied(key);
+    if (key == "DistanceUnits" && value != "?") facts.take_unit(value);
     if (key == "CompressedDataSize" && !is_number(value, packed)) lines.refuse(key, value, "a whole number of bytes");
     if (key != "ElementDataFile") continue;
     // ITK counts the files of a list, and fills in a pattern as printf does, whatever they are
     if (value.starts_with("LIST") || value.find('%') != std::string_view::npos) lines.refuse_voxels(key, value);
-    const std::filesystem::path voxels = is_local(value) ? file : lines.beside(key, value);
-    if (const std::uintmax_t there = std::filesystem::file_size(voxels); packed > there)  // ITK takes memory for them
+    facts.voxels = is_local(value) ? file : lines.beside(key, value);
+    if (const std::uintmax_t there = std::filesystem::file_size(facts.voxels);
+        packed > there)  // ITK takes memory for them
       throw InputError(file.string(), 0, "CompressedDataSize", fmt::format("{}", packed),
-                       fmt::format("at most the {} bytes of {}", there, voxels.filename().string()));
-    return voxels;
+                       fmt::format("at most the {} bytes of {}", there, facts.voxels.filename().string()));
+    return facts;
   }
   throw InputError(file.string(), 0, "header of a MetaImage", "no line ElementDataFile", "one, at its end");
 }

@@ -44,11 +44,25 @@ std::string name_of(std::string_view field) {
   return out;
 }
 
+/// The unit in a list such as `"um" "um" "um"`; nothing if the list names none. Axes of different units have no unit.
+std::optional<std::string> unit_in(std::string_view list) {
+  std::optional<std::string> unit;
+  for (;;) {
+    const std::size_t begin = list.find('"'), end = begin < list.size() ? list.find('"', begin + 1) : begin;
+    if (end >= list.size()) return unit;
+    const std::string name(trimmed(list.substr(begin + 1, end - begin - 1)));
+    if (!name.empty() && unit && *unit != name) return *unit + ", " + name;
+    if (!name.empty()) unit = name;
+    list.remove_prefix(end + 1);
+  }
+}
+
 }  // namespace
 
-std::filesystem::path check_nrrd_header(const std::filesystem::path& file) {
+HeaderFacts check_nrrd_header(const std::filesystem::path& file) {
   HeaderLines lines(file, "header of an NRRD file");
-  std::filesystem::path voxels = file;
+  HeaderFacts facts;
+  facts.voxels = file;
   bool raw = false, skips_to_end = false;
   while (const std::optional<std::string> line = lines.next()) {
     if (line->empty()) break;
@@ -59,13 +73,16 @@ std::filesystem::path check_nrrd_header(const std::filesystem::path& file) {
     if (name == "sizes" && !are_sizes(value)) lines.refuse(field, value, "whole numbers from 1 to 2147483647");
     if (name == "encoding") raw = name_of(value) == "raw";
     if (name == "byteskip") skips_to_end = value.starts_with('-');
+    if (name == "spaceunits" || name == "units") {
+      if (const std::optional<std::string> unit = unit_in(value)) facts.take_unit(*unit);
+    }
     if (name != "datafile") continue;
     if (value.starts_with("LIST") || is_pattern(value)) lines.refuse_voxels(field, value);
-    voxels = lines.beside(field, value);
+    facts.voxels = lines.beside(field, value);
   }
   if (skips_to_end && !raw)  // ITK unpacks all there is, to find its end
     throw InputError(file.string(), 0, "byte skip", "below 0 beside an encoding that is not raw", "encoding: raw");
-  return voxels;
+  return facts;
 }
 
 }  // namespace macadam::ct

@@ -1,43 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// overlay.cpp  Planes and a view of a segmentation, as PNG by ITK.
+// overlay.cpp  Planes and a view of a segmentation.
 #include "host/ct/overlay.hpp"
 
-#include <itkPNGImageIO.h>
+#include <fmt/format.h>
 
-#include "macadam/error.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/ct/picture.hpp"
 
 namespace macadam::ct {
 namespace {
-
-using Colour = std::array<std::uint8_t, 3>;
-
-struct Picture {
-  std::size_t width, height;
-  std::vector<Colour> pixels;
-  Picture(std::size_t width, std::size_t height)
-      : width(width), height(height), pixels(width * height, Colour{255, 255, 255}) {}
-  Colour& at(std::size_t x, std::size_t y) { return pixels[x + width * y]; }
-};
-
-void write_png(const std::filesystem::path& file, const Picture& picture) {
-  const auto io = itk::PNGImageIO::New();
-  io->SetFileName(file.string());
-  io->SetNumberOfDimensions(2);
-  io->SetDimensions(0, picture.width);
-  io->SetDimensions(1, picture.height);
-  io->SetNumberOfComponents(3);
-  io->SetPixelType(itk::IOPixelEnum::RGB);
-  io->SetComponentType(itk::IOComponentEnum::UCHAR);
-  itk::ImageIORegion region(2);
-  region.SetSize(0, picture.width);
-  region.SetSize(1, picture.height);
-  io->SetIORegion(region);
-  try {
-    io->Write(picture.pixels.data());
-  } catch (const itk::ExceptionObject& error) {
-    throw RunError(file.string() + ": cannot be written: " + error.GetDescription());
-  }
-}
 
 /// Colours of neighbouring numbers differ much: hues by the golden ratio.
 Colour colour_of(std::uint32_t label) {
@@ -55,31 +29,81 @@ Colour mixed(const Colour& a, const Colour& b, double share) {
   return out;
 }
 
+/// The colour of a voxel: its grey value, tinted by grain, void or outside.
+Colour colour_of_voxel(const Segmentation& s, std::size_t at) {
+  const double low = s.levels.has_air ? s.levels.air : s.levels.mastic - s.levels.contrast();
+  const double high = s.levels.aggregate + 0.3 * s.levels.contrast();
+  const auto grey = static_cast<std::uint8_t>(255 * std::clamp((s.grey.voxels[at] - low) / (high - low), 0.0, 1.0));
+  const Colour plain{grey, grey, grey};
+  const std::uint32_t label = s.labels.voxels[at];
+  return label > 0                    ? mixed(plain, colour_of(label), 0.4)
+         : s.phases.voxels[at] == 255 ? mixed(plain, {255, 255, 255}, 0.7)
+         : s.phases.voxels[at] == 0   ? mixed(plain, {0, 0, 120}, 0.5)
+                                      : plain;
+}
+
+/// A plane of a picture: two axes of the scan, to the right and upwards.
+struct Plane {
+  const char* name;
+  std::size_t right, up;
+};
+constexpr Plane planes[] = {{"xy", 0, 1}, {"xz", 0, 2}, {"yz", 1, 2}};
+
+/// Returns the edge of a pixel [m]: the smallest edge of a voxel, divided by up to 8 to make the picture 1200 pixels
+/// wide.
+double pixel_of(const Image<std::uint32_t>& image, const double (&edges)[3]) {
+  constexpr double wanted = 1200;
+  const double smallest = *std::min_element(edges, edges + 3);
+  double width = 0;  // of the three planes
+  for (const Plane& plane : planes) width += edges[plane.right] * static_cast<double>(image.size[plane.right]);
+  return smallest / std::clamp(std::ceil(wanted * smallest / width - 1e-9), 1.0, 8.0);
+}
+
+/// The length of 1, 2 or 5 times a power of ten that is next below `longest`.
+double round_length(double longest) {
+  const double power = std::pow(10, std::floor(std::log10(longest)));
+  return power * (longest >= 5 * power ? 5 : longest >= 2 * power ? 2 : 1);
+}
+
 }  // namespace
 
 void write_overlay(const std::filesystem::path& file, const Segmentation& s) {
-  const auto [nx, ny, nz] = s.labels.size;
-  constexpr std::int64_t gap = 8;
-  Picture picture(static_cast<std::size_t>(nx + gap + nx + gap + ny), static_cast<std::size_t>(std::max(ny, nz)));
-  const double low = s.levels.has_air ? s.levels.air : s.levels.mastic - s.levels.contrast();
-  const double high = s.levels.aggregate + 0.3 * s.levels.contrast();
-  const auto draw = [&](std::int64_t x, std::int64_t y, std::int64_t i, std::int64_t j, std::int64_t k) {
-    const std::size_t at = s.labels.index(i, j, k);
-    const auto grey = static_cast<std::uint8_t>(255 * std::clamp((s.grey.voxels[at] - low) / (high - low), 0.0, 1.0));
-    const Colour plain{grey, grey, grey};
-    const std::uint32_t label = s.labels.voxels[at];
-    picture.at(static_cast<std::size_t>(x), static_cast<std::size_t>(y)) =
-        label > 0                    ? mixed(plain, colour_of(label), 0.4)
-        : s.phases.voxels[at] == 255 ? mixed(plain, {255, 255, 255}, 0.7)
-        : s.phases.voxels[at] == 0   ? mixed(plain, {0, 0, 120}, 0.5)
-                                     : plain;
-  };
-  for (std::int64_t j = 0; j < ny; ++j)
-    for (std::int64_t i = 0; i < nx; ++i) draw(i, ny - 1 - j, i, j, nz / 2);
-  for (std::int64_t k = 0; k < nz; ++k) {
-    for (std::int64_t i = 0; i < nx; ++i) draw(nx + gap + i, nz - 1 - k, i, ny / 2, k);
-    for (std::int64_t j = 0; j < ny; ++j) draw(2 * (nx + gap) + j, nz - 1 - k, nx / 2, j, k);
+  constexpr std::size_t gap = 16;  // between planes, and around what stands below them [pixels]
+  const double edges[3] = {s.labels.spacing.x, s.labels.spacing.y, s.labels.spacing.z};
+  const double pixel = pixel_of(s.labels, edges);
+  std::size_t pixels[3];
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double exact = edges[axis] * static_cast<double>(s.labels.size[axis]) / pixel;
+    pixels[axis] = static_cast<std::size_t>(std::max(1.0, std::round(exact)));
   }
+  const std::size_t high = std::max(pixels[1], pixels[2]);
+  Picture picture(2 * pixels[0] + pixels[1] + 2 * gap, high + 2 * gap + label_height);
+  std::size_t left = 0;
+  for (const auto& [name, right, up] : planes) {
+    std::int64_t voxel[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) voxel[axis] = s.labels.size[axis] / 2;
+    const auto voxel_of = [&](std::size_t place, std::size_t axis) {
+      const double exact = (static_cast<double>(place) + 0.5) * pixel / edges[axis];
+      return std::min(static_cast<std::int64_t>(exact), s.labels.size[axis] - 1);
+    };
+    for (std::size_t y = 0; y < pixels[up]; ++y) {
+      voxel[up] = voxel_of(pixels[up] - 1 - y, up);
+      for (std::size_t x = 0; x < pixels[right]; ++x) {
+        voxel[right] = voxel_of(x, right);
+        picture.at(left + x, y) = colour_of_voxel(s, s.labels.index(voxel[0], voxel[1], voxel[2]));
+      }
+    }
+    if (pixels[right] >= label_width(name)) write_label(picture, left, high + gap, name);
+    left += pixels[right] + gap;
+  }
+  // the scale stands below the first plane, right of its name
+  const double bar = round_length(0.4 * edges[0] * static_cast<double>(s.labels.size[0]));
+  const auto wide = static_cast<std::size_t>(std::round(bar / pixel));
+  const std::string text = fmt::format("{:.6g} mm", 1e3 * bar);
+  const std::size_t begin = label_width("xy") + 2 * gap;
+  if (begin + wide + gap + label_width(text) > pixels[0]) return write_png(file, picture);
+  picture.fill(begin, high + gap + label_height / 2 - 2, wide, 4);
+  write_label(picture, begin + wide + gap, high + gap, text);
   write_png(file, picture);
 }
 

@@ -125,6 +125,7 @@ Segmentation segment_as_paper(Image<float> scan, const Image<std::uint8_t>& regi
   out.levels = levels;
   out.grey = std::move(scan);
   count_shares(out);
+  measure_unassigned(out, options);
   if (options.surfaces) {
     say("surfaces");
     out.grains = surfaces_of(out, {air_below, threshold}, boxes_of(out.labels, out.phases, out.confidence), options,

@@ -104,7 +104,10 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
   if (options.air_voids) {
     throw InputError(
         "the scan", 0, "grey levels", fmt::format("two, {:.5g} and {:.5g}", levels.mastic, levels.aggregate),
-        fmt::format("three: air voids are {:.3g} % of the specimen, as was said", 100 * *options.air_voids));
+        fmt::format(
+            "three: air voids are {:.3g} % of the specimen, as was said. If they are too few for a grey level of "
+            "their own in the histogram, give --air-voids 0: they are then taken for mastic",
+            100 * *options.air_voids));
   }
   // what lies around a region by coordinates may be the same specimen
   const std::optional<double> around = options.given ? std::nullopt : level_around(scan, region);
@@ -114,12 +117,12 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
         fmt::format("two, {:.5g} and {:.5g}, and the lower one is that of the air around the specimen", levels.mastic,
                     levels.aggregate),
         "air, mastic and aggregate: a phase is missing, or has the grey value of another (where grains lie in air "
-        "alone, say so: air voids of 0, and the air is then taken for mastic)");
+        "alone, give --air-voids 0: the air is then taken for mastic)");
   }
   warnings.push_back("the scan has two grey levels: they were taken for mastic and aggregate, without air voids");
   if (around) return 1;  // air is something else
   warnings.push_back(
-      "nothing in it tells which two phases they are, so that no grain is more than half sure: give air voids of 0 "
+      "nothing in it tells which two phases they are, so that no grain is more than half sure: give --air-voids 0 "
       "where there are none");
   return doubtful;
 }
@@ -167,6 +170,38 @@ double trust_in_grains(const Image<std::uint32_t>& labels, const Image<std::uint
       "one grain is {:.0f} % of the specimen: what was taken for aggregate is another phase, or several at once",
       100 * share));
   return doubtful;
+}
+
+void check_thickness(const Image<float>& scan) {
+  constexpr std::int64_t least = 4;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::int64_t n = scan.size[axis];
+    if (n >= least) continue;
+    throw InputError("the scan", 0, axis == 2 ? "slices" : fmt::format("voxels along {}", "xy"[axis]),
+                     std::to_string(n),
+                     fmt::format("at least {}: grains are found in a volume, not in a picture", least));
+  }
+}
+
+void measure_unassigned(Segmentation& out, const SegmentOptions& options) {
+  std::size_t all = 0, in_none = 0;
+  for (std::size_t i = 0; i < out.phases.count(); ++i) {
+    if (out.phases.voxels[i] != aggregate) continue;
+    ++all;
+    in_none += out.labels.voxels[i] == 0;
+  }
+  out.in_no_grain = all > 0 ? static_cast<double>(in_none) / static_cast<double>(all) : 0;
+  // some aggregate is always below what a scan resolves
+  constexpr double many = 0.1;
+  if (!(out.in_no_grain > many)) return;
+  const double finest = 4 * std::cbrt(out.phases.voxel_volume());
+  out.warnings.push_back(fmt::format(
+      "{:.0f} % of the aggregate's volume is in no grain: pieces below half of --smallest, {:.3g} mm, are left "
+      "out, also of gradation.csv. {}",
+      100 * out.in_no_grain, 500 * options.smallest,
+      options.smallest > 1.01 * finest
+          ? fmt::format("These voxels allow a --smallest of {:.3g} mm and more", 1e3 * finest)
+          : "Smaller grains need smaller voxels"));
 }
 
 }  // namespace macadam::ct

@@ -13,6 +13,13 @@ constexpr double doubtful = 0.5;
 /// \throws InputError where a scan has no voxels, a voxel that is no number, or one grey value everywhere.
 void check_voxels(const Image<float>& scan);
 
+/// \throws InputError where a scan has fewer than four voxels along an axis: one slice, say.
+void check_thickness(const Image<float>& scan);
+
+/// Measures which part of the aggregate's volume is in no grain (Segmentation::in_no_grain), from phases and labels.
+/// Warns above a tenth.
+void measure_unassigned(Segmentation& out, const SegmentOptions& options);
+
 /// The specimen's voxels of the least or the largest grey value, by number, where they are more than 1 %: what those
 /// would have been is not known. Empty where there are none. Warns.
 std::vector<bool> clipped_voxels(const Image<float>& scan, const Image<std::uint8_t>& region,

@@ -39,6 +39,7 @@ void check_levels(const Histogram& histogram, const GreyLevels& levels) {
 
 Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options, const Refine& refine) {
   check_voxels(scan);
+  check_thickness(scan);
   const double voxel = std::cbrt(scan.voxel_volume());
   if (options.smallest < 4 * voxel) {
     throw InputError("the scan", 0, "edge of a voxel", fmt::format("{:.4g} mm", 1e3 * voxel),
@@ -110,6 +111,7 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   const Image<std::uint32_t> parted = cut_along_valleys(fragments, decision.grain, solid, depth);
   out.labels = spread(out.phases, parted, edge);
   const std::vector<std::uint32_t> number = drop_small(out.labels, least_volume(options));
+  measure_unassigned(out, options);
   trust *= trust_in_grains(out.labels, out.phases, out.warnings);
   const std::vector<double> certain = certainty(decision, number);
   out.cuts = std::move(decision.cuts);

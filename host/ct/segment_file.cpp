@@ -81,13 +81,33 @@ double noise_of(const Image<float>& middles, Segmentation& out, const Correction
   return fit_levels(histogram_of(corrected, region)).deviation / out.levels.contrast();
 }
 
-}  // namespace
+/// Returns the edges of a voxel, as given or else from the file. Warns if both are known and differ by more than 1 %.
+/// \throws InputError if neither is known.
+Vec3d spacing_of(const ScanFile& file, const ImageHeader& header, std::vector<std::string>& warnings) {
+  const Vec3d own = header.spacing, given = file.spacing;
+  if (!(given.x > 0)) {
+    std::string notes;
+    for (const std::string& note : header.notes) notes += (notes.empty() ? " (" : "; ") + note;
+    if (!(own.x > 0))
+      throw InputError(file.path.string(), 0, "edge of a voxel",
+                       "none in the file" + notes + (notes.empty() ? "" : ")"), "--voxel with one: \"25 um\"");
+    return own;
+  }
+  const double ratios[3] = {own.x / given.x, own.y / given.y, own.z / given.z};
+  if (own.x > 0 && std::ranges::any_of(ratios, [](double ratio) { return !(std::abs(ratio - 1) <= 0.01); })) {
+    warnings.push_back(
+        fmt::format("the file says that a voxel is {:.6g} x {:.6g} x {:.6g} mm; --voxel takes precedence: {:.6g} x "
+                    "{:.6g} x {:.6g} mm",
+                    1e3 * own.x, 1e3 * own.y, 1e3 * own.z, 1e3 * given.x, 1e3 * given.y, 1e3 * given.z));
+  }
+  return given;
+}
 
-Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, double memory) {
-  const std::unique_ptr<ImageSlices> image = open_image(file.path, file.dataset);
-  FineScan fine{*image, file.spacing.x > 0 ? file.spacing : image->header().spacing};
+/// segment_file() of a file that is open.
+Segmentation segment_open(ImageSlices& image, const Vec3d& spacing, const ScanFile& file, const SegmentOptions& options,
+                          double memory) {
+  FineScan fine{image, spacing};
   const std::string name = file.path.string();
-  if (!(fine.spacing.x > 0)) throw InputError(name, 0, "edge of a voxel", "none in the file", "one that is given");
   const double whole = bytes_whole(fine, options);
   if (whole <= memory) {
     Image<float> scan = read_image<float>(file.path, file.dataset);
@@ -109,6 +129,17 @@ Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, d
   };
   Segmentation out = segment_steps(std::move(coarse.means), options, refine);
   out.block = fine.block, out.refined = refined;
+  return out;
+}
+
+}  // namespace
+
+Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, double memory) {
+  const std::unique_ptr<ImageSlices> image = open_image(file.path, file.dataset);
+  std::vector<std::string> warnings = image->header().notes;
+  const Vec3d spacing = spacing_of(file, image->header(), warnings);
+  Segmentation out = segment_open(*image, spacing, file, options, memory);
+  out.warnings.insert(out.warnings.begin(), warnings.begin(), warnings.end());
   return out;
 }
 

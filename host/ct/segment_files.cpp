@@ -112,22 +112,6 @@ std::vector<GrainCut> read_cuts(const std::filesystem::path& file) {
   return cuts;
 }
 
-Vec3d spacing_of(const ScanFile& scan, const std::optional<Vec3d>& given) {
-  const Vec3d own = read_image_header(scan.path, scan.dataset).spacing;
-  if (!given && own.x > 0) return own;
-  if (!given)
-    throw InputError(scan.path.string(), 0, "edge of a voxel", "none in the file", "--voxel with one: \"25 um\"");
-  const double in_file[3] = {own.x, own.y, own.z}, asked[3] = {given->x, given->y, given->z};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (own.x > 0 && std::abs(in_file[axis] / asked[axis] - 1) > 0.01) {
-      throw InputError(scan.path.string(), 0, fmt::format("edge of a voxel along {}", "xyz"[axis]),
-                       fmt::format("{:.6g} mm", 1e3 * in_file[axis]),
-                       fmt::format("{:.6g} mm, as --voxel says", 1e3 * asked[axis]));
-    }
-  }
-  return *given;
-}
-
 void write_segmentation(const std::filesystem::path& folder, const Segmentation& out, const SegmentOptions& options) {
   namespace fs = std::filesystem;
   const ResultFolder held(folder);

@@ -17,10 +17,6 @@ std::string cuts_csv(const std::vector<GrainCut>& cuts);
 /// \throws InputError naming file and line.
 std::vector<GrainCut> read_cuts(const std::filesystem::path& file);
 
-/// The edges of a voxel: as given, or of the file. \throws InputError where there are none, and where the file says
-/// others by more than 1 %: it is of another scan.
-Vec3d spacing_of(const ScanFile& scan, const std::optional<Vec3d>& given);
-
 /// Everything that `macadam ct segment` leaves in its folder. \throws InputError where another command writes into it,
 /// RunError.
 void write_segmentation(const std::filesystem::path& folder, const Segmentation& out, const SegmentOptions& options);

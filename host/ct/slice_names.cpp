@@ -1,47 +1,137 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// slice_names.cpp  Gaps in the numbers of slices.
+// slice_names.cpp  Names that are not of the sequence, numbers that are there twice, and gaps.
 #include "host/ct/slice_names.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 
+#include "host/ct/image_slices.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::ct {
 namespace {
 
-/// The last number in a file's name, its ending left out.
-std::optional<std::int64_t> number_of(const std::filesystem::path& file) {
-  const std::string name = file.stem().string();
-  const std::size_t last = name.find_last_of("0123456789");
-  if (last == std::string::npos) return std::nullopt;
-  const std::size_t before = name.find_last_not_of("0123456789", last), first = before + 1;
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(name.data() + first, name.data() + last + 1, number);
-  return error == std::errc{} ? std::optional(number) : std::nullopt;
+/// Compares texts by letters, and by value where both have digits: slice_2 comes before slice_10.
+bool natural_less(const std::string& a, const std::string& b) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    if (!digit(a[i]) || !digit(b[j])) {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+      continue;
+    }
+    const auto number = [&](const std::string& s, std::size_t& at) {
+      while (at < s.size() && s[at] == '0') ++at;
+      const std::size_t begin = at;
+      while (at < s.size() && digit(s[at])) ++at;
+      return s.substr(begin, at - begin);
+    };
+    const std::string x = number(a, i), y = number(b, j);
+    if (x.size() != y.size()) return x.size() < y.size();
+    if (x != y) return x < y;
+  }
+  return a.size() != b.size() ? a.size() < b.size() : a < b;
+}
+
+/// A file's name without its ending.
+struct Name {
+  std::string prefix;                 ///< text before the last number, with # for the numbers in it
+  std::vector<std::int64_t> numbers;  ///< all numbers; empty also where one is too large
+};
+
+Name name_of(const std::filesystem::path& file) {
+  constexpr const char* digits = "0123456789";
+  const std::string text = file.stem().string();
+  Name name;
+  std::string before;
+  for (std::size_t at = 0;;) {
+    const std::size_t first = std::min(text.find_first_of(digits, at), text.size());
+    before += text.substr(at, first - at);
+    if (first == text.size()) return name;
+    at = std::min(text.find_first_not_of(digits, first), text.size());
+    if (at - first > 18) return {};
+    name.prefix = before;
+    before += '#';
+    name.numbers.push_back(std::stoll(text.substr(first, at - first)));
+  }
+}
+
+/// \throws InputError where some files have no number, or other text before it than most: they are not slices of this
+/// stack.
+void check_sequence(const std::vector<std::filesystem::path>& slices, const std::vector<Name>& names) {
+  const auto key_of = [](const Name& name) { return name.numbers.empty() ? "no number" : name.prefix; };
+  std::map<std::string, std::size_t> count;
+  for (const Name& name : names) ++count[key_of(name)];
+  if (count.size() < 2) return;
+  const auto most = std::ranges::max_element(count, {}, [](const auto& one) { return one.second; });
+  const auto find = [&](bool of_most) {
+    const auto at = std::ranges::find_if(names, [&](const Name& n) { return (key_of(n) == most->first) == of_most; });
+    return slices[static_cast<std::size_t>(at - names.begin())].filename().string();
+  };
+  const std::size_t others = slices.size() - most->second;
+  throw InputError(slices.front().parent_path().string(), 0, "slices",
+                   find(false) + (others > 1 ? " and " + std::to_string(others - 1) + " more" : "") + " beside " +
+                       std::to_string(most->second) + " files such as " + find(true),
+                   "the slices of one stack, numbered in one sequence; move other images to another folder");
+}
+
+/// The number that counts the slices, of each name: the only one in which the names differ, or else the last one.
+std::vector<std::int64_t> counted(const std::vector<Name>& names) {
+  const std::vector<std::int64_t>& first = names.front().numbers;
+  std::optional<std::size_t> column;
+  bool unique = true;
+  for (const Name& name : names) {
+    if (name.numbers.size() != first.size()) unique = false;
+    for (std::size_t c = 0; unique && c < first.size(); ++c) {
+      if (name.numbers[c] == first[c]) continue;
+      unique = !column || *column == c;
+      column = c;
+    }
+  }
+  std::vector<std::int64_t> out;
+  for (const Name& name : names) out.push_back(unique && column ? name.numbers[*column] : name.numbers.back());
+  return out;
+}
+
+/// Checks that the files, in the order of their slices, make one whole stack.
+void check_slice_numbers(const std::vector<std::filesystem::path>& slices) {
+  std::vector<Name> names;
+  for (const std::filesystem::path& slice : slices) names.push_back(name_of(slice));
+  check_sequence(slices, names);
+  if (names.size() < 2 || names.front().numbers.empty()) return;
+  const std::string folder = slices.front().parent_path().string();
+  for (std::size_t k = 1; k < names.size(); ++k) {
+    if (names[k].numbers == names[k - 1].numbers)
+      throw InputError(folder, 0, "slices",
+                       slices[k].filename().string() + " beside " + slices[k - 1].filename().string(),
+                       "one file for each number");
+  }
+  const std::vector<std::int64_t> numbers = counted(names);
+  std::int64_t step = std::numeric_limits<std::int64_t>::max();
+  for (std::size_t k = 1; k < numbers.size(); ++k) step = std::min(step, numbers[k] - numbers[k - 1]);
+  if (step <= 0) return;
+  for (std::size_t k = 1; k < numbers.size(); ++k) {
+    if (numbers[k] - numbers[k - 1] == step) continue;
+    throw InputError(folder, 0, "slices", slices[k].filename().string() + " after " + slices[k - 1].filename().string(),
+                     "numbers that rise by " + std::to_string(step) + ": a slice is missing");
+  }
 }
 
 }  // namespace
 
-void check_slice_numbers(const std::vector<std::filesystem::path>& slices) {
-  std::vector<std::int64_t> numbers;
-  for (const std::filesystem::path& slice : slices) {
-    const std::optional<std::int64_t> number = number_of(slice);
-    if (!number) return;
-    numbers.push_back(*number);
+std::vector<std::filesystem::path> slices_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> slices;
+  for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.is_regular_file() && is_tiff(entry.path())) slices.push_back(entry.path());
   }
-  std::int64_t step = std::numeric_limits<std::int64_t>::max();
-  for (std::size_t k = 1; k < numbers.size(); ++k) step = std::min(step, numbers[k] - numbers[k - 1]);
-  if (numbers.size() < 2 || step <= 0) return;
-  for (std::size_t k = 1; k < numbers.size(); ++k) {
-    if (numbers[k] - numbers[k - 1] == step) continue;
-    throw InputError(slices[k].parent_path().string(), 0, "slices",
-                     slices[k].filename().string() + " after " + slices[k - 1].filename().string(),
-                     "numbers that rise by " + std::to_string(step) + ": a slice is missing");
-  }
+  if (slices.empty()) throw InputError(folder.string(), 0, "slices", "no .tif file", "a folder of .tif files");
+  std::sort(slices.begin(), slices.end(),
+            [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
+  check_slice_numbers(slices);
+  return slices;
 }
 
 }  // namespace macadam::ct

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -38,7 +39,15 @@ class Numbers {
     for (int k = 0; k < bytes; ++k) out = out << 8 | raw[big_endian_ ? k : bytes - 1 - k];
     return out;
   }
+  /// Returns the text of `bytes` bytes from `place` on, cut at 4096 bytes.
+  std::string text(std::uint64_t place, std::uint64_t bytes) {
+    std::string out(static_cast<std::size_t>(std::min<std::uint64_t>(bytes, 4096)), '\0');
+    in_.seekg(static_cast<std::streamoff>(place));
+    in_.read(out.data(), static_cast<std::streamsize>(out.size()));
+    return out;
+  }
   bool good() const { return in_.good(); }
+  bool big_endian() const { return big_endian_; }
 
  private:
   std::ifstream in_;
@@ -48,14 +57,26 @@ class Numbers {
 /// Texts whose end libtiff sees to: names of the document, the maker, the program and the like (TIFF 6.0).
 constexpr std::uint64_t known_texts[] = {269, 270, 271, 272, 285, 305, 306, 315, 316, 333, 337, 33432};
 
-/// What ITK asks the first page for and takes for that of all, by tag: kind of page, width, height, bits of a voxel,
-/// what its values mean, values a voxel, and whether these are whole numbers.
 namespace tags {
-constexpr std::uint64_t kind = 254, width = 256, height = 257, bits = 258, meaning = 262, values = 277, format = 339;
+constexpr std::uint64_t kind = 254, width = 256, height = 257, bits = 258, compression = 259, meaning = 262,
+                        bit_order = 266, description = 270, strips = 273, orientation = 274, values = 277,
+                        first_of_tiles = 322, last_of_tiles = 325, format = 339;
 }
+/// Tags that ITK reads of the first page and takes to hold for all pages.
 constexpr std::uint64_t of_page[] = {tags::kind,    tags::width,  tags::height, tags::bits,
                                      tags::meaning, tags::values, tags::format};
-using Page = std::map<std::uint64_t, std::uint64_t>;  // numbers of those that it has
+/// Tags that tell whether the voxels are stored without change and contiguously.
+constexpr std::uint64_t of_storage[] = {tags::compression, tags::bit_order, tags::strips, tags::orientation};
+
+/// A directory's tags of the two lists above that are one whole number, and its description.
+struct Page {
+  std::map<std::uint64_t, std::uint64_t> numbers;
+  std::string description;
+
+  bool contains(std::uint64_t tag) const { return numbers.contains(tag); }
+  std::uint64_t at(std::uint64_t tag) const { return numbers.at(tag); }
+  std::uint64_t at(std::uint64_t tag, std::uint64_t otherwise) const { return contains(tag) ? at(tag) : otherwise; }
+};
 
 /// A directory of a file.
 struct Directory {
@@ -63,6 +84,7 @@ struct Directory {
   Numbers& numbers;
   std::uint64_t size;  ///< of the file [bytes]
   bool wide;
+  static constexpr std::uint64_t white_is_zero = 0;  ///< a PhotometricInterpretation
 
   /// The tag whose entry begins at `entry`.
   void check_tag(std::uint64_t entry, Page& page) const {
@@ -74,31 +96,44 @@ struct Directory {
     if (bytes > 0 && values > size / bytes)
       refuse(tag, fmt::format("{} values of {} bytes", values, bytes),
              fmt::format("as many as the {} bytes of the file hold", size));
+    if (tag >= tags::first_of_tiles && tag <= tags::last_of_tiles)
+      refuse(tag, "tiles", "rows of voxels (strips), as ImageJ and ITK write them");
     // libtiff writes both of its numbers where ITK has room for a pointer to them
     if (tag == 336) refuse(tag, "a range of dots", "none, as in a scan");
     if (std::ranges::count(of_page, tag) > 0) {
       if (tag == tags::bits && values > 1)
-        refuse(tag, fmt::format("bits of {} values a voxel", values), "of one grey value");
-      const bool whole = type == 1 || type == 3 || type == 4 || (type == 16 && wide);
-      if (values != 1 || !whole)
+        refuse(tag, fmt::format("bits of {} values a voxel", values), std::string("of one grey value") + to_grey);
+      if (values != 1 || !is_whole(type))
         refuse(tag, fmt::format("{} values of type {}", values, type), "one whole number, of type 1, 3 or 4");
-      if (!page.emplace(tag, numbers.at(inside, static_cast<int>(bytes))).second) refuse(tag, "two of it", "one");
+      if (!page.numbers.emplace(tag, numbers.at(inside, static_cast<int>(bytes))).second)
+        refuse(tag, "two of it", "one");
     }
+    if (std::ranges::count(of_storage, tag) > 0)
+      page.numbers.emplace(tag, values == 1 && is_whole(type) ? numbers.at(inside, static_cast<int>(bytes)) : 0);
     check_text(tag, type, values, inside);
+    if (tag == tags::description && values > 0) page.description = text_of(values, inside);
   }
 
   /// All tags of a page together. \throws InputError for voxels that ITK reads as others, or not at all.
   void check_voxels(const Page& page) const {
-    if (page.contains(tags::values) && page.at(tags::values) != 1)
-      refuse(tags::values, fmt::format("{} values a voxel", page.at(tags::values)), "one grey value a voxel");
+    if (page.at(tags::values, 1) != 1)
+      refuse(tags::values, fmt::format("{} values a voxel", page.at(tags::values)),
+             std::string("one grey value a voxel") + to_grey);
+    constexpr std::uint64_t palette = 3;
+    if (const std::uint64_t meaning = page.at(tags::meaning, 1); meaning > 1 && meaning != palette)
+      refuse(tags::meaning, fmt::format("PhotometricInterpretation {}", meaning),
+             std::string("grey values, 0 or 1") + to_grey);
     const char* known = "8 or 16 as a whole number, or 32 as a float";
     if (!page.contains(tags::bits)) refuse(tags::bits, "no bits of a voxel", known);
     // 2: with a sign; 4: not said, which is a whole number too (TIFF 6.0)
     constexpr std::uint64_t whole = 1, floating = 3;
-    const std::uint64_t n = page.at(tags::bits), as = page.contains(tags::format) ? page.at(tags::format) : whole;
+    const std::uint64_t n = page.at(tags::bits), as = page.at(tags::format, whole);
     const bool is_known = as == floating ? n == 32 : (as == whole || as == 2 || as == 4) && (n == 8 || n == 16);
     if (!is_known)
       refuse(tags::bits, fmt::format("{} bits a voxel, of format {} (tag {})", n, as, tags::format), known);
+    if (as == floating && page.at(tags::meaning, 1) == white_is_zero)
+      refuse(tags::meaning, "PhotometricInterpretation 0 (white is 0) of floats",
+             "1: of floats nothing tells which value is black, so they cannot be inverted");
   }
 
   [[noreturn]] void refuse(std::uint64_t tag, const std::string& found, const std::string& expected) const {
@@ -106,6 +141,16 @@ struct Directory {
   }
 
  private:
+  static constexpr const char* to_grey = ": colours are not read; save the scan as grey values of 8 or 16 bits";
+
+  bool is_whole(std::uint64_t type) const { return type == 1 || type == 3 || type == 4 || (type == 16 && wide); }
+
+  /// Returns the text of a tag; empty if the file is too short for it.
+  std::string text_of(std::uint64_t values, std::uint64_t inside) const {
+    const std::uint64_t begin = values <= (wide ? 8 : 4) ? inside : numbers.at(inside, wide ? 8 : 4);
+    return begin < size && values <= size - begin ? numbers.text(begin, values) : "";
+  }
+
   void check_text(std::uint64_t tag, std::uint64_t type, std::uint64_t values, std::uint64_t inside) const {
     constexpr std::uint64_t text = 2;
     const bool known = std::ranges::count(known_texts, tag) > 0;
@@ -131,13 +176,58 @@ void check_alike(const Directory& directory, const Page& first, const Page& page
     directory.refuse(tags::kind, fmt::format("a reduced image or a mask in page {}", number), "slices alone");
 }
 
+/// Returns the number behind `key=` in a description that ImageJ wrote, line by line; 0 if the key is not there.
+std::int64_t number_in(const std::string& description, const std::string& key) {
+  if (!description.starts_with("ImageJ=")) return 0;
+  const std::size_t begin = description.find('\n' + key + '=');
+  if (begin == std::string::npos) return 0;
+  const char* first = description.data() + begin + key.size() + 2;
+  std::int64_t number = 0;
+  const auto [end, error] = std::from_chars(first, description.data() + description.size(), number);
+  return error == std::errc{} && number > 0 ? number : 0;
+}
+
+/// Returns the place of the first page's voxels if they are contiguous and neither compressed nor turned.
+std::optional<std::uint64_t> raw_voxels(const Page& page) {
+  for (const std::uint64_t tag : {tags::compression, tags::bit_order, tags::orientation})
+    if (page.at(tag, 1) != 1) return {};
+  return page.at(tags::strips, 0) > 0 ? std::optional(page.at(tags::strips)) : std::nullopt;
+}
+
+VoxelType type_of(const Page& page) {
+  const std::uint64_t format = page.at(tags::format, 1);
+  if (page.at(tags::bits) == 32) return VoxelType::f32;
+  if (page.at(tags::bits) == 16) return format == 2 ? VoxelType::i16 : VoxelType::u16;
+  return format == 2 ? VoxelType::i8 : VoxelType::u8;
+}
+
+/// Returns the facts that the first page and the number of pages tell of a file.
+TiffPages pages_of(const Page& first, std::size_t number, bool big_endian, const std::filesystem::path& file) {
+  TiffPages out;
+  out.pages = static_cast<std::int64_t>(number);
+  if (number == 0) return out;
+  out.width = static_cast<std::int64_t>(std::min<std::uint64_t>(first.at(tags::width, 0), 0xffffffff));
+  out.height = static_cast<std::int64_t>(std::min<std::uint64_t>(first.at(tags::height, 0), 0xffffffff));
+  out.type = type_of(first);
+  out.white_is_zero = first.at(tags::meaning, 1) == Directory::white_is_zero;
+  out.described = number_in(first.description, "images");
+  out.raw = raw_voxels(first);
+  out.big_endian = big_endian;
+  for (const char* axis : {"channels", "frames"}) {
+    if (const std::int64_t n = number_in(first.description, axis); n > 1)
+      throw InputError(file.string(), 0, "description of the TIFF file", fmt::format("{}={}", axis, n),
+                       "one grey value a voxel, and slices of one time");
+  }
+  return out;
+}
+
 }  // namespace
 
-void check_tiff_directories(const std::filesystem::path& file) {
+TiffPages check_tiff_directories(const std::filesystem::path& file) {
   Numbers numbers(file);
   const std::uint64_t version = numbers.at(2, 2);
   const bool wide = version == 43;
-  if (!numbers.good() || (version != 42 && !wide)) return;
+  if (!numbers.good() || (version != 42 && !wide)) return {};
   const int place_bytes = wide ? 8 : 4, count_bytes = wide ? 8 : 2, entry_bytes = wide ? 20 : 12;
   const std::uint64_t size = std::filesystem::file_size(file);
   const Directory directory{file, numbers, size, wide};
@@ -163,6 +253,7 @@ void check_tiff_directories(const std::filesystem::path& file) {
         numbers.at(place + static_cast<std::uint64_t>(count_bytes) + entries * static_cast<std::uint64_t>(entry_bytes),
                    place_bytes);
   }
+  return pages_of(first, seen.size(), numbers.big_endian(), file);
 }
 
 }  // namespace macadam::ct

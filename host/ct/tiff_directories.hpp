@@ -3,16 +3,32 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+
+#include "host/ct/image_slices.hpp"
 
 namespace macadam::ct {
 
-/// Each directory names the place of the next: ITK's libtiff follows a chain that comes back to itself for ever.
-/// It also takes memory for as many values as a tag counts, before it looks for their bytes, and ITK reads texts of
-/// tags that libtiff does not know beyond their end. Of a volume ITK asks the first page alone how large a slice is and
-/// what its voxels are, and of voxels that it does not know it says nothing. \throws InputError for such a chain, for
-/// one that leaves the file, for tags with more values than the file has bytes, for such a text without a 0 at its end,
-/// or a known text that is of another type, for more than one value a voxel, for voxels that are not of 8 or 16 bits as
-/// whole numbers or of 32 as a float, and for pages that are not alike. What is no TIFF file at all is left to ITK.
-void check_tiff_directories(const std::filesystem::path& file);
+/// Facts in the directories of a TIFF file.
+struct TiffPages {
+  std::int64_t pages = 0;              ///< directories, each of one slice; 0: the file is not a TIFF
+  std::int64_t width = 0, height = 0;  ///< of a slice, in voxels
+  VoxelType type{};
+  bool big_endian = false;
+  bool white_is_zero = false;        ///< PhotometricInterpretation 0: the grey values have to be inverted
+  std::int64_t described = 0;        ///< number of slices in ImageJ's description; 0: it has no such number
+  std::optional<std::uint64_t> raw;  ///< where the first slice begins [bytes], if it is one strip without compression
+};
+
+/// Looks at a TIFF file before ITK reads it, and returns the facts in its directories. ITK and its libtiff trust such
+/// files too much: libtiff follows a chain of directories that comes back to itself for ever, and allocates memory for
+/// the number of values that a tag claims before it looks for their bytes; ITK reads texts of unknown tags beyond their
+/// end, takes the size and type of all slices from the first page, and is silent about voxels that it cannot read.
+/// A file that is not a TIFF is left to ITK.
+/// \throws InputError for such a chain, for one that leaves the file, for tags with more values than the file has
+/// bytes, for a text without a 0 at its end, a known text of another type, colours, tiles, voxels other than whole
+/// numbers of 8 or 16 bits or floats of 32, inverted floats, pages that differ, and stacks of ImageJ with several
+/// channels or times.
+TiffPages check_tiff_directories(const std::filesystem::path& file);
 
 }  // namespace macadam::ct

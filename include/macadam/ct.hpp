@@ -53,16 +53,17 @@ struct Image {
 
 /// What an image file says of its voxels.
 struct ImageHeader {
-  std::array<std::int64_t, 3> size{};
-  Vec3d spacing{}, origin{};  ///< [m]; a spacing of 0: the file has none
-  int bits = 0;               ///< of a voxel
+  std::array<std::int64_t, 3> size{};  ///< voxels along x, y, z
+  Vec3d spacing{}, origin{};           ///< [m]; a spacing of 0: the file has none
+  int bits = 0;                        ///< of a voxel
   bool floating = false;
+  std::vector<std::string> notes;  ///< for the user: grey values that are inverted, axes that are turned or mirrored
 };
 
 /// Reads the header of a MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr), TIFF (.tif, .tiff; pages are slices) or HDF5 file
 /// (.h5, .hdf5), or of a folder of TIFF files, which are slices in the order of their names, numbers in them by value.
-/// Lengths in files are millimetres. Of an HDF5 file `dataset` names the dataset of three dimensions, z, y and x, which
-/// need not be named where there is one only. \throws InputError naming the file.
+/// Lengths in files are millimetres where the file names no unit. Of an HDF5 file `dataset` names the dataset of three
+/// dimensions, z, y and x, which need not be named where there is one only. \throws InputError naming the file.
 ImageHeader read_image_header(const std::filesystem::path& path, const std::string& dataset = {});
 
 /// Reads such an image; T is uint8, uint16, uint32 or float. A voxel that T cannot hold, and one that is not finite, is
@@ -153,9 +154,11 @@ struct Segmentation {
   std::vector<ScannedGrain> grains;
   std::vector<GrainCut> cuts;
   double air_voids = 0, mastic = 0, aggregate = 0;  ///< volume shares of the specimen, partly filled voxels in part
-  double confidence_mean = 0;                       ///< of the voxels of the specimen, 0 to 1
-  std::int64_t block = 1;   ///< edge of a voxel of these images in voxels of the scan; above 1: see segment_file()
-  std::size_t refined = 0;  ///< grains whose surfaces are finer than these images
+  /// Part of the aggregate's volume that is in no grain: pieces smaller than half of SegmentOptions::smallest, mostly.
+  double in_no_grain = 0;
+  double confidence_mean = 0;  ///< of the voxels of the specimen, 0 to 1
+  std::int64_t block = 1;      ///< edge of a voxel of these images in voxels of the scan; above 1: see segment_file()
+  std::size_t refined = 0;     ///< grains whose surfaces are finer than these images
   std::vector<std::string> warnings;  ///< what a person should look at
 };
 
@@ -167,7 +170,7 @@ Segmentation segment_scan(Image<float> scan, const SegmentOptions& options);
 struct ScanFile {
   std::filesystem::path path;
   std::string dataset;  ///< of HDF5
-  Vec3d spacing{};      ///< edges of a voxel [m]; 0: what the file says
+  Vec3d spacing{};      ///< edges of a voxel [m]; they take precedence over those in the file. 0: those in the file
 };
 
 /// The same of a file, with `memory` bytes to take. A scan that fits is segment_scan()'s. Of a larger one, phases and

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Images of computed tomography: `macadam ct …` (docs/ct.md, docs/ct-phantom.md, docs/ct-twin.md).
 
-Lengths are metres, or text with a unit: 25e-6, "25 um"."""
+Lengths are metres, or text with a unit: 25e-6, "25 um". Fractions are numbers, or text in per cent: 0.04, "4 %"."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
@@ -14,6 +14,7 @@ from ._scene import Scene
 __all__ = ["phantom", "segment", "twin"]
 
 Length = float | str
+Fraction = float | str
 Path = str | PathLike[str]
 
 
@@ -27,6 +28,17 @@ def _length(of: Length) -> str:
     return of if isinstance(of, str) else repr(float(of))
 
 
+def _fraction(of: Fraction | None, name: str) -> float | None:
+    if not isinstance(of, str):
+        return of
+    try:
+        if of.rstrip().endswith("%"):
+            return float(of.rstrip()[:-1]) / 100
+    except ValueError:
+        pass
+    raise _core.InputError(f"{name}: found \"{of}\", expected a number, or text in per cent: 0.04, \"4 %\"")
+
+
 def _path(of: Path | None) -> str | None:
     return None if of is None else fspath(of)
 
@@ -37,21 +49,22 @@ def _scene(of: _core.Scene | Mapping[str, Any] | Path) -> _core.Scene:
 
 def segment(images: Path, out: Path, *, voxel: Length | Sequence[Length] | None = None, dataset: str = "",
             region: str = "found", slices: bool = True, rings: bool = True, hardening: bool = True,
-            denoise: str = "diffusion", air_voids: float | None = None, aggregate: float | None = None, memory: str = "",
+            denoise: str = "diffusion", air_voids: Fraction | None = None, aggregate: Fraction | None = None, memory: str = "",
             smallest: Length | None = None, gradation: Path | None = None, cuts: Path | None = None, recipe: str = "own",
             facets: int = 500, threads: int | None = None,
             progress: Callable[[str, float], object] | None = None) -> _core.Segmentation:
     """Grains and phases of a scan, whose files go into `out`: `macadam ct segment`, with its options and defaults.
 
-    images: .mha, .mhd, .nrrd, .tif, .h5 (with `dataset`), or a folder of .tif. voxel: its edge, or three, where the file has
-    none. region: what of the scan is the specimen. slices, rings, hardening: what is corrected. air_voids, aggregate: shares
-    of the volume, from the laboratory. memory: that may be taken, "3 GB". smallest: diameter of the smallest grain that
+    images: .mha, .mhd, .nrrd, .tif, .h5 (with `dataset`), or a folder of .tif. voxel: its edge, or three, in place of those in
+    the file. region: what of the scan is the specimen. slices, rings, hardening: what is corrected. air_voids, aggregate:
+    fractions of the volume, from the laboratory. memory: that may be taken, "3 GB". smallest: diameter of the smallest grain that
     matters. gradation: the laboratory's, a CSV file. cuts: a cuts.csv that was changed by hand.
     """
     _require_ct()
     edges = [] if voxel is None else [_length(voxel)] if isinstance(voxel, (str, float, int)) else [*map(_length, voxel)]
-    return _core.segment(fspath(images), fspath(out), edges, dataset, region, slices, rings, hardening, denoise, air_voids,
-                         aggregate, memory, None if smallest is None else _length(smallest), _path(gradation), _path(cuts),
+    known = _fraction(air_voids, "air_voids"), _fraction(aggregate, "aggregate")
+    return _core.segment(fspath(images), fspath(out), edges, dataset, region, slices, rings, hardening, denoise, *known,
+                         memory, None if smallest is None else _length(smallest), _path(gradation), _path(cuts),
                          recipe, facets, threads, progress)
 
 
@@ -65,12 +78,13 @@ def phantom(scene: _core.Scene | Mapping[str, Any] | Path, voxel: Length, out: P
     grey_aggregate, progress; as the command's options.
     """
     _require_ct()
+    spec |= {name: _fraction(spec[name], name) for name in ("noise", "cupping", "rings", "drift") if name in spec}
     given = _scene(scene) if specimen_seed is None else Scene(scene, seed=specimen_seed)
     return _core.phantom(given, _length(voxel), fspath(out), sawn=_length(sawn), air=_length(air), **spec)
 
 
 def twin(folder: Path, scene: _core.Scene | Mapping[str, Any] | Path, out: Path, *, box: Sequence[Length] = (),
-         porosity: float | None = None, least_void: Length = 0, seed: int = 1,
+         porosity: Fraction | None = None, least_void: Length = 0, seed: int = 1,
          progress: Callable[[str, float], object] | None = None) -> _core.Twin:
     """The specimen in a segmented scan as a scene that runs, in `out`/scene.toml: `macadam ct twin`.
 
@@ -78,5 +92,5 @@ def twin(folder: Path, scene: _core.Scene | Mapping[str, Any] | Path, out: Path,
     left out; 0: two voxels.
     """
     _require_ct()
-    return _core.twin(fspath(folder), _scene(scene), fspath(out), box=[*map(_length, box)], porosity=porosity,
-                      least_void=_length(least_void), seed=seed, progress=progress)
+    return _core.twin(fspath(folder), _scene(scene), fspath(out), box=[*map(_length, box)],
+                      porosity=_fraction(porosity, "porosity"), least_void=_length(least_void), seed=seed, progress=progress)

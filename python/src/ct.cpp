@@ -75,13 +75,13 @@ std::shared_ptr<Segmentation> segment(const Path& images, const Path& out, const
   if (gradation) options.gradation = ct::read_gradation(*gradation);
   const Threads only(in_range("threads", threads, 1, 1024));
   ct::read_region(region, options);
-  std::optional<Vec3d> given;
-  if (!voxel.empty()) given = lengths_of(voxel, "--voxel");
+  ScanFile scan{images, dataset, {}};
+  if (!voxel.empty()) scan.spacing = lengths_of(voxel, "--voxel");
+  const double bytes = ct::memory_of(memory);
   LongCall call(std::move(progress));
   options.progress = call.progress_function();
   return call([&] {
-    const ScanFile scan{images, dataset, ct::spacing_of({images, dataset}, given)};
-    auto found = std::make_shared<Segmentation>(segment_file(scan, options, ct::memory_of(memory)));
+    auto found = std::make_shared<Segmentation>(segment_file(scan, options, bytes));
     ct::write_segmentation(out, *found, options);
     return found;
   });
@@ -188,6 +188,7 @@ void bind_segmentation(nb::module_& m) {
       .def_ro("air_voids", &Segmentation::air_voids, "Share of the specimen's volume.")
       .def_ro("mastic", &Segmentation::mastic, "Share of the specimen's volume.")
       .def_ro("aggregate", &Segmentation::aggregate, "Share of the specimen's volume.")
+      .def_ro("in_no_grain", &Segmentation::in_no_grain, "Part of the aggregate's volume that is in no grain.")
       .def_ro("confidence_mean", &Segmentation::confidence_mean, "Of the voxels of the specimen, 0 to 1.")
       .def_ro("block", &Segmentation::block, "Edge of a voxel of these images in voxels of the scan.")
       .def_ro("warnings", &Segmentation::warnings);

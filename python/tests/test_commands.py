@@ -57,6 +57,34 @@ def test_options_are_known(line):
         assert asked <= options(command), f"macadam {' '.join(command)} has no {asked - options(command)}"
 
 
+INLINE = re.compile(r"`(--[a-z][\w-]*) ([^`]+)`")  # an option with a value in a sentence
+
+
+def not_run(page):
+    """Commands of a page's blocks that are not run, each once more with every option that a sentence of the page gives a value."""
+    text = page.read_text(encoding="utf-8")
+    commands = [line for kind, _, language, code in FENCE.findall(text) if kind == "not run" and language == "sh"
+                for line in code.replace("\\\n", " ").splitlines() if line.startswith("macadam ")]
+    for line in commands:
+        words = shlex.split(line)[1:]
+        known = options(tuple(words[:2] if words[0] in ("shapes", "ct") else words[:1]))
+        yield words
+        for option, value in INLINE.findall(text):
+            if option in known:
+                yield [*words, option, *shlex.split(value)[:1]]
+
+
+def values_not_run():
+    return [pytest.param(words, id=f"{page.stem}: {' '.join(words)}") for page in RUN for words in not_run(page)] if PROGRAM else []
+
+
+@pytest.mark.parametrize("words", values_not_run())
+def test_values_of_options_are_accepted(words, tmp_path):
+    """In an empty folder such a command fails, of its inputs and not of its options."""
+    ran = subprocess.run([PROGRAM, *words], cwd=tmp_path, text=True, capture_output=True, timeout=60)
+    assert ran.returncode == 2 and not re.search(r"(?m)^macadam: (command line: )?--", ran.stderr), ran.stderr
+
+
 def runnable(page):
     """What a reader does: files that are saved, and blocks that are run."""
     for kind, what, language, code in FENCE.findall(page.read_text(encoding="utf-8")):

@@ -37,7 +37,7 @@ def test_grains_and_twin(scanned, tmp_path):
     assert found.labels.shape == found.phases.shape == found.grey.shape and not found.labels.flags.writeable
     assert found.labels.max() == max(g["id"] for g in found.grains) and "writing" not in stages and stages
     assert found.aggregate == pytest.approx(phantom.aggregate, abs=0.1)
-    assert (tmp_path / "grains" / "grains.csv").exists()
+    assert (tmp_path / "grains" / "grains.csv").exists() and 0 <= found.in_no_grain < 0.1
     twin = mc.ct.twin(folder / "truth", scene, tmp_path / "twin", box=["1 mm"] * 3 + ["9 mm"] * 3)
     assert twin.box == pytest.approx((8e-3,) * 3) and twin.particles > 100
     assert np.isfinite(mc.harmonic(tmp_path / "twin" / "scene.toml", hz=[10]).table.e_star_pa[0])
@@ -45,7 +45,8 @@ def test_grains_and_twin(scanned, tmp_path):
 
 @pytest.mark.parametrize(("change", "message"), [
     ({"voxel": [1e-4, 1e-4]}, "2 lengths"), ({"denoise": "x"}, "denoise"), ({"memory": "3"}, "--memory"),
-    ({"region": "ball"}, "--region"), ({"air_voids": 0.9}, "air_voids: found 0.9"), ({"gradation": "none.csv"}, "none.csv"),
+    ({"region": "ball"}, "--region"), ({"air_voids": 0.9}, "air_voids: found 0.9"),
+    ({"air_voids": "60 %"}, "air_voids: found 0.6"), ({"aggregate": "40"}, "aggregate: found \"40\", expected a number, or"), ({"gradation": "none.csv"}, "none.csv"),
 ])
 def test_what_is_wrong_is_named(change, message, scanned, tmp_path):
     with pytest.raises(mc.InputError, match=message):

@@ -84,7 +84,10 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
                                               "block",
                                               "space directions:",
                                               "(1,0,0)",
-                                              "none"};
+                                              "none",
+                                              "space units:",
+                                              "\"um\"",
+                                              "DistanceUnits"};
   return macadam::fuzz::mutate_cells(data, size, most, seed, " \n", words);
 }
 #endif
