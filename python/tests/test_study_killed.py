@@ -119,7 +119,7 @@ def test_drivers_and_workers_are_killed(points: int, kills: int, tmp_path: Path)
             killed(process)
     assert not moments and drivers == kills // 3 and workers == kills - drivers
     assert len(published(out)) == points
-    table = pd.read_csv(out / "table.csv", encoding="utf-8-sig")
+    table = pd.read_csv(out / "table.csv")
     assert set(table["contacts.M-A.delta"]) == set(values) and table["key"].nunique() == points
     assert len(table) == points + 2 * (points // 10)  # those of macadam have three frequencies
     # what was begun again was under way when somebody was killed: at most what all workers had

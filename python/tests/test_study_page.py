@@ -66,5 +66,5 @@ def test_the_example(tmp_path: Path, monkeypatch) -> None:
         {"specimen.recipe.air_voids": a, "specimen.recipe.binder": b} for a, b in (("2 %", "5 %"), ("8 %", "8 %"))
     ]
     found = study(asked_for, tmp_path / "out", on="threads")
-    stiff, soft = found.table["E* (MPa)"]
+    stiff, soft = found.table["e_star_pa"]
     assert not found.failures and stiff > 1.3 * soft > 0

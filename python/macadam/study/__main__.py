@@ -4,17 +4,49 @@
 from __future__ import annotations
 
 import argparse
+import os
 import signal
 import sys
+from typing import Any
 
-from macadam.study import StudyError, study
-from macadam.study.design import read_design
-from macadam.study.executors import PLACES
-from macadam.study.program import find_program, version_of
+_NOTES = 20  # lines about equal points that are printed
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class _Stop:
+    """Turns the first signal into a KeyboardInterrupt. Later ones do nothing: tables and report are being written."""
+
+    asked = False
+
+    def __call__(self, *_: Any) -> None:
+        if not self.asked:
+            self.asked = True
+            raise KeyboardInterrupt
+
+    def check(self) -> None:
+        """Raises the KeyboardInterrupt that code of others may have swallowed."""
+        if self.asked:
+            raise KeyboardInterrupt
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command; its exit code: 0 all computed, 1 something failed or is missing, 2 the input is wrong."""
+    """The command; its exit code: 0 all computed, 1 something failed or is missing, 2 the input is wrong, 130 stopped."""
+    stop = _Stop()
+    before = {}
+    for number in _SIGNALS:
+        if signal.getsignal(number) is not signal.SIG_IGN:  # as nohup sets it
+            before[number] = signal.signal(number, stop)
+    try:
+        return _command(_options(arguments), stop)
+    except KeyboardInterrupt:
+        print("\nmacadam study: stopped; the same command goes on from here", file=sys.stderr)
+        return 130
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="macadam study",
         description="Computes a scene at many points: grids, Latin hypercubes or lists over its keys. "
@@ -25,7 +57,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--out", required=True, metavar="DIR", help="folder of the study; made if it is not there")
     parser.add_argument(
         "--on",
-        choices=PLACES,
+        choices=("local", "slurm", "threads"),
         help="instead of the study's: this machine by Parsl, a Slurm cluster, or threads of this process",
     )
     parser.add_argument(
@@ -33,21 +65,26 @@ def main(arguments: list[str] | None = None) -> int:
     )
     parser.add_argument("--retry-failed", action="store_true", help="try points again that failed")
     parser.add_argument("--list", action="store_true", help="print the points and compute nothing")
-    options = parser.parse_args(arguments)
+    return parser.parse_args(arguments)
+
+
+def _command(options: argparse.Namespace, stop: _Stop) -> int:
+    from macadam.study import StudyError, study
+    from macadam.study.design import read_design
+    from macadam.study.program import find_program, version_of
+
     shown = sys.stderr.isatty()
 
     def progress(done: int, failed: int, asked: int) -> None:
+        stop.check()
         if shown:
             print(f"\r{done} of {asked} done, {failed} failed ", end="", file=sys.stderr, flush=True)
 
-    def stop(*_: object) -> None:  # SIGTERM as Ctrl-C: what waits is not begun
-        raise KeyboardInterrupt
-
-    signal.signal(signal.SIGTERM, stop)
     try:
         if options.list:
-            jobs = read_design(options.study, version_of(find_program())).jobs
-            for job in jobs:
+            design = read_design(options.study, version_of(find_program()))
+            _print_notes(design.notes)
+            for job in design.jobs:
                 print(job.key, job.experiment, *(f"{k}={v}" for k, v in job.values.items()))
             return 0
         found = study(
@@ -64,11 +101,21 @@ def main(arguments: list[str] | None = None) -> int:
     except OSError as error:
         print(f"macadam study: {error.filename or options.out}: {error.strerror or error}", file=sys.stderr)
         return 1
-    except KeyboardInterrupt:
-        print("\nmacadam study: stopped; the same command goes on from here", file=sys.stderr)
-        return 130
     if shown:
         print(file=sys.stderr)
+    return _print_study(found, options.out)
+
+
+def _print_notes(notes: list[str]) -> None:
+    for note in notes[:_NOTES]:
+        print(f"note: {note}", file=sys.stderr)
+    if len(notes) > _NOTES:
+        print(f"note: {len(notes) - _NOTES} more points have the scene of another one", file=sys.stderr)
+
+
+def _print_study(found: Any, out: str) -> int:
+    """Prints what a study found; the exit code."""
+    _print_notes(found.notes)
     for failure in found.failures:
         values = ", ".join(f"{k} = {v}" for k, v in failure["values"].items())
         print(
@@ -77,17 +124,25 @@ def main(arguments: list[str] | None = None) -> int:
         )
     if found.missing:
         print(
-            f"macadam study: {found.missing} jobs were not computed: their workers died; the logs are in "
-            f"{found.folder / 'parsl'}",
+            f"macadam study: {found.missing} results were not computed: {found.reason}",
             file=sys.stderr,
         )
     names = [n for n in ("table.csv", "table.parquet", "failures.csv", "report.html") if (found.folder / n).is_file()]
     print(
         f"{found.table['key'].nunique() if len(found.table) else 0} results, {len(found.failures)} failed | files in "
-        f"{options.out}: {' '.join(names)}"
+        f"{out}: {' '.join(names)}"
     )
     return 1 if found.failures or found.missing else 0
 
 
+def end(code: int) -> None:
+    """Ends this process. After a stop it does not wait for threads of Parsl, which may wait for processes that are gone."""
+    if code == 130:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+    sys.exit(code)
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main())

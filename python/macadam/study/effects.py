@@ -41,46 +41,53 @@ class Quantity:
         return self.jobs.groupby(self.factors, sort=False, dropna=False)["value"].mean().reset_index()
 
 
+_AT = (("frequency_hz", "frequency", 10.0, "Hz"), ("temperature_c", "temperature", 20.0, "°C"), ("time_s", "", np.inf, "s"))
+# column of the table, and name, unit and factor of the report; larger values of a modulus are in GPa
+_SHOWN = (
+    ("e_star_pa", "|E*|", "MPa", 1e-6),
+    ("phase_deg", "phase angle", "°", 1.0),
+    ("modulus_pa", "relaxation modulus", "MPa", 1e-6),
+    ("secant_pa", "secant modulus", "MPa", 1e-6),
+    ("compliance_1_pa", "creep compliance", "1/GPa", 1e9),
+)
+
+
 def quantities(found: pd.DataFrame, design: Design) -> list[Quantity]:
     """|E*| and phase angle at the frequency (and temperature) that [report] names, else next to 10 Hz (20 °C); of tests
     in time what there is at the last time."""
-    names = list(table.columns(design).values())
+    units = table.units(design)
+    names = {column: f"{f} ({units[f]})" if units[f] else f for f, column in table.columns(design).items()}
     experiments = found["experiment"].unique() if "experiment" in found else [None]
     out = []
     for experiment in experiments:
         rows = found if experiment is None else found[found["experiment"] == experiment]
-        at = []
-        for column, wanted, unit in (
-            ("frequency (Hz)", design.report.get("frequency", 10.0), "Hz"),
-            ("temperature (degC)", design.report.get("temperature", 20.0), "°C"),
-            ("time (s)", np.inf, "s"),
-        ):
+        rows, at = _nearest(rows, design.report)
+        for column, name, unit, scale in _SHOWN:
             if column in rows and rows[column].notna().any():
-                rows = rows[rows[column].notna()]
-                values = rows[column].unique()
-                nearest = values.max() if wanted == np.inf else values[np.argmin(np.abs(values - wanted))]
-                rows = rows[rows[column] == nearest]
-                at.append(f"{nearest:.4g} {unit}")
-        for column in table.QUANTITIES:
-            if column in rows and rows[column].notna().any():
-                jobs = rows[[n for n in names if n in rows] + [column]].rename(columns={column: "value"})
-                name, unit = column[:-1].split(" (")
+                jobs = rows[[n for n in names if n in rows] + [column]].rename(columns=names | {column: "value"})
+                jobs["value"] *= scale
                 if unit == "MPa" and jobs["value"].abs().max() >= 1e3:
                     jobs["value"], unit = 1e-3 * jobs["value"], "GPa"
-                differ = [n for n in names if n in jobs and jobs[n].nunique(dropna=False) > 1]
+                differ = [n for n in names.values() if n in jobs and jobs[n].nunique(dropna=False) > 1]
                 seeds = [n for n in differ if n.split(".")[-1] == "seed"]
+                factors = [n for n in differ if n not in seeds]
                 out.append(
-                    Quantity(
-                        "|E*|" if name == "E*" else name,
-                        unit.replace("deg", "°"),
-                        ", ".join(at),
-                        experiment or "",
-                        jobs.reset_index(drop=True),
-                        [n for n in differ if n not in seeds],
-                        seeds,
-                    )
+                    Quantity(name, unit, ", ".join(at), experiment or "", jobs.reset_index(drop=True), factors, seeds)
                 )
     return out
+
+
+def _nearest(rows: pd.DataFrame, report: dict[str, float]) -> tuple[pd.DataFrame, list[str]]:
+    """The rows at the frequency, temperature or time to show, and these in words."""
+    at = []
+    for column, key, default, unit in _AT:
+        if column in rows and rows[column].notna().any():
+            rows = rows[rows[column].notna()]
+            values, wanted = rows[column].unique(), report.get(key, default)
+            nearest = values.max() if wanted == np.inf else values[np.argmin(np.abs(values - wanted))]
+            rows = rows[rows[column] == nearest]
+            at.append(f"{nearest:.4g} {unit}")
+    return rows, at
 
 
 def short(factor: str) -> str:

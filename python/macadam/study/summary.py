@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -16,15 +16,20 @@ from macadam.study import table
 from macadam.study.design import Design, number_and_unit
 from macadam.study.effects import FEW, Effect, Quantity, continuous, effects, numeric, quantities, scatter, short
 
+if TYPE_CHECKING:
+    from macadam.study.driver import Study
+
 MOST = 4  # factors in one picture
+NOTES = 20  # sentences about equal points
 
 
-def write_report(design: Design, found: pd.DataFrame, failed: list[dict[str, Any]], missing: int, folder: Path) -> Path:
+def write_report(design: Design, study: Study, folder: Path) -> Path:
     """report.html in the study's folder."""
     page = Page()
     with look.style():
-        _fill(page, design, found, failed, missing, folder)
-    versions = ", ".join(sorted(set(found["macadam"].dropna()))) if "macadam" in found else ""
+        _fill(page, design, study, folder)
+    rows = study.table
+    versions = ", ".join(sorted(set(rows["macadam"].dropna()))) if "macadam" in rows else ""
     return write(
         page,
         folder / "report.html",
@@ -33,19 +38,22 @@ def write_report(design: Design, found: pd.DataFrame, failed: list[dict[str, Any
     )
 
 
-def _fill(
-    page: Page, design: Design, found: pd.DataFrame, failed: list[dict[str, Any]], missing: int, folder: Path
-) -> None:
+def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
+    found, failed, missing = study.table, study.failures, study.missing
     done = found["key"].nunique() if len(found) else 0
     page.section("In short")
     if missing:
         page.text(
-            f"{missing} of {len(design.jobs)} results are missing: their workers died. The same command goes on.",
+            f"{missing} of {len(design.results)} results are missing: {study.reason}. The same command goes on.",
             "failure",
         )
     if failed:
-        page.text(f"{len(failed)} of {len(design.jobs)} failed; they are listed below.", "warning")
+        page.text(f"{len(failed)} of {len(design.results)} failed; they are listed below.", "warning")
     page.text(f"{done} results at {_count(design)}.", "lead")
+    for note in study.notes[:NOTES]:
+        page.text(f"{note}.", "warning")
+    if len(study.notes) > NOTES:
+        page.text(f"{len(study.notes) - NOTES} more points have the scene of another one.", "warning")
     values = quantities(found, design) if len(found) else []
     for q in values:
         strongest = effects(q)[:1]
@@ -246,7 +254,7 @@ def _seeds(page: Page, values: list[Quantity]) -> None:
 
 def _machines(page: Page, design: Design, folder: Path) -> None:
     rows: dict[tuple[str, str], list[float]] = {}
-    for job in design.jobs:
+    for job in design.results:
         file = folder / "results" / job.key / "study.json"
         if file.is_file():
             record = table.read_json(file)
