@@ -19,7 +19,6 @@ import macadam.report
 import macadam.study.__main__ as command
 from macadam.study import StudyError, study
 from macadam.study.design import read_design
-from macadam.study.effects import effects, quantities, scatter
 from macadam.study.locks import locked
 from report_folders import ENVIRONMENT, PROGRAM, ROOT
 from study_faults import lines, scene, stand_in
@@ -214,43 +213,6 @@ def test_two_studies_do_not_run_in_one_folder(program: Path, tmp_path: Path, cap
     assert not lines(program, "begin")
     assert command.main(["study.toml", "--out", str(out)]) == 0
     assert "1 results, 0 failed" in capsys.readouterr().out
-
-
-def test_effects_and_scatter_are_what_the_numbers_say(program: Path, tmp_path: Path) -> None:
-    rows = []
-    for a in (1.0, 2.0, 3.0):
-        for b in ("x", "y"):
-            for seed, off in ((1, -0.1), (2, 0.1)):
-                rows.append(
-                    {
-                        "a": a,
-                        "b": b,
-                        "seed": seed,
-                        "frequency_hz": 10.0,
-                        "e_star_pa": 1e6 * (10 * a + (b == "y")) * (1 + off),
-                    }
-                )
-    design = read_design(asked(grid={"a": [1.0, 2.0, 3.0], "b": ["x", "y"], "seed": [1, 2]}), "1")
-    (quantity,) = quantities(pd.DataFrame(rows), design)
-    assert quantity.factors == ["a", "b"] and quantity.seeds == ["seed"] and quantity.title == "|E*| at 10 Hz"
-    first, second = effects(quantity)
-    assert first.factor == "a" and np.allclose(first.means, [10.5, 20.5, 30.5]) and second.factor == "b"
-    assert np.allclose(second.ends, (20, 21)) and np.isclose(first.share + second.share, 1)
-    deviation, points, seeds = scatter(quantity)
-    assert np.isclose(deviation, 0.1 * 2**0.5) and (points, seeds) == (6, 2)
-
-
-def test_a_factor_of_a_hypercube_does_not_count_as_another(program: Path) -> None:
-    """Two factors that go together by chance, of which one does nothing."""
-    draw = np.random.default_rng(3)
-    a = draw.random(30)
-    b = a + 0.2 * draw.random(30)
-    rows = pd.DataFrame({"a": a, "b": b, "frequency_hz": 10.0, "e_star_pa": 1e6 * (5 + 2 * a)})
-    design = read_design(asked(list=[{"a": x, "b": y} for x, y in zip(a, b, strict=True)]), "1")
-    (quantity,) = quantities(rows, design)
-    first, second = effects(quantity)
-    assert first.factor == "a" and np.isclose(first.share, 1) and np.isclose(np.diff(first.means), 2 * np.ptp(a))
-    assert second.share < 1e-20
 
 
 def test_columns_of_a_hypercube_do_not_go_together(program: Path) -> None:

@@ -135,7 +135,7 @@ def _compute_all(
         if not left:
             return ""
         jobs = [_handed(job, folder, program, design.run) for job in left]
-        trouble = died = ""
+        died, trouble = "", executors.Trouble()
         try:
             with _pool(given, design.run, folder) as (pool, asked):
                 died = _round(pool, jobs, lambda: _say(design, folder, progress), limits)
@@ -144,13 +144,13 @@ def _compute_all(
             if given is not None:
                 return died or DIED
         idle = idle + 1 if all(not _settled(folder, job) for job in left) else 0
-        if idle and trouble:
-            return f"no worker could start: {trouble}"
-    return f"{DIED}{f' ({died})' if died else ''}"
+        if idle and trouble.refused:
+            return f"no worker could start: {trouble.words}"
+    return f"{DIED}{f' ({trouble.words or died})' if trouble.words or died else ''}"
 
 
 def _pool(given: concurrent.futures.Executor | None, run: dict[str, Any], folder: Path) -> Any:
-    return contextlib.nullcontext((given, lambda: "")) if given is not None else executors.executor(run, folder)
+    return contextlib.nullcontext((given, executors.Trouble)) if given is not None else executors.executor(run, folder)
 
 
 def _round(

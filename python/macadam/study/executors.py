@@ -15,7 +15,7 @@ from typing import Any
 
 from macadam.study import programs
 from macadam.study.errors import StudyError
-from macadam.study.parsl_pool import parsl_pool
+from macadam.study.parsl_pool import Trouble, parsl_pool
 
 PLACES = ("local", "slurm", "threads")
 KEYS = {"on", "workers", "threads", "gpus", "patience", "slurm"}
@@ -39,13 +39,13 @@ _KINDS = {str: "text", int: "a whole number above 0", bool: "true or false"}
 
 
 @contextlib.contextmanager
-def executor(run: dict[str, Any], folder: Path) -> Iterator[tuple[concurrent.futures.Executor, Callable[[], str]]]:
+def executor(run: dict[str, Any], folder: Path) -> Iterator[tuple[concurrent.futures.Executor, Callable[[], Trouble]]]:
     """The executor that `[run]` of a study asks for, and a function that says why its workers could not start. It ends
     within seconds of an interrupt."""
     place = run.get("on", "local")
     if place == "threads":
         with _threads(workers(run), folder) as pool:
-            yield pool, lambda: ""
+            yield pool, Trouble
         return
     on_machine = workers(run) if place == "local" else run.get("workers") or _gpus(run) or None
     with parsl_pool(place, folder, run.get("slurm", {}), on_machine, threads(run), _gpus(run)) as found:

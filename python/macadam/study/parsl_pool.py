@@ -13,6 +13,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -30,11 +31,19 @@ _INTERCHANGE = (
 )
 
 
+@dataclass
+class Trouble:
+    """Why workers could not start, in words; empty if they could. `refused`: it is of no use to try again."""
+
+    words: str = ""
+    refused: bool = False
+
+
 @contextlib.contextmanager
 def parsl_pool(
     place: str, folder: Path, slurm: dict[str, Any], workers: int | None, threads: int, gpus: int
-) -> Iterator[tuple[Any, Callable[[], str]]]:
-    """The pool of workers, and a function that says why workers could not start (empty if they could).
+) -> Iterator[tuple[Any, Callable[[], Trouble]]]:
+    """The pool of workers, and a function that says why workers could not start.
 
     place: "local" or "slurm", with options of Parsl's SlurmProvider. workers: per machine; None: as many as its cores
     allow. threads: CPU threads of each. gpus: per machine. Parsl's logs go into `folder`/parsl."""
@@ -102,16 +111,18 @@ def _config(executor: Any, folder: Path) -> Any:
     )
 
 
-def _trouble(executor: Any) -> str:
-    """Why blocks of workers did not start or ended too soon: the words of sbatch, or of the job."""
+def _trouble(executor: Any) -> Trouble:
+    """The words of sbatch, or of a job that ended too soon."""
     from parsl.jobs.states import JobState
 
     for status in [*executor.status_facade.values()]:
         if status.state in (JobState.FAILED, JobState.MISSING):
-            words = f"{status.message or ''}\n{status.stderr_summary or ''}"
+            message = status.message or ""
+            words = f"{message}\n{status.stderr_summary or ''}"
             said = re.findall(r"(?:sbatch|slurmstepd): *(.*?)(?:\\n|\n|'|\"|$)", words)
-            return "; ".join(said) or " ".join(words.split()) or f"exit code {status.exit_code}"
-    return ""
+            text = "; ".join(said) or " ".join(words.split()) or f"exit code {status.exit_code}"
+            return Trouble(text, message.startswith("Failed to start block"))
+    return Trouble()
 
 
 def _end(pool: Any, executor: Any, config: Any, seconds: float) -> None:
