@@ -57,6 +57,28 @@ def test_the_same_file_runs_on_slurm(tmp_path: Path) -> None:
     assert len(records) == 5 and all(int(r["machine"]["slurm_job_id"]) > 0 for r in records)  # by a job of the cluster
 
 
+@pytest.mark.long
+@pytest.mark.skipif(bool(why_not()), reason=why_not() or "-")
+def test_a_stopped_study_leaves_no_job(tmp_path: Path) -> None:
+    from study_running import Running
+
+    study = STUDY.replace("[11.0, 12.0, 13.0, 14.0, 15.0, 16.0]", "[1.0, 2.0, 3.0]")
+    with cluster(tmp_path / "slurm") as environment:
+        environment = {**ENVIRONMENT, **environment, "PYTHONPATH": ENVIRONMENT["PYTHONPATH"]}
+        running = Running(tmp_path, "slurm", study, environment)
+        try:
+            running.wait_for_work()
+            running.process.terminate()
+            running.process.communicate(timeout=280)
+            assert running.process.returncode == 130
+            while subprocess.run(["squeue", "-h"], env=environment, capture_output=True, timeout=280).stdout:
+                pass  # jobs that are being ended
+            assert len(list((tmp_path / "out/results").iterdir())) == 1
+            assert "the study was stopped" in (tmp_path / "out/report.html").read_text("utf-8")
+        finally:
+            running.kill()
+
+
 REFUSED = """#!/bin/sh
 echo "sbatch: error: invalid partition specified: nowhere" >&2
 echo "sbatch: error: Batch job submission failed: Invalid partition name specified" >&2

@@ -126,7 +126,7 @@ def test_files_come_first_and_keep_the_order_of_the_pairs(folder: Path) -> None:
         ),
         (
             {"grid": {"contacts.0.E": [1e9], "contacts.M-A.E": [2e9]}},
-            "contacts.0.E: set by grid and by grid",  # two names of one entry
+            "contacts.0.E: set by grid, and contacts.M-A.E, the same entry, by grid",
         ),
         (
             {"grid": {"specimen": [{"seed": 1}], "specimen.seed": [1]}},
