@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Main effects of studies, weighed against the scatter of seeds, and what the report says of them."""
+"""Main effects of studies, weighed against the scatter of seeds, and their sentences in the report."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_effects_and_scatter_are_what_the_numbers_say(tmp_path: Path) -> None:
 
 
 def rows_of(change: float, offs: dict[int, float], b: tuple[str, ...] = ("x",)) -> pd.DataFrame:
-    """Two binders of 10 GPa and this relative change, with seeds that are off by so much in GPa."""
+    """A binder of 10 GPa and one with this change; offs: deviation of each seed; all in GPa."""
     return pd.DataFrame(
         [
             {"binder": k, "b": other, "seed": seed, "frequency_hz": 10.0, "e_star_pa": 1e9 * (10 + k * change + off)}

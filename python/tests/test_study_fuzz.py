@@ -77,7 +77,7 @@ def test_damaged_studies_and_scenes_are_read_or_refused(tmp_path: Path) -> None:
     (tmp_path / "law.toml").write_text(LAW)
     study.write_text(STUDY)
     scene.write_text(SCENE)
-    assert len(read_design(study, "1").jobs) == 8  # what is changed below is right before
+    assert len(read_design(study, "1").jobs) == 8  # the texts are right before they are changed
     for case in range(1500):
         of_scene = case % 3 == 0
         study.write_text(STUDY if of_scene else changed(STUDY, chance), errors="surrogateescape")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies on a Slurm cluster: a real one, of this machine alone; and what is refused before or by Slurm."""
+"""Studies on a Slurm cluster: a real one, of this machine alone; wrong options, and jobs that Slurm refuses."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ def contacts(job) -> dict[str, dict]:
 
 @pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
 def test_fitted_laws_by_delta(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The file replaces the pair M-A; delta of the grid is set in what the file wrote."""
+    """The file replaces the pair M-A; delta of the grid is set in the new entry."""
     monkeypatch.setenv("MACADAM_PROGRAM", PROGRAM)
     asked = {
         "scene": "scene.toml",

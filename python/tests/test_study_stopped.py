@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies that Ctrl-C or SIGTERM stops: they end, leave no process, and write table and report of what is done."""
+"""Studies that Ctrl-C or SIGTERM stops: they end, leave no process, and write table and report of the results so far."""
 
 from __future__ import annotations
 
@@ -47,7 +47,9 @@ def test_a_signal_ends_the_study(running: Running, number: int, to_group: bool) 
     assert table["contacts.M-A.delta"].tolist() == [1.0] and table["e_star_pa"].tolist() == [1e9]
     page = (running.out / "report.html").read_text("utf-8")
     assert "2 of 3 results are missing: the study was stopped" in page
-    assert not list((running.out / "failures").iterdir())  # what was stopped has not failed
+    assert not list((running.out / "failures").iterdir())  # a stopped point has not failed
+    if to_group or number == signal.SIGTERM:
+        return  # one case goes on: it takes its time
     running.go.touch()
     done = subprocess.run(running.line, capture_output=True, timeout=LONG, **running.how)
     assert done.returncode == 0 and "3 results, 0 failed" in done.stdout, done.stderr
@@ -89,5 +91,5 @@ def test_a_shutdown_that_never_ends_is_left_after_a_bounded_time() -> None:
         forever.set()
         worker.kill()
         interchange.kill()
-    # what a stopped study waits for at most is well below the five seconds that users are promised
+    # the waits of a stopped study are bounded well below five seconds
     assert parsl_pool.AFTER_INTERRUPT <= 2 and programs.GRACE <= 2

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a study asks for: its jobs, one for each experiment at each point."""
+"""The design of a study: its jobs, one for each experiment at each point."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ COLUMNS = {"experiment", *AT, *MEASURED, "particles", "warnings", "macadam", "ke
 
 @dataclass
 class Job:
-    """One experiment at one point: what the worker is given. Points with the same scene have the same key."""
+    """One experiment at one point, as a worker gets it. Points with the same scene have the same key."""
 
     key: str
     scene: str  # TOML
@@ -51,7 +51,8 @@ class Job:
 
 @dataclass
 class Design:
-    """What a study asks for. `jobs`: also those whose scene another one has; `notes`: which these are, in words."""
+    """The jobs of a study, its factors and options. `jobs` has a job for each point, also if another point has the same
+    scene; `notes` names such points."""
 
     folder: Path  # that paths in it are relative to
     jobs: list[Job] = field(default_factory=list)

@@ -97,7 +97,7 @@ def study(
 
 
 def _written(design: Design, folder: Path, reason: str) -> Study:
-    """What is in the folder, after its tables and its report were written."""
+    """Writes tables and report of the results that are in the folder, and returns them."""
     missing = sum(not _settled(folder, job) for job in design.results)
     found = Study(
         folder,

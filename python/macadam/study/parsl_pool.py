@@ -19,8 +19,8 @@ from typing import Any
 
 from macadam.study.errors import StudyError
 
-# Parsl's shutdown waits without a bound for answers of its interchange, a process that may have died. So it has this
-# long (s); what is left then is killed.
+# Parsl's shutdown waits without a bound for answers of its interchange, a process that may have died. So it gets this
+# many seconds; then its processes are killed.
 AFTER_INTERRUPT = 2.0
 AT_THE_END = 30.0  # scancel may take its time
 _BEAT = 5  # s between signs of life of workers; after six missing ones a worker is lost
@@ -126,7 +126,7 @@ def _trouble(executor: Any) -> Trouble:
 
 
 def _end(pool: Any, executor: Any, config: Any, seconds: float) -> None:
-    """Shuts Parsl down; what is not done after `seconds` is left, and its processes are killed."""
+    """Shuts Parsl down. Does not wait for it longer than `seconds`; then its processes are killed."""
     closing = threading.Thread(target=_close, args=(pool,), daemon=True)
     groups = _groups(executor.provider)
     try:

@@ -43,13 +43,13 @@ def stop(folder: str) -> None:
 
 
 def _signal(program: subprocess.Popen, number: int) -> None:
-    """Signals a program and what it began; nothing if it has ended."""
+    """Signals a program and its children; does nothing if they have ended."""
     with contextlib.suppress(ProcessLookupError):
         os.killpg(program.pid, number)
 
 
 def run(folder: str, line: list[str], **how: Any) -> tuple[int, str]:
-    """Runs a program of a study; its exit code (below 0: a signal) and what it wrote to standard error."""
+    """Runs a program of a study. Returns its exit code (below 0: a signal) and its standard error."""
     with _change:
         if folder in _stopped:
             return -signal.SIGTERM, ""

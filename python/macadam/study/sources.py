@@ -47,7 +47,7 @@ class Setting:
 
 @dataclass
 class Changes:
-    """What one alternative changes in the scene: sections of a file, then single keys."""
+    """The changes that one alternative makes in the scene: sections of a file, then single keys."""
 
     place: str
     keys: Table = field(default_factory=dict)

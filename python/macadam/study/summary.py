@@ -88,7 +88,7 @@ def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
 
 
 def _strongest(q: Quantity) -> str:
-    """What matters most to a quantity, as the end of a sentence; empty if nothing differs."""
+    """Names the factor with the largest effect on a quantity, as the end of a sentence; empty if nothing differs."""
     found = effects(q)
     if not found:
         return ""
@@ -170,8 +170,8 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
         for row, e in zip(rows, found, strict=True):
             row.append(_chance(q, e) + (": the change is within it" if e.within_scatter else ""))
         notes.append(
-            "The scatter of seeds is what other seeds alone change between the two ends: half the 95 % interval, "
-            "by Student's t, of seeds that are independent of each other. A change within it may be chance."
+            "The scatter of seeds is the change between the two ends that other seeds alone may cause: half the 95 % "
+            "interval, by Student's t, of seeds that are independent of each other. A change within it may be chance."
         )
     if len(found) > 1:
         heads.append("share of the variance")
