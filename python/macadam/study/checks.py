@@ -35,7 +35,7 @@ def wrong_scenes(design: Design, program: str, workers: int) -> list[tuple[Job, 
 def _options(command: list[str]) -> list[str]:
     """The options of a run that its check takes."""
     found = []
-    for word, following in zip(command[1:], [*command[2:], ""], strict=True):
+    for word, following in zip(command[1:], [*command[2:], ""], strict=False):
         if word in _OPTIONS:
             found += [word, following]
         elif word.partition("=")[0] in _OPTIONS:
