@@ -11,9 +11,10 @@ from macadam.study.job import machine
 
 RESULTS = Path(__file__).resolve().parents[1] / "results"
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "study" / "study.toml"
-# of the study's table; in the file without spaces, as the other results have it
-COLUMNS = {"air_voids_percent": "specimen.recipe.air_voids (%)", "binder_percent": "specimen.recipe.binder (%)",
-           "seed": "specimen.seed", "e_star_mpa": "E* (MPa)", "phase_deg": "phase angle (deg)", "particles": "particles"}
+# of the committed file, and of the study's table with a factor
+COLUMNS = {"air_voids_percent": ("specimen.recipe.air_voids_percent", 1), "binder_percent": ("specimen.recipe.binder_percent", 1),
+           "seed": ("specimen.seed", 1), "e_star_mpa": ("e_star_pa", 1e-6), "phase_deg": ("phase_deg", 1),
+           "particles": ("particles", 1)}
 
 
 def main():
@@ -31,7 +32,8 @@ def main():
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow([*COLUMNS, "processor_s"])
         for _, row in found.table.iterrows():
-            rows.writerow([*(f"{row[c]:.8g}" for c in COLUMNS.values()), f"{records[row['key']]['processor_s']:.2f}"])
+            rows.writerow([*(f"{row[c] * factor:.8g}" for c, factor in COLUMNS.values()),
+                           f"{records[row['key']]['processor_s']:.2f}"])
     with open(RESULTS / "study-time.csv", "w", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(["processor", "workers", "results", "wall_s", "processor_s"])

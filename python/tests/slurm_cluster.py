@@ -10,10 +10,11 @@ import signal
 import socket
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
-PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "sinfo")
+_LONG = 300  # s after which a daemon is taken to hang
+PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "sinfo", "scontrol")
 
 _CONFIGURATION = """
 ClusterName=macadam
@@ -97,8 +98,11 @@ def cluster(folder: Path) -> Iterator[dict[str, str]]:
         for daemon in daemons:
             with open(folder / f"{daemon[0]}.out", "w") as out:
                 running.append(subprocess.Popen(daemon, env=environment, stdout=out, stderr=out))
-            time.sleep(1)
-        _wait_for_node(environment, folder, running)
+            if daemon[0] == "munged":  # the others need its socket
+                _wait(folder, running, (folder / "munge.socket").exists)
+            elif daemon[0] == "slurmctld":  # the node registers with it
+                _wait(folder, running, lambda: "is UP" in _said(environment, "scontrol", "ping"))
+        _wait(folder, running, lambda: "idle" in _said(environment, "sinfo", "-h", "-o", "%T"))
         yield environment
     finally:
         subprocess.run(["scancel", "--user=root"], env=environment, capture_output=True, timeout=60)
@@ -111,13 +115,17 @@ def cluster(folder: Path) -> Iterator[dict[str, str]]:
                 process.wait()
 
 
-def _wait_for_node(environment: dict[str, str], folder: Path, running: list[subprocess.Popen]) -> None:
-    end = time.monotonic() + 60
+def _said(environment: dict[str, str], *command: str) -> str:
+    return subprocess.run(command, env=environment, capture_output=True, text=True).stdout
+
+
+def _wait(folder: Path, running: list[subprocess.Popen], ready: Callable[[], bool]) -> None:
+    """Returns when something is ready; a RuntimeError with the logs if a daemon ends before, or nothing happens."""
+    end = time.monotonic() + _LONG
     while time.monotonic() < end and all(p.poll() is None for p in running):
-        said = subprocess.run(["sinfo", "-h", "-o", "%T"], env=environment, capture_output=True, text=True)
-        if "idle" in said.stdout:
+        if ready():
             return
-        time.sleep(0.5)
+        time.sleep(0.1)
     logs = "\n".join(
         f"== {f.name}\n{f.read_text(errors='replace')[-1500:]}"
         for f in sorted(folder.glob("*.log")) + sorted(folder.glob("*.out"))

@@ -10,10 +10,14 @@ import report_folders
 
 # |E*| is delta in GPa, the phase angle ten degrees; each start and each end is a line of LOG
 _PROGRAM = """#!/bin/sh
-case $1 in --version) echo "macadam stand-in VERSION"; exit ;; esac
+case $1 in
+  --version) echo "macadam stand-in VERSION"; exit ;;
+  check) exit ;;
+esac
 value=$(sed -n 's/^delta = //p' "$2" | head -n 1)
 value=${value:-1.0}
 echo "begin $value" >> "LOG"
+WAIT
 REAL
 case $value in
   13.0) echo "macadam: $2: found 13, expected better luck" >&2; exit 1 ;;
@@ -27,12 +31,19 @@ echo "end $value" >> "LOG"
 _REAL = 'case $value in *REAL) PROGRAM "$@" && echo "end $value" >> "LOG"; exit ;; esac'
 
 
-def stand_in(folder: Path, pause: float = 0.0, version: str = "1", real: str = "") -> tuple[str, Path]:
-    """The program and its log. real: values that end so are computed by macadam itself."""
+_WAIT = 'case $value in 1.0) ;; *) [ -e "FILE" ] || exec sleep 3600 ;; esac  # until it is killed'
+
+
+def stand_in(
+    folder: Path, pause: float = 0.0, version: str = "1", real: str = "", go: Path | None = None
+) -> tuple[str, Path]:
+    """The program and its log. real: values that end so are computed by macadam itself. go: without this file all but
+    the value 1 are never done."""
     log = folder / "log"
     lines = _REAL.replace("REAL", real).replace("PROGRAM", str(report_folders.PROGRAM)) if real else ""
     text = (
         _PROGRAM.replace("REAL", lines)
+        .replace("WAIT", _WAIT.replace("FILE", str(go)) if go else "")
         .replace("LOG", str(log))
         .replace("PAUSE", str(pause))
         .replace("VERSION", version)

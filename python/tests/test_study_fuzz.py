@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Damaged study files: read, or refused with a StudyError; nothing else, and soon. Changes are random with fixed seeds: what
+"""Damaged study files: read, or refused with a StudyError; nothing else, and no endless loop. Changes are random with fixed seeds: what
 libFuzzer is for C++ would be one more package here."""
 
 from __future__ import annotations
@@ -22,6 +22,11 @@ delta = 1.0
 [loading]
 kind = "sweep"
 """
+LAW = """[[contacts]]
+pair = "M-M"
+law = "elastic"
+E = 1e9
+"""
 STUDY = """scene = "scene.toml"
 command = "run"
 arguments = ["--threads", 1]
@@ -33,9 +38,9 @@ loading.kind = "creep"
 [choice.mix.a]
 "specimen.aggregate.0.volume_fraction" = 0.2
 [choice.mix.b]
-file = "scene.toml"
+file = "law.toml"
 [experiment.cold]
-loading.temperatures = [0, 10]
+"loading.temperatures" = [0, 10]
 [run]
 on = "here"
 [report]
@@ -69,6 +74,10 @@ def changed(text: str, chance: random.Random) -> str:
 def test_damaged_studies_and_scenes_are_read_or_refused(tmp_path: Path) -> None:
     chance = random.Random(1)
     study, scene = tmp_path / "study.toml", tmp_path / "scene.toml"
+    (tmp_path / "law.toml").write_text(LAW)
+    study.write_text(STUDY)
+    scene.write_text(SCENE)
+    assert len(read_design(study, "1").jobs) == 8  # the texts are right before they are changed
     for case in range(1500):
         of_scene = case % 3 == 0
         study.write_text(STUDY if of_scene else changed(STUDY, chance), errors="surrogateescape")
@@ -81,12 +90,12 @@ def test_damaged_studies_and_scenes_are_read_or_refused(tmp_path: Path) -> None:
         except Exception as error:
             text = (scene if of_scene else study).read_text(errors="replace")
             raise AssertionError(f"case {case}: {text[:1000]!r}") from error
-        assert time.process_time() - begin < 1, f"case {case}"
+        assert time.process_time() - begin < 60, f"case {case}"  # far above what a slow processor takes; a loop is seen
 
 
 def test_more_points_than_anyone_computes_are_refused_before_they_are_made(tmp_path: Path) -> None:
     (tmp_path / "scene.toml").write_text(SCENE)
-    axes = "".join(f"a{k} = [{', '.join('1' * 100)}]\n" for k in range(9))
+    axes = "".join(f"a{k} = {list(range(100))}\n" for k in range(9))
     for text in (f"[grid]\n{axes}", "[[latin_hypercube]]\npoints = 1000000000000\nspecimen.seed = [1, 2]\n"):
         (tmp_path / "study.toml").write_text('scene = "scene.toml"\n' + text)
         try:

@@ -30,6 +30,10 @@ def test_commands_of_the_page(tmp_path: Path) -> None:
     shutil.copytree(ROOT / "examples", tmp_path / "examples", ignore=shutil.ignore_patterns("shapes", "ct"))
     environment = {**ENVIRONMENT, "MACADAM_PROGRAM": stand_in(tmp_path)[0]}
     shutil.copy(tmp_path / "examples/study/scene.toml", tmp_path)
+    for binder in ("soft", "hard"):
+        (tmp_path / binder).mkdir()
+        law = f'[[contacts]]\npair = "M-A"\nlaw = "elastic"\nE = {len(binder)}.{binder == "hard":d}e9\n'
+        (tmp_path / binder / "law.toml").write_text(law)
     commands, studies, programs = 0, 0, 0
     for block in blocks("studies.md"):
         if block.lstrip().startswith("macadam "):
@@ -41,10 +45,10 @@ def test_commands_of_the_page(tmp_path: Path) -> None:
         elif block.lstrip().startswith("scene ="):
             studies += 1
             (tmp_path / "study.toml").write_text(block)
-            assert len(read_design(tmp_path / "study.toml", "1").jobs) == (18, 240)[studies - 1]
+            assert len(read_design(tmp_path / "study.toml", "1").jobs) == (18, 240, 6)[studies - 1]
         else:
             executors.check(tomllib.loads(block)["run"])
-    assert (commands, studies, programs) == (3, 2, 1)
+    assert (commands, studies, programs) == (4, 3, 1)
     key = next((tmp_path / "results/study/results").iterdir()).name
     assert f"macadam report results/study/results/{'KEY'} --out one.html" in (
         ROOT / "docs/studies.md"
@@ -66,5 +70,5 @@ def test_the_example(tmp_path: Path, monkeypatch) -> None:
         {"specimen.recipe.air_voids": a, "specimen.recipe.binder": b} for a, b in (("2 %", "5 %"), ("8 %", "8 %"))
     ]
     found = study(asked_for, tmp_path / "out", on="threads")
-    stiff, soft = found.table["E* (MPa)"]
+    stiff, soft = found.table["e_star_pa"]
     assert not found.failures and stiff > 1.3 * soft > 0

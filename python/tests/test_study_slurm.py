@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies on a Slurm cluster: a real one, of this machine alone."""
+"""Studies on a Slurm cluster: a real one, of this machine alone; wrong options, and jobs that Slurm refuses."""
 
 from __future__ import annotations
 
 import json
+import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,6 +13,7 @@ from pathlib import Path
 import pytest
 from slurm_cluster import cluster, why_not
 
+from macadam.study import StudyError, executors
 from report_folders import ENVIRONMENT, PROGRAM
 from study_faults import lines, scene, stand_in
 
@@ -52,3 +55,82 @@ def test_the_same_file_runs_on_slurm(tmp_path: Path) -> None:
     assert sorted(lines(log, "begin")) == [11.0, 12.0, 13.0, 14.0, 15.0, 16.0]
     records = [json.loads(f.read_text()) for f in (out / "results").glob("*/study.json")]
     assert len(records) == 5 and all(int(r["machine"]["slurm_job_id"]) > 0 for r in records)  # by a job of the cluster
+
+
+@pytest.mark.long
+@pytest.mark.skipif(bool(why_not()), reason=why_not() or "-")
+def test_a_stopped_study_leaves_no_job(tmp_path: Path) -> None:
+    from study_running import Running
+
+    study = STUDY.replace("[11.0, 12.0, 13.0, 14.0, 15.0, 16.0]", "[1.0, 2.0, 3.0]")
+    with cluster(tmp_path / "slurm") as environment:
+        environment = {**ENVIRONMENT, **environment, "PYTHONPATH": ENVIRONMENT["PYTHONPATH"]}
+        running = Running(tmp_path, "slurm", study, environment)
+        try:
+            running.wait_for_work()
+            running.process.terminate()
+            running.process.communicate(timeout=280)
+            assert running.process.returncode == 130
+            while subprocess.run(["squeue", "-h"], env=environment, capture_output=True, timeout=280).stdout:
+                pass  # jobs that are being ended
+            assert len(list((tmp_path / "out/results").iterdir())) == 1
+            assert "the study was stopped" in (tmp_path / "out/report.html").read_text("utf-8")
+        finally:
+            running.kill()
+
+
+REFUSED = """#!/bin/sh
+echo "sbatch: error: invalid partition specified: nowhere" >&2
+echo "sbatch: error: Batch job submission failed: Invalid partition name specified" >&2
+exit 1
+"""
+
+
+@pytest.mark.parametrize(
+    "slurm, says",
+    [
+        ({"walltime": 90}, 'walltime: found 90, expected text such as "01:30:00" (hours, minutes, seconds)'),
+        ({"walltime": "90"}, "walltime: found '90', expected hours, minutes and seconds"),
+        ({"walltime": "1-00:00:00"}, "walltime: found '1-00:00:00', expected hours"),
+        ({"walltime": "00:00:30"}, "walltime: found '00:00:30', expected hours, minutes and seconds"),
+        ({"partition": 3}, "partition: found 3, expected text"),
+        ({"max_blocks": "4"}, "max_blocks: found '4', expected a whole number above 0"),
+        ({"nodes_per_block": True}, "nodes_per_block: found True, expected a whole number"),
+        ({"exclusive": "no"}, "exclusive: found 'no', expected true or false"),
+    ],
+)
+def test_wrong_options_of_slurm_are_refused(slurm: dict, says: str) -> None:
+    with pytest.raises(StudyError, match=re.escape(f"run.slurm.{says}")):
+        executors.check({"on": "slurm", "slurm": slurm})
+
+
+def _study(tmp_path: Path, path: str) -> subprocess.CompletedProcess:
+    scene(tmp_path)
+    (tmp_path / "study.toml").write_text(STUDY)
+    line = [sys.executable, "-m", "macadam.study", "study.toml", "--out", "out", "--on", "slurm"]
+    environment = {**ENVIRONMENT, "MACADAM_PROGRAM": stand_in(tmp_path)[0], "PATH": path}
+    return subprocess.run(line, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=280)
+
+
+def test_a_machine_without_slurm_is_told(tmp_path: Path) -> None:
+    (tmp_path / "empty").mkdir()
+    done = _study(tmp_path, str(tmp_path / "empty"))
+    assert done.returncode == 2 and 'found "slurm", but no program sbatch in the search path' in done.stderr
+    assert "Traceback" not in done.stderr and not (tmp_path / "out").exists()
+
+
+def test_the_words_of_slurm_are_told(tmp_path: Path) -> None:
+    """A partition that Slurm refuses: its message, and no further attempts."""
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    (programs / "sbatch").write_text(REFUSED)
+    (programs / "sbatch").chmod(0o755)
+    done = _study(tmp_path, f"{programs}{os.pathsep}{os.environ['PATH']}")
+    assert done.returncode == 1, done.stderr
+    assert (
+        "6 results were not computed: no worker could start: error: invalid partition specified: nowhere; "
+        "error: Batch job submission failed: Invalid partition name specified\n"
+    ) in done.stderr
+    assert "Traceback" not in done.stderr
+    page = (tmp_path / "out/report.html").read_text("utf-8")
+    assert "invalid partition specified: nowhere" in page

@@ -4,17 +4,49 @@
 from __future__ import annotations
 
 import argparse
+import os
 import signal
 import sys
+from typing import Any
 
-from macadam.study import StudyError, study
-from macadam.study.design import read_design
-from macadam.study.executors import PLACES
-from macadam.study.program import find_program, version_of
+_NOTES = 20  # lines about equal points that are printed
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class _Stop:
+    """Turns the first signal into a KeyboardInterrupt. Later ones do nothing: tables and report are being written."""
+
+    asked = False
+
+    def __call__(self, *_: Any) -> None:
+        if not self.asked:
+            self.asked = True
+            raise KeyboardInterrupt
+
+    def check(self) -> None:
+        """Raises the KeyboardInterrupt that code of others may have swallowed."""
+        if self.asked:
+            raise KeyboardInterrupt
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command; its exit code: 0 all computed, 1 something failed or is missing, 2 the input is wrong."""
+    """The command. Returns its exit code: 0 all computed, 1 some failed or missing, 2 wrong input, 130 stopped."""
+    stop = _Stop()
+    before = {}
+    for number in _SIGNALS:
+        if signal.getsignal(number) is not signal.SIG_IGN:  # as nohup sets it
+            before[number] = signal.signal(number, stop)
+    try:
+        return _command(_options(arguments), stop)
+    except KeyboardInterrupt:
+        print("\nmacadam study: stopped; the same command goes on from here", file=sys.stderr)
+        return 130
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="macadam study",
         description="Computes a scene at many points: grids, Latin hypercubes or lists over its keys. "
@@ -25,7 +57,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--out", required=True, metavar="DIR", help="folder of the study; made if it is not there")
     parser.add_argument(
         "--on",
-        choices=PLACES,
+        choices=("local", "slurm", "threads"),
         help="instead of the study's: this machine by Parsl, a Slurm cluster, or threads of this process",
     )
     parser.add_argument(
@@ -33,23 +65,32 @@ def main(arguments: list[str] | None = None) -> int:
     )
     parser.add_argument("--retry-failed", action="store_true", help="try points again that failed")
     parser.add_argument("--list", action="store_true", help="print the points and compute nothing")
-    options = parser.parse_args(arguments)
+    parser.add_argument(
+        "--check", action="store_true", help="check the scene of every point by macadam check, and compute nothing"
+    )
+    return parser.parse_args(arguments)
+
+
+def _command(options: argparse.Namespace, stop: _Stop) -> int:
+    from macadam.study import StudyError, study
+    from macadam.study.design import read_design
+    from macadam.study.program import find_program, version_of
+
     shown = sys.stderr.isatty()
 
     def progress(done: int, failed: int, asked: int) -> None:
+        stop.check()
         if shown:
             print(f"\r{done} of {asked} done, {failed} failed ", end="", file=sys.stderr, flush=True)
 
-    def stop(*_: object) -> None:  # SIGTERM as Ctrl-C: what waits is not begun
-        raise KeyboardInterrupt
-
-    signal.signal(signal.SIGTERM, stop)
     try:
-        if options.list:
-            jobs = read_design(options.study, version_of(find_program())).jobs
-            for job in jobs:
+        if options.list or options.check:
+            program = find_program()
+            design = read_design(options.study, version_of(program))
+            _print_notes(design.notes)
+            for job in design.jobs if options.list else ():
                 print(job.key, job.experiment, *(f"{k}={v}" for k, v in job.values.items()))
-            return 0
+            return _check(design, program, options.workers) if options.check else 0
         found = study(
             options.study,
             options.out,
@@ -64,11 +105,33 @@ def main(arguments: list[str] | None = None) -> int:
     except OSError as error:
         print(f"macadam study: {error.filename or options.out}: {error.strerror or error}", file=sys.stderr)
         return 1
-    except KeyboardInterrupt:
-        print("\nmacadam study: stopped; the same command goes on from here", file=sys.stderr)
-        return 130
     if shown:
         print(file=sys.stderr)
+    return _print_study(found, options.out)
+
+
+def _check(design: Any, program: str, asked: int | None) -> int:
+    """Checks all scenes and prints the wrong ones; the exit code."""
+    from macadam.study.checks import wrong_scenes
+    from macadam.study.executors import workers
+
+    wrong = wrong_scenes(design, program, asked or workers({}))
+    for job, message in wrong:
+        print(f"wrong: {job.label}: {message}", file=sys.stderr)
+    print(f"{len(design.jobs)} points, {len(design.results)} scenes checked, {len(wrong)} wrong")
+    return 2 if wrong else 0
+
+
+def _print_notes(notes: list[str]) -> None:
+    for note in notes[:_NOTES]:
+        print(f"note: {note}", file=sys.stderr)
+    if len(notes) > _NOTES:
+        print(f"note: {len(notes) - _NOTES} more points have the scene of another one", file=sys.stderr)
+
+
+def _print_study(found: Any, out: str) -> int:
+    """Prints what a study found; the exit code."""
+    _print_notes(found.notes)
     for failure in found.failures:
         values = ", ".join(f"{k} = {v}" for k, v in failure["values"].items())
         print(
@@ -77,17 +140,25 @@ def main(arguments: list[str] | None = None) -> int:
         )
     if found.missing:
         print(
-            f"macadam study: {found.missing} jobs were not computed: their workers died; the logs are in "
-            f"{found.folder / 'parsl'}",
+            f"macadam study: {found.missing} results were not computed: {found.reason}",
             file=sys.stderr,
         )
     names = [n for n in ("table.csv", "table.parquet", "failures.csv", "report.html") if (found.folder / n).is_file()]
     print(
         f"{found.table['key'].nunique() if len(found.table) else 0} results, {len(found.failures)} failed | files in "
-        f"{options.out}: {' '.join(names)}"
+        f"{out}: {' '.join(names)}"
     )
     return 1 if found.failures or found.missing else 0
 
 
+def end(code: int) -> None:
+    """Ends this process. After a stop it does not wait for Parsl's threads, which may wait for ended processes."""
+    if code == 130:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+    sys.exit(code)
+
+
 if __name__ == "__main__":
-    sys.exit(main())
+    end(main())

@@ -8,7 +8,7 @@ import contextlib
 import shutil
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -19,19 +19,26 @@ from macadam.study.design import Design, Job, read_design
 from macadam.study.errors import StudyError
 from macadam.study.job import compute
 from macadam.study.locks import Taken, locked, taken
+from macadam.study.parsl_pool import Trouble
 from macadam.study.program import find_program, version_of
 
-_IDLE_ROUNDS = 3  # in which workers died and nothing was computed: then it is of no use to go on
+_IDLE_ROUNDS = 3  # in which workers died and nothing was computed: then more rounds are useless
+STOPPED = "the study was stopped"
+DIED = "their workers died; the logs are in the folder parsl"
 
 
 @dataclass
 class Study:
-    """What a study found. `table`: a row a result; `failures`: key, experiment, values and message of each."""
+    """What a study found. `table`: a row per frequency, temperature or time of each result, SI units; `failures`: key,
+    experiment, values and message of each; `missing`: number of results that were not computed, and `reason`: why not;
+    `notes`: points that have the scene of another one, in words."""
 
     folder: Path
     table: pd.DataFrame
     failures: list[dict[str, Any]]
-    missing: int  # jobs that no worker computed
+    missing: int
+    reason: str = ""
+    notes: list[str] = field(default_factory=list)
 
 
 def study(
@@ -49,14 +56,17 @@ def study(
 
     source: STUDY.toml, or its content as a dictionary. out: the study's folder. executor: any of concurrent.futures, in
     place of what [run] says; on, workers: in place of [run]'s. program: in place of the macadam that is found.
-    retry_failed: failures are tried again. progress: called with the numbers done, failed and asked.
-    Raises StudyError where something is asked wrongly, or another study runs in the folder."""
+    retry_failed: failures are tried again. progress: called every few seconds and after each result with the numbers
+    done, failed and asked. Raises StudyError if something is asked wrongly, or another study runs in the folder. After
+    a KeyboardInterrupt, workers end within seconds, tables and report are written, and the exception goes on."""
     folder = Path(out).resolve()
     program = program or find_program()
     version = version_of(program)
     design = read_design(source, version)
     design.run = {**design.run, **({"on": on} if on else {}), **({"workers": workers} if workers else {})}
     executors.check(design.run)
+    if executor is None:
+        executors.check_programs(design.run)
     table.check(design.report)
     if not design.jobs:
         raise StudyError("the study has no points")
@@ -72,19 +82,36 @@ def study(
         if isinstance(source, (str, Path)):
             shutil.copyfile(source, folder / "study.toml")
         if retry_failed:
-            for job in design.jobs:
+            for job in design.results:
                 (folder / "failures" / f"{job.key}.json").unlink(missing_ok=True)
-        _compute_all(design, folder, program, executor, progress or (lambda *_: None))
-        found = Study(
-            folder,
-            table.read(design, folder),
-            table.failures(design, folder),
-            sum(not _settled(folder, job) for job in design.jobs),
-        )
-        if not found.missing:
-            shutil.rmtree(folder / "running", ignore_errors=True)
-        table.write(found.table, found.failures, folder)
-        summary.write_report(design, found.table, found.failures, found.missing, folder)
+        reason = STOPPED
+        try:
+            reason = _compute_all(design, folder, program, executor, progress or (lambda *_: None))
+        except KeyboardInterrupt:
+            _written(design, folder, reason)
+            raise
+        try:
+            return _written(design, folder, reason)
+        except KeyboardInterrupt:
+            _written(design, folder, reason)
+            raise
+
+
+def _written(design: Design, folder: Path, reason: str) -> Study:
+    """Writes tables and report of the results that are in the folder, and returns them."""
+    missing = sum(not _settled(folder, job) for job in design.results)
+    found = Study(
+        folder,
+        table.read(design, folder),
+        table.failures(design, folder),
+        missing,
+        reason if missing else "",
+        design.notes,
+    )
+    if not missing:
+        shutil.rmtree(folder / "running", ignore_errors=True)
+    table.write(found.table, found.failures, folder)
+    summary.write_report(design, found, folder)
     return found
 
 
@@ -98,26 +125,33 @@ def _compute_all(
     program: str,
     given: concurrent.futures.Executor | None,
     progress: Callable[[int, int, int], None],
-) -> None:
-    """In rounds: what a dead worker left is asked for again in the next one, with new workers."""
+) -> str:
+    """In rounds: what a dead worker left is asked for again in the next one, with new workers. Returns why results are
+    missing; empty if none is."""
     idle = 0
-    limits = None if design.run.get("on") == "threads" else executors.patience(design.run)
+    limits = None if given is not None or design.run.get("on") == "threads" else executors.patience(design.run)
     while idle < _IDLE_ROUNDS:
-        left = [job for job in design.jobs if not _settled(folder, job)]
+        left = [job for job in design.results if not _settled(folder, job)]
         _say(design, folder, progress)
         if not left:
-            return
+            return ""
         jobs = [_handed(job, folder, program, design.run) for job in left]
+        died, trouble = "", Trouble()
         try:
-            if given is not None:
-                _round(given, jobs, lambda: _say(design, folder, progress), None)
-            else:
-                with executors.executor(design.run, folder) as pool:
-                    _round(pool, jobs, lambda: _say(design, folder, progress), limits)
+            with _pool(given, design.run, folder) as (pool, asked):
+                died = _round(pool, jobs, lambda: _say(design, folder, progress), limits)
+                trouble = asked()
         except (concurrent.futures.BrokenExecutor, RuntimeError):  # an executor of its own that takes no more jobs
             if given is not None:
-                return
+                return died or DIED
         idle = idle + 1 if all(not _settled(folder, job) for job in left) else 0
+        if idle and trouble.refused:
+            return f"no worker could start: {trouble.words}"
+    return f"{DIED}{f' ({trouble.words or died})' if trouble.words or died else ''}"
+
+
+def _pool(given: concurrent.futures.Executor | None, run: dict[str, Any], folder: Path) -> Any:
+    return contextlib.nullcontext((given, Trouble)) if given is not None else executors.executor(run, folder)
 
 
 def _round(
@@ -125,8 +159,10 @@ def _round(
     jobs: list[dict[str, Any]],
     said: Callable[[], None],
     patience: tuple[float, float] | None,
-) -> None:
-    """Until every job has ended, or nobody has worked at any for longer than is patient."""
+) -> str:
+    """Until every job has ended, or nobody has worked at any for longer than is patient. Returns the last error of a
+    worker that died or never came to life; what the program said is in the folder."""
+    died = ""
     waiting = {pool.submit(compute, job) for job in jobs}
     locks = [Path(job["folder"]) / "running" / f"{job['key']}.lock" for job in jobs]
     quiet, begun = time.monotonic(), False
@@ -134,19 +170,21 @@ def _round(
         while waiting:
             done, waiting = concurrent.futures.wait(waiting, 2.0, concurrent.futures.FIRST_COMPLETED)
             for future in done:
-                # what the program says is in the folder; an exception is of a worker that died or never came to life
-                if isinstance(future.exception(), (StudyError, OSError)):
-                    raise future.exception()
-            if done:
-                said()
+                error = future.exception()
+                if isinstance(error, (StudyError, OSError)):
+                    raise error
+                died = f"{type(error).__name__}: {error}" if error else died
+            said()
             if done or patience and any(map(taken, locks)):
                 quiet, begun = time.monotonic(), True
             elif patience and time.monotonic() - quiet > patience[begun]:
-                return
-    except BaseException:  # Ctrl-C too: what waits is not begun
+                return died
+    except BaseException:  # an interrupt too: what waits is not begun
         for future in waiting:
-            future.cancel()
+            with contextlib.suppress(NotImplementedError):  # Parsl's are not cancelled; its workers end with the pool
+                future.cancel()
         raise
+    return died
 
 
 def _handed(job: Job, folder: Path, program: str, run: dict[str, Any]) -> dict[str, Any]:
@@ -166,6 +204,6 @@ def _handed(job: Job, folder: Path, program: str, run: dict[str, Any]) -> dict[s
 
 
 def _say(design: Design, folder: Path, progress: Callable[[int, int, int], None]) -> None:
-    done = sum((folder / "results" / job.key).is_dir() for job in design.jobs)
-    failed = sum((folder / "failures" / f"{job.key}.json").is_file() for job in design.jobs)
-    progress(done, failed, len(design.jobs))
+    done = sum((folder / "results" / job.key).is_dir() for job in design.results)
+    failed = sum((folder / "failures" / f"{job.key}.json").is_file() for job in design.results)
+    progress(done, failed, len(design.results))

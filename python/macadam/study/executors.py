@@ -1,67 +1,68 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where jobs run: this machine or a Slurm cluster by Parsl, or threads of this process."""
+"""Where jobs run, and what `[run]` may say: this machine or a Slurm cluster by Parsl, or threads of this process."""
 
 from __future__ import annotations
 
 import concurrent.futures
 import contextlib
 import os
+import re
+import shutil
 import subprocess
-import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from macadam.study import programs
 from macadam.study.errors import StudyError
+from macadam.study.parsl_pool import Trouble, parsl_pool
 
 PLACES = ("local", "slurm", "threads")
 KEYS = {"on", "workers", "threads", "gpus", "patience", "slurm"}
+# options of Parsl's SlurmProvider, and what their values are
 SLURM = {
-    "partition",
-    "account",
-    "qos",
-    "constraint",
-    "nodes_per_block",
-    "max_blocks",
-    "walltime",
-    "scheduler_options",
-    "worker_init",
-    "exclusive",
-    "cores_per_node",
-    "mem_per_node",
-    "gpus_per_node",
+    "partition": str,
+    "account": str,
+    "qos": str,
+    "constraint": str,
+    "nodes_per_block": int,
+    "max_blocks": int,
+    "walltime": str,
+    "scheduler_options": str,
+    "worker_init": str,
+    "exclusive": bool,
+    "cores_per_node": int,
+    "mem_per_node": int,
+    "gpus_per_node": int,
 }
-# begins a program that is killed when this process ends in any way: Parsl's interchange would wait for ever for a study
-# that was killed, and its workers for it
-_WITH_ME = "import ctypes, os, sys; ctypes.CDLL(None).prctl(1, 9); os.execvp(sys.argv[1], sys.argv[1:])"
-_BEAT = 5  # s between signs of life of workers; after six missing ones a worker is lost
+_KINDS = {str: "text", int: "a whole number above 0", bool: "true or false"}
 
 
 @contextlib.contextmanager
-def executor(run: dict[str, Any], folder: Path) -> Iterator[concurrent.futures.Executor]:
-    """The executor that `[run]` of a study asks for; logs of Parsl go into `folder`/parsl."""
+def executor(run: dict[str, Any], folder: Path) -> Iterator[tuple[concurrent.futures.Executor, Callable[[], Trouble]]]:
+    """The executor that `[run]` of a study asks for, and a function that says why its workers could not start. It ends
+    within seconds of an interrupt."""
     place = run.get("on", "local")
     if place == "threads":
-        with concurrent.futures.ThreadPoolExecutor(workers(run)) as pool:
-            yield pool
+        with _threads(workers(run), folder) as pool:
+            yield pool, Trouble
         return
+    on_machine = workers(run) if place == "local" else run.get("workers") or _gpus(run) or None
+    with parsl_pool(place, folder, run.get("slurm", {}), on_machine, threads(run), _gpus(run)) as found:
+        yield found
+
+
+@contextlib.contextmanager
+def _threads(number: int, folder: Path) -> Iterator[concurrent.futures.Executor]:
+    programs.start(str(folder))
+    pool = concurrent.futures.ThreadPoolExecutor(number)
     try:
-        from parsl.concurrent import ParslPoolExecutor
-    except ImportError:
-        raise StudyError(
-            f"on = {place!r} takes the Python package parsl, which is not installed; "
-            'on = "threads" runs on this machine without it'
-        ) from None
-    # Parsl starts its own programs by their names: they are beside this Python
-    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
-    with _environment({"PATH": path, "PYTHONPATH": _python_path()}):
-        pool = ParslPoolExecutor(_config(run, place, folder))
-        try:
-            yield pool.__enter__()
-        finally:
-            pool.shutdown(
-                wait=False
-            )  # what is not done is not waited for: its workers are of no use, or Ctrl-C ended it
+        yield pool
+    except BaseException:
+        programs.stop(str(folder))
+        raise
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def patience(run: dict[str, Any]) -> tuple[float, float]:
@@ -85,7 +86,10 @@ def workers(run: dict[str, Any]) -> int:
 
 def check(run: dict[str, Any]) -> None:
     """A StudyError where `[run]` says what is not known."""
-    for table, known, name in ((run, KEYS, "run"), (run.get("slurm", {}), SLURM, "run.slurm")):
+    slurm = run.get("slurm", {})
+    if not isinstance(slurm, dict):
+        raise StudyError(f"run.slurm: found {slurm!r}, expected a table [run.slurm]")
+    for table, known, name in ((run, KEYS, "run"), (slurm, SLURM, "run.slurm")):
         for key in table:
             if key not in known:
                 raise StudyError(f"{name}: found the unknown key {key}, expected {', '.join(sorted(known))}")
@@ -98,6 +102,23 @@ def check(run: dict[str, Any]) -> None:
     gpus = run.get("gpus", 0)
     if gpus != "all" and (isinstance(gpus, bool) or not isinstance(gpus, int) or gpus < 0):
         raise StudyError(f'run.gpus: found {gpus!r}, expected a number or "all"')
+    for key, value in slurm.items():
+        kind = SLURM[key]
+        if not isinstance(value, kind) or kind is int and (isinstance(value, bool) or value < 1):
+            text = ', expected text such as "01:30:00" (hours, minutes, seconds)' if key == "walltime" else ""
+            raise StudyError(f"run.slurm.{key}: found {value!r}{text or f', expected {_KINDS[kind]}'}")
+    walltime = slurm.get("walltime", "24:00:00")
+    if not re.fullmatch(r"\d+:[0-5]?\d:[0-5]?\d", walltime) or re.fullmatch("0+:0?0:.*", walltime):
+        raise StudyError(
+            f'run.slurm.walltime: found {walltime!r}, expected hours, minutes and seconds such as "01:30:00", at least '
+            "a minute"
+        )
+
+
+def check_programs(run: dict[str, Any]) -> None:
+    """A StudyError if a program that the place takes is not here."""
+    if run.get("on", "local") == "slurm" and not shutil.which("sbatch"):
+        raise StudyError('run.on: found "slurm", but no program sbatch in the search path: Slurm is not installed here')
 
 
 def _gpus(run: dict[str, Any]) -> int:
@@ -110,73 +131,3 @@ def _gpus(run: dict[str, Any]) -> int:
     except (OSError, subprocess.CalledProcessError):
         raise StudyError('run.gpus: "all" asks nvidia-smi, which found none here; give their number') from None
     return len(listed.splitlines())
-
-
-def _config(run: dict[str, Any], place: str, folder: Path) -> Any:
-    from parsl.config import Config
-    from parsl.executors import HighThroughputExecutor
-    from parsl.executors.high_throughput.executor import DEFAULT_LAUNCH_CMD
-    from parsl.providers import LocalProvider, SlurmProvider
-
-    more: dict[str, Any] = {}
-    if place == "slurm":
-        asked = {"init_blocks": 0, "walltime": "24:00:00", **run.get("slurm", {})}
-        # the job's shell need not know what is set here
-        begin = f"export PATH={_quoted(os.environ['PATH'])} PYTHONPATH={_quoted(os.environ['PYTHONPATH'])}"
-        asked["worker_init"] = f"{begin}\n{asked.get('worker_init', '')}"
-        provider: Any = SlurmProvider(**asked)
-        more = {"max_workers_per_node": run.get("workers") or _gpus(run) or None}
-    else:
-        provider = LocalProvider(init_blocks=1, min_blocks=1, max_blocks=1)
-        watched = f"{_quoted(sys.executable)} -m macadam.study.manager {os.getpid()} {8 * _BEAT}"
-        more = {
-            "max_workers_per_node": workers(run),
-            "address": "127.0.0.1",
-            "launch_cmd": f"{watched} {DEFAULT_LAUNCH_CMD}",
-        }
-    gpus = _gpus(run)
-    pool = HighThroughputExecutor(
-        label="macadam",
-        interchange_launch_cmd=[sys.executable, "-c", _WITH_ME, "interchange.py"],
-        provider=provider,
-        cores_per_worker=0.01 if gpus else threads(run),
-        available_accelerators=gpus or [],
-        heartbeat_period=_BEAT,
-        heartbeat_threshold=6 * _BEAT,
-        encrypted=False,
-        **more,
-    )
-    return Config(
-        executors=[pool],
-        run_dir=str(folder / "parsl"),
-        strategy_period=1,
-        usage_tracking=0,
-        retries=3,
-        initialize_logging=False,
-    )
-
-
-def _quoted(text: str) -> str:
-    import shlex
-
-    return shlex.quote(text)
-
-
-def _python_path() -> str:
-    """Workers find this package where it is here."""
-    here = str(Path(__file__).resolve().parents[2])
-    return os.pathsep.join(filter(None, [here, os.environ.get("PYTHONPATH")]))
-
-
-@contextlib.contextmanager
-def _environment(values: dict[str, str]) -> Iterator[None]:
-    before = {name: os.environ.get(name) for name in values}
-    os.environ.update(values)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                os.environ.pop(name, None)
-            else:
-                os.environ[name] = value

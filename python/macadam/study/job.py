@@ -19,6 +19,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+from macadam.study import programs
 from macadam.study.locks import locked
 
 KILLS = 3  # of the program by a signal, such as when memory ends; then it has failed
@@ -28,7 +29,8 @@ _LIBC = ctypes.CDLL(None)  # before any fork
 
 def compute(job: dict[str, Any]) -> dict[str, Any]:
     """Makes the result of a job unless it is there. `job`: key, scene (TOML), command, threads, values, experiment,
-    program, folder (of the study). Returns its key and status; a failure of the program is no exception."""
+    program, folder (of the study). Returns its key and status: done, failed or stopped. A failure of the program
+    raises no exception."""
     folder, key = Path(job["folder"]), job["key"]
     done, failed, work = (folder / name / key for name in ("results", "failures", "running"))
     failed = failed.with_suffix(".json")
@@ -41,9 +43,11 @@ def compute(job: dict[str, Any]) -> dict[str, Any]:
         began, spent = time.time(), _processor_time()
         code, said = _run(job, work)
         kills = 0
-        while code < 0 and kills < KILLS:
+        while code < 0 and kills < KILLS and not programs.stopped(job["folder"]):
             kills += 1
             code, said = _run(job, work)
+        if code != 0 and programs.stopped(job["folder"]):  # `running` keeps its checkpoint
+            return {"key": key, "status": "stopped"}
         record = {name: job[name] for name in ("key", "experiment", "values", "command")}
         record |= {"wall_s": round(time.time() - began, 3), "processor_s": round(_processor_time() - spent, 3)}
         record |= {"machine": machine()}
@@ -75,22 +79,20 @@ def _run(job: dict[str, Any], work: Path) -> tuple[int, str]:
     try:
         # also what the option does not reach: threads that wait for a core which others have cost more than they give
         environment = {"OMP_NUM_THREADS": str(job["threads"]), "OMP_WAIT_POLICY": "passive", **os.environ}
-        done = subprocess.run(
+        code, said = programs.run(
+            job["folder"],
             line,
             env=environment,
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            text=True,
-            errors="replace",
             preexec_fn=_die_with_parent if sys.platform == "linux" else None,
         )
     except OSError as error:
         return 127, f"{job['program']}: {error.strerror}"
-    if resume and done.returncode == 2:  # a checkpoint that this program refuses
+    if resume and code == 2:  # a checkpoint that this program refuses
         shutil.rmtree(work)
         return _run(job, work)
-    return done.returncode, done.stderr
+    return code, said
 
 
 def _die_with_parent() -> None:

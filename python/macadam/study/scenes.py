@@ -69,22 +69,30 @@ def _index(entries: list[Any], part: str, key: str) -> int:
 
 
 def merged(scene: Table, more: Table) -> Table:
-    """The scene with another file's sections over it: what `macadam fit` writes, for instance. Contacts of a pair
-    replace those of the same pair; of other sections single keys are replaced."""
+    """The scene with another file's sections over it, such as a law of `macadam fit`. Contacts of a pair replace those
+    of the same pair, at their place in the list; in other sections single keys are replaced."""
     out = copy.deepcopy(scene)
     for key, value in more.items():
         if key == "contacts" and isinstance(value, list):
-            for contacts in (value, out.get("contacts", [])):
-                if not isinstance(contacts, list) or not all(isinstance(c, dict) for c in contacts):
-                    raise StudyError(f"contacts: found {contacts!r}, expected tables [[contacts]]")
-            pairs = [v.get("pair") for v in value]
-            kept = [c for c in out.get("contacts", []) if c.get("pair") not in pairs]
-            out["contacts"] = kept + copy.deepcopy(value)
+            out["contacts"] = _contacts(out.get("contacts", []), copy.deepcopy(value))
         elif isinstance(value, dict) and isinstance(out.get(key), dict):
             out[key] = merged(out[key], value)
         else:
             out[key] = copy.deepcopy(value)
     return out
+
+
+def _contacts(there: Any, new: list[Any]) -> list[Any]:
+    for contacts in (new, there):
+        if not isinstance(contacts, list) or not all(isinstance(c, dict) for c in contacts):
+            raise StudyError(f"contacts: found {contacts!r}, expected tables [[contacts]]")
+    pairs = [c.get("pair") for c in new]
+    for pair in pairs:
+        if pairs.count(pair) > 1:
+            raise StudyError(f"contacts: found the pair {pair!r} more than once in a file, expected it once")
+    kept = [new[pairs.index(c.get("pair"))] if c.get("pair") in pairs else c for c in there]
+    had = [c.get("pair") for c in there]
+    return kept + [c for c in new if c.get("pair") not in had]
 
 
 def located(scene: Table, folder: Path) -> tuple[Table, dict[str, str]]:
@@ -111,6 +119,15 @@ def _digest(path: Path) -> str:
             sha.update(str(file.relative_to(path)).encode())
             sha.update(file.read_bytes())
     return sha.hexdigest()
+
+
+def normal(value: Any) -> Any:
+    """The value with whole numbers as integers, so that 1 and 1.0 are equal also in lists and in a text of JSON."""
+    if isinstance(value, dict):
+        return {key: normal(v) for key, v in value.items()}
+    if isinstance(value, list):
+        return [normal(v) for v in value]
+    return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
 def key_of(scene: Table, digests: dict[str, str], command: list[str], version: str) -> str:

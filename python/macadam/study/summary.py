@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -16,15 +16,20 @@ from macadam.study import table
 from macadam.study.design import Design, number_and_unit
 from macadam.study.effects import FEW, Effect, Quantity, continuous, effects, numeric, quantities, scatter, short
 
+if TYPE_CHECKING:
+    from macadam.study.driver import Study
+
 MOST = 4  # factors in one picture
+NOTES = 20  # sentences about equal points
 
 
-def write_report(design: Design, found: pd.DataFrame, failed: list[dict[str, Any]], missing: int, folder: Path) -> Path:
+def write_report(design: Design, study: Study, folder: Path) -> Path:
     """report.html in the study's folder."""
     page = Page()
     with look.style():
-        _fill(page, design, found, failed, missing, folder)
-    versions = ", ".join(sorted(set(found["macadam"].dropna()))) if "macadam" in found else ""
+        _fill(page, design, study, folder)
+    rows = study.table
+    versions = ", ".join(sorted(set(rows["macadam"].dropna()))) if "macadam" in rows else ""
     return write(
         page,
         folder / "report.html",
@@ -33,28 +38,25 @@ def write_report(design: Design, found: pd.DataFrame, failed: list[dict[str, Any
     )
 
 
-def _fill(
-    page: Page, design: Design, found: pd.DataFrame, failed: list[dict[str, Any]], missing: int, folder: Path
-) -> None:
+def _fill(page: Page, design: Design, study: Study, folder: Path) -> None:
+    found, failed, missing = study.table, study.failures, study.missing
     done = found["key"].nunique() if len(found) else 0
     page.section("In short")
     if missing:
         page.text(
-            f"{missing} of {len(design.jobs)} results are missing: their workers died. The same command goes on.",
+            f"{missing} of {len(design.results)} results are missing: {study.reason}. The same command goes on.",
             "failure",
         )
     if failed:
-        page.text(f"{len(failed)} of {len(design.jobs)} failed; they are listed below.", "warning")
+        page.text(f"{len(failed)} of {len(design.results)} failed; they are listed below.", "warning")
     page.text(f"{done} results at {_count(design)}.", "lead")
+    for note in study.notes[:NOTES]:
+        page.text(f"{note}.", "warning")
+    if len(study.notes) > NOTES:
+        page.text(f"{len(study.notes) - NOTES} more points have the scene of another one.", "warning")
     values = quantities(found, design) if len(found) else []
     for q in values:
-        strongest = effects(q)[:1]
-        words = f"{q.title}: {_value(q, q.jobs['value'].min())} to {_value(q, q.jobs['value'].max())}"
-        if strongest:
-            words += (
-                f"; it depends most on {short(strongest[0].factor)}, {look.percent(strongest[0].share, 2)} of "
-                "the variance between points"
-            )
+        words = f"{q.title}: {_value(q, q.jobs['value'].min())} to {_value(q, q.jobs['value'].max())}{_strongest(q)}"
         page.text(words[:1].upper() + words[1:] + ".")
     page.table(["factor", "values", "number"], _factors(design), "What differs between the points.", words=2)
     page.section("Main effects")
@@ -83,6 +85,21 @@ def _fill(
         )
     page.section("Where it was computed")
     _machines(page, design, folder)
+
+
+def _strongest(q: Quantity) -> str:
+    """Names the factor with the largest effect on a quantity, as the end of a sentence; empty if nothing differs."""
+    found = effects(q)
+    if not found:
+        return ""
+    first = found[0]
+    name, change = short(first.factor), _change(q, first)
+    if first.within_scatter:
+        most = f"the change with {name}" if len(found) == 1 else f"the largest change, with {name}"
+        return f"; {most}, {change}, is within the scatter of seeds ({_chance(q, first)})"
+    if len(found) == 1:
+        return f"; with {name} it changes by {change}"
+    return f"; it depends most on {name} ({change}), {look.percent(first.share, 2)} of the variance between points"
 
 
 def _count(design: Design) -> str:
@@ -132,22 +149,36 @@ def _main_effects(page: Page, q: Quantity) -> None:
             _panel(axis, effect, points)
         axes[0, 0].set_ylabel(f"{q.name} ({q.unit})")
         words = "; ".join(f"{short(e.factor)}: {_change(q, e)}" for e in shown)
+        bars = any(e.errors for e in shown)
+        dots = "Dots with bars" if bars else "Dots"
+        error = ", and its standard error from the scatter of seeds" if bars else ""
         page.figure(
             figure,
-            f"Main effects on {q.title}. Dots with bars: mean over all points at that value, and their standard "
-            f"deviation. Changes from one end to the other: {words}.",
+            f"Main effects on {q.title}. {dots}: mean over all points at that value{error}. "
+            f"Changes from one end to the other: {words}.",
             f"main effects on {q.title}",
         )
-    rows = [
-        [e.factor, f"{_level(e.levels[0])} … {_level(e.levels[-1])}", _change(q, e), look.percent(e.share)]
-        for e in found
-    ]
-    page.table(
-        ["factor", "from … to", f"change of {q.name}", "share of the variance"],
-        rows,
-        f"{q.title}. Shares that do not add up to 100 % leave room for what factors do together, and for scatter.",
-        words=2,
-    )
+    _table_of_effects(page, q, found)
+
+
+def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
+    """With the scatter of seeds if it is known, and shares of the variance if there are several factors."""
+    heads, notes = ["factor", "from … to", f"change of {q.name}"], []
+    rows = [[e.factor, f"{_level(e.levels[0])} … {_level(e.levels[-1])}", _change(q, e)] for e in found]
+    if any(e.scatter is not None for e in found):
+        heads.append("scatter of seeds (95 %)")
+        for row, e in zip(rows, found, strict=True):
+            row.append(_chance(q, e) + (": the change is within it" if e.within_scatter else ""))
+        notes.append(
+            "The scatter of seeds is the change between the two ends that other seeds alone may cause: half the 95 % "
+            "interval, by Student's t, of seeds that are independent of each other. A change within it may be chance."
+        )
+    if len(found) > 1:
+        heads.append("share of the variance")
+        for row, e in zip(rows, found, strict=True):
+            row.append(look.percent(e.share))
+        notes.append("Shares do not add up to 100 %: the rest is what factors do together, and scatter.")
+    page.table(heads, rows, f"{q.title}. {' '.join(notes)}", words=2)
 
 
 def _level(value: Any) -> str:
@@ -158,10 +189,18 @@ def _level(value: Any) -> str:
 
 
 def _change(q: Quantity, effect: Effect) -> str:
-    """Of angles in degrees, else relative."""
+    """From one end to the other: of angles in degrees, else relative to the first."""
     first, last = effect.ends
     text = f"{last - first:+.2g}°" if q.unit == "°" else f"{100 * (last / first - 1):+.3g} %" if first else "–"
     return text.replace("-", "−")
+
+
+def _chance(q: Quantity, effect: Effect) -> str:
+    """The scatter of the change, as the change is given."""
+    if effect.scatter is None:
+        return "–"
+    first = abs(effect.ends[0])
+    return f"±{effect.scatter:.2g}°" if q.unit == "°" else f"±{100 * effect.scatter / first:.2g} %" if first else "–"
 
 
 def _panel(axis: Any, effect: Effect, points: pd.DataFrame) -> None:
@@ -169,7 +208,7 @@ def _panel(axis: Any, effect: Effect, points: pd.DataFrame) -> None:
     x, y = points[effect.factor], points["value"]
     if not numeric(points, effect.factor):
         axis.plot([effect.levels.index(v) for v in x], y, "o", color="#c3c7cc", ms=2.5)
-        axis.errorbar(range(len(effect.levels)), effect.means, effect.spreads, fmt="o", color=look.COLOURS[0])
+        axis.errorbar(range(len(effect.levels)), effect.means, effect.errors, fmt="o", color=look.COLOURS[0])
         axis.set_xticks(range(len(effect.levels)), [str(v)[:14] for v in effect.levels])
         axis.margins(x=0.2)
         return
@@ -177,7 +216,7 @@ def _panel(axis: Any, effect: Effect, points: pd.DataFrame) -> None:
     if continuous(points, effect.factor):
         axis.plot(effect.levels, effect.means, "-", color=look.COLOURS[0])
     else:
-        axis.errorbar(effect.levels, effect.means, effect.spreads, fmt="o-", color=look.COLOURS[0])
+        axis.errorbar(effect.levels, effect.means, effect.errors, fmt="o-", color=look.COLOURS[0])
         axis.set_xticks(effect.levels)
     axis.margins(x=0.08)
 
@@ -231,8 +270,8 @@ def _seeds(page: Page, values: list[Quantity]) -> None:
     for q in values:
         known = scatter(q)
         if known:
-            deviation, points, fewest = known
-            rows.append([q.title, look.percent(deviation), look.percent(deviation / fewest**0.5), points, fewest])
+            of_mean = look.percent(known.relative / known.fewest**0.5)
+            rows.append([q.title, look.percent(known.relative), of_mean, known.points, known.fewest])
     if rows:
         page.table(
             ["quantity", "standard deviation", "of the mean over seeds", "points", "seeds of each"],
@@ -246,7 +285,7 @@ def _seeds(page: Page, values: list[Quantity]) -> None:
 
 def _machines(page: Page, design: Design, folder: Path) -> None:
     rows: dict[tuple[str, str], list[float]] = {}
-    for job in design.jobs:
+    for job in design.results:
         file = folder / "results" / job.key / "study.json"
         if file.is_file():
             record = table.read_json(file)

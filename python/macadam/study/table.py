@@ -1,36 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of a study: a row a result, read from the folders; CSV that Excel opens, and Parquet."""
+"""The table of a study: a row a result, read from the folders; CSV and Parquet."""
 
 from __future__ import annotations
 
 import csv
 import json
 import os
+import re
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from macadam.study.design import Design, number_and_unit
+from macadam.study.design import AT, MEASURED, Design, number_and_unit
 from macadam.study.errors import StudyError
 
 _REPORT = {"frequency", "temperature"}
-# of a result: key in summary.json, column, factor
-_COLUMNS = (
-    ("temperature_c", "temperature (degC)", 1.0),
-    ("frequency_hz", "frequency (Hz)", 1.0),
-    ("time_s", "time (s)", 1.0),
-    ("e_star_pa", "E* (MPa)", 1e-6),
-    ("phase_deg", "phase angle (deg)", 1.0),
-    ("strain", "strain (um/m)", 1e6),
-    ("stress_pa", "stress (kPa)", 1e-3),
-    ("modulus_pa", "relaxation modulus (MPa)", 1e-6),
-    ("secant_pa", "secant modulus (MPa)", 1e-6),
-    ("compliance_1_pa", "creep compliance (1/GPa)", 1e9),
-)
-QUANTITIES = [
-    name for key, name, _ in _COLUMNS if key not in ("temperature_c", "frequency_hz", "time_s", "strain", "stress_pa")
-]
+_UNITS = {"%": "percent", "°C": "c"}
 
 
 def check(report: dict[str, Any]) -> None:
@@ -42,38 +28,48 @@ def check(report: dict[str, Any]) -> None:
             raise StudyError(f"report.{key}: found {value!r}, expected a number")
 
 
-def columns(design: Design) -> dict[str, str]:
-    """Name of each factor in the table: its key, with the unit where all its values have the same one."""
-    names = {}
+def units(design: Design) -> dict[str, str]:
+    """The unit of each factor; empty if its values are not numbers with one and the same unit."""
+    out = {}
     for factor in design.factors:
         parts = [number_and_unit(job.values[factor]) for job in design.jobs if factor in job.values]
-        units = {unit for number, unit in parts}
+        found = {unit for _, unit in parts}
         numeric = all(number is not None for number, _ in parts)
-        names[factor] = f"{factor} ({units.pop()})" if numeric and len(units) == 1 and units != {""} else factor
-    return names
+        out[factor] = found.pop() if numeric and len(found) == 1 else ""
+    return out
 
 
-def _cell(value: Any, numeric: bool) -> Any:
-    if numeric:
+def columns(design: Design) -> dict[str, str]:
+    """The name of each factor's column: its key, and the unit that its values have in the study at the end."""
+    return {factor: f"{factor}_{_suffix(unit)}" if unit else factor for factor, unit in units(design).items()}
+
+
+def _suffix(unit: str) -> str:
+    return _UNITS.get(unit, re.sub(r"\W+", "_", unit.lower()))
+
+
+def _cell(value: Any, unit: str) -> Any:
+    """A cell of a factor's column: with a unit the number alone."""
+    if unit:
         return number_and_unit(value)[0]
     return value if isinstance(value, (str, int, float, bool)) else json.dumps(value, ensure_ascii=False)
 
 
 def read(design: Design, folder: Path) -> pd.DataFrame:
-    """A row for every frequency, temperature or time of every result that the study asks for and that is there."""
-    names = columns(design)
-    numeric = {f: names[f] != f for f in design.factors}
+    """A row for every frequency, temperature or time of every result of the study that is there. Units are SI; a factor
+    has the unit of its values in the study."""
+    names, of = columns(design), units(design)
     rows = []
     for job in design.jobs:
         place = folder / "results" / job.key
         if not place.is_dir():
             continue
         summary = read_json(place / "summary.json")
-        common = {names[f]: _cell(v, numeric[f]) for f, v in job.values.items()}
+        common = {names[f]: _cell(v, of[f]) for f, v in job.values.items()}
         if job.experiment:
             common["experiment"] = job.experiment
         for result in _results(summary):
-            row = {column: result[key] * factor for key, column, factor in _COLUMNS if result.get(key) is not None}
+            row = {name: result[name] for name in (*AT, *MEASURED) if result.get(name) is not None}
             rows.append(
                 {
                     **common,
@@ -88,7 +84,7 @@ def read(design: Design, folder: Path) -> pd.DataFrame:
 
 
 def _results(summary: dict[str, Any]) -> list[dict[str, Any]]:
-    """One entry a frequency or time; one without either where only the specimen was made."""
+    """One entry per frequency or time; an empty one if only the specimen was made."""
     found: list[dict[str, Any]] = []
     for result in summary.get("results") or []:
         found += result.get("points") or [result]
@@ -97,14 +93,13 @@ def _results(summary: dict[str, Any]) -> list[dict[str, Any]]:
 
 def failures(design: Design, folder: Path) -> list[dict[str, Any]]:
     """What is known of each job that the study asks for and that failed."""
-    files = (folder / "failures" / f"{job.key}.json" for job in design.jobs)
+    files = (folder / "failures" / f"{job.key}.json" for job in design.results)
     return [read_json(file) for file in files if file.is_file()]
 
 
 def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> None:
     """table.csv, table.parquet where pyarrow is there, failures.csv where there are any; each whole or not at all."""
-    # the mark at the beginning tells Excel that the text is UTF-8
-    _whole(folder / "table.csv", lambda file: found.to_csv(file, index=False, encoding="utf-8-sig"))
+    _whole(folder / "table.csv", lambda file: found.to_csv(file, index=False, encoding="utf-8"))
     try:
         import pyarrow  # noqa: F401
     except ImportError:
@@ -116,9 +111,9 @@ def write(found: pd.DataFrame, failed: list[dict[str, Any]], folder: Path) -> No
         return
 
     def rows(file: Path) -> None:
-        with open(file, "w", newline="", encoding="utf-8-sig") as out:
+        with open(file, "w", newline="", encoding="utf-8") as out:
             writer = csv.writer(out)
-            writer.writerow(["key", "experiment", "values", "exit code", "message"])
+            writer.writerow(["key", "experiment", "values", "exit_code", "message"])
             for f in failed:
                 values = "; ".join(f"{k} = {v}" for k, v in f["values"].items())
                 writer.writerow([f["key"], f["experiment"], values, f["exit_code"], f["message"]])

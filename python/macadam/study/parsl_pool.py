@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Parsl's workers, on this machine or as jobs of Slurm: how they start, and how they end within a bounded time."""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import re
+import shlex
+import signal
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from macadam.study.errors import StudyError
+
+# Parsl's shutdown waits without a bound for answers of its interchange, a process that may have died. So it gets this
+# many seconds; then its processes are killed.
+AFTER_INTERRUPT = 2.0
+AT_THE_END = 30.0  # scancel may take its time
+_BEAT = 5  # s between signs of life of workers; after six missing ones a worker is lost
+# Starts the interchange in a session of its own: a signal to the study's process group does not reach it. It is killed
+# when the study ends in any way; it would wait forever for a study that was killed, and its workers for it.
+_INTERCHANGE = (
+    "import ctypes, os, sys; os.setsid(); ctypes.CDLL(None).prctl(1, 9); os.execvp(sys.argv[1], sys.argv[1:])"
+)
+
+
+@dataclass
+class Trouble:
+    """Why workers could not start, in words; empty if they could. `refused`: it is of no use to try again."""
+
+    words: str = ""
+    refused: bool = False
+
+
+@contextlib.contextmanager
+def parsl_pool(
+    place: str, folder: Path, slurm: dict[str, Any], workers: int | None, threads: int, gpus: int
+) -> Iterator[tuple[Any, Callable[[], Trouble]]]:
+    """The pool of workers, and a function that says why workers could not start.
+
+    place: "local" or "slurm", with options of Parsl's SlurmProvider. workers: per machine; None: as many as its cores
+    allow. threads: CPU threads of each. gpus: per machine. Parsl's logs go into `folder`/parsl."""
+    try:
+        from parsl.concurrent import ParslPoolExecutor
+    except ImportError:
+        raise StudyError(
+            f"on = {place!r} takes the Python package parsl, which is not installed; "
+            'on = "threads" runs on this machine without it'
+        ) from None
+    # Parsl starts its own programs by their names: they are beside this Python
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"
+    with _environment({"PATH": path, "PYTHONPATH": _python_path()}):
+        executor = _executor(place, slurm, workers, threads, gpus)
+        config = _config(executor, folder)
+        pool, seconds = None, AFTER_INTERRUPT
+        try:
+            pool = ParslPoolExecutor(config)
+            yield pool, lambda: _trouble(executor)
+            seconds = AT_THE_END
+        finally:
+            _end(pool, executor, config, seconds)
+
+
+def _executor(place: str, slurm: dict[str, Any], workers: int | None, threads: int, gpus: int) -> Any:
+    from parsl.executors import HighThroughputExecutor
+    from parsl.executors.high_throughput.executor import DEFAULT_LAUNCH_CMD
+    from parsl.providers import LocalProvider, SlurmProvider
+
+    more: dict[str, Any] = {}
+    if place == "slurm":
+        asked = {"init_blocks": 0, "walltime": "24:00:00", **slurm}
+        # the job's shell need not know what is set here
+        begin = f"export PATH={shlex.quote(os.environ['PATH'])} PYTHONPATH={shlex.quote(os.environ['PYTHONPATH'])}"
+        asked["worker_init"] = f"{begin}\n{asked.get('worker_init', '')}"
+        provider: Any = SlurmProvider(**asked)
+    else:
+        provider = LocalProvider(init_blocks=1, min_blocks=1, max_blocks=1)
+        watched = f"{shlex.quote(sys.executable)} -m macadam.study.manager {os.getpid()} {8 * _BEAT}"
+        more = {"address": "127.0.0.1", "launch_cmd": f"{watched} {DEFAULT_LAUNCH_CMD}"}
+    return HighThroughputExecutor(
+        label="macadam",
+        interchange_launch_cmd=[sys.executable, "-c", _INTERCHANGE, "interchange.py"],
+        provider=provider,
+        cores_per_worker=0.01 if gpus else threads,
+        max_workers_per_node=workers,
+        available_accelerators=gpus or [],
+        heartbeat_period=_BEAT,
+        heartbeat_threshold=6 * _BEAT,
+        encrypted=False,
+        **more,
+    )
+
+
+def _config(executor: Any, folder: Path) -> Any:
+    from parsl.config import Config
+
+    return Config(
+        executors=[executor],
+        run_dir=str(folder / "parsl"),
+        strategy_period=1,
+        usage_tracking=0,
+        retries=3,
+        initialize_logging=False,
+    )
+
+
+def _trouble(executor: Any) -> Trouble:
+    """The words of sbatch, or of a job that ended too soon."""
+    from parsl.jobs.states import JobState
+
+    for status in [*executor.status_facade.values()]:
+        if status.state in (JobState.FAILED, JobState.MISSING):
+            message = status.message or ""
+            words = f"{message}\n{status.stderr_summary or ''}"
+            said = re.findall(r"(?:sbatch|slurmstepd): *(.*?)(?:\\n|\n|'|\"|$)", words)
+            text = "; ".join(said) or " ".join(words.split()) or f"exit code {status.exit_code}"
+            return Trouble(text, message.startswith("Failed to start block"))
+    return Trouble()
+
+
+def _end(pool: Any, executor: Any, config: Any, seconds: float) -> None:
+    """Shuts Parsl down. Does not wait for it longer than `seconds`; then its processes are killed."""
+    closing = threading.Thread(target=_close, args=(pool,), daemon=True)
+    groups = _groups(executor.provider)
+    try:
+        if pool is not None:
+            closing.start()
+            closing.join(seconds)
+    finally:
+        if closing.is_alive() or pool is None:
+            groups |= _groups(executor.provider)
+            _cancel(executor.provider)
+        _kill(groups, executor.interchange_proc)
+        _forget(config)
+
+
+def _close(pool: Any) -> None:
+    with contextlib.suppress(Exception):  # of processes that are gone; they need no shutdown
+        pool.shutdown(wait=False)
+
+
+def _groups(provider: Any) -> set[int]:
+    """Process groups of the workers on this machine."""
+    found = set()
+    for job in list(provider.resources.values()):
+        with contextlib.suppress(KeyError, ProcessLookupError):  # of Slurm; ended
+            found.add(os.getpgid(job["remote_pid"]))
+    return found - {os.getpgrp()}
+
+
+def _cancel(provider: Any) -> None:
+    """Asks Slurm to end the jobs, without waiting for its answer."""
+    jobs = [name for name, job in provider.resources.items() if "remote_pid" not in job and not job["status"].terminal]
+    if jobs:
+        with contextlib.suppress(OSError):
+            subprocess.Popen(
+                ["scancel", *jobs],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                start_new_session=True,
+            )
+
+
+def _kill(groups: set[int], interchange: Any) -> None:
+    for group in groups:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(group, signal.SIGKILL)
+    if interchange is not None:
+        interchange.kill()
+        interchange.wait()
+
+
+def _forget(config: Any) -> None:
+    """Lets Parsl start again in this process after a shutdown that did not end."""
+    import parsl
+    from parsl.errors import NoDataFlowKernelError
+
+    with contextlib.suppress(NoDataFlowKernelError):
+        kernel = parsl.dfk()
+        if kernel.config is config:
+            atexit.unregister(kernel.atexit_cleanup)
+            parsl.clear()
+
+
+def _python_path() -> str:
+    """Workers find this package where it is here."""
+    here = str(Path(__file__).resolve().parents[2])
+    return os.pathsep.join(filter(None, [here, os.environ.get("PYTHONPATH")]))
+
+
+@contextlib.contextmanager
+def _environment(values: dict[str, str]) -> Iterator[None]:
+    before = {name: os.environ.get(name) for name in values}
+    os.environ.update(values)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                os.environ.pop(name, None)
+            else:
+                os.environ[name] = value

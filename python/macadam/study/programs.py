@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The programs that threads of this process run, so that they can be ended when the study is stopped."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import threading
+import time
+from typing import Any
+
+GRACE = 2.0  # s that a program has to write its checkpoint after SIGTERM; then it is killed
+_running: dict[str, set[subprocess.Popen]] = {}  # by folder of the study
+_stopped: set[str] = set()
+_change = threading.Lock()
+
+
+def start(folder: str) -> None:
+    """Allows programs of the study in this folder."""
+    with _change:
+        _stopped.discard(folder)
+
+
+def stopped(folder: str) -> bool:
+    """Whether the study in this folder was stopped: no program may begin."""
+    return folder in _stopped
+
+
+def stop(folder: str) -> None:
+    """Ends all programs of a study, and lets none begin. Returns when they have ended."""
+    with _change:
+        _stopped.add(folder)
+        left = list(_running.get(folder, ()))
+    for program in left:
+        _signal(program, signal.SIGTERM)
+    end = time.monotonic() + GRACE
+    for program in left:
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            program.wait(max(0.0, end - time.monotonic()))
+        _signal(program, signal.SIGKILL)
+
+
+def _signal(program: subprocess.Popen, number: int) -> None:
+    """Signals a program and its children; does nothing if they have ended."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(program.pid, number)
+
+
+def run(folder: str, line: list[str], **how: Any) -> tuple[int, str]:
+    """Runs a program of a study. Returns its exit code (below 0: a signal) and its standard error."""
+    with _change:
+        if folder in _stopped:
+            return -signal.SIGTERM, ""
+        # a session of its own: a signal from the terminal reaches the study alone, which decides
+        program = subprocess.Popen(
+            line, stderr=subprocess.PIPE, text=True, errors="replace", start_new_session=True, **how
+        )
+        _running.setdefault(folder, set()).add(program)
+    try:
+        _, said = program.communicate()
+    finally:
+        with _change:
+            _running[folder].discard(program)
+    return program.returncode, said

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Studies that a signal stops: they end, leave no process, and write table and report of the results so far."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import threading
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from macadam.study import parsl_pool, programs
+from study_faults import lines
+
+psutil = pytest.importorskip("psutil")
+pytest.importorskip("parsl")
+from study_running import Running  # noqa: E402
+
+LONG = 300  # s after which a test fails; nothing is expected to take that long
+
+
+@pytest.fixture(params=["local", "threads"])
+def running(request: pytest.FixtureRequest, tmp_path: Path):
+    study = Running(tmp_path, request.param)
+    try:
+        study.wait_for_work()
+        yield study
+    finally:
+        study.kill()
+
+
+@pytest.mark.parametrize("to_group", [False, True], ids=["process", "group"])
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_the_study(running: Running, number: int, to_group: bool) -> None:
+    ours = running.left()
+    for _ in range(2):  # coreutils' timeout sends one to the process and one to its group
+        (os.killpg if to_group else os.kill)(running.process.pid, number)
+    _, said = running.process.communicate(timeout=LONG)
+    assert running.process.returncode == 130 and "the same command goes on from here" in said
+    assert "Traceback" not in said
+    _, left = psutil.wait_procs(ours | running.left(), timeout=LONG)
+    assert not left
+    table = pd.read_csv(running.out / "table.csv")
+    assert table["contacts.M-A.delta"].tolist() == [1.0] and table["e_star_pa"].tolist() == [1e9]
+    page = (running.out / "report.html").read_text("utf-8")
+    assert "2 of 3 results are missing: the study was stopped" in page
+    assert not list((running.out / "failures").iterdir())  # a stopped point has not failed
+    if to_group or number == signal.SIGTERM:
+        return  # one case goes on: it takes its time
+    running.go.touch()
+    done = subprocess.run(running.line, capture_output=True, timeout=LONG, **running.how)
+    assert done.returncode == 0 and "3 results, 0 failed" in done.stdout, done.stderr
+    assert lines(running.log, "begin").count(1.0) == 1
+
+
+@pytest.mark.parametrize("running", ["local"], indirect=True)
+def test_a_study_whose_interchange_is_gone_ends_too(running: Running) -> None:
+    """Parsl's shutdown would wait for an answer of the interchange forever."""
+    names = ("interchange.py", "HTEX interchange")
+    (interchange,) = [p for p in running.left() if any(w.endswith(names) for w in p.cmdline())]
+    ours = running.left()
+    interchange.kill()
+    running.process.terminate()
+    running.process.communicate(timeout=LONG)
+    assert running.process.returncode == 130 and (running.out / "report.html").is_file()
+    _, left = psutil.wait_procs(ours | running.left(), timeout=LONG)
+    assert not left
+
+
+def test_a_shutdown_that_never_ends_is_left_after_a_bounded_time() -> None:
+    forever = threading.Event()
+    worker = subprocess.Popen(["sleep", "3600"], start_new_session=True)
+    interchange = subprocess.Popen(["sleep", "3600"])
+
+    class Pool:
+        def shutdown(self, wait: bool) -> None:
+            forever.wait()
+
+    class Executor:
+        interchange_proc = interchange
+
+        class provider:
+            resources = {"1": {"remote_pid": worker.pid}}
+
+    try:
+        parsl_pool._end(Pool(), Executor(), None, 0.01)
+        assert worker.wait(LONG) == -signal.SIGKILL and interchange.wait(LONG) == -signal.SIGKILL
+    finally:
+        forever.set()
+        worker.kill()
+        interchange.kill()
+    # the waits of a stopped study are bounded well below five seconds
+    assert parsl_pool.AFTER_INTERRUPT <= 2 and programs.GRACE <= 2
