@@ -6,17 +6,18 @@
 #include <cholmod.h>
 #include <fmt/format.h>
 #include <metis.h>
+#include <omp.h>
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <new>
-#include <thread>
 
 #include "macadam/error.hpp"
 
-/// OpenBLAS has it, other BLAS libraries have not.
+// OpenBLAS has these two, other BLAS libraries have not.
 extern "C" __attribute__((weak)) void openblas_set_num_threads(int threads);
+extern "C" __attribute__((weak)) int openblas_get_num_threads();
 /// Any BLAS: C = alpha·A·B + beta·C.
 extern "C" void dgemm_(const char*, const char*, const int* m, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
@@ -46,6 +47,16 @@ std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::
   return {place.begin(), place.end()};
 }
 
+/// Gives OpenBLAS as many threads as OpenMP has here, but no more than it has started, and four at most: most
+/// supernodes are small, so that 16 threads wait for each other and take twice as long as four (58 s against 24 s).
+/// Where the environment sets OPENBLAS_NUM_THREADS, that number stands for the four.
+void limit_blas_threads() {
+  if (!openblas_set_num_threads || !openblas_get_num_threads) return;
+  static const int started = openblas_get_num_threads();
+  static const int most = std::getenv("OPENBLAS_NUM_THREADS") ? started : std::min(started, 4);
+  openblas_set_num_threads(std::clamp(omp_get_max_threads(), 1, most));
+}
+
 /// OpenBLAS maps a buffer when it is first called and, where there is no memory, tries for ever. So it is called here,
 /// once there is surely room for the buffer, which it then keeps. \throws std::bad_alloc.
 void make_room_for_blas() {
@@ -53,6 +64,7 @@ void make_room_for_blas() {
   void* room = ::mmap(nullptr, buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (room == MAP_FAILED) throw std::bad_alloc();
   ::munmap(room, buffer);
+  limit_blas_threads();
   constexpr int n = 128;  // smaller products may do without the buffer
   const std::vector<double> a(n * n, 1);
   std::vector<double> c(n * n);
@@ -87,11 +99,6 @@ struct Cholesky::Factor {
   Factor() {
     make_room_for_blas();
     cholmod_start(&common);
-    // most supernodes are small: 16 threads wait for each other and take twice as long as four (58 s against 24 s)
-    constexpr unsigned most_threads = 4;
-    if (openblas_set_num_threads && !std::getenv("OPENBLAS_NUM_THREADS")) {
-      openblas_set_num_threads(static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, most_threads)));
-    }
   }
   /// \throws RunError where CHOLMOD's last call failed.
   void require(const char* what, std::size_t particles) const {
