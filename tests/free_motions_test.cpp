@@ -80,7 +80,7 @@ std::size_t number_of_free_motions(const TestScene& scene) {
   return found.motions.size();
 }
 
-// It may turn about the vertical through its centre; 2 GPa whatever its size and height.
+// The sphere may turn about the vertical through its centre. The modulus is that of the walls, for any size and height.
 TEST_P(FreeMotions, OneSphere) {
   Specimen s = lattice(1, 1, none);
   expect_by_both(make_scene(s, {}, laws_of(0.1, 0.1, 0.1)), of_wall);
@@ -121,7 +121,7 @@ TEST_P(FreeMotions, TwoBlocksSlideOnOneAnother) {
   expect_by_both(scene, in_series(scene.specimen, 4));
 }
 
-// With one point per facet, on the axis, nothing resists the spin of a sphere; its ends also tilt about their contact.
+// With one point per facet, on the axis, nothing resists the spin of a sphere. Spheres at the ends also tilt about it.
 TEST_P(FreeMotions, SpheresOfAColumnTurnByThemselvesAboutSinglePoints) {
   NetworkSpec spec;
   spec.quadrature = Quadrature::one_point;
@@ -133,13 +133,13 @@ TEST_P(FreeMotions, SpheresOfAColumnTurnByThemselvesAboutSinglePoints) {
 TEST_P(FreeMotions, BothSolversAgreeWithInertia) {
   for (const auto& laws : {laws_of(0.1, 0.1, 0.1), laws_of(0, 0, 0)}) {
     const TestScene scene = make_scene(lattice(1, 2, every_other), {}, laws);
-    const double direct = modulus(scene, LinearMethod::direct, 1e8);
+    const double direct = modulus(scene, LinearMethod::direct, 1e6);
     EXPECT_GT(std::abs(direct / in_series(scene.specimen, 2) - 1), 1e-6);
-    EXPECT_NEAR(modulus(scene, LinearMethod::iterative, 1e8) / direct, 1, 1e-10);
+    EXPECT_NEAR(modulus(scene, LinearMethod::iterative, 1e6) / direct, 1, 1e-10);
   }
 }
 
-// Motions that one frictionless wall leaves to a specimen, which other tests compare, are orthonormal by mass.
+// The free motions of three parts of one column are orthonormal by mass.
 TEST(FreeMotionsOfParts, AreOrthonormal) {
   const TestScene scene = make_scene(lattice(1, 5, [](int z) { return z == 2; }), {}, laws_of(0.1, 0, 0.1));
   const auto found = harmonic::find_free_motions(

@@ -96,7 +96,8 @@ TEST(PackingCheck, ClustersOfOverlappingSpheresAreNoFault) {
   EXPECT_TRUE(warnings_of(one).empty()) << testing::PrintToString(warnings_of(one));
 }
 
-// From the least that is not called sparse on; cells reach up to 6 radii there, and up to 1.8 mean spacings.
+// The lowest fill is just above the bound of sparse boxes. Cells of such packings reach up to 6 radii, and 1.8 mean
+// spacings.
 TEST(PackingCheck, LoosePackingsAreNoFault) {
   for (const double fill : {0.101, 0.15, 0.25}) {
     for (const unsigned seed : {test_seed(), test_seed() + 1}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// thread_limit_test.cpp  Every part of a job uses as many threads as it was given, and waiting threads do not spin.
+// thread_limit_test.cpp  Every part of a job keeps to its number of threads, and waiting threads do not spin.
 #include "host/thread_limit.hpp"
 
 #include <dlfcn.h>
@@ -86,14 +86,14 @@ TEST_F(ThreadLimitOfJobs, FactorsHaveNoMoreThreadsOfBlas) {
 
 TEST_F(ThreadLimitOfJobs, Calibrations) {
   ModulusData data;
-  data.rows.push_back({.frequency_hz = 20, .e_star_pa = 1e10, .phase_deg = 10});
+  data.points.push_back({.frequency_hz = 20, .e_star_pa = 1e10, .phase_deg = 10});
   CalibrationOptions options;
   options.free = {{"M-M.delta", {}, {}, {}, 0}};
   calibrate(scene_of(SolverMethod::harmonic), data, options, watcher());
   EXPECT_TRUE(stages_.contains("solving")) << testing::PrintToString(stages_);
 }
 
-// Of five cores each of two scenes has two; one may use a single thread.
+// Five cores give each of two scenes two cores; the first scene may use a single thread.
 TEST_F(ThreadLimitOfJobs, SeveralScenesAtOnce) {
   const std::vector<SceneJob> jobs = {{scene_of(SolverMethod::harmonic, 1), folder_ / "a"},
                                       {scene_of(SolverMethod::harmonic, 0), folder_ / "b"}};
@@ -105,7 +105,7 @@ TEST_F(ThreadLimitOfJobs, SeveralScenesAtOnce) {
   EXPECT_EQ(seen[1], std::set<int>{2});
 }
 
-/// The program's environment of OpenMP as the library itself reports it when it is loaded; that of the last start.
+/// OpenMP itself reports its settings when it is loaded. The report of the last start of the program counts.
 using WaitPolicy = Program;
 
 std::string spins(const fs::path& folder, const std::string& environment) {

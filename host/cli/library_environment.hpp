@@ -5,7 +5,7 @@
 namespace macadam {
 
 /// Sets the environment of the libraries and starts the program again, once, so that they are loaded with it. The
-/// process number stays the same. What the user's environment sets already is left alone.
+/// process number stays the same. Variables that the user has set are not changed.
 ///
 /// - OMP_WAIT_POLICY=passive, unless GOMP_SPINCOUNT is set: by default a thread of OpenMP that waits for work spins for
 ///   milliseconds. Where other programs use the cores, it keeps one from the thread that it waits for: commands

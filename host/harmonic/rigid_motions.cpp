@@ -73,7 +73,7 @@ std::vector<std::size_t> independent_columns(Eigen::MatrixXd& matrix, int wanted
   return out;
 }
 
-/// One part of a cluster, and what is found of it.
+/// One part of a cluster with its free motions.
 class Part {
  public:
   Part(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& stiffness,

@@ -42,7 +42,7 @@ struct FreeMotion {
 /// The load is orthogonal to all of them: a contact that a motion does not deform does not transfer the motion of the
 /// top wall to it either. So they leave E* determined.
 struct FreeMotions {
-  std::vector<Pin> pins;            ///< as many as motions; under a load in equilibrium they are without force
+  std::vector<Pin> pins;            ///< one per motion; under a load in equilibrium they carry no force
   std::vector<FreeMotion> motions;  ///< orthonormal with respect to masses and moments of inertia
 };
 

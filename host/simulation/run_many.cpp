@@ -169,7 +169,7 @@ class Pool {
   /// A share of the cores, which a scene has until a device takes its steps, or to its end.
   class Cores {
    public:
-    /// `most`: threads that the scene may use; 0: as many as it has cores.
+    /// `most`: the largest number of threads that the scene may use; 0: its number of cores.
     Cores(Pool& pool, bool first_of_scene, int most) : pool_(pool), most_(most) {
       std::unique_lock lock(pool_.mutex_);
       ++pool_.waiting_;
@@ -196,7 +196,7 @@ class Pool {
     }
 
    private:
-    /// Of the thread that does the scene.
+    /// Sets the number of threads for the calling thread, which does the scene.
     void set_threads() const { omp_set_num_threads(most_ > 0 ? std::min(number_, most_) : number_); }
     void give_back(int cores) {
       if (std::exchange(has_turn_, false)) ++pool_.turns_;

@@ -27,7 +27,8 @@ constexpr double most_radii = 4, most_spacings = 2, most_fill = 1.5;
 
 double sphere_volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
-/// Volume of all spheres over that of the box; spheres of an aggregate of several count for at most their cells.
+/// Volume of all spheres over the volume of the box. A sphere of an aggregate of several spheres counts for at most its
+/// cell.
 double filled_fraction(const Specimen& all, const Tessellation& tessellation) {
   std::unordered_map<std::int32_t, int> spheres_of;
   for (const std::int32_t body : all.body) ++spheres_of[body];
@@ -81,8 +82,8 @@ Reach farthest_reach(const Specimen& all, const Tessellation& tessellation) {
   });
 }
 
-/// Of all facets of the cell that meet in the farthest point, the one whose plane is farthest from the centre: where a
-/// box is too high, the top wall rather than the two sides of its corner.
+/// Returns the other side of one facet of the cell that meets the farthest point: the facet whose plane is farthest
+/// from the centre. In a box that is too high, this is the top wall and not one of the two side walls of its corner.
 std::int32_t farthest_side(const Specimen& all, const Tessellation& tessellation, const Reach& reach) {
   const Vec3d arm = reach.point - all.centre[reach.cell];
   double farthest = -1;
