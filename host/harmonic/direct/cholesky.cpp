@@ -6,18 +6,15 @@
 #include <cholmod.h>
 #include <fmt/format.h>
 #include <metis.h>
-#include <omp.h>
 #include <sys/mman.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <new>
 
 #include "macadam/error.hpp"
 
-// OpenBLAS has these two, other BLAS libraries have not.
+/// OpenBLAS has it, other BLAS libraries have not.
 extern "C" __attribute__((weak)) void openblas_set_num_threads(int threads);
-extern "C" __attribute__((weak)) int openblas_get_num_threads();
 /// Any BLAS: C = alpha·A·B + beta·C.
 extern "C" void dgemm_(const char*, const char*, const int* m, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
@@ -47,14 +44,11 @@ std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::
   return {place.begin(), place.end()};
 }
 
-/// Gives OpenBLAS as many threads as OpenMP has here, but no more than it has started, and four at most: most
-/// supernodes are small, so that 16 threads wait for each other and take twice as long as four (58 s against 24 s).
-/// Where the environment sets OPENBLAS_NUM_THREADS, that number stands for the four.
+/// Gives OpenBLAS one thread, unless the environment sets OPENBLAS_NUM_THREADS. It cuts products by its number of
+/// threads, so that the last digits of the factors would depend on it; and its threads are not among those that a job
+/// is given. Most supernodes are small: 16 threads took twice as long as four.
 void limit_blas_threads() {
-  if (!openblas_set_num_threads || !openblas_get_num_threads) return;
-  static const int started = openblas_get_num_threads();
-  static const int most = std::getenv("OPENBLAS_NUM_THREADS") ? started : std::min(started, 4);
-  openblas_set_num_threads(std::clamp(omp_get_max_threads(), 1, most));
+  if (openblas_set_num_threads && !std::getenv("OPENBLAS_NUM_THREADS")) openblas_set_num_threads(1);
 }
 
 /// OpenBLAS maps a buffer when it is first called and, where there is no memory, tries for ever. So it is called here,
