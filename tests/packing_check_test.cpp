@@ -64,7 +64,7 @@ TEST(PackingCheck, ABoxTwiceAsWideNamesASide) {
   EXPECT_HAS(found[0], "with the +x wall reaches ");
 }
 
-// The corners of the box are 3.7 m from the cylinder's surface.
+// The corners of the box are at least 3.7 m from the spheres.
 TEST(PackingCheck, ACylinderInABoxIsFound) {
   const Specimen block = touching(18, 18, 6);
   Specimen s;
@@ -74,7 +74,7 @@ TEST(PackingCheck, ACylinderInABoxIsFound) {
   const auto found = warnings_of(s);
   ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
   EXPECT_HAS(found[0], "the packing does not fill its box");
-  EXPECT_HAS(found[0], " wall reaches 3.");
+  EXPECT_HAS(found[0], " wall reaches 4.");
 }
 
 TEST(PackingCheck, DiametersForRadiiFillTooMuch) {
