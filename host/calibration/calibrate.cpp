@@ -11,6 +11,7 @@
 #include "host/calibration/free_parameters.hpp"
 #include "host/calibration/misfit.hpp"
 #include "host/calibration/statistics.hpp"
+#include "host/thread_limit.hpp"
 #include "macadam/calibration.hpp"
 #include "macadam/error.hpp"
 
@@ -284,6 +285,7 @@ class Calibrator {
 
 Calibration calibrate(const Scene& scene, const ModulusData& data, const CalibrationOptions& options,
                       const Watcher& watcher) {
+  const ThreadLimit threads(scene.solver.threads);
   return calibration::Calibrator(scene, data, options, watcher).calibrate();
 }
 

@@ -42,8 +42,6 @@ std::string time_in_words(double seconds) {
 }
 
 nlohmann::ordered_json as_json(const Scene& scene, const Forecast& f) {
-  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
-  if (!f.census.warning.empty()) warnings.push_back(f.census.warning);
   nlohmann::ordered_json out{{"kind", kind_of(scene.experiment)},
                              {"method", f.stepped ? "explicit" : "harmonic"},
                              {"particles", f.census.particles()},
@@ -60,7 +58,7 @@ nlohmann::ordered_json as_json(const Scene& scene, const Forecast& f) {
                              {"harmonic_s", f.harmonic_s},
                              {"stepping_s", f.stepping_s},
                              {"seconds", f.seconds()},
-                             {"warnings", warnings},
+                             {"warnings", f.census.warnings},
                              {"skips", f.skips},
                              {"files", f.files}};
   if (!f.stepped) return out;
@@ -101,7 +99,7 @@ void say_forecast(const std::string& file, const Scene& scene, const Forecast& f
                           time_in_words(f.stepping_s)));
   row("skips", fmt::format("{}", fmt::join(f.skips, ", ")));
   row("files", fmt::format("{}", fmt::join(f.files, " ")));
-  if (!f.census.warning.empty()) row("warning", f.census.warning);
+  for (const std::string& warning : f.census.warnings) row("warning", warning);
 }
 
 void check_command(const CheckArguments& arguments) {

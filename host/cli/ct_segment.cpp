@@ -2,8 +2,6 @@
 // ct_segment.cpp  macadam ct segment IMAGES --voxel "25 um" --out DIR
 #include "host/cli/ct_segment.hpp"
 
-#include <omp.h>
-
 #include <memory>
 
 #include "host/ct/segment_texts.hpp"
@@ -15,6 +13,7 @@
 #include "host/cli/streams.hpp"
 #include "host/ct/gradation.hpp"
 #include "host/ct/segment_files.hpp"
+#include "host/thread_limit.hpp"
 #include "macadam/ct.hpp"
 #include "macadam/error.hpp"
 
@@ -38,7 +37,7 @@ void segment(CtSegmentArguments arguments) {
   if (!arguments.smallest.empty()) options.smallest = length_of(arguments.smallest, "--smallest");
   if (!arguments.cuts.empty()) options.cuts = ct::read_cuts(arguments.cuts);
   if (!arguments.gradation.empty()) options.gradation = ct::read_gradation(arguments.gradation);
-  if (arguments.threads) omp_set_num_threads(*arguments.threads);
+  const ThreadLimit threads(arguments.threads);
   if (!arguments.region.empty()) ct::read_region(arguments.region, options);
   ScanFile scan{arguments.images, arguments.dataset, {}};
   if (!arguments.voxel.empty()) scan.spacing = lengths_of(arguments.voxel, "--voxel");

@@ -5,7 +5,7 @@
 #include <new>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/limited_memory.hpp"
+#include "host/cli/library_environment.hpp"
 #include "host/cli/memory_reserve.hpp"
 #include "host/cli/streams.hpp"
 #include "host/nearest.hpp"
@@ -88,7 +88,7 @@ int say_and_run(int argc, char** argv) {
 
 /// Memory may end while the command line is made, and while an error is put into words.
 int main_function(int argc, char** argv) {
-  restart_with_one_blas_thread_where_memory_is_limited(argv);
+  restart_with_library_environment(argc, argv);
   hold_standard_streams();
   keep_memory_in_reserve();
   try {

@@ -71,6 +71,9 @@ std::string manual_page(const CLI::App& app) {
   out += ".SH ENVIRONMENT\n";
   for (const auto& [name, text] : std::initializer_list<std::pair<const char*, const char*>>{
            {"OMP_NUM_THREADS", "threads of the CPU, where neither the scene nor an option says"},
+           {"OMP_WAIT_POLICY",
+            "how waiting threads of the CPU wait; macadam sets passive, which leaves the core to others, where neither "
+            "this nor GOMP_SPINCOUNT is set"},
            {"MACADAM_PYTHON", "a Python that has the package macadam, for report and study"},
            {"MACADAM_PLUGIN_PATH", "folder of the CUDA backend's library"}})
     out += fmt::format(".TP\n{}\n{}\n", bold(name), plain(text));

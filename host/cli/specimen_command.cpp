@@ -7,7 +7,7 @@
 #include "host/cli/help.hpp"
 #include "host/cli/job.hpp"
 #include "host/cli/stop_signals.hpp"
-#include "host/specimen/sparse_box.hpp"
+#include "host/tessellation/packing_check.hpp"
 #include "macadam/macadam.hpp"
 
 namespace macadam {
@@ -42,7 +42,8 @@ void specimen_command(const SpecimenArguments& arguments) {
   line.clear();
   say_recipe(scene, prepared);
   say_preparation(prepared);
-  if (const std::string sparse = sparse_box(prepared.specimen); !sparse.empty()) say("warning: {}\n", sparse);
+  for (const std::string& warning : packing_warnings(prepared.specimen, prepared.tessellation))
+    say("warning: {}\n", warning);
   const TessellationInvariants i = measure_invariants(prepared.specimen, prepared.tessellation);
   say("tessellation errors: volume {:.1e}, closure {:.1e}, flatness {:.1e}, power {:.1e}, walls {:.1e}\n", i.volume,
       i.closure, i.flatness, i.power, i.walls);

@@ -142,11 +142,7 @@ class Harmonic::Implementation {
 
   /// With inertia no iteration finds its way out of motions that nothing resists.
   Vector without_free_motions(Vector x) const {
-    for (const std::vector<double>& motion : free_.motions) {
-      const auto share =
-          sum_in_parallel<Complex>(x.size(), [&](std::size_t i) { return motion[i] * inertia_at(inertia_, i) * x[i]; });
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] -= share * motion[i];
-    }
+    for (const FreeMotion& motion : free_.motions) motion.remove_from(x, inertia_);
     return x;
   }
 
@@ -242,7 +238,7 @@ class Harmonic::Implementation {
     out.top = modulus(out.parts.modulus());
     out.bottom = modulus(-to_modulus * contacts_.bottom_force(task.stiffness, x));
     if (task.inertia == 0.0 && w.method == LinearMethod::direct) {
-      for (const Pin& pin : free_.pins) out.held_force += std::abs(pin.stiffness * x[pin.dof]);
+      for (const Pin& pin : free_.pins) out.held_force += std::abs(pin.force(x));
       out.held_force /= top;
     }
     out.motion = std::move(w.task.motion);

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rigid_motions.cpp  Free motions as the null space of the walls' stiffness on six rigid motions.
+// rigid_motions.cpp  Free motions as null spaces: of the contacts around a part on six rigid motions, and of particles.
 #include "host/harmonic/rigid_motions.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
-#include "host/network/clusters.hpp"
-#include "host/network/contact_stiffness.hpp"
+#include "host/harmonic/sliding_parts.hpp"
 #include "kernels/parallel.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::harmonic {
 namespace {
+
+using OwnMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< columns: motions of one particle
 
 /// Motion of a particle under the six rigid motions about the middle of the box, turns scaled to lengths.
 Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
@@ -24,18 +26,24 @@ Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
   return out;
 }
 
-/// Makes the last of the motions orthonormal to those before.
-void orthonormalise(std::vector<std::vector<double>>& motions, const Inertia& inertia) {
-  const auto product = [&](const std::vector<double>& a, const std::vector<double>& b) {
-    return sum_in_parallel<double>(a.size(), [&](std::size_t i) { return a[i] * inertia_at(inertia, i) * b[i]; });
+/// Adds a motion to the list, made orthonormal to those from number `first` on. Each of these moves one particle of the
+/// new one, or all of its particles.
+void add_orthonormal(FreeMotion added, std::size_t first, const Inertia& inertia, std::vector<FreeMotion>& list) {
+  const auto weighted = [&](const FreeMotion& m, const double* a, const double* b) {
+    return sum_in_parallel<double>(m.motion.size(), [&](std::size_t i) {
+      return a[i] * inertia_at(inertia, 6 * static_cast<std::size_t>(m.particles[i / 6]) + i % 6) * b[i];
+    });
   };
-  std::vector<double>& last = motions.back();
-  for (std::size_t m = 0; m + 1 < motions.size(); ++m) {
-    const double share = product(motions[m], last);
-    for (std::size_t i = 0; i < last.size(); ++i) last[i] -= share * motions[m][i];
+  for (std::size_t m = first; m < list.size(); ++m) {
+    const FreeMotion& earlier = list[m];
+    const auto at = std::ranges::lower_bound(added.particles, earlier.particles.front()) - added.particles.begin();
+    double* const same = added.motion.data() + 6 * at;
+    const double share = weighted(earlier, earlier.motion.data(), same);
+    for (std::size_t i = 0; i < earlier.motion.size(); ++i) same[i] -= share * earlier.motion[i];
   }
-  const double norm = std::sqrt(product(last, last));
-  for (double& v : last) v /= norm;
+  const double norm = std::sqrt(weighted(added, added.motion.data(), added.motion.data()));
+  for (double& v : added.motion) v /= norm;
+  list.push_back(std::move(added));
 }
 
 /// So many columns that are independent: each time the longest, whose direction is then taken out of all.
@@ -65,7 +73,142 @@ std::vector<std::size_t> independent_columns(Eigen::MatrixXd& matrix, int wanted
   return out;
 }
 
+/// One part of a cluster with its free motions.
+class Part {
+ public:
+  Part(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& stiffness,
+       const std::vector<std::int32_t>& members, bool is_cluster)
+      : specimen_(specimen), network_(network), stiffness_(stiffness), members_(members) {
+    find_rigid(is_cluster);
+    if (members.size() > 1) find_own();
+  }
+
+  void add_to(FreeMotions& out, const Inertia& inertia) const {
+    const std::size_t first = out.motions.size();
+    for (const auto& [k, own] : own_) {
+      const std::int32_t particle = members_[k];
+      const double radius = radius_of(k);
+      for (Eigen::Index m = 0; m < own.cols(); ++m) {
+        Pin pin{static_cast<std::size_t>(particle), {}, largest_};
+        FreeMotion motion{{particle}, std::vector<double>(6)};
+        for (std::size_t c = 0; c < 6; ++c) {
+          const double v = own(static_cast<Eigen::Index>(c), m);
+          pin.direction[c] = c < 3 ? v : v * radius;
+          motion.motion[c] = c < 3 ? v : v / radius;
+        }
+        out.pins.push_back(pin);
+        // those before it of other particles have nothing in common with it
+        add_orthonormal(std::move(motion), out.motions.size() - static_cast<std::size_t>(m), inertia, out.motions);
+      }
+    }
+    if (rigid_.cols() == 0) return;
+    add_pins(out);
+    for (Eigen::Index m = 0; m < rigid_.cols(); ++m) {
+      FreeMotion motion{members_, std::vector<double>(6 * members_.size())};
+#pragma omp parallel for schedule(static)
+      for (std::size_t k = 0; k < members_.size(); ++k) {
+        Eigen::Map<Eigen::Matrix<double, 6, 1>> at(&motion.motion[6 * k]);
+        at = rigid(specimen_, members_[k]) * rigid_.col(m);
+      }
+      add_orthonormal(std::move(motion), first, inertia, out.motions);
+    }
+  }
+
+ private:
+  double radius_of(std::size_t k) const { return specimen_.radius[static_cast<std::size_t>(members_[k])]; }
+
+  /// The rigid motions of the part that the contacts around it do not resist while all else is at rest.
+  void find_rigid(bool is_cluster) {
+    Matrix6 around = Matrix6::Zero();
+    for (const std::int32_t particle : members_) {
+      for (const std::uint32_t number : network_.row(static_cast<std::size_t>(particle))) {
+        const Contact& c = network_.contacts[number];
+        const bool at_a = c.a == particle;
+        if (c.b >= 0 && (is_cluster || std::ranges::binary_search(members_, at_a ? c.b : c.a))) continue;
+        const auto pair = static_cast<std::size_t>(c.pair);
+        const int end = at_a ? 0 : 1;
+        const Matrix6 motion = rigid(specimen_, particle);
+        around +=
+            motion.transpose() * contact_block(c, stiffness_.k[pair].real(), stiffness_.alpha[pair], end, end) * motion;
+      }
+    }
+    const Eigen::SelfAdjointEigenSolver<Matrix6> modes(around);
+    largest_ = modes.eigenvalues()(5);
+    int free = 0;
+    while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest_) ++free;  // sums of at most 1e4 terms to rounding
+    rigid_ = modes.eigenvectors().leftCols(free);
+  }
+
+  /// Motions of particles by themselves, and the rigid motions that are not made of them alone.
+  void find_own() {
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      OwnMotions own = own_motions(members_[k], specimen_, network_, stiffness_);
+      if (own.cols() > 0) own_.emplace_back(k, std::move(own));
+    }
+    if (own_.empty() || rigid_.cols() == 0) return;
+    Eigen::MatrixXd all = scaled_motions();
+    const Eigen::MatrixXd whole = all * all.transpose();
+    remove_own(all);
+    // the part of each rigid motion that is left, 0 to 1
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> left(all * all.transpose(), whole);
+    int gone = 0;
+    while (gone < rigid_.cols() && left.eigenvalues()(gone) < 1e-9)
+      ++gone;  // one particle in 1e9 does not turn by itself
+    rigid_ = (rigid_ * left.eigenvectors().rightCols(rigid_.cols() - gone)).eval();
+  }
+
+  /// [rigid motion][6·member + component], rotations times the particles' radii [m].
+  Eigen::MatrixXd scaled_motions() const {
+    Eigen::MatrixXd out(rigid_.cols(), static_cast<Eigen::Index>(6 * members_.size()));
+#pragma omp parallel for schedule(static)
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      auto columns = out.middleCols<6>(static_cast<Eigen::Index>(6 * k));
+      columns = (rigid(specimen_, members_[k]) * rigid_).transpose();
+      columns.rightCols<3>() *= radius_of(k);
+    }
+    return out;
+  }
+
+  void remove_own(Eigen::MatrixXd& all) const {
+    for (const auto& [k, own] : own_) {
+      auto columns = all.middleCols<6>(static_cast<Eigen::Index>(6 * k));
+      columns -= (columns * own * own.transpose()).eval();
+    }
+  }
+
+  /// Pins on single degrees of freedom, far apart ones. A rotation is taken where the part lies on the axis of the
+  /// turn, so that no displacement shows it.
+  void add_pins(FreeMotions& out) const {
+    constexpr double of_rotations = 1e-3;
+    Eigen::MatrixXd all = scaled_motions();
+    remove_own(all);
+    for (std::size_t k = 0; k < members_.size(); ++k)
+      all.middleCols<3>(static_cast<Eigen::Index>(6 * k + 3)) *= of_rotations;
+    for (const std::size_t column : independent_columns(all, static_cast<int>(rigid_.cols()))) {
+      const std::size_t k = column / 6, c = column % 6;
+      Pin pin{static_cast<std::size_t>(members_[k]), {}, largest_};
+      pin.direction[c] = c < 3 ? 1 : radius_of(k);
+      out.pins.push_back(pin);
+    }
+  }
+
+  const Specimen& specimen_;
+  const ContactNetwork& network_;
+  const PairStiffness& stiffness_;
+  const std::vector<std::int32_t>& members_;
+  double largest_ = 0;                                   ///< stiffness around the part [N/m]
+  OwnMotions rigid_;                                     ///< columns of coefficients of rigid()
+  std::vector<std::pair<std::size_t, OwnMotions>> own_;  ///< by member
+};
+
 }  // namespace
+
+void FreeMotion::remove_from(Vector& other, const Inertia& inertia) const {
+  const auto dof = [this](std::size_t i) { return 6 * static_cast<std::size_t>(particles[i / 6]) + i % 6; };
+  const auto share = sum_in_parallel<Complex>(
+      motion.size(), [&](std::size_t i) { return motion[i] * inertia_at(inertia, dof(i)) * other[dof(i)]; });
+  for (std::size_t i = 0; i < motion.size(); ++i) other[dof(i)] -= share * motion[i];
+}
 
 FreeMotions find_free_motions(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& stiffness,
                               const Inertia& inertia) {
@@ -75,42 +218,8 @@ FreeMotions find_free_motions(const Specimen& specimen, const ContactNetwork& ne
       throw InputError("harmonic: the stiffness is singular: found " + describe(cluster) +
                        ", expected every particle to be joined to both walls (check gap_max and area_min)");
     }
-    Matrix6 walls = Matrix6::Zero();
-    for (const std::int32_t particle : cluster.particles) {
-      for (const std::uint32_t number : network.row(static_cast<std::size_t>(particle))) {
-        const Contact& c = network.contacts[number];
-        if (c.b >= 0) continue;
-        const auto pair = static_cast<std::size_t>(c.pair);
-        const Matrix6 motion = rigid(specimen, particle);
-        walls += motion.transpose() * contact_block(c, stiffness.k[pair].real(), stiffness.alpha[pair], 0, 0) * motion;
-      }
-    }
-    const Eigen::SelfAdjointEigenSolver<Matrix6> modes(walls);
-    const double largest = modes.eigenvalues()(5);
-    int free = 0;
-    while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest) ++free;  // sums of at most 1e4 terms to rounding
-    if (free == 0) continue;
-    const std::vector<std::int32_t>& members = cluster.particles;
-    // displacements (not rotations) of all members under the free motions; pivoting picks independent, far apart ones
-    Eigen::MatrixXd motion(free, static_cast<Eigen::Index>(3 * members.size()));
-#pragma omp parallel for schedule(static)
-    for (std::size_t k = 0; k < members.size(); ++k) {
-      motion.middleCols<3>(static_cast<Eigen::Index>(3 * k)) =
-          (rigid(specimen, members[k]).topRows<3>() * modes.eigenvectors().leftCols(free)).transpose();
-    }
-    const std::vector<std::size_t> pivots = independent_columns(motion, free);
-    for (int m = 0; m < free; ++m) {
-      const std::size_t column = pivots[static_cast<std::size_t>(m)];
-      out.pins.push_back({6 * static_cast<std::size_t>(members[column / 3]) + column % 3, largest});
-      std::vector<double>& whole = out.motions.emplace_back(6 * specimen.size(), 0.0);
-#pragma omp parallel for schedule(static)
-      for (std::size_t k = 0; k < members.size(); ++k) {
-        const std::int32_t particle = members[k];
-        Eigen::Map<Eigen::Matrix<double, 6, 1>> at(&whole[6 * static_cast<std::size_t>(particle)]);
-        at = rigid(specimen, particle) * modes.eigenvectors().col(m);
-      }
-      orthonormalise(out.motions, inertia);
-    }
+    const auto parts = sliding_parts(cluster, network, stiffness);
+    for (const auto& part : parts) Part(specimen, network, stiffness, part, parts.size() == 1).add_to(out, inertia);
   }
   return out;
 }

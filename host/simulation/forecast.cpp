@@ -12,6 +12,7 @@
 #include "host/experiments/stepped/settings.hpp"
 #include "host/simulation/combination.hpp"
 #include "host/simulation/costs.hpp"
+#include "host/thread_limit.hpp"
 
 namespace macadam {
 namespace {
@@ -218,6 +219,7 @@ void add_time(const Scene& scene, Forecast& f, const Cost& cost) {
 
 Forecast forecast(const Scene& scene) {
   require_combination(scene);
+  const ThreadLimit threads(scene.solver.threads);
   const Cost cost;
   Forecast out;
   out.backend = select_backend(scene.solver.backend, &out.reason, scene.solver.devices);

@@ -11,6 +11,8 @@
 #include "host/simulation/run_scene.hpp"
 #include "host/simulation/summary.hpp"
 #include "host/specimen/generate.hpp"
+#include "host/tessellation/packing_check.hpp"
+#include "host/thread_limit.hpp"
 #include "macadam/error.hpp"
 #include "macadam/simulation.hpp"
 
@@ -63,6 +65,7 @@ void make_contacts(const Scene& scene, const Progress& progress, Preparation& ou
 }  // namespace
 
 Preparation prepare(const Scene& scene, const Progress& progress) {
+  const ThreadLimit threads(scene.solver.threads);
   Preparation out;
   auto report = [&](const char* stage, double share) {
     if (progress) progress(stage, share);
@@ -93,6 +96,7 @@ Preparation prepare(const Scene& scene, const Progress& progress) {
 }
 
 Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progress) {
+  const ThreadLimit threads(scene.solver.threads);
   Preparation out;
   validate(specimen, specimen.source);
   out.specimen = std::move(specimen);
@@ -111,7 +115,9 @@ void write_preparation(const Scene& scene, const Preparation& prepared, const st
   if (gradation)
     write_gradation_csv(files.place_of("gradation.csv"), gradation_of(*scene.recipe, prepared.composition));
   if (scene.output.contacts) write_contacts_csv(files.place_of("contacts.csv"), prepared.network);
-  write_whole(files.place_of("summary.json"), summary_json(scene, prepared, {}, "prepared"));
+  RunResult none;
+  none.warnings = packing_warnings(prepared.specimen, prepared.tessellation);
+  write_whole(files.place_of("summary.json"), summary_json(scene, prepared, none, "prepared"));
   replace(out / "summary.json");
   remove_results();
   if (!aggregates && !same_specimen) remove_older(out / "aggregates.csv");
@@ -126,6 +132,7 @@ void write_preparation(const Scene& scene, const Preparation& prepared, const st
 
 Preparation prepare_into(const std::filesystem::path& out, const Scene& scene,
                          const std::vector<SectionPlane>& sections, const Progress& progress) {
+  const ThreadLimit threads(scene.solver.threads);
   const ResultFolder folder(out);
   require_no_run(out);
   Preparation prepared = prepare(scene, progress);

@@ -2,6 +2,7 @@
 // run.cpp  The main job: prepares a scene, solves its frequencies, and leaves whole files whatever happens.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <future>
 #include <new>
@@ -19,9 +20,10 @@
 #include "host/simulation/sparing_save.hpp"
 #include "host/simulation/solution.hpp"
 #include "host/simulation/summary.hpp"
-#include "host/specimen/sparse_box.hpp"
 #include "host/stepping/choose_devices.hpp"
 #include "host/stepping/cuda_code.hpp"
+#include "host/tessellation/packing_check.hpp"
+#include "host/thread_limit.hpp"
 #include "macadam/error.hpp"
 #include "macadam/simulation.hpp"
 
@@ -95,6 +97,7 @@ class FoundBackend {
 RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher& watcher, bool resume,
                     const RunParts& parts, const Preparation* given) {
   require_combination(scene);
+  const ThreadLimit threads(scene.solver.threads);
   RunResult result;
   std::optional<InPhase> starting(std::in_place, result.phases, &PhaseSeconds::start);
   const bool stepped = scene.solver.method == SolverMethod::explicit_;
@@ -135,6 +138,8 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
     if (watcher.warn) watcher.warn(damage);
   }
   if (watcher.prepared) watcher.prepared(prepared);
+  const std::vector<std::string> packing = packing_warnings(prepared.specimen, prepared.tessellation);
+  if (watcher.warn) std::ranges::for_each(packing, watcher.warn);
   std::string devices_decision;
   if (result.backend == Backend::cuda) {
     if (parts.place)
@@ -159,7 +164,7 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   }
   if (!devices_decision.empty()) result.decisions.push_back(devices_decision);
   if (!damage.empty()) result.warnings.push_back(damage);
-  if (const std::string sparse = sparse_box(prepared.specimen); !sparse.empty()) result.warnings.push_back(sparse);
+  result.warnings.insert(result.warnings.end(), packing.begin(), packing.end());
   if (scene.network.lateral_walls) {
     result.warnings.emplace_back(
         "the sides are held: moduli are those of a confined specimen, not |E*| or E(t) of a free one");

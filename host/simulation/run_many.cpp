@@ -169,7 +169,8 @@ class Pool {
   /// A share of the cores, which a scene has until a device takes its steps, or to its end.
   class Cores {
    public:
-    Cores(Pool& pool, bool first_of_scene) : pool_(pool) {
+    /// `most`: the largest number of threads that the scene may use; 0: its number of cores.
+    Cores(Pool& pool, bool first_of_scene, int most) : pool_(pool), most_(most) {
       std::unique_lock lock(pool_.mutex_);
       ++pool_.waiting_;
       // half a share is what another scene gives
@@ -178,7 +179,7 @@ class Pool {
       number_ = std::min(pool_.share_, pool_.free_);
       if (first_of_scene && pool_.urgent_-- > 0) number_ = std::clamp(pool_.for_urgent_, number_, pool_.free_);
       --pool_.turns_, pool_.free_ -= number_;
-      omp_set_num_threads(number_);  // of the thread that does the scene
+      set_threads();
     }
     Cores(const Cores&) = delete;
     ~Cores() {
@@ -191,10 +192,12 @@ class Pool {
       const std::lock_guard lock(pool_.mutex_);
       if (!has_turn_ || pool_.waiting_ == 0) return;
       give_back(number_ / 2);
-      omp_set_num_threads(number_);
+      set_threads();
     }
 
    private:
+    /// Sets the number of threads for the calling thread, which does the scene.
+    void set_threads() const { omp_set_num_threads(most_ > 0 ? std::min(number_, most_) : number_); }
     void give_back(int cores) {
       if (std::exchange(has_turn_, false)) ++pool_.turns_;
       number_ -= cores, pool_.free_ += cores;
@@ -202,12 +205,12 @@ class Pool {
     }
 
     Pool& pool_;
-    int number_ = 0;
+    int most_, number_ = 0;
     bool has_turn_ = true;
   };
 
   Preparation prepare_in_turn(const Scene& scene, const Progress& progress, std::optional<Cores>& cores) {
-    cores.emplace(*this, true);
+    cores.emplace(*this, true, scene.solver.threads);
     if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
     return prepare(scene, [&](const std::string& stage, double share) {
       if (stage == network_stage) cores->share();  // most of what follows is done by one thread, or by the device
@@ -232,7 +235,7 @@ class Pool {
     solver.devices = {*device}, solver.side_by_side = beside_;
     devices_taken_.put(job, *device, std::move(meant));
     lock.unlock();
-    if (waits) cores.emplace(*this, false);
+    if (waits) cores.emplace(*this, false, solver.threads);
   }
 
   DeviceList go_on(std::size_t job, double work) {

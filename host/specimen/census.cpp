@@ -7,9 +7,18 @@
 #include "host/specimen/composition.hpp"
 #include "host/specimen/shaped_aggregates.hpp"
 #include "host/specimen/sparse_box.hpp"
+#include "host/tessellation/packing_check.hpp"
 
 namespace macadam {
 namespace {
+
+/// Cells are made only where that takes seconds: 10 s per million cells and thread.
+std::vector<std::string> warnings_of(const Specimen& specimen) {
+  constexpr std::size_t most_cells = 500'000;
+  if (specimen.cells() <= most_cells) return packing_warnings(specimen, tessellate(specimen));
+  std::string sparse = sparse_box(specimen);
+  return sparse.empty() ? std::vector<std::string>() : std::vector{std::move(sparse)};
+}
 
 Census of_file(const SpecimenSpec& spec) {
   const Specimen specimen = read_specimen_csv(*spec.file, spec.box);
@@ -24,7 +33,7 @@ Census of_file(const SpecimenSpec& spec) {
     double& smallest = specimen.phase[i] == Phase::mastic ? out.smallest_mastic : out.smallest_in_aggregates;
     if (smallest == 0 || specimen.radius[i] < smallest) smallest = specimen.radius[i];
   }
-  out.warning = sparse_box(specimen);
+  out.warnings = warnings_of(specimen);
   return out;
 }
 

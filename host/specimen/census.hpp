@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "macadam/specimen.hpp"
 
@@ -16,7 +17,7 @@ struct Census {
   std::int64_t templates = 0;  ///< shapes that they are copies of
   /// Radii of the smallest spheres of a file [m]; 0: there is none, or no file.
   double smallest_mastic = 0, smallest_in_aggregates = 0;
-  std::string warning;  ///< of a file; empty: none
+  std::vector<std::string> warnings;  ///< packing_warnings() of a file
   std::int64_t particles() const { return in_aggregates + mastic; }
 };
 

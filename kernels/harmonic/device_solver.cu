@@ -30,7 +30,7 @@ class Solver : public DeviceSolver {
  public:
   Solver(const LinearSystem& system, const DeviceList& devices, std::int64_t& loose)
       : devices_(devices), team_(devices, nullptr, KernelOrder::first), system_(system, team_) {
-    loose = invert(system.typical);
+    loose = invert(system);
   }
 
   std::vector<LinearState> solve(const std::vector<LinearLoad>& loads, const std::function<void()>& look) override {
@@ -48,14 +48,17 @@ class Solver : public DeviceSolver {
   }
 
  private:
-  std::int64_t invert(const RealStiffness& typical) {
+  /// Inverts the blocks of all bodies. Returns the first body that can move by itself though it should not, or -1.
+  std::int64_t invert(const LinearSystem& system) {
     constexpr unsigned long long none = std::numeric_limits<unsigned long long>::max();
     DeviceArray<unsigned long long> loose(1);
     loose.upload(&none);
+    DeviceArray<std::uint8_t> own_motions(system.own_motions.size());
+    own_motions.upload(system.own_motions.data());
     constexpr unsigned threads = 128;
     launch("particle blocks", invert_blocks, (system_.bodies + threads - 1) / threads, threads, 0, team_.stream(),
-           system_.bodies, system_.row_begin.data(), system_.ends.data(), typical, system_.inverse.data(),
-           loose.data());
+           system_.bodies, system_.row_begin.data(), system_.ends.data(), system.typical, own_motions.data(),
+           system_.inverse.data(), loose.data());
     team_.wait("particle blocks");
     const unsigned long long found = loose.download().front();
     return found == none ? -1 : static_cast<std::int64_t>(found);

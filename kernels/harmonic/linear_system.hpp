@@ -37,8 +37,9 @@ struct LinearSystem {
   std::vector<std::int32_t> box_body;  ///< box → first body; boxes + 1 entries
   std::vector<double> coarse;  ///< (RᵀKR)⁻¹ [6·boxes][6·boxes], what free motions of the whole have in it left out
   int free = 0;                ///< motions of the whole that no wall resists
-  std::vector<double> motion;  ///< [body][free][6], orthonormal with respect to M
-  std::vector<double> weight;  ///< [free][6·boxes]: Rᵀ·M·motion
+  std::vector<double> motion;             ///< [body][free][6], orthonormal with respect to M
+  std::vector<std::uint8_t> own_motions;  ///< [body]: how many of them are motions of this body alone
+  std::vector<double> weight;             ///< [free][6·boxes]: Rᵀ·M·motion
 
   std::size_t bodies() const { return row_begin.size() - 1; }
   std::size_t boxes() const { return box_body.size() - 1; }

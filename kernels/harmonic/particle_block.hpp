@@ -29,14 +29,20 @@ MACADAM_HD void add_block(const ContactEnd& e, double k, double alpha, double (&
   }
 }
 
-/// Replaces a symmetric positive definite block by its inverse. False where it is singular to rounding.
-MACADAM_HD bool invert_block(double (&a)[36]) {
+/// Replaces a symmetric block without negative eigenvalues by its inverse. Returns the number of its rows that are, to
+/// rounding, combinations of rows before them; a generalised inverse has zeros there.
+MACADAM_HD int invert_block(double (&a)[36]) {
   constexpr double rounding = 4 * 2.3e-16;  // of a pivot, from sums of a dozen contacts
   double low[36];                           // a = low·lowᵀ, then its inverse
+  int dependent = 0;
   for (int j = 0; j < 6; ++j) {
     double pivot = a[7 * j];
     for (int k = 0; k < j; ++k) pivot -= low[6 * j + k] * low[6 * j + k];
-    if (!(pivot > rounding * a[7 * j])) return false;
+    if (!(pivot > rounding * a[7 * j])) {
+      ++dependent;
+      for (int i = j; i < 6; ++i) low[6 * i + j] = 0;
+      continue;
+    }
     const double root = sqrt(pivot);
     low[7 * j] = root;
     for (int i = j + 1; i < 6; ++i) {
@@ -46,11 +52,11 @@ MACADAM_HD bool invert_block(double (&a)[36]) {
     }
   }
   for (int j = 0; j < 6; ++j) {
-    low[7 * j] = 1 / low[7 * j];
+    if (low[7 * j] > 0) low[7 * j] = 1 / low[7 * j];
     for (int i = j + 1; i < 6; ++i) {
       double v = 0;
       for (int k = j; k < i; ++k) v -= low[6 * i + k] * low[6 * k + j];
-      low[6 * i + j] = v / low[7 * i];
+      low[6 * i + j] = low[7 * i] > 0 ? v / low[7 * i] : 0;
     }
   }
   for (int i = 0; i < 6; ++i) {
@@ -60,7 +66,7 @@ MACADAM_HD bool invert_block(double (&a)[36]) {
       a[6 * i + j] = a[6 * j + i] = v;
     }
   }
-  return true;
+  return dependent;
 }
 
 }  // namespace macadam::kernels

@@ -14,7 +14,13 @@ compiled library is not.
 from __future__ import annotations
 
 import importlib
+import os
 from typing import TYPE_CHECKING, Any
+
+# OpenMP reads this once, when the compiled library is loaded. By default its waiting threads spin, which makes work several
+# times slower where other programs use the cores.
+if "OMP_WAIT_POLICY" not in os.environ and "GOMP_SPINCOUNT" not in os.environ:
+    os.environ["OMP_WAIT_POLICY"] = "passive"
 
 _HOMES = {
     "_core": ("Error", "InputError", "RunError", "InterruptedError", "DivergenceError", "info", "pair_names",

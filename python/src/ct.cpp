@@ -12,12 +12,12 @@
 #include "python/src/calls.hpp"
 #include "python/src/choices.hpp"
 #ifdef MACADAM_CT
-#include <omp.h>
 
 #include "host/ct/gradation.hpp"
 #include "host/ct/segment_files.hpp"
 #include "host/ct/segment_texts.hpp"
 #include "host/scene/lengths.hpp"
+#include "host/thread_limit.hpp"
 #include "macadam/phantom.hpp"
 #include "macadam/twin.hpp"
 #endif
@@ -39,20 +39,6 @@ View<T> voxels(const Image<T>& image) {
   return view(image.voxels.data(), {n(2), n(1), n(0)});
 }
 
-/// So many threads as long as it lives.
-class Threads {
- public:
-  explicit Threads(std::optional<int> threads) : before_(omp_get_max_threads()) {
-    if (threads) omp_set_num_threads(*threads);
-  }
-  Threads(const Threads&) = delete;
-  Threads& operator=(const Threads&) = delete;
-  ~Threads() { omp_set_num_threads(before_); }
-
- private:
-  int before_;
-};
-
 std::shared_ptr<Segmentation> segment(const Path& images, const Path& out, const std::vector<std::string>& voxel,
                                       const std::string& dataset, const std::string& region, bool slices, bool rings,
                                       bool hardening, const std::string& denoise, std::optional<double> air_voids,
@@ -73,7 +59,7 @@ std::shared_ptr<Segmentation> segment(const Path& images, const Path& out, const
   if (smallest) options.smallest = length_of(*smallest, "--smallest");
   if (cuts) options.cuts = ct::read_cuts(*cuts);
   if (gradation) options.gradation = ct::read_gradation(*gradation);
-  const Threads only(in_range("threads", threads, 1, 1024));
+  const ThreadLimit limit(in_range("threads", threads, 1, 1024));
   ct::read_region(region, options);
   ScanFile scan{images, dataset, {}};
   if (!voxel.empty()) scan.spacing = lengths_of(voxel, "--voxel");

@@ -9,6 +9,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include "host/thread_limit.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
@@ -34,6 +35,7 @@ class Solver {
     LongCall call;
     call_ = &call;
     call([&] {
+      const ThreadLimit threads(prepared_->scene->solver.threads);
       harmonic_.emplace(prepared_->made.specimen, prepared_->made.network, scene.laws, inertia, options, typical);
     });
     call_ = nullptr;
@@ -50,7 +52,10 @@ class Solver {
     LongCall call;
     call_ = &call;
     try {
-      auto out = call([&] { return harmonic_->solve(loads); });
+      auto out = call([&] {
+        const ThreadLimit threads(prepared_->scene->solver.threads);
+        return harmonic_->solve(loads);
+      });
       call_ = nullptr;
       return out;
     } catch (...) {

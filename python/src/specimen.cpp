@@ -10,6 +10,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "host/tessellation/packing_check.hpp"
 #include "macadam/macadam.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
@@ -180,6 +181,9 @@ void bind_specimen(nb::module_& m) {
       .def_prop_ro(
           "spanning_clusters", [](const Prepared& p) { return p.made.spanning_clusters; },
           "Clusters of particles that touch both walls; one, usually.")
+      .def_prop_ro(
+          "warnings", [](const Prepared& p) { return packing_warnings(p.made.specimen, p.made.tessellation); },
+          "Sentences on a packing that does not fill its box, or fills more than it.")
       .def_prop_ro(
           "relaxation_iterations", [](const Prepared& p) { return p.made.relaxation_iterations; },
           "Of a generated specimen.")

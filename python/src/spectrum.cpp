@@ -9,6 +9,7 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include "host/thread_limit.hpp"
 #include "macadam/results.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
@@ -41,8 +42,10 @@ Spectrum spectrum(const PreparedPointer& specimen, double shortest, double longe
                           choice("linear", linear, linear_methods)};
   options.devices = devices_of(device).value_or(DeviceList{});
   options.stop = [&] { return call.stop(); };
-  return call(
-      [&] { return spectrum_of(specimen->made.specimen, specimen->made.network, specimen->scene->laws, options); });
+  return call([&] {
+    const ThreadLimit threads(specimen->scene->solver.threads);
+    return spectrum_of(specimen->made.specimen, specimen->made.network, specimen->scene->laws, options);
+  });
 }
 
 nb::dict evaluate(const nb::object& times, const nb::object& strains, const nb::object& stresses, double frequency,

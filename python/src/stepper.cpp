@@ -12,6 +12,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "host/thread_limit.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
@@ -167,6 +168,7 @@ void make(Steps* self, PreparedPointer specimen, const Boundary& boundary, std::
   const Inertia inertia = make_inertia(specimen->made.specimen, m.aggregate, m.mastic);
   LongCall call;
   auto stepper = call([&] {
+    const ThreadLimit limit(options.threads);
     return make_stepper(where, specimen->made.specimen, specimen->made.network, specimen->scene->laws, inertia,
                         options);
   });

@@ -132,3 +132,13 @@ def test_code_of_every_generation_finds_the_same(level, small_file, specimen):
     assert float(solved) == pytest.approx(mc.harmonic(specimen, hz=[10]).table.e_star_pa[0], rel=1e-9)  # the solver's tolerance
     # single precision, as the scene's tolerance chooses it: what the run itself estimates of that is below 1e-5
     assert float(stepped) == pytest.approx(mc.run(specimen, loading={"frequencies": [20.0]}).table.e_star_pa[0], rel=1e-5)
+
+
+@pytest.mark.parametrize("given, spins", [({}, "'0'"), ({"GOMP_SPINCOUNT": "7"}, "'7'")])
+def test_waiting_threads_sleep_unless_the_user_says_otherwise(given, spins):
+    bare = {k: v for k, v in os.environ.items() if k not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")}
+    said = subprocess.run([sys.executable, "-c", "import macadam; macadam.info()"], capture_output=True, text=True, check=True,
+                          env={**bare, "OMP_DISPLAY_ENV": "verbose", **given}).stderr
+    if "GOMP_SPINCOUNT" not in said:
+        pytest.skip("this OpenMP does not report it")
+    assert f"GOMP_SPINCOUNT = {spins}" in said

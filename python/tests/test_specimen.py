@@ -152,3 +152,12 @@ def test_a_folder_as_the_command_leaves_it(scene, tmp_path):
     with pytest.raises(mc.InputError, match="plane"):
         mc.specimen(scene, sections=["x=6"], out=tmp_path)
 
+
+def test_a_packing_that_does_not_fill_its_box_is_warned_of(scene, specimen):
+    assert specimen.warnings == []
+    high = mc.Scene(scene, **{"specimen.box": ["12 mm", "12 mm", "30 mm"]})
+    particles = {name: getattr(specimen, name) for name in ("centre", "radius", "phase", "body")}
+    made = mc.specimen(high, particles=particles)
+    assert len(made.warnings) == 1
+    assert "does not fill its box" in made.warnings[0] and "with the +z wall" in made.warnings[0]
+    assert made.warnings[0] in mc.harmonic(made, hz=[10]).warnings

@@ -38,3 +38,19 @@ def operations():
         lines.append((f"{SCENES[scene]}, {precision}, {form}, {geometry}", f"{r['single_per_contact']:.0f}", f"{r['double_per_contact']:.0f}",
                       f"{us:.1f}", f"{sum(rate) / 1e12:.1f}", f"{100 * share:.0f} %"))
     return table(["a step", "single a contact", "double a contact", "µs", "10¹² operations a second", "of the most"], lines, range(1, 6))
+
+
+@mark
+def waiting_machine():
+    return head("waiting.csv")[0]
+
+
+@mark
+def waiting():
+    lines = []
+    for r in rows("waiting.csv"):
+        if r["waiting"] != "spin":
+            continue
+        sleep = one(rows("waiting.csv"), beside=r["beside"], command=r["command"], waiting="sleep")
+        lines.append((r["command"], r["beside"], *(f"{x[key]:.2f}" for key in ("seconds", "processor_s") for x in (r, sleep))))
+    return table(["command", "beside it", "spin (s)", "sleep (s)", "spin, processor (s)", "sleep, processor (s)"], lines, range(2, 6))

@@ -8,10 +8,8 @@
 #include <metis.h>
 #include <sys/mman.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <new>
-#include <thread>
 
 #include "macadam/error.hpp"
 
@@ -46,6 +44,13 @@ std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::
   return {place.begin(), place.end()};
 }
 
+/// Gives OpenBLAS one thread, unless the environment sets OPENBLAS_NUM_THREADS. It cuts products by its number of
+/// threads, so that the last digits of the factors would depend on it; and its threads are not among those that a job
+/// is given. Most supernodes are small: 16 threads took twice as long as four.
+void limit_blas_threads() {
+  if (openblas_set_num_threads && !std::getenv("OPENBLAS_NUM_THREADS")) openblas_set_num_threads(1);
+}
+
 /// OpenBLAS maps a buffer when it is first called and, where there is no memory, tries for ever. So it is called here,
 /// once there is surely room for the buffer, which it then keeps. \throws std::bad_alloc.
 void make_room_for_blas() {
@@ -53,6 +58,7 @@ void make_room_for_blas() {
   void* room = ::mmap(nullptr, buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (room == MAP_FAILED) throw std::bad_alloc();
   ::munmap(room, buffer);
+  limit_blas_threads();
   constexpr int n = 128;  // smaller products may do without the buffer
   const std::vector<double> a(n * n, 1);
   std::vector<double> c(n * n);
@@ -87,11 +93,6 @@ struct Cholesky::Factor {
   Factor() {
     make_room_for_blas();
     cholmod_start(&common);
-    // most supernodes are small: 16 threads wait for each other and take twice as long as four (58 s against 24 s)
-    constexpr unsigned most_threads = 4;
-    if (openblas_set_num_threads && !std::getenv("OPENBLAS_NUM_THREADS")) {
-      openblas_set_num_threads(static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1u, most_threads)));
-    }
   }
   /// \throws RunError where CHOLMOD's last call failed.
   void require(const char* what, std::size_t particles) const {

@@ -91,23 +91,19 @@ class DirectSolver : public LinearSolver {
 
   void precondition(const LinearTask& task, const Vector& r, Vector& z) const {
     factors_.solve(r, z);
-    if (task.inertia != 0.0) remove_free_motions(z);
+    // The load is in equilibrium, so that with inertia nothing moves freely. The preconditioner, which has pins in
+    // place of that inertia, would have to find this out: it takes three times the iterations.
+    if (task.inertia == 0.0) return;
+    for (const FreeMotion& motion : free_.motions) motion.remove_from(z, inertia_);
   }
 
   /// out = (K* − inertia·M)·x, or (K* + pins)·x without inertia: with it free motions need no pins.
   void apply(const LinearTask& task, const Vector& x, Vector& out) const {
     contacts_.resistance(task.stiffness, task.inertia, inertia_, x, out);
     if (task.inertia != 0.0) return;
-    for (const Pin& pin : free_.pins) out[pin.dof] += pin.stiffness * x[pin.dof];
-  }
-
-  /// The load is in equilibrium, so that with inertia nothing moves freely. The preconditioner, which has pins in place
-  /// of that inertia, would have to find this out: it takes three times the iterations.
-  void remove_free_motions(Vector& x) const {
-    for (const std::vector<double>& motion : free_.motions) {
-      Complex share = 0;
-      for (std::size_t i = 0; i < x.size(); ++i) share += motion[i] * inertia_at(inertia_, i) * x[i];
-      for (std::size_t i = 0; i < x.size(); ++i) x[i] -= share * motion[i];
+    for (const Pin& pin : free_.pins) {
+      const Complex force = pin.force(x);
+      for (std::size_t c = 0; c < 6; ++c) out[6 * pin.particle + c] += pin.direction[c] * force;
     }
   }
 

@@ -43,9 +43,9 @@ Eigen::SparseMatrix<double> assemble_lower(const ContactNetwork& network, const 
       diagonal += contact_block(c, k, alpha, end, end);
     }
     for (const Pin& pin : pins) {
-      const std::size_t i = pin.dof % 6;
-      if (pin.dof / 6 == static_cast<std::size_t>(self))
-        diagonal(static_cast<int>(i), static_cast<int>(i)) += pin.stiffness;
+      if (pin.particle != static_cast<std::size_t>(self)) continue;
+      const Eigen::Map<const Eigen::Vector<double, 6>> direction(pin.direction.data());
+      diagonal += pin.stiffness * direction * direction.transpose();
     }
     std::vector<Matrix6> blocks;
     for (const auto& [row, number] : below) {

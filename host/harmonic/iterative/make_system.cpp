@@ -146,6 +146,13 @@ Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
   return out;
 }
 
+/// Products of a free motion of some particles with the boxes' motions, by mass: they are not zero for a motion of the
+/// boxes that contains the free one.
+Eigen::VectorXd weights_of_boxes(const LinearSystem& system, int motion) {
+  const auto size = static_cast<Eigen::Index>(6 * system.boxes());
+  return Eigen::Map<const Eigen::VectorXd>(system.weight.data() + motion * size, size);
+}
+
 void make_motions(const kernels::Layout& layout, const Inertia& inertia, const FreeMotions& free, LinearSystem& out) {
   const std::size_t n = layout.particles(), motions = free.motions.size();
   out.free = static_cast<int>(motions);
@@ -156,8 +163,14 @@ void make_motions(const kernels::Layout& layout, const Inertia& inertia, const F
     const auto particle = static_cast<std::size_t>(layout.particle[i]);
     out.mass[2 * i] = inertia.mass[particle];
     out.mass[2 * i + 1] = inertia.inertia[particle];
-    for (std::size_t m = 0; m < motions; ++m) {
-      for (std::size_t c = 0; c < 6; ++c) out.motion[(i * motions + m) * 6 + c] = free.motions[m][6 * particle + c];
+  }
+  out.own_motions.assign(n, 0);
+  for (std::size_t m = 0; m < motions; ++m) {
+    const FreeMotion& motion = free.motions[m];
+    for (std::size_t k = 0; k < motion.particles.size(); ++k) {
+      const auto i = static_cast<std::size_t>(layout.body_of(motion.particles[k]));
+      std::copy_n(&motion.motion[6 * k], 6, &out.motion[(i * motions + m) * 6]);
+      if (motion.particles.size() == 1) ++out.own_motions[i];
     }
   }
 }
@@ -194,8 +207,10 @@ LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen
   // them gets into z is taken out of it anyway.
   const double usual = k.trace() / static_cast<double>(k.rows());
   for (int m = 0; m < out.free; ++m) {
-    const Eigen::VectorXd boxes_move = motions_of_boxes(out, m);
-    k += usual / boxes_move.squaredNorm() * boxes_move * boxes_move.transpose();
+    const bool of_all = free.motions[static_cast<std::size_t>(m)].particles.size() == layout.particles();
+    const Eigen::VectorXd boxes_move = of_all ? motions_of_boxes(out, m) : weights_of_boxes(out, m);
+    if (const double square = boxes_move.squaredNorm(); square > 0)
+      k += usual / square * boxes_move * boxes_move.transpose();
   }
   if (!invert_in_parallel(k)) throw NotIterable("harmonic: boxes of particles can move without force");
   out.coarse.assign(k.data(), k.data() + k.size());
@@ -212,7 +227,7 @@ std::vector<double> invert_particle_blocks(const LinearSystem& system, const ker
       const auto pair = static_cast<std::size_t>(system.ends[at].pair);
       kernels::add_block(system.ends[at], system.typical.k[pair], system.typical.alpha[pair], block);
     }
-    if (!kernels::invert_block(block)) loose = std::min(loose, static_cast<std::int64_t>(i));
+    if (kernels::invert_block(block) > system.own_motions[i]) loose = std::min(loose, static_cast<std::int64_t>(i));
     std::copy(std::begin(block), std::end(block), &out[36 * i]);
   }
   if (loose < std::numeric_limits<std::int64_t>::max()) refuse_loose_particle(loose, layout);

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// library_environment.cpp  exec() of the program itself.
+#include "host/cli/library_environment.hpp"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace macadam {
+namespace {
+
+/// Sets a variable that is not set. Returns whether it was set now.
+bool set_where_missing(const char* name, const char* value) {
+  return !std::getenv(name) && setenv(name, value, 0) == 0;
+}
+
+bool is_address_space_limited() {
+  rlimit limit{};
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
+}  // namespace
+
+void restart_with_library_environment(int argc, char** argv) {
+  const bool computes = argc > 2;  // not `macadam --version`: a second start takes some hundredths of a second
+  bool changed = computes && !std::getenv("GOMP_SPINCOUNT") && set_where_missing("OMP_WAIT_POLICY", "passive");
+  if (is_address_space_limited()) changed = set_where_missing("OPENBLAS_NUM_THREADS", "1") || changed;
+  if (!changed) return;
+  // The variable holds the process number, so that it does not stop the restart of programs that this one starts.
+  constexpr const char* done = "MACADAM_RESTARTED";
+  const char* const before = std::getenv(done);
+  const std::string process = std::to_string(::getpid());
+  if ((before && process == before) || setenv(done, process.c_str(), 1) != 0) return;
+  ::execv("/proc/self/exe", argv);  // if this fails, the program continues with the environment as it was
+}
+
+}  // namespace macadam

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// packing_check.cpp  Cells that reach far beyond their spheres, and spheres that fill more than their box.
+//
+// Bounds. Cells of the committed examples reach at most 1.5 radii beyond their spheres. Packings of spheres placed at
+// random without overlap, which fill 10 to 30 % of their box, reach 7 radii where sizes are alike and far more among
+// small spheres, but at most 1.8 mean spacings (up to 3,000 spheres); an empty ball of 2 spacings contains 33 spheres
+// on average, so that one in the interior has a probability of exp(-33). A region of large spheres in a specimen of
+// mostly small ones has holes of many mean spacings, but of less than 2 of its own radii. A cell that exceeds both
+// bounds is thus neither. Mastic that overlaps fills up to 102 % of the box in the examples; radii that are diameters
+// make it eightfold, which exceeds 150 % for any packing of 19 % or more.
+#include "host/tessellation/packing_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <unordered_map>
+
+#include "host/specimen/sparse_box.hpp"
+#include "kernels/parallel.hpp"
+
+namespace macadam {
+namespace {
+
+constexpr double most_radii = 4, most_spacings = 2, most_fill = 1.5;
+
+double sphere_volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
+
+/// Volume of all spheres over the volume of the box. A sphere of an aggregate of several spheres counts for at most its
+/// cell.
+double filled_fraction(const Specimen& all, const Tessellation& tessellation) {
+  std::unordered_map<std::int32_t, int> spheres_of;
+  for (const std::int32_t body : all.body) ++spheres_of[body];
+  double volume = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double sphere = sphere_volume(all.radius[i]);
+    const bool in_cluster = all.body[i] >= 0 && spheres_of[all.body[i]] > 1;
+    volume += in_cluster ? std::min(sphere, tessellation.cell_volume[i]) : sphere;
+  }
+  return volume / all.box.volume();
+}
+
+/// The point of a cell that is farthest from its sphere.
+struct Reach {
+  double radii = 0;         ///< distance over the largest radius of the particle and its neighbours
+  double distance = 0;      ///< from the sphere's surface [m]
+  std::int32_t cell = -1;   ///< particle or void; −1: none exceeds both bounds
+  std::int32_t other = -1;  ///< on the other side of the facet: a particle, a void or a Wall
+  Vec3d point{};            ///< [m]
+  Reach& operator+=(const Reach& o) {
+    if (o.radii > radii) *this = o;  // the first of equals
+    return *this;
+  }
+};
+
+std::vector<double> largest_radii_of_neighbours(const Specimen& all, const Tessellation& tessellation) {
+  std::vector<double> out = all.radius;
+  for (const Facet& f : tessellation.facets) {
+    if (f.b < 0) continue;
+    out[f.a] = std::max(out[f.a], all.radius[f.b]);
+    out[f.b] = std::max(out[f.b], all.radius[f.a]);
+  }
+  return out;
+}
+
+Reach farthest_reach(const Specimen& all, const Tessellation& tessellation) {
+  const std::vector<double> largest = largest_radii_of_neighbours(all, tessellation);
+  const double spacing = std::cbrt(all.box.volume() / static_cast<double>(all.size()));
+  return sum_in_parallel<Reach>(tessellation.facets.size(), [&](std::size_t k) {
+    const Facet& f = tessellation.facets[k];
+    Reach out;
+    for (const auto& [cell, other] : {std::pair{f.a, f.b}, std::pair{f.b, f.a}}) {
+      if (cell < 0) continue;
+      for (const Vec3d& point : tessellation.polygon(f)) {
+        const double distance = norm(point - all.centre[cell]) - all.radius[cell];
+        if (distance > most_radii * largest[cell] && distance > most_spacings * spacing)
+          out += Reach{distance / largest[cell], distance, cell, other, point};
+      }
+    }
+    return out;
+  });
+}
+
+/// Returns the other side of one facet of the cell that meets the farthest point: the facet whose plane is farthest
+/// from the centre. In a box that is too high, this is the top wall and not one of the two side walls of its corner.
+std::int32_t farthest_side(const Specimen& all, const Tessellation& tessellation, const Reach& reach) {
+  const Vec3d arm = reach.point - all.centre[reach.cell];
+  double farthest = -1;
+  std::int32_t out = reach.other;
+  for (const Facet& f : tessellation.facets) {
+    if (f.a != reach.cell && f.b != reach.cell) continue;
+    const auto polygon = tessellation.polygon(f);
+    const bool meets = std::ranges::any_of(
+        polygon, [&](const Vec3d& p) { return norm(p - reach.point) <= 1e-9 * norm(arm); });  // rounding of a vertex
+    const double plane = std::abs(dot(f.normal, arm));
+    if (meets && plane > farthest) farthest = plane, out = f.a == reach.cell ? f.b : f.a;
+  }
+  return out;
+}
+
+std::string name_of(const Specimen& specimen, std::int32_t cell) {
+  if (cell < 0) return fmt::format("the {} wall", wall_names[wall_index(cell)]);
+  const auto number = static_cast<std::size_t>(cell);
+  return number < specimen.size() ? fmt::format("particle {}", number)
+                                  : fmt::format("void {}", number - specimen.size());
+}
+
+}  // namespace
+
+std::vector<std::string> packing_warnings(const Specimen& specimen, const Tessellation& tessellation) {
+  if (std::string sparse = sparse_box(specimen); !sparse.empty()) return {std::move(sparse)};
+  const Specimen all = with_voids_as_cells(specimen);
+  const double fill = filled_fraction(all, tessellation);
+  const Vec3d& box = specimen.box.size;
+  const std::string filled =
+      fmt::format("spheres fill {:.3g} % of the box of {:g} x {:g} x {:g} m", 100 * fill, box.x, box.y, box.z);
+  std::vector<std::string> out;
+  if (const Reach reach = farthest_reach(all, tessellation); reach.cell >= 0) {
+    out.push_back(fmt::format(
+        "the packing does not fill its box: the facet of {} with {} reaches {:.3g} m from its sphere, {:.3g} times the "
+        "largest radius there (expected at most {:g}); {}: empty parts of the box carry load as if they were solid",
+        name_of(specimen, reach.cell), name_of(specimen, farthest_side(all, tessellation, reach)), reach.distance,
+        reach.radii, most_radii, filled));
+  }
+  if (fill > most_fill)
+    out.push_back(
+        fmt::format("{}, expected at most {:g} %: does the column radius hold diameters?", filled, 100 * most_fill));
+  return out;
+}
+
+}  // namespace macadam
