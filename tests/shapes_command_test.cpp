@@ -148,7 +148,7 @@ TEST_F(ShapesCommand, WrapsOnlyWhenAsked) {
   EXPECT_EQ(shapes("measure stones --out tables --repair --wrap").code, 0);
 }
 
-/// All commands read alike, and say what they changed.
+/// All commands read in the same way, and report changes made on reading.
 TEST_F(ShapesCommand, WhatReadingChangedIsSaid) {
   std::ofstream(folder_ / "stones" / "cube.obj")
       << "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\n"

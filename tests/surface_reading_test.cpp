@@ -37,7 +37,7 @@ std::string replaced_all(std::string text, const std::string& what, const std::s
   return text;
 }
 
-/// ASCII STL whose corners are what `corner` makes of them, each time anew.
+/// ASCII STL. `corner` gives the coordinates of a point, and is called for each corner of each facet.
 template <class Corner>
 std::string ascii_stl(const Surface& s, Corner&& corner) {
   std::string text = "solid box of stone\n";
@@ -120,7 +120,7 @@ class SurfaceReading : public testing::Test {
     write(folder_ / name, bytes);
     return message_of([&] { read_surface(folder_ / name); });
   }
-  /// Expects a closed surface; rounding of the sums is below 1e-14, `tolerance` says what the file rounds.
+  /// Expects a closed surface; rounding of the sums is below 1e-14, `tolerance` is the rounding of the file.
   static void expect_closed(const Surface& s, double volume, double area, const std::string& what,
                             double tolerance = 1e-13) {
     ASSERT_TRUE(check_surface(s).good()) << what << ": " << check_surface(s).text();
@@ -168,7 +168,7 @@ TEST_F(SurfaceReading, CornersThatDifferByOneFloatAreJoinedWherever) {
   expect_closed(r, measure_shape(s).volume, measure_shape(s).area, "stone", 1e-6);
 }
 
-/// What a fine surface separates stays so: a closed one to the bit, and a hole whose corners are twice the width apart.
+/// Fine details are kept: those of a closed surface to the bit, and a hole whose corners are twice the width apart.
 TEST_F(SurfaceReading, FineSurfacesStayAsTheyAre) {
   const Surface thin = prism({{0, 0}, {1, 0}, {1, 1e-9}, {0.5, 1e-9}, {0, 1e-9}}, 1);
   Surface fine = icosphere(2);
@@ -217,7 +217,8 @@ TEST_F(SurfaceReading, SpellingsOfAsciiStlAreRead) {
     EXPECT_EQ(s.reading, "") << name;
   }
   const std::string broken = replaced_all(text, "vertex 2 0 4\n", "vertex 2 0 x\n");
-  const auto line = 1 + std::count(broken.begin(), broken.begin() + std::ssize(broken.substr(0, broken.find(" x\n"))), '\n');
+  const auto line =
+      1 + std::count(broken.begin(), broken.begin() + std::ssize(broken.substr(0, broken.find(" x\n"))), '\n');
   EXPECT_HAS(message("box.stl", with_line_ends(broken, "\r")), fmt::format(":{}: facet ", line));
 }
 
@@ -359,7 +360,7 @@ TEST_F(SurfaceReading, RepeatedCornersOfPolygonsAreLeftOut) {
   EXPECT_EQ(check_surface(surface("b.obj", obj(s.points, {{0, 1, 2}, {3, 3, 3, 3}}))).degenerate.size(), 1u);
 }
 
-/// A facet may promise any number of corners: none is believed that the file cannot hold.
+/// Counts of corners that the file cannot hold are refused.
 TEST_F(SurfaceReading, ForgedNumbersOfCornersAreRefused) {
   const std::vector<Vec3d> points = box_surface(2, 2, 2).points;
   for (const bool text : {true, false}) {

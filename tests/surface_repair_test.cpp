@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_repair_test.cpp  What can be repaired is, and what a repair changes is measured and bounded.
+// surface_repair_test.cpp  Repairs of faulty surfaces, and the bound on the change of volume and area.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -126,7 +126,7 @@ TEST(RepairSurface, WrapsWhatCutsItself) {
   EXPECT_NEAR(repair.area_before, 12, 1e-12);
 }
 
-/// A new skin that changes the volume is not taken unasked, and the message has both volumes.
+/// A new skin that changes the volume needs `wrap`; the message has both volumes.
 TEST(RepairSurface, RefusesAWrapThatChangesTheVolume) {
   const Surface s = joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02}));
   try {
@@ -182,7 +182,7 @@ Surface voxels(const std::set<std::array<int, 3>>& cubes) {
   return s;
 }
 
-/// What parts a pinched body gives two points the same coordinates, and reading makes them one again.
+/// Parting a pinched body gives two points the same coordinates. Reading makes them one point again.
 TEST(RepairSurface, IsGoodAsItIsReadBack) {
   const fs::path folder = fs::path(testing::TempDir()) / ("macadam_repair_" + std::to_string(getpid()));
   fs::create_directories(folder);

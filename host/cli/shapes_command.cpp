@@ -55,7 +55,7 @@ struct Outcome {
   std::exception_ptr error;
 };
 
-/// What reading changed, for a line of the file; empty if nothing.
+/// Returns the changes made on reading, in words; empty if there are none.
 std::string reading_note(const Surface& surface) {
   return surface.reading.empty() ? "" : "on reading: " + surface.reading;
 }

@@ -56,7 +56,8 @@ class Polygon {
     return length > 0 && radius > 0 ? off / length / radius : 0;
   }
 
-  /// The diagonal is taken whose two triangles face the same way, and of two such ones that of the fuller triangles.
+  /// Cuts along the diagonal whose two triangles have the larger scalar product of normals: they face the same way, and
+  /// are the fuller ones.
   std::vector<Triangle> quadrilateral() const {
     const Vec3d &p = corner_[0], &q = corner_[1], &r = corner_[2], &s = corner_[3];
     const double by_pr = dot(cross(q - p, r - q), cross(s - r, p - s));
@@ -114,7 +115,7 @@ class Polygon {
       first.push_back(vertex.back()->info());
       if (!same(corner_[first[k]], corner_[k])) return {};  // one behind the other
     }
-    // The bridge from an outline to that of a hole is gone along twice, and bounds nothing.
+    // An edge that the outline passes twice, there and back, leads to a hole. It bounds nothing.
     Outline edges;
     for (std::size_t k = 0; k < size(); ++k) add_edge(edges, first[k], first[(k + 1) % size()], 1);
     try {

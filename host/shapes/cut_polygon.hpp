@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// What a polygon was like.
+/// Properties of a polygon that was cut.
 struct PolygonCut {
   /// Largest distance of a corner from the polygon's mean plane, over the largest distance from its middle.
   double bend = 0;

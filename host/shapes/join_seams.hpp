@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// What join_seams() did.
+/// Counts of the changes that join_seams() made.
 struct SeamJoin {
   std::int64_t points = 0;  ///< joined with another one
   std::int64_t facets = 0;  ///< dropped, as two of their corners were joined
@@ -18,7 +18,7 @@ struct SeamJoin {
 double seam_width(const Surface& surface);
 
 /// Joins points at open edges that are closer than seam_width(), each with the first such point. Other points are never
-/// joined, so that a closed surface stays as it is, however fine. No point moves by more than that width.
+/// joined, so that a closed surface is not changed, however fine it is. No point moves by more than that width.
 /// Equal points must have been joined before.
 SeamJoin join_seams(Surface& surface);
 

@@ -62,7 +62,7 @@ Keyword keyword_of(std::string_view word, Words& words) {
 }
 
 /// `facet normal 0 0 1 outer loop vertex x y z vertex … endloop endfacet`. Words between these keywords are passed
-/// over, as many programs write normals that are not numbers.
+/// over, because some programs write normals that are not numbers.
 class AsciiStl {
  public:
   explicit AsciiStl(const SurfaceFile& file) : words_(file) {}

@@ -26,14 +26,14 @@ struct SurfaceFile {
   }
 };
 
-/// What a file holds, before anything is known of it as a whole. A facet is a polygon of three corners or more.
+/// Points and facets of a file, before they are checked as a whole. A facet is a polygon of three corners or more.
 struct SurfaceSoup {
   std::vector<Vec3d> points;          ///< finite
-  std::vector<std::int64_t> corners;  ///< numbers of points, from 0, facet after facet; there may be no such point
+  std::vector<std::int64_t> corners;  ///< numbers of points, from 0, facet after facet; they may be out of range
   std::vector<std::size_t> ends;      ///< of each facet: one past its last corner in `corners`
   std::vector<int> line;              ///< of each facet; empty where the file has none
   std::int64_t first_number = 0;      ///< the file's number of point 0
-  std::string note;                   ///< what the file holds besides and was left out; empty if nothing
+  std::string note;                   ///< names contents of the file that were left out; empty if there are none
 
   std::size_t facets() const { return ends.size(); }
   /// The corners of facet f.

@@ -79,7 +79,7 @@ class Repair {
     throw RunError(fmt::format("{}: cannot be repaired: {}; still {}", surface_.name, repair_.what, verdict_.text()));
   }
 
-  /// What was done so far.
+  /// Returns the report of the steps taken so far.
   const SurfaceRepair& repair() const { return repair_; }
 
  private:

@@ -15,7 +15,7 @@ namespace macadam {
 class Words {
  public:
   /// Begins with the byte `from`, which is on line number `line`. The rest of a line after the character `comment` is
-  /// passed over; 0: there are no comments.
+  /// passed over; with 0 the text has no comments.
   explicit Words(const SurfaceFile& file, char comment = 0, std::size_t from = 0, int line = 1);
 
   /// From now on a line whose last character is `sign` goes on in the next line, as in_line() reads it.

@@ -20,7 +20,7 @@ struct Surface {
   std::string name;                                 ///< of the file without its ending, or of the generator
   std::vector<Vec3d> points;                        ///< [m]
   std::vector<std::array<std::int32_t, 3>> facets;  ///< point numbers
-  /// What read_surface() changed, in words: `"cut 6 polygons into triangles"`; empty if nothing.
+  /// Changes that read_surface() made, in words: `"cut 6 polygons into triangles"`; empty if there are none.
   std::string reading{};
 };
 
@@ -44,7 +44,7 @@ struct SurfaceVerdict {
 
 /// Reads STL (binary, ASCII), OFF, PLY or OBJ; `scale` multiplies the coordinates (files are often in millimetres:
 /// 1e-3). Equal points are joined, and polygons cut into triangles. Points at open edges are joined where they differ
-/// by rounding of single precision only, 5e-7 of the surface's size; a closed surface is taken as it is. \throws
+/// by rounding of single precision only, 5e-7 of the surface's size; a closed surface keeps every point. \throws
 /// InputError naming the file, and of text the line, where it cannot be read, holds no facet, or has numbers that are
 /// not finite.
 Surface read_surface(const std::filesystem::path& file, double scale = 1);
@@ -61,27 +61,27 @@ void write_surface(const std::filesystem::path& file, const Surface& surface, do
 /// Looks for every fault that SurfaceVerdict knows.
 SurfaceVerdict check_surface(const Surface& surface);
 
-/// What repair_surface() did. "Before" is the surface as it was given, with each facet once, its holes filled and
-/// closed pores left out.
+/// Report of repair_surface(). "Before" is the given surface with each facet once, its holes filled and its closed
+/// pores left out.
 struct SurfaceRepair {
   std::string what;                            ///< in words: `"filled 1 hole with 2 facets, 9.1 % of the area"`
-  double volume_before = 0, volume_after = 0;  ///< [m³]; before: NaN where holes could not be filled
+  double volume_before = 0, volume_after = 0;  ///< [m³]; before: NaN if holes could not be filled
   double area_before = 0, area_after = 0;      ///< [m²]
 
-  /// The largest relative change of volume and area that is not asked about.
+  /// Largest relative change of volume and area that is accepted without `wrap`.
   static constexpr double bound = 0.01;
-  /// Whether volume and area are within `bound` of what they were.
+  /// Whether volume and area have changed by `bound` at most.
   bool within_bound() const;
   /// Volume and area in words: `"volume 6 m3 (before 6, +0.00 %), area 22 m2 (before 22, +0.00 %)"`.
   std::string changes() const;
 };
 
-/// Makes a surface fit where CGAL can: joins points, drops degenerate facets, orients, fills holes, drops specks
-/// (pieces below 5 % of the largest one's area) and closed pores. If that is not enough, it wraps the surface in a new
-/// skin (alpha wrap). `repair` receives what was done. The result is good as it will be read back from a file like
-/// `as`, where one is given (STL rounds to floats). `wrap`: a result is also accepted that is not
-/// SurfaceRepair::within_bound(). \throws RunError when nothing helped, with the verdict, or when the result is not
-/// within the bound.
+/// Makes a surface fit for measuring: joins points, drops degenerate facets, orients, fills holes, drops specks (pieces
+/// below 5 % of the largest one's area) and closed pores. If that is not enough, it wraps the surface in a new skin
+/// (CGAL's alpha wrap). `repair` receives the report. The result is good as it will be read back from a file like `as`,
+/// if one is given (STL rounds to floats). With `wrap`, changes beyond SurfaceRepair::bound are accepted.
+///
+/// \throws RunError with the verdict if the surface is still faulty, or if the change is beyond the bound.
 Surface repair_surface(const Surface& surface, SurfaceRepair* repair = nullptr, const std::filesystem::path& as = {},
                        bool wrap = false);
 

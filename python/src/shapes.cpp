@@ -51,7 +51,7 @@ void bind_surface(nb::module_& m) {
           },
           nb::arg("points"), nb::arg("facets"), nb::arg("name") = "surface")
       .def_ro("name", &Surface::name)
-      .def_ro("reading", &Surface::reading, "What reading changed, in words; empty if nothing.")
+      .def_ro("reading", &Surface::reading, "Changes made on reading, in words; empty if there are none.")
       .def_prop_ro(
           "points", [](const Surface& s) { return view(s.points); }, "[m], (n, 3).")
       .def_prop_ro(
