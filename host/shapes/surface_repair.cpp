@@ -159,7 +159,8 @@ class Repair {
     std::vector<Mesh::Halfedge_index> borders;
     pmp::extract_boundary_cycles(mesh, std::back_inserter(borders));
     std::size_t facets = 0;
-    double filled = 0;
+    std::ptrdiff_t filled = 0;
+    double area = 0;
     for (const Mesh::Halfedge_index border : borders) {
       std::vector<Mesh::Face_index> patch;
 #if CGAL_VERSION_NR >= 1060000000  // where this is a named parameter
@@ -168,12 +169,13 @@ class Repair {
       pmp::triangulate_hole(mesh, border, std::back_inserter(patch));
 #endif
       facets += patch.size();
-      filled += CGAL::to_double(pmp::area(patch, mesh));
+      filled += !patch.empty();
+      area += CGAL::to_double(pmp::area(patch, mesh));
     }
-    if (borders.empty()) return;
-    say(fmt::format("filled {} hole{} with {} facet{}, {:.2g} % of the area", borders.size(),
-                    borders.size() == 1 ? "" : "s", facets, facets == 1 ? "" : "s",
-                    100 * filled / CGAL::to_double(pmp::area(mesh))));
+    if (filled > 0)
+      say(fmt::format("filled {} hole{} with {} facet{}, {:.2g} % of the area", filled, filled == 1 ? "" : "s", facets,
+                      facets == 1 ? "" : "s", 100 * area / CGAL::to_double(pmp::area(mesh))));
+    say_count(std::ssize(borders) - filled, "could not fill", "hole");
   }
 
   /// Turns a closed surface so that its normals point outwards.
@@ -255,9 +257,14 @@ Surface repair_surface(const Surface& surface, SurfaceRepair* repair, const std:
   Repair attempt(surface, as);
   Surface repaired = attempt();
   const SurfaceRepair& done = attempt.repair();
-  if (!wrap && !done.within_bound())
-    throw RunError(fmt::format("{}: its repair changes it: {}; {}; expected changes of at most {:.0f} %, or --wrap",
-                               surface.name, done.what, done.changes(), 100 * SurfaceRepair::bound));
+  if (!wrap && !done.within_bound()) {
+    const std::string why =
+        std::isnan(done.volume_before)
+            ? "the volume before the repair is unknown"
+            : fmt::format("the repair changes volume or area by more than {:.0f} %", 100 * SurfaceRepair::bound);
+    throw RunError(fmt::format("{}: {}, which only --wrap accepts: {}; {}", surface.name, why, done.what,
+                               done.changes()));
+  }
   if (repair) *repair = done;
   return repaired;
 }

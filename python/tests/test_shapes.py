@@ -59,7 +59,7 @@ def test_polygons_and_seams_are_read_and_said(tmp_path):
 def test_a_wrap_that_changes_the_volume_is_asked_about():
     points, facets = CUBE
     two = mc.shapes.Surface(np.vstack([points, points + 0.5 * points.max()]), np.vstack([facets, facets + 8]), "two")
-    with pytest.raises(mc.RunError, match="two: its repair changes it: .*wrapped"):
+    with pytest.raises(mc.RunError, match="two: the repair changes volume or area .*wrapped"):
         mc.shapes.repair(two)
     repaired, what = mc.shapes.repair(two, wrap=True)
     assert mc.shapes.check(repaired).good and "wrapped" in what and "(before " in what
