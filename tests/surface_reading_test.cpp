@@ -174,7 +174,8 @@ TEST_F(SurfaceReading, FineSurfacesStayAsTheyAre) {
   Surface fine = icosphere(2);
   fine.facets.pop_back();
   const auto [a, b, c] = fine.facets.back();
-  fine.points.push_back(fine.points[b] + 2e-6 * (fine.points[c] - fine.points[b]));  // the width is 9.5e-7
+  const Vec3d edge = fine.points[c] - fine.points[b];
+  fine.points.push_back(fine.points[b] + (2e-6 / norm(edge)) * edge);  // the width is 9.5e-7
   fine.facets.back() = {a, b, static_cast<std::int32_t>(fine.points.size() - 1)};
   for (const Surface& s : {thin, fine}) {
     write_surface(folder_ / "fine.off", s);

@@ -24,12 +24,16 @@ void each_side(const Surface& surface, Visit&& visit) {
   }
 }
 
+std::uint64_t number_of_edge(std::int32_t low, std::int32_t high) {
+  return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
+}
+
 /// Whether every edge has an even number of sides. Numbers of 64 random bits, one for each edge, are added up bit by
 /// bit: those of an even number of sides cancel. That a sum of others vanishes has a probability of 5e-20.
 bool has_even_edges(const Surface& surface) {
   std::uint64_t sum = 0;
   each_side(surface, [&](std::int32_t low, std::int32_t high) {
-    std::uint64_t x = (static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high)) + 0x9e3779b97f4a7c15;
+    std::uint64_t x = number_of_edge(low, high) + 0x9e3779b97f4a7c15;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;  // splitmix64
     x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
     sum ^= x ^ (x >> 31);
@@ -39,14 +43,14 @@ bool has_even_edges(const Surface& surface) {
 
 /// The points of edges that have an odd number of sides, in ascending order.
 std::vector<std::int32_t> points_of_open_edges(const Surface& surface) {
-  std::vector<std::pair<std::int32_t, std::int32_t>> sides;
-  each_side(surface, [&](std::int32_t low, std::int32_t high) { sides.emplace_back(low, high); });
+  std::vector<std::uint64_t> sides;
+  each_side(surface, [&](std::int32_t low, std::int32_t high) { sides.push_back(number_of_edge(low, high)); });
   std::sort(sides.begin(), sides.end());
   std::vector<bool> open(surface.points.size());
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i;
     while (end < sides.size() && sides[end] == sides[i]) ++end;
-    if ((end - i) % 2 == 1) open[sides[i].first] = open[sides[i].second] = true;
+    if ((end - i) % 2 == 1) open[sides[i] >> 32] = open[sides[i] & 0xffffffff] = true;
     i = end;
   }
   std::vector<std::int32_t> points;
