@@ -4,13 +4,17 @@
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/Hilbert_sort_median_2.h>
+#include <CGAL/property_map.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -102,17 +106,32 @@ class Polygon {
     return axis_ == 1 ? Triangulation::Point(p.z, p.x) : Triangulation::Point(p.x, p.y);
   }
 
+  /// Numbers of the corners in an order in which the next one is near, so that it is found without a long way.
+  std::vector<std::int32_t> in_space() const {
+    std::vector<Triangulation::Point> points;
+    for (const Vec3d& p : corner_) points.push_back(seen(p));
+    std::vector<std::int32_t> order(size());
+    std::iota(order.begin(), order.end(), 0);
+    using Traits = CGAL::Spatial_sort_traits_adapter_2<Kernel, CGAL::Pointer_property_map<Triangulation::Point>::type>;
+    CGAL::Hilbert_sort_median_2<Traits, CGAL::Sequential_tag> sort(Traits(CGAL::make_property_map(points)));
+    sort(order.begin(), order.end());
+    return order;
+  }
+
   /// Corners and edges; for each corner the number of the first corner at its place. Empty where that fails.
   std::vector<std::int32_t> insert_corners(Triangulation& triangulation) const {
-    std::vector<Triangulation::Vertex_handle> vertex;
-    std::vector<std::int32_t> first;
+    std::vector<Triangulation::Vertex_handle> vertex(size());
     Triangulation::Face_handle near;
-    for (std::size_t k = 0; k < size(); ++k) {
+    for (const std::int32_t k : in_space()) {
       const std::size_t before = triangulation.number_of_vertices();
-      vertex.push_back(triangulation.insert(seen(corner_[k]), near));
-      near = vertex.back()->face();
-      if (triangulation.number_of_vertices() > before) vertex.back()->info() = static_cast<std::int32_t>(k);
-      first.push_back(vertex.back()->info());
+      vertex[k] = triangulation.insert(seen(corner_[k]), near);
+      near = vertex[k]->face();
+      const bool is_new = triangulation.number_of_vertices() > before;
+      vertex[k]->info() = is_new ? k : std::min(vertex[k]->info(), k);
+    }
+    std::vector<std::int32_t> first;
+    for (std::size_t k = 0; k < size(); ++k) {
+      first.push_back(vertex[k]->info());
       if (!same(corner_[first[k]], corner_[k])) return {};  // one behind the other
     }
     // An edge that the outline passes twice, there and back, leads to a hole. It bounds nothing.
