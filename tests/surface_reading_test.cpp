@@ -9,8 +9,11 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 
+#include "host/shapes/cut_polygon.hpp"
 #include "macadam/error.hpp"
 #include "test_files.hpp"
 #include "test_surfaces.hpp"
@@ -352,6 +355,38 @@ TEST_F(SurfaceReading, PolygonsThatAreNotFlatOrCrossThemselvesAreSaid) {
   EXPECT_EQ(star.reading, "cut 7 polygons into triangles, 2 of them with an outline that crosses or touches itself");
   EXPECT_TRUE(check_surface(star).open.empty());
   EXPECT_FALSE(check_surface(star).self_intersecting.empty());
+}
+
+/// Corners at random on a small grid, so that many coincide, lie in a line, or make the outline cross itself: the edges
+/// of the triangles that bound them are those of the polygon, so that a closed surface stays closed.
+TEST_F(SurfaceReading, TrianglesHaveTheOutlineOfTheirPolygon) {
+  RandomStream random(11, 1);
+  int within = 0;
+  for (int trial = 0; trial < 5000; ++trial) {
+    const std::size_t n = 4 + random.index(9);
+    const bool flat = random.index(2) == 0;
+    std::vector<Vec3d> points;
+    std::vector<std::int64_t> corners;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double x = 1.0 * random.index(4), y = 1.0 * random.index(4);
+      points.push_back({x, y, flat ? x + 2 * y : 1.0 * random.index(3)});
+      corners.push_back(static_cast<std::int64_t>(random.index(5) == 0 ? random.index(n) : k));
+    }
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    within += !cut_polygon(points, corners, triangles).crossed;
+    using Place = std::array<double, 3>;
+    std::map<std::pair<Place, Place>, int> edges;
+    const auto add = [&](std::int64_t from, std::int64_t to, int times) {
+      const Place a{points[from].x, points[from].y, points[from].z}, b{points[to].x, points[to].y, points[to].z};
+      if (a != b) edges[std::minmax(a, b)] += a < b ? times : -times;
+    };
+    for (const auto& t : triangles) {
+      for (std::size_t k = 0; k < 3; ++k) add(t[k], t[(k + 1) % 3], 1);
+    }
+    for (std::size_t k = 0; k < n; ++k) add(corners[k], corners[(k + 1) % n], -1);
+    for (const auto& [edge, times] : edges) ASSERT_EQ(times, 0) << "trial " << trial;
+  }
+  EXPECT_GT(within, 1000);
 }
 
 TEST_F(SurfaceReading, RepeatedCornersOfPolygonsAreLeftOut) {
