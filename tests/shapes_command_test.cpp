@@ -88,7 +88,10 @@ TEST_F(ShapesCommand, FaultyShapesAreNamedAllAtOnceAndRepairedWhenAsked) {
   fs::remove(folder_ / "stones" / "text.obj");
   const Outcome repaired = shapes("measure stones --out tables --repair");
   EXPECT_EQ(repaired.code, 0) << repaired.err;
-  EXPECT_TRUE(contains(repaired.out, "stones/open.off: repaired: filled 1 hole with 1 facet")) << repaired.out;
+  EXPECT_TRUE(contains(repaired.out,
+                       "stones/open.off: repaired: filled 1 hole with 1 facet, 14 % of the area; volume 6 m3 "
+                       "(before 6, +0.00 %), area 22 m2 (before 22, +0.00 %)\n"))
+      << repaired.out;
   std::ofstream(folder_ / "stones" / "line.off") << "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n";
   std::ofstream(folder_ / "stones" / "text.obj") << "lorem ipsum";
   const Outcome hopeless = shapes("measure stones --out tables --repair");
@@ -126,6 +129,41 @@ TEST_F(ShapesCommand, RepairWritesTheFormatThatTheEndingAsksFor) {
   EXPECT_EQ(hopeless.code, 1);
   EXPECT_TRUE(contains(hopeless.err, "line.off: cannot be repaired")) << hopeless.err;
   EXPECT_FALSE(fs::exists(folder_ / "closed.off"));
+}
+
+/// Two boxes that overlap are wrapped, which changes their volume: only if that is asked for, and no file is left else.
+TEST_F(ShapesCommand, WrapsOnlyWhenAsked) {
+  stone("two.off", joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02})));
+  const Outcome refused = shapes("repair stones/two.off --out one.off");
+  EXPECT_EQ(refused.code, 1) << refused.out;
+  EXPECT_TRUE(contains(refused.err, "stones/two.off: the repair changes volume or area by more than 1 %")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "--wrap")) << refused.err;
+  EXPECT_FALSE(fs::exists(folder_ / "one.off"));
+  const Outcome done = shapes("repair stones/two.off --out one.off --wrap");
+  EXPECT_EQ(done.code, 0) << done.err;
+  EXPECT_TRUE(contains(done.out, "wrapped") && contains(done.out, "(before 2, -2")) << done.out;
+  EXPECT_NEAR(measure_shape(read_surface(folder_ / "one.off")).volume, 1.5, 0.05);
+  EXPECT_EQ(shapes("measure stones --out tables --repair").code, 2);
+  EXPECT_EQ(shapes("measure stones --out tables --wrap").code, 2);  // what for, without --repair
+  EXPECT_EQ(shapes("measure stones --out tables --repair --wrap").code, 0);
+}
+
+/// All commands read in the same way, and report changes made on reading.
+TEST_F(ShapesCommand, WhatReadingChangedIsSaid) {
+  std::ofstream(folder_ / "stones" / "cube.obj")
+      << "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\n"
+         "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const std::string said = "on reading: cut 6 polygons into triangles\n";
+  const Outcome checked = shapes("check stones");
+  EXPECT_EQ(checked.code, 0) << checked.err;
+  EXPECT_EQ(checked.out, "stones/cube.obj: closed; " + said);
+  for (const char* command : {"measure stones --out tables", "repair stones/cube.obj --out cube.off",
+                              "fill stones/cube.obj --radius 0.3 --out filled"}) {
+    const Outcome outcome = shapes(command);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_TRUE(contains(outcome.out, "stones/cube.obj: " + said)) << outcome.out;
+  }
+  EXPECT_TRUE(contains(read(folder_ / "tables" / "shapes.csv"), ",8,24,")) << read(folder_ / "tables" / "shapes.csv");
 }
 
 TEST_F(ShapesCommand, FillWritesSpheresAndSaysHowWellTheyFit) {

@@ -20,18 +20,6 @@ namespace {
 
 using Facets = std::vector<std::int32_t>;
 
-Surface joined(const Surface& a, const Surface& b) {
-  Surface s = a;
-  s.points.insert(s.points.end(), b.points.begin(), b.points.end());
-  const auto n = static_cast<std::int32_t>(a.points.size());
-  for (const auto& [p, q, r] : b.facets) s.facets.push_back({n + p, n + q, n + r});
-  return s;
-}
-
-Surface moved(const Surface& s, const Vec3d& by) {
-  return mapped(s, [&](const Vec3d& p) { return p + by; });
-}
-
 /// Expects that nothing but what `expect` takes out of it is wrong.
 void expect_only(SurfaceVerdict verdict, const std::function<void(SurfaceVerdict&)>& expect) {
   EXPECT_FALSE(verdict.good());
@@ -189,6 +177,28 @@ TEST(CheckSurface, Pieces) {
   });
 }
 
+TEST(CheckSurface, PiecesInsideAnother) {
+  const Surface box = box_surface(4, 4, 4);
+  for (const bool inward : {true, false}) {
+    Surface pore = moved(box_surface(1, 2, 1), {1, 1, 1});
+    for (auto& f : pore.facets) {
+      if (inward) std::swap(f[1], f[2]);
+    }
+    for (const Surface& s : {joined(box, pore), joined(pore, box)}) {
+      expect_only(check_surface(s), [](SurfaceVerdict& v) {
+        EXPECT_EQ(v.text(), "2 pieces, 1 inside the largest (closed pores)");
+        EXPECT_EQ(std::exchange(v.pieces, 1), 2);
+        EXPECT_EQ(v.inner, 1);
+      });
+    }
+  }
+  // what sticks out of the box, or has lost a facet, is not a pore
+  EXPECT_EQ(check_surface(joined(box, moved(box_surface(1, 1, 9), {1, 1, 1}))).inner, 0);
+  Surface open = moved(box_surface(1, 1, 1), {1, 1, 1});
+  open.facets.pop_back();
+  EXPECT_EQ(check_surface(joined(box, open)).inner, 0);
+}
+
 TEST(CheckSurface, DegenerateInAnyPose) {
   // A point put on an edge, and the facets beside it cut there: the facet between them has no area.
   Surface s = box_surface(1, 1, 1);
@@ -252,160 +262,6 @@ TEST(CheckSurface, NumbersWithoutSenseAreInputErrors) {
     EXPECT_EQ(message(s), "tetrahedron: facet 3: found point " + std::to_string(bad) + ", expected a number below 4");
   }
   EXPECT_EQ(message(Surface{"none", {}, {}}), "none: surface: found no facet, expected a closed surface");
-}
-
-/// Repairs and expects a good surface of about the given volume.
-std::string repaired(const Surface& s, double volume, double tolerance) {
-  std::string what;
-  const Surface r = repair_surface(s, &what);
-  EXPECT_EQ(r.name, s.name);
-  EXPECT_TRUE(check_surface(r).good()) << check_surface(r).text();
-  EXPECT_NEAR(measure_shape(r).volume, volume, tolerance * volume) << what;
-  return what;
-}
-
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-TEST(RepairSurface, LeavesGoodOnesAsTheyAre) {
-  const Surface s = lump(1, 2, {3, 2, 1}, 0.2);
-  std::string what;
-  const Surface r = repair_surface(s, &what);
-  EXPECT_EQ(r.facets, s.facets);
-  EXPECT_EQ(what, "nothing to do");
-}
-
-TEST(RepairSurface, FillsHoles) {
-  Surface s = box_surface(1, 2, 3);
-  s.facets.erase(s.facets.begin(), s.facets.begin() + 2);
-  EXPECT_EQ(repaired(s, 6, 1e-12), "filled 1 hole with 2 facets");
-}
-
-TEST(RepairSurface, TurnsFacets) {
-  Surface s = icosphere(2);
-  const double volume = measure_shape(s).volume;
-  for (const int f : {3, 77, 78}) std::swap(s.facets[f][0], s.facets[f][2]);
-  EXPECT_EQ(repaired(s, volume, 1e-12), "turned 3 facets");
-  for (auto& f : s.facets) std::swap(f[0], f[2]);
-  EXPECT_TRUE(contains(repaired(s, volume, 1e-12), "turned inside out"));
-}
-
-TEST(RepairSurface, JoinsRepeatedPointsAndDropsWhatIsNoFacet) {
-  const Surface s = icosphere(1);
-  Surface soup{"soup", {}, {}};
-  for (const auto& f : s.facets) {
-    const auto n = static_cast<std::int32_t>(soup.points.size());
-    for (const auto p : f) soup.points.push_back(s.points[p]);
-    soup.facets.push_back({n, n + 1, n + 2});
-  }
-  soup.facets.push_back({0, 1, 1});
-  soup.facets.push_back(soup.facets[5]);
-  EXPECT_EQ(check_surface(soup).open.size(), 79u);  // the repeated one borders on itself
-  const std::string what = repaired(soup, measure_shape(s).volume, 1e-12);
-  EXPECT_TRUE(contains(what, "joined or dropped 198 points")) << what;
-  EXPECT_TRUE(contains(what, "dropped 1 degenerate facet")) << what;
-  EXPECT_TRUE(contains(what, "dropped 1 repeated facet")) << what;
-}
-
-TEST(RepairSurface, RefusesPointsThatAreNowhere) {
-  Surface s = icosphere(1);
-  s.points[3].y = std::nan("");
-  EXPECT_THROW(repair_surface(s), InputError);
-}
-
-TEST(RepairSurface, DropsSpecksButDoesNotChooseBetweenBodies) {
-  const Surface body = icosphere(2), speck = moved(tetrahedron(0.1), {2, 0, 0});
-  EXPECT_EQ(repaired(joined(speck, body), measure_shape(body).volume, 1e-12), "dropped 1 speck");
-  try {
-    repair_surface(joined(body, moved(body, {3, 0, 0})));
-    ADD_FAILURE() << "chose";
-  } catch (const RunError& error) {
-    EXPECT_EQ(std::string(error.what()).rfind("icosphere: cannot be repaired: ", 0), 0u) << error.what();
-    EXPECT_TRUE(contains(error.what(), "still 2 pieces")) << error.what();
-  }
-}
-
-TEST(RepairSurface, WrapsWhatCutsItself) {
-  // Two boxes of 1 × 1 × 1 that overlap by half: together 1.5. The wrap lies about 1/1000 of the diagonal (1.8) outside
-  // of an area of 8, which adds 0.014, and rounds edges off and concave ones over at 1/40 of it.
-  const Surface s = joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02}));
-  EXPECT_FALSE(check_surface(s).self_intersecting.empty());
-  const std::string what = repaired(s, 1.52, 0.03);
-  EXPECT_TRUE(contains(what, "wrapped")) << what;
-}
-
-/// Unit cubes; those that share an edge or a point only are pinched there.
-Surface voxels(const std::set<std::array<int, 3>>& cubes) {
-  Surface s{"voxels", {}, {}};
-  std::map<std::array<int, 3>, std::int32_t> number;
-  const auto point = [&](const std::array<int, 3>& p) {
-    const auto [found, is_new] = number.try_emplace(p, static_cast<std::int32_t>(number.size()));
-    if (is_new) s.points.push_back({0.1 * p[0], 0.1 * p[1], 0.1 * p[2]});
-    return found->second;
-  };
-  for (const auto& cube : cubes) {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const int side : {0, 1}) {
-        std::array<int, 3> beside = cube;
-        beside[axis] += 2 * side - 1;
-        if (cubes.contains(beside)) continue;
-        std::array<std::int32_t, 4> corner;
-        for (int k = 0; k < 4; ++k) {
-          std::array<int, 3> p = cube;
-          p[axis] += side, p[(axis + 1) % 3] += k == 1 || k == 2, p[(axis + 2) % 3] += k >= 2;
-          corner[k] = point(p);
-        }
-        if (side == 0) std::swap(corner[1], corner[3]);
-        s.facets.push_back({corner[0], corner[1], corner[2]});
-        s.facets.push_back({corner[0], corner[2], corner[3]});
-      }
-    }
-  }
-  return s;
-}
-
-/// What parts a pinched body gives two points the same coordinates, and reading makes them one again.
-TEST(RepairSurface, IsGoodAsItIsReadBack) {
-  const fs::path folder = fs::path(testing::TempDir()) / ("macadam_repair_" + std::to_string(getpid()));
-  fs::create_directories(folder);
-  const std::set<std::array<int, 3>> at_an_edge{{0, 0, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}};
-  const std::set<std::array<int, 3>> at_a_point{{0, 0, 0},  {1, 1, 1}, {0, 0, -1}, {1, 0, -1},
-                                                {2, 0, -1}, {2, 0, 0}, {2, 0, 1},  {2, 1, 1}};
-  for (const auto& [cubes, ending] : {std::pair{at_an_edge, "off"}, {at_an_edge, "stl"}, {at_a_point, "ply"}}) {
-    const Surface s = voxels(cubes);
-    EXPECT_FALSE(check_surface(s).non_manifold.empty());
-    const fs::path file = folder / (std::string("stone.") + ending);
-    std::string what;
-    write_surface(file, repair_surface(s, &what, file));
-    EXPECT_TRUE(check_surface(read_surface(file)).good()) << check_surface(read_surface(file)).text();
-    EXPECT_TRUE(contains(what, "non-manifold point")) << what;
-    if (file.extension() == ".off") {  // also where no file was named
-      write_surface(file, repair_surface(s));
-      EXPECT_TRUE(check_surface(read_surface(file)).good());
-    }
-  }
-  fs::remove_all(folder);
-}
-
-/// Two points of a good surface are one as floats, and the facets between them nothing.
-TEST(RepairSurface, IsGoodInTheFilesOwnPrecision) {
-  const Surface s = prism({{0, 0}, {1, 0.5}, {1, 0.5 + 1e-9}, {0.5, 1}}, 1);
-  std::string what;
-  const Surface off = repair_surface(s, &what, "stone.off");
-  EXPECT_EQ(what, "nothing to do");
-  EXPECT_EQ(off.facets, s.facets);
-  const Surface stl = repair_surface(s, &what, "stone.stl");
-  EXPECT_TRUE(contains(what, "good, but not as it would be read back: ")) << what;
-  EXPECT_EQ(stl.points.size(), 6u) << what;
-  EXPECT_TRUE(check_surface(stl).good());
-  for (const Vec3d& p : stl.points) EXPECT_EQ(p.x, static_cast<float>(p.x));
-  Surface large = tetrahedron(1e40);
-  EXPECT_THROW(repair_surface(large, &what, "stone.stl"), InputError);
-  EXPECT_THROW(write_surface("stone.stl", large), InputError);
-}
-
-TEST(RepairSurface, GivesUpWithTheVerdict) {
-  const Surface line{"line", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}};
-  EXPECT_THROW(repair_surface(line), RunError);
 }
 
 }  // namespace

@@ -94,6 +94,20 @@ Surface mapped(Surface surface, const Map& map) {
   return surface;
 }
 
+/// Two surfaces as one of two pieces.
+inline Surface joined(const Surface& a, const Surface& b) {
+  Surface s = a;
+  s.points.insert(s.points.end(), b.points.begin(), b.points.end());
+  const auto n = static_cast<std::int32_t>(a.points.size());
+  for (const auto& [p, q, r] : b.facets) s.facets.push_back({n + p, n + q, n + r});
+  return s;
+}
+
+/// The surface at another place.
+inline Surface moved(const Surface& s, const Vec3d& by) {
+  return mapped(s, [&](const Vec3d& p) { return p + by; });
+}
+
 /// A uniform random rotation, then scale and shift.
 inline Pose random_pose(RandomStream& random, double scale = 1, const Vec3d& centre = {}) {
   return {centre, random_turn(random), scale};

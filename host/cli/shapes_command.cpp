@@ -30,7 +30,7 @@ struct ShapesArguments {
   std::vector<std::string> paths;
   std::string out;
   double scale = 1;
-  bool repair = false;
+  bool repair = false, wrap = false;
 };
 
 /// Files as they are named, and of a folder those with a surface's ending, by name.
@@ -51,9 +51,14 @@ std::vector<fs::path> files_of(const std::vector<std::string>& paths) {
 template <class T>
 struct Outcome {
   T value{};
-  std::string note;  ///< printed with the file's name
+  std::string note;  ///< printed with the file's name; empty: nothing to say
   std::exception_ptr error;
 };
+
+/// Returns the changes made on reading, in words; empty if there are none.
+std::string reading_note(const Surface& surface) {
+  return surface.reading.empty() ? "" : "on reading: " + surface.reading;
+}
 
 /// Does `work` for each file, on all cores; what is wrong with one does not stop the others.
 template <class T, class Work>
@@ -90,11 +95,17 @@ void measure(const ShapesArguments& arguments) {
   const auto outcomes = for_each_file<ShapeMeasure>(files, [&](const fs::path& file, Outcome<ShapeMeasure>& outcome) {
     Surface surface = read_surface(file, arguments.scale);
     surface.name = file.string();  // in messages
-    if (arguments.repair && !check_surface(surface).good()) surface = repair_surface(surface, &outcome.note);
+    outcome.note = reading_note(surface);
+    if (arguments.repair && !check_surface(surface).good()) {
+      SurfaceRepair repair;
+      surface = repair_surface(surface, &repair, {}, arguments.wrap);
+      outcome.note +=
+          fmt::format("{}repaired: {}; {}", outcome.note.empty() ? "" : "; ", repair.what, repair.changes());
+    }
     outcome.value = measure_shape(surface);
   });
   for (std::size_t i = 0; i < files.size(); ++i) {
-    if (!outcomes[i].note.empty()) say("{}: repaired: {}\n", files[i].string(), outcomes[i].note);
+    if (!outcomes[i].note.empty()) say("{}: {}\n", files[i].string(), outcomes[i].note);
   }
   throw_errors(outcomes);
   std::vector<std::string> names;
@@ -118,8 +129,9 @@ void measure(const ShapesArguments& arguments) {
 void check(const ShapesArguments& arguments) {
   const std::vector<fs::path> files = files_of(arguments.paths);
   const auto outcomes = for_each_file<bool>(files, [&](const fs::path& file, Outcome<bool>& outcome) {
-    const SurfaceVerdict verdict = check_surface(read_surface(file));
-    outcome.note = verdict.text();
+    const Surface surface = read_surface(file);
+    const SurfaceVerdict verdict = check_surface(surface);
+    outcome.note = verdict.text() + (surface.reading.empty() ? "" : "; " + reading_note(surface));
     outcome.value = verdict.good();
   });
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -137,10 +149,11 @@ void repair(const ShapesArguments& arguments) {
   const fs::path file = arguments.paths.front();
   Surface surface = read_surface(file);
   surface.name = file.string();  // in messages
-  std::string what;
-  surface = repair_surface(surface, &what, arguments.out);
+  if (!surface.reading.empty()) say("{}: {}\n", file.string(), reading_note(surface));
+  SurfaceRepair repair;
+  surface = repair_surface(surface, &repair, arguments.out, arguments.wrap);
   write_surface(arguments.out, surface);
-  say("{}: {}\n", file.string(), what);
+  say("{}: {}; {}\n", file.string(), repair.what, repair.changes());
   say("{}: {} points, {} facets\n", arguments.out, surface.points.size(), surface.facets.size());
 }
 
@@ -161,6 +174,11 @@ void add_shapes_command(CLI::App& app) {
   add_out(measure_app, arguments->out, "of the tables");
   add_scale(measure_app, arguments->scale);
   measure_app.add_flag("--repair", arguments->repair, "repair faulty surfaces before measuring them");
+  const auto add_wrap = [&](CLI::App& command) {
+    return command.add_flag("--wrap", arguments->wrap,
+                            "accept a new skin around a faulty surface that changes volume or area by more than 1 %");
+  };
+  add_wrap(measure_app)->needs("--repair");
   measure_app.callback([arguments] { measure(*arguments); });
 
   CLI::App& check_app = *shapes.add_subcommand("check", "what is wrong with each, and where");
@@ -173,6 +191,7 @@ void add_shapes_command(CLI::App& app) {
       ->expected(1)
       ->type_name("FILE");
   add_text(repair_app, "--out", arguments->out, "file to write; its ending is the format")->required();
+  add_wrap(repair_app);
   repair_app.callback([arguments] { repair(*arguments); });
 
   add_examples(shapes, {"macadam shapes measure examples/shapes --out results/measured", "macadam shapes fill --help"});

@@ -51,6 +51,7 @@ void fill_command(ShapesFillArguments arguments) {
   spec.radius_min = length_of(arguments.radius.front(), "--radius");
   spec.radius_max = length_of(arguments.radius.back(), "--radius");
   Surface surface = read_surface(arguments.file, arguments.scale);
+  if (!surface.reading.empty()) say("{}: on reading: {}\n", arguments.file, surface.reading);
   if (!arguments.circumscribed.empty()) {
     const double radius = length_of(arguments.circumscribed, "--circumscribed");
     if (!(radius > 0))

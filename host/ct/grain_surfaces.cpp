@@ -126,7 +126,7 @@ Simplified fit_surface(const Surface& fine, const SegmentOptions& options, doubl
     out = simplified(fine, facets, std::max(facets, most), error);
     if (check_surface(out.surface).good()) return out;
   }
-  out.surface = repair_surface(out.surface);
+  out.surface = repair_surface(out.surface, nullptr, {}, true);  // a grain with a new skin is better than none
   return out;
 }
 

@@ -20,11 +20,10 @@ std::vector<std::int32_t> first_of_equal(const std::vector<Vec3d>& points) {
   return first;
 }
 
-void join_equal_points(Surface& surface) {
-  const std::vector<std::int32_t> first = first_of_equal(surface.points);
+void replace_points(Surface& surface, const std::vector<std::int32_t>& to) {
   std::vector<std::int32_t> number(surface.points.size(), -1);
   for (auto& facet : surface.facets) {
-    for (std::int32_t& p : facet) number[p = first[p]] = 0;
+    for (std::int32_t& p : facet) number[p = to[p]] = 0;
   }
   std::int32_t kept = 0;
   for (std::size_t p = 0; p < number.size(); ++p) {
@@ -37,5 +36,7 @@ void join_equal_points(Surface& surface) {
     for (std::int32_t& p : facet) p = number[p];
   }
 }
+
+void join_equal_points(Surface& surface) { replace_points(surface, first_of_equal(surface.points)); }
 
 }  // namespace macadam

@@ -42,6 +42,11 @@ class PlyNumbers {
     for (std::size_t k = 0; k < numbers; ++k) next(*property.type, what);
   }
 
+  /// The most numbers of a type that the rest of the file can hold.
+  std::size_t most(const PlyType& type) const {
+    return text_ ? (words_.left() + 1) / 2 : rest_.size() / type.bytes;  // of text, a digit and a blank each
+  }
+
   /// \throws InputError where something is left.
   void require_end() {
     if (text_ ? words_.next_line() : rest_.find_first_not_of(" \t\r\n") != std::string_view::npos)
@@ -124,16 +129,20 @@ void read_facets(const SurfaceFile& file, const PlyElement& element, PlyNumbers&
               corners.count ? fmt::format("a list of {}", corners.type->name) : "no list", "a list of whole numbers");
   for (std::size_t i = 0; i < element.items; ++i) {
     const std::string what = fmt::format("facet {}", i);
-    auto& facet = soup.facets.emplace_back();
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       if (p != *column) {
         numbers.pass(element.properties[p], what);
         continue;
       }
       const std::size_t length = numbers.length(corners, what);
-      if (length != 3) numbers.fail(what, fmt::format("{} points", length), "3");
-      for (std::int64_t& corner : facet) corner = static_cast<std::int64_t>(numbers.next(*corners.type, what));
+      if (length < 3) numbers.fail(what, fmt::format("{} points", length), "3 or more");
+      if (length > numbers.most(*corners.type))
+        numbers.fail(what, fmt::format("{} points", length),
+                     fmt::format("no more than the rest of the file can hold, {}", numbers.most(*corners.type)));
+      for (std::size_t k = 0; k < length; ++k)
+        soup.corners.push_back(static_cast<std::int64_t>(numbers.next(*corners.type, what)));
     }
+    soup.end_facet();
     if (numbers.line() > 0) soup.line.push_back(numbers.line());
   }
 }

@@ -13,7 +13,9 @@
 #include <new>
 #include <optional>
 
+#include "host/shapes/cut_polygon.hpp"
 #include "host/shapes/equal_points.hpp"
+#include "host/shapes/join_seams.hpp"
 #include "host/shapes/surface_files.hpp"
 #include "host/shapes/surface_numbers.hpp"
 #include "macadam/error.hpp"
@@ -45,6 +47,53 @@ SurfaceSoup read_soup(const SurfaceFile& file, SurfaceFormat format) {
   return read_obj(file);
 }
 
+std::string counted(std::int64_t n, const char* of) { return fmt::format("{} {}{}", n, of, n == 1 ? "" : "s"); }
+
+void add_note(Surface& surface, const std::string& note) {
+  if (!note.empty()) surface.reading += (surface.reading.empty() ? "" : "; ") + note;
+}
+
+/// Every corner must be one of the points.
+void require_points(const SurfaceFile& file, const SurfaceSoup& soup) {
+  const std::int64_t points = std::ssize(soup.points), first = soup.first_number;
+  for (std::size_t f = 0; f < soup.facets(); ++f) {
+    for (const std::int64_t p : soup.facet(f)) {
+      if (p >= 0 && p < points) continue;
+      file.fail(soup.line.empty() ? 0 : soup.line[f], facet_name(f), fmt::format("point {}", p + first),
+                first == 0 ? fmt::format("a number below {}", points)
+                           : fmt::format("a number from {} to {}", first, points - 1 + first));
+    }
+  }
+}
+
+/// The facets as triangles, in the order of the file.
+void add_facets(Surface& surface, const SurfaceSoup& soup) {
+  // A polygon whose corners are this far from its plane, over its radius, may be cut in ways that differ visibly.
+  constexpr double bent = 0.01;
+  std::int64_t polygons = 0, bent_ones = 0, crossed = 0;
+  double bend = 0;
+  for (std::size_t f = 0; f < soup.facets(); ++f) {
+    const std::span<const std::int64_t> c = soup.facet(f);
+    if (c.size() == 3) {
+      const auto number = [&](int k) { return static_cast<std::int32_t>(c[k]); };
+      surface.facets.push_back({number(0), number(1), number(2)});
+      continue;
+    }
+    const PolygonCut cut = cut_polygon(surface.points, c, surface.facets);
+    ++polygons;
+    bent_ones += cut.bend > bent;
+    bend = std::max(bend, cut.bend);
+    crossed += cut.crossed;
+  }
+  if (polygons == 0) return;
+  std::string note = fmt::format("cut {} into triangles", counted(polygons, "polygon"));
+  if (bent_ones > 0)
+    note += fmt::format(", {} of them not flat (corners up to {:.2g} % of the radius from the plane)", bent_ones,
+                        100 * bend);
+  if (crossed > 0) note += fmt::format(", {} of them with an outline that crosses or touches itself", crossed);
+  add_note(surface, note);
+}
+
 std::string bytes_of(const std::filesystem::path& file) {
   const auto fail = [&](const std::string& found, const char* expected) {
     throw InputError(file.string(), 0, "surface", found, expected);
@@ -73,26 +122,27 @@ SurfaceFormat format_of(const std::filesystem::path& file) {
 Surface surface_in(const SurfaceFile& file, SurfaceFormat format, double scale) {
   if (file.bytes.empty()) file.fail(0, "surface", "an empty file", "a triangulated surface");
   const SurfaceSoup soup = read_soup(file, format);
-  if (soup.facets.empty()) file.fail(0, "surface", "no facet", "a triangulated surface");
+  if (soup.facets() == 0) file.fail(0, "surface", "no facet", "a triangulated surface");
   constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
-  if (soup.points.size() > most || soup.facets.size() > most)
-    file.fail(0, "surface", fmt::format("{} points and {} facets", soup.points.size(), soup.facets.size()),
+  if (soup.points.size() > most || soup.triangles() > most)
+    file.fail(0, "surface", fmt::format("{} points and {} triangles", soup.points.size(), soup.triangles()),
               fmt::format("at most {}", most));
+  require_points(file, soup);
   Surface surface{file.name, {}, {}};
   for (const Vec3d& p : soup.points) surface.points.push_back(scale * p);
-  for (std::size_t f = 0; f < soup.facets.size(); ++f) {
-    auto& facet = surface.facets.emplace_back();
-    for (int k = 0; k < 3; ++k) {
-      const std::int64_t p = soup.facets[f][k];
-      if (p < 0 || p >= std::ssize(soup.points)) {
-        file.fail(soup.line.empty() ? 0 : soup.line[f], fmt::format("facet {}", f), fmt::format("point {}", p),
-                  fmt::format("a number below {}", soup.points.size()));
-      }
-      facet[k] = static_cast<std::int32_t>(p);
-    }
-  }
-  require_sound_numbers(surface);
+  require_sound_points(surface);
+  add_note(surface, soup.note);
+  add_facets(surface, soup);
   join_equal_points(surface);
+  const double width = seam_width(surface);
+  const SeamJoin seams = join_seams(surface);
+  if (surface.facets.empty())
+    file.fail(0, "surface", "no facet that single precision resolves", "a triangulated surface");
+  if (seams.points > 0)
+    add_note(surface,
+             fmt::format(
+                 "joined {} at open edges with others less than {:.2g} m away{}", counted(seams.points, "point"), width,
+                 seams.facets > 0 ? fmt::format(", which left {} without area", counted(seams.facets, "facet")) : ""));
   return surface;
 }
 

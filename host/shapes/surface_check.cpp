@@ -3,29 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "host/shapes/self_intersection.hpp"
+#include "host/shapes/disjoint_sets.hpp"
 #include "host/shapes/surface_numbers.hpp"
+#include "host/shapes/surface_pieces.hpp"
 
 namespace macadam {
 namespace {
 
 using Facets = std::vector<std::int32_t>;
-
-/// Sets that are joined pair by pair; each is known by one of its members.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::int32_t find(std::int32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::int32_t i, std::int32_t j) { parent_[find(i)] = find(j); }
-
- private:
-  std::vector<std::int32_t> parent_;
-};
 
 /// One side of a facet: from its corner number `corner` (0, 1, 2) to the next.
 struct Side {
@@ -44,9 +31,9 @@ class Check {
   SurfaceVerdict operator()() {
     faulty_edges();
     pinched_points();
-    pieces();
     misoriented();
     verdict_.self_intersecting = self_intersecting_facets(surface_, degenerate_);
+    pieces();
     verdict_.inside_out = verdict_.open.empty() && verdict_.non_manifold.empty() && verdict_.misoriented.empty() &&
                           signed_volume(surface_) < 0;
     for (Facets* facets : {&verdict_.non_manifold, &verdict_.open, &verdict_.misoriented}) {
@@ -145,17 +132,6 @@ class Check {
     return 3 * s.facet + (s.up == low ? s.corner : (s.corner + 1) % 3);
   }
 
-  void pieces() {
-    DisjointSets points(surface_.points.size());
-    for (const auto& f : surface_.facets) points.join(f[0], f[1]), points.join(f[1], f[2]);
-    std::vector<bool> seen(surface_.points.size(), false);
-    for (const auto& f : surface_.facets) {
-      const std::int32_t root = points.find(f[0]);
-      if (!seen[root]) ++verdict_.pieces;
-      seen[root] = true;
-    }
-  }
-
   /// Facets are sorted into two sides, A and B, so that neighbours on one side agree; the smaller side is at fault.
   void misoriented() {
     struct Neighbour {
@@ -189,6 +165,13 @@ class Check {
                    [&](std::int32_t f) { return side_of[f] == minority; });
       std::copy(one_sided.begin(), one_sided.end(), std::back_inserter(verdict_.misoriented));
     }
+  }
+
+  void pieces() {
+    const SurfacePieces pieces(surface_);
+    verdict_.pieces = pieces.count();
+    const std::vector<bool> inner = pieces.find_inner(verdict_);
+    verdict_.inner = std::count(inner.begin(), inner.end(), true);
   }
 
   const Surface& surface_;
@@ -228,7 +211,9 @@ std::string SurfaceVerdict::text() const {
   add_facets("open at", open);
   add_facets("misoriented at", misoriented);
   add_facets("self-intersecting at", self_intersecting);
-  if (pieces != 1) add(fmt::format("{} pieces", pieces));
+  if (pieces != 1)
+    add(fmt::format("{} pieces{}", pieces,
+                    inner > 0 ? fmt::format(", {} inside the largest (closed pores)", inner) : ""));
   if (inside_out) add("inside out");
   return text;
 }

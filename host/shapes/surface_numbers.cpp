@@ -16,8 +16,7 @@ constexpr double largest_coordinate = 1e50;  // [m]; volumes stay far from overf
 
 }  // namespace
 
-void require_sound_numbers(const Surface& surface) {
-  if (surface.facets.empty()) throw InputError(surface.name, 0, "surface", "no facet", "a closed surface");
+void require_sound_points(const Surface& surface) {
   for (std::size_t p = 0; p < surface.points.size(); ++p) {
     const Vec3d& x = surface.points[p];
     if (std::abs(x.x) < largest_coordinate && std::abs(x.y) < largest_coordinate && std::abs(x.z) < largest_coordinate)
@@ -25,6 +24,11 @@ void require_sound_numbers(const Surface& surface) {
     throw InputError(surface.name, 0, fmt::format("point {}", p), fmt::format("({}, {}, {})", x.x, x.y, x.z),
                      fmt::format("finite coordinates below {} m", largest_coordinate));
   }
+}
+
+void require_sound_numbers(const Surface& surface) {
+  if (surface.facets.empty()) throw InputError(surface.name, 0, "surface", "no facet", "a closed surface");
+  require_sound_points(surface);
   for (std::size_t f = 0; f < surface.facets.size(); ++f) {
     for (const std::int32_t p : surface.facets[f]) {
       if (p >= 0 && static_cast<std::size_t>(p) < surface.points.size()) continue;
@@ -52,6 +56,13 @@ Bounds bounds_of(std::span<const Vec3d> points) {
 Vec3d middle_of(const std::vector<Vec3d>& points) {
   const auto [low, high] = bounds_of(points);
   return 0.5 * low + 0.5 * high;
+}
+
+double surface_area(const Surface& surface) {
+  double sum = 0;
+  for (const auto& [a, b, c] : surface.facets)
+    sum += norm(cross(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a]));
+  return sum / 2;
 }
 
 double signed_volume(const Surface& surface) {

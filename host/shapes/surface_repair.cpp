@@ -2,9 +2,8 @@
 // surface_repair.cpp  From the gentlest means to the hardest: mend what is there; where that does not do, wrap it anew.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
-#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_mesh_to_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
@@ -16,10 +15,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/shapes/equal_points.hpp"
+#include "host/shapes/join_seams.hpp"
 #include "host/shapes/surface_files.hpp"
 #include "host/shapes/surface_numbers.hpp"
+#include "host/shapes/surface_pieces.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
@@ -53,33 +55,39 @@ Surface surface_of(const Mesh& mesh, const std::string& name) {
   return surface;
 }
 
+double relative_change(double before, double after) { return (after - before) / before; }
+
 /// One attempt at a surface that is sound as it will be read; says in words what it does.
 class Repair {
  public:
   /// `as`: the file that it will be read from; empty where there is none.
   Repair(const Surface& surface, const std::filesystem::path& as) : surface_(surface), as_(as) {}
 
+  /// \throws RunError where nothing helps.
   Surface operator()() {
     const bool good = check_surface(surface_).good();
+    if (good) set_before(surface_, true);
     if (good && keep(surface_)) {
       say("nothing to do");
       return read_;
     }
     if (good) say("good, but not as it would be read back: " + verdict_.text());
     const Surface mended = mend(good ? read_ : surface_);
-    if (keep(mended)) return read_;
+    if (keep(without_specks(mended))) return read_;
     say("still " + verdict_.text());
     if (keep(wrap(mended))) return read_;
-    throw RunError(fmt::format("{}: cannot be repaired: {}; still {}", surface_.name, what_, verdict_.text()));
+    throw RunError(fmt::format("{}: cannot be repaired: {}; still {}", surface_.name, repair_.what, verdict_.text()));
   }
 
-  const std::string& what() const { return what_; }
+  /// Returns the report of the steps taken so far.
+  const SurfaceRepair& repair() const { return repair_; }
 
  private:
-  void say(const std::string& done) { what_ += (what_.empty() ? "" : "; ") + done; }
-  void say_count(std::size_t n, const char* done, const char* of) {
-    if (n > 0) say(fmt::format("{} {} {}{}", done, n, of, n == 1 ? "" : "s"));
+  void say(const std::string& done) { repair_.what += (repair_.what.empty() ? "" : "; ") + done; }
+  void say_count(std::int64_t n, const char* done, const std::string& of, const std::string& several) {
+    if (n > 0) say(fmt::format("{} {} {}", done, n, n == 1 ? of : several));
   }
+  void say_count(std::int64_t n, const char* done, const std::string& of) { say_count(n, done, of, of + "s"); }
 
   /// Whether the surface is good as it will be read, where points of equal coordinates are one and STL has floats:
   /// parts that share no point here may meet there. Keeps what would be read.
@@ -91,13 +99,24 @@ class Repair {
       read_ = read_back(as_, surface);
     read_.name = surface_.name;
     verdict_ = check_surface(read_);
+    repair_.volume_after = signed_volume(read_);
+    repair_.area_after = surface_area(read_);
     return verdict_.good();
+  }
+
+  /// The volume of a surface that is not closed is not known.
+  void set_before(const Surface& surface, bool closed) {
+    repair_.volume_before = closed ? signed_volume(surface) : std::numeric_limits<double>::quiet_NaN();
+    repair_.area_before = surface_area(surface);
   }
 
   Surface mend(const Surface& surface) {
     Surface joined = surface;
     join_equal_points(joined);
+    const SeamJoin seams = join_seams(joined);
     say_count(surface.points.size() - joined.points.size(), "joined or dropped", "point");
+    say_count(seams.facets, "dropped", "facet between joined points", "facets between joined points");
+    require_facets(joined);
     const SurfaceVerdict verdict = check_surface(joined);
     drop(joined, verdict.degenerate);
 
@@ -113,12 +132,26 @@ class Repair {
     pmp::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
     pmp::stitch_borders(mesh);
     fill_holes(mesh);
-    return largest_piece(outward(std::move(mesh)));
+    const bool closed = CGAL::is_closed(mesh);
+    Surface mended = without_pores(surface_of(mesh, surface_.name));
+    if (closed) mended = outward(std::move(mended));
+    if (std::isnan(repair_.volume_before)) set_before(mended, closed);
+    return mended;
   }
 
   void drop(Surface& surface, const std::vector<std::int32_t>& facets) {
-    for (auto f = facets.rbegin(); f != facets.rend(); ++f) surface.facets.erase(surface.facets.begin() + *f);
-    say_count(facets.size(), "dropped", "degenerate facet");
+    std::vector<bool> dropped(surface.facets.size(), false);
+    for (const std::int32_t f : facets) dropped[f] = true;
+    std::size_t kept = 0;
+    for (std::size_t f = 0; f < dropped.size(); ++f) {
+      if (!dropped[f]) surface.facets[kept++] = surface.facets[f];
+    }
+    surface.facets.resize(kept);
+    say_count(std::ssize(facets), "dropped", "degenerate facet");
+    require_facets(surface);
+  }
+
+  void require_facets(const Surface& surface) const {
     if (surface.facets.empty()) throw RunError(surface_.name + ": cannot be repaired: every facet is degenerate");
   }
 
@@ -126,6 +159,8 @@ class Repair {
     std::vector<Mesh::Halfedge_index> borders;
     pmp::extract_boundary_cycles(mesh, std::back_inserter(borders));
     std::size_t facets = 0;
+    std::ptrdiff_t filled = 0;
+    double area = 0;
     for (const Mesh::Halfedge_index border : borders) {
       std::vector<Mesh::Face_index> patch;
 #if CGAL_VERSION_NR >= 1060000000  // where this is a named parameter
@@ -134,34 +169,50 @@ class Repair {
       pmp::triangulate_hole(mesh, border, std::back_inserter(patch));
 #endif
       facets += patch.size();
+      filled += !patch.empty();
+      area += CGAL::to_double(pmp::area(patch, mesh));
     }
-    if (!borders.empty()) {
-      say(fmt::format("filled {} hole{} with {} facet{}", borders.size(), borders.size() == 1 ? "" : "s", facets,
-                      facets == 1 ? "" : "s"));
-    }
+    if (filled > 0)
+      say(fmt::format("filled {} hole{} with {} facet{}, {:.2g} % of the area", filled, filled == 1 ? "" : "s", facets,
+                      facets == 1 ? "" : "s", 100 * area / CGAL::to_double(pmp::area(mesh))));
+    say_count(std::ssize(borders) - filled, "could not fill", "hole");
   }
 
-  Mesh outward(Mesh mesh) {
-    if (CGAL::is_closed(mesh) && signed_volume(surface_of(mesh, "")) < 0) {
-      pmp::reverse_face_orientations(mesh);
-      say("turned inside out");
-    }
-    return mesh;
+  /// Turns a closed surface so that its normals point outwards.
+  Surface outward(Surface surface) {
+    if (signed_volume(surface) >= 0) return surface;
+    for (auto& facet : surface.facets) std::swap(facet[1], facet[2]);
+    say("turned inside out");
+    return surface;
+  }
+
+  /// A particle is solid: the inner shells that closed pores leave in a surface of voxels are dropped.
+  Surface without_pores(Surface surface) {
+    const SurfacePieces pieces(surface);
+    const std::vector<bool> inner = pieces.find_inner(check_surface(surface));
+    const auto count = std::count(inner.begin(), inner.end(), true);
+    if (count == 0) return surface;
+    Surface solid = pieces.without(inner);
+    std::vector<bool> outer(inner);
+    outer.flip();
+    say(fmt::format("dropped {} closed pore{}, {:.2g} % of the volume and {:.2g} % of the area", count,
+                    count == 1 ? "" : "s", 100 * std::abs(signed_volume(pieces.without(outer)) / signed_volume(solid)),
+                    100 * (1 - surface_area(solid) / surface_area(surface))));
+    return solid;
   }
 
   /// Specks beside the body are dropped; two bodies are not ours to choose from.
-  Surface largest_piece(const Mesh& mesh) {
-    std::vector<Mesh> parts;
-    pmp::split_connected_components(mesh, parts);
+  Surface without_specks(const Surface& surface) {
+    const SurfacePieces pieces(surface);
     constexpr double speck = 0.05;  // of the largest piece's area
-    std::vector<double> area;
-    for (const Mesh& part : parts) area.push_back(CGAL::to_double(pmp::area(part)));
-    const auto largest = static_cast<std::size_t>(std::max_element(area.begin(), area.end()) - area.begin());
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      if (i != largest && area[i] > speck * area[largest]) return surface_of(mesh, surface_.name);
-    }
-    say_count(parts.size() - 1, "dropped", "speck");
-    return surface_of(parts[largest], surface_.name);
+    const std::vector<double> area = pieces.areas();
+    const double largest = *std::max_element(area.begin(), area.end());
+    std::vector<bool> dropped;
+    for (const double a : area) dropped.push_back(a <= speck * largest);
+    const auto specks = std::count(dropped.begin(), dropped.end(), true);
+    if (specks + 1 < pieces.count()) return surface;
+    say_count(specks, "dropped", "speck");
+    return pieces.without(dropped);
   }
 
   /// A new skin around all that is there, a little outside of it. Bounds its own faults: closed, manifold, outward.
@@ -173,23 +224,48 @@ class Repair {
     Mesh mesh;
     CGAL::alpha_wrap_3(soup.points, soup.polygons, alpha, offset, mesh);
     say(fmt::format("wrapped (details below {:.3g} m lost, surface {:.3g} m further out)", alpha, offset));
-    return largest_piece(mesh);
+    return without_specks(surface_of(mesh, surface_.name));
   }
 
   const Surface& surface_;
   const std::filesystem::path& as_;
-  std::string what_;
+  SurfaceRepair repair_{{}, std::numeric_limits<double>::quiet_NaN()};
   Surface read_;            ///< the last one tried, as it will be read …
   SurfaceVerdict verdict_;  ///< … and what is wrong with it
 };
 
+std::string change(double before, double after) {
+  if (std::isnan(before)) return "(before: unknown, as holes could not be filled)";
+  const double percent = std::round(1e4 * relative_change(before, after)) / 100 + 0.0;  // 0 for -0
+  return fmt::format("(before {:.6g}, {:+.2f} %)", before, percent);
+}
+
 }  // namespace
 
-Surface repair_surface(const Surface& surface, std::string* what, const std::filesystem::path& as) {
+bool SurfaceRepair::within_bound() const {
+  return std::abs(relative_change(volume_before, volume_after)) <= bound &&
+         std::abs(relative_change(area_before, area_after)) <= bound;
+}
+
+std::string SurfaceRepair::changes() const {
+  return fmt::format("volume {:.6g} m3 {}, area {:.6g} m2 {}", volume_after, change(volume_before, volume_after),
+                     area_after, change(area_before, area_after));
+}
+
+Surface repair_surface(const Surface& surface, SurfaceRepair* repair, const std::filesystem::path& as, bool wrap) {
   require_sound_numbers(surface);
-  Repair repair(surface, as);
-  Surface repaired = repair();
-  if (what) *what = repair.what();
+  Repair attempt(surface, as);
+  Surface repaired = attempt();
+  const SurfaceRepair& done = attempt.repair();
+  if (!wrap && !done.within_bound()) {
+    const std::string why =
+        std::isnan(done.volume_before)
+            ? "the volume before the repair is unknown"
+            : fmt::format("the repair changes volume or area by more than {:.0f} %", 100 * SurfaceRepair::bound);
+    throw RunError(fmt::format("{}: {}, which only --wrap accepts: {}; {}", surface.name, why, done.what,
+                               done.changes()));
+  }
+  if (repair) *repair = done;
   return repaired;
 }
 

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "host/in_quotes.hpp"
 
 namespace macadam {
 namespace {
 
-constexpr std::string_view blank = " \t\r\v\f";
+constexpr std::string_view blank = " \t\r\n\v\f";  // of "\r\n", one may be left within a line
 
 std::string_view without_leading_blanks(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
@@ -28,25 +29,48 @@ bool parse(std::string_view word, T& value) {
 
 }  // namespace
 
+Words::Words(const SurfaceFile& file, char comment, std::size_t from, int line)
+    : file_(file), rest_(file.bytes.substr(from)), comment_(comment), next_number_(line) {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  if (from == 0 && rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
+  const std::size_t end = file.bytes.find_first_of("\r\n");
+  if (end != std::string_view::npos && file.bytes[end] == '\r' && file.bytes.substr(end + 1, 1) != "\n")
+    line_end_ = '\r';
+}
+
+bool Words::take_line() {
+  if (rest_.empty()) {
+    line_ = {};
+    return false;
+  }
+  const std::size_t end = std::min(rest_.find(line_end_), rest_.size());
+  line_ = rest_.substr(0, end);
+  rest_.remove_prefix(std::min(end + 1, rest_.size()));
+  number_ = next_number_++;
+  if (comment_) line_ = line_.substr(0, line_.find(comment_));
+  line_ = without_leading_blanks(line_);
+  return true;
+}
+
 bool Words::next_line() {
-  while (!rest_.empty()) {
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    line_ = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    number_ = next_number_++;
-    if (comment_) line_ = line_.substr(0, line_.find(comment_));
-    line_ = without_leading_blanks(line_);
+  continued_ = false;
+  while (take_line()) {
     if (!line_.empty()) return true;
   }
-  line_ = {};
   return false;
 }
 
 std::string_view Words::in_line() {
-  line_ = without_leading_blanks(line_);
-  const std::string_view word = line_.substr(0, std::min(line_.find_first_of(blank), line_.size()));
-  line_.remove_prefix(word.size());
-  return word;
+  for (;;) {
+    if (std::exchange(continued_, false)) take_line();
+    line_ = without_leading_blanks(line_);
+    std::string_view word = line_.substr(0, std::min(line_.find_first_of(blank), line_.size()));
+    line_.remove_prefix(word.size());
+    if (!continuation_ || !word.ends_with(continuation_) || !without_leading_blanks(line_).empty()) return word;
+    continued_ = true;
+    word.remove_suffix(1);
+    if (!word.empty()) return word;
+  }
 }
 
 std::string_view Words::next(const std::string& what) {

@@ -10,13 +10,16 @@
 
 namespace macadam {
 
-/// Walks through the text of a file, by lines or by words.
+/// Walks through the text of a file, by lines or by words. Lines end as the file's first line does: with a line feed,
+/// with carriage return and line feed, or with a carriage return alone. A byte order mark of UTF-8 is passed over.
 class Words {
  public:
-  /// Begins with the byte `from`, which is on line number `line`. What follows `comment` on its line is no word; 0:
-  /// there are no comments.
-  explicit Words(const SurfaceFile& file, char comment = 0, std::size_t from = 0, int line = 1)
-      : file_(file), rest_(file.bytes.substr(from)), comment_(comment), next_number_(line) {}
+  /// Begins with the byte `from`, which is on line number `line`. The rest of a line after the character `comment` is
+  /// passed over; with 0 the text has no comments.
+  explicit Words(const SurfaceFile& file, char comment = 0, std::size_t from = 0, int line = 1);
+
+  /// From now on a line whose last character is `sign` goes on in the next line, as in_line() reads it.
+  void continue_lines_after(char sign) { continuation_ = sign; }
 
   /// Goes to the next line that has a word; false where the text ends.
   bool next_line();
@@ -26,6 +29,10 @@ class Words {
   std::string_view next(const std::string& what);
   /// Leaves out what is left of this line.
   void skip_line() { line_ = {}; }
+  /// Number of characters that are left of this line.
+  std::size_t left_in_line() const { return line_.size(); }
+  /// Number of characters that are left of the text.
+  std::size_t left() const { return line_.size() + rest_.size(); }
 
   /// A word as a number, which may be infinite or none. \throws InputError naming its line.
   double any_number(std::string_view word, const std::string& what) const;
@@ -45,9 +52,13 @@ class Words {
   }
 
  private:
+  /// Goes to the next line, which may be blank; false where the text ends.
+  bool take_line();
+
   const SurfaceFile& file_;
   std::string_view rest_, line_;
-  char comment_;
+  char comment_, line_end_ = '\n', continuation_ = 0;
+  bool continued_ = false;  // the next line belongs to this one
   int number_ = 0, next_number_;
 };
 

@@ -20,6 +20,8 @@ struct Surface {
   std::string name;                                 ///< of the file without its ending, or of the generator
   std::vector<Vec3d> points;                        ///< [m]
   std::vector<std::array<std::int32_t, 3>> facets;  ///< point numbers
+  /// Changes that read_surface() made, in words: `"cut 6 polygons into triangles"`; empty if there are none.
+  std::string reading{};
 };
 
 /// What is wrong with a surface, each with the facets (or points) where it is so; empty lists where nothing is.
@@ -31,6 +33,7 @@ struct SurfaceVerdict {
   std::vector<std::int32_t> misoriented;   ///< facets turned against the greater part of those they hang together with
   std::vector<std::int32_t> self_intersecting;  ///< facets that cut another one
   std::int64_t pieces = 0;                      ///< connected parts
+  std::int64_t inner = 0;                       ///< pieces inside the one of the largest volume: closed pores
   bool inside_out = false;                      ///< closed, but the normals point inwards
 
   /// Fit for measuring and filling.
@@ -39,10 +42,11 @@ struct SurfaceVerdict {
   std::string text() const;
 };
 
-/// Reads STL (binary, ASCII), OFF, PLY or OBJ; equal points are joined; `scale` multiplies the coordinates (files are
-/// often in millimetres: 1e-3).
-/// \throws InputError naming the file, and of text the line, where it cannot be read, holds no facet, or has numbers
-/// that are not finite.
+/// Reads STL (binary, ASCII), OFF, PLY or OBJ; `scale` multiplies the coordinates (files are often in millimetres:
+/// 1e-3). Equal points are joined, and polygons cut into triangles. Points at open edges are joined where they differ
+/// by rounding of single precision only, 5e-7 of the surface's size; a closed surface keeps every point. \throws
+/// InputError naming the file, and of text the line, where it cannot be read, holds no facet, or has numbers that are
+/// not finite.
 Surface read_surface(const std::filesystem::path& file, double scale = 1);
 
 /// Every surface of a folder, by the files' names, each good().
@@ -57,11 +61,29 @@ void write_surface(const std::filesystem::path& file, const Surface& surface, do
 /// Looks for every fault that SurfaceVerdict knows.
 SurfaceVerdict check_surface(const Surface& surface);
 
-/// Makes a surface fit where CGAL can: joins points, drops degenerate facets, orients, fills holes, and, where that is
-/// not enough, wraps it (alpha wrap). `what` receives in words what was done. The result is good as it will be read
-/// back, points of equal coordinates joined, from a file like `as` where one is given (STL rounds to floats).
-/// \throws RunError when nothing helped, with the verdict.
-Surface repair_surface(const Surface& surface, std::string* what = nullptr, const std::filesystem::path& as = {});
+/// Report of repair_surface(). "Before" is the given surface with each facet once, its holes filled and its closed
+/// pores left out.
+struct SurfaceRepair {
+  std::string what;                            ///< in words: `"filled 1 hole with 2 facets, 9.1 % of the area"`
+  double volume_before = 0, volume_after = 0;  ///< [m³]; before: NaN if holes could not be filled
+  double area_before = 0, area_after = 0;      ///< [m²]
+
+  /// Largest relative change of volume and area that is accepted without `wrap`.
+  static constexpr double bound = 0.01;
+  /// Whether volume and area have changed by `bound` at most.
+  bool within_bound() const;
+  /// Volume and area in words: `"volume 6 m3 (before 6, +0.00 %), area 22 m2 (before 22, +0.00 %)"`.
+  std::string changes() const;
+};
+
+/// Makes a surface fit for measuring: joins points, drops degenerate facets, orients, fills holes, drops specks (pieces
+/// below 5 % of the largest one's area) and closed pores. If that is not enough, it wraps the surface in a new skin
+/// (CGAL's alpha wrap). `repair` receives the report. The result is good as it will be read back from a file like `as`,
+/// if one is given (STL rounds to floats). With `wrap`, changes beyond SurfaceRepair::bound are accepted.
+///
+/// \throws RunError with the verdict if the surface is still faulty, or if the change is beyond the bound.
+Surface repair_surface(const Surface& surface, SurfaceRepair* repair = nullptr, const std::filesystem::path& as = {},
+                       bool wrap = false);
 
 /// The properties of [1], section 4.1 (Eq. 18–23). Lengths in m, directions are unit vectors.
 struct ShapeMeasure {

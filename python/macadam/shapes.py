@@ -23,7 +23,8 @@ _COLUMNS = ("d_long", "d_intermediate", "d_short", "volume", "area", "shape_inde
 
 
 def read(file: str | PathLike[str], scale: float = 1) -> Surface:
-    """Reads STL, OFF, PLY or OBJ. scale: metres a unit of the file, 1e-3 for millimetres."""
+    """Reads STL, OFF, PLY or OBJ; the surface's `reading` says what was changed. scale: metres per unit of the file, 1e-3 for
+    millimetres."""
     return _core.read_surface(fspath(file), scale)
 
 
@@ -41,9 +42,13 @@ def check(surface: SurfaceLike) -> Verdict:
     return _core.check_surface(_surface(surface))
 
 
-def repair(surface: SurfaceLike) -> tuple[Surface, str]:
-    """The surface made fit for measuring and filling, and in words what was done. RunError where nothing helped."""
-    return _core.repair_surface(_surface(surface))
+def repair(surface: SurfaceLike, *, wrap: bool = False) -> tuple[Surface, str]:
+    """Returns the surface made fit for measuring and filling, and in words what was done, with volume and area before and after.
+
+    wrap: accept a new skin around a faulty surface that changes volume or area by more than 1 %. RunError where nothing
+    helped, or where a change of more than 1 % is not accepted.
+    """
+    return _core.repair_surface(_surface(surface), wrap)
 
 
 def measure(surface: SurfaceLike) -> ShapeMeasure:
@@ -51,16 +56,16 @@ def measure(surface: SurfaceLike) -> ShapeMeasure:
     return _core.measure_shape(_surface(surface))
 
 
-def table(surfaces: Iterable[SurfaceLike], *, repair: bool = False,
+def table(surfaces: Iterable[SurfaceLike], *, repair: bool = False, wrap: bool = False,
           out: str | PathLike[str] | None = None) -> pandas.DataFrame:
     """measure() of several, a row each [SI units]: `macadam shapes measure`.
 
-    repair: faulty surfaces, before they are measured. out: a folder for shapes.csv, statistics.csv and correlation.csv.
+    repair: faulty surfaces, before they are measured; wrap: as repair() has it. out: a folder for shapes.csv, statistics.csv and correlation.csv.
     """
     import pandas
     shapes = [_surface(one) for one in surfaces]
     if repair:
-        shapes = [shape if check(shape) else _core.repair_surface(shape)[0] for shape in shapes]
+        shapes = [shape if check(shape) else _core.repair_surface(shape, wrap)[0] for shape in shapes]
     measures = [measure(shape) for shape in shapes]
     if out is not None:
         _core.write_shape_tables(fspath(out), [shape.name for shape in shapes], measures)

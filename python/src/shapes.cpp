@@ -51,6 +51,7 @@ void bind_surface(nb::module_& m) {
           },
           nb::arg("points"), nb::arg("facets"), nb::arg("name") = "surface")
       .def_ro("name", &Surface::name)
+      .def_ro("reading", &Surface::reading, "Changes made on reading, in words; empty if there are none.")
       .def_prop_ro(
           "points", [](const Surface& s) { return view(s.points); }, "[m], (n, 3).")
       .def_prop_ro(
@@ -71,6 +72,7 @@ void bind_surface(nb::module_& m) {
       .def_ro("misoriented", &SurfaceVerdict::misoriented)
       .def_ro("self_intersecting", &SurfaceVerdict::self_intersecting)
       .def_ro("pieces", &SurfaceVerdict::pieces)
+      .def_ro("inner", &SurfaceVerdict::inner, "Pieces inside the one of the largest volume: closed pores.")
       .def_ro("inside_out", &SurfaceVerdict::inside_out)
       .def("__bool__", &SurfaceVerdict::good)
       .def("__str__", &SurfaceVerdict::text);
@@ -83,12 +85,13 @@ void bind_surface(nb::module_& m) {
       "Looks for every fault that a Verdict knows.");
   m.def(
       "repair_surface",
-      [](const Surface& s) {
-        std::string what;
-        Surface out = released([&] { return repair_surface(s, &what); });
-        return nb::make_tuple(nb::cast(std::move(out)), what);
+      [](const Surface& s, bool wrap) {
+        SurfaceRepair repair;
+        Surface out = released([&] { return repair_surface(s, &repair, {}, wrap); });
+        return nb::make_tuple(nb::cast(std::move(out)), repair.what + "; " + repair.changes());
       },
-      nb::arg("surface"), "The surface made fit for measuring and filling, and in words what was done.");
+      nb::arg("surface"), nb::arg("wrap") = false,
+      "The surface made fit for measuring and filling, and in words what was done.");
 }
 
 void write_tables(const std::filesystem::path& out, const std::vector<std::string>& names,

@@ -41,6 +41,31 @@ def test_what_is_wrong_is_said_and_repaired(cube, tmp_path, program):
         mc.shapes.Surface(CUBE[0], np.array([[0, 1, 9]], dtype=np.int32))
 
 
+def test_polygons_and_seams_are_read_and_said(tmp_path):
+    quads = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+    corners = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
+    lines = [f"v {x} {y} {z}" for x, y, z in corners] + [f"f {' '.join(str(p + 1) for p in q)}" for q in quads]
+    (tmp_path / "cube.obj").write_text("\n".join(lines) + "\n")
+    read = mc.shapes.read(tmp_path / "cube.obj")
+    assert read.reading == "cut 6 polygons into triangles"
+    measured = mc.shapes.measure(read)
+    assert measured.volume == pytest.approx(8, rel=1e-12) and measured.area == pytest.approx(24, rel=1e-12)
+    seams = [f"v {x + 1e-16 * k} {y} {z}" for k in range(6) for x, y, z in corners]  # each face has corners of its own
+    seams += [f"f {' '.join(str(8 * k + p + 1) for p in q)}" for k, q in enumerate(quads)]
+    (tmp_path / "seams.obj").write_text("\n".join(seams) + "\n")
+    assert mc.shapes.measure(tmp_path / "seams.obj").volume == pytest.approx(8, rel=1e-12)
+
+
+def test_a_wrap_that_changes_the_volume_is_asked_about():
+    points, facets = CUBE
+    two = mc.shapes.Surface(np.vstack([points, points + 0.5 * points.max()]), np.vstack([facets, facets + 8]), "two")
+    with pytest.raises(mc.RunError, match="two: the repair changes volume or area .*wrapped"):
+        mc.shapes.repair(two)
+    repaired, what = mc.shapes.repair(two, wrap=True)
+    assert mc.shapes.check(repaired).good and "wrapped" in what and "(before " in what
+    assert mc.shapes.table([two], repair=True, wrap=True).volume[0] == mc.shapes.measure(repaired).volume
+
+
 def test_tables_are_those_of_the_command(cube, tmp_path, program):
     for format in ("off", "stl", "ply", "obj"):
         mc.shapes.write(tmp_path / f"cube.{format}", cube, scale=1e-3)

@@ -68,6 +68,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
                                               "vertex_index",
                                               "end_header",
                                               "#",
+                                              "end",
+                                              "\\",
                                               "\r"};
   return macadam::fuzz::mutate_cells(data, size, most, seed, " \t\n", words);
 }
