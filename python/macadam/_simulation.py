@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _core
 from ._scene import Scene
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import pandas
 
 SceneLike = _core.Scene | _core.Specimen | Mapping[str, Any] | str | PathLike[str]
+SpecimenLike = _core.Specimen | Mapping[str, Any]  # made before, or what is different in the section `specimen` of the scene
 Number = float | int | str  # of a scene: SI units, or text with its unit
 
 #: Of [solver], what belongs to the test that is replaced.
@@ -37,18 +38,47 @@ def result_folder(out: str | PathLike[str] | None, owner: Any) -> Path:
     return folder
 
 
+class _Outcome(NamedTuple):
+    """What a run said, beside its files."""
+    text: str
+    decisions: list[str]
+    skips: list[dict[str, str]]
+    warnings: list[str]
+    solver: str
+    backend: str
+
+
 class Result:
     """What a test found, and the folder with its files (docs/scene.md lists them).
 
-    `folder` is the one that was asked for, or a temporary one that goes with this object; save() copies it.
+    `folder` is the one that was asked for, or a temporary one that goes with this object; save() copies it. A pickled
+    result holds the files of a temporary folder, and the name of one that was asked for.
     """
 
     def __init__(self, scene: Scene, specimen: _core.Specimen | None, out: str | PathLike[str] | None,
                  **call: Any) -> None:
         self.scene = scene
         self._specimen = specimen
+        self._temporary = out is None
         self.folder = result_folder(out, self)
-        self._run = _core.run(scene, fspath(self.folder), specimen, **call)
+        done = _core.run(scene, fspath(self.folder), specimen, **call)
+        self._run = _Outcome(*(getattr(done, name) for name in _Outcome._fields))
+
+    def __getstate__(self) -> dict[str, Any]:
+        state = {"scene": self.scene, "_specimen": self._specimen, "_run": self._run, "_temporary": self._temporary}
+        if not self._temporary:
+            return state | {"folder": self.folder.absolute()}
+        files = [p for p in self.folder.rglob("*") if p.is_file()]
+        return state | {"files": {str(p.relative_to(self.folder)): p.read_bytes() for p in files}}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        files = state.pop("files", {})
+        self.__dict__.update(state)
+        if self._temporary:
+            self.folder = result_folder(None, self)
+        for name, content in files.items():
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / name).write_bytes(content)
 
     @cached_property
     def summary(self) -> dict[str, Any]:
@@ -139,13 +169,27 @@ class Result:
         return f"<macadam.Result {self.scene.kind}, {self.solver}, {self.folder}>"
 
 
-def _scene_and_specimen(scene: SceneLike, specimen: _core.Specimen | None) -> tuple[Scene, _core.Specimen | None]:
+def _scene_and_specimen(scene: SceneLike, specimen: SpecimenLike | None,
+                        overrides: dict[str, Any]) -> tuple[Scene, _core.Specimen | None]:
+    """The scene, and the specimen that was made before; a section `specimen` becomes one of the overrides."""
+    made = scene if isinstance(scene, _core.Specimen) else None
+    if isinstance(specimen, _core.Specimen):
+        made = specimen
+    elif isinstance(specimen, Mapping):
+        overrides["specimen"] = specimen
+    elif specimen is not None:
+        raise _core.InputError(f"specimen: found {specimen!r}, expected a Specimen, or a dictionary of keys of the scene's "
+                               "section specimen")
+    other = [k for k, v in overrides.items() if k.split(".")[0] == "specimen" or k == "seed" and v is not None]
+    if made is not None and other:
+        raise _core.InputError(f"{other[0]}: found another value beside a Specimen, which is not made anew; expected a scene "
+                               "in place of the Specimen")
     if isinstance(scene, _core.Specimen):
-        return Scene(scene.scene), specimen or scene
-    return scene if isinstance(scene, Scene) else Scene(scene), specimen
+        return Scene(scene.scene), made
+    return scene if isinstance(scene, Scene) else Scene(scene), made
 
 
-def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: _core.Specimen | None = None,
+def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: SpecimenLike | None = None,
         resume: bool = False, on_step: Callable[[_core.Step], object] | None = None, every: int = 1000,
         progress: Callable[[str, float], object] | None = None,
         on_plan: Callable[[list[str]], object] | None = None, on_warning: Callable[[str], object] | None = None,
@@ -154,7 +198,7 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: _
 
     scene: a Scene, file or dictionary, or a Specimen, which is then not made anew.
     out: the folder of the results; a temporary one where it is not given.
-    specimen: particles of the same scene, made before.
+    specimen: a Specimen of the same scene, made before; or a dictionary, what is different in the scene's section `specimen`.
     resume: go on from the checkpoint that an interrupted run left in `out`.
     on_step: called after every `every` steps of a stepped test with a Step: its time [s], strain, stress_pa [Pa] …
     progress: called with what is being done and the share of it that is done, 0 to 1.
@@ -164,17 +208,17 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: _
     Ctrl-C ends a stepped test with a checkpoint in `out`, and raises KeyboardInterrupt that says so. What a callback
     raises ends the test likewise.
     """
-    given, made = _scene_and_specimen(scene, specimen)
+    given, made = _scene_and_specimen(scene, specimen, overrides)
     if overrides:
         given = Scene(given, **overrides)
     return Result(given, made, **_checked({"out": out, "resume": resume, "on_step": on_step, "every": every,
                                            "progress": progress, "on_plan": on_plan, "on_warning": on_warning}))
 
 
-def _test(scene: SceneLike, specimen: _core.Specimen | None, loading: dict[str, Any], overrides: dict[str, Any],
+def _test(scene: SceneLike, specimen: SpecimenLike | None, loading: dict[str, Any], overrides: dict[str, Any],
           method: str = "harmonic", **call: Any) -> Result:
     """Another test of a scene. Calls have what run() has; `overrides` may too."""
-    given, made = _scene_and_specimen(scene, specimen)
+    given, made = _scene_and_specimen(scene, specimen, overrides)
     tables = given.as_dict()
     tables["loading"] = {name: value for name, value in loading.items() if value is not None}
     solver = {k: v for k, v in tables.get("solver", {}).items() if k not in _OF_THE_TEST}
@@ -188,37 +232,42 @@ def _test(scene: SceneLike, specimen: _core.Specimen | None, loading: dict[str, 
     return Result(other, made, **_checked(call))
 
 
+def _several(numbers: Sequence[Number] | Number) -> Any:
+    """A list of one number; an array or a list as it is."""
+    return [numbers] if isinstance(numbers, str) or not hasattr(numbers, "__len__") else numbers
+
+
 def _checked(call: dict[str, Any]) -> dict[str, Any]:
     if call.get("resume") and call.get("out") is None:
         raise _core.InputError("resume: found no out, expected the folder of the interrupted run")
     return call
 
 
-def harmonic(scene: SceneLike, hz: Sequence[Number] | Number | None = None, *, specimen: _core.Specimen | None = None,
-             temperatures: Sequence[Number] | None = None, inertia: bool | None = None, sensitivities: bool | None = None,
+def harmonic(scene: SceneLike, frequencies: Sequence[Number] | Number | None = None, *,
+             specimen: SpecimenLike | None = None, temperatures: Sequence[Number] | None = None, inertia: bool | None = None, sensitivities: bool | None = None,
              out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
              **overrides: Any) -> Result:
     """|E*| and φ as the steady state of the frequency domain: `macadam run --method harmonic`.
 
-    hz: frequencies [Hz]; the scene's where they are not given.
+    frequencies: [Hz]; the scene's where they are not given.
     temperatures: [°C], every frequency at each; laws need shift keys then.
     inertia: include the particles' inertia.
     sensitivities: derivatives by every parameter of the laws, in `sensitivities` of the result.
     Others as run() has them.
     """
-    given, made = _scene_and_specimen(scene, specimen)
     changed: dict[str, Any] = dict(overrides)
+    given, made = _scene_and_specimen(scene, specimen, changed)
     if sensitivities is not None:
         changed["output.sensitivities"] = sensitivities
     if inertia is not None:
         changed["solver.inertia"] = inertia
         changed["solver.method"] = "harmonic"
-    if hz is None and temperatures is None:
+    if frequencies is None and temperatures is None:
         changed.setdefault("method", "harmonic")
         return Result(Scene(given, **changed), made, out, progress=progress)
     before = given.as_dict()["loading"]
-    frequencies = before.get("frequencies") if hz is None else [hz] if isinstance(hz, (str, int, float)) else list(hz)
-    loading = {"kind": "cyclic", "frequencies": frequencies, "temperatures": temperatures or before.get("temperatures")}
+    loading = {"kind": "cyclic", "frequencies": before.get("frequencies") if frequencies is None else _several(frequencies),
+               "temperatures": before.get("temperatures") if temperatures is None else temperatures}
     if before.get("kind") == "cyclic":
         loading["strain_amplitude"] = before.get("strain_amplitude")
     return _test(given, made, loading, changed, out=out, progress=progress)
@@ -226,7 +275,7 @@ def harmonic(scene: SceneLike, hz: Sequence[Number] | Number | None = None, *, s
 
 def sweep(scene: SceneLike, *, frequencies: Sequence[Number], points_per_decade: int | None = None,
           points: int | None = None, temperatures: Sequence[Number] | None = None,
-          specimen: _core.Specimen | None = None, out: str | PathLike[str] | None = None,
+          specimen: SpecimenLike | None = None, out: str | PathLike[str] | None = None,
           progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
     """The complex modulus over frequencies [Hz] and temperatures [°C]: `kind = "sweep"` (docs/relaxation.md).
 
@@ -239,7 +288,7 @@ def sweep(scene: SceneLike, *, frequencies: Sequence[Number], points_per_decade:
 
 def relaxation(scene: SceneLike, *, times: Sequence[Number], points_per_decade: int | None = None,
                points: int | None = None, strain: Number | None = None, ramp: Number | None = None,
-               poisson_ratio: float | None = None, method: str = "harmonic", specimen: _core.Specimen | None = None,
+               poisson_ratio: float | None = None, method: str = "harmonic", specimen: SpecimenLike | None = None,
                out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
                **overrides: Any) -> Result:
     """Stress under a strain that is held: `kind = "relaxation"` (docs/relaxation.md).
@@ -258,7 +307,7 @@ def relaxation(scene: SceneLike, *, times: Sequence[Number], points_per_decade: 
 def creep(scene: SceneLike, *, stress: Number, times: Sequence[Number], points_per_decade: int | None = None,
           points: int | None = None, ramp: Number | None = None, release: Number | None = None,
           platen_mass: Number | None = None, poisson_ratio: float | None = None, method: str = "harmonic",
-          specimen: _core.Specimen | None = None, out: str | PathLike[str] | None = None,
+          specimen: SpecimenLike | None = None, out: str | PathLike[str] | None = None,
           progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
     """Strain under a stress [Pa] that is held, and taken off from `release` [s] on: `kind = "creep"` (docs/relaxation.md).
 
@@ -273,7 +322,7 @@ def creep(scene: SceneLike, *, stress: Number, times: Sequence[Number], points_p
 
 def monotonic(scene: SceneLike, *, rate: Number, times: Sequence[Number] | None = None,
               points_per_decade: int | None = None, points: int | None = None, strain: Number | None = None,
-              poisson_ratio: float | None = None, method: str = "harmonic", specimen: _core.Specimen | None = None,
+              poisson_ratio: float | None = None, method: str = "harmonic", specimen: SpecimenLike | None = None,
               out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
               **overrides: Any) -> Result:
     """Stress under a constant rate of strain [1/s], tension positive: `kind = "monotonic"` (docs/relaxation.md).
