@@ -12,6 +12,9 @@
 namespace macadam {
 namespace {
 
+/// Letters of a word that count: a line of a damaged file may have very many, and edits() takes time with their square.
+constexpr std::size_t longest = 64;
+
 bool same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
@@ -48,19 +51,22 @@ std::optional<std::string> only_with_beginning(std::string_view word, const std:
   return *std::find_if(known.begin(), known.end(), begins);
 }
 
-std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known) {
-  const std::string& best = *std::min_element(
-      known.begin(), known.end(), [&](const auto& a, const auto& b) { return edits(word, a) < edits(word, b); });
-  if (3 * edits(word, best) <= std::max(word.size(), best.size())) return best;
-  return only_with_beginning(word, known);
-}
-
 }  // namespace
 
+std::size_t letters_between(std::string_view a, std::string_view b) {
+  return edits(a.substr(0, longest), b.substr(0, longest));
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& known) {
+  return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+    return letters_between(word, a) < letters_between(word, b);
+  });
+}
+
 std::string expected_one_of(std::string_view word, const std::vector<std::string>& known) {
-  // A key has at most 64 letters. A line of a damaged file may be far longer, and edits() takes time with its square.
-  constexpr std::size_t longest = 64;
-  const std::optional<std::string> near = nearest(word.substr(0, longest), known);
+  word = word.substr(0, longest);
+  std::optional<std::string> near = nearest(word, known);
+  if (3 * letters_between(word, *near) > std::max(word.size(), near->size())) near = only_with_beginning(word, known);
   if (!near && known.size() == 1) return known.front();
   return near ? fmt::format("{} (the nearest of {})", *near, fmt::join(known, ", "))
               : fmt::format("one of {}", fmt::join(known, ", "));

@@ -170,8 +170,9 @@ class Result:
 
 
 def _scene_and_specimen(scene: SceneLike, specimen: SpecimenLike | None,
-                        overrides: dict[str, Any]) -> tuple[Scene, _core.Specimen | None]:
+                        overrides: dict[str, Any] | None = None) -> tuple[Scene, _core.Specimen | None]:
     """The scene, and the specimen that was made before; a section `specimen` becomes one of the overrides."""
+    overrides = {} if overrides is None else overrides
     made = scene if isinstance(scene, _core.Specimen) else None
     if isinstance(specimen, _core.Specimen):
         made = specimen

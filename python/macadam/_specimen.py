@@ -18,8 +18,6 @@ Progress = Callable[[str, float], object]
 
 #: Arrays of a specimen's own particles, and those that must be given.
 _ARRAYS, _NEEDED = ("centre", "radius", "phase", "body", "box"), ("centre", "radius")
-#: What the scene of such a specimen names as its source: no file has this name.
-GIVEN = "particles given in Python"
 
 
 def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
@@ -58,5 +56,5 @@ def _scene_of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[
     name, tables, options = tables_of(scene)
     section = tables.get("specimen", {})
     edges = section.get("box") if box is None else np.asarray(box).tolist()
-    tables["specimen"] = {"file": GIVEN} | ({} if edges is None else {"box": edges})
+    tables["specimen"] = {"file": _core.given_particles} | ({} if edges is None else {"box": edges})
     return Scene(tables, file=name, **{k: v for k, v in options.items() if k != "seed"})

@@ -9,6 +9,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "host/scene/given_particles.hpp"
 #include "macadam/macadam.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
@@ -217,6 +218,7 @@ void bind_specimen(nb::module_& m) {
             return nb::make_tuple(owned(std::move(i.mass)), owned(std::move(i.inertia)));
           },
           "Masses [kg] and moments of inertia [kg m²] of the particles.");
+  m.attr("given_particles") = scene::given_particles;
   m.def("prepare", &prepare_scene, nb::arg("scene"), nb::arg("progress") = nb::none());
   m.def("prepare_particles", &prepare_particles, nb::arg("scene"), nb::arg("box"), nb::arg("centre"), nb::arg("radius"),
         nb::arg("phase"), nb::arg("body"));

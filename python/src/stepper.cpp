@@ -102,7 +102,7 @@ void set_state(Steps& s, const nb::dict& arrays) {
       const nb::object found = number_array(array, "arrays: " + text, "an array as state() gave it");
       throw InputError(fmt::format(
           "arrays: {}: found {} of shape {}, expected a flat array of float32, float64 or int64, as state() gave it",
-          text, nb::str(found.attr("dtype")).c_str(), nb::repr(found.attr("shape")).c_str()));
+          text, nb::cast<std::string>(found.attr("dtype").attr("name")), nb::repr(found.attr("shape")).c_str()));
     }
     state.push_back({text, "", std::move(*values)});
   }

@@ -75,10 +75,10 @@ def test_a_result_takes_its_files_with_it(copied, specimen):
 def test_a_result_of_a_named_folder_names_it(specimen, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     of = mc.harmonic(specimen, frequencies=[10], out="here")
-    data = pickle.dumps(of)
+    data, table = pickle.dumps(of), of.table
     monkeypatch.chdir("/")
     made = pickle.loads(data)
-    assert made.folder == tmp_path / "here" and made.table.equals(of.table)
+    assert made.folder == tmp_path / "here" and made.table.equals(table)
     del made
     assert (tmp_path / "here" / "summary.json").exists()
 
