@@ -23,7 +23,8 @@ _HOMES = {
               "Spectrum", "PronySeries", "CreepSeries", "spectrum", "evaluate_cyclic", "critical_step", "__version__"),
     "_scene": ("Scene",),
     "_specimen": ("specimen",),
-    "_simulation": ("run", "harmonic", "sweep", "relaxation", "creep", "monotonic", "Result"),
+    "_simulation": ("run", "harmonic", "sweep", "relaxation", "creep", "monotonic"),
+    "_result": ("Result",),
     "_fit": ("fit", "Fit"),
     "_calibration": ("calibrate", "Calibration"),
 }
@@ -39,8 +40,9 @@ if TYPE_CHECKING:
                         critical_step, evaluate_cyclic, info, pair_names, spectrum, steady_start)
     from ._core import InterruptedError as InterruptedError
     from ._fit import Fit, fit
+    from ._result import Result
     from ._scene import Scene
-    from ._simulation import Result, creep, harmonic, monotonic, relaxation, run, sweep
+    from ._simulation import creep, harmonic, monotonic, relaxation, run, sweep
     from ._specimen import specimen
     from .report.document import report
     from .study.driver import study

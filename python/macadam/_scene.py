@@ -65,7 +65,7 @@ def _tables_of(text: str, file: str) -> dict[str, Any]:
 
 def tables_of(source: str | PathLike[str] | Mapping[str, Any] | _core.Scene,
               file: str | PathLike[str] | None = None) -> tuple[str, dict[str, Any], dict[str, Any]]:
-    """What messages call a scene, its tables, which are the caller's own, and the options that were given beside it."""
+    """Returns a scene's name for messages, a copy of its tables, and the options that were given beside it."""
     if isinstance(source, _core.Scene):
         return str(source.file), _tables_of(source.text, str(source.file)), source.options
     if isinstance(source, Mapping):

@@ -52,7 +52,7 @@ def _of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str],
 
 
 def _scene_of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], box: ArrayLike | None) -> Scene:
-    """The scene with the given particles as its source: a mixture, recipe or file of the scene says nothing of them."""
+    """Returns the scene with the given particles as its source, without a mixture, which does not describe them."""
     name, tables, options = tables_of(scene)
     section = tables.get("specimen", {})
     edges = section.get("box") if box is None else np.asarray(box).tolist()

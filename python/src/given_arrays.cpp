@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// given_arrays.cpp  NumPy reads the argument; what it finds is checked here.
+// given_arrays.cpp  Reads an argument with NumPy and checks kind and shape.
 #include "python/src/given_arrays.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ using Doubles = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
   throw InputError(fmt::format("{}: found {}, expected {}", name, found, expected));
 }
 
-/// Returns what an array holds that is not an array of numbers, by the letter that NumPy has for its kind.
+/// Names the contents of an array without numbers, from NumPy's letter for its kind.
 std::string contents(char kind) {
   switch (kind) {
     case 'U':
@@ -40,7 +40,7 @@ std::string contents(char kind) {
 
 std::string shape_of(nb::handle array) { return nb::repr(array.attr("shape")).c_str(); }
 
-/// Returns "numbers of shape (n, 3)", where 64 stands for n if so many rows are expected.
+/// Returns "numbers of shape (n, 3)", with the number of rows for n if a certain number is expected.
 std::string expected_shape(std::size_t columns, std::optional<std::size_t> rows) {
   const std::string n = rows ? std::to_string(*rows) : "n";
   return "numbers of shape " + (columns == 1 ? "(" + n + ",)" : fmt::format("({}, {})", n, columns));

@@ -18,8 +18,9 @@ namespace nb = nanobind;
 
 inline bool is_any_object(PyObject*) { return true; }
 
-/// An argument that NumPy can read as an array: an array, a list, a column of a table. Functions take it as it is, so
-/// that a wrong shape is an InputError that names the argument, not a TypeError that shows the C++ signature.
+/// An argument that NumPy can read as an array: an array, a list, a column of a table. Functions
+/// convert it themselves, so that a wrong shape is an InputError that names the argument, not a TypeError with a C++
+/// signature.
 class ArrayLike : public nb::object {
   NB_OBJECT_DEFAULT(ArrayLike, nb::object, "numpy.typing.ArrayLike", is_any_object)
 };
@@ -38,7 +39,7 @@ std::vector<Vec3d> vectors(const ArrayLike& given, const std::string& name, std:
 std::vector<std::array<std::int32_t, 3>> whole_triples(const ArrayLike& given, const std::string& name);
 
 /// Returns the numbers as a NumPy array of any shape, of the kind that they have: bool, int, uint or float.
-/// \throws InputError where they are text, of rows of unequal length or the like; `expected` ends its message.
+/// \throws InputError for text, rows of different lengths and the like; `expected` ends its message.
 nb::object number_array(nb::handle given, const std::string& name, const std::string& expected);
 
 }  // namespace macadam::python

@@ -6,12 +6,12 @@
 
 namespace macadam::python {
 
-/// Adds __getstate__ and __setstate__: a scene is its file's name, its text and the options given beside it. The text
-/// is read anew, so a file that it names must still be there.
+/// Adds __getstate__ and __setstate__. The state of a scene is its file's name, its text and its options. Unpickling
+/// reads the text again, so files that the text names must still exist.
 void pickle_scenes(nanobind::class_<GivenScene>& c);
 
-/// Adds __getstate__ and __setstate__: a specimen is its scene and its spheres. Cells and contacts are computed anew,
-/// to the same bits.
+/// Adds __getstate__ and __setstate__. The state of a specimen is its scene and its spheres. Unpickling computes cells
+/// and contacts again, with the same bits.
 void pickle_specimens(nanobind::class_<Prepared>& c);
 
 }  // namespace macadam::python

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What pictures of a report show: the frame that was asked for, one colour per size class, words that fit the specimen."""
+"""Pictures and first words of a report: the frame asked for, one colour per size class, the scene's name, the result."""
 
 from __future__ import annotations
 

@@ -107,7 +107,7 @@ def test_particles_of_ones_own(scene):
 
 
 def test_particles_of_ones_own_need_no_other_source(scene, tmp_path):
-    """A scene with laws and a test alone; a mixture of a scene is not that of the given particles."""
+    """The scene has laws and a test alone; a mixture in it is left out, as it does not describe the particles."""
     side = np.arange(3) * 1e-3 + 0.5e-3
     centre = np.stack(np.meshgrid(side, side, side, indexing="ij"), axis=-1).reshape(-1, 3)
     particles = {"box": [3e-3] * 3, "centre": centre, "radius": np.full(27, 5e-4)}

@@ -181,7 +181,7 @@ def _sensitivities(page: Page, folder: Folder) -> None:
 
 
 def _at_first_temperature(results: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Those at the temperature of the first, low frequencies first: only one thing differs between them."""
+    """Returns the results at the first one's temperature, by frequency, so that only the frequency differs between them."""
     return sorted(
         (r for r in results if r.get("temperature_c") == results[0].get("temperature_c")), key=lambda r: r["frequency_hz"]
     )

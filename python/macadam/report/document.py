@@ -87,7 +87,7 @@ def _title(folders: list[Folder]) -> str:
 
 
 def _name(folder: Folder) -> str:
-    """The name of the scene's file, of its folder where the file is called scene.toml; without a scene that of the results."""
+    """Returns the name of the scene's file, or of its folder if the file is called scene.toml. Without a scene: the label."""
     scene = Path(str(folder.summary.get("scene") or ""))
     name = scene.parent.name if scene.stem == "scene" else scene.stem
     return name or folder.label

@@ -153,7 +153,7 @@ def _read(file: Path, frame: int) -> Any:
 
 
 def _frames(reader: Any) -> int:
-    """How many frames a file has. PyVista's reader of .vtkhdf has no time of its own: VTK's reader within it has."""
+    """Returns the number of frames. PyVista's reader of .vtkhdf does not know times; the VTK reader within it does."""
     vtk = reader.reader
     if not hasattr(vtk, "GetNumberOfSteps"):
         return 1

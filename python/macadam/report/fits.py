@@ -25,7 +25,7 @@ def add(page: Page, folders: list[Folder]) -> None:
 
 
 def found(f: Folder) -> str:
-    """What a calibration or a fit found, in a sentence; of other folders an empty text."""
+    """Returns the result of a calibration or a fit in one sentence, and an empty text for other folders."""
     if f.kind == "calibration":
         errors = f.summary.get("errors") or {}
         parameters = f.summary.get("parameters") or []

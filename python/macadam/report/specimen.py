@@ -63,7 +63,7 @@ def _box(folder: Folder) -> np.ndarray:
 
 
 def class_colours(folders: list[Folder]) -> dict[str, str]:
-    """One colour per size class, by the class's name, in all specimens of a report."""
+    """Returns the colour of each size class, by the class's name, the same in all specimens of a report."""
     names = list(dict.fromkeys(name for folder in folders for name in _names(folder).values()))
     return {name: look.CLASSES[k % len(look.CLASSES)] for k, name in enumerate(names)}
 
