@@ -1,38 +1,75 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// nearest.cpp  Levenshtein's distance, letters compared without case.
+// nearest.cpp  Distance between words in edits, letters compared without case.
 #include "host/nearest.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <numeric>
+#include <optional>
 
 namespace macadam {
 namespace {
 
-std::size_t edits(std::string_view a, std::string_view b) {  // Levenshtein, one row at a time
-  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
+/// Letters of a word that count: a line of a damaged file may have very many, and edits() takes time with their square.
+constexpr std::size_t longest = 64;
+
+bool same_letter(char a, char b) {
+  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
+
+/// Returns the number of edits from a to b (optimal string alignment): letters inserted, removed or replaced, and
+/// neighbours exchanged.
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
     row[0] = i + 1;
     for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (lower(a[i]) == lower(b[j]) ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+      row[j + 1] = std::min({last[j] + (same_letter(a[i], b[j]) ? 0 : 1), row[j] + 1, last[j + 1] + 1});
+      if (i > 0 && j > 0 && same_letter(a[i], b[j - 1]) && same_letter(a[i - 1], b[j])) {
+        row[j + 1] = std::min(row[j + 1], before[j - 1] + 1);
+      }
     }
+    std::swap(before, last);
+    std::swap(last, row);
   }
-  return row.back();
+  return last.back();
+}
+
+/// Removes the hyphens of an option.
+std::string_view bare(std::string_view word) {
+  word.remove_prefix(std::min(word.find_first_not_of('-'), word.size()));
+  return word;
+}
+
+/// Returns the only known word that begins with `word`, hyphens of options aside.
+std::optional<std::string> only_with_beginning(std::string_view word, const std::vector<std::string>& known) {
+  const auto begins = [word = bare(word)](const std::string& k) { return !word.empty() && bare(k).starts_with(word); };
+  if (std::count_if(known.begin(), known.end(), begins) != 1) return {};
+  return *std::find_if(known.begin(), known.end(), begins);
 }
 
 }  // namespace
 
+std::size_t letters_between(std::string_view a, std::string_view b) {
+  return edits(a.substr(0, longest), b.substr(0, longest));
+}
+
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
-  constexpr std::size_t longest =
-      64;  // of a key; a line of a damaged file may be far longer, and edits() takes its time
+  return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+    return letters_between(word, a) < letters_between(word, b);
+  });
+}
+
+std::string expected_one_of(std::string_view word, const std::vector<std::string>& known) {
   word = word.substr(0, longest);
-  return *std::min_element(known.begin(), known.end(),
-                           [&](const auto& a, const auto& b) { return edits(word, a) < edits(word, b); });
+  std::optional<std::string> near = nearest(word, known);
+  if (3 * letters_between(word, *near) > std::max(word.size(), near->size())) near = only_with_beginning(word, known);
+  if (!near && known.size() == 1) return known.front();
+  return near ? fmt::format("{} (the nearest of {})", *near, fmt::join(known, ", "))
+              : fmt::format("one of {}", fmt::join(known, ", "));
 }
 
 }  // namespace macadam

@@ -46,7 +46,7 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
   }
   const std::string seeds = "expected a whole number from 0 to 18446744073709551615";
   for (const auto& [arguments, message] : std::map<std::string, std::string>{
-           {"run " + job + " --frobnicate", "found \"--frobnicate\", expected --"},
+           {"run " + job + " --frobnicate", "found \"--frobnicate\", expected one of --help, --out"},
            {"run " + job + " --backend gpu", "--backend: found \"gpu\", expected one of auto|cuda|cpu|reference"},
            {"run " + job + " --backend 3", "--backend: found \"3\""},
            {"run " + job + " --seed -1", "--seed: found \"-1\", " + seeds},

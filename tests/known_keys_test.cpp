@@ -48,10 +48,10 @@ std::set<std::string> listed_in_error(const std::string& section, const std::str
   try {
     read_scene("scene.toml", text);
   } catch (const InputError& error) {
-    const std::string message = error.what(), before = "(the nearest of ";
-    const auto begin = message.find(before);
-    if (begin == std::string::npos) throw;
-    std::istringstream words(message.substr(begin + before.size()));
+    const std::string message = error.what(), before = "an unknown ";
+    if (message.find(before) == std::string::npos) throw;
+    const std::string list = message.substr(message.find("expected ") + 9);  // no key is near "nobody"
+    std::istringstream words(list.starts_with("one of ") ? list.substr(7) : list);
     std::set<std::string> out;
     for (std::string word; words >> word;) out.insert(word.substr(0, word.find_first_of(",)")));
     return out;

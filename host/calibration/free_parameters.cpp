@@ -56,9 +56,7 @@ std::vector<Parameter> free_parameters(const Scene& scene, const CalibrationOpti
     const auto at = std::find(names.begin(), names.end(), asked.name);
     if (at == names.end()) {
       refuse("free parameters", in_quotes(asked.name),
-             names.empty() ? "nothing: the scene has no laws"
-                           : fmt::format("{} (the nearest of those that the scene has: {})", nearest(asked.name, names),
-                                         fmt::join(names, ", ")));
+             names.empty() ? "nothing: the scene has no laws" : expected_one_of(asked.name, names));
     }
     const Parameter& p = known[static_cast<std::size_t>(at - names.begin())];
     for (const Parameter& other : free)

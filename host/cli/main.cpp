@@ -44,10 +44,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const std::string& word = unknown.front();
   const bool option = word.starts_with('-');
   const std::vector<std::string> known = option ? known_words(command, true) : commands;
-  return fmt::format("found \"{}\", expected {}", word,
-                     known.empty()
-                         ? "nothing more"
-                         : fmt::format("{} (the nearest of {})", nearest(word, known), fmt::join(known, ", ")));
+  return fmt::format("found \"{}\", expected {}", word, known.empty() ? "nothing more" : expected_one_of(word, known));
 }
 
 int refuse(const CLI::App& app, const CLI::ParseError& error) {

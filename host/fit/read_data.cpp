@@ -123,8 +123,7 @@ class DataReader {
     for (const std::string_view name : fields_of(line)) {
       const auto at = std::find(known.begin(), known.end(), name);
       if (at == known.end()) {
-        fail("header", in_quotes(name),
-             fmt::format("{} (the nearest of {}), separated by commas", nearest(name, known), fmt::join(known, ", ")));
+        fail("header", in_quotes(name), fmt::format("{}, separated by commas", expected_one_of(name, known)));
       }
       const auto column = static_cast<std::size_t>(at - known.begin());
       if (has(column)) fail("header", in_quotes(name) + " twice", "each column once");

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "host/scene/given_particles.hpp"
 #include "host/scene/sections.hpp"
 #include "host/spheres/size_law.hpp"
 #include "host/spheres/specimen_check.hpp"
@@ -183,6 +184,7 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
   const auto read_file = [&](const Value& value) {
     spec.file = (folder / value.text()).lexically_normal();
     std::error_code error;
+    if (value.text() == given_particles) return;
     if (!std::filesystem::is_regular_file(*spec.file, error)) {
       value.refuse("no file " + spec.file->string(), "a specimen file; paths are relative to the scene's folder");
     }

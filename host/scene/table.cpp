@@ -171,7 +171,7 @@ void Section::read(const std::vector<Key>& keys) const {
   for (const auto& [key, node] : *table_) {
     const std::string word(key.str());
     if (std::find(known.begin(), known.end(), word) == known.end()) {
-      refuse(word, "an unknown " + kind, nearest(word, known) + " (the nearest of " + listed(known) + ")");
+      refuse(word, "an unknown " + kind, expected_one_of(word, known));
     }
   }
   for (const Key& key : keys) {

@@ -3,7 +3,7 @@
 
     import macadam as mc
     scene = mc.Scene("examples/demo/scene.toml", seed=3)
-    result = mc.harmonic(scene, hz=[2, 5, 10, 20])
+    result = mc.harmonic(scene, frequencies=[2, 5, 10, 20])
     print(result.table)
 
 All numbers are in SI units (m, kg, s, Pa), angles of results in degrees. docs/python.md shows everything.
@@ -29,7 +29,8 @@ _HOMES = {
               "Spectrum", "PronySeries", "CreepSeries", "spectrum", "evaluate_cyclic", "critical_step", "__version__"),
     "_scene": ("Scene",),
     "_specimen": ("specimen",),
-    "_simulation": ("run", "harmonic", "sweep", "relaxation", "creep", "monotonic", "Result"),
+    "_simulation": ("run", "harmonic", "sweep", "relaxation", "creep", "monotonic"),
+    "_result": ("Result",),
     "_fit": ("fit", "Fit"),
     "_calibration": ("calibrate", "Calibration"),
 }
@@ -40,18 +41,21 @@ if TYPE_CHECKING:
     from . import ct, drives, shapes
     from ._calibration import Calibration, calibrate
     from ._core import (Boundary, Cells, Contacts, ContactState, CreepSeries, DivergenceError, Drive, Error,
-                        FieldSeries, HarmonicSolver, InputError, InterruptedError, Observation, ParticleState,
+                        FieldSeries, HarmonicSolver, InputError, Observation, ParticleState,
                         PronySeries, RunError, Section, Specimen, Spectrum, StartState, SteadyState, Step, Stepper,
                         critical_step, evaluate_cyclic, info, pair_names, spectrum, steady_start)
+    from ._core import InterruptedError as InterruptedError
     from ._fit import Fit, fit
+    from ._result import Result
     from ._scene import Scene
-    from ._simulation import Result, creep, harmonic, monotonic, relaxation, run, sweep
+    from ._simulation import creep, harmonic, monotonic, relaxation, run, sweep
     from ._specimen import specimen
     from .report.document import report
     from .study.driver import study
     __version__: str
 
-__all__ = [name for name in _HOME_OF if not name.startswith("_")] + list(_MODULES)
+#: Without the name that would hide one of Python's after `from macadam import *`.
+__all__ = [name for name in _HOME_OF if name != "InterruptedError" and not name.startswith("_")] + list(_MODULES)
 
 
 def __getattr__(name: str) -> Any:
@@ -65,4 +69,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted(set(globals()) | set(__all__))
+    return sorted({*_HOME_OF, *_MODULES, *(name for name in globals() if name.startswith("__"))})

@@ -63,6 +63,17 @@ def _tables_of(text: str, file: str) -> dict[str, Any]:
         raise _core.InputError(f"{file}: TOML syntax: found {error}, expected valid TOML") from error
 
 
+def tables_of(source: str | PathLike[str] | Mapping[str, Any] | _core.Scene,
+              file: str | PathLike[str] | None = None) -> tuple[str, dict[str, Any], dict[str, Any]]:
+    """Returns a scene's name for messages, a copy of its tables, and the options that were given beside it."""
+    if isinstance(source, _core.Scene):
+        return str(source.file), _tables_of(source.text, str(source.file)), source.options
+    if isinstance(source, Mapping):
+        return fspath(file) if file else NO_FILE, copy.deepcopy(dict(source)), {}
+    name = fspath(source)
+    return name, _tables_of(_core.Scene.read_text(name), name), {}
+
+
 class Scene(_core.Scene):
     """A scene: a mix, its laws and a test, read and checked completely.
 
@@ -85,14 +96,8 @@ class Scene(_core.Scene):
         elif isinstance(source, (str, PathLike)) and not keys:
             super().__init__(fspath(source))
         else:
-            if isinstance(source, _core.Scene):
-                name, tables = str(source.file), _tables_of(source.text, str(source.file))
-                options = {**source.options, **options}
-            elif isinstance(source, Mapping):
-                name, tables = fspath(file) if file else NO_FILE, copy.deepcopy(dict(source))
-            else:
-                name = fspath(source)
-                tables = _tables_of(_core.Scene.read_text(name), name)
+            name, tables, before = tables_of(source, file)
+            options = {**before, **options}
             for key, value in keys.items():
                 set_key(tables, key, value)
             super().__init__(name, _toml.dumps(tables), False)

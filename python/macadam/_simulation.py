@@ -2,24 +2,17 @@
 """Tests of a specimen: stepped, or solved without steps; each leaves the folder that the command leaves."""
 from __future__ import annotations
 
-import importlib
-import json
-import shutil
-import tempfile
-import weakref
 from collections.abc import Callable, Mapping, Sequence
-from functools import cached_property
-from os import PathLike, fspath
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from os import PathLike
+from typing import Any
 
 from . import _core
+from ._result import Result
+from ._result import result_folder as result_folder
 from ._scene import Scene
 
-if TYPE_CHECKING:
-    import pandas
-
 SceneLike = _core.Scene | _core.Specimen | Mapping[str, Any] | str | PathLike[str]
+SpecimenLike = _core.Specimen | Mapping[str, Any]  # made before, or changed keys of the scene's section `specimen`
 Number = float | int | str  # of a scene: SI units, or text with its unit
 
 #: Of [solver], what belongs to the test that is replaced.
@@ -28,124 +21,28 @@ _OF_THE_TEST = ("method", "density_scaling", "time_step", "safety", "inertia")
 _OF_RUN = ("resume", "on_step", "every", "on_plan", "on_warning")
 
 
-def result_folder(out: str | PathLike[str] | None, owner: Any) -> Path:
-    """The folder that was asked for, or one that goes with the object that owns it."""
-    if out is not None:
-        return Path(out)
-    folder = Path(tempfile.mkdtemp(prefix="macadam-"))
-    weakref.finalize(owner, shutil.rmtree, folder, ignore_errors=True)
-    return folder
-
-
-class Result:
-    """What a test found, and the folder with its files (docs/scene.md lists them).
-
-    `folder` is the one that was asked for, or a temporary one that goes with this object; save() copies it.
-    """
-
-    def __init__(self, scene: Scene, specimen: _core.Specimen | None, out: str | PathLike[str] | None,
-                 **call: Any) -> None:
-        self.scene = scene
-        self._specimen = specimen
-        self.folder = result_folder(out, self)
-        self._run = _core.run(scene, fspath(self.folder), specimen, **call)
-
-    @cached_property
-    def summary(self) -> dict[str, Any]:
-        """summary.json: everything asked, made and found."""
-        return json.loads((self.folder / "summary.json").read_text(encoding="utf-8", errors="replace"))
-
-    @cached_property
-    def table(self) -> pandas.DataFrame:
-        """Of a cyclic test or a sweep, a row a frequency: frequency_hz, e_star_pa [Pa], phase_deg and so on. Of the
-        others a row a time: time_s and what the test measures."""
-        import pandas
-        rows = self.summary["results"]
-        if rows and "points" in rows[0]:
-            rows = rows[0]["points"]
-        return pandas.DataFrame([{k: v for k, v in r.items() if not isinstance(v, (dict, list))} for r in rows])
-
-    @cached_property
-    def sensitivities(self) -> pandas.DataFrame:
-        """Change of |E*| [Pa] and φ [degrees] per unit of each parameter's natural logarithm, where they were asked for."""
-        import pandas
-        return pandas.DataFrame([{"frequency_hz": r["frequency_hz"], **s} for r in self.summary["results"]
-                                 for s in r.get("sensitivities", [])])
-
-    @cached_property
-    def response(self) -> pandas.DataFrame:
-        """Of a stepped cyclic test: frequency_hz, time_s, strain, stress_pa. Of the others, table has all there is."""
-        return self.csv("response.csv")
-
-    @cached_property
-    def prony(self) -> pandas.DataFrame:
-        """Of relaxation, creep and monotonic tests without steps: the relaxation modulus as Maxwell units."""
-        return self.csv("prony.csv")
-
-    def csv(self, name: str) -> pandas.DataFrame:
-        """A table of the folder by its name."""
-        import pandas
-        file = self.folder / name
-        if not file.is_file():
-            there = ", ".join(sorted(p.name for p in self.folder.glob("*.csv")))
-            raise _core.InputError(f"{file}: found no such file, expected one of {there}")
-        return pandas.read_csv(file, comment="#")
-
-    @property
-    def specimen(self) -> _core.Specimen:
-        """Particles, cells and contacts that were tested."""
-        if self._specimen is None:
-            self._specimen = _core.prepare(self.scene)
-        return self._specimen
-
-    @property
-    def decisions(self) -> list[str]:
-        """What the scene left open, and what was chosen why."""
-        return self._run.decisions
-
-    @property
-    def skips(self) -> list[dict[str, str]]:
-        """What was left out because the scene does not need it: what, why, effect."""
-        return self._run.skips
-
-    @property
-    def warnings(self) -> list[str]:
-        """What a reader of the results must know."""
-        return self._run.warnings
-
-    @property
-    def solver(self) -> str:
-        """What ran, in words."""
-        return self._run.solver
-
-    @property
-    def backend(self) -> str:
-        """That ran: cpu, cuda or reference."""
-        return self._run.backend
-
-    def report(self, file: str | PathLike[str]) -> Path:
-        """Writes a report of the folder, one HTML file: `macadam report`."""
-        importlib.import_module("macadam.report").report(self.folder, file)
-        return Path(file)
-
-    def save(self, folder: str | PathLike[str]) -> Path:
-        """Copies the folder."""
-        return Path(shutil.copytree(self.folder, folder, dirs_exist_ok=True))
-
-    def __str__(self) -> str:
-        return self._run.text
-
-    def __repr__(self) -> str:
-        return f"<macadam.Result {self.scene.kind}, {self.solver}, {self.folder}>"
-
-
-def _scene_and_specimen(scene: SceneLike, specimen: _core.Specimen | None) -> tuple[Scene, _core.Specimen | None]:
+def _scene_and_specimen(scene: SceneLike, specimen: SpecimenLike | None,
+                        overrides: dict[str, Any] | None = None) -> tuple[Scene, _core.Specimen | None]:
+    """Returns the scene, and the specimen if one was made before. Puts a section `specimen` among the overrides."""
+    overrides = {} if overrides is None else overrides
+    made = scene if isinstance(scene, _core.Specimen) else None
+    if isinstance(specimen, _core.Specimen):
+        made = specimen
+    elif isinstance(specimen, Mapping):
+        overrides["specimen"] = specimen
+    elif specimen is not None:
+        raise _core.InputError(f"specimen: found {specimen!r}, expected a Specimen, or a dictionary of keys of the scene's "
+                               "section specimen")
+    other = [k for k, v in overrides.items() if k.split(".")[0] == "specimen" or k == "seed" and v is not None]
+    if made is not None and other:
+        raise _core.InputError(f"{other[0]}: found another value beside a Specimen, expected a scene: the particles of a Specimen "
+                               "cannot be changed")
     if isinstance(scene, _core.Specimen):
-        return Scene(scene.scene), specimen or scene
-    return scene if isinstance(scene, Scene) else Scene(scene), specimen
+        return Scene(scene.scene), made
+    return scene if isinstance(scene, Scene) else Scene(scene), made
 
 
-def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: _core.Specimen | None = None,
+def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: SpecimenLike | None = None,
         resume: bool = False, on_step: Callable[[_core.Step], object] | None = None, every: int = 1000,
         progress: Callable[[str, float], object] | None = None,
         on_plan: Callable[[list[str]], object] | None = None, on_warning: Callable[[str], object] | None = None,
@@ -154,7 +51,7 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: _
 
     scene: a Scene, file or dictionary, or a Specimen, which is then not made anew.
     out: the folder of the results; a temporary one where it is not given.
-    specimen: particles of the same scene, made before.
+    specimen: a Specimen of the same scene, made before; or a dictionary with the changed keys of the section `specimen`.
     resume: go on from the checkpoint that an interrupted run left in `out`.
     on_step: called after every `every` steps of a stepped test with a Step: its time [s], strain, stress_pa [Pa] …
     progress: called with what is being done and the share of it that is done, 0 to 1.
@@ -164,17 +61,17 @@ def run(scene: SceneLike, *, out: str | PathLike[str] | None = None, specimen: _
     Ctrl-C ends a stepped test with a checkpoint in `out`, and raises KeyboardInterrupt that says so. What a callback
     raises ends the test likewise.
     """
-    given, made = _scene_and_specimen(scene, specimen)
+    given, made = _scene_and_specimen(scene, specimen, overrides)
     if overrides:
         given = Scene(given, **overrides)
     return Result(given, made, **_checked({"out": out, "resume": resume, "on_step": on_step, "every": every,
                                            "progress": progress, "on_plan": on_plan, "on_warning": on_warning}))
 
 
-def _test(scene: SceneLike, specimen: _core.Specimen | None, loading: dict[str, Any], overrides: dict[str, Any],
+def _test(scene: SceneLike, specimen: SpecimenLike | None, loading: dict[str, Any], overrides: dict[str, Any],
           method: str = "harmonic", **call: Any) -> Result:
     """Another test of a scene. Calls have what run() has; `overrides` may too."""
-    given, made = _scene_and_specimen(scene, specimen)
+    given, made = _scene_and_specimen(scene, specimen, overrides)
     tables = given.as_dict()
     tables["loading"] = {name: value for name, value in loading.items() if value is not None}
     solver = {k: v for k, v in tables.get("solver", {}).items() if k not in _OF_THE_TEST}
@@ -188,37 +85,43 @@ def _test(scene: SceneLike, specimen: _core.Specimen | None, loading: dict[str, 
     return Result(other, made, **_checked(call))
 
 
+def _several(numbers: Sequence[Number] | Number) -> Any:
+    """Returns a single number as a list, and a list or an array unchanged."""
+    return [numbers] if isinstance(numbers, str) or not hasattr(numbers, "__len__") else numbers
+
+
 def _checked(call: dict[str, Any]) -> dict[str, Any]:
     if call.get("resume") and call.get("out") is None:
         raise _core.InputError("resume: found no out, expected the folder of the interrupted run")
     return call
 
 
-def harmonic(scene: SceneLike, hz: Sequence[Number] | Number | None = None, *, specimen: _core.Specimen | None = None,
-             temperatures: Sequence[Number] | None = None, inertia: bool | None = None, sensitivities: bool | None = None,
+def harmonic(scene: SceneLike, frequencies: Sequence[Number] | Number | None = None, *,
+             specimen: SpecimenLike | None = None, temperatures: Sequence[Number] | None = None,
+             inertia: bool | None = None, sensitivities: bool | None = None,
              out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
              **overrides: Any) -> Result:
     """|E*| and φ as the steady state of the frequency domain: `macadam run --method harmonic`.
 
-    hz: frequencies [Hz]; the scene's where they are not given.
+    frequencies: [Hz]; the scene's where they are not given.
     temperatures: [°C], every frequency at each; laws need shift keys then.
     inertia: include the particles' inertia.
     sensitivities: derivatives by every parameter of the laws, in `sensitivities` of the result.
     Others as run() has them.
     """
-    given, made = _scene_and_specimen(scene, specimen)
     changed: dict[str, Any] = dict(overrides)
+    given, made = _scene_and_specimen(scene, specimen, changed)
     if sensitivities is not None:
         changed["output.sensitivities"] = sensitivities
     if inertia is not None:
         changed["solver.inertia"] = inertia
         changed["solver.method"] = "harmonic"
-    if hz is None and temperatures is None:
+    if frequencies is None and temperatures is None:
         changed.setdefault("method", "harmonic")
         return Result(Scene(given, **changed), made, out, progress=progress)
     before = given.as_dict()["loading"]
-    frequencies = before.get("frequencies") if hz is None else [hz] if isinstance(hz, (str, int, float)) else list(hz)
-    loading = {"kind": "cyclic", "frequencies": frequencies, "temperatures": temperatures or before.get("temperatures")}
+    loading = {"kind": "cyclic", "frequencies": before.get("frequencies") if frequencies is None else _several(frequencies),
+               "temperatures": before.get("temperatures") if temperatures is None else temperatures}
     if before.get("kind") == "cyclic":
         loading["strain_amplitude"] = before.get("strain_amplitude")
     return _test(given, made, loading, changed, out=out, progress=progress)
@@ -226,7 +129,7 @@ def harmonic(scene: SceneLike, hz: Sequence[Number] | Number | None = None, *, s
 
 def sweep(scene: SceneLike, *, frequencies: Sequence[Number], points_per_decade: int | None = None,
           points: int | None = None, temperatures: Sequence[Number] | None = None,
-          specimen: _core.Specimen | None = None, out: str | PathLike[str] | None = None,
+          specimen: SpecimenLike | None = None, out: str | PathLike[str] | None = None,
           progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
     """The complex modulus over frequencies [Hz] and temperatures [°C]: `kind = "sweep"` (docs/relaxation.md).
 
@@ -239,7 +142,7 @@ def sweep(scene: SceneLike, *, frequencies: Sequence[Number], points_per_decade:
 
 def relaxation(scene: SceneLike, *, times: Sequence[Number], points_per_decade: int | None = None,
                points: int | None = None, strain: Number | None = None, ramp: Number | None = None,
-               poisson_ratio: float | None = None, method: str = "harmonic", specimen: _core.Specimen | None = None,
+               poisson_ratio: float | None = None, method: str = "harmonic", specimen: SpecimenLike | None = None,
                out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
                **overrides: Any) -> Result:
     """Stress under a strain that is held: `kind = "relaxation"` (docs/relaxation.md).
@@ -258,7 +161,7 @@ def relaxation(scene: SceneLike, *, times: Sequence[Number], points_per_decade: 
 def creep(scene: SceneLike, *, stress: Number, times: Sequence[Number], points_per_decade: int | None = None,
           points: int | None = None, ramp: Number | None = None, release: Number | None = None,
           platen_mass: Number | None = None, poisson_ratio: float | None = None, method: str = "harmonic",
-          specimen: _core.Specimen | None = None, out: str | PathLike[str] | None = None,
+          specimen: SpecimenLike | None = None, out: str | PathLike[str] | None = None,
           progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Result:
     """Strain under a stress [Pa] that is held, and taken off from `release` [s] on: `kind = "creep"` (docs/relaxation.md).
 
@@ -273,7 +176,7 @@ def creep(scene: SceneLike, *, stress: Number, times: Sequence[Number], points_p
 
 def monotonic(scene: SceneLike, *, rate: Number, times: Sequence[Number] | None = None,
               points_per_decade: int | None = None, points: int | None = None, strain: Number | None = None,
-              poisson_ratio: float | None = None, method: str = "harmonic", specimen: _core.Specimen | None = None,
+              poisson_ratio: float | None = None, method: str = "harmonic", specimen: SpecimenLike | None = None,
               out: str | PathLike[str] | None = None, progress: Callable[[str, float], object] | None = None,
               **overrides: Any) -> Result:
     """Stress under a constant rate of strain [1/s], tension positive: `kind = "monotonic"` (docs/relaxation.md).

@@ -9,16 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
-from ._scene import Scene
+from ._scene import Scene, tables_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 Progress = Callable[[str, float], object]
 
-
-def _flat(values: ArrayLike, kind: type) -> Any:
-    return np.ascontiguousarray(values, dtype=kind)
+#: Arrays of a specimen's own particles, and those that must be given.
+_ARRAYS, _NEEDED = ("centre", "radius", "phase", "body", "box"), ("centre", "radius")
 
 
 def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
@@ -26,19 +25,36 @@ def specimen(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], *,
              sections: Sequence[str] = (), progress: Progress | None = None) -> _core.Specimen:
     """Makes a scene's particles, their Laguerre cells and their contacts: `macadam specimen`.
 
-    particles: in place of the scene's own: `centre` [m] (n, 3), `radius` [m], `phase` (0 aggregate, 1 mastic), `body`
-    (number of the aggregate, -1 for mastic), and `box` [m], where it is not the scene's.
+    particles: in place of the scene's own, which needs no other source then: `centre` [m] (n, 3), `radius` [m] (n,),
+    `phase` (0 aggregate, 1 mastic; without it all are mastic), `body` (number of the aggregate, -1 for mastic), and `box`
+    [m] (3,), where it is not the scene's.
     out: a folder to write specimen.csv, aggregates.csv, summary.json and so on into, as the command does.
     sections: planes to cut ("x=0.025", "z=40 mm"), written into `out`.
     progress: called with a stage and the share of it that is done, 0 to 1.
     """
+    if particles is not None:
+        return _of_particles(scene, particles)
     given = scene if isinstance(scene, _core.Scene) else Scene(scene)
-    if particles is None:
-        if out is None:
-            return _core.prepare(given, progress)
-        return _core.prepare_into(given, fspath(out), list(sections), progress)
-    n = len(particles["radius"])  # type: ignore[arg-type]
-    return _core.prepare_particles(
-        given, tuple(particles.get("box", given.box)), _flat(particles["centre"], np.float64),
-        _flat(particles["radius"], np.float64), _flat(particles.get("phase", np.ones(n)), np.int32),
-        _flat(particles.get("body", np.full(n, -1)), np.int32))
+    if out is None:
+        return _core.prepare(given, progress)
+    return _core.prepare_into(given, fspath(out), list(sections), progress)
+
+
+def _of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str],
+                  particles: Mapping[str, ArrayLike]) -> _core.Specimen:
+    wrong = [name for name in particles if name not in _ARRAYS] or [name for name in _NEEDED if name not in particles]
+    if wrong:
+        found = f"{wrong[0]!r}" if wrong[0] in particles else f"no {wrong[0]}"
+        raise _core.InputError(f"particles: found {found}, expected centre and radius, and maybe phase, body, box")
+    given = _scene_of_particles(scene, particles.get("box"))
+    return _core.prepare_particles(given, particles.get("box", given.box), particles["centre"], particles["radius"],
+                                   particles.get("phase"), particles.get("body"))
+
+
+def _scene_of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[str], box: ArrayLike | None) -> Scene:
+    """Returns the scene with the given particles as its source, without a mixture, which does not describe them."""
+    name, tables, options = tables_of(scene)
+    section = tables.get("specimen", {})
+    edges = section.get("box") if box is None else np.asarray(box).tolist()
+    tables["specimen"] = {"file": _core.given_particles} | ({} if edges is None else {"box": edges})
+    return Scene(tables, file=name, **{k: v for k, v in options.items() if k != "seed"})

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file arrays.hpp  Vectors of the library as NumPy arrays, and back.
+/// \file arrays.hpp  Vectors of the library as NumPy arrays.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -62,24 +62,6 @@ nb::ndarray<nb::numpy, T> owned(std::vector<T> values, std::vector<std::size_t> 
   const nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
   if (shape.empty()) shape = {kept->size()};
   return nb::ndarray<nb::numpy, T>(kept->data(), shape.size(), shape.data(), owner);
-}
-
-/// Arrays that Python hands over: converted where they are of another type.
-using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-using Vectors = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-using Whole = nb::ndarray<const std::int32_t, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
-inline std::vector<double> copy(const Numbers& a) { return {a.data(), a.data() + a.size()}; }
-inline std::vector<std::int32_t> copy(const Whole& a) { return {a.data(), a.data() + a.size()}; }
-inline std::vector<Vec3d> copy(const Vectors& a) {
-  std::vector<Vec3d> out(a.shape(0));
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {a.data()[3 * i], a.data()[3 * i + 1], a.data()[3 * i + 2]};
-  return out;
-}
-
-/// Numbers of an array, a list, a column of a table.
-inline std::vector<double> numbers_of(nb::handle values) {
-  return copy(nb::cast<Numbers>(nb::module_::import_("numpy").attr("asarray")(values, "float64")));
 }
 
 inline nb::tuple triple(const Vec3d& v) { return nb::make_tuple(v.x, v.y, v.z); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // cells.cpp  Laguerre cells, and what a plane cuts of them.
+#include <fmt/format.h>
 #include <nanobind/stl/string.h>
 
 #include "macadam/cross_section.hpp"
@@ -27,6 +28,10 @@ void bind_cells(nb::module_& m) {
   nb::class_<Tessellation>(
       m, "Cells", "The Laguerre cells inside the box. Walls stand for particles as -1 to -6: -x +x -y +y -z +z.")
       .def("__len__", [](const Tessellation& t) { return t.facets.size(); })
+      .def("__repr__",
+           [](const Tessellation& t) {
+             return fmt::format("<macadam.Cells: {} cells, {} facets>", t.cell_volume.size(), t.facets.size());
+           })
       .def_prop_ro(
           "volume", [](const Tessellation& t) { return view(t.cell_volume); },
           "Of the particles' cells, then of the voids' [m³].")
@@ -60,6 +65,11 @@ void bind_cells(nb::module_& m) {
           nb::rv_policy::reference_internal, nb::arg("facet"), "Its vertices [m], (n, 3).");
   nb::class_<CrossSection>(m, "Section", "The cells that a plane cuts: polygons without gap or overlap.")
       .def("__len__", [](const CrossSection& s) { return s.cells.size(); })
+      .def("__repr__",
+           [](const CrossSection& s) {
+             return fmt::format("<macadam.Section {} = {:.6g} m: {} polygons>", s.plane.axis, s.plane.position,
+                                s.cells.size());
+           })
       .def_prop_ro("axis", [](const CrossSection& s) { return std::string(1, s.plane.axis); })
       .def_prop_ro(
           "position", [](const CrossSection& s) { return s.plane.position; }, "[m]")

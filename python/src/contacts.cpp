@@ -2,6 +2,7 @@
 // contacts.cpp  The contact network, seen where it is.
 #include "macadam/contact_network.hpp"
 
+#include <fmt/format.h>
 #include <nanobind/stl/string.h>
 
 #include "python/src/arrays.hpp"
@@ -17,6 +18,17 @@ void bind_contacts(nb::module_& m) {
   };
   nb::class_<ContactNetwork>(m, "Contacts", "The contacts of a specimen, in order of (a, b). Arrays are views.")
       .def("__len__", [](const ContactNetwork& n) { return n.contacts.size(); })
+      .def("__repr__",
+           [](const ContactNetwork& n) {
+             std::string out = fmt::format("<macadam.Contacts: {}", n.contacts.size());
+             const char* before = ": ";
+             for (std::size_t pair = 0; pair < n.count.size(); ++pair) {
+               if (n.count[pair] == 0) continue;
+               out += fmt::format("{}{} {}", before, n.count[pair], to_string(static_cast<PairType>(pair)));
+               before = ", ";
+             }
+             return out + ">";
+           })
       .def_prop_ro(
           "a",
           [](const ContactNetwork& n) {

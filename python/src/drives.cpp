@@ -12,6 +12,7 @@
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/choices.hpp"
+#include "python/src/given_arrays.hpp"
 
 namespace macadam::python {
 namespace {
@@ -54,15 +55,15 @@ void bind_boundary(nb::module_& m) {
           "Loads one axis of a wall of this mass [kg] by a force [N].")
       .def(
           "fix",
-          [](Boundary& b, const std::vector<std::int32_t>& particles) -> Boundary& {
-            b.fixed = particles;
+          [](Boundary& b, const ArrayLike& particles) -> Boundary& {
+            b.fixed = whole_numbers(particles, "particles");
             return b;
           },
           nb::rv_policy::none, nb::arg("particles"), "Particles that do not move at all.")
       .def(
           "body_force",
-          [](Boundary& b, const Vectors& force) -> Boundary& {
-            b.body_force = copy(force);
+          [](Boundary& b, const ArrayLike& force) -> Boundary& {
+            b.body_force = vectors(force, "force");
             return b;
           },
           nb::rv_policy::none, nb::arg("force"), "On each particle [N], (n, 3).");
@@ -128,9 +129,10 @@ void bind_drives(nb::module_& m) {
   nb::class_<drives::Table, Drive>(m, "Table", "Values at times [s] that ascend, straight lines between them.")
       .def(
           "__init__",
-          [](drives::Table* self, double dt, const std::vector<double>& times, const std::vector<double>& values) {
+          [](drives::Table* self, double dt, const ArrayLike& times, const ArrayLike& values) {
             require_positive("dt", dt, "s");
-            new (self) drives::Table(dt, times, values);
+            const std::vector<double> at = numbers(times, "times");
+            new (self) drives::Table(dt, at, numbers(values, "values", at.size()));
           },
           nb::arg("dt"), nb::arg("times"), nb::arg("values"));
   bind_boundary(m);

@@ -10,6 +10,7 @@
 #include <mutex>
 
 #include "host/results/files.hpp"
+#include "python/src/given_arrays.hpp"
 
 namespace macadam::python {
 namespace {
@@ -48,7 +49,7 @@ std::vector<FieldArray> arrays_of(const nb::dict& given, std::size_t rows) {
   std::vector<FieldArray> out;
   for (const auto& [key, value] : given) {
     const std::string name = nb::cast<std::string>(key);
-    const nb::object array = nb::module_::import_("numpy").attr("asarray")(value);
+    const nb::object array = number_array(value, "arrays: " + name, fmt::format("{} rows of numbers", rows));
     const bool whole = nb::cast<std::string>(array.attr("dtype").attr("kind")) != "f";
     const auto fill = [&]<class T>(T) {
       nb::ndarray<const T, nb::c_contig, nb::device::cpu> in;
@@ -73,7 +74,7 @@ std::vector<FieldArray> arrays_of(const nb::dict& given, std::size_t rows) {
 /// A file to which frames are added.
 class Series {
  public:
-  Series(const Prepared& p, const Path& file, const std::string& what) {
+  Series(const Prepared& p, const Path& file, const std::string& what) : name_(file.filename().string()), what_(what) {
     Drawn of = drawn(p, what);
     rows_ = of.rows;
     file_ = begin_fields(stem_of(file), format_of(file), std::move(of.mesh));
@@ -85,9 +86,14 @@ class Series {
     file_->add(time, values);
   }
   std::size_t size() const { return file_->size(); }
+  std::string text() const {
+    const auto drawn = what_ == "cells" ? "polygons of cells" : what_;
+    return fmt::format("<macadam.FieldSeries {}: {} frames of {} {}>", name_, size(), rows_, drawn);
+  }
 
  private:
   std::unique_ptr<FieldSeries> file_;
+  std::string name_, what_;
   std::size_t rows_ = 0;
   std::mutex busy_;
 };
@@ -124,7 +130,8 @@ void bind_fields(nb::module_& m) {
       .def("add", &Series::add, nb::arg("time"), nb::arg("arrays"),
            "A frame at a time [s]: arrays by name, a row a particle, a contact or a polygon; those of the first frame "
            "in all frames.")
-      .def("__len__", &Series::size, "Frames in the file.");
+      .def("__len__", &Series::size, "Frames in the file.")
+      .def("__repr__", &Series::text);
 }
 
 }  // namespace macadam::python

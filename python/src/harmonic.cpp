@@ -14,6 +14,7 @@
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
 #include "python/src/choices.hpp"
+#include "python/src/given_arrays.hpp"
 
 namespace macadam::python {
 namespace {
@@ -41,9 +42,9 @@ class Solver {
     call_ = nullptr;
   }
 
-  std::vector<HarmonicResult> solve(const std::vector<double>& hz, double scaling, double damping) {
+  std::vector<HarmonicResult> solve(const ArrayLike& frequencies, double scaling, double damping) {
     std::vector<HarmonicLoad> loads;
-    for (const double f : hz) loads.push_back({f, scaling, damping});
+    for (const double f : numbers(frequencies, "frequencies")) loads.push_back({f, scaling, damping});
     std::unique_lock one_at_a_time(busy_, std::defer_lock);
     {
       const nb::gil_scoped_release release;  // whoever solves may ask for it
@@ -98,6 +99,11 @@ nb::list sensitivities_of(const HarmonicResult& r, const Prepared& p) {
 
 void bind_harmonic(nb::module_& m) {
   nb::class_<HarmonicResult>(m, "SteadyState", "One frequency's steady state.")
+      .def("__repr__",
+           [](const HarmonicResult& r) {
+             return fmt::format("<macadam.SteadyState: {:.6g} Hz, |E*| {:.6g} Pa, phase {:.4g} degrees>",
+                                r.frequency_hz, r.top.e_star_pa, r.top.phase_deg);
+           })
       .def_ro("frequency_hz", &HarmonicResult::frequency_hz)
       .def_prop_ro(
           "e_star_pa", [](const HarmonicResult& r) { return r.top.e_star_pa; }, "|E*| [Pa], by the top wall.")
@@ -140,7 +146,8 @@ void bind_harmonic(nb::module_& m) {
           },
           nb::arg("specimen"), nb::arg("typical_hz") = 10.0, nb::arg("backend") = "cpu", nb::arg("linear") = "auto",
           nb::arg("device") = nb::none(), nb::arg("tolerance") = HarmonicOptions{}.tolerance)
-      .def("solve", &Solver::solve, nb::arg("hz"), nb::arg("density_scaling") = 0.0, nb::arg("viscous_damping") = 0.0,
+      .def("solve", &Solver::solve, nb::arg("frequencies"), nb::arg("density_scaling") = 0.0,
+           nb::arg("viscous_damping") = 0.0,
            "Steady states at frequencies [Hz]; without inertia where density_scaling is 0. viscous_damping [1/s].");
   nb::class_<StartState>(m, "StartState", "A state of motion to start from.");
   m.def(

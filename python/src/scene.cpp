@@ -13,6 +13,7 @@
 #include "python/src/bindings.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/choices.hpp"
+#include "python/src/pickles.hpp"
 
 namespace macadam::python {
 namespace {
@@ -87,13 +88,14 @@ nb::object recipe_of(const GivenScene& scene) {
 }  // namespace
 
 void bind_scene(nb::module_& m) {
-  nb::class_<GivenScene>(m, "Scene", "A scene that was read and checked.")
-      .def(
-          "__init__",
-          [](GivenScene* self, const std::filesystem::path& file, const Text& text, bool lines) {
-            new (self) GivenScene{text ? read_scene(file, *text, lines) : read_scene(file)};
-          },
-          nb::arg("file"), nb::arg("text") = nb::none(), nb::arg("lines") = true)
+  nb::class_<GivenScene> c(m, "Scene", "A scene that was read and checked.");
+  pickle_scenes(c);
+  c.def(
+       "__init__",
+       [](GivenScene* self, const std::filesystem::path& file, const Text& text, bool lines) {
+         new (self) GivenScene{text ? read_scene(file, *text, lines) : read_scene(file)};
+       },
+       nb::arg("file"), nb::arg("text") = nb::none(), nb::arg("lines") = true)
       .def("__init__", [](GivenScene* self, const GivenScene& other) { new (self) GivenScene(other); })
       .def_static(
           "read_text",

@@ -16,22 +16,19 @@
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
 #include "python/src/choices.hpp"
+#include "python/src/given_arrays.hpp"
 
 namespace macadam::python {
 namespace {
 
-using Facets = nb::ndarray<const std::int32_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-
-Surface surface_of(const std::string& name, const Vectors& points, const Facets& facets) {
-  Surface out{name, copy(points), {}};
+Surface surface_of(const std::string& name, const ArrayLike& points, const ArrayLike& facets) {
+  Surface out{name, vectors(points, "points"), whole_triples(facets, "facets")};
   const auto n = static_cast<std::int64_t>(out.points.size());
-  for (std::size_t i = 0; i < facets.shape(0); ++i) {
-    const std::int32_t* f = facets.data() + 3 * i;
-    for (int k = 0; k < 3; ++k) {
-      if (f[k] < 0 || f[k] >= n)
-        throw InputError(fmt::format("{}: facet {}: found point {}, expected one of 0 to {}", name, i, f[k], n - 1));
+  for (std::size_t i = 0; i < out.facets.size(); ++i) {
+    for (const std::int32_t k : out.facets[i]) {
+      if (k < 0 || k >= n)
+        throw InputError(fmt::format("{}: facet {}: found point {}, expected one of 0 to {}", name, i, k, n - 1));
     }
-    out.facets.push_back({f[0], f[1], f[2]});
   }
   return out;
 }
@@ -46,7 +43,7 @@ void bind_surface(nb::module_& m) {
   nb::class_<Surface>(m, "Surface", "A triangulated surface [m].")
       .def(
           "__init__",
-          [](Surface* self, const Vectors& points, const Facets& facets, const std::string& name) {
+          [](Surface* self, const ArrayLike& points, const ArrayLike& facets, const std::string& name) {
             new (self) Surface(surface_of(name, points, facets));
           },
           nb::arg("points"), nb::arg("facets"), nb::arg("name") = "surface")

@@ -2,7 +2,6 @@
 // specimen.cpp  A scene's particles, seen where they are.
 #include "macadam/specimen.hpp"
 
-#include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/optional.h>
@@ -11,35 +10,41 @@
 #include <nanobind/stl/vector.h>
 
 #include "host/tessellation/packing_check.hpp"
+#include "host/scene/given_particles.hpp"
 #include "macadam/macadam.hpp"
 #include "python/src/arrays.hpp"
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
 #include "python/src/choices.hpp"
 #include "python/src/fields.hpp"
+#include "python/src/given_arrays.hpp"
+#include "python/src/pickles.hpp"
 
 namespace macadam::python {
 namespace {
 
-/// Particles from arrays. \throws InputError where their lengths differ.
-Specimen particles_of(const std::array<double, 3>& box, const Vectors& centre, const Numbers& radius,
-                      const Whole& phase, const Whole& body) {
+/// Returns a specimen of these particles. \throws InputError for arrays of wrong shape or of unequal lengths.
+Specimen particles_of(const ArrayLike& box, const ArrayLike& centre, const ArrayLike& radius,
+                      const std::optional<ArrayLike>& phase, const std::optional<ArrayLike>& body) {
   Specimen out;
-  out.box.size = {box[0], box[1], box[2]};
-  out.centre = copy(centre);
-  out.radius = copy(radius);
-  out.body = copy(body);
-  if (radius.size() != out.size() || phase.size() != out.size() || body.size() != out.size()) {
+  const std::vector<double> edges = numbers(box, "particles: box", 3);
+  out.box.size = {edges[0], edges[1], edges[2]};
+  out.centre = vectors(centre, "particles: centre");
+  out.radius = numbers(radius, "particles: radius");
+  const std::size_t n = out.radius.size();
+  out.body = body ? whole_numbers(*body, "particles: body") : std::vector<std::int32_t>(n, -1);
+  const auto phases = phase ? whole_numbers(*phase, "particles: phase") : std::vector<std::int32_t>(n, 1);
+  if (out.radius.size() != out.size() || phases.size() != out.size() || out.body.size() != out.size()) {
     throw InputError(
-        fmt::format("specimen: found {} centres, {} radii, {} phases and {} bodies, expected as many of each",
-                    out.size(), radius.size(), phase.size(), body.size()));
+        fmt::format("particles: found {} centres, {} radii, {} phases and {} bodies, expected as many of each",
+                    out.size(), n, phases.size(), out.body.size()));
   }
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (phase.data()[i] != 0 && phase.data()[i] != 1) {
-      throw InputError(fmt::format("specimen: particle {}: phase: found {}, expected 0 (aggregate) or 1 (mastic)", i,
-                                   phase.data()[i]));
+  for (const std::int32_t one : phases) {
+    if (one != 0 && one != 1) {
+      throw InputError(fmt::format("particles: particle {}: phase: found {}, expected 0 (aggregate) or 1 (mastic)",
+                                   out.phase.size(), one));
     }
-    out.phase.push_back(static_cast<Phase>(phase.data()[i]));
+    out.phase.push_back(static_cast<Phase>(one));
   }
   return out;
 }
@@ -53,8 +58,9 @@ PreparedPointer prepare_scene(const GivenScene& scene, nb::object progress) {
   });
 }
 
-PreparedPointer prepare_particles(const GivenScene& scene, const std::array<double, 3>& box, const Vectors& centre,
-                                  const Numbers& radius, const Whole& phase, const Whole& body) {
+PreparedPointer prepare_particles(const GivenScene& scene, const ArrayLike& box, const ArrayLike& centre,
+                                  const ArrayLike& radius, const std::optional<ArrayLike>& phase,
+                                  const std::optional<ArrayLike>& body) {
   Specimen specimen = particles_of(box, centre, radius, phase, body);
   LongCall call;
   return call([&] {
@@ -161,6 +167,12 @@ void bind_specimen(nb::module_& m) {
                          "Particles, cells and contacts of a scene. Arrays are views of the library's own memory: they "
                          "cannot be written to, and keep the specimen alive.");
   bind_particles(c);
+  pickle_specimens(c);
+  c.def("__repr__", [](const Prepared& p) {
+    const Vec3d mm = 1e3 * p.made.specimen.box.size;
+    return fmt::format("<macadam.Specimen: {} particles, {} contacts, box {:.6g} × {:.6g} × {:.6g} mm>",
+                       p.made.specimen.size(), p.made.network.contacts.size(), mm.x, mm.y, mm.z);
+  });
   c.def_prop_ro("scene", [](const Prepared& p) { return *p.scene; })
       .def_prop_ro(
           "cells", [](const Prepared& p) -> const Tessellation& { return p.made.tessellation; },
@@ -210,6 +222,7 @@ void bind_specimen(nb::module_& m) {
             return nb::make_tuple(owned(std::move(i.mass)), owned(std::move(i.inertia)));
           },
           "Masses [kg] and moments of inertia [kg m²] of the particles.");
+  m.attr("given_particles") = scene::given_particles;
   m.def("prepare", &prepare_scene, nb::arg("scene"), nb::arg("progress") = nb::none());
   m.def("prepare_particles", &prepare_particles, nb::arg("scene"), nb::arg("box"), nb::arg("centre"), nb::arg("radius"),
         nb::arg("phase"), nb::arg("body"));

@@ -15,14 +15,15 @@
 #include "python/src/bindings.hpp"
 #include "python/src/calls.hpp"
 #include "python/src/choices.hpp"
+#include "python/src/given_arrays.hpp"
 
 namespace macadam::python {
 namespace {
 
-/// f of each number.
+/// Returns f of each time.
 template <class F>
-nb::ndarray<nb::numpy, double> of_each(nb::handle at, F&& f) {
-  std::vector<double> out = numbers_of(at);
+nb::ndarray<nb::numpy, double> of_each(const ArrayLike& times, F&& f) {
+  std::vector<double> out = numbers(times, "times");
   for (double& value : out) value = f(value);
   return owned(std::move(out));
 }
@@ -48,14 +49,10 @@ Spectrum spectrum(const PreparedPointer& specimen, double shortest, double longe
   });
 }
 
-nb::dict evaluate(const nb::object& times, const nb::object& strains, const nb::object& stresses, double frequency,
+nb::dict evaluate(const ArrayLike& times, const ArrayLike& strains, const ArrayLike& stresses, double frequency,
                   int fit_cycles) {
-  const std::vector<double> time = numbers_of(times), strain = numbers_of(strains), stress = numbers_of(stresses);
-  if (strain.size() != time.size() || stress.size() != time.size()) {
-    throw InputError(
-        fmt::format("evaluate_cyclic: found {} times, {} strains and {} stresses, expected as many of each",
-                    time.size(), strain.size(), stress.size()));
-  }
+  const std::vector<double> time = numbers(times, "time"), strain = numbers(strains, "strain", time.size()),
+                            stress = numbers(stresses, "stress", time.size());
   std::vector<ResponseSample> samples;
   for (std::size_t i = 0; i < time.size(); ++i) samples.push_back({frequency, time[i], strain[i], stress[i]});
   const CyclicResult found = evaluate_cyclic(samples, frequency, fit_cycles);
@@ -79,11 +76,11 @@ void bind_series(nb::module_& m) {
           nb::rv_policy::move, "Modulus [Pa] and relaxation time [s] of each, times ascending, (n, 2).")
       .def(
           "modulus",
-          [](const PronySeries& s, const nb::object& t) { return of_each(t, [&](double x) { return s.modulus(x); }); },
+          [](const PronySeries& s, const ArrayLike& t) { return of_each(t, [&](double x) { return s.modulus(x); }); },
           nb::arg("times"), "E(t) [Pa] at times [s].")
       .def(
           "after_ramp",
-          [](const PronySeries& s, const nb::object& t, double duration) {
+          [](const PronySeries& s, const ArrayLike& t, double duration) {
             return of_each(t, [&](double x) { return s.after_ramp(x, duration); });
           },
           nb::arg("times"), nb::arg("duration"),
@@ -99,13 +96,13 @@ void bind_series(nb::module_& m) {
           nb::rv_policy::move, "Compliance [1/Pa] and retardation time [s] of each, times ascending, (n, 2).")
       .def(
           "compliance",
-          [](const CreepSeries& s, const nb::object& t) {
+          [](const CreepSeries& s, const ArrayLike& t) {
             return of_each(t, [&](double x) { return s.compliance(x); });
           },
           nb::arg("times"), "J(t) [1/Pa] at times [s].")
       .def(
           "after_ramp",
-          [](const CreepSeries& s, const nb::object& t, double duration) {
+          [](const CreepSeries& s, const ArrayLike& t, double duration) {
             return of_each(t, [&](double x) { return s.after_ramp(x, duration); });
           },
           nb::arg("times"), nb::arg("duration"),

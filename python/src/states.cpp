@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // states.cpp  What a stepper shows: walls, particles, contacts.
+#include <fmt/format.h>
 #include <nanobind/stl/string.h>
 
 #include "macadam/stepper.hpp"
@@ -15,6 +16,11 @@ View<double> of_walls(const std::array<Vec3d, wall_count>& a) { return view(&a.f
 
 void bind_states(nb::module_& m) {
   nb::class_<Observation>(m, "Observation", "What is measured at a whole step.")
+      .def("__repr__",
+           [](const Observation& o) {
+             return fmt::format("<macadam.Observation: step {}, {:.6g} s, top wall {:.6g} m, {:.6g} N>", o.step, o.time,
+                                o.top_displacement(), o.top_force());
+           })
       .def_ro("step", &Observation::step)
       .def_ro("time", &Observation::time, "[s]")
       .def_prop_ro(

@@ -18,6 +18,7 @@
 #include "python/src/calls.hpp"
 #include "python/src/choices.hpp"
 #include "python/src/fields.hpp"
+#include "python/src/given_arrays.hpp"
 
 namespace macadam::python {
 namespace {
@@ -98,7 +99,12 @@ void set_state(Steps& s, const nb::dict& arrays) {
     auto values = values_as<float>(array);
     if (!values) values = values_as<double>(array);
     if (!values) values = values_as<std::int64_t>(array);
-    if (!values) throw InputError("state: " + text + ": expected a flat array of float32, float64 or int64");
+    if (!values) {
+      const nb::object found = number_array(array, "arrays: " + text, "an array as state() gave it");
+      throw InputError(fmt::format(
+          "arrays: {}: found {} of shape {}, expected a flat array of float32, float64 or int64, as state() gave it",
+          text, nb::cast<std::string>(found.attr("dtype").attr("name")), nb::repr(found.attr("shape")).c_str()));
+    }
     state.push_back({text, "", std::move(*values)});
   }
   const auto held = s.hold();
@@ -222,11 +228,11 @@ void bind_stepper(nb::module_& m) {
           "Mean stress in each particle's cell [Pa], (n, 6): xx yy zz xy yz xz, tension positive.")
       .def(
           "set_velocities",
-          [](Steps& s, const Vectors& v, const Vectors& spin) {
-            if (v.shape(0) != s.prepared->made.specimen.size() || spin.shape(0) != v.shape(0))
-              throw InputError("set_velocities: expected as many velocities and spins as particles");
+          [](Steps& s, const ArrayLike& velocity, const ArrayLike& spin) {
+            const std::size_t particles = s.prepared->made.specimen.size();
+            const std::vector<Vec3d> v = vectors(velocity, "velocity", particles), w = vectors(spin, "spin", particles);
             const auto held = s.hold();
-            s.stepper->set_velocities(copy(v), copy(spin));
+            s.stepper->set_velocities(v, w);
           },
           nb::arg("velocity"), nb::arg("spin"), "At the half step, specimen order [m/s], [rad/s], (n, 3).")
       .def("state", &state_of, "Everything that steps change, as arrays by name.")
@@ -240,6 +246,11 @@ void bind_stepper(nb::module_& m) {
       .def_prop_ro(
           "dt", [](const Steps& s) { return s.dt; }, "[s]")
       .def_prop_ro("specimen", [](const Steps& s) { return s.prepared; })
+      .def("__repr__",
+           [](const Steps& s) {
+             return fmt::format("<macadam.Stepper: {} particles, dt {:.4g} s, {}>", s.prepared->made.specimen.size(),
+                                s.dt, s.stepper->description());
+           })
       .def_prop_ro(
           "first_divergent",
           [](const Steps& s) {

@@ -83,7 +83,7 @@ def test_python_runs_beside_a_long_call(specimen):
 
 def test_threads_get_the_numbers_of_one(scene):
     def one(seed):
-        return mc.harmonic(mc.Scene(scene, seed=seed, threads=1), hz=[10]).table.e_star_pa[0]
+        return mc.harmonic(mc.Scene(scene, seed=seed, threads=1), frequencies=[10]).table.e_star_pa[0]
     with ThreadPoolExecutor(4) as pool:
         assert list(pool.map(one, [1, 2, 3, 1])) == [one(s) for s in (1, 2, 3, 1)]
 

@@ -40,7 +40,7 @@ def test_grains_and_twin(scanned, tmp_path):
     assert (tmp_path / "grains" / "grains.csv").exists() and 0 <= found.in_no_grain < 0.1
     twin = mc.ct.twin(folder / "truth", scene, tmp_path / "twin", box=["1 mm"] * 3 + ["9 mm"] * 3)
     assert twin.box == pytest.approx((8e-3,) * 3) and twin.particles > 100
-    assert np.isfinite(mc.harmonic(tmp_path / "twin" / "scene.toml", hz=[10]).table.e_star_pa[0])
+    assert np.isfinite(mc.harmonic(tmp_path / "twin" / "scene.toml", frequencies=[10]).table.e_star_pa[0])
 
 
 @pytest.mark.parametrize(("change", "message"), [

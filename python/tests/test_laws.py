@@ -49,7 +49,7 @@ def test_a_model_of_somebody_else(tmp_path):
 @pytest.fixture(scope="module")
 def lab(specimen):
     """What the scene would measure with other deltas."""
-    stiff = mc.harmonic(specimen, hz=[5, 20], **{"contacts.M-A.delta": 1.3})
+    stiff = mc.harmonic(specimen, frequencies=[5, 20], **{"contacts.M-A.delta": 1.3})
     return stiff.table[["frequency_hz", "e_star_pa", "phase_deg"]]
 
 

@@ -70,4 +70,4 @@ def test_brittle_bonds_break_for_good(scene):
     # mastic on mastic bears much of the load, and nothing of it once it is broken
     assert weak.table.stress_pa.iloc[-1] < 0.8 * strong.table.stress_pa.iloc[-1]
     with pytest.raises(mc.InputError, match="brittle_bond"):
-        mc.harmonic(strong.scene, hz=[10])
+        mc.harmonic(strong.scene, frequencies=[10])

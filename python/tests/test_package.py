@@ -27,6 +27,13 @@ def test_every_name_is_there_and_documented():
         mc.harmonics  # noqa: B018
 
 
+def test_dir_has_the_names_of_the_package_alone():
+    names = {name for name in dir(mc) if not name.startswith("__")}
+    assert names == {*mc.__all__, "InterruptedError"} - {"__version__"}
+    code = "from macadam import *; assert InterruptedError is __builtins__.InterruptedError; print(Scene.__name__)"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "Scene\n"
+
+
 def test_the_package_is_imported_where_the_library_is_not(tmp_path):
     code = "import macadam, sys; assert 'macadam._core' not in sys.modules; print(macadam.__doc__.split(':')[0])"
     said = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": str(SOURCE)}, text=True, check=True,
@@ -122,14 +129,14 @@ def test_the_package_hands_on_what_is_the_programs(program):
 @pytest.mark.parametrize("level", ["x86-64", "x86-64-v3", "x86-64-v4"])
 def test_code_of_every_generation_finds_the_same(level, small_file, specimen):
     """A build for this machine alone has one, which ignores the wish."""
-    code = (f"import macadam as mc; s = {str(small_file)!r}; print(mc.info()['processor'], mc.harmonic(s, hz=[10]).table.e_star_pa[0],"
+    code = (f"import macadam as mc; s = {str(small_file)!r}; print(mc.info()['processor'], mc.harmonic(s, frequencies=[10]).table.e_star_pa[0],"
             "mc.run(s, loading={'frequencies': [20.0]}).table.e_star_pa[0])")
     said = subprocess.run([sys.executable, "-c", code], env={**os.environ, "MACADAM_PROCESSOR": level}, capture_output=True,
                           text=True, check=True)
     name, solved, stepped = said.stdout.split()
     own = mc.info()["processor"]
     assert name == own == "native" or name == min(level, own)
-    assert float(solved) == pytest.approx(mc.harmonic(specimen, hz=[10]).table.e_star_pa[0], rel=1e-9)  # the solver's tolerance
+    assert float(solved) == pytest.approx(mc.harmonic(specimen, frequencies=[10]).table.e_star_pa[0], rel=1e-9)  # the solver's tolerance
     # single precision, as the scene's tolerance chooses it: what the run itself estimates of that is below 1e-5
     assert float(stepped) == pytest.approx(mc.run(specimen, loading={"frequencies": [20.0]}).table.e_star_pa[0], rel=1e-5)
 

@@ -70,6 +70,8 @@ def test_paths_are_relative_to_the_file(tmp_path, specimen):
     ({"contacts.M-X.delta": 1}, r"'M-X', expected a number below 5 or one of M-M, M-A"),
     ({"loading.kind.x": 1}, r"'cyclic' at loading.kind, expected a section"),
     ({"backend": "gpu"}, r'backend: found "gpu", expected one of auto\|cuda\|cpu\|reference'),
+    ({"frequencies": [1]}, r"\[frequencies\]: found an unknown section, expected one of specimen, "),
+    ({"loadng": {}}, r"\[loadng\]: found an unknown section, expected loading \(the nearest of specimen, "),
     ({"threads": 0}, r"threads: found 0, expected a whole number from 1 to 1024"),
 ])
 def test_what_is_wrong_is_named_without_lines_that_nobody_wrote(change, message):

@@ -37,7 +37,7 @@ def test_harmonic_has_the_numbers_of_the_command(small_file, tmp_path, program):
     same(result.summary, expected)
     assert list(result.table.e_star_pa) == [r["e_star_pa"] for r in expected["results"]]
     assert (result.folder / "specimen.csv").read_bytes() == (tmp_path / "command" / "specimen.csv").read_bytes()
-    others = mc.harmonic(small_file, hz=[20.0, 10.0])
+    others = mc.harmonic(small_file, frequencies=[20.0, 10.0])
     assert list(others.table.frequency_hz) == [20, 10]
     assert others.table.e_star_pa[0] == pytest.approx(result.table.e_star_pa[1], rel=1e-9)  # the solver's tolerance
 
@@ -109,19 +109,42 @@ def test_an_interrupted_run_goes_on_to_the_same_bits(small_file, tmp_path):
 
 
 def test_a_specimen_is_made_once_and_serves_many(specimen):
-    first = mc.harmonic(specimen, hz=10)
-    stiffer = mc.harmonic(specimen.scene, hz=10, specimen=specimen, **{"contacts.M-M.delta": 2, "contacts.M-A.delta": 2})
+    first = mc.harmonic(specimen, frequencies=10)
+    stiffer = mc.harmonic(specimen.scene, frequencies=10, specimen=specimen, **{"contacts.M-M.delta": 2, "contacts.M-A.delta": 2})
     assert first.specimen is specimen and first.summary["timing_s"]["specimen"] == specimen.seconds[0]
     assert 1.5 < stiffer.table.e_star_pa[0] / first.table.e_star_pa[0] < 2
-    assert mc.harmonic(specimen, hz=[10]).table.e_star_pa[0] == first.table.e_star_pa[0]
+    assert mc.harmonic(specimen, frequencies=[10]).table.e_star_pa[0] == first.table.e_star_pa[0]
+
+
+def test_a_section_specimen_is_an_override_of_every_test(small_file):
+    narrow = {"box": ["12 mm", "13 mm", "15 mm"]}
+    times = [0.01, 0.1]
+    for call in (lambda **more: mc.run(small_file, method="harmonic", **more),
+                 lambda **more: mc.harmonic(small_file, **more),
+                 lambda **more: mc.harmonic(small_file, frequencies=[10], **more),
+                 lambda **more: mc.sweep(small_file, frequencies=[10], **more),
+                 lambda **more: mc.relaxation(small_file, times=times, **more),
+                 lambda **more: mc.creep(small_file, stress=1e5, times=times, **more),
+                 lambda **more: mc.monotonic(small_file, rate=1e-5, times=times, **more)):
+        result = call(specimen=narrow)
+        assert result.scene.box == result.specimen.box == (0.012, 0.013, 0.015)
+        assert result.summary["box_m"] == [0.012, 0.013, 0.015]
+
+
+@pytest.mark.parametrize("other", [{"seed": 3}, {"specimen.box": [0.01] * 3}, {"specimen": {"seed": 3}}])
+def test_a_made_specimen_is_not_changed_by_overrides(specimen, other):
+    with pytest.raises(mc.InputError, match=r"^(seed|specimen).*: found another value beside a Specimen, expected a scene"):
+        mc.harmonic(specimen, frequencies=[10], **other)
+    with pytest.raises(mc.InputError, match="specimen: found 'a.csv', expected a Specimen, or a dictionary of keys"):
+        mc.run(specimen.scene, specimen="a.csv")
 
 
 def test_sensitivities_and_inertia(specimen):
-    result = mc.harmonic(specimen, hz=[10], sensitivities=True)
+    result = mc.harmonic(specimen, frequencies=[10], sensitivities=True)
     by = result.sensitivities.set_index("parameter").d_e_star_pa
     deltas = [by[name] for name in by.index if name.endswith(".delta")]
     assert sum(deltas) == pytest.approx(result.table.e_star_pa[0], rel=1e-9)  # |E*| is of first degree in all stiffnesses
-    heavy = mc.harmonic(specimen, hz=[10], inertia=True, **{"solver.density_scaling": 1e6})
+    heavy = mc.harmonic(specimen, frequencies=[10], inertia=True, **{"solver.density_scaling": 1e6})
     assert heavy.table.density_scaling[0] == 1e6 and heavy.table.e_star_pa[0] != result.table.e_star_pa[0]
 
 
@@ -135,7 +158,7 @@ def test_tests_without_steps_hang_together(specimen):
     assert (np.diff(relaxed.table.modulus_pa) < 0).all() and (relaxed.table.modulus_pa * 1e-4).equals(relaxed.table.stress_pa)
     assert crept.table.stress_pa[2] == 0 and (crept.table.strain > 0).all()
     assert (pulled.table.secant_pa > relaxed.table.modulus_pa).all()
-    solved = mc.harmonic(specimen, hz=list(swept.table.frequency_hz))
+    solved = mc.harmonic(specimen, frequencies=list(swept.table.frequency_hz))
     assert np.allclose(swept.table.e_star_pa, solved.table.e_star_pa, rtol=1e-9)  # the solver's tolerance
     assert {"modulus_pa", "time_s"} <= set(relaxed.prony.columns)
     assert isinstance(relaxed.csv("relaxation.csv"), pd.DataFrame)
@@ -151,7 +174,7 @@ def test_tests_without_steps_hang_together(specimen):
 
 
 def test_temporary_folders_go_with_their_results(specimen, tmp_path):
-    result = mc.harmonic(specimen, hz=[10])
+    result = mc.harmonic(specimen, frequencies=[10])
     folder = result.folder
     assert (folder / "summary.json").exists()
     assert result.save(tmp_path / "kept") == tmp_path / "kept" and (tmp_path / "kept" / "summary.json").exists()
@@ -165,7 +188,7 @@ def test_errors_of_runs_are_told_apart(specimen):
     assert isinstance(caught.value, mc.RunError) and isinstance(caught.value, RuntimeError)
     assert 0 <= caught.value.particle < len(specimen) and caught.value.time > 0
     with pytest.raises(mc.InputError, match="no law for|law"):
-        mc.harmonic(specimen, hz=[1], contacts=[c for c in specimen_contacts(specimen) if c["pair"] != "M-M"])
+        mc.harmonic(specimen, frequencies=[1], contacts=[c for c in specimen_contacts(specimen) if c["pair"] != "M-M"])
     if not mc.info()["devices"]:
         with pytest.raises(mc.RunError, match="cuda"):
             mc.run(specimen, backend="cuda")

@@ -10,6 +10,7 @@ import pytest
 from conftest import ROOT
 
 import macadam as mc
+from macadam import _toml
 
 
 def test_views_are_what_the_command_writes(scene, small_file, specimen, tmp_path, program):
@@ -94,7 +95,7 @@ def test_particles_of_ones_own(scene):
     made = mc.specimen(scene, particles={"box": [4e-3] * 3, "centre": centre, "radius": np.full(64, 0.5e-3)})
     assert len(made) == 64 and made.contacts.count == {"M-M": 144, "M-W": 32}
     assert np.allclose(made.cells.volume, 1e-9)
-    assert len(mc.harmonic(made, hz=[10]).table) == 1
+    assert len(mc.harmonic(made, frequencies=[10]).table) == 1
     with pytest.raises(mc.InputError, match="64 centres, 63 radii"):
         mc.specimen(scene, particles={"centre": centre, "radius": np.full(63, 0.5e-3)})
     with pytest.raises(mc.InputError, match="particle 0: phase: found 7"):
@@ -103,6 +104,46 @@ def test_particles_of_ones_own(scene):
         twice = centre.copy()
         twice[5] = twice[4]
         mc.specimen(scene, particles={"box": [4e-3] * 3, "centre": twice, "radius": np.full(64, 0.5e-3)})
+
+
+def test_particles_of_ones_own_need_no_other_source(scene, tmp_path):
+    """The scene has laws and a test alone; a mixture in it is left out, as it does not describe the particles."""
+    side = np.arange(3) * 1e-3 + 0.5e-3
+    centre = np.stack(np.meshgrid(side, side, side, indexing="ij"), axis=-1).reshape(-1, 3)
+    particles = {"box": [3e-3] * 3, "centre": centre, "radius": np.full(27, 5e-4)}
+    tables = scene.as_dict()
+    minimal = {key: tables[key] for key in ("contacts", "loading", "materials")}
+    file = tmp_path / "minimal.toml"
+    file.write_text(_toml.dumps(minimal))
+    found = [mc.harmonic(mc.specimen(source, particles=particles), frequencies=[10]) for source in (minimal, file, scene)]
+    assert len({result.table.e_star_pa[0] for result in found}) == 1
+    for result in found:
+        assert result.scene.as_dict()["specimen"] == {"file": "particles given in Python", "box": [3e-3] * 3}
+        assert result.specimen.scene.box == (3e-3, 3e-3, 3e-3) and not result.specimen.aggregates
+    of_section = {**minimal, "specimen": {"box": ["3 mm"] * 3}}
+    assert len(mc.specimen(of_section, particles={k: v for k, v in particles.items() if k != "box"})) == 27
+    recipe = mc.Scene(ROOT / "examples" / "ac14_recipe" / "scene.toml", seed=5)
+    assert mc.specimen(recipe, particles=particles).scene.recipe is None
+    with pytest.raises(mc.InputError, match="box"):
+        mc.specimen(minimal, particles={k: v for k, v in particles.items() if k != "box"})
+
+
+def test_texts_have_numbers(specimen, tmp_path):
+    n, contacts, cells = len(specimen), specimen.contacts, specimen.cells
+    assert repr(specimen) == f"<macadam.Specimen: {n} particles, {len(contacts)} contacts, box 12 × 12 × 15 mm>"
+    assert repr(contacts).startswith(f"<macadam.Contacts: {len(contacts)}: {contacts.count['M-M']} M-M, ")
+    assert repr(cells) == f"<macadam.Cells: {len(cells.volume)} cells, {len(cells)} facets>"
+    section = specimen.section("z=7 mm")
+    assert repr(section) == f"<macadam.Section z = 0.007 m: {len(section)} polygons>"
+    series = mc.FieldSeries(specimen, tmp_path / "motion.vtkhdf")
+    series.add(0.0, {"x": np.zeros(n)})
+    assert repr(series) == f"<macadam.FieldSeries motion.vtkhdf: 1 frames of {n} particles>"
+    stepper = mc.Stepper(specimen, mc.Boundary(), backend="cpu")
+    stepper.advance(3)
+    assert repr(stepper).startswith(f"<macadam.Stepper: {n} particles, dt {stepper.dt:.4g} s, cpu")
+    assert repr(stepper.observe()) == f"<macadam.Observation: step 3, {3 * stepper.dt:.6g} s, top wall 0 m, 0 N>"
+    steady = mc.HarmonicSolver(specimen).solve([10])[0]
+    assert repr(steady) == f"<macadam.SteadyState: 10 Hz, |E*| {steady.e_star_pa:.6g} Pa, phase {steady.phase_deg:.4g} degrees>"
 
 
 def test_files_for_viewers(specimen, tmp_path):

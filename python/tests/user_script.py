@@ -6,10 +6,15 @@ import numpy.typing as npt
 import macadam as mc
 
 
+def narrower(file: str) -> mc.Result:
+    made = mc.harmonic(file, frequencies=[10.0], specimen={"box": [0.01, 0.01, 0.02]})
+    return mc.harmonic(made.scene, specimen=made.specimen)
+
+
 def modulus(file: str, hz: list[float]) -> npt.NDArray[np.float64]:
     scene = mc.Scene(file, seed=3)
     specimen: mc.Specimen = mc.specimen(scene)
-    result: mc.Result = mc.harmonic(specimen, hz=hz)
+    result: mc.Result = mc.harmonic(specimen, frequencies=hz)
     found: npt.NDArray[np.float64] = result.table["e_star_pa"].to_numpy()
     return found
 

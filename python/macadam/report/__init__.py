@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 import types
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,10 +19,10 @@ __all__ = ["ReportError", "report"]
 
 
 class _Callable(types.ModuleType):
-    def __call__(self, *arguments: Any, **more: Any) -> Path:
+    def __call__(self, dirs: str | Path | Iterable[str | Path], out: str | Path, title: str | None = None) -> Path:
         from macadam.report.document import report
 
-        return report(*arguments, **more)
+        return report(dirs, out, title)
 
     def __getattr__(self, name: str) -> Any:
         if name not in __all__:

@@ -116,11 +116,9 @@ def _areas(page: Page, folder: Folder) -> None:
 
 
 def _shares(page: Page, folder: Folder) -> None:
-    rows = [r for r in folder.by_frequency if r.get("shares")]
+    rows = _at_first_temperature([r for r in folder.by_frequency if r.get("shares")])[:12]
     if not rows:
         return
-    first = rows[0].get("temperature_c")
-    rows = sorted((r for r in rows if r.get("temperature_c") == first), key=lambda r: r["frequency_hz"])[:12]
     figure, axes = look.figure(look.WIDE, 0.75 + 0.2 * len(rows))
     base = np.zeros(len(rows))
     for pair in NAMES:
@@ -136,14 +134,14 @@ def _shares(page: Page, folder: Folder) -> None:
     top = max(NAMES, key=lambda p: rows[-1]["shares"].get(p) or 0)
     page.figure(
         figure,
-        f"Share of E* that each type of contact carries. At {look.hertz(rows[-1]['frequency_hz'])} the largest is "
+        f"Share of E* that each type of contact carries. At {_at(rows[-1])} the largest is "
         f"{NAMES[top]}, {look.percent(rows[-1]['shares'][top], 2)}.",
         "shares of E* by type of contact",
     )
 
 
 def _sensitivities(page: Page, folder: Folder) -> None:
-    rows = sorted((r for r in folder.by_frequency if r.get("sensitivities")), key=lambda r: r["frequency_hz"])
+    rows = _at_first_temperature([r for r in folder.by_frequency if r.get("sensitivities")])
     ends = [rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]
     effects = [
         {
@@ -175,10 +173,17 @@ def _sensitivities(page: Page, folder: Folder) -> None:
     page.figure(
         figure,
         f"What 10 % more of a parameter changes, to first order, for the {len(names)} that matter most to |E*| "
-        f"({' and '.join(look.hertz(r['frequency_hz']) for r in ends)}). "
+        f"({' and '.join(map(_at, ends))}). "
         f"Most depends on {first}: {look.number(float(effects[-1].get(first, (0, 0))[0]), 2)} % of |E*| at "
-        f"{look.hertz(ends[-1]['frequency_hz'])}.",
+        f"{_at(ends[-1])}.",
         "sensitivities of |E*| and phase angle",
+    )
+
+
+def _at_first_temperature(results: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Returns the results at the first one's temperature, by frequency, so that only the frequency differs between them."""
+    return sorted(
+        (r for r in results if r.get("temperature_c") == results[0].get("temperature_c")), key=lambda r: r["frequency_hz"]
     )
 
 

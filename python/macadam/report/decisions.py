@@ -104,8 +104,8 @@ def _facts(folder: Folder) -> list[tuple[str, Any]]:
         rows.append(("memory of the stepper", f"{look.number(1e-6 * solver['bytes'], 3)} MB"))
     if isinstance(machine, dict):
         rows += [(str(k), v) for k, v in machine.items()]
-    else:
-        rows.append(("machine", machine or "not named in the folder; see “solved by”"))
+    elif machine:
+        rows.append(("machine", machine))
     return rows
 
 

@@ -80,10 +80,17 @@ def write(page: Page, out: str | Path, title: str, subtitle: str) -> Path:
 
 def _title(folders: list[Folder]) -> str:
     return (
-        folders[0].label
+        _name(folders[0])
         if len(folders) == 1
         else " · ".join(f.label for f in folders[:4]) + (" …" if len(folders) > 4 else "")
     )
+
+
+def _name(folder: Folder) -> str:
+    """Returns the name of the scene's file, or of its folder if the file is called scene.toml. Without a scene: the label."""
+    scene = Path(str(folder.summary.get("scene") or ""))
+    name = scene.parent.name if scene.stem == "scene" else scene.stem
+    return name or folder.label
 
 
 def _subtitle(folders: list[Folder]) -> str:
@@ -132,6 +139,8 @@ def _found(f: Folder) -> str:
             if points
             else "–"
         )
+    if fits.found(f):
+        return fits.found(f)
     if f.kind == "run" and f.summary.get("particles"):
         return f"{look.number(f.summary['particles'])} particles"
     return "–"
@@ -162,6 +171,8 @@ def _words(f: Folder) -> list[str]:
         words.append(f"Test: {f.in_time['kind']}. Found: {_found(f)}.")
     elif f.kind == "run":
         words.append("The folder holds the specimen and its contacts; no test was run in it.")
+    elif fits.found(f):
+        words.append(f"Found: {fits.found(f)}.")
     else:
         words.append(f"The folder holds a {_KINDS[f.kind]}.")
     return words

@@ -139,14 +139,26 @@ def _read(file: Path, frame: int) -> Any:
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)  # what is wrong with a file is said below
     try:
         reader = pyvista.get_reader(file)
-        if getattr(reader, "number_time_points", 0) > 1:
-            reader.set_active_time_point(frame % reader.number_time_points)
+        frames = _frames(reader)
+        if not -frames <= frame < frames:
+            raise ReportError(f"frame {frame}, expected one from 0 to {frames - 1}, or from -{frames} to -1")
+        if frames > 1:
+            reader.reader.SetStep(frame % frames)
         data = reader.read()
     except Exception as error:  # VTK's and PyVista's have no class of their own
         raise ReportError(f"{file}: {' '.join(str(error).split())}") from None
     if not data.n_points:
         raise ReportError(f"{file}: found no points, expected a file of particles, contacts or cells")
     return data
+
+
+def _frames(reader: Any) -> int:
+    """Returns the number of frames. PyVista's reader of .vtkhdf does not know times; the VTK reader within it does."""
+    vtk = reader.reader
+    if not hasattr(vtk, "GetNumberOfSteps"):
+        return 1
+    vtk.UpdateInformation()
+    return max(1, vtk.GetNumberOfSteps())
 
 
 def _array(data: Any, file: Path, names: tuple[str, ...]) -> tuple[str, bool]:

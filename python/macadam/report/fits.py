@@ -24,6 +24,34 @@ def add(page: Page, folders: list[Folder]) -> None:
             _fit(page, f)
 
 
+def found(f: Folder) -> str:
+    """Returns the result of a calibration or a fit in one sentence, and an empty text for other folders."""
+    if f.kind == "calibration":
+        errors = f.summary.get("errors") or {}
+        parameters = f.summary.get("parameters") or []
+        values = ", ".join(f"{p.get('name')} = {look.number(p.get('value'), 4)}" for p in parameters[:4])
+        return (
+            f"{values}{' …' if len(parameters) > 4 else ''}; |E*| is met within "
+            f"{look.percent(errors.get('e_star_rms'), 2)} (rms), φ within {look.number(errors.get('phase_rms_deg'), 2)}°"
+        )
+    if f.kind == "fit":
+        e_star, phase = _errors_of_fit(_fitted(f))
+        units = len((f.summary.get("law") or {}).get("E_pa") or [])
+        law = f"a chain with {units} Kelvin units" if units else f"model {f.summary.get('model', '–')}"
+        return f"{law}; |E*| is met within {look.percent(e_star, 2)} (rms), φ within {look.number(phase, 2)}°"
+    return ""
+
+
+def _fitted(f: Folder) -> pd.DataFrame:
+    return f.table("fit.csv", ["frequency_hz", "e_star_pa", "phase_deg", "fitted_e_star_pa", "fitted_phase_deg"])
+
+
+def _errors_of_fit(table: pd.DataFrame) -> tuple[float, float]:
+    """Root mean squares of the relative differences of |E*|, and of those of φ [degrees]."""
+    e_star = np.sqrt(np.mean((table["fitted_e_star_pa"] / table["e_star_pa"] - 1) ** 2))
+    return float(e_star), float(np.sqrt(np.mean((table["fitted_phase_deg"] - table["phase_deg"]) ** 2)))
+
+
 def _calibration(page: Page, f: Folder) -> None:
     s = f.summary
     rows = [
@@ -63,7 +91,8 @@ def _calibration(page: Page, f: Folder) -> None:
 
 def _fit(page: Page, f: Folder) -> None:
     s = f.summary
-    table = f.table("fit.csv", ["frequency_hz", "e_star_pa", "phase_deg", "fitted_e_star_pa", "fitted_phase_deg"])
+    table = _fitted(f)
+    e_star, phase = _errors_of_fit(table)
     law = s.get("law") or {}
     if law.get("E_m_pa"):
         units = list(zip(law.get("E_pa") or [], law.get("C_pa_s") or []))
@@ -82,9 +111,8 @@ def _fit(page: Page, f: Folder) -> None:
         )
     page.figure(
         _measured(table, "fitted_e_star_pa", "fitted_phase_deg"),
-        "Measured (dots) and fitted (lines): |E*| within "
-        f"{look.percent(float(np.sqrt(np.mean((table['fitted_e_star_pa'] / table['e_star_pa'] - 1) ** 2))), 2)} (rms), "
-        f"φ within {look.number(float(np.sqrt(np.mean((table['fitted_phase_deg'] - table['phase_deg']) ** 2))), 2)}°.",
+        f"Measured (dots) and fitted (lines): |E*| within {look.percent(e_star, 2)} (rms), "
+        f"φ within {look.number(phase, 2)}°.",
         "measured and fitted moduli",
     )
 

@@ -37,10 +37,11 @@ def add(page: Page, folders: list[Folder]) -> None:
     if not drawn:
         return
     page.section("The specimen")
+    of_class = class_colours(drawn)
     for folder in drawn:
         if len(drawn) > 1:
             page.heading(folder.label)
-        box, paint = _box(folder), _colours(folder)
+        box, paint = _box(folder), _colours(folder, of_class)
         page.figure(
             _block(folder, box, paint),
             f"The specimen, {look.percent(SAWN, 2)} sawn off the front, the right and the top. " + _legend_words(folder),
@@ -48,7 +49,7 @@ def add(page: Page, folders: list[Folder]) -> None:
             third=True,
             raster=True,
         )
-        section, words = _section(folder, box, paint)
+        section, words = _section(folder, box, paint, of_class)
         page.figure(section, words, "a section of the specimen", third=True, raster=True)
         if (folder.specimen["phase"] == "aggregate").any():
             grains, words = spheres(folder.specimen, box, paint, _view(), HEIGHT)
@@ -61,7 +62,13 @@ def _box(folder: Folder) -> np.ndarray:
     return np.array(edges, float) if edges else np.array([(s[a] + s["radius"]).max() for a in "xyz"])
 
 
-def _colours(folder: Folder) -> Paint:
+def class_colours(folders: list[Folder]) -> dict[str, str]:
+    """Returns the colour of each size class, by the class's name, the same in all specimens of a report."""
+    names = list(dict.fromkeys(name for folder in folders for name in _names(folder).values()))
+    return {name: look.CLASSES[k % len(look.CLASSES)] for k, name in enumerate(names)}
+
+
+def _colours(folder: Folder, of_class: dict[str, str]) -> Paint:
     """Colour of each particle: mastic dark, air white, aggregates by size class, each a little lighter or darker."""
     s = folder.specimen
     body = s["body"].to_numpy(int)
@@ -70,8 +77,9 @@ def _colours(folder: Folder) -> Paint:
     grain = (s["phase"] == "aggregate").to_numpy()
     table = folder.aggregates
     classes = dict(zip(table["body"], table["size_class"])) if table is not None else {}
-    base = np.array([to_rgb(c) for c in look.CLASSES])
-    of = np.array([classes.get(b, 0) for b in body[grain]], int) % len(base)
+    base = np.array([to_rgb(of_class[n]) for n in _names(folder).values()] or [to_rgb(look.CLASSES[0])])
+    rows = {size_class: row for row, size_class in enumerate(_names(folder))}
+    of = np.array([rows.get(classes.get(b), 0) for b in body[grain]], int)
     shade = 1 + 0.22 * ((body[grain] * 0.6180339887) % 1 - 0.5)  # the golden ratio keeps neighbours in number apart
     colour[grain] = np.clip(base[of] * shade[:, None], 0, 1)
     return lambda rows: colour[rows]
@@ -132,7 +140,7 @@ def _plane(folder: Folder, box: np.ndarray, axis: int, value: float, paint: Pain
     return picture
 
 
-def _section(folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
+def _section(folder: Folder, box: np.ndarray, paint: Paint, of_class: dict[str, str]) -> tuple[Any, str]:
     """A section through the middle, or the first that the program wrote."""
     written = sorted(folder.path.glob("section_*.csv"))
     figure, axes = look.figure(look.THIRD, HEIGHT)
@@ -160,9 +168,7 @@ def _section(folder: Folder, box: np.ndarray, paint: Paint) -> tuple[Any, str]:
     axes.set(xlim=(0, 1e3 * box[u]), ylim=(0, 1e3 * box[v]), xlabel=f"{'xyz'[u]} (mm)", ylabel=f"{'xyz'[v]} (mm)")
     names = _names(folder)
     if names:
-        handles = [
-            Patch(fc=look.CLASSES[k % len(look.CLASSES)], ec="#5a5f68", lw=0.4, label=n) for k, n in names.items()
-        ]
+        handles = [Patch(fc=of_class[n], ec="#5a5f68", lw=0.4, label=n) for n in names.values()]
         handles.append(Patch(fc=look.MASTIC, label="mastic"))
         figure.legend(
             handles=handles,

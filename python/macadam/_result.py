@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Results: the folder of a run, read when it is asked for."""
+from __future__ import annotations
+
+import importlib
+import json
+import shutil
+import tempfile
+import weakref
+from functools import cached_property
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from . import _core
+from ._scene import Scene
+
+if TYPE_CHECKING:
+    import pandas
+
+
+def result_folder(out: str | PathLike[str] | None, owner: Any) -> Path:
+    """The folder that was asked for, or one that goes with the object that owns it."""
+    if out is not None:
+        return Path(out)
+    folder = Path(tempfile.mkdtemp(prefix="macadam-"))
+    weakref.finalize(owner, shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+class _Outcome(NamedTuple):
+    """Texts of a finished run. Its numbers are in files."""
+    text: str
+    decisions: list[str]
+    skips: list[dict[str, str]]
+    warnings: list[str]
+    solver: str
+    backend: str
+
+
+class Result:
+    """What a test found, and the folder with its files (docs/scene.md lists them).
+
+    `folder` is the one that was asked for, or a temporary one that goes with this object; save() copies it. A pickled
+    result holds the files of a temporary folder, and the name of one that was asked for.
+    """
+
+    def __init__(self, scene: Scene, specimen: _core.Specimen | None, out: str | PathLike[str] | None,
+                 **call: Any) -> None:
+        self.scene = scene
+        self._specimen = specimen
+        self._temporary = out is None
+        self.folder = result_folder(out, self)
+        done = _core.run(scene, fspath(self.folder), specimen, **call)
+        self._run = _Outcome(*(getattr(done, name) for name in _Outcome._fields))
+
+    def __getstate__(self) -> dict[str, Any]:
+        state = {"scene": self.scene, "_specimen": self._specimen, "_run": self._run, "_temporary": self._temporary}
+        if not self._temporary:
+            return state | {"folder": self.folder.absolute()}
+        files = [p for p in self.folder.rglob("*") if p.is_file()]
+        return state | {"files": {str(p.relative_to(self.folder)): p.read_bytes() for p in files}}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        files = state.pop("files", {})
+        self.__dict__.update(state)
+        if self._temporary:
+            self.folder = result_folder(None, self)
+        for name, content in files.items():
+            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.folder / name).write_bytes(content)
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """summary.json: everything asked, made and found."""
+        return json.loads((self.folder / "summary.json").read_text(encoding="utf-8", errors="replace"))
+
+    @cached_property
+    def table(self) -> pandas.DataFrame:
+        """Of a cyclic test or a sweep, a row a frequency: frequency_hz, e_star_pa [Pa], phase_deg and so on. Of the
+        others a row a time: time_s and what the test measures."""
+        import pandas
+        rows = self.summary["results"]
+        if rows and "points" in rows[0]:
+            rows = rows[0]["points"]
+        return pandas.DataFrame([{k: v for k, v in r.items() if not isinstance(v, (dict, list))} for r in rows])
+
+    @cached_property
+    def sensitivities(self) -> pandas.DataFrame:
+        """Change of |E*| [Pa] and φ [degrees] per unit of each parameter's natural logarithm, where they were asked for."""
+        import pandas
+        return pandas.DataFrame([{"frequency_hz": r["frequency_hz"], **s} for r in self.summary["results"]
+                                 for s in r.get("sensitivities", [])])
+
+    @cached_property
+    def response(self) -> pandas.DataFrame:
+        """Of a stepped cyclic test: frequency_hz, time_s, strain, stress_pa. Of the others, table has all there is."""
+        return self.csv("response.csv")
+
+    @cached_property
+    def prony(self) -> pandas.DataFrame:
+        """Of relaxation, creep and monotonic tests without steps: the relaxation modulus as Maxwell units."""
+        return self.csv("prony.csv")
+
+    def csv(self, name: str) -> pandas.DataFrame:
+        """A table of the folder by its name."""
+        import pandas
+        file = self.folder / name
+        if not file.is_file():
+            there = ", ".join(sorted(p.name for p in self.folder.glob("*.csv")))
+            raise _core.InputError(f"{file}: found no such file, expected one of {there}")
+        return pandas.read_csv(file, comment="#")
+
+    @property
+    def specimen(self) -> _core.Specimen:
+        """Particles, cells and contacts that were tested."""
+        if self._specimen is None:
+            self._specimen = _core.prepare(self.scene)
+        return self._specimen
+
+    @property
+    def decisions(self) -> list[str]:
+        """What the scene left open, and what was chosen why."""
+        return self._run.decisions
+
+    @property
+    def skips(self) -> list[dict[str, str]]:
+        """What was left out because the scene does not need it: what, why, effect."""
+        return self._run.skips
+
+    @property
+    def warnings(self) -> list[str]:
+        """What a reader of the results must know."""
+        return self._run.warnings
+
+    @property
+    def solver(self) -> str:
+        """What ran, in words."""
+        return self._run.solver
+
+    @property
+    def backend(self) -> str:
+        """That ran: cpu, cuda or reference."""
+        return self._run.backend
+
+    def report(self, file: str | PathLike[str]) -> Path:
+        """Writes a report of the folder, one HTML file: `macadam report`."""
+        importlib.import_module("macadam.report").report(self.folder, file)
+        return Path(file)
+
+    def save(self, folder: str | PathLike[str]) -> Path:
+        """Copies the folder."""
+        return Path(shutil.copytree(self.folder, folder, dirs_exist_ok=True))
+
+    def __str__(self) -> str:
+        return self._run.text
+
+    def __repr__(self) -> str:
+        return f"<macadam.Result {self.scene.kind}, {self.solver}, {self.folder}>"

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// pickles.cpp  States of scenes and specimens as tuples of plain values.
+#include "python/src/pickles.hpp"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <array>
+#include <tuple>
+
+#include "python/src/arrays.hpp"
+#include "python/src/calls.hpp"
+#include "python/src/given_arrays.hpp"
+
+namespace macadam::python {
+namespace {
+
+using Row = std::tuple<std::string, std::int64_t, std::int64_t, double, double>;  // of CompositionRow
+
+/// Names (shape), whole numbers (body, class, spheres, surface) and numbers of an Aggregate.
+using AggregateState = std::tuple<std::string, std::array<std::int64_t, 4>, std::array<double, 18>>;
+
+AggregateState state_of(const Aggregate& a) {
+  const Vec3d &axis = a.axis_long, &c = a.centre, &p = a.pose.centre;
+  const auto& turn = a.pose.turn;
+  return {a.shape,
+          {a.body, a.size_class, a.spheres, a.surface},
+          {a.size, a.d_long, a.d_short, a.volume, axis.x, axis.y, axis.z, c.x, c.y, c.z, p.x, p.y, p.z, turn[0],
+           turn[1], turn[2], turn[3], a.pose.scale}};
+}
+
+Aggregate aggregate_of(const AggregateState& state) {
+  const auto& [shape, whole, x] = state;
+  Aggregate a;
+  a.shape = shape;
+  a.body = static_cast<std::int32_t>(whole[0]), a.size_class = static_cast<std::int32_t>(whole[1]);
+  a.spheres = whole[2], a.surface = static_cast<std::int32_t>(whole[3]);
+  a.size = x[0], a.d_long = x[1], a.d_short = x[2], a.volume = x[3];
+  a.axis_long = {x[4], x[5], x[6]}, a.centre = {x[7], x[8], x[9]};
+  a.pose = {{x[10], x[11], x[12]}, {x[13], x[14], x[15], x[16]}, x[17]};
+  return a;
+}
+
+/// Returns what a generated specimen has beside its spheres.
+nb::tuple report_of(const Preparation& made) {
+  std::vector<Row> composition;
+  for (const CompositionRow& r : made.composition)
+    composition.emplace_back(r.name, r.count_asked, r.count, r.fraction_asked, r.fraction);
+  std::vector<AggregateState> aggregates;
+  for (const Aggregate& a : made.aggregates) aggregates.push_back(state_of(a));
+  const std::array<double, 3> seconds{made.seconds_specimen, made.seconds_tessellation, made.seconds_network};
+  return nb::make_tuple(composition, aggregates, made.relaxation_iterations, seconds);
+}
+
+void put_report(const nb::tuple& report, Preparation& made) {
+  for (const auto& [name, count_asked, count, fraction_asked, fraction] : nb::cast<std::vector<Row>>(report[0]))
+    made.composition.push_back({name, count_asked, count, fraction_asked, fraction});
+  for (const AggregateState& a : nb::cast<std::vector<AggregateState>>(report[1]))
+    made.aggregates.push_back(aggregate_of(a));
+  made.relaxation_iterations = nb::cast<int>(report[2]);
+  const auto seconds = nb::cast<std::array<double, 3>>(report[3]);
+  made.seconds_specimen = seconds[0], made.seconds_tessellation = seconds[1], made.seconds_network = seconds[2];
+}
+
+nb::tuple spheres_of(const Specimen& s) {
+  std::vector<std::int32_t> phase;
+  for (const Phase p : s.phase) phase.push_back(static_cast<std::int32_t>(p));
+  std::vector<Vec3d> void_centre;
+  std::vector<double> void_radius;
+  for (const VoidSphere& v : s.voids) void_centre.push_back(v.centre), void_radius.push_back(v.radius);
+  const auto numpy = [](const std::vector<Vec3d>& v) {
+    std::vector<double> flat;
+    for (const Vec3d& x : v) flat.insert(flat.end(), {x.x, x.y, x.z});
+    return owned(std::move(flat), {v.size(), 3});
+  };
+  const Vec3d box = s.box.size;
+  return nb::make_tuple(std::array<double, 3>{box.x, box.y, box.z}, numpy(s.centre), owned(std::vector(s.radius)),
+                        owned(std::move(phase)), owned(std::vector(s.body)), numpy(void_centre), owned(void_radius),
+                        s.source, s.first_line);
+}
+
+Specimen specimen_of(const nb::tuple& spheres) {
+  const auto at = [&](int k) { return ArrayLike(spheres[static_cast<std::size_t>(k)], nb::detail::borrow_t{}); };
+  const auto box = nb::cast<std::array<double, 3>>(spheres[0]);
+  Specimen out;
+  out.box.size = {box[0], box[1], box[2]};
+  out.centre = vectors(at(1), "centre");
+  out.radius = numbers(at(2), "radius");
+  for (const std::int32_t p : whole_numbers(at(3), "phase")) out.phase.push_back(static_cast<Phase>(p));
+  out.body = whole_numbers(at(4), "body");
+  const std::vector<Vec3d> centre = vectors(at(5), "void_centre");
+  const std::vector<double> radius = numbers(at(6), "void_radius", centre.size());
+  for (std::size_t i = 0; i < centre.size(); ++i) out.voids.push_back({centre[i], radius[i]});
+  out.source = nb::cast<std::string>(spheres[7]);
+  out.first_line = nb::cast<int>(spheres[8]);
+  return out;
+}
+
+}  // namespace
+
+void pickle_scenes(nb::class_<GivenScene>& c) {
+  c.def("__getstate__", [](const nb::object& self) {
+    return nb::make_tuple(self.attr("file"), self.attr("text"), self.attr("options"));
+  });
+  c.def("__setstate__", [](GivenScene& self, const nb::tuple& state) {
+    const auto text = nb::cast<std::string>(state[1]);
+    const nb::object read = nb::cast(GivenScene{read_scene(nb::cast<std::filesystem::path>(state[0]), text)});
+    read.attr("override")(**nb::cast<nb::dict>(state[2]));
+    new (&self) GivenScene(nb::cast<GivenScene&>(read));
+    self.text = text;  // override() adds a seed to the text, where it stands already
+  });
+}
+
+void pickle_specimens(nb::class_<Prepared>& c) {
+  c.def("__getstate__",
+        [](const Prepared& p) { return nb::make_tuple(*p.scene, spheres_of(p.made.specimen), report_of(p.made)); });
+  c.def("__setstate__", [](Prepared& self, const nb::tuple& state) {
+    Specimen specimen = specimen_of(nb::cast<nb::tuple>(state[1]));
+    const auto kept = std::make_shared<const GivenScene>(nb::cast<const GivenScene&>(state[0]));
+    LongCall call;
+    Preparation made = call([&] { return prepare(*kept, std::move(specimen), call.progress_function()); });
+    put_report(nb::cast<nb::tuple>(state[2]), made);
+    new (&self) Prepared{kept, std::move(made)};
+  });
+}
+
+}  // namespace macadam::python
