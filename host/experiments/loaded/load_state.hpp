@@ -15,6 +15,7 @@ struct LoadState {
   double seconds_planning = 0, seconds = 0;       ///< wall time, the latter of the stepping until now
   std::vector<std::string> warnings;              ///< of checkpoints that could not be written
   std::vector<experiments::SteppedPoint> points;  ///< until now
+  std::vector<experiments::CrackEvent> cracks;    ///< until the last of the points
   std::vector<StateArray> state;                  ///< Stepper::state(); read from a checkpoint only
 };
 

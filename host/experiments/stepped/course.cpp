@@ -95,10 +95,12 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
     const InPhase writing(result_.phases, &PhaseSeconds::writing);  // nearly nothing where no checkpoint is due
     checkpoints_.look(course.content, stepper, course.name);
   };
+  bool ended = false;
   const auto take = [&](std::int64_t k, const Sample& sample) {
     require_convergence(sample, course.name + ", dt = " + fmt::format("{:.6g} s", course.dt));
     course.take(k, sample.now);
-    if (fields_.wants(k)) {
+    ended = course.ended && course.ended();
+    if (fields_.wants(k) || (ended && fields_.begun())) {
       const InPhase writing(result_.phases, &PhaseSeconds::writing);
       fields_.add(stepper, form, geometry, sample.now.time);
     }
@@ -117,7 +119,7 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
     return n;
   };
   Pieces pieces(stepper);
-  for (std::int64_t k = course.first; k <= course.last;) {
+  for (std::int64_t k = course.first; k <= course.last && !ended;) {
     const std::int64_t to = course.step_of(k);
     while (every > 0 && step < to) {  // stops on the way where the watcher wants to be told
       const std::int64_t next = std::min(to, (step / every + 1) * every);
