@@ -146,7 +146,7 @@ std::pair<int, int> broken_points(const TestScene& scene, const Stepper& stepper
   return out;
 }
 
-/// What a stepper reports of its contacts: broken points among those of the network, and each contact's fraction.
+/// Compares the breaks that a stepper reports with the expected ones, and each contact's fraction with a count.
 void expect_breaks(const TestScene& scene, const Stepper& stepper, const std::vector<Break>& expected) {
   const ContactState state = stepper.contacts(scene.network);
   EXPECT_EQ(stepper.point_breaks(scene.network), expected);

@@ -81,16 +81,17 @@ constexpr const char* monotonic_head = "time_s,strain,stress_pa,secant_pa,error,
 
 // One contact breaks, with all of its five points at once: they have the same stress.
 TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
-  const Scene asked = column(4, "kind = \"monotonic\"\nrate = 0.002\nstrain = 1.5e-4\npoints = 1000\n",
-                             "[output]\nfields = [\"contacts\"]\nevery = 300\nformat = \"vtp\"\n");
+  const Scene asked = column(4, "kind = \"monotonic\"\nrate = 0.002\nstrain = 1.5e-4\npoints = 200\n",
+                             "[output]\nfields = [\"contacts\"]\nevery = 60\nformat = \"vtp\"\n");
   const RunResult result = run(asked, out("out"));
   const auto& found = std::get<SteppedResponse>(result.found);
   ASSERT_TRUE(found.rupture);
-  ASSERT_LT(found.points.size(), 1000u) << "the test ends where the column is in two";
-  // points are 0.15 % of the strength apart, damping drags at the top wall with some 0.1 %
-  ASSERT_TRUE(found.peak());
-  EXPECT_NEAR(found.peak()->stress_pa / strength, 1, 3e-3);
-  EXPECT_NEAR(found.peak()->strain / (strength / modulus), 1, 3e-3);
+  ASSERT_LT(found.points.size(), 200u) << "the test ends where the column is in two";
+  // damping drags at the top wall with 0.1 to 0.3 % of the strength; the peak is found between the points, which are
+  // 0.75 % apart
+  ASSERT_TRUE(found.peak);
+  EXPECT_NEAR(found.peak->stress_pa / strength, 1, 3e-3);
+  EXPECT_NEAR(found.peak->strain / (strength / modulus), 1, 3e-3);
   EXPECT_EQ(found.rupture->time_s, found.points.back().time_s);
   EXPECT_EQ(found.rupture->strain_before, found.points.at(found.points.size() - 2).strain);
   ASSERT_TRUE(found.cracks);
@@ -100,8 +101,8 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
   const nlohmann::json all = summary("out"), test = all.at("results").at(0), bonds = all.at("cracks").at("M-M");
   EXPECT_EQ(all.at("status"), "done");
   EXPECT_EQ(all.at("warnings").size(), 0u) << all.at("warnings");
-  EXPECT_EQ(test.at("strength_pa"), found.peak()->stress_pa);
-  EXPECT_EQ(test.at("strain_at_peak"), found.peak()->strain);
+  EXPECT_EQ(test.at("strength_pa"), found.peak->stress_pa);
+  EXPECT_EQ(test.at("strain_at_peak"), found.peak->strain);
   EXPECT_EQ(test.at("points").back().at("broken_points"), 5);
   EXPECT_EQ(test.at("points").front().at("broken_points"), 0);
   EXPECT_HAS(test.at("rupture").at("words").get<std::string>(), "no intact contact path joins bottom and top wall");
@@ -132,7 +133,7 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
     EXPECT_EQ(event.at(11), "tension");
     EXPECT_EQ(std::stod(event.at(12)), found.rupture->time_s);
   }
-  // frames of samples 0, 300 and 600, and the last
+  // frames of samples 0, 60 and 120, and the last
   int frames = 0;
   for (const auto& entry : fs::directory_iterator(out("out") / "fields")) {
     if (entry.path().extension() != ".vtp") continue;
@@ -166,7 +167,7 @@ TEST_F(CracksOfATest, ACreepAboveTheStrengthSaysThatTheSpecimenBroke) {
   EXPECT_EQ(found.points.size(), 1u) << "it breaks before the first point";
   EXPECT_EQ(found.rupture->time_before_s, 0);
   ASSERT_EQ(result.warnings.size(), 1u);
-  EXPECT_HAS(result.warnings.front(), "The specimen broke between t = 0 s and 0.001 s");
+  EXPECT_HAS(result.warnings.front(), "The specimen broke between t = 0 s and 0.001");
   EXPECT_HAS(result.warnings.front(), "5 of 5 contact points that can break are broken");
   EXPECT_EQ(result.warnings.front().find("density_scaling"), std::string::npos);
   EXPECT_EQ(summary("out").at("results").at(0).at("points").size(), 1u);
@@ -213,8 +214,9 @@ TEST_F(CracksOfATest, EveryBackendCountsTheSame) {
 }
 
 TEST_F(CracksOfATest, AnyNumberOfThreadsAndAnyPiecesGiveTheSameBytes) {
-  Scene asked = bonded("threads = 1\n");
+  const Scene asked = bonded("threads = 1\n", 200);
   run(asked, out("one"));
+  EXPECT_TRUE(summary("one").at("results").at(0).contains("rupture"));
   const auto expect_same = [&](const std::string& name) {
     EXPECT_EQ(read(out(name) / "monotonic.csv"), read(out("one") / "monotonic.csv"));
     EXPECT_EQ(read(out(name) / "cracks.csv"), read(out("one") / "cracks.csv"));
@@ -224,7 +226,7 @@ TEST_F(CracksOfATest, AnyNumberOfThreadsAndAnyPiecesGiveTheSameBytes) {
   for (const int stop : {2, 9, 20, 15, 0}) interrupted += run_until(asked, "pieces", stop, interrupted > 0);
   EXPECT_EQ(interrupted, 4);
   expect_same("pieces");
-  run(bonded("threads = 2\n"), out("two"));
+  run(bonded("threads = 2\n", 200), out("two"));
   expect_same("two");
 }
 

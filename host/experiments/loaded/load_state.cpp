@@ -13,7 +13,10 @@ using experiments::SteppedPoint;
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadPlan, form, geometry, precision, critical, density_scaling, damping_kind,
                                    damping, ramp, platen_mass, dt, decisions)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, seconds_planning, seconds, warnings)
+namespace experiments {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Peak, time_s, strain, stress_pa)
+}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, peak, seconds_planning, seconds, warnings)
 
 namespace {
 

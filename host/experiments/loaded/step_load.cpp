@@ -30,6 +30,8 @@ constexpr std::int64_t many_steps = 100'000'000;
 constexpr double many_seconds = 3600;
 /// Walls that differ by more are no equilibrium.
 constexpr double largest_difference = 1e-2;
+/// Number of looks at the stress of a strength test, evenly over its steps.
+constexpr std::int64_t peak_samples = 10'000;
 
 double kinetic_energy(const ParticleState& p, const Inertia& inertia) {
   double out = 0;
@@ -143,6 +145,7 @@ class SteppedLoad : public Solution {
       found.points = at_.points;
       if (cracks_.active()) found.cracks = cracks_.found();
       found.rupture = rupture_;
+      if (measures_peak()) found.peak = at_.peak;
       if (rupture_) found.steps = stepper_->observe().step;
       found.seconds = before + seconds_since(start);
       found.kinetic_share = kinetic_share(found);
@@ -176,6 +179,15 @@ class SteppedLoad : public Solution {
                        cracks_.active() ? fmt::format(",{}", p.broken_points) : "");
   }
 
+  /// Whether the largest stress is wanted: of a strength test, not of a held load.
+  bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress; }
+  void follow_peak(const Observation& now) {
+    const Vec3d& box = prepared_.specimen.box.size;
+    const double strain = now.top_displacement() / box.z, stress = -now.top_force() / (box.x * box.y);
+    const double sign = std::copysign(1.0, strain);
+    if (sign * stress > sign * at_.peak.stress_pa) at_.peak = {now.time, strain, stress};
+  }
+
   /// Counts the broken points of a sample and returns the new ones. Under tension the test ends where they leave no
   /// path between the walls; in compression broken points still bear.
   std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
@@ -206,6 +218,10 @@ class SteppedLoad : public Solution {
       if (k > 0) add(point(now));
     };
     course.looks_at_stepper = true;  // for its kinetic energy
+    if (measures_peak()) {
+      course.between = [this](const Observation& now) { follow_peak(now); };
+      course.between_every = std::max<std::int64_t>(1, at_.plan.step_at(times.back()) / peak_samples);
+    }
     course.ended = [this] { return rupture_.has_value(); };
     course.shown = [this](std::int64_t step, double steps_a_second) {
       return fmt::format("{}, t = {:.4g} s of {:g}, {:.0f} steps/s", test_.kind,
@@ -266,14 +282,15 @@ class SteppedLoad : public Solution {
     return "density_scaling takes fewer, method = \"harmonic\" none at all where all laws are linear";
   }
 
-  /// Adds a warning where the points are not those of a specimen in equilibrium. A specimen in two pieces has no
-  /// equilibrium: then the rupture is reported, in a test of strength as its result.
+  /// Adds a warning if the specimen was not in equilibrium at a point. A specimen in two pieces has no equilibrium: its
+  /// rupture is reported instead. In a strength test the rupture is a result and not a warning.
   void judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
-    if (found.rupture && !test_.grows) warnings.push_back(rupture_words(*found.rupture, *found.cracks));
-    const auto end = found.rupture ? found.points.end() - 1 : found.points.end();
-    const auto worst =
-        std::max_element(found.points.begin(), end, [](const auto& a, const auto& b) { return a.error < b.error; });
-    if (worst == end || worst->error <= largest_difference) return;
+    if (found.rupture && !test_.grows) return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
+    const auto largest = std::max_element(found.points.begin(), found.points.end(),
+                                          [](const auto& a, const auto& b) { return a.error < b.error; });
+    const SteppedPoint* worst = largest == found.points.end() ? nullptr : &*largest;
+    if (found.rupture) worst = found.points.size() > 1 ? &found.points.end()[-2] : nullptr;
+    if (!worst || worst->error <= largest_difference) return;
     warnings.push_back(fmt::format(
         "at t = {:.4g} s load and walls' stresses differ by {:.1f} %: waves or damping are in the result there; less "
         "density_scaling, a longer ramp or later times have less of them",

@@ -21,36 +21,30 @@ double experiments::SteppedResponse::error() const {
   return out;
 }
 
-const SteppedPoint* experiments::SteppedResponse::peak() const {
-  const auto larger = [](const SteppedPoint& a, const SteppedPoint& b) {
-    return std::copysign(1.0, a.strain) * a.stress_pa < std::copysign(1.0, b.strain) * b.stress_pa;
-  };
-  const auto end = points.end() - (rupture ? 1 : 0);
-  const auto found = std::max_element(points.begin(), end, larger);
-  return found == end ? nullptr : &*found;
-}
-
 namespace {
 
-/// Whether the stress has fallen after its largest value, so that this is the strength.
-bool passed_peak(const SteppedResponse& found) { return found.rupture || found.peak() != &found.points.back(); }
-
-bool measures_strength(const SteppedResponse& found) {
-  return found.cracks && found.kind == experiments::Monotonic::kind && found.peak();
+/// Whether the peak is the strength: points broke, and the stress has fallen from it by more than 1 %.
+bool passed_peak(const SteppedResponse& found) {
+  if (found.rupture) return true;
+  constexpr double fallen = 0.99;
+  return found.cracks->points() > 0 &&
+         std::abs(found.points.back().stress_pa) < fallen * std::abs(found.peak->stress_pa);
 }
+
+bool measures_strength(const SteppedResponse& found) { return found.peak && !found.points.empty(); }
 
 /// The strength first: a reader of such a test looks for it.
 std::string strength_words(const SteppedResponse& found) {
-  const SteppedPoint& p = *found.peak();
   return fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
-                     passed_peak(found) ? "strength" : "largest stress", p.stress_pa / 1e6, p.strain, p.time_s,
-                     passed_peak(found) ? "" : ", the last point: the stress still grew, the strength was not reached");
+                     passed_peak(found) ? "strength" : "largest stress", found.peak->stress_pa / 1e6,
+                     found.peak->strain, found.peak->time_s,
+                     passed_peak(found) ? "" : "; the strength was not reached");
 }
 
 void add_strength(const SteppedResponse& found, nlohmann::ordered_json& out) {
-  const SteppedPoint* p = passed_peak(found) ? found.peak() : nullptr;
-  out["strength_pa"] = p ? nlohmann::ordered_json(p->stress_pa) : nlohmann::ordered_json();
-  out["strain_at_peak"] = p ? nlohmann::ordered_json(p->strain) : nlohmann::ordered_json();
+  const bool passed = passed_peak(found);
+  out["strength_pa"] = passed ? nlohmann::ordered_json(found.peak->stress_pa) : nlohmann::ordered_json();
+  out["strain_at_peak"] = passed ? nlohmann::ordered_json(found.peak->strain) : nlohmann::ordered_json();
 }
 
 void add_rupture(const SteppedResponse& found, nlohmann::ordered_json& out) {

@@ -32,6 +32,10 @@ struct Course {
   std::function<void(std::int64_t sample, const Observation& now)> take;
   bool looks_at_stepper = false;     ///< `take` does: it stands at the sample then
   std::function<bool()> ended = {};  ///< asked after `take`: whether this sample is the last. May be empty
+  /// Called after every `between_every` steps, if that is not 0, also between samples. A resumed run may call it a
+  /// second time for the step that it begins with.
+  std::function<void(const Observation& now)> between = {};
+  std::int64_t between_every = 0;
   std::function<std::string(std::int64_t step, double steps_a_second)> shown;  ///< how far it is, for people
   Content content;                                                             ///< of a checkpoint, but for the state
   /// After the first seconds: how many more it takes. May be empty.

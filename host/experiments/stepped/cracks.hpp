@@ -46,7 +46,7 @@ class CrackWatch {
   experiments::Cracks found_;
 };
 
-/// First line of cracks.csv, and one line per event. Places are those of the undeformed specimen.
+/// First line of cracks.csv, and one line per event. x, y, z is the place of the point in the undeformed specimen.
 /// @{
 std::string crack_head();
 std::string crack_line(const Preparation& prepared, const experiments::CrackEvent& event);

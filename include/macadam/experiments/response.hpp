@@ -35,6 +35,11 @@ struct SteppedPoint : ResponsePoint {
   std::int64_t broken_points = 0;  ///< contact points that are broken; 0 where no law can break
 };
 
+/// The largest stress of a test in the direction of its load, between its points too.
+struct Peak {
+  double time_s = 0, strain = 0, stress_pa = 0;
+};
+
 /// By method "explicit".
 struct SteppedResponse : Stepped {
   std::string kind;
@@ -51,10 +56,9 @@ struct SteppedResponse : Stepped {
   double seconds = 0;        ///< wall time of the stepping, of all processes of a resumed run
 
   std::optional<Rupture> rupture = {};  ///< why the test ended early
+  std::optional<Peak> peak = {};        ///< constant rate: only if a law of the scene can break
 
   double error() const;  ///< largest of the points before the rupture
-  /// The point with the largest stress in the direction of the load, before the rupture; null without such a point.
-  const SteppedPoint* peak() const;
 };
 
 }  // namespace macadam::experiments
