@@ -27,12 +27,15 @@ std::size_t edits(std::string_view a, std::string_view b) {  // Levenshtein, one
 
 }  // namespace
 
+std::size_t letters_between(std::string_view a, std::string_view b) {
+  constexpr std::size_t longest = 64;  // a line of a damaged file may be far longer, and edits() takes its time
+  return edits(a.substr(0, longest), b.substr(0, longest));
+}
+
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
-  constexpr std::size_t longest =
-      64;  // of a key; a line of a damaged file may be far longer, and edits() takes its time
-  word = word.substr(0, longest);
-  return *std::min_element(known.begin(), known.end(),
-                           [&](const auto& a, const auto& b) { return edits(word, a) < edits(word, b); });
+  return *std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+    return letters_between(word, a) < letters_between(word, b);
+  });
 }
 
 }  // namespace macadam
