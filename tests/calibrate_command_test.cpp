@@ -111,6 +111,46 @@ TEST_F(CalibrateCommand, GeneratedSpecimensTakeSeeds) {
   EXPECT_HAS(refused("--free M-M.delta --seeds 0"), "--seeds");
 }
 
+/// The scene's test has no part in it: targets have frequencies of their own.
+TEST_F(CalibrateCommand, ScenesOfOtherTestsAreCalibratedToo) {
+  target(std::string(header) + "20,1.4e10,6\n5,1.2e10,15\n");
+  const std::string free = "--free M-A.delta";
+  write_scene(harmonic);
+  ASSERT_EQ(calibrate(free).code, 0);
+  const double expected = found()["parameters"][0]["value"];
+  for (const char* loading : {"kind = \"sweep\"\nfrequencies = [0.1, 10.0]\n",
+                              "kind = \"relaxation\"\ntimes = [0.1, 10.0]\n"}) {
+    fs::remove_all(folder_ / "found");
+    write_scene_of(loading, "backend = \"cpu\"\n");
+    const Outcome outcome = calibrate(free);
+    ASSERT_EQ(outcome.code, 0) << loading << outcome.err;
+    EXPECT_EQ(found()["parameters"][0]["value"], expected) << loading;
+    EXPECT_HAS(read(folder_ / "found" / "scene.toml"), std::string(loading).substr(0, 12));
+  }
+}
+
+TEST_F(CalibrateCommand, WhatTheMisfitDoesNotCountNeedNotBeMeasured) {
+  write_scene(harmonic);
+  target("frequency_hz,e_star_mpa\n20,11000\n5,9500\n");
+  EXPECT_HAS(refused("--free M-A.delta"), "with phase_deg");
+  ASSERT_EQ(calibrate("--free M-A.delta --misfit modulus").code, 0);
+  const json moduli = found();
+  const double delta = moduli["parameters"][0]["value"];
+  EXPECT_TRUE(moduli["errors"]["phase_rms_deg"].is_null());
+  EXPECT_FALSE(moduli["residuals"][0].contains("phase_deg"));
+  EXPECT_HAS(read(folder_ / "found" / "predicted.csv"), "20,,11000000000,,");
+  // with phases, which do not count, the same
+  target("frequency_hz,e_star_pa,phase_deg\n20,1.1e10,1\n5,9.5e9,2\n");
+  fs::remove_all(folder_ / "found");
+  ASSERT_EQ(calibrate("--free M-A.delta --misfit modulus").code, 0);
+  EXPECT_EQ(found()["parameters"][0]["value"], delta);
+  target("frequency_hz,phase_deg\n20,7\n5,13\n");
+  fs::remove_all(folder_ / "found");
+  const Outcome phases = calibrate("--free M-M.C_m --misfit phase");
+  ASSERT_EQ(phases.code, 0) << phases.err;
+  EXPECT_TRUE(found()["errors"]["e_star_rms"].is_null());
+}
+
 TEST_F(CalibrateCommand, PicturesAreDrawnOrItIsSaidHow) {
   write_scene(harmonic);
   target(std::string(header) + "20,1.1e10,7\n");
@@ -129,7 +169,7 @@ TEST_F(CalibrateCommand, WrongTargetsEndWithAMessageAndLeaveNothing) {
   EXPECT_HAS(refused(free), "lab.csv:2: column e_star_pa: found \"-1e9\"");
   target(std::string(header) + "20,nan,7\n");
   EXPECT_HAS(refused(free), "lab.csv:2: column e_star_pa: found \"nan\"");
-  target(std::string(header) + "20,1e13,7\n");
+  target(std::string(header) + "20,1e12,7\n");
   EXPECT_HAS(refused(free, 1), "lab.csv: the targets are not reached");
   target("frequency_hz,e_star_pa,phase_deg,temperature_c\n20,1e10,7,10\n20,5e9,15,20\n");
   EXPECT_HAS(refused(free), "between which no law of the scene changes");

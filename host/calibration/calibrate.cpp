@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <numbers>
 
 #include "host/calibration/free_parameters.hpp"
@@ -29,6 +30,9 @@ constexpr double wrong_unit = 1 / 300.0;
 /// Standard deviations to either side that hold 95 % of a normal distribution.
 constexpr double two_sided = 1.96;
 
+/// Error of a modulus or phase that was not measured.
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
 /// Of a logarithm, in a round: how far it may go, and how little ends the way: so near to a solution the error of an
 /// estimate is about the square of that, below 1e-12.
 constexpr double farthest = 2, least_move = 1e-6;
@@ -45,6 +49,8 @@ class Calibrator {
     out_.options = options;
     out_.temperatures = data.temperatures;
     out_.deviations = data.deviations;
+    out_.moduli = data.moduli;
+    out_.phases = data.phases;
     free_ = free_parameters(scene, options, out_.parameters);
     for (const FreeParameter& p : options.free) priors_ += p.prior ? 1 : 0;
     const std::size_t told = static_cast<std::size_t>(residuals_each(options.misfit)) * data.points.size() + priors_;
@@ -198,10 +204,13 @@ class Calibrator {
                         std::arg(predicted[i].modulus) * 180 / std::numbers::pi,
                         predicted[i].e_star_scatter,
                         predicted[i].phase_scatter_deg};
-      const double modulus = p.e_star_pa / m.e_star_pa - 1, phase = p.phase_deg - m.phase_deg;
+      // not measured: no error
+      const double modulus = data_.moduli ? p.e_star_pa / m.e_star_pa - 1 : not_measured;
+      const double phase = data_.phases ? p.phase_deg - m.phase_deg : not_measured;
       e.e_star_rms += modulus * modulus, e.phase_rms_deg += phase * phase;
-      e.e_star_largest = std::max(e.e_star_largest, std::abs(modulus));
-      e.phase_largest_deg = std::max(e.phase_largest_deg, std::abs(phase));
+      // in this order NaN is kept
+      e.e_star_largest = std::max(std::abs(modulus), e.e_star_largest);
+      e.phase_largest_deg = std::max(std::abs(phase), e.phase_largest_deg);
       out_.points.push_back(p);
     }
     e.e_star_rms = std::sqrt(e.e_star_rms / static_cast<double>(predicted.size()));
@@ -222,9 +231,13 @@ class Calibrator {
     const bool modulus = options_.misfit != Misfit::phase && e.e_star_rms > worst_modulus;
     const bool phase = options_.misfit != Misfit::modulus && e.phase_rms_deg > worst_phase;
     if (ends.empty() && !modulus && !phase) return;
-    const double ratio = out_.points.front().measured.e_star_pa / out_.points.front().e_star_pa;
-    std::string what =
-        fmt::format("|E*| is missed by {:.3g} % (rms), phase by {:.3g} degrees", 100 * e.e_star_rms, e.phase_rms_deg);
+    const double ratio =
+        data_.moduli ? out_.points.front().measured.e_star_pa / out_.points.front().e_star_pa : 1;  // 1: not measured
+    std::string what = fmt::format(
+        "{}{}{}", data_.moduli ? fmt::format("|E*| is missed by {:.3g} % (rms)", 100 * e.e_star_rms) : "",
+        data_.moduli && data_.phases ? ", " : "",
+        data_.phases ? fmt::format("phase{} by {:.3g} degrees", data_.moduli ? "" : " is missed", e.phase_rms_deg)
+                     : "");
     for (const std::string& end : ends) what += "; " + end;
     if (ratio < wrong_unit || ratio > 1 / wrong_unit)
       what += fmt::format("; what was measured is {:.1e} times the prediction: is it in Pa?", ratio);

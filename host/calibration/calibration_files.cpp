@@ -36,15 +36,16 @@ Json parameter_json(const CalibratedParameter& p, const FreeParameter& asked) {
   return out;
 }
 
-Json residual_json(const CalibratedPoint& p, bool scatter) {
+Json residual_json(const CalibratedPoint& p, const Calibration& c) {
+  const bool scatter = c.seeds.size() > 1;
   Json out{{"frequency_hz", p.measured.frequency_hz}};
   if (p.temperature_c) out["temperature_c"] = *p.temperature_c;
-  out["e_star_pa"] = p.measured.e_star_pa;
-  out["phase_deg"] = p.measured.phase_deg;
+  if (c.moduli) out["e_star_pa"] = p.measured.e_star_pa;
+  if (c.phases) out["phase_deg"] = p.measured.phase_deg;
   out["predicted_e_star_pa"] = p.e_star_pa;
   out["predicted_phase_deg"] = p.phase_deg;
-  out["e_star_error"] = p.e_star_pa / p.measured.e_star_pa - 1;
-  out["phase_error_deg"] = p.phase_deg - p.measured.phase_deg;
+  if (c.moduli) out["e_star_error"] = p.e_star_pa / p.measured.e_star_pa - 1;
+  if (c.phases) out["phase_error_deg"] = p.phase_deg - p.measured.phase_deg;
   if (scatter) out["scatter"] = {{"e_star", p.e_star_scatter}, {"phase_deg", p.phase_scatter_deg}};
   return out;
 }
@@ -71,12 +72,12 @@ std::string calibration_json(const Calibration& c) {
     out["combinations"].push_back(
         {{"exponents", exponents}, {"deviation_of_logarithm", finite(combination.deviation)}});
   }
-  out["errors"] = {{"e_star_rms", c.errors.e_star_rms},
-                   {"e_star_largest", c.errors.e_star_largest},
-                   {"phase_rms_deg", c.errors.phase_rms_deg},
-                   {"phase_largest_deg", c.errors.phase_largest_deg}};
+  out["errors"] = {{"e_star_rms", finite(c.errors.e_star_rms)},
+                   {"e_star_largest", finite(c.errors.e_star_largest)},
+                   {"phase_rms_deg", finite(c.errors.phase_rms_deg)},
+                   {"phase_largest_deg", finite(c.errors.phase_largest_deg)}};
   out["residuals"] = Json::array();
-  for (const CalibratedPoint& p : c.points) out["residuals"].push_back(residual_json(p, c.seeds.size() > 1));
+  for (const CalibratedPoint& p : c.points) out["residuals"].push_back(residual_json(p, c));
   out["solutions"] = c.solutions;
   out["timing_s"] = {{"preparing", c.seconds_preparing}, {"solving", c.seconds_solving}};
   out["warnings"] = c.warnings;
@@ -89,9 +90,11 @@ std::string predicted_csv(const Calibration& c) {
       "phase_error_deg,e_star_scatter,phase_scatter_deg\n";
   for (const CalibratedPoint& p : c.points) {
     const ModulusPoint& m = p.measured;
+    const auto cell = [](bool measured, double value) { return measured ? fmt::format("{}", value) : ""; };
     out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", m.frequency_hz,
-                       p.temperature_c ? fmt::format("{}", *p.temperature_c) : "", m.e_star_pa, m.phase_deg,
-                       p.e_star_pa, p.phase_deg, p.e_star_pa / m.e_star_pa - 1, p.phase_deg - m.phase_deg,
+                       cell(p.temperature_c.has_value(), p.temperature_c.value_or(0)), cell(c.moduli, m.e_star_pa),
+                       cell(c.phases, m.phase_deg), p.e_star_pa, p.phase_deg,
+                       cell(c.moduli, p.e_star_pa / m.e_star_pa - 1), cell(c.phases, p.phase_deg - m.phase_deg),
                        p.e_star_scatter, p.phase_scatter_deg);
   }
   return out;
@@ -113,17 +116,20 @@ std::string calibration_text(const Calibration& c) {
                      "|E*| (GPa)", "predicted", "error", "phi (deg)", "predicted", "error");
   for (const CalibratedPoint& p : c.points) {
     if (warm) out += fmt::format("{:>8g} ", p.temperature_c.value_or(0));
-    out +=
-        fmt::format("{:>10.5g} {:>12.6g} {:>12.6g} {:>+7.2f}% {:>9.4g} {:>9.4g} {:>+8.2f}\n", p.measured.frequency_hz,
-                    p.measured.e_star_pa / 1e9, p.e_star_pa / 1e9, 100 * (p.e_star_pa / p.measured.e_star_pa - 1),
-                    p.measured.phase_deg, p.phase_deg, p.phase_deg - p.measured.phase_deg);
+    const auto cell = [](bool measured, const std::string& text) { return measured ? text : "-"; };
+    out += fmt::format("{:>10.5g} {:>12} {:>12.6g} {:>8} {:>9} {:>9.4g} {:>8}\n", p.measured.frequency_hz,
+                       cell(c.moduli, fmt::format("{:.6g}", p.measured.e_star_pa / 1e9)), p.e_star_pa / 1e9,
+                       cell(c.moduli, fmt::format("{:+.2f}%", 100 * (p.e_star_pa / p.measured.e_star_pa - 1))),
+                       cell(c.phases, fmt::format("{:.4g}", p.measured.phase_deg)), p.phase_deg,
+                       cell(c.phases, fmt::format("{:+.2f}", p.phase_deg - p.measured.phase_deg)));
   }
-  out += fmt::format(
-      "|E*|: rms {:.3g} %, largest {:.3g} %; phase: rms {:.3g}, largest {:.3g} degrees\n{}: {} solutions, preparing "
-      "{:.1f} "
-      "s, solving {:.1f} s\n",
-      100 * c.errors.e_star_rms, 100 * c.errors.e_star_largest, c.errors.phase_rms_deg, c.errors.phase_largest_deg,
-      c.solver, c.solutions, c.seconds_preparing, c.seconds_solving);
+  const std::string moduli =
+      fmt::format("|E*|: rms {:.3g} %, largest {:.3g} %", 100 * c.errors.e_star_rms, 100 * c.errors.e_star_largest);
+  const std::string phases =
+      fmt::format("phase: rms {:.3g}, largest {:.3g} degrees", c.errors.phase_rms_deg, c.errors.phase_largest_deg);
+  out += fmt::format("{}{}{}\n{}: {} solutions, preparing {:.1f} s, solving {:.1f} s\n", c.moduli ? moduli : "",
+                     c.moduli && c.phases ? "; " : "", c.phases ? phases : "", c.solver, c.solutions,
+                     c.seconds_preparing, c.seconds_solving);
   return out;
 }
 

@@ -25,11 +25,17 @@ constexpr double unbounded = 1e4;
 void require_sense(const Scene& scene, const ModulusData& data, const CalibrationOptions& options) {
   const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
   if (data.points.empty()) throw InputError(data.source, 0, "measurements", "none", "at least one");
+  const bool counts_modulus = options.misfit != Misfit::phase, counts_phase = options.misfit != Misfit::modulus;
+  if ((counts_modulus && !data.moduli) || (counts_phase && !data.phases)) {
+    throw InputError(data.source, 0, "measurements", data.moduli ? "no phase angles" : "no moduli",
+                     fmt::format("them for the misfit {}", to_string(options.misfit)));
+  }
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const ModulusPoint& p = data.points[i];
-    if (!positive(p.frequency_hz) || !positive(p.e_star_pa) || !(std::abs(p.phase_deg) < 180) ||
+    if (!positive(p.frequency_hz) || (data.moduli && !positive(p.e_star_pa)) || !(std::abs(p.phase_deg) < 180) ||
         (data.temperatures && !std::isfinite(p.temperature_c)) ||
-        (data.deviations && !(positive(p.e_star_std) && positive(p.phase_std)))) {
+        (data.deviations &&
+         ((counts_modulus && !positive(p.e_star_std)) || (counts_phase && !positive(p.phase_std))))) {
       throw InputError(data.source, 0, fmt::format("measurement {}", i + 1), "a number without sense",
                        "finite ones; frequency, |E*| and standard deviations positive");
     }

@@ -12,6 +12,12 @@ const char* to_string(Misfit misfit) {
   return names[static_cast<std::size_t>(misfit)];
 }
 
+Measured measured_for(Misfit misfit) {
+  return misfit == Misfit::modulus ? Measured::modulus
+         : misfit == Misfit::phase ? Measured::phase
+                                   : Measured::modulus_and_phase;
+}
+
 namespace calibration {
 
 using Complex = std::complex<double>;
@@ -26,7 +32,7 @@ void add_residuals(const ModulusData& data, const CalibrationOptions& options, c
     const Predicted& p = predicted[i];
     const double modulus_deviation = data.deviations ? m.e_star_std / m.e_star_pa : options.e_star_deviation;
     const double phase_deviation = degree * (data.deviations ? m.phase_std : options.phase_deviation);
-    const Complex measured = std::polar(m.e_star_pa, degree * m.phase_deg);
+    const Complex measured = std::polar(data.moduli ? m.e_star_pa : 1, degree * m.phase_deg);
     const auto row = [&](double residual, auto&& derivative) {
       residuals.push_back(residual);
       for (const Complex& change : p.by) jacobian.push_back(derivative(change));

@@ -33,6 +33,19 @@ constexpr double residual = 1e-8;
 
 double degrees(Complex modulus) { return std::arg(modulus) * 180 / std::numbers::pi; }
 
+/// Frequencies [Hz] and temperatures [°C] that the scene's test has; a test over time has none.
+struct Loading {
+  std::vector<double> frequencies, temperatures;
+};
+
+Loading loading_of(const Scene& scene) {
+  if (const auto* cyclic = std::get_if<experiments::Cyclic>(&scene.experiment))
+    return {cyclic->frequencies, cyclic->temperatures};
+  if (const auto* sweep = std::get_if<experiments::Sweep>(&scene.experiment))
+    return {sweep->frequencies, sweep->temperatures};
+  return {};
+}
+
 }  // namespace
 
 std::vector<std::optional<double>> temperatures_of(const Scene& scene, const ModulusData& data) {
@@ -40,7 +53,7 @@ std::vector<std::optional<double>> temperatures_of(const Scene& scene, const Mod
     throw InputError(data.source, 0, what, found, expected);
   };
   std::vector<std::optional<double>> out;
-  const std::vector<double>& several = scene.cyclic().temperatures;
+  const std::vector<double> several = loading_of(scene).temperatures;
   if (!data.temperatures && several.size() > 1) {
     refuse("column temperature_c", fmt::format("none beside the {} temperatures of the scene", several.size()),
            "it, or one temperature in the scene");
@@ -79,7 +92,7 @@ double Specimens::density_scaling_at(double frequency) const {
   const auto& scaling = scene_.solver.density_scaling;
   if (!inertia_) return 0;
   if (!scaling || scaling->size() == 1) return density_scaling_of(scene_.solver, 0);
-  const auto& known = scene_.cyclic().frequencies;
+  const std::vector<double> known = loading_of(scene_).frequencies;
   const auto at = std::find(known.begin(), known.end(), frequency);
   if (at == known.end()) {
     throw InputError(data_.source, 0, "column frequency_hz",

@@ -14,6 +14,7 @@
 #include "host/cli/options.hpp"
 #include "host/cli/stop_signals.hpp"
 #include "host/cli/streams.hpp"
+#include "host/fit/fit_files.hpp"
 #include "host/results/result_folder.hpp"
 #include "macadam/calibration.hpp"
 #include "macadam/error.hpp"
@@ -77,7 +78,7 @@ void calibrate_command(CalibrateArguments arguments) {
   read_parameters(arguments);
   arguments.options.e_star_deviation = arguments.e_star_deviation / 100;
   Scene scene = scene_of(arguments.job);
-  const ModulusData data = read_modulus_data(arguments.target);
+  const ModulusData data = read_modulus_data(arguments.target, {}, measured_for(arguments.options.misfit));
   if (arguments.threads) scene.solver.threads = *arguments.threads;
   if (arguments.backend) {
     scene.solver.backend = *arguments.backend;
@@ -94,7 +95,7 @@ void calibrate_command(CalibrateArguments arguments) {
   const Calibration calibration = calibrate(scene, data, arguments.options, watcher);
   line.clear();
   write_calibration(out, scene, calibration);
-  say("{}", calibration_text(calibration));
+  say("{}{}", unused_columns_text(data), calibration_text(calibration));
   for (const std::string& warning : calibration.warnings) say("warning: {}\n", warning);
   say("files in {}: scene.toml calibration.json predicted.csv\n", arguments.job.out);
   if (!arguments.no_pictures) say("{}", draw_results("draw-calibration", out, "calibration.png"));
@@ -108,8 +109,8 @@ void add_calibrate_command(CLI::App& app) {
   CalibrationOptions& options = arguments->options;
   add_job_options(command, arguments->job);
   add_text(command, "--target", arguments->target,
-           "CSV file: frequency_hz, e_star_pa, phase_deg (or e_prime_pa, e_double_prime_pa), maybe temperature_c, "
-           "e_star_std, phase_std")
+           "table: frequency_hz, e_star_pa or e_star_mpa, phase_deg (or e_prime_pa, e_double_prime_pa), maybe "
+           "temperature_c, e_star_std, phase_std")
       ->required();
   command
       .add_option("--free", arguments->free, "parameters to be found, with commas: M-A.delta,M-M.E_1,inner.E,A-A.alpha")

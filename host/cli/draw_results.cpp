@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// draw_results.cpp  Finds a script of share/macadam and a Python that can run it.
+// draw_results.cpp  Finds a script of share/macadam and runs it with the Python that reports use.
 #include "host/cli/draw_results.hpp"
 
 #include <fmt/format.h>
@@ -27,11 +27,13 @@ fs::path find(const std::string& script) {
 std::string draw_results(const std::string& script, const fs::path& folder, const std::string& pictures) {
   const fs::path file = find(script);
   if (file.empty()) return fmt::format("no pictures: share/macadam/{} is not installed beside the program\n", script);
-  // a python3 of somebody's own comes first in the search path and may lack what Debian's has
-  for (const char* python : {"python3", "/usr/bin/python3"})
-    if (runs({python, "-B", file.string(), folder.string()})) return fmt::format("pictures: {}\n", pictures);
-  return fmt::format("no pictures: they take python3 with matplotlib; where that is, python3 {} {} draws them\n",
-                     file.string(), folder.string());
+  const std::string python = python_interpreter();
+  // a Python of the user's may lack matplotlib although Debian's has it
+  for (const std::string& one : {python, std::string("/usr/bin/python3")})
+    if (runs({one, "-B", file.string(), folder.string()})) return fmt::format("pictures: {}\n", pictures);
+  return fmt::format(
+      "no pictures: {} has no matplotlib; name a Python that has it in MACADAM_PYTHON, or run it with {} {}\n", python,
+      file.string(), folder.string());
 }
 
 }  // namespace macadam

@@ -7,8 +7,8 @@
 
 namespace macadam {
 
-/// Has a script draw its pictures into the folder of the results, where python3 with matplotlib is there. What is to be
-/// told of it: `pictures`, their names, or how to draw them.
+/// Has a script draw its pictures into the folder of the results, with python_interpreter() or Debian's python3.
+/// Returns a line for the user: `pictures`, their names, or how to draw them where no Python has matplotlib.
 std::string draw_results(const std::string& script, const std::filesystem::path& folder, const std::string& pictures);
 
 }  // namespace macadam

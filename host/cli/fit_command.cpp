@@ -71,20 +71,17 @@ void fit_command(const CLI::App& command, FitArguments arguments) {
   require_uses(command, arguments);
   if (arguments.data.empty()) return convert(arguments);
   if (arguments.flow || arguments.no_flow) arguments.fit.flow = arguments.flow;
-  const Fit fit = fit_modulus(read_modulus_data(arguments.data, arguments.poisson), arguments.fit);
-  std::optional<KelvinConversion> conversion;
-  const auto range = chain_range(arguments.from, arguments.to, fit.reduced_range());
-  if (const auto* analogue = std::get_if<AnalogueModel>(&fit.model))
-    conversion = to_kelvin(*analogue, range.first, range.second, arguments.error);
+  const ModulusData data = read_modulus_data(arguments.data, arguments.poisson);
+  const Fit fit = fit_modulus(data, arguments.fit);
+  const FitReport report = report_of(fit, arguments.from, arguments.to, arguments.error);
   const std::filesystem::path out = arguments.out;
-  const FitFiles files = fit_files(fit, conversion ? &*conversion : nullptr);
   const ResultFolder folder(out);
-  write_files(out, files);
-  say("{}", fit_text(fit));
-  if (conversion) say("{}", conversion_text(*conversion, range));
+  write_report(out, report);
+  say("{}{}", unused_columns_text(data), report.text);
   for (const std::string& warning : fit.warnings) say("warning: {}\n", warning);
-  say("files in {}: law.toml fit.json fit.csv curve.csv\n", arguments.out);
+  say("files in {}: {}fit.json fit.csv curve.csv\n", arguments.out, report.refusal.empty() ? "law.toml " : "");
   if (!arguments.no_pictures) { say("{}", draw_results("draw-fit", out, "master-curve.png cole-cole.png black.png")); }
+  if (!report.refusal.empty()) throw InputError(report.refusal);
 }
 
 }  // namespace
@@ -94,9 +91,9 @@ void add_fit_command(CLI::App& app) {
   const auto arguments = std::make_shared<FitArguments>();
   FitOptions& fit = arguments->fit;
   command
-      .add_option(
-          "data", arguments->data,
-          "CSV file: frequency_hz, e_star_pa or g_star_pa, phase_deg, maybe temperature_c, e_star_std, phase_std")
+      .add_option("data", arguments->data,
+                  "table: frequency_hz, e_star_pa, e_star_mpa or g_star_pa, phase_deg, maybe temperature_c, "
+                  "e_star_std, phase_std")
       ->type_name("FILE");
   add_out(command, arguments->out);
   command.add_flag("--no-pictures", arguments->no_pictures, "do not draw");

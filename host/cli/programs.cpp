@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 
 extern char** environ;
@@ -34,6 +35,13 @@ std::filesystem::path source_tree() {
   std::error_code error;
   if (folder.empty() || !std::filesystem::exists(folder / "CMakeCache.txt", error)) return {};
   return (folder / MACADAM_SOURCE).lexically_normal();
+}
+
+std::string python_interpreter() {
+  if (const char* const named = std::getenv("MACADAM_PYTHON"); named && *named) return named;
+  const std::filesystem::path own = source_tree() / "build/python/bin/python3";
+  std::error_code error;
+  return own.is_absolute() && std::filesystem::exists(own, error) ? own.string() : "python3";
 }
 
 bool runs(std::vector<std::string> words) {

@@ -16,6 +16,10 @@ std::filesystem::path own_program();
 /// theirs.
 std::filesystem::path source_tree();
 
+/// The Python that scripts and the package run with: MACADAM_PYTHON of the environment, that of the source tree
+/// (scripts/python), or python3 of the search path.
+std::string python_interpreter();
+
 /// Runs a program of the search path, or of a path, with its output thrown away. Whether it ended with 0.
 bool runs(std::vector<std::string> words);
 

@@ -26,16 +26,8 @@ fs::path package_folder() {
   return {};
 }
 
-/// MACADAM_PYTHON of the environment, that of the source tree (scripts/python), or the first of the search path.
-std::string interpreter() {
-  if (const char* const named = std::getenv("MACADAM_PYTHON"); named && *named) return named;
-  const fs::path own = source_tree() / "build/python/bin/python3";
-  std::error_code error;
-  return own.is_absolute() && fs::exists(own, error) ? own.string() : "python3";
-}
-
 [[noreturn]] void run_python(const std::string& command, const std::vector<std::string>& arguments) {
-  const std::string python = interpreter();
+  const std::string python = python_interpreter();
   if (const fs::path folder = package_folder(); !folder.empty()) {
     const char* const before = std::getenv("PYTHONPATH");
     setenv("PYTHONPATH", (folder.string() + (before && *before ? ":" + std::string(before) : "")).c_str(), 1);

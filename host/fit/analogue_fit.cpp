@@ -54,29 +54,54 @@ std::vector<Limits> analogue_limits(const Unknowns& u, const std::vector<Target>
   return out;
 }
 
-Minimum fit_analogue(const Unknowns& u, const std::vector<Target>& targets, const std::vector<Limits>& limits,
-                     const std::vector<double>& shift) {
+namespace {
+
+constexpr std::size_t refined = 6;  ///< starts of least misfit that are refined
+
+/// θ of usual values over a grid of τ, E_00 and δ, those of least misfit first.
+std::vector<std::vector<double>> usual_starts(const Unknowns& u, const std::vector<Target>& targets,
+                                              const std::vector<double>& shift) {
   const Extent e = extent_of(targets);
-  struct Start {
-    double misfit;
-    std::vector<double> theta;
-  };
-  std::vector<Start> starts;
+  std::vector<std::pair<double, std::vector<double>>> starts;
   for (double log_tau = -e.fast - 15; log_tau < -e.slow + 8; log_tau += 1.5) {
     for (const double statics : {e.soft - 0.7, e.soft - 7}) {
       for (const double log_delta : {0.0, 1.0}) {
         std::vector<double> theta{e.stiff + 0.7, statics, 0.2, 0.6, log_delta, log_tau};
         if (u.model == FitModel::two_s2p1d) theta.push_back(5);
         theta.insert(theta.end(), shift.begin(), shift.end());
-        starts.push_back({misfit_at(u, targets, theta), std::move(theta)});
+        const double misfit = misfit_at(u, targets, theta);
+        if (std::isfinite(misfit)) starts.emplace_back(misfit, std::move(theta));
       }
     }
   }
-  std::erase_if(starts, [](const Start& s) { return !std::isfinite(s.misfit); });
-  std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.misfit < b.misfit; });
+  std::sort(starts.begin(), starts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::vector<double>> out;
+  for (std::size_t i = 0; i < std::min(starts.size(), refined); ++i) out.push_back(std::move(starts[i].second));
+  return out;
+}
+
+}  // namespace
+
+Minimum fit_analogue(const Unknowns& u, const std::vector<Target>& targets, const std::vector<Limits>& limits,
+                     const std::vector<double>& shift, const std::vector<std::vector<double>>& contained) {
+  std::vector<std::vector<double>> starts = usual_starts(u, targets, shift);
+  starts.insert(starts.end(), contained.begin(), contained.end());
+  if (u.model == FitModel::two_s2p1d) {
+    Unknowns without = u;
+    without.model = FitModel::huet_sayegh;
+    std::vector<Limits> fewer = limits;
+    const std::ptrdiff_t beta = 6;
+    fewer.erase(fewer.begin() + beta);
+    std::vector<double> theta = fit_analogue(without, targets, fewer, shift).theta;
+    theta.insert(theta.begin() + beta, 0);
+    for (const double log_beta : {5.0, 12.0, limits[beta].high}) {  // at its limit the dashpot has no effect
+      theta[beta] = log_beta;
+      starts.push_back(theta);
+    }
+  }
   std::optional<Minimum> out;
-  for (std::size_t i = 0; i < std::min<std::size_t>(starts.size(), 6); ++i) {
-    Minimum minimum = refine(u, targets, limits, starts[i].theta);
+  for (std::vector<double>& start : starts) {
+    Minimum minimum = refine(u, targets, limits, std::move(start));
     if (!out || minimum.misfit < out->misfit) out = std::move(minimum);
   }
   if (!out || !std::isfinite(out->misfit)) throw RunError("fit: no start of the model gives a finite misfit");

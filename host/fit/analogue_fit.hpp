@@ -11,9 +11,11 @@ namespace macadam::fitting {
 /// Limits of sense for the model's unknowns.
 std::vector<Limits> analogue_limits(const Unknowns& unknowns, const std::vector<Target>& targets);
 
-/// The model with the least misfit, from the best of many starts, k < h. `limits` are those of all unknowns.
+/// The model with the least misfit that the best of many starts reach, k < h. `shift` and `limits` as fit_chain() has
+/// them. 2S2P1D starts from the Huet–Sayegh model too, which it contains, and a free shift from `contained`: θ of shift
+/// laws, in terms of these unknowns. The misfit is at most theirs.
 Minimum fit_analogue(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,
-                     const std::vector<double>& shift);
+                     const std::vector<double>& shift, const std::vector<std::vector<double>>& contained = {});
 
 /// The model that θ stands for.
 AnalogueModel analogue_of(const Unknowns& unknowns, const std::vector<double>& theta);

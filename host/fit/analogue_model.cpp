@@ -41,19 +41,26 @@ KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double 
   if (!(largest_error >= 1e-6 && largest_error <= 0.5)) {
     refuse("largest error", fmt::format("{}", largest_error), "a number from 1e-6 to 0.5");
   }
+  // In units of the middle of the range, rounded to 10 digits of the logarithm: the same curve at another reference
+  // temperature then gives the same chain, though a_T has rounded its numbers differently.
+  const double middle = std::sqrt(lowest_hz) * std::sqrt(highest_hz);
+  const auto rounded = [](double value) { return std::exp(std::round(std::log(value) * 1e10) / 1e10); };
+  AnalogueModel scaled = model;
+  scaled.tau = rounded(model.tau * middle);
+  const double reach = rounded(highest_hz / middle);
   std::vector<Target> targets;
-  for (const double f : between(lowest_hz, highest_hz, 12)) {
+  for (const double f : between(1 / reach, reach, 12)) {
     Target t;
     t.place.omega = 2 * std::numbers::pi * f;
-    const std::complex<double> modulus = model.stiffness(s_of(f));
+    const std::complex<double> modulus = scaled.stiffness(s_of(f));
     t.log_modulus = std::log(std::abs(modulus));
     t.phase = std::arg(modulus);
     if (!std::isfinite(t.log_modulus))
-      refuse("modulus", fmt::format("{} at {} Hz", std::abs(modulus), f), "a finite one");
+      refuse("modulus", fmt::format("{} at {} Hz", std::abs(modulus), f * middle), "a finite one");
     targets.push_back(t);
   }
   const std::vector<double> fine = between(lowest_hz, highest_hz, 100);
-  std::optional<Minimum> fewer;
+  std::optional<Chain> fewer;
   double least = std::numeric_limits<double>::infinity();
   constexpr int most = laws::GeneralisedKelvin::max_units;
   for (int units = 0; units <= most; ++units) {
@@ -61,15 +68,19 @@ KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double 
     u.units = units;
     u.flow = model.E_00 == 0 && std::isfinite(model.beta);
     if (u.count() > 2 * targets.size()) break;
-    Minimum minimum = fit_chain(u, targets, chain_limits(u, targets), {}, fewer ? &*fewer : nullptr, near_enough);
-    KelvinConversion out{chain_of(u, minimum.theta), 0};
+    std::vector<const Chain*> starts;
+    if (fewer) starts.push_back(&*fewer);
+    Chain chain{u, fit_chain(u, targets, chain_limits(u, targets), {}, starts)};
+    KelvinConversion out{chain_of(u, chain.minimum.theta), 0};
+    if (u.flow) out.law.C_m /= middle;
+    for (double& viscosity : out.law.C) viscosity /= middle;
     for (const double f : fine) {
       const std::complex<double> exact = model.stiffness(s_of(f));
       out.largest_error = std::max(out.largest_error, std::abs(out.law.stiffness(s_of(f)) - exact) / std::abs(exact));
     }
     if (out.largest_error <= largest_error) return out;
     least = std::min(least, out.largest_error);
-    fewer = std::move(minimum);
+    fewer = std::move(chain);
   }
   refuse("largest error", fmt::format("{} from {} to {} Hz", largest_error, lowest_hz, highest_hz),
          fmt::format("at least {:.3g}, which up to {} units reach, or a shorter range", least, most));

@@ -2,7 +2,6 @@
 /// \file chain_fit.hpp  A generalised Kelvin chain of so many units through given moduli.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "host/fit/least_squares.hpp"
@@ -12,13 +11,22 @@ namespace macadam::fitting {
 /// Limits of sense for the unknowns of a chain: springs and times by several decades around those of the targets.
 std::vector<Limits> chain_limits(const Unknowns& unknowns, const std::vector<Target>& targets);
 
-/// The chain of `unknowns.units` units with the least misfit. Starts are linear: for given retardation times the
-/// compliance is linear in 1/E_m, 1/C_m and 1/E_l, which non-negative least squares find. The times are those of a fine
-/// logarithmic grid, merged into so many; equally spaced ones; and those of the chain with one unit less, `fewer`, with
-/// the best one of the grid added. `shift`: the unknowns of the shift to begin with.
-/// `limits` are those of all unknowns, shift included.
+/// A chain that was found, and what its unknowns are.
+struct Chain {
+  Unknowns unknowns;
+  Minimum minimum;
+};
+
+/// Whether every curve of the smaller chain is one of the larger chain too.
+bool contains(const Unknowns& larger, const Unknowns& smaller);
+
+/// The chain of `unknowns.units` units with the least misfit that chain_starts() lead to. The misfit is at most that of
+/// each chain in `known` that this one contains. An element without effect then lies at its limit, where a spring still
+/// changes |E*| by at most e^-12 of it.
+/// `limits`: of all unknowns, shift included. `shift`: unknowns of the shift to begin with.
+/// \throws RunError if no start has a finite misfit.
 Minimum fit_chain(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,
-                  const std::vector<double>& shift, const Minimum* fewer, double tolerance = to_rounding);
+                  const std::vector<double>& shift, const std::vector<const Chain*>& known);
 
 /// The law that θ stands for, α = 0.
 laws::GeneralisedKelvin chain_of(const Unknowns& unknowns, const std::vector<double>& theta);

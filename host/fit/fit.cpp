@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit.cpp  fit_modulus: chains of every length tried, one chosen and judged.
+// fit.cpp  fit_modulus: the chosen model with its statistics and warnings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "host/fit/analogue_fit.hpp"
-#include "host/fit/chain_fit.hpp"
+#include "host/fit/choose_chain.hpp"
 #include "host/fit/criterion.hpp"
-#include "host/fit/problem.hpp"
+#include "host/fit/reference.hpp"
 #include "host/fit/shift_start.hpp"
 #include "macadam/error.hpp"
 
@@ -17,69 +17,25 @@ namespace macadam {
 namespace fitting {
 namespace {
 
-std::vector<Limits> joined(std::vector<Limits> first, const std::vector<Limits>& second) {
-  first.insert(first.end(), second.begin(), second.end());
-  return first;
-}
-
-struct Trial {
-  Unknowns unknowns;
-  Minimum minimum;
-};
-
-/// Chains of every length that is asked for, flowing or not, in `fit.candidates`; the chosen one is returned.
-Trial choose_chain(const Problem& problem, const ModulusData& data, Fit& fit) {
-  const FitOptions& options = fit.options;
-  const std::size_t numbers = 2 * problem.targets.size();
-  std::vector<Trial> trials;
-  const std::vector<double> shift = start_shift(problem.unknowns, problem.targets, problem.temperatures);
-  for (const bool flow : {true, false}) {
-    if (options.flow.value_or(flow) != flow) continue;
-    std::optional<Minimum> fewer;
-    double best = std::numeric_limits<double>::infinity();
-    const int most = options.units.value_or(options.most_units);
-    for (int units = 0, worse = 0; units <= most && (options.units || worse < 2); ++units) {
-      Unknowns u = problem.unknowns;
-      u.units = units;
-      u.flow = flow;
-      if (!enough(numbers, u.count(), options.criterion)) break;
-      const auto limits = joined(chain_limits(u, problem.targets), shift_limits(u, problem.temperatures));
-      Minimum minimum = fit_chain(u, problem.targets, limits, shift, fewer ? &*fewer : nullptr);
-      fewer = minimum;
-      const double value = criterion(options.criterion, minimum.misfit, numbers, u.count(), data.deviations);
-      worse = value < best ? 0 : worse + 1;
-      best = std::min(best, value);
-      if (options.units.value_or(units) != units) continue;
-      fit.candidates.push_back({units, flow, static_cast<int>(u.count()), minimum.misfit, value, minimum.determined});
-      trials.push_back({u, std::move(minimum)});
-    }
-  }
-  if (trials.empty()) {
-    throw InputError(data.source, 0, "measurements", fmt::format("{}", data.points.size()),
-                     options.units ? fmt::format("more, for {} Kelvin units and their shift", *options.units)
-                                   : "more: not even a chain without units is determined");
-  }
-  for (std::size_t i = 1; i < trials.size(); ++i) {
-    const FitCandidate &at = fit.candidates[i], &taken = fit.candidates[fit.chosen];
-    const bool better = at.determined == taken.determined ? at.criterion < taken.criterion : at.determined;
-    if (better) fit.chosen = i;
-  }
-  if (!options.units && trials.size() > 1 && fit.candidates[fit.chosen].units == options.most_units) {
-    fit.warnings.push_back(
-        fmt::format("{} would take more than {} Kelvin units", to_string(options.criterion), options.most_units));
-  }
-  return trials[fit.chosen];
-}
-
-Trial fit_any(const Problem& problem, const ModulusData& data, Fit& fit) {
+Chain fit_any(const Problem& problem, const ModulusData& data, Fit& fit) {
   if (problem.unknowns.model == FitModel::kelvin) return choose_chain(problem, data, fit);
   const Unknowns& u = problem.unknowns;
   if (!enough(2 * problem.targets.size(), u.count(), Criterion::bic)) {
     throw InputError(data.source, 0, "measurements", fmt::format("{}", data.points.size()),
                      fmt::format("more, for the {} parameters of {}", u.count(), to_string(u.model)));
   }
-  const auto limits = joined(analogue_limits(u, problem.targets), shift_limits(u, problem.temperatures));
-  return {u, fit_analogue(u, problem.targets, limits, start_shift(u, problem.targets, problem.temperatures))};
+  const auto fit_with = [&](const Unknowns& with, const std::vector<std::vector<double>>& contained) {
+    const auto limits = joined(analogue_limits(with, problem.targets), shift_limits(with, problem.temperatures));
+    return fit_analogue(with, problem.targets, limits, start_shift(with, problem.targets, problem.temperatures),
+                        contained);
+  };
+  std::vector<std::vector<double>> contained;
+  for (const ShiftKind kind : laws_in(problem)) {
+    Unknowns law = u;
+    law.shift = kind;
+    contained.push_back(with_free_shift(law, fit_with(law, {}).theta, problem.temperatures));
+  }
+  return {u, fit_with(u, contained)};
 }
 
 laws::Shift shift_of(const Unknowns& u, const std::vector<double>& theta, const std::vector<double>& temperatures) {
@@ -149,13 +105,13 @@ void sort_units(const Unknowns& u, std::vector<double>& theta) {
 }
 
 /// Parameters with their standard deviations, and the covariance.
-void add_statistics(const Problem& problem, const Trial& trial, Fit& fit) {
-  const std::vector<double>& theta = trial.minimum.theta;
-  const Covariance covariance = covariance_at(trial.unknowns, problem.targets, theta);
+void add_statistics(const Problem& problem, const Chain& fitted, Fit& fit) {
+  const std::vector<double>& theta = fitted.minimum.theta;
+  const Covariance covariance = covariance_at(fitted.unknowns, problem.targets, theta);
   fit.covariance = covariance.matrix;
   const double scale = fit.deviations ? 1 : fit.misfit / fit.degrees_of_freedom;
   for (double& c : fit.covariance) c *= scale;
-  fit.parameters = named(trial.unknowns, problem.temperatures);
+  fit.parameters = named(fitted.unknowns, problem.temperatures);
   std::string unknown;
   for (std::size_t i = 0; i < theta.size(); ++i) {
     FitParameter& p = fit.parameters[i];
@@ -168,19 +124,19 @@ void add_statistics(const Problem& problem, const Trial& trial, Fit& fit) {
   }
   if (!unknown.empty())
     fit.warnings.push_back(fmt::format("the data hardly determine {}: standard deviations of 100 % and more", unknown));
-  if (!trial.minimum.determined)
+  if (!fitted.minimum.determined)
     fit.warnings.emplace_back(
         "a parameter lies at the bounds of sense: fewer units, or another model, would do as well");
 }
 
-void add_points(const Problem& problem, const ModulusData& data, const Trial& trial, Fit& fit) {
+void add_points(const Problem& problem, const ModulusData& data, const Chain& fitted, Fit& fit) {
   double modulus = 0, phase = 0;
   for (std::size_t i = 0; i < problem.targets.size(); ++i) {
     const Target& t = problem.targets[i];
-    const Polar<double> value = modulus_at(trial.unknowns, trial.minimum.theta.data(), t.place);
+    const Polar<double> value = modulus_at(fitted.unknowns, fitted.minimum.theta.data(), t.place);
     FittedPoint p;
     p.measured = data.points[i];
-    p.log10_a_T = log_shift(trial.unknowns, trial.minimum.theta.data(), t.place) / std::numbers::ln10;
+    p.log10_a_T = log_shift(fitted.unknowns, fitted.minimum.theta.data(), t.place) / std::numbers::ln10;
     p.e_star_pa = std::exp(value.log_modulus);
     p.phase_deg = value.phase / degree;
     const double e = p.e_star_pa / p.measured.e_star_pa - 1, d = p.phase_deg - p.measured.phase_deg;
@@ -193,6 +149,48 @@ void add_points(const Problem& problem, const ModulusData& data, const Trial& tr
   const auto n = static_cast<double>(problem.targets.size());
   fit.errors.e_star_rms = std::sqrt(modulus / n);
   fit.errors.phase_rms_deg = std::sqrt(phase / n);
+}
+
+/// Median of absolute values, as the standard deviation of a normal distribution; a few outliers do not change it.
+double robust_deviation(std::vector<double> values) {
+  for (double& v : values) v = std::abs(v);
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle / 0.6745;
+}
+
+/// Names measurements that lie far off the fit. Of 20,000 normal errors one exceeds five standard deviations in a
+/// hundredth of all files; the deviation is the larger of two: that of the data (or the
+/// assumed one), and that of all differences, which is large if the model misses the whole curve.
+void warn_of_outliers(const Problem& problem, Fit& fit) {
+  constexpr double far_off = 5;
+  constexpr std::size_t most_named = 3;
+  std::vector<double> moduli, phases;
+  for (std::size_t i = 0; i < fit.points.size(); ++i) {
+    const FittedPoint& p = fit.points[i];
+    const Target& t = problem.targets[i];
+    moduli.push_back(std::log(p.e_star_pa / p.measured.e_star_pa) / t.modulus_deviation);
+    phases.push_back((p.phase_deg - p.measured.phase_deg) * degree / t.phase_deviation);
+  }
+  const double modulus_bound = far_off * std::max(1.0, robust_deviation(moduli));
+  const double phase_bound = far_off * std::max(1.0, robust_deviation(phases));
+  std::vector<std::string> named;
+  for (std::size_t i = 0; i < fit.points.size(); ++i) {
+    const bool modulus = std::abs(moduli[i]) > modulus_bound, phase = std::abs(phases[i]) > phase_bound;
+    if (!modulus && !phase) continue;
+    const FittedPoint& p = fit.points[i];
+    std::string one =
+        p.measured.line > 0 ? fmt::format("line {}", p.measured.line) : fmt::format("measurement {}", i + 1);
+    if (modulus) one += fmt::format(": |E*| {:.4g} Pa, fit {:.4g} Pa", p.measured.e_star_pa, p.e_star_pa);
+    if (phase) one += fmt::format(": phase {:.3g} degrees, fit {:.3g}", p.measured.phase_deg, p.phase_deg);
+    named.push_back(std::move(one));
+  }
+  if (named.empty()) return;
+  const std::size_t shown = std::min(named.size(), most_named);
+  fit.warnings.push_back(fmt::format("{} of {} measurements lie more than {} standard deviations off the fit: {}{}",
+                                     named.size(), fit.points.size(), far_off,
+                                     fmt::join(named.begin(), named.begin() + static_cast<std::ptrdiff_t>(shown), "; "),
+                                     named.size() > shown ? "; ..." : ""));
 }
 
 /// Warm materials flow faster: log10 a_T falls. Temperatures, each once, rising.
@@ -216,21 +214,23 @@ Fit fit_modulus(const ModulusData& data, const FitOptions& options) {
   Fit fit;
   fit.options = options;
   fit.temperatures = data.temperatures;
-  if (data.temperatures) fit.options.reference_temperature = problem.unknowns.reference_temperature;
+  if (data.temperatures) fit.options.reference_temperature = problem.wanted_reference;
   fit.deviations = data.deviations;
-  Trial trial = fit_any(problem, data, fit);
-  sort_units(trial.unknowns, trial.minimum.theta);
+  Chain fitted = fit_any(problem, data, fit);
+  move_reference(problem, data, fitted);
+  sort_units(fitted.unknowns, fitted.minimum.theta);
   if (options.model == FitModel::kelvin) {
-    fit.model = chain_of(trial.unknowns, trial.minimum.theta);
+    fit.model = chain_of(fitted.unknowns, fitted.minimum.theta);
   } else {
-    fit.model = analogue_of(trial.unknowns, trial.minimum.theta);
+    fit.model = analogue_of(fitted.unknowns, fitted.minimum.theta);
   }
-  fit.shift = shift_of(trial.unknowns, trial.minimum.theta, problem.temperatures);
+  fit.shift = shift_of(fitted.unknowns, fitted.minimum.theta, problem.temperatures);
   warn_of_shift(fit, problem.temperatures);
-  fit.misfit = trial.minimum.misfit;
-  fit.degrees_of_freedom = static_cast<double>(2 * problem.targets.size() - trial.unknowns.count());
-  add_statistics(problem, trial, fit);
-  add_points(problem, data, trial, fit);
+  fit.misfit = fitted.minimum.misfit;
+  fit.degrees_of_freedom = static_cast<double>(2 * problem.targets.size() - fitted.unknowns.count());
+  add_statistics(problem, fitted, fit);
+  add_points(problem, data, fitted, fit);
+  warn_of_outliers(problem, fit);
   if (fit.errors.e_star_rms > 0.1) {
     fit.warnings.push_back(
         fmt::format("the fit misses |E*| by {:.3g} % (rms): too few measurements for more parameters, "

@@ -164,6 +164,11 @@ std::string curve_csv(const Fit& fit) {
   return out;
 }
 
+std::string unused_columns_text(const ModulusData& data) {
+  if (data.unused.empty()) return "";
+  return fmt::format("columns of {} that are not used: {}\n", data.source, fmt::join(data.unused, ", "));
+}
+
 std::string fit_text(const Fit& fit) {
   std::string out;
   if (!fit.candidates.empty()) {
@@ -203,15 +208,35 @@ std::pair<double, double> chain_range(std::optional<double> from, std::optional<
   return {from.value_or(data ? data->first : 0), to.value_or(data ? data->second : 0)};
 }
 
-FitFiles fit_files(const Fit& fit, const KelvinConversion* conversion) {
-  const laws::GeneralisedKelvin& law = conversion ? conversion->law : std::get<laws::GeneralisedKelvin>(fit.model);
-  const std::string origin =
-      fmt::format("macadam fit: |E*| of {} measurements within {:.3g} % (rms), phase {:.3g} degrees", fit.points.size(),
-                  100 * fit.errors.e_star_rms, fit.errors.phase_rms_deg);
-  return {{"law.toml", law_toml(law, fit.shift, origin)},
-          {"fit.json", fit_json(fit, conversion)},
-          {"fit.csv", fit_csv(fit)},
-          {"curve.csv", curve_csv(fit)}};
+FitReport report_of(const Fit& fit, std::optional<double> from, std::optional<double> to, double error) {
+  FitReport out;
+  out.text = fit_text(fit);
+  const auto range = chain_range(from, to, fit.reduced_range());
+  const auto* law = std::get_if<laws::GeneralisedKelvin>(&fit.model);
+  std::optional<KelvinConversion> conversion;
+  if (!law) {
+    try {
+      conversion = to_kelvin(std::get<AnalogueModel>(fit.model), range.first, range.second, error);
+      law = &conversion->law;
+      out.text += conversion_text(*conversion, range);
+    } catch (const InputError& refused) { out.refusal = refused.what(); }
+  }
+  out.files = {{"fit.json", fit_json(fit, conversion ? &*conversion : nullptr)},
+               {"fit.csv", fit_csv(fit)},
+               {"curve.csv", curve_csv(fit)}};
+  if (law) {
+    const std::string origin =
+        fmt::format("macadam fit: |E*| of {} measurements within {:.3g} % (rms), phase {:.3g} degrees",
+                    fit.points.size(), 100 * fit.errors.e_star_rms, fit.errors.phase_rms_deg);
+    out.files["law.toml"] = law_toml(*law, fit.shift, origin);
+  }
+  return out;
+}
+
+void write_report(const std::filesystem::path& folder, const FitReport& report) {
+  std::error_code error;
+  if (!report.files.contains("law.toml")) std::filesystem::remove(folder / "law.toml", error);
+  write_files(folder, report.files);
 }
 
 FitFiles conversion_files(const ShiftedAnalogue& model, const KelvinConversion& conversion,

@@ -24,6 +24,9 @@ std::string fit_csv(const Fit& fit);
 /// The fitted curve at the reference temperature with its 95 % limits, half a decade beyond the data on either side.
 std::string curve_csv(const Fit& fit);
 
+/// Names the columns of the data that were passed over, in a line; empty if all are used.
+std::string unused_columns_text(const ModulusData& data);
+
 /// Parameters as people read them, and the errors.
 std::string fit_text(const Fit& fit);
 
@@ -36,8 +39,23 @@ std::pair<double, double> chain_range(std::optional<double> from, std::optional<
 
 /// What `macadam fit` leaves in its folder: names of files and their texts.
 using FitFiles = std::map<std::string, std::string>;
-/// law.toml, fit.json, fit.csv, curve.csv; `conversion`: of a model that is no chain.
-FitFiles fit_files(const Fit& fit, const KelvinConversion* conversion);
+
+/// What `macadam fit` writes and prints.
+struct FitReport {
+  FitFiles files;    ///< fit.json, fit.csv, curve.csv; and law.toml if there is a chain
+  std::string text;  ///< for people to read
+  /// Why no chain stands for the fitted 2S2P1D or Huet–Sayegh model; empty where one does. The other files are
+  /// complete.
+  std::string refusal;
+};
+
+/// Makes the files. A model that is no chain is converted to one from `from` to `to` [Hz] (empty: the range of the
+/// data) with at most `error`, relative. \throws InputError for a range that makes no sense.
+FitReport report_of(const Fit& fit, std::optional<double> from, std::optional<double> to, double error);
+
+/// Writes the files; an older law.toml goes where these files have none. \throws RunError
+void write_report(const std::filesystem::path& folder, const FitReport& report);
+
 /// law.toml of a model that somebody else has fitted.
 FitFiles conversion_files(const ShiftedAnalogue& model, const KelvinConversion& conversion,
                           std::pair<double, double> range_hz);

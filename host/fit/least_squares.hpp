@@ -20,6 +20,12 @@ struct Limits {
   double low, high;
 };
 
+/// Limits of the model's unknowns and then of the shift's.
+inline std::vector<Limits> joined(std::vector<Limits> first, const std::vector<Limits>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
 struct Minimum {
   std::vector<double> theta;
   double misfit = 0;       ///< Σ of the squared residuals

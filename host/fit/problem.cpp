@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// problem.cpp  What may be fitted: measurements with sense, temperatures that determine their shift.
+// problem.cpp  Checks that the measurements are valid and that there are enough temperatures to fit the shift law.
 #include "host/fit/problem.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/fit/isotherms.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam::fitting {
@@ -18,6 +19,8 @@ void check(const ModulusData& data, const FitOptions& options) {
     throw InputError(data.source, 0, what, found, expected);
   };
   if (data.points.empty()) refuse("measurements", "none", "at least two");
+  if (!data.moduli || !data.phases)
+    refuse("measurements", data.moduli ? "no phase angles" : "no moduli", "both: a law is fitted to modulus and phase");
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const ModulusPoint& p = data.points[i];
     const auto positive = [](double v) { return v > 0 && std::isfinite(v); };
@@ -42,11 +45,11 @@ void check(const ModulusData& data, const FitOptions& options) {
 }
 
 /// The temperatures that were measured must determine the shift that is asked for.
-void check_shift(const ModulusData& data, const FitOptions& options, const std::vector<double>& temperatures) {
+void check_shift(const ModulusData& data, const FitOptions& options, const std::vector<Isotherm>& isotherms) {
   const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
     throw InputError(data.source, 0, what, found, expected);
   };
-  const std::size_t count = temperatures.size();
+  const std::size_t count = isotherms.size();
   if (options.shift == ShiftKind::none && count > 1) {
     refuse("temperatures", fmt::format("{} of them", count), "one, or a shift law: wlf, arrhenius or free");
   }
@@ -55,17 +58,31 @@ void check_shift(const ModulusData& data, const FitOptions& options, const std::
     refuse(fmt::format("temperatures for the shift law {}", to_string(options.shift)),
            data.temperatures ? fmt::format("{}", count) : "no column temperature_c", fmt::format("at least {}", least));
   }
+  if (options.shift == ShiftKind::free) {
+    for (std::size_t i = 1; i < count; ++i) {
+      if (isotherms[i].lowest - isotherms[i - 1].highest > same_isotherm) continue;
+      refuse(
+          "column temperature_c",
+          fmt::format("readings without a gap from {} to {} degrees C", isotherms[i - 1].lowest, isotherms[i].highest),
+          fmt::format("temperatures whose readings lie within {} K, or the shift law wlf or arrhenius",
+                      widest_isotherm));
+    }
+  }
   if (!options.reference_temperature) return;
   const double wanted = *options.reference_temperature;
-  if (options.shift == ShiftKind::none && !(count == 1 && data.temperatures && temperatures.front() == wanted)) {
+  const bool measured = std::any_of(isotherms.begin(), isotherms.end(), [&](const Isotherm& isotherm) {
+    return distance_from(isotherm, wanted) <= same_isotherm;
+  });
+  if (options.shift == ShiftKind::none && !(count == 1 && data.temperatures && measured)) {
     refuse("reference temperature", fmt::format("{} without a shift law", wanted),
            "none, or measurements at several temperatures");
   }
   if (!(wanted > -laws::zero_celsius && std::isfinite(wanted))) {
     refuse("reference temperature", fmt::format("{}", wanted), "a temperature in degrees Celsius");
   }
-  if (options.shift == ShiftKind::free &&
-      std::find(temperatures.begin(), temperatures.end(), wanted) == temperatures.end()) {
+  if (options.shift == ShiftKind::free && !measured) {
+    std::vector<double> temperatures;
+    for (const Isotherm& isotherm : isotherms) temperatures.push_back(isotherm.temperature);
     refuse("reference temperature", fmt::format("{}", wanted),
            fmt::format("a measured one where the shift is free: {}", fmt::join(temperatures, ", ")));
   }
@@ -73,28 +90,34 @@ void check_shift(const ModulusData& data, const FitOptions& options, const std::
 
 }  // namespace
 
+std::vector<ShiftKind> laws_in(const Problem& problem) {
+  if (problem.unknowns.shift != ShiftKind::free) return {};
+  if (problem.temperatures.size() < 3) return {ShiftKind::arrhenius};
+  return {ShiftKind::arrhenius, ShiftKind::wlf};
+}
+
 Problem make_problem(const ModulusData& data, const FitOptions& options) {
   check(data, options);
   Problem out;
-  std::vector<double>& temperatures = out.temperatures;
-  for (const ModulusPoint& p : data.points) temperatures.push_back(data.temperatures ? p.temperature_c : 0);
-  std::sort(temperatures.begin(), temperatures.end());
-  temperatures.erase(std::unique(temperatures.begin(), temperatures.end()), temperatures.end());
-  check_shift(data, options, temperatures);
-  const auto number = [&](double t) {
-    return static_cast<std::size_t>(std::lower_bound(temperatures.begin(), temperatures.end(), t) -
-                                    temperatures.begin());
-  };
+  std::vector<double> readings;
+  for (const ModulusPoint& p : data.points) readings.push_back(data.temperatures ? p.temperature_c : 0);
+  const std::vector<Isotherm> isotherms = isotherms_of(std::move(readings));
+  check_shift(data, options, isotherms);
+  for (const Isotherm& isotherm : isotherms) out.temperatures.push_back(isotherm.temperature);
   Unknowns& u = out.unknowns;
   u.model = options.model;
   u.shift = options.shift;
-  u.isotherms = temperatures.size();
-  u.reference_temperature = options.reference_temperature.value_or(temperatures[(temperatures.size() - 1) / 2]);
-  u.reference_isotherm = number(u.reference_temperature);
+  u.isotherms = isotherms.size();
+  u.reference_isotherm = (isotherms.size() - 1) / 2;
+  u.reference_temperature = out.temperatures[u.reference_isotherm];
+  out.wanted_reference = options.reference_temperature.value_or(u.reference_temperature);
+  out.wanted_isotherm = isotherm_at(isotherms, out.wanted_reference);
+  // a factor of its own belongs to the isotherm
+  if (u.shift == ShiftKind::free) out.wanted_reference = out.temperatures[out.wanted_isotherm];
   for (const ModulusPoint& p : data.points) {
     Target t;
     t.place = {2 * std::numbers::pi * p.frequency_hz, data.temperatures ? p.temperature_c : 0, 0};
-    t.place.isotherm = number(t.place.temperature);
+    t.place.isotherm = isotherm_at(isotherms, t.place.temperature);
     t.log_modulus = std::log(p.e_star_pa);
     t.phase = p.phase_deg * degree;
     t.modulus_deviation = data.deviations ? p.e_star_std / p.e_star_pa : options.e_star_deviation;

@@ -1,201 +1,229 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read_data.cpp  Measured moduli from a CSV file whose header names the columns.
+// read_data.cpp  Measured moduli from the columns of a laboratory's table.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <limits>
+#include <map>
 #include <numbers>
 
+#include "host/fit/laboratory_columns.hpp"
+#include "host/fit/laboratory_table.hpp"
+#include "host/fit/unit_question.hpp"
 #include "host/in_quotes.hpp"
 #include "host/nearest.hpp"
 #include "macadam/error.hpp"
 #include "macadam/fit.hpp"
 
 namespace macadam {
+namespace fitting {
 namespace {
 
-constexpr std::uintmax_t longest_file = 10u << 20;
 constexpr std::size_t most_points = 10'000;  // the least squares are dense
+/// Letters by which a name may differ from a known one and still be taken for a misspelling of it.
+constexpr std::size_t misspelt = 2;
 
-struct Column {
-  const char* name;
-  double low, high;  ///< what makes sense; the ends do not belong to it
-  const char* words;
-};
-constexpr double infinity = std::numeric_limits<double>::infinity();
-// Measured angles scatter beyond 0 and 90 degrees; a negative sign throughout is another convention.
-constexpr std::array<Column, 10> columns{{{"frequency_hz", 0, infinity, "a positive number of Hz"},
-                                          {"e_star_pa", 0, infinity, "a positive number of Pa"},
-                                          {"g_star_pa", 0, infinity, "a positive number of Pa"},
-                                          {"phase_deg", -5, 95, "degrees between -5 and 95"},
-                                          {"temperature_c", -laws::zero_celsius, 1000, "degrees Celsius"},
-                                          {"e_star_std", 0, infinity, "a positive number of Pa"},
-                                          {"g_star_std", 0, infinity, "a positive number of Pa"},
-                                          {"phase_std", 0, infinity, "a positive number of degrees"},
-                                          {"e_prime_pa", 0, infinity, "a positive number of Pa"},
-                                          {"e_double_prime_pa", -infinity, infinity, "a number of Pa"}}};
-enum : std::size_t { frequency, e_star, g_star, phase, temperature, e_std, g_std, phase_std, storage, loss };
-
-std::vector<std::string> known_names() {
-  std::vector<std::string> out;
-  for (const Column& column : columns) out.emplace_back(column.name);
-  return out;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t");
-  return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> out;
-  while (true) {
-    const std::size_t end = line.find(',');
-    out.push_back(trimmed(line.substr(0, end)));
-    if (end == std::string_view::npos) return out;
-    line.remove_prefix(end + 1);
-  }
-}
-
-/// Reads one file: knows its name and the line at hand, which every message needs.
+/// Gives the columns of one table their meaning.
 class DataReader {
  public:
-  DataReader(const std::filesystem::path& file, std::optional<double> poisson) : poisson_(poisson) {
+  DataReader(const std::filesystem::path& file, std::optional<double> poisson, Measured needed)
+      : poisson_(poisson),
+        needs_modulus_(needed != Measured::phase),
+        needs_phase_(needed != Measured::modulus),
+        complaints_(file.string()),
+        table_(read_laboratory_table(file, complaints_)) {
     data_.source = file.string();
   }
 
   ModulusData read() {
-    const std::string text = whole_text();
-    std::string_view rest = text;
-    if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // spreadsheets' byte-order mark
-    while (!rest.empty()) {
-      ++line_;
-      const std::size_t end = rest.find('\n');
-      // cut within its last number, a file would be read as another one
-      if (end == std::string_view::npos)
-        fail("last line", "no newline at its end", "one: without it the file may be cut off");
-      std::string_view line = rest.substr(0, end);
-      rest.remove_prefix(end + 1);
-      if (line.ends_with('\r')) line.remove_suffix(1);
-      if (trimmed(line).empty() || line.starts_with('#')) continue;
-      if (order_.empty()) {
-        header(line);
-      } else {
-        record(line);
-      }
+    for (std::size_t i = 0; i < table_.names.size(); ++i) understand(i);
+    choose();
+    complaints_.throw_if_any();
+    if (table_.rows.empty()) complaints_.add(0, "measurements", "a header alone", "lines of numbers");
+    if (table_.rows.size() > most_points) {
+      complaints_.add(0, "measurements", fmt::format("{}", table_.rows.size()), fmt::format("at most {}", most_points));
+      complaints_.throw_if_any();
     }
-    line_ = 0;
-    if (order_.empty()) fail("measurements", "an empty file", "a header such as frequency_hz,e_star_pa,phase_deg");
-    if (data_.points.empty()) fail("measurements", "a header alone", "lines of numbers");
+    for (const LaboratoryTable::Row& row : table_.rows) add_point(row);
+    complaints_.throw_if_any();
+    ask_about_units(data_, modulus_unit(),
+                    has(Quantity::temperature) ? used_.at(Quantity::temperature).column.name : "", complaints_);
+    complaints_.throw_if_any();
     return std::move(data_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what, const std::string& found, const std::string& expected) const {
-    throw InputError(data_.source, line_, what, found, expected);
+  struct Used {
+    LaboratoryColumn column;
+    std::size_t at;  ///< position in the table
+  };
+
+  bool has(Quantity quantity) const { return used_.contains(quantity); }
+  void complain_of_header(const std::string& found, const std::string& expected) {
+    complaints_.add(table_.header_line, "header", found, expected);
   }
 
-  std::string whole_text() const {
-    const std::filesystem::path file = data_.source;
-    std::error_code error;
-    const auto status = std::filesystem::status(file, error);
-    const char* expected = "a CSV file of measured moduli";
-    if (!std::filesystem::exists(status)) fail("measurements", "no such file", expected);
-    if (!std::filesystem::is_regular_file(status)) fail("measurements", "no regular file", expected);
-    const auto bytes = std::filesystem::file_size(file, error);
-    if (!error && bytes > longest_file) {
-      fail("measurements", fmt::format("{} bytes", bytes), fmt::format("at most {}", longest_file));
-    }
-    std::ifstream in(file, std::ios::binary);
-    std::string text(error ? 0 : bytes, '\0');
-    if (!in || !in.read(text.data(), std::ssize(text))) fail("measurements", "a file that cannot be read", expected);
-    return text;
+  bool is_blank(std::size_t at) const {
+    return !table_.rows.empty() && std::all_of(table_.rows.begin(), table_.rows.end(),
+                                               [&](const LaboratoryTable::Row& row) { return row.cells[at].empty(); });
   }
 
-  bool has(std::size_t column) const { return std::find(order_.begin(), order_.end(), column) != order_.end(); }
+  /// One name of the header: a quantity, a misspelling of one, or a column to be passed over.
+  void understand(std::size_t at) {
+    const std::string& name = table_.names[at];
+    const std::string unit = table_.units ? unit_suffix(table_.units->cells[at]) : "";
+    const LaboratoryColumn* column = find_column(name);
+    if (!column && !unit.empty()) column = find_column(name + "_" + unit);  // "phase" above "deg"
+    if (!column) return pass_over(name);
+    if (is_blank(at)) return;
+    if (!unit.empty() && unit != "-" && !column->name.ends_with("_" + unit) && !column->unit.empty()) {
+      complaints_.add(table_.units->line, "unit of " + column->name, in_quotes(table_.units->cells[at]),
+                      column->unit + ", which the name says");
+    }
+    if (!used_.emplace(column->quantity, Used{*column, at}).second)
+      complain_of_header(in_quotes(name) + (used_.at(column->quantity).column.name == column->name
+                                                ? " twice"
+                                                : " beside " + used_.at(column->quantity).column.name),
+                         "each column once");
+  }
 
-  void header(std::string_view line) {
-    const std::vector<std::string> known = known_names();
-    for (const std::string_view name : fields_of(line)) {
-      const auto at = std::find(known.begin(), known.end(), name);
-      if (at == known.end()) {
-        fail("header", in_quotes(name), fmt::format("{}, separated by commas", expected_one_of(name, known)));
-      }
-      const auto column = static_cast<std::size_t>(at - known.begin());
-      if (has(column)) fail("header", in_quotes(name) + " twice", "each column once");
-      order_.push_back(column);
+  void pass_over(const std::string& name) {
+    if (name.empty()) return;
+    std::vector<std::string> known;
+    bool without_unit = false;
+    for (const LaboratoryColumn& column : laboratory_columns()) {
+      known.push_back(column.name);
+      without_unit = without_unit || column.name.starts_with(name + "_");
     }
-    const bool parts = has(storage) || has(loss);
-    for (const std::size_t column : {frequency, parts ? storage : phase, parts ? loss : phase})
-      if (!has(column)) fail("header", in_quotes(line), fmt::format("a column {}", columns[column].name));
-    if (has(e_star) + has(g_star) + parts != 1 || (parts && has(phase)))
-      fail("header", in_quotes(line), "e_star_pa or g_star_pa with phase_deg, or e_prime_pa with e_double_prime_pa");
-    if (has(has(g_star) ? e_std : g_std))
-      fail("header", in_quotes(line), "the standard deviation of the modulus that is there");
-    data_.temperatures = has(temperature);
-    data_.deviations = has(phase_std);
-    if (data_.deviations != (has(e_std) || has(g_std))) {
-      fail("header", in_quotes(line), "standard deviations of both modulus and phase, or of none");
-    }
-    if (has(g_star) && !poisson_) {
-      fail("column g_star_pa", "no Poisson's ratio", "one (--poisson): |E*| = 2 (1 + ratio) |G*|");
-    }
-    if (!has(g_star) && poisson_) fail("column e_star_pa", "a Poisson's ratio", "none: |E*| is what is fitted");
-    if (poisson_ && !(*poisson_ > -1 && *poisson_ <= 0.5)) {
-      fail("Poisson's ratio", fmt::format("{}", *poisson_), "a number above -1, at most 0.5");
+    const std::string meant = nearest(name, known);
+    if (without_unit || letters_between(name, meant) <= misspelt) {
+      misspelt_ = true;
+      complain_of_header(in_quotes(name), fmt::format("{} (the nearest of {})", meant, fmt::join(known, ", ")));
+    } else {
+      data_.unused.push_back(name);
     }
   }
 
-  double number(std::string_view field, const Column& column) const {
-    double value = 0;
-    const char* begin = field.data() + (field.starts_with('+') ? 1 : 0);
-    const auto [end, error] = std::from_chars(begin, field.data() + field.size(), value);
-    if (error != std::errc{} || end != field.data() + field.size() || !(value > column.low && value < column.high))
-      fail(fmt::format("column {}", column.name), in_quotes(field), column.words);
-    return value;
+  /// Which columns count, and whether they are enough.
+  void choose() {
+    using enum Quantity;
+    if (table_.names.empty()) return;
+    const bool shear = has(g_star) || has(g_prime) || has(g_double_prime);
+    if (shear && (has(e_star) || has(e_prime) || has(e_double_prime))) {
+      complain_of_header("columns of E* and of G*", "one of the two");
+      return;
+    }
+    star_ = shear ? g_star : e_star, real_ = shear ? g_prime : e_prime,
+    imaginary_ = shear ? g_double_prime : e_double_prime;
+    deviation_ = shear ? g_star_std : e_star_std;
+    parts_ = has(real_) && has(imaginary_) && ((needs_modulus_ && !has(star_)) || (needs_phase_ && !has(phase)));
+    data_.moduli = parts_ || has(star_), data_.phases = parts_ || has(phase), data_.temperatures = has(temperature);
+    if (misspelt_) return;  // a column that seems to be missing may be there under that name
+    if (!has(frequency)) complain_of_missing("a column frequency_hz");
+    if ((needs_modulus_ && !data_.moduli) || (needs_phase_ && !data_.phases)) {
+      complain_of_missing(!needs_phase_ ? "a column e_star_pa or g_star_pa"
+                          : !needs_modulus_
+                              ? "a column phase_deg"
+                              : "e_star_pa or g_star_pa with phase_deg, or e_prime_pa with e_double_prime_pa");
+    }
+    choose_deviations();
+    if (shear && !poisson_)
+      complaints_.add(table_.header_line, "column g_star_pa", "no Poisson's ratio",
+                      "one (--poisson): |E*| = 2 (1 + ratio) |G*|");
+    if (!shear && poisson_) {
+      complaints_.add(table_.header_line, "column e_star_pa", "a Poisson's ratio", "none: |E*| is what is fitted");
+    } else if (poisson_ && !(*poisson_ > -1 && *poisson_ <= 0.5)) {
+      complaints_.add(table_.header_line, "Poisson's ratio", fmt::format("{}", *poisson_),
+                      "a number above -1, at most 0.5");
+    }
   }
 
-  void record(std::string_view line) {
-    const std::vector<std::string_view> fields = fields_of(line);
-    if (fields.size() != order_.size()) {
-      fail("columns", fmt::format("{} in {}", fields.size(), in_quotes(line)), fmt::format("{}", order_.size()));
-    }
-    if (data_.points.size() == most_points) fail("measurements", "one more", fmt::format("at most {}", most_points));
-    std::array<double, columns.size()> value{};
-    for (std::size_t i = 0; i < fields.size(); ++i) value[order_[i]] = number(fields[i], columns[order_[i]]);
-    const double factor = has(g_star) ? 2 * (1 + *poisson_) : 1;
+  void complain_of_missing(const std::string& expected) {
+    complain_of_header(in_quotes(fmt::format("{}", fmt::join(table_.names, std::string(1, table_.separator)))),
+                       expected);
+  }
+
+  void choose_deviations() {
+    using enum Quantity;
+    if (has(deviation_ == e_star_std ? g_star_std : e_star_std))
+      complain_of_header(deviation_ == e_star_std ? "g_star_std" : "e_star_std",
+                         "the standard deviation of the modulus that is there");
+    const bool modulus = has(deviation_), angle = has(phase_std);
+    data_.deviations = (modulus || !needs_modulus_) && (angle || !needs_phase_);
+    if (!data_.deviations && (modulus || angle))
+      complain_of_header(modulus ? "the standard deviation of the modulus alone" : "phase_std alone",
+                         "standard deviations of both modulus and phase, or of none");
+    // a deviation is in the unit of its column
+    const auto take_unit = [&](Quantity of, Quantity from) {
+      if (!has(of) || !has(from)) return;
+      LaboratoryColumn& column = used_.at(of).column;
+      column.unit = used_.at(from).column.unit, column.factor = used_.at(from).column.factor;
+    };
+    take_unit(deviation_, parts_ ? real_ : star_);
+    take_unit(phase_std, phase);
+    if (has(phase_std) && used_.at(phase_std).column.unit.empty()) used_.at(phase_std).column.unit = "degrees";
+  }
+
+  std::string modulus_unit() const {
+    if (!data_.moduli) return "";
+    return used_.at(parts_ ? real_ : star_).column.name;
+  }
+
+  /// The value of a quantity in a row [SI]; 0 where there is no such column.
+  double value(const LaboratoryTable::Row& row, Quantity quantity) {
+    const auto found = used_.find(quantity);
+    if (found == used_.end()) return 0;
+    const auto& [column, at] = found->second;
+    const std::optional<double> number = number_in(table_, row.cells[at]);
+    const double si = number ? column.factor * *number + column.offset : std::nan("");
+    if (const std::string expected = expected_of(column, si); !expected.empty())
+      complaints_.add(row.line, "column " + column.name, in_quotes(row.cells[at]), expected);
+    return si;
+  }
+
+  void add_point(const LaboratoryTable::Row& row) {
+    using enum Quantity;
+    const bool shear = star_ == g_star;
+    const double factor = shear && poisson_ ? 2 * (1 + *poisson_) : 1;
     ModulusPoint p;
-    p.frequency_hz = value[frequency];
-    p.e_star_pa = factor * value[has(g_star) ? g_star : e_star];
-    p.phase_deg = value[phase];
-    if (has(storage)) {
-      p.e_star_pa = std::hypot(value[storage], value[loss]);
-      p.phase_deg = std::atan2(value[loss], value[storage]) * 180 / std::numbers::pi;
-      if (!(p.phase_deg > columns[phase].low && p.phase_deg < columns[phase].high)) {
-        fail("columns e_prime_pa and e_double_prime_pa", fmt::format("a phase of {:.3g} degrees", p.phase_deg),
-             columns[phase].words);
+    p.frequency_hz = value(row, frequency);
+    if (parts_) {
+      const double real = value(row, real_), imaginary = value(row, imaginary_);
+      p.e_star_pa = factor * std::hypot(real, imaginary);
+      p.phase_deg = std::atan2(imaginary, real) * 180 / std::numbers::pi;
+      if (const std::string expected = expected_of(*find_column("phase_deg"), p.phase_deg);
+          std::isfinite(p.phase_deg) && !expected.empty()) {
+        complaints_.add(row.line,
+                        fmt::format("columns {} and {}", used_.at(real_).column.name, used_.at(imaginary_).column.name),
+                        fmt::format("a phase of {:.3g} degrees", p.phase_deg), expected);
       }
+    } else {
+      p.e_star_pa = factor * value(row, star_);
+      p.phase_deg = value(row, phase);
     }
-    p.temperature_c = value[temperature];
-    p.e_star_std = factor * value[has(g_star) ? g_std : e_std];
-    p.phase_std = value[phase_std];
+    p.temperature_c = value(row, temperature);
+    p.e_star_std = factor * value(row, deviation_);
+    p.phase_std = value(row, phase_std);
+    p.line = row.line;
     data_.points.push_back(p);
   }
 
   std::optional<double> poisson_;
+  bool needs_modulus_, needs_phase_;
+  Complaints complaints_;
+  LaboratoryTable table_;
   ModulusData data_;
-  std::vector<std::size_t> order_;  ///< which column stands where
-  int line_ = 0;
+  std::map<Quantity, Used> used_;
+  Quantity star_ = Quantity::e_star, real_ = Quantity::e_prime, imaginary_ = Quantity::e_double_prime,
+           deviation_ = Quantity::e_star_std;
+  bool parts_ = false, misspelt_ = false;
 };
 
 }  // namespace
+}  // namespace fitting
 
-ModulusData read_modulus_data(const std::filesystem::path& file, std::optional<double> poisson) {
-  return DataReader(file, poisson).read();
+ModulusData read_modulus_data(const std::filesystem::path& file, std::optional<double> poisson, Measured needed) {
+  return fitting::DataReader(file, poisson, needed).read();
 }
 
 }  // namespace macadam

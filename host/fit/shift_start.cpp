@@ -102,6 +102,16 @@ std::vector<double> start_shift(const Unknowns& u, const std::vector<Target>& ta
   return {std::log(c[0]), std::log(c[1])};
 }
 
+std::vector<double> with_free_shift(const Unknowns& u, const std::vector<double>& theta,
+                                    const std::vector<double>& temperatures) {
+  std::vector<double> out(theta.begin(), theta.begin() + static_cast<std::ptrdiff_t>(u.of_model()));
+  for (std::size_t i = 0; i < temperatures.size(); ++i) {
+    if (i != u.reference_isotherm)
+      out.push_back(log_shift(u, theta.data(), {1, temperatures[i], i}) / std::numbers::ln10);
+  }
+  return out;
+}
+
 std::vector<Limits> shift_limits(const Unknowns& u, const std::vector<double>& temperatures) {
   switch (u.shift) {
     case ShiftKind::wlf: {

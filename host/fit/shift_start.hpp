@@ -13,6 +13,10 @@ namespace macadam::fitting {
 std::vector<double> start_shift(const Unknowns& unknowns, const std::vector<Target>& targets,
                                 const std::vector<double>& temperatures);
 
+/// θ with the shift of a law, `unknowns`, as θ with a factor for each temperature and the same reference temperature.
+std::vector<double> with_free_shift(const Unknowns& unknowns, const std::vector<double>& theta,
+                                    const std::vector<double>& temperatures);
+
 /// Limits of sense for these unknowns.
 std::vector<Limits> shift_limits(const Unknowns& unknowns, const std::vector<double>& temperatures);
 

@@ -28,6 +28,8 @@ struct FreeParameter {
 /// What of a measurement counts. `modulus_and_phase`: ln |E*| and φ. `parts`: E' and E''.
 enum class Misfit : std::uint8_t { modulus_and_phase, modulus, phase, parts };
 const char* to_string(Misfit);
+/// The columns that a table must have for a misfit.
+Measured measured_for(Misfit);
 
 struct CalibrationOptions {
   std::vector<FreeParameter> free;
@@ -74,6 +76,7 @@ struct Calibration {
   double misfit = 0;                              ///< Σ of squares, without priors
   double degrees_of_freedom = 0;                  ///< numbers measured less parameters that do not lie at a bound
   bool temperatures = false, deviations = false;  ///< whether the data have them
+  bool moduli = true, phases = true;              ///< whether they were measured; the errors of others are NaN
   std::vector<std::uint64_t> seeds;               ///< empty for a specimen from a file
   std::string solver;                             ///< what was solved, in words
   int solutions = 0;                              ///< solutions of all frequencies of all specimens

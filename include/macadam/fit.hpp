@@ -25,22 +25,31 @@ struct ModulusPoint {
   double frequency_hz = 0, e_star_pa = 0, phase_deg = 0;
   double temperature_c = 0;              ///< of use where ModulusData::temperatures
   double e_star_std = 0, phase_std = 0;  ///< standard deviations [Pa], [degrees], where ModulusData::deviations
+  int line = 0;                          ///< of the file; 0: of none
 };
 
-/// Measurements at any frequencies and temperatures, in any order; a place may be measured several times.
+/// Measurements at any frequencies and temperatures, in any order; a frequency may be measured several times.
 struct ModulusData {
   std::string source;  ///< in messages
   std::vector<ModulusPoint> points;
-  bool temperatures = false;  ///< each point has one
-  bool deviations = false;    ///< each point has both
+  bool temperatures = false;          ///< each point has one
+  bool deviations = false;            ///< each point has those of its measured values
+  bool moduli = true, phases = true;  ///< measured values; fit_modulus() needs both
+  std::vector<std::string> unused;    ///< columns of the file that were passed over
 };
 
-/// Reads a CSV file with the columns `frequency_hz`, `e_star_pa` or `g_star_pa`, `phase_deg` (or `e_prime_pa` and
-/// `e_double_prime_pa`, the real and the imaginary part, in place of the two) and, where they are there,
-/// `temperature_c`, `e_star_std` or `g_star_std` [Pa] and `phase_std` [degrees], in any order; lines that begin with #
-/// are comments. E* = 2·(1 + ν)·G*, with Poisson's ratio ν in (−1, 0.5]. \throws InputError naming file, line and
-/// column.
-ModulusData read_modulus_data(const std::filesystem::path& file, std::optional<double> poisson = {});
+/// The columns that a table must have.
+enum class Measured : std::uint8_t { modulus_and_phase, modulus, phase };
+
+/// Reads a table of measured moduli with one header line: columns in any order, separated by commas, semicolons
+/// (decimal commas are then allowed) or tabs. docs/laws-from-data.md lists the names, which carry their units:
+/// `frequency_hz` or `omega_rad_s`; `e_star_mpa` or `g_star_pa`, for example, or real and imaginary part; `phase_deg`;
+/// and if wanted `temperature_c` or `temperature_k`, `e_star_std` and `phase_std`. Other columns are passed over, and
+/// so is a row of units that agrees with the names. E* = 2·(1 + ν)·G*, with Poisson's ratio ν in (−1, 0.5]. \throws
+/// InputError with all that is wrong in the file (line, column), and for values that seem to be in another unit than
+/// the name of their column says.
+ModulusData read_modulus_data(const std::filesystem::path& file, std::optional<double> poisson = {},
+                              Measured needed = Measured::modulus_and_phase);
 
 /// 2S2P1D (Olard and Di Benedetto): two springs, two parabolic creep elements, one dashpot; Huet–Sayegh where β = ∞.
 ///   E*(s) = E_00 + (E_0 − E_00)/(1 + δ·(s·τ)^(−k) + (s·τ)^(−h) + (s·β·τ)^(−1)),   0 < k < h < 1
@@ -92,7 +101,7 @@ struct FitOptions {
   std::optional<bool> flow;  ///< a dashpot in series with the chain; empty: the criterion chooses
   Criterion criterion = Criterion::aicc;
   ShiftKind shift = ShiftKind::none;
-  /// [°C]; empty: the measured one in the middle. One that was measured where the shift is free.
+  /// [°C]; empty: the measured one in the middle. One that was measured where the shift is free. It rescales time only.
   std::optional<double> reference_temperature;
   /// Where the data have none: relative standard deviation of |E*| and that of φ [degrees]. Their ratio matters; their
   /// size is then taken from the misfit.

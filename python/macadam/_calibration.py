@@ -60,8 +60,9 @@ def calibrate(scene: SceneLike, target: Data, free: Sequence[str], *,
               progress: Callable[[str, float], object] | None = None, **overrides: Any) -> Calibration:
     """Finds parameters such that the scene's specimen has the measured moduli: `macadam calibrate`.
 
-    target: a CSV file, a DataFrame or a dictionary of columns frequency_hz, e_star_pa, phase_deg, maybe temperature_c,
-    e_star_std, phase_std.
+    target: a table in a file, a DataFrame or a dictionary of columns frequency_hz, e_star_pa, phase_deg, maybe
+    temperature_c, e_star_std, phase_std. `Result.table` of a cyclic test or a sweep has them. Moduli that the misfit
+    does not count, or phases, need not be there.
     free: parameters to be found: "M-A.delta", "M-M.E_1", "inner.E", "A-A.alpha".
     bounds: lowest and highest value by name. priors: a value and its relative deviation by name.
     seeds: specimens whose E* is averaged.
@@ -73,7 +74,8 @@ def calibrate(scene: SceneLike, target: Data, free: Sequence[str], *,
     given, _ = _scene_and_specimen(scene, None)
     if overrides:
         given = Scene(given, **overrides)
-    return Calibration(given, modulus_data(target), out, free=[free] if isinstance(free, str) else list(free),
+    needed = misfit if misfit in ("modulus", "phase") else "modulus-and-phase"
+    return Calibration(given, modulus_data(target, needed=needed), out, free=[free] if isinstance(free, str) else list(free),
                        bounds=dict(bounds or {}), priors=dict(priors or {}), seeds=seeds, misfit=misfit,
                        e_star_deviation=e_star_deviation, phase_deviation=phase_deviation, nearest=nearest,
                        progress=progress)

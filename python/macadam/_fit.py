@@ -17,23 +17,26 @@ from . import _core
 if TYPE_CHECKING:
     import pandas
 
-#: A CSV file, or columns of the same names: frequency_hz, e_star_pa or g_star_pa, phase_deg (or e_prime_pa,
-#: e_double_prime_pa), maybe temperature_c, e_star_std, phase_std.
+#: A table in a file, or columns of the same names: frequency_hz, e_star_pa (e_star_mpa, …) or g_star_pa, phase_deg (or
+#: e_prime_pa, e_double_prime_pa), maybe temperature_c, e_star_std, phase_std. Other columns are passed over, so that
+#: `Result.table` of a cyclic test or a sweep can be given.
 Data = str | PathLike[str] | Mapping[str, Sequence[float]] | Any
 
 
-def modulus_data(data: Data, poisson: float | None = None) -> _core.ModulusData:
-    """Measurements of a file, a DataFrame or a dictionary of columns; poisson: for a column g_star_pa."""
+def modulus_data(data: Data, poisson: float | None = None, needed: str = "modulus-and-phase") -> _core.ModulusData:
+    """Reads measurements from a file, a DataFrame or a dictionary of columns, by the reader of `macadam fit`.
+
+    poisson: for a column g_star_pa. needed: what must be there, "modulus-and-phase", "modulus" or "phase"."""
     if isinstance(data, _core.ModulusData):
         return data
     if isinstance(data, (str, PathLike)):
-        return _core.ModulusData(fspath(data), poisson)
+        return _core.ModulusData(fspath(data), poisson, needed)
     import pandas
     with tempfile.TemporaryDirectory(prefix="macadam-") as folder:
         file = Path(folder) / "data"
         pandas.DataFrame(data).to_csv(file, index=False, float_format="%.17g")
         try:
-            out = _core.ModulusData(fspath(file), poisson)
+            out = _core.ModulusData(fspath(file), poisson, needed)
         except _core.InputError as error:
             raise _core.InputError(str(error).replace(fspath(file), "data")) from None
     out.source = "data"
@@ -41,7 +44,8 @@ def modulus_data(data: Data, poisson: float | None = None) -> _core.ModulusData:
 
 
 class Fit:
-    """A fitted law. `files` has the texts of what the command writes, by name: law.toml, fit.json, fit.csv, curve.csv."""
+    """A fitted law. `files` has the texts of what the command writes, by name: law.toml, fit.json, fit.csv, curve.csv.
+    There is no law.toml where no chain stands for a 2S2P1D or Huet-Sayegh model within the error."""
 
     def __init__(self, found: dict[str, Any]) -> None:
         self.files: dict[str, str] = found["files"]
@@ -50,7 +54,11 @@ class Fit:
 
     @cached_property
     def law(self) -> dict[str, Any]:
-        """The entry of `contacts` in a scene, in SI units; its `pair` is M-M, to be changed where it is another's."""
+        """The entry of `contacts` in a scene, in SI units; its `pair` is M-M, to be changed where it is another's.
+
+        Raises InputError where no chain stands for the fitted model; the last of the warnings says why."""
+        if "law.toml" not in self.files:
+            raise _core.InputError(self.warnings[-1])
         return tomllib.loads(self.files["law.toml"])["contacts"][0]
 
     @cached_property
@@ -83,7 +91,8 @@ def fit(data: Data | None = None, *, parameters: str | PathLike[str] | None = No
         out: str | PathLike[str] | None = None) -> Fit:
     """A contact law from measured complex moduli: `macadam fit`.
 
-    data: a CSV file, a DataFrame or a dictionary of columns; or `parameters`, the TOML file of a 2S2P1D or Huet-Sayegh
+    data: a table in a file, a DataFrame (`Result.table` of a cyclic test or a sweep, for example) or a dictionary of
+    columns; or `parameters`, the TOML file of a 2S2P1D or Huet-Sayegh
     model, which becomes a chain from `from_hz` to `to_hz` [Hz] with at most `error` (relative).
     model: "kelvin", "2s2p1d" or "huet-sayegh". units: Kelvin units; without it the criterion ("aicc", "bic") chooses,
     up to `most_units`. flow: a dashpot in series. shift: "none", "wlf", "arrhenius" or "free".

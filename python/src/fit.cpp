@@ -53,22 +53,20 @@ nb::dict fit(const ModulusData& data, const std::string& model, std::optional<in
                                      {"free", ShiftKind::free}});
   options.reference_temperature = in_range("reference_temperature", reference_temperature, -273.0, 1000.0);
   in_range("error", error, 1e-6, 0.5);
-  FitFiles files;
-  std::string text;
+  FitReport report;
   std::vector<std::string> warnings;
   {
     const nb::gil_scoped_release release;
     const Fit found = fit_modulus(data, options);
-    const auto range = chain_range(from, to, found.reduced_range());
-    std::optional<KelvinConversion> conversion;
-    if (const auto* analogue = std::get_if<AnalogueModel>(&found.model))
-      conversion = to_kelvin(*analogue, range.first, range.second, error);
-    files = fit_files(found, conversion ? &*conversion : nullptr);
-    text = fit_text(found) + (conversion ? conversion_text(*conversion, range) : "");
+    report = report_of(found, from, to, error);
     warnings = found.warnings;
-    write(out, files);
+    if (!report.refusal.empty()) warnings.push_back(report.refusal);
+    if (out) {
+      const ResultFolder folder(*out);
+      write_report(*out, report);
+    }
   }
-  return result_of(files, text, warnings);
+  return result_of(report.files, report.text, warnings);
 }
 
 /// A model that somebody else has fitted, as a chain.
@@ -89,10 +87,17 @@ void bind_fit(nb::module_& m) {
   nb::class_<ModulusData>(m, "ModulusData", "Measured complex moduli.")
       .def(
           "__init__",
-          [](ModulusData* self, const std::filesystem::path& file, std::optional<double> poisson) {
-            new (self) ModulusData(read_modulus_data(file, in_range("poisson", poisson, -0.99, 0.5)));
+          [](ModulusData* self, const std::filesystem::path& file, std::optional<double> poisson,
+             const std::string& needed) {
+            const auto measured = choice<Measured>("needed", needed,
+                                                   {{"modulus-and-phase", Measured::modulus_and_phase},
+                                                    {"modulus", Measured::modulus},
+                                                    {"phase", Measured::phase}});
+            new (self) ModulusData(read_modulus_data(file, in_range("poisson", poisson, -0.99, 0.5), measured));
           },
-          nb::arg("file"), nb::arg("poisson") = nb::none())
+          nb::arg("file"), nb::arg("poisson") = nb::none(), nb::arg("needed") = "modulus-and-phase")
+      .def_prop_ro(
+          "unused", [](const ModulusData& d) { return d.unused; }, "Columns that were passed over.")
       .def_rw("source", &ModulusData::source, "In messages.")
       .def("__len__", [](const ModulusData& d) { return d.points.size(); })
       .def_prop_ro("frequency_hz",

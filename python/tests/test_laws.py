@@ -69,6 +69,34 @@ def test_a_calibration_finds_what_was_there(scene, small_file, lab, tmp_path, pr
     assert bounded.value[0] == 1.1 and bounded.at_bound[0]
 
 
+def test_results_are_targets_and_data(specimen, scene, tmp_path):
+    """result.table as it is, with columns of numbers and words that no laboratory has."""
+    found = mc.harmonic(specimen, hz=[2, 5, 20, 50], **{"contacts.M-A.delta": 1.3})
+    assert not {"frequency_hz", "e_star_pa", "phase_deg"} >= set(found.table.columns)
+    law = mc.fit(found.table, units=1)
+    few = mc.fit(found.table[["frequency_hz", "e_star_pa", "phase_deg"]], units=1)
+    assert law.files["law.toml"] == few.files["law.toml"]
+    again = mc.calibrate(scene, found.table, free=["M-A.delta"])
+    assert again.parameters.value[0] == pytest.approx(1.3, rel=1e-6)  # the solver's tolerance over the sensitivity
+
+
+def test_other_units_and_columns(scene, lab):
+    table = pd.DataFrame({"frequency_hz": lab.frequency_hz, "e_star_mpa": lab.e_star_pa / 1e6, "sample": "A, first"})
+    with pytest.raises(mc.InputError, match="with phase_deg"):
+        mc.fit(table)
+    found = mc.calibrate(scene, table, free=["M-A.delta"], misfit="modulus")
+    assert found.parameters.value[0] == pytest.approx(1.3, rel=1e-6)
+    assert found.table.phase_deg.isna().all() and found.json["errors"]["phase_rms_deg"] is None
+
+
+def test_a_model_that_no_chain_reaches_is_there_all_the_same(tmp_path):
+    found = mc.fit(MASTIC, shift="wlf", model="2s2p1d", error=1e-6, out=tmp_path / "law")
+    assert found.json["analogue"]["k"] > 0 and "units reach" in found.warnings[-1]
+    assert sorted(f.name for f in (tmp_path / "law").iterdir()) == ["curve.csv", "fit.csv", "fit.json"]
+    with pytest.raises(mc.InputError, match="units reach"):
+        found.law
+
+
 @pytest.mark.parametrize(("change", "message"), [
     ({"free": ["M-X.delta"]}, "M-X.delta"), ({"bounds": {"x": (1, 2)}}, 'bounds: found "x"'),
     ({"misfit": "x"}, r"misfit: .*modulus-and-phase\|modulus"), ({"seeds": 0}, "seeds: found 0"),

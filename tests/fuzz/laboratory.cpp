@@ -9,7 +9,7 @@ namespace macadam::fuzz {
 std::string file_name() { return the_file().path().string(); }
 
 void read(std::string_view bytes) {
-  const bool shear = bytes.find("g_star_pa") != std::string_view::npos;
+  const bool shear = bytes.find("g_star_") != std::string_view::npos;
   read_modulus_data(the_file().with(bytes), shear ? std::optional(0.35) : std::nullopt);
 }
 
@@ -26,6 +26,13 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
                                               "phase_std",
                                               "e_prime_pa",
                                               "e_double_prime_pa",
+                                              "e_star_mpa",
+                                              "omega_rad_s",
+                                              "temperature_k",
+                                              "MPa",
+                                              ";",
+                                              "\t",
+                                              "\"",
                                               "#",
                                               "\r",
                                               " ",
