@@ -65,8 +65,21 @@ class GroupReading {
     std::copy(u, u + 6, out.relative[number].begin());
     double* chain = &out.chain[out.chain_begin[number]];
     const FacetLoad<double> load = shape_.by_points ? points(slot, c, u, chain) : condensed(slot, c, u, chain);
+    if constexpr (breakable_law<L>) read_breaks(c, chain, out.broken[number], out.point_breaks);
     out.force[number] = load.n * frame.n + load.s * frame.s + load.t * frame.t;
     out.moment[number] = load.moment_n * frame.n + load.moment_s * frame.s + load.moment_t * frame.t;
+  }
+
+  /// `chain`: the numbers of the contact's points, one point after another.
+  void read_breaks(const Contact& c, const double* chain, double& fraction, std::vector<Break>& point_breaks) const {
+    const std::uint32_t points = c.point_end - c.point_begin;
+    std::uint32_t broken = 0;
+    for (std::uint32_t j = 0; j < points; ++j) {
+      const Break how = L::break_of(chain + 3 * j * words());
+      point_breaks[c.point_begin + j] = how;
+      broken += how != Break::none;
+    }
+    fraction = points == 0 ? 0 : double(broken) / double(points);
   }
 
   /// Eq. 5–7 now. `apart`: how much further B is from A than at the start.

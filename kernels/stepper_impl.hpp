@@ -150,6 +150,10 @@ class StepperImpl final : public Stepper {
     });
     std::partial_sum(out.chain_begin.begin(), out.chain_begin.end(), out.chain_begin.begin());
     out.chain.resize(out.chain_begin.back(), 0.0);
+    if (can_break(facts_of(laws_))) {
+      out.broken.resize(n, 0.0);
+      out.point_breaks.resize(network.point_area.size(), Break::none);
+    }
     each_group([&](std::size_t g, const GroupLayout& group, const auto& law) {
       const GroupShape<P> shape(layout_, group, facts_of(law), options_);
       GroupReading<P, std::decay_t<decltype(law)>>(network, layout_, group, law, options_, u,

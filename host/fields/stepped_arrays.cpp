@@ -82,6 +82,7 @@ std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNe
   out.push_back(vectors("moment", "N m", state.moment));
   out.push_back(tuples("relative_displacement", relative_unit, contacts, 6,
                        [&](std::size_t c, int k) { return state.relative[c][static_cast<std::size_t>(k)]; }));
+  if (!state.broken.empty()) out.push_back(scalars("broken", "1", state.broken));
   const std::vector<int> units = units_of(state);
   const int most = units.empty() ? 0 : *std::max_element(units.begin(), units.end());
   for (int l = 0; l < most; ++l) {

@@ -49,7 +49,8 @@ ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
   ReferenceLaw out;
   out.E_m = law.E;
   out.alpha = law.alpha;
-  out.kept = 2;  // the stretch, and whether it is broken
+  out.kept = 2;  // the stretch, and how it broke
+  out.break_of = [](const ChainState(&chain)[3]) { return static_cast<Break>(static_cast<int>(chain[0].stretch[1])); };
   out.point = [law](double area, double distance, double, const std::array<double, 3>& dx, ChainState(&chain)[3]) {
     const double k[3] = {law.E * area / distance, law.alpha * law.E * area / distance,
                          law.alpha * law.E * area / distance};
@@ -59,7 +60,8 @@ ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
     }
     double& broken = chain[0].stretch[1];
     const double tension = chain[0].force / area, shear = std::hypot(chain[1].force, chain[2].force) / area;
-    if (tension > law.tensile_strength || shear > law.shear_strength) broken = 1;
+    if (broken == 0 && tension > law.tensile_strength) broken = static_cast<double>(Break::tension);
+    if (broken == 0 && shear > law.shear_strength) broken = static_cast<double>(Break::shear);
     if (broken == 0) return;
     if (chain[0].force > 0) chain[0].force = 0;
     chain[1].force = chain[2].force = 0;

@@ -37,6 +37,7 @@ struct ReferenceLaw {
   double alpha = 0;  ///< shear over normal stiffness
   PointLaw point;    ///< in place of the chains, where it is there; E_m is then the stiffness at the start
   int kept = 0;      ///< numbers that it keeps in each component's `stretch`
+  std::function<Break(const ChainState (&chain)[3])> break_of = {};  ///< how a point broke; none: it cannot break
 
   std::size_t states() const { return point ? static_cast<std::size_t>(kept) : units.size(); }
 };

@@ -109,6 +109,19 @@ class ReferenceStepper : public Stepper {
     throw RunError("backend reference does not tell of its contacts");
   }
 
+  std::vector<Break> point_breaks(const ContactNetwork& network) const override {
+    std::vector<Break> out;
+    for (std::size_t c = 0; c < contacts_.size(); ++c) {
+      const auto& break_of = law(contacts_[c].pair).break_of;
+      if (!break_of) continue;
+      out.resize(network.point_area.size(), Break::none);
+      const std::uint32_t first = network.contacts[c].point_begin;
+      for (std::size_t j = 0; j < contacts_[c].points.size(); ++j)
+        out[first + j] = break_of(contacts_[c].points[j].chain);
+    }
+    return out;
+  }
+
   std::vector<StateArray> state() const override { refuse_checkpoints(); }
   void set_state(const std::vector<StateArray>&) override { refuse_checkpoints(); }
 

@@ -78,8 +78,8 @@ std::vector<FieldArray> particle_arrays(const ParticleState& state);
 /// Mean stress in the Laguerre cell of each particle, model (8.3): xx, yy, zz, xy, yz, xz, tension positive [Pa].
 /// Volumes, arms and facets are those of the start.
 FieldArray stress_array(const Tessellation& tessellation, const ContactNetwork& network, const ContactState& state);
-/// Normal and shear force, force, moment, relative displacement and of contacts in condensed form,
-/// the stretch of each Kelvin unit.
+/// Returns normal and shear force, force, moment and relative displacement; for contacts in condensed form the stretch
+/// of each Kelvin unit; where a law can break `broken`, the fraction of the contact's points that are broken.
 /// `displacement`: of the particles, by which normals have turned; empty: normals are those of the start.
 std::vector<FieldArray> contact_arrays(const Specimen& specimen, const ContactNetwork& network,
                                        const ContactState& state, const std::vector<Vec3d>& displacement);

@@ -150,6 +150,10 @@ struct ContactState {
   /// begin.
   std::vector<double> chain;
   std::vector<std::size_t> chain_begin;  ///< contact c has the numbers from chain_begin[c] to chain_begin[c + 1]
+  /// Number of broken points over number of points of each contact. Empty where no law of the scene can break.
+  std::vector<double> broken = {};
+  /// Whether and how each contact point broke, in the order of the network's points. Empty as `broken`.
+  std::vector<Break> point_breaks = {};
 };
 
 /// Steps a network in time (leapfrog: velocities at half steps, displacements and forces at whole steps).
@@ -176,6 +180,12 @@ class Stepper {
   /// Forces and deformation of all contacts now; `network`: that it was made of. \throws RunError for backend
   /// reference.
   virtual ContactState contacts(const ContactNetwork& network) const = 0;
+
+  /// Whether and how each contact point broke, in the order of the network's points; empty where no law of the scene
+  /// can break. Every backend has it. `network`: as in contacts().
+  virtual std::vector<Break> point_breaks(const ContactNetwork& network) const {
+    return contacts(network).point_breaks;
+  }
 
   /// The motion on the device; nothing of the processor's steppers.
   virtual DeviceMotion device_motion() const { return {}; }

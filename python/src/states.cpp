@@ -57,7 +57,18 @@ void bind_states(nb::module_& m) {
           "chain", [](const ContactState& s) { return view(s.chain); }, "States of the laws, contact by contact.")
       .def_prop_ro(
           "chain_begin", [](const ContactState& s) { return view(s.chain_begin); },
-          "Where each contact's states begin, and the end.");
+          "Where each contact's states begin, and the end.")
+      .def_prop_ro(
+          "broken", [](const ContactState& s) { return view(s.broken); },
+          "Fraction of each contact's points that are broken, (n,); empty where no law can break.")
+      .def_prop_ro(
+          "point_breaks",
+          [](const ContactState& s) {
+            return view(reinterpret_cast<const std::uint8_t*>(s.point_breaks.data()), {s.point_breaks.size()});
+          },
+          "How each contact point broke, contact by contact: 0 intact, 1 in tension, 2 in shear; empty where no law "
+          "can "
+          "break.");
 }
 
 }  // namespace macadam::python

@@ -176,3 +176,29 @@ def test_wrong_drives_and_walls(specimen, dt):
                           (lambda: stepper(specimen, ramp).set_velocities(np.zeros((3, 3)), np.zeros((3, 3))), "as many")):
         with pytest.raises(mc.InputError, match=message):
             call()
+
+
+def test_broken_points_of_contacts(scene):
+    brittle = [dict(pair=c["pair"], law="brittle_bond", E=1e10, tensile_strength=1e4, alpha=0.1) if c["pair"] == "M-M" else c
+               for c in scene.as_dict()["contacts"]]
+    specimen = mc.specimen(mc.Scene(scene, contacts=brittle))
+    dt = 0.5 * mc.critical_step(specimen, density_scaling=1e6)
+    drive = mc.drives.ConstantRate(speed=1e-3, dt=dt, duration=1000 * dt)
+    stepping = stepper(specimen, drive, form="points")
+    assert not stepping.contacts().broken.any() and not stepping.contacts().point_breaks.any()
+    stepping.advance(400)
+    contacts, state = specimen.contacts, stepping.contacts()
+    assert state.broken.shape == (len(contacts),) and 0 < state.broken.max() <= 1
+    begin, breaks, bond = state.chain_begin, [], mc.pair_names.index("M-M")
+    for c, pair in enumerate(contacts.pair):
+        # a point of a bond keeps f and opening, then f and the break of each slip
+        of_points = state.chain[begin[c]:begin[c + 1]].reshape(-1, 6)[:, 3] if pair == bond else np.zeros(1)
+        assert state.broken[c] == pytest.approx(np.count_nonzero(of_points) / len(of_points))
+        breaks += list(of_points[of_points != 0])
+    assert np.array_equal(state.point_breaks[state.point_breaks != 0], breaks)
+
+
+def test_laws_that_cannot_break_have_no_broken_points(specimen, dt):
+    ramp = mc.drives.Ramp(height=1e-6, dt=dt, ramp_steps=50)
+    state = stepper(specimen, ramp).contacts()
+    assert state.broken.size == 0 and state.point_breaks.size == 0

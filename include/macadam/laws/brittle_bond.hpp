@@ -29,20 +29,23 @@ struct BrittleBond {
   int units() const { return only_units; }
   double instantaneous() const { return E; }
   double shortest_time() const { return std::numeric_limits<double>::infinity(); }
+  /// Returns how a contact point broke, from its six numbers (Step::advance_point).
+  static Break break_of(const double* state) { return static_cast<Break>(static_cast<int>(state[3])); }
 
   template <class R>
   struct Step {
     static constexpr bool memoryless = false, coupled = true;
     R E, alpha, tensile_strength, shear_strength;
-    /// Of the opening, the second number is the opening itself [m]; of a slip, 1 where the bond is broken, else 0.
+    /// The second number of component 0 is the opening [m]. The second numbers of components 1 and 2 are the Break: 0,
+    /// 1 for tension, 2 for shear. A point whose two stresses exceed their strengths in the same step broke in tension.
     template <class S, class State>
     MACADAM_HD void advance_point(const S (&dx)[3], S d, State&& state) const {
       state(0, 1) += dx[0];
       const S opening = state(0, 1), n = S(E) * opening;
       const S s = state(1, 0) + S(E) * dx[1], t = state(2, 0) + S(E) * dx[2];
       const S tension = S(tensile_strength) * d, shear = S(shear_strength) * d, square = S(alpha) * S(alpha);
-      const S torn = select(n > tension, S(1), S(state(1, 1)));
-      const S broken = select(square * (s * s + t * t) > shear * shear, S(1), torn);
+      const S sheared = select(square * (s * s + t * t) > shear * shear, S(2), S(0)), before = state(1, 1);
+      const S broken = select(before > S(0), before, select(n > tension, S(1), sheared));
       const auto gone = broken > S(0);
       state(0, 0) = select(gone, select(opening > S(0), S(0), n), n);
       state(1, 0) = select(gone, S(0), s);

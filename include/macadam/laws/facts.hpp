@@ -4,7 +4,9 @@
 
 #include <array>
 #include <complex>
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -14,6 +16,12 @@
 namespace macadam {
 
 inline constexpr int pair_types = 6;  ///< of PairType (contact_network.hpp)
+
+/// Whether a contact point is broken, and by which stress it broke.
+enum class Break : std::uint8_t { none, tension, shear };
+inline constexpr const char* to_string(Break how) {
+  return how == Break::tension ? "tension" : how == Break::shear ? "shear" : "none";
+}
 
 /// A law, whatever its type.
 struct LawFacts {
@@ -26,6 +34,7 @@ struct LawFacts {
   bool memoryless = false, linear = true, blocks = false;          ///< see law.hpp, likewise the next two
   bool coupled = false;                                            ///< normal and shear of a point together
   bool stiffness = true;                                           ///< has a place in the frequency domain
+  bool breaks = false;                                             ///< its contact points can break
 };
 
 /// The optional parts of a law's contract (law.hpp).
@@ -59,6 +68,11 @@ template <class L>
 inline constexpr bool has_blocks = requires(const L& law) {
   law.block(1.0, 1).rate;
 };
+/// Whether contact points of the law can break.
+template <class L>
+inline constexpr bool breakable_law = requires(const double* state) {
+  { L::break_of(state) } -> std::same_as<Break>;
+};
 /// The number of units where it is known to the compiler; −1: by value.
 template <class L>
 constexpr int units_of() {
@@ -73,11 +87,12 @@ constexpr int units_of() {
 
 template <class L>
 LawFacts facts_of(const L& law) {
-  return {L::name,           law.alpha,     law.instantaneous(), law.shortest_time(), law.units(),     units_of<L>(),
-          memoryless_law<L>, linear_law<L>, has_blocks<L>,       coupled_law<L>,      has_stiffness<L>};
+  return {L::name,       law.alpha,      law.instantaneous(), law.shortest_time(),
+          law.units(),   units_of<L>(),  memoryless_law<L>,   linear_law<L>,
+          has_blocks<L>, coupled_law<L>, has_stiffness<L>,    breakable_law<L>};
 }
 
-/// Of each pair that has a law.
+/// One entry per pair type; empty for pairs without a law.
 using FactsTable = std::array<std::optional<LawFacts>, pair_types>;
 
 template <class... L>
@@ -87,6 +102,14 @@ FactsTable facts_of(const std::array<std::optional<std::variant<L...>>, pair_typ
     if (laws[pair]) out[pair] = std::visit([](const auto& law) { return facts_of(law); }, *laws[pair]);
   }
   return out;
+}
+
+/// Returns whether a law of the table can break.
+inline bool can_break(const FactsTable& laws) {
+  for (const auto& law : laws) {
+    if (law && law->breaks) return true;
+  }
+  return false;
 }
 
 }  // namespace macadam

@@ -43,6 +43,9 @@
 ///     increments of the opening and of the slips along s and t, and the contact's distance d [m], so that f/d is the
 ///     normal stress and α·f/d a shear stress; state(c, 0) is the f of component c, state(c, 1 + l) its x(l)
 ///     (references), which it all updates;
+///   - `static Break break_of(const double* state)` — contact points of the law can break: whether one is broken, and
+///     how, from its numbers state(0, 0), state(0, 1), …, state(1, 0), … one after another. Such a law is coupled.
+///     Tests then count broken points (host/experiments/stepped/cracks.hpp);
 ///   - `struct Block` — (without it a device takes two kernels a step) M steps taken as one block in which f changes
 ///   little, made by
 ///     `Block block(double dt, int M) const` (all double): members `rate`, `relax`, `follow`, `static constexpr int
