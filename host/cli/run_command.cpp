@@ -70,6 +70,7 @@ void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
   if (!scene.specimen.file) add("aggregates.csv");
   if (scene.recipe) add("gradation.csv");
   for (const std::string& name : files_of(scene.experiment)) add(name);
+  add("cracks.csv");
   if (scene.output.contacts) files += " contacts.csv";
   if (scene.output.fields.any()) files += " fields/";
   say("\n{} | files in {}: {}\n", result.solver, arguments.job.out, files);

@@ -65,7 +65,7 @@ std::vector<std::string> files_of(const Experiment& experiment) {
 }
 
 std::vector<std::string> result_files() {
-  std::vector<std::string> out = {"contacts.csv", "summary.json"};
+  std::vector<std::string> out = {"contacts.csv", "summary.json", "cracks.csv"};
   for_each_kind([&](const Experiment& experiment) {
     for (const std::string& name : files_of(experiment)) out.push_back(name);
   });

@@ -30,6 +30,8 @@ class FieldOutput {
   /// a time other than 0. A period, or the whole test, has so many samples. Returns a sentence about each series that
   /// should have been there and was not. \throws InputError for a file that is no series of this run.
   std::vector<std::string> begin(const std::string& of, int samples, double time);
+  /// Whether the scene asks for a series.
+  bool begun() const { return begun_; }
   /// Whether a frame is due at this sample.
   bool wants(std::int64_t sample) const;
   /// Adds a frame. \throws RunError.

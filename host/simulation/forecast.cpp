@@ -9,6 +9,7 @@
 #include <complex>
 #include <numbers>
 
+#include "host/experiments/stepped/cracks.hpp"
 #include "host/experiments/stepped/settings.hpp"
 #include "host/simulation/combination.hpp"
 #include "host/simulation/costs.hpp"
@@ -172,6 +173,7 @@ std::vector<std::string> files_of_run(const Scene& scene) {
     if (response && (!scene.output.response || scene.solver.method == SolverMethod::harmonic)) continue;
     out.push_back(file);
   }
+  if (counts_cracks(scene)) out.push_back(cracks_file);
   if (scene.output.contacts) out.push_back("contacts.csv");
   if (scene.output.fields.any()) out.push_back("fields/");
   return out;

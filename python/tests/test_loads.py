@@ -69,5 +69,7 @@ def test_brittle_bonds_break_for_good(scene):
     assert weak.table.strain.iloc[-1] == pytest.approx(5e-4, rel=1e-2)
     # mastic on mastic bears much of the load, and nothing of it once it is broken
     assert weak.table.stress_pa.iloc[-1] < 0.8 * strong.table.stress_pa.iloc[-1]
+    assert weak.table.broken_points.iloc[-1] > 0
+    assert strong.table.broken_points.iloc[-1] == 0
     with pytest.raises(mc.InputError, match="brittle_bond"):
         mc.harmonic(strong.scene, hz=[10])

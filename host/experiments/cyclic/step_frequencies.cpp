@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "host/experiments/stepped/course.hpp"
+#include "host/experiments/stepped/cracks.hpp"
 #include "host/experiments/stepped/settings.hpp"
 #include "host/experiments/stepped/skips.hpp"
 #include "host/harmonic/law_stiffness.hpp"
@@ -230,7 +231,16 @@ class Steps : public Solution {
     courses.begin_fields(fmt::format("{}Hz", p.loading.frequency), scene_.cyclic().samples_per_cycle,
                          stepper_->observe().time);
     courses.run(*stepper_, course, at_.plan.form, at_.plan.geometry);
+    warn_of_cracks(course, result);
     at_.seconds.push_back(before + seconds_since(start));
+  }
+
+  /// Warns of points that broke during a frequency: the specimen changed while its |E*| was measured.
+  void warn_of_cracks(const Course& course, RunResult& result) {
+    CrackWatch cracks(scene_, prepared_);
+    if (!cracks.active()) return;
+    cracks.look(*stepper_, static_cast<double>(stepper_->observe().step) * course.dt);
+    if (cracks.found().points() > 0) warn(fmt::format("{}: {}", course.name, cracks_words(cracks.found())), result);
   }
 
   /// Every sample goes to `at_` and `writer` at once. Without a writer, only the cycles that are fitted and the one

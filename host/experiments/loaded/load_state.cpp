@@ -2,6 +2,10 @@
 // load_state.cpp  Plan, times and points as text and an array.
 #include "host/experiments/loaded/load_state.hpp"
 
+#include <fmt/format.h>
+
+#include <limits>
+
 #include "host/simulation/checkpoints.hpp"
 #include "macadam/error.hpp"
 
@@ -13,12 +17,15 @@ using experiments::SteppedPoint;
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadPlan, form, geometry, precision, critical, density_scaling, damping_kind,
                                    damping, ramp, platen_mass, dt, decisions)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, seconds_planning, seconds, warnings)
+namespace experiments {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Peak, time_s, strain, stress_pa)
+}
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, peak, seconds_planning, seconds, warnings)
 
 namespace {
 
-constexpr const char *plan_text = "plan", *points_array = "points";
-constexpr std::size_t point_words = 8;
+constexpr const char *plan_text = "plan", *points_array = "points", *cracks_array = "cracks";
+constexpr std::size_t point_words = 9, crack_words = 4;
 
 }  // namespace
 
@@ -33,11 +40,22 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
   out.state = take_state(checkpoint);
   for (const StateArray& array : checkpoint.arrays) {
     const auto* values = std::get_if<std::vector<double>>(&array.values);
-    if (array.name != points_array) continue;
-    if (!values || values->size() % point_words != 0) damaged("array " + array.name + " of another kind");
-    for (std::size_t i = 0; i < values->size(); i += point_words) {
+    if (array.name != points_array && array.name != cracks_array) continue;
+    const bool points = array.name == points_array;
+    const std::size_t words = points ? point_words : crack_words;
+    if (!values || values->size() % words != 0) damaged("array " + array.name + " of another kind");
+    for (std::size_t i = 0; i < values->size(); i += words) {
       const double* w = &(*values)[i];
-      out.points.push_back({{w[0], w[1], w[2], w[3]}, w[4], w[5], w[6], w[7]});
+      const auto number = [&](std::size_t k) {
+        if (!(w[k] >= 0 && w[k] <= std::numeric_limits<std::uint32_t>::max()))
+          damaged(fmt::format("{} in array {}", w[k], array.name));
+        return static_cast<std::uint32_t>(w[k]);
+      };
+      if (points) {
+        out.points.push_back({{w[0], w[1], w[2], w[3]}, w[4], w[5], w[6], w[7], number(8)});
+      } else {
+        out.cracks.push_back({number(0), number(1), static_cast<Break>(number(2)), w[3]});
+      }
     }
   }
   if (out.state.empty()) damaged("no state");
@@ -48,10 +66,16 @@ void add_to(Checkpoint& out, const LoadState& at) {
   out.texts[plan_text] = nlohmann::json(at).dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
   std::vector<double> points;
   for (const SteppedPoint& p : at.points) {
-    points.insert(points.end(),
-                  {p.time_s, p.strain, p.stress_pa, p.ratio, p.top_pa, p.bottom_pa, p.kinetic_j, p.error});
+    points.insert(points.end(), {p.time_s, p.strain, p.stress_pa, p.ratio, p.top_pa, p.bottom_pa, p.kinetic_j, p.error,
+                                 static_cast<double>(p.broken_points)});
   }
-  out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1", std::move(points)});
+  out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1, 1", std::move(points)});
+  std::vector<double> cracks;
+  for (const experiments::CrackEvent& c : at.cracks) {
+    cracks.insert(cracks.end(),
+                  {static_cast<double>(c.contact), static_cast<double>(c.point), static_cast<double>(c.how), c.time_s});
+  }
+  out.arrays.push_back({cracks_array, "1, 1, 1, s", std::move(cracks)});
 }
 
 }  // namespace macadam

@@ -12,9 +12,11 @@ namespace macadam {
 /// All that a run needs to go on to the same bits.
 struct LoadState {
   LoadPlan plan;
+  experiments::Peak peak;                         ///< until now
   double seconds_planning = 0, seconds = 0;       ///< wall time, the latter of the stepping until now
   std::vector<std::string> warnings;              ///< of checkpoints that could not be written
   std::vector<experiments::SteppedPoint> points;  ///< until now
+  std::vector<experiments::CrackEvent> cracks;    ///< until the last of the points
   std::vector<StateArray> state;                  ///< Stepper::state(); read from a checkpoint only
 };
 

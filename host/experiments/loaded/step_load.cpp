@@ -11,6 +11,7 @@
 
 #include "host/experiments/loaded/load_state.hpp"
 #include "host/experiments/stepped/course.hpp"
+#include "host/experiments/stepped/cracks.hpp"
 #include "host/experiments/stepped/settings.hpp"
 #include "host/experiments/stepped/skips.hpp"
 #include "host/results/files.hpp"
@@ -29,6 +30,8 @@ constexpr std::int64_t many_steps = 100'000'000;
 constexpr double many_seconds = 3600;
 /// Walls that differ by more are no equilibrium.
 constexpr double largest_difference = 1e-2;
+/// Number of looks at the stress of a strength test, evenly over its steps.
+constexpr std::int64_t peak_samples = 10'000;
 
 double kinetic_energy(const ParticleState& p, const Inertia& inertia) {
   double out = 0;
@@ -48,6 +51,7 @@ class SteppedLoad : public Solution {
         watcher_(watcher),
         inertia_(std::move(inertia)),
         at_(std::move(at)),
+        cracks_(scene, prepared, at_.cracks),
         owns_checkpoint_(resumed) {}
 
   /// Makes the stepper: what it refuses is refused before a file is touched.
@@ -94,6 +98,7 @@ class SteppedLoad : public Solution {
     found.damping = p.damping;
     found.dt_s = p.dt;
     found.steps = p.step_at(test_.history.times.back());
+    if (cracks_.active()) found.cracks = cracks_.found();
   }
 
   /// Says how long it will be, if that is long.
@@ -115,11 +120,19 @@ class SteppedLoad : public Solution {
     const LoadWords& words = words_of(test_.kind);
     LineWriter writer(out / words.file, head(words));
     for (const SteppedPoint& p : at_.points) writer.add(line(words, p));
+    std::optional<LineWriter> cracks_writer;
+    if (cracks_.active()) cracks_writer.emplace(out / cracks_file, crack_head());
+    const auto write_cracks = [&](const std::vector<experiments::CrackEvent>& events) {
+      for (const experiments::CrackEvent& event : events) cracks_writer->add(crack_line(prepared_, event));
+    };
+    write_cracks(at_.cracks);
     save("running");
     const auto start = Clock::now();
     const double before = at_.seconds;
     const Course course = course_of(
-        [&](const SteppedPoint& point) {
+        [&](SteppedPoint point) {
+          const auto events = look_for_cracks(point);
+          write_cracks(events);
           at_.points.push_back(point);
           writer.add(line(words, point));
         },
@@ -130,6 +143,10 @@ class SteppedLoad : public Solution {
     courses.begin_fields(test_.kind, static_cast<int>(test_.history.times.size()), stepper_->observe().time);
     const auto finish = [&] {
       found.points = at_.points;
+      if (cracks_.active()) found.cracks = cracks_.found();
+      found.rupture = rupture_;
+      if (measures_peak()) found.peak = at_.peak;
+      if (rupture_) found.steps = stepper_->observe().step;
       found.seconds = before + seconds_since(start);
       found.kinetic_share = kinetic_share(found);
       owns_checkpoint_ = courses.own_checkpoint();
@@ -142,6 +159,7 @@ class SteppedLoad : public Solution {
     }
     finish();
     writer.close();
+    if (cracks_writer) cracks_writer->close();
     judge(found, result.warnings);
   }
 
@@ -151,16 +169,41 @@ class SteppedLoad : public Solution {
   std::string head(const LoadWords& words) const {
     return fmt::format(
         "# {}, stepped in time; {}: of this strain and stress; error: largest difference of load and walls' stresses, "
-        "relative\n{},error,{}bottom_pa,kinetic_j",
-        modulus_words(scene_.network.lateral_walls), words.ratio, csv_head(words), test_.by_stress ? "top_pa," : "");
+        "relative\n{},error,{}bottom_pa,kinetic_j{}",
+        modulus_words(scene_.network.lateral_walls), words.ratio, csv_head(words), test_.by_stress ? "top_pa," : "",
+        cracks_.active() ? ",broken_points" : "");
   }
   std::string line(const LoadWords& words, const SteppedPoint& p) const {
-    return fmt::format("{},{:.2e},{}{},{}", csv_line(words, p), p.error,
-                       test_.by_stress ? fmt::format("{},", p.top_pa) : "", p.bottom_pa, p.kinetic_j);
+    return fmt::format("{},{:.2e},{}{},{}{}", csv_line(words, p), p.error,
+                       test_.by_stress ? fmt::format("{},", p.top_pa) : "", p.bottom_pa, p.kinetic_j,
+                       cracks_.active() ? fmt::format(",{}", p.broken_points) : "");
+  }
+
+  /// Whether the largest stress is wanted: of a strength test, not of a held load.
+  bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress; }
+  void follow_peak(const Observation& now) {
+    const Vec3d& box = prepared_.specimen.box.size;
+    const double strain = now.top_displacement() / box.z, stress = -now.top_force() / (box.x * box.y);
+    const double sign = std::copysign(1.0, strain);
+    if (sign * stress > sign * at_.peak.stress_pa) at_.peak = {now.time, strain, stress};
+  }
+
+  /// Counts the broken points of a sample and returns the new ones. Under tension the test ends where they leave no
+  /// path between the walls; in compression broken points still bear.
+  std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
+    auto events = cracks_.look(*stepper_, point.time_s);
+    at_.cracks = cracks_.found().events;
+    point.broken_points = cracks_.found().points();
+    const bool pulled = drive_->value(stepper_->observe().step) > 0;
+    if (cracks_.active() && pulled && !cracks_.joins_walls()) {
+      const SteppedPoint before = at_.points.empty() ? SteppedPoint{} : at_.points.back();
+      rupture_ = {point.time_s, point.strain, before.time_s, before.strain};
+    }
+    return events;
   }
 
   /// Sample 0 is the start, for the fields; the others are the points.
-  Course course_of(const std::function<void(const SteppedPoint&)>& add, Content content) {
+  Course course_of(const std::function<void(SteppedPoint)>& add, Content content) {
     const std::vector<double>& times = test_.history.times;
     Course course;
     course.name = test_.kind;
@@ -175,6 +218,11 @@ class SteppedLoad : public Solution {
       if (k > 0) add(point(now));
     };
     course.looks_at_stepper = true;  // for its kinetic energy
+    if (measures_peak()) {
+      course.between = [this](const Observation& now) { follow_peak(now); };
+      course.between_every = std::max<std::int64_t>(1, at_.plan.step_at(times.back()) / peak_samples);
+    }
+    course.ended = [this] { return rupture_.has_value(); };
     course.shown = [this](std::int64_t step, double steps_a_second) {
       return fmt::format("{}, t = {:.4g} s of {:g}, {:.0f} steps/s", test_.kind,
                          static_cast<double>(step) * at_.plan.dt, test_.history.times.back(), steps_a_second);
@@ -234,11 +282,15 @@ class SteppedLoad : public Solution {
     return "density_scaling takes fewer, method = \"harmonic\" none at all where all laws are linear";
   }
 
-  /// Whoever reads the points must know where they are of no specimen in equilibrium.
+  /// Adds a warning if the specimen was not in equilibrium at a point. A specimen in two pieces has no equilibrium: its
+  /// rupture is reported instead. In a strength test the rupture is a result and not a warning.
   void judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
-    const auto worst = std::max_element(found.points.begin(), found.points.end(),
-                                        [](const auto& a, const auto& b) { return a.error < b.error; });
-    if (worst == found.points.end() || worst->error <= largest_difference) return;
+    if (found.rupture && !test_.grows) return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
+    const auto largest = std::max_element(found.points.begin(), found.points.end(),
+                                          [](const auto& a, const auto& b) { return a.error < b.error; });
+    const SteppedPoint* worst = largest == found.points.end() ? nullptr : &*largest;
+    if (found.rupture) worst = found.points.size() > 1 ? &found.points.end()[-2] : nullptr;
+    if (!worst || worst->error <= largest_difference) return;
     warnings.push_back(fmt::format(
         "at t = {:.4g} s load and walls' stresses differ by {:.1f} %: waves or damping are in the result there; less "
         "density_scaling, a longer ramp or later times have less of them",
@@ -253,6 +305,8 @@ class SteppedLoad : public Solution {
   LoadState at_;
   std::shared_ptr<const Drive> drive_;
   std::unique_ptr<Stepper> stepper_;
+  CrackWatch cracks_;
+  std::optional<experiments::Rupture> rupture_ = {};
   bool owns_checkpoint_;
 };
 

@@ -84,7 +84,7 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
   const auto start = Clock::now();
   std::int64_t step = stepper.observe().step;
   const std::int64_t begun = step, end = course.step_of(course.last);
-  const std::int64_t every = watcher_.stepped ? watcher_.every : 0;
+  const std::int64_t every = watcher_.stepped ? watcher_.every : 0, between = course.between_every;
   bool told = !course.foretold;
   const auto speed = [&](std::int64_t now) { return static_cast<double>(now - begun) / seconds_since(start); };
   const auto look = [&](std::int64_t now) {
@@ -95,10 +95,12 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
     const InPhase writing(result_.phases, &PhaseSeconds::writing);  // nearly nothing where no checkpoint is due
     checkpoints_.look(course.content, stepper, course.name);
   };
+  bool ended = false;
   const auto take = [&](std::int64_t k, const Sample& sample) {
     require_convergence(sample, course.name + ", dt = " + fmt::format("{:.6g} s", course.dt));
     course.take(k, sample.now);
-    if (fields_.wants(k)) {
+    ended = course.ended && course.ended();
+    if (fields_.wants(k) || (ended && fields_.begun())) {
       const InPhase writing(result_.phases, &PhaseSeconds::writing);
       fields_.add(stepper, form, geometry, sample.now.time);
     }
@@ -116,13 +118,16 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
       ++n;
     return n;
   };
+  if (between > 0 && step % between == 0) course.between(stepper.observe());
   Pieces pieces(stepper);
-  for (std::int64_t k = course.first; k <= course.last;) {
+  for (std::int64_t k = course.first; k <= course.last && !ended;) {
     const std::int64_t to = course.step_of(k);
-    while (every > 0 && step < to) {  // stops on the way where the watcher wants to be told
-      const std::int64_t next = std::min(to, (step / every + 1) * every);
+    while ((every > 0 || between > 0) && step < to) {  // stops on the way for the watcher and for the course
+      std::int64_t next = to;
+      for (const std::int64_t n : {every, between}) next = n > 0 ? std::min(next, (step / n + 1) * n) : next;
       pieces.advance(step, next, look);
-      if (next % every == 0) watcher_.stepped(stepper, course.frequency);
+      if (every > 0 && next % every == 0) watcher_.stepped(stepper, course.frequency);
+      if (between > 0 && next % between == 0) course.between(stepper.observe());
       step = next;
     }
     if (!fields_.wants(k) && !course.taken(k)) {

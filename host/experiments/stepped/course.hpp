@@ -30,7 +30,12 @@ struct Course {
   std::function<bool(std::int64_t)> taken;            ///< whether anybody wants this sample
   /// The stepper may have gone on from there.
   std::function<void(std::int64_t sample, const Observation& now)> take;
-  bool looks_at_stepper = false;  ///< `take` does: it stands at the sample then
+  bool looks_at_stepper = false;     ///< `take` does: it stands at the sample then
+  std::function<bool()> ended = {};  ///< asked after `take`: whether this sample is the last. May be empty
+  /// Called after every `between_every` steps, if that is not 0, also between samples. A resumed run may call it a
+  /// second time for the step that it begins with.
+  std::function<void(const Observation& now)> between = {};
+  std::int64_t between_every = 0;
   std::function<std::string(std::int64_t step, double steps_a_second)> shown;  ///< how far it is, for people
   Content content;                                                             ///< of a checkpoint, but for the state
   /// After the first seconds: how many more it takes. May be empty.
@@ -47,9 +52,10 @@ class Courses {
   /// Begins or goes on with the series of fields of a course, of so many samples a piece (a period, the whole test).
   void begin_fields(const std::string& name, int samples, double time);
 
-  /// From where the stepper stands to the last sample. Between steps it looks whether a checkpoint is due or the run is
-  /// to stop, before the sample of the step that was reached is taken. The bits do not depend on where it was cut.
-  /// \throws DivergenceError naming the particle that left the range of sense first; InterruptedError; RunError.
+  /// From where the stepper stands to the last sample, of which a frame is written where the course ended early.
+  /// Between steps it looks whether a checkpoint is due or the run is to stop, before the sample of the step that was
+  /// reached is taken. The bits do not depend on where it was cut. \throws DivergenceError naming the particle that
+  /// left the range of sense first; InterruptedError; RunError.
   void run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry);
 
   /// Whether the checkpoint, if it is there, is this run's.

@@ -2,6 +2,8 @@
 /// \file response.hpp  What relaxation, creep and constant rates find: strain and stress at some times.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,9 +29,15 @@ struct SpectrumResponse {
 
 /// A point of a stepped run, and how near it is to equilibrium. Stresses are forces over the cross-section.
 struct SteppedPoint : ResponsePoint {
-  double top_pa, bottom_pa;  ///< of the particles on the walls
-  double kinetic_j;          ///< kinetic energy of the particles, density scaling included
-  double error;              ///< the largest difference of load and stresses of the walls, relative
+  double top_pa, bottom_pa;        ///< of the particles on the walls
+  double kinetic_j;                ///< kinetic energy of the particles, density scaling included
+  double error;                    ///< the largest difference of load and stresses of the walls, relative
+  std::int64_t broken_points = 0;  ///< contact points that are broken; 0 where no law can break
+};
+
+/// The largest stress of a test in the direction of its load, between its points too.
+struct Peak {
+  double time_s = 0, strain = 0, stress_pa = 0;
 };
 
 /// By method "explicit".
@@ -47,7 +55,10 @@ struct SteppedResponse : Stepped {
   double kinetic_share = 0;  ///< largest kinetic energy / (largest stress · largest strain · volume / 2)
   double seconds = 0;        ///< wall time of the stepping, of all processes of a resumed run
 
-  double error() const;  ///< largest of the points
+  std::optional<Rupture> rupture = {};  ///< why the test ended early
+  std::optional<Peak> peak = {};        ///< constant rate: only if a law of the scene can break
+
+  double error() const;  ///< largest of the points before the rupture
 };
 
 }  // namespace macadam::experiments

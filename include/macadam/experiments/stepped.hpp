@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "macadam/backend.hpp"
+#include "macadam/experiments/cracks.hpp"
 
 namespace macadam::experiments {
 
@@ -21,6 +23,7 @@ struct Stepped {
   std::int64_t bytes = 0;               ///< Stepper::bytes()
   std::int32_t critical_particle = -1;  ///< the particle that sets the critical step; −1: the platen
   double critical_dt_s = 0;             ///< the critical step at true mass
+  std::optional<Cracks> cracks = {};    ///< empty where no law of the scene can break
 };
 
 }  // namespace macadam::experiments

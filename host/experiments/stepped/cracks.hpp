@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cracks.hpp  Counts the contact points that break during a stepped test, and finds whether the specimen is
+/// still one piece.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "macadam/experiments/cracks.hpp"
+#include "macadam/simulation.hpp"
+#include "macadam/stepper.hpp"
+
+namespace macadam {
+
+/// The table of events in the folder of the results.
+inline constexpr const char* cracks_file = "cracks.csv";
+
+/// Whether a run of this scene counts broken points: it is stepped, and one of its laws can break.
+bool counts_cracks(const Scene& scene);
+
+/// Reads at samples which contact points are broken. A scene without a law that can break is never read.
+class CrackWatch {
+ public:
+  /// `before`: the events of a run that is resumed. Scene and preparation must outlive this object. \throws InputError
+  /// for an event that is not of this specimen.
+  CrackWatch(const Scene& scene, const Preparation& prepared, const std::vector<experiments::CrackEvent>& before = {});
+
+  /// Whether there is anything to count.
+  bool active() const { return active_; }
+  /// Adds an event for each point that has broken since the last call. Returns the events of this call. All processes
+  /// of a run must call this together. \throws RunError as Stepper::contacts() does.
+  std::vector<experiments::CrackEvent> look(const Stepper& stepper, double time);
+  /// Returns whether contacts that have an intact point join the top wall to the bottom wall or to a wall at the sides;
+  /// true for a specimen that was never joined. All processes of a run must call this together.
+  bool joins_walls() const;
+
+  const experiments::Cracks& found() const { return found_; }
+
+ private:
+  void add(const experiments::CrackEvent& event);
+
+  const ContactNetwork& network_;
+  FactsTable laws_;
+  bool active_, joined_at_start_;
+  std::vector<bool> broken_;  // by point
+  experiments::Cracks found_;
+};
+
+/// First line of cracks.csv, and one line per event. x, y, z is the place of the point in the undeformed specimen.
+/// @{
+std::string crack_head();
+std::string crack_line(const Preparation& prepared, const experiments::CrackEvent& event);
+/// @}
+
+/// Returns `cracks` of summary.json: counts, area [m²] and time of the first event [s] of each pair that can break.
+nlohmann::ordered_json cracks_json(const experiments::Cracks& cracks);
+
+/// Returns the sentence that says when and why a test ended early.
+std::string rupture_words(const experiments::Rupture& rupture, const experiments::Cracks& cracks);
+
+/// Returns the line for people that counts the broken points.
+std::string cracks_words(const experiments::Cracks& cracks);
+
+}  // namespace macadam

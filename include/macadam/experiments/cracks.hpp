@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// \file cracks.hpp  Contact points that broke during a stepped test.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "macadam/laws/facts.hpp"
+
+namespace macadam::experiments {
+
+/// A contact point that was intact at one sample and broken at the next.
+struct CrackEvent {
+  std::uint32_t contact = 0, point = 0;  ///< index in ContactNetwork::contacts and in its point arrays
+  Break how = Break::none;
+  double time_s = 0;  ///< of the first sample at which the point is broken
+};
+
+/// Broken points of one pair type.
+struct PairCracks {
+  std::int64_t points = 0, tension = 0, shear = 0;  ///< broken points, and how they broke
+  double area_m2 = 0;                               ///< their share of the contacts' areas [m²]
+  std::int64_t breakable = 0;                       ///< points whose law can break, intact or broken
+  std::optional<double> first_s;                    ///< time of the first event [s]
+};
+
+/// Broken points of a test.
+struct Cracks {
+  std::vector<CrackEvent> events;              ///< by time, then by contact and point
+  std::array<PairCracks, pair_types> by_pair;  ///< by PairType
+
+  /// Number of broken points.
+  std::int64_t points() const { return static_cast<std::int64_t>(events.size()); }
+  /// Number of points whose law can break.
+  std::int64_t breakable() const {
+    std::int64_t out = 0;
+    for (const PairCracks& pair : by_pair) out += pair.breakable;
+    return out;
+  }
+};
+
+/// Why a test ended before its last point: no intact contact path joined bottom and top wall any more.
+struct Rupture {
+  double time_s = 0, strain = 0;                ///< of the sample at which that was found
+  double time_before_s = 0, strain_before = 0;  ///< of the sample before
+};
+
+}  // namespace macadam::experiments
