@@ -138,8 +138,23 @@ TESTS = {
 }
 
 
+BROKEN = (
+    '[specimen]\nfile = "{data}/t8.csv"\nbox = [0.008, 0.008, 0.011]\n[materials.aggregate]\ndensity = 2630.0\n'
+    "[materials.mastic]\ndensity = 2110.0\n"
+    + "".join(
+        f'[[contacts]]\npair = "{pair}"\nlaw = "brittle_bond"\nE = 1e10\nalpha = 0.1\ntensile_strength = 3e6\nshear_strength = 8e5\n'
+        for pair in ("M-M", "M-A", "A-A")
+    )
+    + "".join(f'[[contacts]]\npair = "{pair}"\nlaw = "elastic"\nE = 1e10\nalpha = 0.1\n' for pair in ("A-W", "M-W"))
+    + '[loading]\nkind = "monotonic"\nrate = 0.1\nstrain = 2e-3\npoints = 40\n'
+    + '[solver]\nmethod = "explicit"\nbackend = "cpu"\ndensity_scaling = 1e4\n'
+)
+
+
 def scene(kind: str, seed: int = 1) -> str:
     """The text of a small scene of this kind."""
+    if kind == "broken":
+        return BROKEN.format(data=ROOT / "tests/data")
     laws = LAWS.format(shift=SHIFT if kind == "temperatures" else "")
     if kind == "file":
         return FILE.format(data=ROOT / "tests/data") + laws + TESTS[kind]

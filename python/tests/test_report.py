@@ -43,6 +43,7 @@ CASES = {
     "stepped_relaxation": ["Relaxation", "the modulus falls from", "Error bars of what was stepped", "density scaling 100"],
     "stepped_creep": ["is left at 6.00 ms", "stresses differ by", "until 3.00 ms (dotted)", "1.0 %"],
     "stepped_monotonic": ["Constant rate of strain", "compression at 10,000 µm/m a second", "secant modulus goes from"],
+    "broken": ["Strength of ", "the largest stress (cross) is", "The specimen broke between t = ", "Broken contact points: "],
     "confined": ["The sides are held", "confined"],
     "recipe": [
         "Gradation of",

@@ -124,6 +124,8 @@ def _found(f: Folder) -> str:
         return "; ".join(_point(r) for r in ([rows[0]] if len(rows) == 1 else [rows[0], rows[-1]]))
     if f.in_time:
         points = f.in_time.get("points") or []
+        if f.in_time.get("strength_pa") is not None:
+            return _strength(f)
         key = {"relaxation": "modulus_pa", "monotonic": "secant_pa"}.get(f.in_time["kind"])
         if points and key:
             return "; ".join(f"{look.modulus(p[key])} at {look.seconds(p['time_s'])}" for p in (points[0], points[-1]))
@@ -145,8 +147,31 @@ def _point(r: dict[str, Any]) -> str:
     )
 
 
+def _strength(f: Folder) -> str:
+    """Peak stress and its strain of a test of a specimen that can break."""
+    stress, strain = f.in_time["strength_pa"], f.in_time["strain_at_peak"]
+    return f"strength of {look.modulus(stress)} at a strain of {look.number(1e6 * strain, 3)} µm/m"
+
+
+def _broken(f: Folder) -> str:
+    """How many contact points broke, by pair; empty where none can."""
+    pairs = {pair: c for pair, c in (f.summary.get("cracks") or {}).items() if c["points"]}
+    if "cracks" not in f.summary:
+        return ""
+    if not pairs:
+        return "No contact point is broken."
+    each = "; ".join(
+        f"{pair} {look.number(c['points'])} of {look.number(c['breakable_points'])} ({look.number(c['tension'])} in tension, "
+        f"{look.number(c['shear'])} in shear), the first at {look.seconds(c['first_s'])}"
+        for pair, c in pairs.items()
+    )
+    return f"Broken contact points: {each}."
+
+
 def _words(f: Folder) -> list[str]:
     s, words = f.summary, []
+    if f.in_time and f.in_time.get("strength_pa") is not None:
+        words.append(_strength(f).capitalize() + ".")
     if f.kind == "run":
         edges = " × ".join(map(look.length, s.get("box_m") or []))
         contacts_of = sum(v or 0 for v in (s.get("contacts") or {}).values())
@@ -160,6 +185,8 @@ def _words(f: Folder) -> list[str]:
         words.append(f"Its |E*| and phase angle are {' and '.join(_point(r) for r in ends)}.")
     elif f.in_time:
         words.append(f"Test: {f.in_time['kind']}. Found: {_found(f)}.")
+        rupture = f.in_time.get("rupture") if f.in_time["kind"] == "monotonic" else None  # a warning says it of the others
+        words += [w for w in ((rupture or {}).get("words"), _broken(f)) if w]
     elif f.kind == "run":
         words.append("The folder holds the specimen and its contacts; no test was run in it.")
     else:

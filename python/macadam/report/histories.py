@@ -46,7 +46,10 @@ def _points(folder: Folder, *keys: str) -> list[np.ndarray]:
 def _errors(folder: Folder) -> np.ndarray:
     """Relative error of each point: its own of a stepped test, that of the test otherwise."""
     whole = folder.in_time.get("error") or 0
-    return np.array([float(p.get("error") or whole) for p in folder.in_time["points"]])
+    errors = np.array([float(p.get("error") or whole) for p in folder.in_time["points"]])
+    if folder.in_time.get("rupture"):
+        errors[-1] = 0  # of a specimen in two pieces, which has no equilibrium
+    return errors
 
 
 def _is_stepped(folder: Folder) -> bool:
@@ -159,6 +162,13 @@ def _monotonic(found: list[Folder]) -> tuple[Any, str]:
             1e6 * strain, 1e-3 * stress, 1e-3 * np.abs(stress) * bars, fmt="o-", color=f.colour, ms=2.5, label=f.label
         )
         right.errorbar(t, factor * secant, factor * secant * bars, fmt="o-", color=f.colour, ms=2.5)
+        if f.in_time.get("strength_pa") is not None:
+            peak = 1e6 * f.in_time["strain_at_peak"], 1e-3 * f.in_time["strength_pa"]
+            left.plot(*peak, "x", color=f.colour, ms=7, mew=1.5)
+            words.append(
+                f"{f.label}: the largest stress (cross) is {look.modulus(f.in_time['strength_pa'])}, at a strain of "
+                f"{look.number(peak[0], 3)} µm/m."
+            )
         rate = f.in_time.get("rate_1_s")
         way = (
             ""
