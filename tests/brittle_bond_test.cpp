@@ -187,8 +187,9 @@ TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   const std::vector<Break> breaks = reference->point_breaks(scene.network);
   if (own.precision == Precision::double_) expect_breaks(scene, *stepper, breaks);
   const auto [points, broken] = broken_points(scene, *stepper);
-  EXPECT_EQ(std::count(breaks.begin(), breaks.end(), Break::none),
-            static_cast<std::ptrdiff_t>(scene.network.point_area.size()) - broken);
+  const auto expected = std::ssize(breaks) - std::count(breaks.begin(), breaks.end(), Break::none);
+  // rounding of single precision decides for points that are within 1e-5 of their strength
+  EXPECT_NEAR(broken, static_cast<double>(expected), own.precision == Precision::double_ ? 0 : 1e-3 * points);
   EXPECT_GT(broken, points / 20);
   EXPECT_LT(broken, points * 19 / 20);
 }

@@ -3,9 +3,11 @@
 // two.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "host/results/checkpoint.hpp"
 #include "stepper_cases.hpp"
 #include "test_folder.hpp"
 #include "test_scenes.hpp"
@@ -228,6 +230,26 @@ TEST_F(CracksOfATest, AnyNumberOfThreadsAndAnyPiecesGiveTheSameBytes) {
   expect_same("pieces");
   run(bonded("threads = 2\n", 200), out("two"));
   expect_same("two");
+}
+
+TEST_F(CracksOfATest, DamagedEventsInACheckpointAreRefused) {
+  const Scene asked = bonded("", 200);
+  ASSERT_TRUE(run_until(asked, "out", 20));
+  const Checkpoint whole = read_checkpoint(out("out") / "checkpoint.h5");
+  for (const std::vector<double>& event : {std::vector{-1.0, 0.0, 1.0, 0.0},
+                                           {0.0, std::nan(""), 1.0, 0.0},
+                                           {0.0, 1e9, 1.0, 0.0},
+                                           {1e9, 0.0, 1.0, 0.0},
+                                           {0.0, 0.0, 3.0, 0.0},
+                                           {0.0, 0.0}}) {
+    Checkpoint damaged = whole;
+    for (StateArray& array : damaged.arrays) {
+      if (array.name == "cracks") array.values = event;
+    }
+    write_checkpoint(out("out") / "checkpoint.h5", damaged);
+    EXPECT_THROW(run(asked, out("out"), {}, true), InputError);
+    EXPECT_HAS(message_of([&] { run(asked, out("out"), {}, true); }), "checkpoint");
+  }
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ BROKEN = (
     '[specimen]\nfile = "{data}/t8.csv"\nbox = [0.008, 0.008, 0.011]\n[materials.aggregate]\ndensity = 2630.0\n'
     "[materials.mastic]\ndensity = 2110.0\n"
     + "".join(
-        f'[[contacts]]\npair = "{pair}"\nlaw = "brittle_bond"\nE = 1e10\nalpha = 0.1\ntensile_strength = 3e6\n'
+        f'[[contacts]]\npair = "{pair}"\nlaw = "brittle_bond"\nE = 1e10\nalpha = 0.1\ntensile_strength = 3e6\nshear_strength = 8e5\n'
         for pair in ("M-M", "M-A", "A-A")
     )
     + "".join(f'[[contacts]]\npair = "{pair}"\nlaw = "elastic"\nE = 1e10\nalpha = 0.1\n' for pair in ("A-W", "M-W"))

@@ -52,7 +52,7 @@ def test_samples_of_ones_own_are_evaluated():
     assert found["e_star_pa"] == pytest.approx(1e10) and found["phase_deg"] == pytest.approx(20)
     # parabolas through three samples of two hundred a period
     assert found["e_star_peaks_pa"] == pytest.approx(1e10, rel=1e-3) and found["fit_rms"] < 1e-9
-    with pytest.raises(mc.InputError, match=r"strain: found numbers of shape \(2,\), expected .*\(3,\)"):
+    with pytest.raises(mc.InputError, match="2 strains"):
         mc.evaluate_cyclic([0.0, 1.0, 2.0], [0.0, 1.0], [0.0, 1.0], HZ)
     with pytest.raises(mc.InputError, match="1 cycle|at least 1"):
         mc.evaluate_cyclic(list(time[:50]), list(time[:50]), list(time[:50]), HZ)
@@ -82,7 +82,7 @@ def test_states_go_there_and_back(specimen, dt):
     other.advance(40)
     for name in ("displacement", "rotation", "velocity", "spin", "force", "moment"):
         assert np.array_equal(getattr(one.particles(), name), getattr(other.particles(), name)), name
-    for wrong, message in (({}, "step"), ({**state, "sums": state["sums"][:-1]}, "sums"), ({"x": "y"}, "x: found text, expected")):
+    for wrong, message in (({}, "step"), ({**state, "sums": state["sums"][:-1]}, "sums"), ({"x": "y"}, "x: expected")):
         with pytest.raises(mc.Error, match=message):
             other.set_state(wrong)
     assert np.array_equal(one.particles().force, other.particles().force)  # nothing was changed
@@ -173,7 +173,7 @@ def test_wrong_drives_and_walls(specimen, dt):
                           (lambda: mc.drives.Haversine(1e-6, dt, 0), "pulse_steps: found 0"),
                           (lambda: stepper(specimen, ramp, blocks=0.0), "blocks: found 0"),
                           (lambda: stepper(specimen, ramp).advance(-1), "-1 steps"),
-                          (lambda: stepper(specimen, ramp).set_velocities(np.zeros((3, 3)), np.zeros((3, 3))), "velocity: found")):
+                          (lambda: stepper(specimen, ramp).set_velocities(np.zeros((3, 3)), np.zeros((3, 3))), "as many")):
         with pytest.raises(mc.InputError, match=message):
             call()
 
@@ -181,7 +181,7 @@ def test_wrong_drives_and_walls(specimen, dt):
 def test_broken_points_of_contacts(scene):
     brittle = [dict(pair=c["pair"], law="brittle_bond", E=1e10, tensile_strength=1e4, alpha=0.1) if c["pair"] == "M-M" else c
                for c in scene.as_dict()["contacts"]]
-    specimen = mc.Specimen(mc.Scene(scene, contacts=brittle))
+    specimen = mc.specimen(mc.Scene(scene, contacts=brittle))
     dt = 0.5 * mc.critical_step(specimen, density_scaling=1e6)
     drive = mc.drives.ConstantRate(speed=1e-3, dt=dt, duration=1000 * dt)
     stepping = stepper(specimen, drive, form="points")
@@ -189,10 +189,10 @@ def test_broken_points_of_contacts(scene):
     stepping.advance(400)
     contacts, state = specimen.contacts, stepping.contacts()
     assert state.broken.shape == (len(contacts),) and 0 < state.broken.max() <= 1
-    begin, breaks = state.chain_begin, []
+    begin, breaks, bond = state.chain_begin, [], mc.pair_names.index("M-M")
     for c, pair in enumerate(contacts.pair):
         # a point of a bond keeps f and opening, then f and the break of each slip
-        of_points = state.chain[begin[c]:begin[c + 1]].reshape(-1, 6)[:, 3] if pair == "M-M" else np.zeros(1)
+        of_points = state.chain[begin[c]:begin[c + 1]].reshape(-1, 6)[:, 3] if pair == bond else np.zeros(1)
         assert state.broken[c] == pytest.approx(np.count_nonzero(of_points) / len(of_points))
         breaks += list(of_points[of_points != 0])
     assert np.array_equal(state.point_breaks[state.point_breaks != 0], breaks)

@@ -2,6 +2,10 @@
 // load_state.cpp  Plan, times and points as text and an array.
 #include "host/experiments/loaded/load_state.hpp"
 
+#include <fmt/format.h>
+
+#include <limits>
+
 #include "host/simulation/checkpoints.hpp"
 #include "macadam/error.hpp"
 
@@ -42,9 +46,13 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
     if (!values || values->size() % words != 0) damaged("array " + array.name + " of another kind");
     for (std::size_t i = 0; i < values->size(); i += words) {
       const double* w = &(*values)[i];
-      const auto number = [&](std::size_t k) { return static_cast<std::uint32_t>(w[k]); };
+      const auto number = [&](std::size_t k) {
+        if (!(w[k] >= 0 && w[k] <= std::numeric_limits<std::uint32_t>::max()))
+          damaged(fmt::format("{} in array {}", w[k], array.name));
+        return static_cast<std::uint32_t>(w[k]);
+      };
       if (points) {
-        out.points.push_back({{w[0], w[1], w[2], w[3]}, w[4], w[5], w[6], w[7], static_cast<std::int64_t>(w[8])});
+        out.points.push_back({{w[0], w[1], w[2], w[3]}, w[4], w[5], w[6], w[7], number(8)});
       } else {
         out.cracks.push_back({number(0), number(1), static_cast<Break>(number(2)), w[3]});
       }

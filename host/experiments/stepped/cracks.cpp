@@ -6,6 +6,7 @@
 
 #include <numeric>
 
+#include "macadam/error.hpp"
 #include "macadam/ranks.hpp"
 
 namespace macadam {
@@ -60,7 +61,16 @@ CrackWatch::CrackWatch(const Scene& scene, const Preparation& prepared, const st
     const auto pair = static_cast<std::size_t>(c.pair);
     if (laws_[pair] && laws_[pair]->breaks) found_.by_pair[pair].breakable += c.point_end - c.point_begin;
   }
-  for (const CrackEvent& event : before) add(event);
+  for (const CrackEvent& event : before) {
+    const bool known =
+        event.contact < network_.contacts.size() && event.point < broken_.size() && !broken_[event.point];
+    if (!known || (event.how != Break::tension && event.how != Break::shear)) {
+      throw InputError(
+          fmt::format("checkpoint: found a break of point {} of contact {}, expected one of the specimen's",
+                      event.point, event.contact));
+    }
+    add(event);
+  }
 }
 
 void CrackWatch::add(const CrackEvent& event) {

@@ -22,7 +22,8 @@ bool counts_cracks(const Scene& scene);
 /// Reads at samples which contact points are broken. A scene without a law that can break is never read.
 class CrackWatch {
  public:
-  /// `before`: the events of a run that is resumed. Scene and preparation must outlive this object.
+  /// `before`: the events of a run that is resumed. Scene and preparation must outlive this object. \throws InputError
+  /// for an event that is not of this specimen.
   CrackWatch(const Scene& scene, const Preparation& prepared, const std::vector<experiments::CrackEvent>& before = {});
 
   /// Whether there is anything to count.
