@@ -17,8 +17,21 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, seconds_planning, seconds, w
 
 namespace {
 
-constexpr const char *plan_text = "plan", *points_array = "points";
+constexpr const char *plan_text = "plan", *points_array = "points", *unstepped_array = "unstepped";
 constexpr std::size_t point_words = 8;
+
+/// The error and the long-term modulus, then modulus and time of each unit.
+std::vector<double> to_numbers(const UnsteppedAnswer& answer) {
+  std::vector<double> out{answer.error, answer.relaxation.long_term};
+  for (const auto& u : answer.relaxation.units) out.insert(out.end(), {u.modulus, u.time});
+  return out;
+}
+
+UnsteppedAnswer from_numbers(const std::vector<double>& numbers) {
+  UnsteppedAnswer out{{numbers[1], {}}, numbers[0]};
+  for (std::size_t i = 2; i + 1 < numbers.size(); i += 2) out.relaxation.units.push_back({numbers[i], numbers[i + 1]});
+  return out;
+}
 
 }  // namespace
 
@@ -33,6 +46,10 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
   out.state = take_state(checkpoint);
   for (const StateArray& array : checkpoint.arrays) {
     const auto* values = std::get_if<std::vector<double>>(&array.values);
+    if (array.name == unstepped_array) {
+      if (!values || values->size() < 2 || values->size() % 2 != 0) damaged("array " + array.name + " of another kind");
+      out.unstepped = from_numbers(*values);
+    }
     if (array.name != points_array) continue;
     if (!values || values->size() % point_words != 0) damaged("array " + array.name + " of another kind");
     for (std::size_t i = 0; i < values->size(); i += point_words) {
@@ -51,6 +68,7 @@ void add_to(Checkpoint& out, const LoadState& at) {
     points.insert(points.end(),
                   {p.time_s, p.strain, p.stress_pa, p.ratio, p.top_pa, p.bottom_pa, p.kinetic_j, p.error});
   }
+  if (at.unstepped) out.arrays.push_back({unstepped_array, "1, Pa, then Pa, s", to_numbers(*at.unstepped)});
   out.arrays.push_back({points_array, "s, 1, Pa, by kind, Pa, Pa, J, 1", std::move(points)});
 }
 

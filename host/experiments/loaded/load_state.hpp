@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "host/experiments/loaded/load_plan.hpp"
+#include "host/experiments/loaded/load_error.hpp"
 
 namespace macadam {
 
 /// All that a run needs to go on to the same bits.
 struct LoadState {
   LoadPlan plan;
+  std::optional<UnsteppedAnswer> unstepped;       ///< that errors are measured against; nothing: they are estimates
   double seconds_planning = 0, seconds = 0;       ///< wall time, the latter of the stepping until now
   std::vector<std::string> warnings;              ///< of checkpoints that could not be written
   std::vector<experiments::SteppedPoint> points;  ///< until now

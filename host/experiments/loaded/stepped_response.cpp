@@ -60,12 +60,13 @@ double ResultOf<SteppedResponse>::seconds(const SteppedResponse& found) {
 template <>
 std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
   const LoadWords& words = words_of(found.kind);
-  std::string out = shown_head(words) + fmt::format(" {:>9}", "error");
-  for (const SteppedPoint& p : found.points) out += shown_line(words, p) + fmt::format(" {:>9.1e}", p.error);
+  const char* ratio = words.shown_stepped;
+  std::string out = shown_head(ratio) + fmt::format(" {:>9}", "error");
+  for (const SteppedPoint& p : found.points) out += shown_line(words, ratio, p) + fmt::format(" {:>9.1e}", p.error);
   return out +
          fmt::format(
              "\n{}; {} steps of {:.3g} s with density scaling {:g} in {:.1f} s\n"
-             "error: load and walls' stresses, which are one stress in equilibrium; kinetic energy: {:.1e} of the "
+             "error: from the answer without steps, or an estimate where there is none; kinetic energy: {:.1e} of the "
              "work\n",
              modulus_words(found.confined), found.steps, found.dt_s, found.density_scaling, found.seconds,
              found.kinetic_share);

@@ -17,7 +17,7 @@ LoadTest load_test(const Monotonic& spec) {
   out.load = {{"rate_1_s", spec.rate}};
   out.grows = true;
   out.strain = spec.rate * end;
-  out.unstepped = [spec](const Spectrum& spectrum, double t) -> ResponsePoint {
+  out.unstepped = [spec](const Spectrum& spectrum, double t, const LoadTimes&) -> ResponsePoint {
     const double secant = spectrum.relaxation.after_ramp(t, t), strain = spec.rate * t;
     return {t, strain, secant * strain, secant};
   };
