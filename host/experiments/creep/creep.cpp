@@ -53,4 +53,9 @@ std::unique_ptr<Solution> ExperimentOf<Creep>::plan(const Creep& spec, const Sce
   return plan_load_test(load_test(spec), scene, prepared, watcher, std::move(resumed), result);
 }
 
+template <>
+std::vector<std::string> ExperimentOf<Creep>::files(const Creep& spec, const Scene& scene) {
+  return load_files(spec.kind, scene);
+}
+
 }  // namespace macadam

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "host/experiments/loaded/step_load.hpp"
+#include "host/experiments/material_files.hpp"
 #include "host/results/files.hpp"
 
 namespace macadam {
@@ -83,6 +84,13 @@ void add_load(const LoadTest& test, nlohmann::ordered_json& out) {
   for (const auto& [name, value] : test.load) {
     out[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
   }
+}
+
+std::vector<std::string> load_files(const std::string& kind, const Scene& scene) {
+  std::vector<std::string> out{words_of(kind).file};
+  if (scene.solver.method == SolverMethod::explicit_) return out;
+  for (const std::string& file : material_files(scene.network.lateral_walls)) out.push_back(file);
+  return out;
 }
 
 std::unique_ptr<Solution> plan_load_test(const LoadTest& test, const Scene& scene, const Preparation& prepared,

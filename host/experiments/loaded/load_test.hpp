@@ -73,6 +73,9 @@ std::string shown_line(const LoadWords& words, const char* ratio, const experime
 /// What was asked, into an entry of `results`.
 void add_load(const LoadTest& test, nlohmann::ordered_json& out);
 
+/// The files of results of a kind by the scene's method: its table, and without steps those of the material.
+std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
+
 /// By the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
 std::unique_ptr<Solution> plan_load_test(const LoadTest& test, const Scene& scene, const Preparation& prepared,
                                          const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result);

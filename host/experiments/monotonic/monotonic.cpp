@@ -34,4 +34,9 @@ std::unique_ptr<Solution> ExperimentOf<Monotonic>::plan(const Monotonic& spec, c
   return plan_load_test(load_test(spec), scene, prepared, watcher, std::move(resumed), result);
 }
 
+template <>
+std::vector<std::string> ExperimentOf<Monotonic>::files(const Monotonic& spec, const Scene& scene) {
+  return load_files(spec.kind, scene);
+}
+
 }  // namespace macadam

@@ -37,4 +37,9 @@ std::unique_ptr<Solution> ExperimentOf<Relaxation>::plan(const Relaxation& spec,
   return plan_load_test(load_test(spec), scene, prepared, watcher, std::move(resumed), result);
 }
 
+template <>
+std::vector<std::string> ExperimentOf<Relaxation>::files(const Relaxation& spec, const Scene& scene) {
+  return load_files(spec.kind, scene);
+}
+
 }  // namespace macadam
