@@ -67,7 +67,7 @@ TEST_F(ForecastRules, CyclesAndStepsOfACyclicTestAreThoseOfItsPlan) {
 
 TEST_F(ForecastRules, StepsOfALoadAreThoseOfItsPlan) {
   const std::string times = "times = [1e-2, 5e-2]\n", method = "method = \"explicit\"\n";
-  for (const std::string loading :
+  for (const std::string& loading :
        {"kind = \"relaxation\"\n" + times, "kind = \"relaxation\"\nramp = 3e-3\n" + times,
         "kind = \"creep\"\nstress = 1e5\nrelease = 3e-2\n" + times, "kind = \"monotonic\"\nrate = 0.01\n" + times}) {
     for (const std::string solver : {"density_scaling = 1e4\n", "density_scaling = 100\nsafety = 0.3\n",
@@ -167,7 +167,7 @@ TEST_F(ForecastRules, FilesOfAMadeSpecimen) {
   }
 }
 
-// What is as stiff as a wall beside what flows takes the iteration longer, until factors are taken.
+// The iteration takes longer if soft contacts lie beside stiff ones, until the direct solver takes its place.
 TEST_F(ForecastRules, SoftScenesTakeLonger) {
   const auto of = [&](const char* frequency, const char* linear = "auto") {
     return forecast(scene(fmt::format("kind = \"cyclic\"\nfrequencies = [{}]\n", frequency),

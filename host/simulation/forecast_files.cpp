@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_files.cpp  Which files a run leaves, and how many bytes they take.
+// forecast_files.cpp  Names of the files that a run leaves, and their bytes.
 #include <fmt/format.h>
 
 #include <algorithm>

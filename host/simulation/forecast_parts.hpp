@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// The mean of f(law) over the pairs that most contacts have: those of the mastic, if there is any.
+/// The mean of f(law) over the pairs of most contacts: the pairs of the mastic, if there is any.
 template <class F>
 std::optional<double> mean_of_usual(const Scene& scene, F&& f) {
   double sum = 0;

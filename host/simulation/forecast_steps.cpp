@@ -80,7 +80,8 @@ StepForecast cyclic_steps(const Scene& scene, std::size_t k, double critical) {
   return out;
 }
 
-/// Of contacts in all directions, whose areas times distances fill the box three times.
+/// Modulus at once if all contacts strain alike [Pa]. Contacts point in all directions, and the sum of their areas
+/// times distances is three times the volume of the box.
 double affine_modulus(const Scene& scene) {
   const auto mean = mean_of_usual(scene, [](const Law& law) {
     return std::visit([](const auto& l) { return l.instantaneous() * (0.6 + 0.4 * l.alpha); }, law);

@@ -10,8 +10,8 @@
 
 namespace macadam {
 
-/// Parts of the tolerance. Inertia is predicted by a solution and so takes most of it; where there is no solution, it
-/// is an estimate. The remainder is for rounding (choose_precision()), geometry, start and time step.
+/// Parts of the tolerance. Inertia is predicted by a solution and so takes most of it; without a solution it is an
+/// estimate. The remainder is for rounding (choose_precision()), geometry, start and time step.
 inline constexpr double inertia_part = 0.9, estimate_part = 0.5, geometry_part = 0.02;
 /// Part of what inertia may cost that the derivative of E* is allowed, so that the solution itself stays below.
 inline constexpr double aimed_part = 0.97;
@@ -19,7 +19,7 @@ inline constexpr double aimed_part = 0.97;
 /// The geometry that the scene gives; else the initial one, where the tolerance allows it.
 Geometry cyclic_geometry(const Scene& scene);
 
-/// What the strain changes of |E*| (relative) that a harmonic solution does not contain.
+/// Relative effect of the strain on |E*| that a harmonic solution does not contain.
 double nonlinear_effect(const Scene& scene, Geometry geometry);
 /// Whether that effect is too large for a steady start.
 bool is_strain_large(const Scene& scene, Geometry geometry);

@@ -27,7 +27,7 @@ constexpr double small_strain = 1e-3;
 /// A row with a larger error is named in a warning.
 constexpr double largest_error = 1e-2;
 
-/// The release at the step where the run has it. A load that goes at once is still held at that step.
+/// The release rounded to a whole step, as in the run. A load that goes at once is still held at that step.
 LoadTimes on_steps(const LoadTimes& asked, double ramp, double dt) {
   LoadTimes out{ramp, {}};
   if (!asked.release) return out;
@@ -93,6 +93,7 @@ LoadErrors::LoadErrors(const LoadTest& test, const Scene& scene, const Preparati
   }
   updated_ = plan.geometry == Geometry::updated;
   damping_given_ = scene.solver.damping_given;
+  for (const auto& law : facts_of(scene.laws)) remembers_ = remembers_ || (law && std::isfinite(law->shortest_time));
   const Box& box = prepared.specimen.box;
   affine_modulus_ = affine_modulus(prepared.network, facts_of(scene.laws), box.volume());
   wave_ = std::numbers::pi * std::numbers::pi / (heavy_density * box.size.z * box.size.z) * (test.by_stress ? 0.25 : 1);
@@ -130,7 +131,7 @@ double LoadErrors::walls(const SteppedPoint& row) const {
            std::abs(test_.held_stress);
   }
   const double top = std::abs(row.top_pa), bottom = std::abs(row.bottom_pa);
-  constexpr double least = 1e-3;  // of the larger, where a wave has not reached the other wall
+  constexpr double least = 1e-3;  // of the larger, if a wave has not reached the other wall
   const double smaller = std::max(std::min(top, bottom), least * std::max(top, bottom));
   return smaller > 0 ? apart / smaller : 0;
 }
@@ -160,14 +161,17 @@ double LoadErrors::rate(const SteppedPoint& row, const std::vector<SteppedPoint>
   return std::min(out, std::abs(change(earlier)) / (row.time_s - before.back().time_s));
 }
 
-// A load that grows over r in place of at once is r/2 late. The drag of viscous damping β lets particles follow
-// β/ω² late, ω that of the slowest wave, and inertia up to 1/ω.
+// The ramp replaces a load at once. During the ramp a part of the load is missing; afterwards the load is r/2 late.
+// Viscous damping β delays the particles by β/ω², where ω is the frequency of the slowest wave, and inertia by up to
+// 1/ω.
 LoadErrors::Parts LoadErrors::estimated(const SteppedPoint& row, const std::vector<SteppedPoint>& before) const {
   const double stiffness = modulus(row, before), omega = std::sqrt(wave_ * stiffness);
   const double drag = plan_.damping_kind == Damping::viscous ? plan_.damping / (omega * omega) : 0;
   const double late = drag + 1 / omega, ramp = !test_.grows && asked_ramp() == 0 ? plan_.ramp : 0;
-  const double changes = rate(row, before, stiffness, ramp + 2 * late);
-  return {std::min(1.0, changes * ramp / 2), walls(row) + std::min(1.0, changes * late)};
+  const double changes = remembers_ ? rate(row, before, stiffness, ramp + 2 * late) : 0;
+  const double since = is_released(row.time_s) ? row.time_s - *asked_.release : row.time_s;
+  const double missing = since < ramp ? 1 - since / ramp : 0;
+  return {missing + std::min(1.0, changes * ramp / 2), walls(row) + std::min(1.0, changes * late)};
 }
 
 std::string LoadErrors::ramp_words() const {

@@ -17,7 +17,7 @@ struct UnsteppedAnswer {
   double error = 0;        ///< of E(t) and J(t), relative
 };
 
-/// Solves the relaxation for the times of the rows. Returns nothing where there is none, and appends the reason to the
+/// Solves the relaxation for the times of the rows. Returns nothing if that fails, and appends the reason to the
 /// decisions of the plan. \throws InterruptedError
 std::optional<UnsteppedAnswer> solve_unstepped(const LoadTest& test, const Scene& scene, const Preparation& prepared,
                                                const Watcher& watcher, Backend backend, LoadPlan& plan);
@@ -62,8 +62,9 @@ class LoadErrors {
   const LoadTest test_;
   const LoadPlan& plan_;
   std::optional<Spectrum> spectrum_;
-  LoadTimes asked_, run_;  ///< release at the step where the run has it
+  LoadTimes asked_, run_;  ///< the release rounded to a whole step
   bool updated_ = true, damping_given_ = false;
+  bool remembers_ = false;     ///< some law relaxes; if not, only what happens now has an effect
   double affine_modulus_ = 0;  ///< no modulus at once is above it [Pa]
   double wave_ = 0;            ///< π²/(ρ·H²), of a platen a quarter: ω² of the slowest wave over the modulus
 };

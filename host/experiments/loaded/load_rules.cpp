@@ -15,7 +15,7 @@
 namespace macadam {
 namespace {
 
-/// What waves may be of the stress where they are looked at.
+/// Largest wave, relative to the stress, at the time of a point.
 constexpr double largest_wave = 2e-5;
 
 /// The shortest time from a change of the load's rate to a point.
@@ -45,9 +45,9 @@ double ramp_of(const LoadTest& test, double slowest) {
   return given > 0 ? given : slowest;
 }
 
-// Weak damping leaves waves, strong damping drags at motions that are no waves: as much as the points need. A ramp
-// makes waves of a share of the stress at its end that is the time of a wave through the specimen over the ramp's.
-// Viscous damping takes e^(−β·t/2) of them.
+// Weak damping leaves waves, and strong damping delays the slow motion: β is the least that the points need. A ramp
+// makes waves whose part of the stress is the time of a wave through the specimen over the ramp's. Viscous damping
+// leaves e^(−β·t/2) of them.
 LoadDamping damping_of(const LoadTest& test, const SolverSpec& solver, double ramp, double slowest) {
   LoadDamping out{solver.damping_kind, solver.damping};
   if (solver.damping_given) return out;

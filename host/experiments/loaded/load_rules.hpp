@@ -11,7 +11,7 @@ namespace macadam {
 /// [Pa]; `density`: with the density scaling [kg/m³].
 double slowest_period(const LoadTest& test, double height, double modulus, double density);
 
-/// The ramp of the load: as given; that of a constant rate is the whole test; of a load at once it is `slowest` [s].
+/// The ramp of the load [s]: as given; the whole test for a constant rate; `slowest` for a load at once.
 double ramp_of(const LoadTest& test, double slowest);
 
 /// Damping of a stepped test.
@@ -23,7 +23,7 @@ struct LoadDamping {
   double pause = 0;       ///< the shortest time from a change of the load's rate to a point [s]
 };
 
-/// The damping that the scene gives; else as much as the points need.
+/// The damping that the scene gives; else the least viscous damping that the points need.
 LoadDamping damping_of(const LoadTest& test, const SolverSpec& solver, double ramp, double slowest);
 
 /// The longest step that the rules allow [s], with a whole number of steps in a ramp. `critical`: at true mass [s].

@@ -73,7 +73,7 @@ std::string shown_line(const LoadWords& words, const char* ratio, const experime
 /// What was asked, into an entry of `results`.
 void add_load(const LoadTest& test, nlohmann::ordered_json& out);
 
-/// The files of results of a kind by the scene's method: its table, and without steps those of the material.
+/// The files of results of a kind by the scene's method: its table, and without steps the tables of the material.
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
 
 /// By the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.

@@ -29,7 +29,7 @@ struct SpectrumResponse {
 struct SteppedPoint : ResponsePoint {
   double top_pa, bottom_pa;  ///< of the particles on the walls
   double kinetic_j;          ///< kinetic energy of the particles, density scaling included
-  double error;              ///< the largest difference of load and stresses of the walls, relative
+  double error;              ///< of the stress, or of the strain of a creep, from the answer without steps, relative
 };
 
 /// By method "explicit".
