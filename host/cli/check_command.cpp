@@ -41,6 +41,17 @@ std::string time_in_words(double seconds) {
   return seconds < 6000 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
 }
 
+/// All names, those of more than a megabyte with their size, and the sum.
+std::string files_in_words(const Forecast& f) {
+  std::string out;
+  for (std::size_t i = 0; i < f.files.size(); ++i) {
+    out += (out.empty() ? "" : " ") + f.files[i];
+    if (f.file_bytes[i] > 1e6) out += fmt::format(" ({})", bytes_in_words(f.file_bytes[i]));
+  }
+  const double sum = f.disk_bytes();
+  return out + fmt::format("; about {} on disk", sum < 1e6 ? fmt::format("{:.0f} kB", sum / 1e3) : bytes_in_words(sum));
+}
+
 nlohmann::ordered_json as_json(const Scene& scene, const Forecast& f) {
   nlohmann::ordered_json out{{"kind", kind_of(scene.experiment)},
                              {"method", f.stepped ? "explicit" : "harmonic"},
@@ -57,10 +68,14 @@ nlohmann::ordered_json as_json(const Scene& scene, const Forecast& f) {
                              {"network_s", f.network_s},
                              {"harmonic_s", f.harmonic_s},
                              {"stepping_s", f.stepping_s},
+                             {"writing_s", f.writing_s},
                              {"seconds", f.seconds()},
                              {"warnings", f.census.warnings},
                              {"skips", f.skips},
-                             {"files", f.files}};
+                             {"files", f.files},
+                             {"file_bytes", nlohmann::ordered_json::object()},
+                             {"disk_bytes", std::round(f.disk_bytes())}};
+  for (std::size_t i = 0; i < f.files.size(); ++i) out["file_bytes"][f.files[i]] = std::round(f.file_bytes[i]);
   if (!f.stepped) return out;
   out["precision"] = to_string(f.precision), out["form"] = to_string(f.form), out["geometry"] = to_string(f.geometry);
   out["steps"] = nlohmann::ordered_json::array();
@@ -68,6 +83,7 @@ nlohmann::ordered_json as_json(const Scene& scene, const Forecast& f) {
     out["steps"].push_back({{"frequency_hz", s.frequency_hz},
                             {"steps", std::round(s.steps)},
                             {"dt_s", s.dt_s},
+                            {"cycles", s.cycles},
                             {"density_scaling", s.density_scaling}});
   return out;
 }
@@ -94,11 +110,11 @@ void say_forecast(const std::string& file, const Scene& scene, const Forecast& f
   row("memory",
       fmt::format("about {}{}", bytes_in_words(f.host_bytes),
                   f.device_bytes > 0 ? fmt::format(", and {} of the device", bytes_in_words(f.device_bytes)) : ""));
-  row("time", fmt::format("about {}: specimen {}, network {}, solutions {}, steps {}", time_in_words(f.seconds()),
-                          time_in_words(f.specimen_s), time_in_words(f.network_s), time_in_words(f.harmonic_s),
-                          time_in_words(f.stepping_s)));
+  row("time", fmt::format("about {}: specimen {}, network {}, solutions {}, steps {}, files {}",
+                          time_in_words(f.seconds()), time_in_words(f.specimen_s), time_in_words(f.network_s),
+                          time_in_words(f.harmonic_s), time_in_words(f.stepping_s), time_in_words(f.writing_s)));
   row("skips", fmt::format("{}", fmt::join(f.skips, ", ")));
-  row("files", fmt::format("{}", fmt::join(f.files, " ")));
+  row("files", files_in_words(f));
   for (const std::string& warning : f.census.warnings) row("warning", warning);
 }
 

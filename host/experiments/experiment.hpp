@@ -31,6 +31,9 @@ struct ExperimentOf {
   /// touched. Scene, preparation and watcher must outlive it. \throws InputError, RunError
   static std::unique_ptr<Solution> plan(const Spec& spec, const Scene& scene, const Preparation& prepared,
                                         const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result);
+
+  /// Returns the files of results that a run of the scene leaves by its method and output, besides those of every run.
+  static std::vector<std::string> files(const Spec& spec, const Scene& scene);
 };
 
 /// Of what was found.
@@ -49,6 +52,9 @@ struct ResultOf {
 /// By the scene's test.
 std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                           std::optional<Resumed> resumed, RunResult& result);
+
+/// By the scene's test.
+std::vector<std::string> files_written(const Scene& scene);
 
 /// By the result's test. A run that has found nothing says what a stepped one would.
 void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_json& out);

@@ -85,6 +85,12 @@ std::string ansys(const Material& m, double poisson_ratio) {
 
 }  // namespace
 
+std::vector<std::string> material_files(bool confined) {
+  std::vector<std::string> out{"prony.csv", "kelvin.csv"};
+  if (!confined) out.insert(out.end(), {"prony_abaqus.inp", "prony_ansys.txt"});
+  return out;
+}
+
 void write_material(const std::filesystem::path& out, const Material& material, double poisson_ratio) {
   write_whole(out / "prony.csv", prony_csv(material));
   write_whole(out / "kelvin.csv", kelvin_csv(material));

@@ -23,6 +23,14 @@ struct Cost {
   double placing = 1.6e-5, joining = 3e-6;
   // seconds of one thread a particle^(4/3) and solution: the iterations grow with the specimen's edge
   double solving = 1.1e-6, solving_on_device = 2e-8;
+  // Contrast is the stiffest over the softest contact. A solution takes by_contrast·∛contrast times as long as one of
+  // small contrast. If contrast·particles exceeds `iterable`, the iteration fails and the direct solver follows: its
+  // bytes per particle^(4/3), seconds per particle^1.5, iterations, and seconds per iteration and byte (measured: 600
+  // to 4,805 particles, contrasts of 20 to 1e7)
+  double by_contrast = 0.4, iterable = 2e8, factors = 2.9e3, factoring = 2e-6, factored_iterations = 500,
+         with_factors = 5e-11;
+  // seconds per byte of a file, and per frame of fields beside that
+  double writing = 8e-9, frame = 5e-4;
   double start = 0.1, start_on_device = 0.8;
   // a specimen of fewer contacts fits into the processor's cache
   double cached = 0.5, contacts_in_cache = 30'000;

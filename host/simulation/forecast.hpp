@@ -14,6 +14,7 @@ namespace macadam {
 struct StepForecast {
   double frequency_hz = 0;  ///< 0: the test has none
   double dt_s = 0, steps = 0, density_scaling = 1;
+  int cycles = 0;  ///< 0: the test has none
 };
 
 struct Forecast {
@@ -30,9 +31,17 @@ struct Forecast {
   int solutions = 0;                ///< in the frequency domain, for the plan or as the result
   double host_bytes = 0, device_bytes = 0;
   double specimen_s = 0, network_s = 0, harmonic_s = 0, stepping_s = 0;  ///< of preparing, solving, stepping
-  double seconds() const { return specimen_s + network_s + harmonic_s + stepping_s; }
+  double writing_s = 0;                                                  ///< of all files
+  double seconds() const { return specimen_s + network_s + harmonic_s + stepping_s + writing_s; }
   std::vector<std::string> skips;  ///< what the scene does not need
-  std::vector<std::string> files;  ///< that the run leaves
+  std::vector<std::string> files;  ///< that the run leaves; `*` stands for the numbers of frames
+  std::vector<double> file_bytes;  ///< of each, on disk
+  double field_frames = 0;         ///< of all series of fields
+  double disk_bytes() const {
+    double out = 0;
+    for (const double bytes : file_bytes) out += bytes;
+    return out;
+  }
 };
 
 /// \throws InputError for a specimen, or a combination of method, backend and test, that a run would refuse; RunError

@@ -13,10 +13,10 @@ using experiments::ResponsePoint;
 
 namespace {
 
-/// The share of the stress that is there at t.
-double loaded(const Creep& spec, double t) {
-  const auto grown = [&](double since) { return since < 0 ? 0 : spec.ramp > 0 ? std::min(1.0, since / spec.ramp) : 1; };
-  return grown(t) - (spec.release ? grown(t - *spec.release) : 0);
+/// Returns the part of the stress that acts at t.
+double loaded(const LoadTimes& when, double t) {
+  const auto grown = [&](double since) { return since < 0 ? 0 : when.ramp > 0 ? std::min(1.0, since / when.ramp) : 1; };
+  return grown(t) - (when.release ? grown(t - *when.release) : 0);
 }
 
 }  // namespace
@@ -29,14 +29,14 @@ LoadTest load_test(const Creep& spec) {
   out.poisson_ratio = spec.poisson_ratio;
   out.load = {{"stress_pa", spec.stress}, {"ramp_s", spec.ramp}, {"release_s", spec.release}};
   out.by_stress = true;
-  out.ramp = spec.ramp;
-  out.release = spec.release;
+  out.when = {spec.ramp, spec.release};
+  out.held_stress = spec.stress;
   out.platen_mass = spec.platen_mass;
-  out.unstepped = [spec](const Spectrum& spectrum, double t) -> ResponsePoint {
+  out.unstepped = [spec](const Spectrum& spectrum, double t, const LoadTimes& when) -> ResponsePoint {
     const CreepSeries& series = spectrum.creep;
-    double strain = series.after_ramp(t, spec.ramp);
-    if (spec.release) strain -= series.after_ramp(t - *spec.release, spec.ramp);
-    return {t, spec.stress * strain, spec.stress * loaded(spec, t) + 0.0, series.compliance(t)};
+    double strain = series.after_ramp(t, when.ramp);
+    if (when.release) strain -= series.after_ramp(t - *when.release, when.ramp);
+    return {t, spec.stress * strain, spec.stress * loaded(when, t) + 0.0, series.compliance(t)};
   };
   out.drive = [spec](double unit, double dt, double ramp) {
     const std::int64_t rise = std::llround(ramp / dt);
@@ -51,6 +51,11 @@ std::unique_ptr<Solution> ExperimentOf<Creep>::plan(const Creep& spec, const Sce
                                                     const Watcher& watcher, std::optional<Resumed> resumed,
                                                     RunResult& result) {
   return plan_load_test(load_test(spec), scene, prepared, watcher, std::move(resumed), result);
+}
+
+template <>
+std::vector<std::string> ExperimentOf<Creep>::files(const Creep& spec, const Scene& scene) {
+  return load_files(spec.kind, scene);
 }
 
 }  // namespace macadam

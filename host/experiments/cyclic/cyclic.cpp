@@ -18,6 +18,12 @@ std::unique_ptr<Solution> ExperimentOf<Cyclic>::plan(const Cyclic&, const Scene&
                        result.found.emplace<experiments::HarmonicCyclic>().frequencies);
 }
 
+template <>
+std::vector<std::string> ExperimentOf<Cyclic>::files(const Cyclic&, const Scene& scene) {
+  if (scene.solver.method == SolverMethod::harmonic || !scene.output.response) return {};
+  return {"response.csv"};
+}
+
 experiments::Frequency frequency_of(const Scene& scene, double frequency_hz, std::optional<double> temperature_c,
                                     double density_scaling, const Stiffness& stiffness, double seconds) {
   experiments::Frequency out;

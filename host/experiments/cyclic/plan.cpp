@@ -14,15 +14,12 @@
 #include "host/simulation/harmonic_options.hpp"
 #include "host/simulation/phases.hpp"
 #include "host/experiments/cyclic/scaling.hpp"
+#include "host/experiments/cyclic/step_rules.hpp"
 #include "host/experiments/cyclic/methods.hpp"
 #include "macadam/error.hpp"
 
 namespace macadam {
 namespace {
-
-/// Shares of the tolerance. Inertia is predicted by a solution and so takes the most of it; what it takes without one
-/// is an estimate. The rest is for rounding (choose_precision()), geometry, start and time step.
-constexpr double inertia_share = 0.9, estimate_share = 0.5, geometry_share = 0.02;
 
 class Planner {
  public:
@@ -92,11 +89,8 @@ class Planner {
 
   void choose_form_and_geometry() {
     plan_.form = form_of(scene_);
-    plan_.geometry = scene_.solver.geometry.value_or(Geometry::updated);
+    plan_.geometry = cyclic_geometry(scene_);
     const double strain = scene_.cyclic().strain_amplitude, error = fixed_geometry_error(strain);
-    if (automatic() && !scene_.solver.geometry && error <= geometry_share * tolerance()) {
-      plan_.geometry = Geometry::fixed;
-    }
     const bool fixed = plan_.geometry == Geometry::fixed;
     if (automatic()) {
       // carried frames turn while the points move with them: the two forms then part by the square of the strain
@@ -106,7 +100,7 @@ class Planner {
              to_string(plan_.geometry), strain, error);
     }
     if (fixed) plan_.geometry_error = error;
-    nonlinear_ = fixed ? 0 : error;
+    nonlinear_ = nonlinear_effect(scene_, plan_.geometry);
   }
 
   /// `no_harmonic_` says why where there is none.
@@ -129,25 +123,22 @@ class Planner {
   }
 
   void choose_start() {
-    const experiments::Cyclic& loading = scene_.cyclic();
-    const bool asked = loading.start == Start::steady;
-    start_ = loading.start.value_or(automatic() && loading.ramp_cycles.value_or(0) == 0 ? Start::steady : Start::rest);
+    const bool asked = scene_.cyclic().start == Start::steady;
+    start_ = asked_start(scene_);
     if (!automatic() && start_ == Start::rest) return;
-    ramp_ = 1;
     make_harmonic();
     if (!harmonic_) decide("no harmonic solution: {}", no_harmonic_);
     const bool local = scene_.solver.damping_kind == Damping::local;
     if (local) decide("not linear: local damping, whose own effect is not predicted");
-    const bool large = nonlinear_ > (automatic() ? 0.1 * tolerance() : 1e-4);
-    if (large) {
+    if (is_strain_large(scene_, plan_.geometry)) {
       decide("not linear at this strain: the harmonic solution, that of the start's geometry, differs by up to {:.1e}",
              nonlinear_);
     }
-    if (start_ == Start::steady && harmonic_ && !local && !large) {
+    start_ = harmonic_ ? cyclic_start(scene_, plan_.geometry) : Start::rest;
+    if (start_ == Start::steady) {
       decide("steady start from the harmonic solution: the first cycle is periodic");
     } else {
       decide("start from rest{}", asked ? ", not steady as asked" : "");
-      start_ = Start::rest;
     }
   }
 
@@ -202,13 +193,10 @@ class Planner {
   }
 
   double scaling_of(std::size_t i, const std::optional<HarmonicResult>& known) const {
-    if (scene_.solver.density_scaling || !automatic()) return density_scaling_of(scene_.solver, i);
-    if (scene_.solver.time_step) {  // as little as the given step needs
-      return std::max(1.0, std::pow(*scene_.solver.time_step / (safety() * plan_.critical.dt), 2));
-    }
+    if (const auto given = given_scaling(scene_, i, plan_.critical.dt)) return *given;
     const double frequency = scene_.cyclic().frequencies[i];
-    if (known) return largest_scaling(*known, viscous(), 0.97 * inertia_share * tolerance());
-    return std::max(1.0, estimate_share * tolerance() / inertia_estimate(scene_, prepared_, frequency));
+    if (known) return largest_scaling(*known, viscous(), aimed_part * inertia_part * tolerance());
+    return std::max(1.0, estimate_part * tolerance() / inertia_estimate(scene_, prepared_, frequency));
   }
 
   /// A tolerance so large, or a resonance so near, that the change is not straight: what came out too far off is found
@@ -216,7 +204,7 @@ class Planner {
   void correct(std::vector<HarmonicLoad>& loads, const std::vector<std::optional<HarmonicResult>>& known,
                std::vector<std::optional<HarmonicResult>>& scaled) {
     if (!automatic() || scene_.solver.density_scaling || scene_.solver.time_step) return;
-    const double wanted = inertia_share * tolerance();
+    const double wanted = inertia_part * tolerance();
     for (int attempt = 0; attempt < 6; ++attempt) {
       std::vector<std::size_t> missed;
       std::vector<HarmonicLoad> again;
@@ -236,7 +224,9 @@ class Planner {
 
   void finish(FrequencyPlan f, double frequency, std::optional<HarmonicResult> scaled) {
     f.start = scaled ? start_ : Start::rest;
-    const double ramp = choose_cycles(f);
+    const CycleCount count = count_cycles(scene_, f.start);
+    const double ramp = count.ramp;
+    f.cycles = count.cycles, f.fit_cycles = count.fitted;
     f.loading = make_loading(f, frequency, ramp);
     if (scaled && f.known) f.predicted = difference(scaled->top, *f.known);
     if (automatic() && nonlinear_ > tolerance()) f.known.reset(), f.predicted.reset();  // no measure of such strains
@@ -259,7 +249,7 @@ class Planner {
       decide("{} Hz: density scaling {:.4g}, {} cycle{} of {} steps of {:.3g} s: {}", frequency, f.density_scaling,
              f.cycles, f.cycles == 1 ? "" : "s", f.loading.steps_per_period, f.loading.dt(), error);
     }
-    if (f.start == Start::rest && ramp_ > 0) {
+    if (f.start == Start::rest && usual_ramp(scene_) > 0) {
       decide("{} Hz: {}", frequency,
              ramp > 0 ? fmt::format("a ramp of {:g} cycle{}, so that the start rings less", ramp, ramp == 1 ? "" : "s")
                       : "no ramp: waves of the start stay, which leave 1e-5 to 1e-3 at random");
@@ -268,31 +258,15 @@ class Planner {
     if (share > 1) decide("{} Hz: the given step is {:.2f} of the largest that is surely stable", frequency, share);
   }
 
-  /// Also returns the cycles of the ramp.
-  double choose_cycles(FrequencyPlan& f) const {
-    const experiments::Cyclic& loading = scene_.cyclic();
-    const bool steady = f.start == Start::steady;
-    const double ramp = steady ? 0 : loading.ramp_cycles.value_or(ramp_);
-    f.cycles = loading.cycles.value_or(steady ? 1 : automatic() ? cycles_from_rest(tolerance()) : 5);
-    if (!loading.cycles) {
-      while (f.cycles - loading.fitted(f.cycles) < ramp) ++f.cycles;
-    }
-    f.fit_cycles = std::min(f.cycles, loading.fitted(f.cycles));
-    return loading.ramp_cycles ? ramp : std::min(ramp, static_cast<double>(f.cycles - f.fit_cycles));
-  }
-  double safety() const { return scene_.solver.safety.value_or(automatic() ? 0.95 : 0.8); }
-
   /// A whole number of samples a period, a whole number of steps a sample.
   drives::Cyclic make_loading(const FrequencyPlan& f, double frequency, double ramp) const {
     const experiments::Cyclic& spec = scene_.cyclic();
-    double step = scene_.solver.time_step.value_or(safety() * plan_.critical.dt * std::sqrt(f.density_scaling));
-    if (viscous() > 0 && !scene_.solver.time_step) step = std::min(step, 1 / viscous());  // follow the decay
-    const double wanted = 1 / (frequency * step * spec.samples_per_cycle);
-    require_possible(wanted * spec.samples_per_cycle, step, fmt::format("a cycle at {} Hz", frequency));
+    const double step = longest_cyclic_step(scene_.solver, plan_.critical.dt, f.density_scaling);
+    require_possible(1 / (frequency * step), step, fmt::format("a cycle at {} Hz", frequency));
     drives::Cyclic loading;
     loading.amplitude = spec.strain_amplitude * prepared_.specimen.box.size.z;
     loading.frequency = frequency;
-    loading.steps_per_period = std::max<std::int64_t>(1, std::llround(std::ceil(wanted))) * spec.samples_per_cycle;
+    loading.steps_per_period = std::llround(steps_per_period(frequency, step, spec.samples_per_cycle));
     loading.ramp_steps = std::llround(ramp * static_cast<double>(loading.steps_per_period));
     return loading;
   }
@@ -308,7 +282,6 @@ class Planner {
   std::optional<Harmonic> harmonic_;
   std::string no_harmonic_;
   Start start_ = Start::rest;
-  double ramp_ = 0;       ///< [cycles] from rest where the scene gives none
   double nonlinear_ = 0;  ///< what the strain changes of |E*| that the harmonic solution does not see
 };
 

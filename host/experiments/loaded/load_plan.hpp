@@ -31,6 +31,10 @@ struct LoadPlan {
 /// fit this way; RunError for a step that is hopelessly small, or a wall that touches nothing.
 LoadPlan make_load_plan(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Inertia& inertia);
 
+/// Returns the modulus that the network has at once if all of it strains alike [Pa]: no less than its true one.
+/// `volume`: of the box [m³].
+double affine_modulus(const ContactNetwork& network, const FactsTable& laws, double volume);
+
 /// The load on the top wall.
 Boundary boundary_of(const LoadTest& test, const LoadPlan& plan, const Box& box);
 

@@ -24,8 +24,22 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadState, plan, peak, seconds_planning, seco
 
 namespace {
 
-constexpr const char *plan_text = "plan", *points_array = "points", *cracks_array = "cracks";
+constexpr const char *plan_text = "plan", *points_array = "points", *cracks_array = "cracks",
+                     *unstepped_array = "unstepped";
 constexpr std::size_t point_words = 9, crack_words = 4;
+
+/// The error and the long-term modulus, then modulus and time of each unit.
+std::vector<double> to_numbers(const UnsteppedAnswer& answer) {
+  std::vector<double> out{answer.error, answer.relaxation.long_term};
+  for (const auto& u : answer.relaxation.units) out.insert(out.end(), {u.modulus, u.time});
+  return out;
+}
+
+UnsteppedAnswer from_numbers(const std::vector<double>& numbers) {
+  UnsteppedAnswer out{{numbers[1], {}}, numbers[0]};
+  for (std::size_t i = 2; i + 1 < numbers.size(); i += 2) out.relaxation.units.push_back({numbers[i], numbers[i + 1]});
+  return out;
+}
 
 }  // namespace
 
@@ -40,6 +54,10 @@ LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file
   out.state = take_state(checkpoint);
   for (const StateArray& array : checkpoint.arrays) {
     const auto* values = std::get_if<std::vector<double>>(&array.values);
+    if (array.name == unstepped_array) {
+      if (!values || values->size() < 2 || values->size() % 2 != 0) damaged("array " + array.name + " of another kind");
+      out.unstepped = from_numbers(*values);
+    }
     if (array.name != points_array && array.name != cracks_array) continue;
     const bool points = array.name == points_array;
     const std::size_t words = points ? point_words : crack_words;
@@ -76,6 +94,7 @@ void add_to(Checkpoint& out, const LoadState& at) {
                   {static_cast<double>(c.contact), static_cast<double>(c.point), static_cast<double>(c.how), c.time_s});
   }
   out.arrays.push_back({cracks_array, "1, 1, 1, s", std::move(cracks)});
+  if (at.unstepped) out.arrays.push_back({unstepped_array, "1, Pa, then Pa, s", to_numbers(*at.unstepped)});
 }
 
 }  // namespace macadam

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/experiments/loaded/load_plan.hpp"
+#include "host/experiments/loaded/load_error.hpp"
 
 namespace macadam {
 
@@ -13,6 +13,7 @@ namespace macadam {
 struct LoadState {
   LoadPlan plan;
   experiments::Peak peak;                         ///< until now
+  std::optional<UnsteppedAnswer> unstepped;       ///< that errors are measured against; nothing: they are estimates
   double seconds_planning = 0, seconds = 0;       ///< wall time, the latter of the stepping until now
   std::vector<std::string> warnings;              ///< of checkpoints that could not be written
   std::vector<experiments::SteppedPoint> points;  ///< until now

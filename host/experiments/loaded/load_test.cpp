@@ -4,10 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "host/experiments/loaded/step_load.hpp"
+#include "host/experiments/material_files.hpp"
+#include "host/experiments/stepped/cracks.hpp"
 #include "host/results/files.hpp"
 
 namespace macadam {
@@ -20,10 +23,11 @@ namespace {
 
 constexpr std::array<LoadWords, 3> all_words{{
     {"relaxation", "relaxation.csv", "modulus_pa", "modulus_pa: after a step; error: of stress and modulus, relative",
-     false, "E(t) (MPa)", 1e6},
+     false, "E(t) (MPa)", "stress/strain (MPa)", 1e6},
     {"creep", "creep.csv", "compliance_1_pa", "compliance_1_pa: after a step; error: of it, relative", true,
-     "J(t) (1/GPa)", 1e-9},
-    {"monotonic", "monotonic.csv", "secant_pa", "error: of stress and modulus, relative", false, "secant (MPa)", 1e6},
+     "J(t) (1/GPa)", "strain/stress (1/GPa)", 1e-9},
+    {"monotonic", "monotonic.csv", "secant_pa", "error: of stress and modulus, relative", false, "secant (MPa)",
+     "secant (MPa)", 1e6},
 }};
 
 /// Nothing where the ratio has no meaning.
@@ -62,19 +66,33 @@ nlohmann::ordered_json point_json(const LoadWords& words, const ResponsePoint& p
   return {{"time_s", p.time_s}, {"strain", p.strain}, {"stress_pa", p.stress_pa}, {words.ratio, p.ratio}};
 }
 
-std::string shown_head(const LoadWords& words) {
-  return fmt::format("\n{:>12} {:>12} {:>14} {:>14}", "t (s)", "strain", "stress (MPa)", words.shown);
+namespace {
+
+std::size_t width_of(const char* title) { return std::max<std::size_t>(14, std::string(title).size()); }
+
+}  // namespace
+
+std::string shown_head(const char* ratio) {
+  return fmt::format("\n{:>12} {:>12} {:>14} {:>{}}", "t (s)", "strain", "stress (MPa)", ratio, width_of(ratio));
 }
 
-std::string shown_line(const LoadWords& words, const ResponsePoint& p) {
-  return fmt::format("\n{:>12.5g} {:>12.5g} {:>14.6g} {:>14}", p.time_s, p.strain, p.stress_pa / 1e6,
-                     std::isnan(p.ratio) ? "-" : fmt::format("{:.6g}", p.ratio / words.unit));
+std::string shown_line(const LoadWords& words, const char* ratio, const ResponsePoint& p) {
+  return fmt::format("\n{:>12.5g} {:>12.5g} {:>14.6g} {:>{}}", p.time_s, p.strain, p.stress_pa / 1e6,
+                     std::isnan(p.ratio) ? "-" : fmt::format("{:.6g}", p.ratio / words.unit), width_of(ratio));
 }
 
 void add_load(const LoadTest& test, nlohmann::ordered_json& out) {
   for (const auto& [name, value] : test.load) {
     out[name] = value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json();
   }
+}
+
+std::vector<std::string> load_files(const std::string& kind, const Scene& scene) {
+  std::vector<std::string> out{words_of(kind).file};
+  if (counts_cracks(scene)) out.push_back(cracks_file);
+  if (scene.solver.method == SolverMethod::explicit_) return out;
+  for (const std::string& file : material_files(scene.network.lateral_walls)) out.push_back(file);
+  return out;
 }
 
 std::unique_ptr<Solution> plan_load_test(const LoadTest& test, const Scene& scene, const Preparation& prepared,
@@ -88,7 +106,7 @@ std::unique_ptr<Solution> plan_load_test(const LoadTest& test, const Scene& scen
     std::string text =
         fmt::format("# {}; {}\n{},error\n", modulus_words(r.material.confined), words.comment, csv_head(words));
     for (const double t : test.history.times) {
-      const ResponsePoint& p = r.points.emplace_back(test.unstepped(r.material.spectrum, t));
+      const ResponsePoint& p = r.points.emplace_back(test.unstepped(r.material.spectrum, t, test.when));
       text += fmt::format("{},{:.2e}\n", csv_line(words, p), r.material.error());
     }
     write_whole(out / words.file, text);
@@ -114,8 +132,8 @@ double ResultOf<SpectrumResponse>::seconds(const SpectrumResponse& found) {
 template <>
 std::string ResultOf<SpectrumResponse>::table(const SpectrumResponse& found) {
   const LoadWords& words = words_of(found.kind);
-  std::string out = shown_head(words);
-  for (const ResponsePoint& p : found.points) out += shown_line(words, p);
+  std::string out = shown_head(words.shown);
+  for (const ResponsePoint& p : found.points) out += shown_line(words, words.shown, p);
   return out + "\n" + material_lines(found.material);
 }
 

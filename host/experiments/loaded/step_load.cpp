@@ -28,10 +28,15 @@ namespace {
 /// More steps, or more seconds, than anybody asks for unawares.
 constexpr std::int64_t many_steps = 100'000'000;
 constexpr double many_seconds = 3600;
-/// Walls that differ by more are no equilibrium.
-constexpr double largest_difference = 1e-2;
 /// Number of looks at the stress of a strength test, evenly over its steps.
 constexpr std::int64_t peak_samples = 10'000;
+
+/// Mean density of the specimen's box with the density scaling [kg/m³].
+double heavy_density(const LoadPlan& plan, const Inertia& inertia, const Box& box) {
+  double mass = 0;
+  for (const double m : inertia.mass) mass += m;
+  return plan.density_scaling * mass / box.volume();
+}
 
 double kinetic_energy(const ParticleState& p, const Inertia& inertia) {
   double out = 0;
@@ -51,6 +56,8 @@ class SteppedLoad : public Solution {
         watcher_(watcher),
         inertia_(std::move(inertia)),
         at_(std::move(at)),
+        errors_(test_, scene, prepared, heavy_density(at_.plan, inertia_, prepared.specimen.box), at_.plan,
+                at_.unstepped),
         cracks_(scene, prepared, at_.cracks),
         owns_checkpoint_(resumed) {}
 
@@ -78,6 +85,7 @@ class SteppedLoad : public Solution {
   void begin(RunResult& result) {
     const LoadPlan& p = at_.plan;
     result.decisions = p.decisions;
+    if (const std::string ramp = errors_.ramp_words(); !ramp.empty()) result.decisions.push_back(ramp);
     result.skips = find_skips(scene_, prepared_, p.form, p.geometry, test_.strain);
     result.warnings = at_.warnings;
     result.solver = stepper_->description();
@@ -167,11 +175,9 @@ class SteppedLoad : public Solution {
 
  private:
   std::string head(const LoadWords& words) const {
-    return fmt::format(
-        "# {}, stepped in time; {}: of this strain and stress; error: largest difference of load and walls' stresses, "
-        "relative\n{},error,{}bottom_pa,kinetic_j{}",
-        modulus_words(scene_.network.lateral_walls), words.ratio, csv_head(words), test_.by_stress ? "top_pa," : "",
-        cracks_.active() ? ",broken_points" : "");
+    return fmt::format("# {}, stepped in time; {}: of this strain and stress; {}\n{},error,{}bottom_pa,kinetic_j{}",
+                       modulus_words(scene_.network.lateral_walls), words.ratio, errors_.meaning(), csv_head(words),
+                       test_.by_stress ? "top_pa," : "", cracks_.active() ? ",broken_points" : "");
   }
   std::string line(const LoadWords& words, const SteppedPoint& p) const {
     return fmt::format("{},{:.2e},{}{},{}{}", csv_line(words, p), p.error,
@@ -247,24 +253,14 @@ class SteppedLoad : public Solution {
     out.kinetic_j = at_.plan.density_scaling * kinetic_energy(stepper_->particles(), inertia_);
     const double none = std::numeric_limits<double>::quiet_NaN();
     if (test_.by_stress) {
-      const double height = std::abs(held_stress());
       out.stress_pa = load;
-      out.ratio = test_.release && now.time > *test_.release + 0.5 * at_.plan.dt ? none : out.strain / load;
-      out.error = std::max({std::abs(load - out.top_pa), std::abs(load - out.bottom_pa),
-                            std::abs(out.top_pa - out.bottom_pa)}) /
-                  height;
+      out.ratio = test_.when.release && now.time > *test_.when.release + 0.5 * at_.plan.dt ? none : out.strain / load;
     } else {
       out.stress_pa = out.top_pa;
       out.ratio = out.stress_pa / out.strain;
-      const double larger = std::max(std::abs(out.top_pa), std::abs(out.bottom_pa));
-      out.error = larger > 0 ? std::abs(out.top_pa - out.bottom_pa) / larger : 0;
     }
+    out.error = errors_.of(out, at_.points);
     return out;
-  }
-
-  double held_stress() const {
-    const Vec3d& box = prepared_.specimen.box.size;
-    return drive_->value(at_.plan.step_at(at_.plan.ramp)) / (box.x * box.y);
   }
 
   double kinetic_share(const SteppedResponse& found) const {
@@ -282,19 +278,13 @@ class SteppedLoad : public Solution {
     return "density_scaling takes fewer, method = \"harmonic\" none at all where all laws are linear";
   }
 
-  /// Adds a warning if the specimen was not in equilibrium at a point. A specimen in two pieces has no equilibrium: its
-  /// rupture is reported instead. In a strength test the rupture is a result and not a warning.
+  /// Adds a warning if the error of a row is large. A specimen in two pieces has no equilibrium: its rupture is
+  /// reported instead. In a strength test the rupture is a result and not a warning.
   void judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
     if (found.rupture && !test_.grows) return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
-    const auto largest = std::max_element(found.points.begin(), found.points.end(),
-                                          [](const auto& a, const auto& b) { return a.error < b.error; });
-    const SteppedPoint* worst = largest == found.points.end() ? nullptr : &*largest;
-    if (found.rupture) worst = found.points.size() > 1 ? &found.points.end()[-2] : nullptr;
-    if (!worst || worst->error <= largest_difference) return;
-    warnings.push_back(fmt::format(
-        "at t = {:.4g} s load and walls' stresses differ by {:.1f} %: waves or damping are in the result there; less "
-        "density_scaling, a longer ramp or later times have less of them",
-        worst->time_s, 100 * worst->error));
+    std::vector<SteppedPoint> whole = found.points;
+    if (found.rupture && !whole.empty()) whole.pop_back();  // the point that found the specimen in two pieces
+    if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));
   }
 
   const LoadTest test_;
@@ -303,6 +293,7 @@ class SteppedLoad : public Solution {
   const Watcher& watcher_;
   Inertia inertia_;
   LoadState at_;
+  LoadErrors errors_;
   std::shared_ptr<const Drive> drive_;
   std::unique_ptr<Stepper> stepper_;
   CrackWatch cracks_;
@@ -322,6 +313,8 @@ std::unique_ptr<Solution> plan_load_steps(const LoadTest& test, const Scene& sce
     at = to_load_state(std::move(resumed->checkpoint), resumed->file);
   } else {
     at.plan = make_load_plan(test, scene, prepared, inertia);
+    const InPhase harmonic(result.phases, &PhaseSeconds::harmonic);
+    at.unstepped = solve_unstepped(test, scene, prepared, watcher, result.backend, at.plan);
     at.seconds_planning = seconds_since(start);
   }
   auto steps = std::make_unique<SteppedLoad>(test, scene, prepared, watcher, std::move(inertia), std::move(at),

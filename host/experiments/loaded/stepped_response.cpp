@@ -108,15 +108,16 @@ std::string ResultOf<SteppedResponse>::table(const SteppedResponse& found) {
   std::string out = measures_strength(found) ? strength_words(found) : "";
   if (found.rupture && measures_strength(found)) out += rupture_words(*found.rupture, *found.cracks) + "\n";
   if (found.cracks) out += cracks_words(*found.cracks) + "\n";
-  out += shown_head(words) + fmt::format(" {:>9}", "error") + (found.cracks ? fmt::format(" {:>9}", "broken") : "");
+  const char* ratio = words.shown_stepped;
+  out += shown_head(ratio) + fmt::format(" {:>9}", "error") + (found.cracks ? fmt::format(" {:>9}", "broken") : "");
   for (const SteppedPoint& p : found.points) {
-    out += shown_line(words, p) + fmt::format(" {:>9.1e}", p.error) +
+    out += shown_line(words, ratio, p) + fmt::format(" {:>9.1e}", p.error) +
            (found.cracks ? fmt::format(" {:>9}", p.broken_points) : "");
   }
   return out +
          fmt::format(
              "\n{}; {} steps of {:.3g} s with density scaling {:g} in {:.1f} s\n"
-             "error: load and walls' stresses, which are one stress in equilibrium; kinetic energy: {:.1e} of the "
+             "error: from the answer without steps, or an estimate where there is none; kinetic energy: {:.1e} of the "
              "work\n",
              modulus_words(found.confined), found.steps, found.dt_s, found.density_scaling, found.seconds,
              found.kinetic_share);

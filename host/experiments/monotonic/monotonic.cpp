@@ -17,7 +17,7 @@ LoadTest load_test(const Monotonic& spec) {
   out.load = {{"rate_1_s", spec.rate}};
   out.grows = true;
   out.strain = spec.rate * end;
-  out.unstepped = [spec](const Spectrum& spectrum, double t) -> ResponsePoint {
+  out.unstepped = [spec](const Spectrum& spectrum, double t, const LoadTimes&) -> ResponsePoint {
     const double secant = spectrum.relaxation.after_ramp(t, t), strain = spec.rate * t;
     return {t, strain, secant * strain, secant};
   };
@@ -32,6 +32,11 @@ std::unique_ptr<Solution> ExperimentOf<Monotonic>::plan(const Monotonic& spec, c
                                                         const Preparation& prepared, const Watcher& watcher,
                                                         std::optional<Resumed> resumed, RunResult& result) {
   return plan_load_test(load_test(spec), scene, prepared, watcher, std::move(resumed), result);
+}
+
+template <>
+std::vector<std::string> ExperimentOf<Monotonic>::files(const Monotonic& spec, const Scene& scene) {
+  return load_files(spec.kind, scene);
 }
 
 }  // namespace macadam

@@ -68,6 +68,11 @@ class SweepSolution : public Solution {
 }  // namespace
 
 template <>
+std::vector<std::string> ExperimentOf<Sweep>::files(const Sweep&, const Scene&) {
+  return {"sweep.csv"};
+}
+
+template <>
 std::unique_ptr<Solution> ExperimentOf<Sweep>::plan(
     const Sweep&, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
     std::optional<Resumed>,  // NOLINT(performance-unnecessary-value-param): stepped experiments keep it

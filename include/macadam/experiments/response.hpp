@@ -29,9 +29,9 @@ struct SpectrumResponse {
 
 /// A point of a stepped run, and how near it is to equilibrium. Stresses are forces over the cross-section.
 struct SteppedPoint : ResponsePoint {
-  double top_pa, bottom_pa;        ///< of the particles on the walls
-  double kinetic_j;                ///< kinetic energy of the particles, density scaling included
-  double error;                    ///< the largest difference of load and stresses of the walls, relative
+  double top_pa, bottom_pa;  ///< of the particles on the walls
+  double kinetic_j;          ///< kinetic energy of the particles, density scaling included
+  double error;              ///< of the stress, or of the strain of a creep, from the answer without steps, relative
   std::int64_t broken_points = 0;  ///< contact points that are broken; 0 where no law can break
 };
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// step_rules.cpp  Geometry, start, cycles, scaling and step of a cyclic test.
+#include "host/experiments/cyclic/step_rules.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/experiments/cyclic/error_model.hpp"
+#include "host/harmonic/law_stiffness.hpp"
+#include "host/simulation/harmonic_options.hpp"
+
+namespace macadam {
+
+Geometry cyclic_geometry(const Scene& scene) {
+  const SolverSpec& solver = scene.solver;
+  if (solver.geometry) return *solver.geometry;
+  const bool allowed =
+      solver.tolerance && fixed_geometry_error(scene.cyclic().strain_amplitude) <= geometry_part * *solver.tolerance;
+  return allowed ? Geometry::fixed : Geometry::updated;
+}
+
+double nonlinear_effect(const Scene& scene, Geometry geometry) {
+  return geometry == Geometry::fixed ? 0 : fixed_geometry_error(scene.cyclic().strain_amplitude);
+}
+
+bool is_strain_large(const Scene& scene, Geometry geometry) {
+  const std::optional<double>& tolerance = scene.solver.tolerance;
+  return nonlinear_effect(scene, geometry) > (tolerance ? 0.1 * *tolerance : 1e-4);
+}
+
+Start asked_start(const Scene& scene) {
+  const experiments::Cyclic& test = scene.cyclic();
+  const bool chosen = scene.solver.tolerance && test.ramp_cycles.value_or(0) == 0;
+  return test.start.value_or(chosen ? Start::steady : Start::rest);
+}
+
+Start cyclic_start(const Scene& scene, Geometry geometry) {
+  const bool possible = scene.solver.damping_kind != Damping::local && !is_strain_large(scene, geometry) &&
+                        !first_without_stiffness(scene.laws);
+  return possible ? asked_start(scene) : Start::rest;
+}
+
+double usual_ramp(const Scene& scene) { return scene.solver.tolerance || asked_start(scene) == Start::steady ? 1 : 0; }
+
+CycleCount count_cycles(const Scene& scene, Start start) {
+  const experiments::Cyclic& test = scene.cyclic();
+  const bool steady = start == Start::steady;
+  const std::optional<double>& tolerance = scene.solver.tolerance;
+  CycleCount out;
+  out.ramp = steady ? 0 : test.ramp_cycles.value_or(usual_ramp(scene));
+  constexpr int without_tolerance = 5;
+  out.cycles = test.cycles.value_or(steady ? 1 : tolerance ? cycles_from_rest(*tolerance) : without_tolerance);
+  if (!test.cycles) {
+    while (out.cycles - test.fitted(out.cycles) < out.ramp) ++out.cycles;
+  }
+  out.fitted = std::min(out.cycles, test.fitted(out.cycles));
+  if (!test.ramp_cycles) out.ramp = std::min(out.ramp, static_cast<double>(out.cycles - out.fitted));
+  return out;
+}
+
+std::optional<double> given_scaling(const Scene& scene, std::size_t frequency, double critical) {
+  const SolverSpec& solver = scene.solver;
+  if (solver.density_scaling || !solver.tolerance) return density_scaling_of(solver, frequency);
+  if (!solver.time_step) return {};
+  SolverSpec computed;  // its step in place of the given one
+  computed.tolerance = solver.tolerance, computed.safety = solver.safety;
+  const double safe = longest_cyclic_step(computed, critical, 1);
+  return std::max(1.0, std::pow(*solver.time_step / safe, 2));  // as little as the given step needs
+}
+
+double longest_cyclic_step(const SolverSpec& solver, double critical, double density_scaling) {
+  if (solver.time_step) return *solver.time_step;
+  const double safety = solver.safety.value_or(solver.tolerance ? 0.95 : 0.8);
+  const double step = safety * critical * std::sqrt(density_scaling);
+  const bool viscous = solver.damping_kind == Damping::viscous && solver.damping > 0;
+  return viscous ? std::min(step, 1 / solver.damping) : step;  // follow the decay
+}
+
+double steps_per_period(double frequency, double step, int samples) {
+  return std::max(1.0, std::ceil(1 / (frequency * step * samples))) * samples;
+}
+
+}  // namespace macadam

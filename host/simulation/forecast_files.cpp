@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// forecast_files.cpp  Names of the files that a run leaves, and their bytes.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/experiments/experiment.hpp"
+#include "host/experiments/loaded/load_test.hpp"
+#include "host/simulation/forecast_parts.hpp"
+
+namespace macadam {
+namespace {
+
+/// Bytes of a line of a table, or of an entry, as measured.
+constexpr double particle_line = 97, aggregate_line = 75, contact_line = 175, gradation_line = 90, sample_line = 62,
+                 load_line = 110, sweep_line = 150, material_file = 2500, summary_base = 5500, summary_point = 260,
+                 summary_frequency = 1200;
+
+/// Arrays of one series of fields, in bytes per particle or contact.
+struct FieldSize {
+  double mesh = 0;     ///< in a file of VTK's XML, uncompressed
+  double packed = 0;   ///< the same in a VTKHDF file, whose whole numbers are compressed
+  double frame = 0;    ///< of one frame
+  double entries = 0;  ///< particles or contacts
+};
+
+class FileForecast {
+ public:
+  FileForecast(const Scene& scene, Forecast& forecast) : scene_(scene), f_(forecast) {}
+
+  void make() {
+    const double particles = static_cast<double>(f_.census.particles());
+    const double frequencies = static_cast<double>(frequencies_of(scene_.experiment).size() *
+                                                   std::max<std::size_t>(1, temperatures_of(scene_.experiment).size()));
+    const double points = static_cast<double>(load_test_of(scene_).history.times.size());
+    add("summary.json", summary_base + summary_frequency * frequencies + summary_point * points);
+    add("specimen.csv", particle_line * particles);
+    if (!scene_.specimen.file && f_.census.aggregates > 0)
+      add("aggregates.csv", 300 + aggregate_line * static_cast<double>(f_.census.aggregates));
+    if (scene_.recipe) add("gradation.csv", 10 * gradation_line);
+    for (const std::string& name : files_written(scene_)) add(name, result_bytes(name, frequencies, points));
+    if (scene_.output.contacts) add("contacts.csv", contact_line * f_.contacts);
+    if (scene_.output.fields.any()) add_fields();
+  }
+
+ private:
+  void add(const std::string& name, double bytes) { f_.files.push_back(name), f_.file_bytes.push_back(bytes); }
+
+  double result_bytes(const std::string& name, double frequencies, double points) const {
+    if (name == "response.csv") {
+      double samples = 0;
+      for (const StepForecast& s : f_.steps) samples += s.cycles * scene_.cyclic().samples_per_cycle + 1;
+      return sample_line * samples;
+    }
+    if (name == "sweep.csv") return 200 + sweep_line * frequencies;
+    return name == words_of(load_test_of(scene_).kind).file ? 200 + load_line * points : material_file;
+  }
+
+  /// Most Kelvin units of a contact: an array each. Contact points keep chains of their own, which are not written.
+  int units() const {
+    int out = 0;
+    if (f_.stepped && f_.form == ContactForm::points) return out;
+    for (const auto& law : facts_of(scene_.laws))
+      if (law) out = std::max(out, law->units);
+    return out;
+  }
+
+  void add_fields() {
+    const FieldSpec& spec = scene_.output.fields;
+    const bool made = !scene_.specimen.file && f_.census.aggregates > 0;  // then size classes are known
+    const double particles = static_cast<double>(f_.census.particles()), per_unit = f_.stepped ? 24 : 48;
+    const double stress = scene_.solver.backend == Backend::reference ? 0 : 24;
+    const FieldSize of_particles{48.0 + (made ? 4 : 0), 24.0 + (made ? 2 : 0), f_.stepped ? 72 + stress : 72,
+                                 particles};
+    const FieldSize of_contacts{60 + 12 * particles / std::max(1.0, f_.contacts),
+                                34 + 12 * particles / std::max(1.0, f_.contacts),
+                                (f_.stepped ? 56 : 108) + per_unit * units(), f_.contacts};
+    const FieldSize of_cells{210, 105, 0, f_.contacts + 9 * std::pow(particles, 2.0 / 3)};
+    const bool vtp = spec.format == FieldFormat::vtp;
+    if (spec.cells) add(std::string("fields/cells") + (vtp ? ".vtp" : ".vtkhdf"), static_file(of_cells));
+    const auto both = [&](const std::string& of, double frames) {
+      if (spec.particles) add_series("fields/particles_" + of, of_particles, frames);
+      if (spec.contacts) add_series("fields/contacts_" + of, of_contacts, frames);
+    };
+    if (!f_.stepped) return add_steady(both);
+    for (const StepForecast& s : f_.steps) {
+      const bool cyclic = s.frequency_hz > 0;
+      const int of_piece =
+          cyclic ? scene_.cyclic().samples_per_cycle : static_cast<int>(load_test_of(scene_).history.times.size());
+      both(cyclic ? fmt::format("{}Hz", s.frequency_hz) : kind_of(scene_.experiment),
+           std::floor((cyclic ? s.cycles : 1.0) * of_piece / spec.stride(of_piece)) + 1);
+    }
+  }
+
+  template <class F>
+  void add_steady(F&& both) const {
+    const std::vector<double> temperatures = temperatures_of(scene_.experiment);
+    for (const double hz : frequencies_of(scene_.experiment)) {
+      if (temperatures.size() < 2) both(fmt::format("{}Hz", hz), 0);
+      for (const double t : temperatures)
+        if (temperatures.size() > 1) both(fmt::format("{}Hz_{}C", hz, t), 0);
+    }
+  }
+
+  double static_file(const FieldSize& size) const {
+    const bool vtp = scene_.output.fields.format == FieldFormat::vtp;
+    constexpr double head = 2500, hdf5_head = 14e3;
+    return vtp ? head + size.mesh * size.entries : hdf5_head + size.packed * size.entries;
+  }
+
+  /// `frames`: 0 for a steady state, which is one file without times.
+  void add_series(const std::string& stem, const FieldSize& size, double frames) {
+    const bool vtp = scene_.output.fields.format == FieldFormat::vtp;
+    const double of_frame = size.frame * size.entries;
+    f_.field_frames += std::max(1.0, frames);
+    if (frames == 0) return add(stem + (vtp ? ".vtp" : ".vtkhdf"), static_file(size) + of_frame);
+    constexpr double list_line = 75, frame_head = 300, piece = 256, of_piece = 65e3;
+    if (!vtp) {
+      return add(stem + ".vtkhdf",
+                 static_file(size) + (of_frame + frame_head) * frames + of_piece * std::ceil(frames / piece));
+    }
+    add(stem + ".pvd", 120 + list_line * frames);
+    add(stem + "_*.vtp", (static_file(size) + of_frame) * frames);
+  }
+
+  const Scene& scene_;
+  Forecast& f_;
+};
+
+}  // namespace
+
+void forecast_files(const Scene& scene, Forecast& forecast) { FileForecast(scene, forecast).make(); }
+
+}  // namespace macadam

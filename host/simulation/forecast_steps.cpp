@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// forecast_steps.cpp  Steps and solutions of a run by the rules of its plan, from numbers that need no specimen.
+#include "host/simulation/forecast_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "host/experiments/cyclic/error_model.hpp"
+#include "host/experiments/cyclic/step_rules.hpp"
+#include "host/experiments/loaded/load_rules.hpp"
+#include "host/harmonic/law_stiffness.hpp"
+#include "host/simulation/harmonic_options.hpp"
+#include "macadam/harmonic.hpp"
+
+namespace macadam {
+namespace {
+
+const Law* law_of(const Scene& scene, PairType pair) {
+  const auto& law = scene.laws[static_cast<std::size_t>(pair)];
+  return law ? &*law : nullptr;
+}
+
+double instantaneous(const Law& law) {
+  return std::visit([](const auto& l) { return l.instantaneous(); }, law);
+}
+
+/// Order of the specimen's |E*| at a frequency: the mean in the logarithm.
+double modulus_at(const Scene& scene, double hz) {
+  const double omega = 2 * std::numbers::pi * hz;
+  const auto logarithm = mean_of_usual(scene, [&](const Law& law) { return std::log(stiffness_at(law, omega)); });
+  return logarithm ? std::exp(*logarithm) : 1e9;
+}
+
+/// The critical step at true mass: that of a small sphere among the stiffest contacts it can have [s].
+double critical_step(const Scene& scene, const Census& census) {
+  constexpr double mastic_part = 0.377, cluster_part = 0.58;  // of radius·√(density/modulus), measured
+  const auto step = [&](double part, double radius, double density, std::initializer_list<PairType> pairs) {
+    double stiffest = 0;
+    for (const PairType pair : pairs)
+      if (const Law* law = law_of(scene, pair)) stiffest = std::max(stiffest, instantaneous(*law));
+    return stiffest > 0 && density > 0 && radius > 0 ? part * radius * std::sqrt(density / stiffest) : INFINITY;
+  };
+  const SpecimenSpec& s = scene.specimen;
+  double mastic = census.smallest_mastic, aggregate = census.smallest_in_aggregates;
+  if (s.mastic) mastic = s.mastic->radius_min;
+  if (s.shapes)
+    aggregate = s.shapes->fill.radius_min;
+  else if (!s.aggregate.empty())
+    aggregate = s.aggregate.back().sieve_min / 2;
+  double out = step(mastic_part, mastic, scene.materials.mastic, {PairType::mm, PairType::ma});
+  if (census.in_aggregates > census.aggregates)
+    out = std::min(out, step(cluster_part, aggregate, scene.materials.aggregate, {PairType::inner}));
+  else if (mastic == 0)
+    out = step(mastic_part, aggregate, scene.materials.aggregate, {PairType::aa});
+  return out;
+}
+
+StepForecast cyclic_steps(const Scene& scene, std::size_t k, double critical) {
+  const experiments::Cyclic& test = scene.cyclic();
+  const SolverSpec& solver = scene.solver;
+  StepForecast out;
+  out.frequency_hz = test.frequencies[k];
+  if (const auto given = given_scaling(scene, k, critical)) {
+    out.density_scaling = *given;
+  } else {  // the plan solves for what inertia costs: about this part of ρω²H²/|E*|
+    constexpr double inertia_error = 0.3;
+    const double density = std::max(scene.materials.mastic, scene.materials.aggregate);
+    const double turn = 2 * std::numbers::pi * out.frequency_hz * scene.specimen.box.size.z;
+    out.density_scaling =
+        std::max(1.0, aimed_part * inertia_part * *solver.tolerance * modulus_at(scene, out.frequency_hz) /
+                          (inertia_error * density * turn * turn));
+  }
+  const double step = longest_cyclic_step(solver, critical, out.density_scaling);
+  const double of_period = steps_per_period(out.frequency_hz, step, test.samples_per_cycle);
+  out.cycles = count_cycles(scene, cyclic_start(scene, cyclic_geometry(scene))).cycles;
+  out.dt_s = 1 / (out.frequency_hz * of_period);
+  out.steps = out.cycles * of_period;
+  return out;
+}
+
+/// Modulus at once if all contacts strain alike [Pa]. Contacts point in all directions, and the sum of their areas
+/// times distances is three times the volume of the box.
+double affine_modulus(const Scene& scene) {
+  const auto mean = mean_of_usual(scene, [](const Law& law) {
+    return std::visit([](const auto& l) { return l.instantaneous() * (0.6 + 0.4 * l.alpha); }, law);
+  });
+  return mean.value_or(1e9);
+}
+
+StepForecast load_steps(const Scene& scene, double critical) {
+  const LoadTest test = load_test_of(scene);
+  StepForecast out;
+  out.density_scaling = density_scaling_of(scene.solver, 0);
+  const double density = out.density_scaling * std::max(scene.materials.mastic, scene.materials.aggregate);
+  const double slowest = slowest_period(test, scene.specimen.box.size.z, affine_modulus(scene), density);
+  const double ramp = ramp_of(test, slowest);
+  const LoadDamping damping = damping_of(test, scene.solver, ramp, slowest);
+  out.dt_s = load_step(test, scene.solver, critical, out.density_scaling, ramp, damping);
+  out.steps = std::round(test.history.times.back() / out.dt_s);
+  return out;
+}
+
+/// Stiffest over softest |k*(s)|: iterations grow with its cube root.
+double contrast_at(const Scene& scene, std::complex<double> s) {
+  double softest = INFINITY, stiffest = 0;
+  for (const auto& law : scene.laws) {
+    if (!law) continue;
+    const double k = std::visit(
+        [&]<class L>(const L& l) {
+          if constexpr (has_stiffness<L>)
+            return std::abs(l.stiffness(s));
+          else
+            return l.instantaneous();
+        },
+        *law);
+    softest = std::min(softest, k), stiffest = std::max(stiffest, k);
+  }
+  return softest > 0 && stiffest > 0 ? stiffest / softest : 1;
+}
+
+}  // namespace
+
+std::vector<StepForecast> forecast_steps(const Scene& scene, const Census& census) {
+  const double critical = critical_step(scene, census);
+  std::vector<StepForecast> out;
+  if (!std::holds_alternative<experiments::Cyclic>(scene.experiment)) return {load_steps(scene, critical)};
+  for (std::size_t k = 0; k < scene.cyclic().frequencies.size(); ++k) out.push_back(cyclic_steps(scene, k, critical));
+  return out;
+}
+
+std::vector<double> forecast_contrasts(const Scene& scene, bool stepped) {
+  const std::vector<double> frequencies = frequencies_of(scene.experiment);
+  std::vector<double> out;
+  if (first_without_stiffness(scene.laws)) return out;
+  if (!frequencies.empty()) {
+    const bool planned = scene.solver.tolerance || (stepped && asked_start(scene) == Start::steady);
+    if (stepped && !planned) return out;
+    const auto temperatures = stepped ? 1 : std::max<std::size_t>(1, temperatures_of(scene.experiment).size());
+    for (const double f : frequencies)
+      out.insert(out.end(), temperatures, contrast_at(scene, {0, 2 * std::numbers::pi * f}));
+    return out;
+  }
+  constexpr int of_spectrum = 24;  // at real s, of each time a decade to either side
+  const std::vector<double> times = load_test_of(scene).history.times;
+  const double low = std::log(0.1 / times.back()), high = std::log(10 / times.front());
+  for (int i = 0; i < of_spectrum; ++i)
+    out.push_back(contrast_at(scene, std::exp(low + (high - low) * i / (of_spectrum - 1))));
+  return out;
+}
+
+}  // namespace macadam
