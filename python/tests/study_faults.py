@@ -10,7 +10,10 @@ import report_folders
 
 # |E*| is delta in GPa, the phase angle ten degrees; each start and each end is a line of LOG
 _PROGRAM = """#!/bin/sh
-case $1 in --version) echo "macadam stand-in VERSION"; exit ;; esac
+case $1 in
+  --version) echo "macadam stand-in VERSION"; exit ;;
+  check) exit ;;
+esac
 value=$(sed -n 's/^delta = //p' "$2" | head -n 1)
 value=${value:-1.0}
 echo "begin $value" >> "LOG"

@@ -155,7 +155,8 @@ def test_results_table_failures_and_report(program: Path, tmp_path: Path) -> Non
     messages = {f["values"][KEY]: f["message"] for f in found.failures}
     assert "expected better luck" in messages[13.0] and "SIGKILL" in messages[17.0]
     raw = (out / "table.csv").read_bytes()
-    assert raw.decode("utf-8").splitlines()[0] == f"{KEY},frequency_hz,e_star_pa,phase_deg,particles,warnings,macadam,key"
+    columns = f"{KEY},frequency_hz,e_star_pa,phase_deg,particles,warnings,macadam,key"
+    assert raw.decode("utf-8").splitlines()[0] == columns
     read = pd.read_csv(out / "table.csv")
     assert read["e_star_pa"].tolist() == found.table["e_star_pa"].tolist()
     parquet = ["table.parquet"] if importlib.util.find_spec("pyarrow") else []

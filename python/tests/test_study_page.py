@@ -48,7 +48,7 @@ def test_commands_of_the_page(tmp_path: Path) -> None:
             assert len(read_design(tmp_path / "study.toml", "1").jobs) == (18, 240, 6)[studies - 1]
         else:
             executors.check(tomllib.loads(block)["run"])
-    assert (commands, studies, programs) == (3, 3, 1)
+    assert (commands, studies, programs) == (4, 3, 1)
     key = next((tmp_path / "results/study/results").iterdir()).name
     assert f"macadam report results/study/results/{'KEY'} --out one.html" in (
         ROOT / "docs/studies.md"

@@ -160,6 +160,18 @@ def test_what_is_set_twice_or_not_at_all_is_refused(asked: dict, says: str, fold
         read_design({"scene": "scene.toml"} | asked, "1")
 
 
+@pytest.mark.skipif(PROGRAM is None, reason="no program macadam: build it, or set MACADAM_PROGRAM")
+def test_every_scene_is_checked_when_asked(folder: Path, monkeypatch, capsys) -> None:
+    monkeypatch.setenv("MACADAM_PROGRAM", PROGRAM)
+    text = 'scene = "scene.toml"\narguments = ["--no-such-option", "--linear=direct", "--threads", "1"]\n[grid]\n'
+    Path("study.toml").write_text(f'{text}"loading.frequencies" = [[10], [-10]]\n"{DELTA}" = [1, 2]\n', encoding="utf-8")
+    assert command.main(["study.toml", "--out", "out", "--check"]) == 2
+    said = capsys.readouterr()
+    assert "4 points, 4 scenes checked, 2 wrong" in said.out and said.err.count("wrong: ") == 2
+    assert f"wrong: loading.frequencies = [-10], {DELTA} = 2: " in said.err and "found -10" in said.err
+    assert not Path("out").exists()
+
+
 def test_the_command_refuses_with_exit_2(folder: Path, monkeypatch, capsys) -> None:
     monkeypatch.setenv("MACADAM_PROGRAM", stand_in(folder)[0])
     Path("study.toml").write_text(
@@ -185,7 +197,7 @@ list = [{{ "{DELTA}" = 2 }}, {{ "{DELTA}" = 3 }}, {{ "{DELTA}" = 2.0 }}]
     )
     assert command.main(["study.toml", "--out", "out"]) == 0
     said = capsys.readouterr()
-    same = f"{DELTA} = 2, binder = same: the same scene as {DELTA} = 2, binder = plain; computed once, and both have a row"
+    same = f"{DELTA} = 2, binder = same: the same scene as {DELTA} = 2, binder = plain; computed once"
     assert same in said.err and "binder = plain: asked for more than once; it has one row" in said.err
     assert sorted(lines(log, "begin")) == [2.0, 3.0]
     table = pd.read_csv("out/table.csv")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Studies that Ctrl-C or SIGTERM stops: they end, leave no process, and write table and report of the results so far."""
+"""Studies that a signal stops: they end, leave no process, and write table and report of the results so far."""
 
 from __future__ import annotations
 
@@ -59,7 +59,8 @@ def test_a_signal_ends_the_study(running: Running, number: int, to_group: bool) 
 @pytest.mark.parametrize("running", ["local"], indirect=True)
 def test_a_study_whose_interchange_is_gone_ends_too(running: Running) -> None:
     """Parsl's shutdown would wait for an answer of the interchange forever."""
-    (interchange,) = [p for p in running.left() if any(w.endswith(("interchange.py", "HTEX interchange")) for w in p.cmdline())]
+    names = ("interchange.py", "HTEX interchange")
+    (interchange,) = [p for p in running.left() if any(w.endswith(names) for w in p.cmdline())]
     ours = running.left()
     interchange.kill()
     running.process.terminate()

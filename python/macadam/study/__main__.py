@@ -30,7 +30,7 @@ class _Stop:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command; its exit code: 0 all computed, 1 something failed or is missing, 2 the input is wrong, 130 stopped."""
+    """The command. Returns its exit code: 0 all computed, 1 some failed or missing, 2 wrong input, 130 stopped."""
     stop = _Stop()
     before = {}
     for number in _SIGNALS:
@@ -65,6 +65,9 @@ def _options(arguments: list[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--retry-failed", action="store_true", help="try points again that failed")
     parser.add_argument("--list", action="store_true", help="print the points and compute nothing")
+    parser.add_argument(
+        "--check", action="store_true", help="check the scene of every point by macadam check, and compute nothing"
+    )
     return parser.parse_args(arguments)
 
 
@@ -81,12 +84,13 @@ def _command(options: argparse.Namespace, stop: _Stop) -> int:
             print(f"\r{done} of {asked} done, {failed} failed ", end="", file=sys.stderr, flush=True)
 
     try:
-        if options.list:
-            design = read_design(options.study, version_of(find_program()))
+        if options.list or options.check:
+            program = find_program()
+            design = read_design(options.study, version_of(program))
             _print_notes(design.notes)
-            for job in design.jobs:
+            for job in design.jobs if options.list else ():
                 print(job.key, job.experiment, *(f"{k}={v}" for k, v in job.values.items()))
-            return 0
+            return _check(design, program, options.workers) if options.check else 0
         found = study(
             options.study,
             options.out,
@@ -104,6 +108,18 @@ def _command(options: argparse.Namespace, stop: _Stop) -> int:
     if shown:
         print(file=sys.stderr)
     return _print_study(found, options.out)
+
+
+def _check(design: Any, program: str, asked: int | None) -> int:
+    """Checks all scenes and prints the wrong ones; the exit code."""
+    from macadam.study.checks import wrong_scenes
+    from macadam.study.executors import workers
+
+    wrong = wrong_scenes(design, program, asked or workers({}))
+    for job, message in wrong:
+        print(f"wrong: {job.label}: {message}", file=sys.stderr)
+    print(f"{len(design.jobs)} points, {len(design.results)} scenes checked, {len(wrong)} wrong")
+    return 2 if wrong else 0
 
 
 def _print_notes(notes: list[str]) -> None:
@@ -136,7 +152,7 @@ def _print_study(found: Any, out: str) -> int:
 
 
 def end(code: int) -> None:
-    """Ends this process. After a stop it does not wait for threads of Parsl, which may wait for processes that are gone."""
+    """Ends this process. After a stop it does not wait for Parsl's threads, which may wait for ended processes."""
     if code == 130:
         sys.stdout.flush()
         sys.stderr.flush()

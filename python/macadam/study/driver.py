@@ -19,6 +19,7 @@ from macadam.study.design import Design, Job, read_design
 from macadam.study.errors import StudyError
 from macadam.study.job import compute
 from macadam.study.locks import Taken, locked, taken
+from macadam.study.parsl_pool import Trouble
 from macadam.study.program import find_program, version_of
 
 _IDLE_ROUNDS = 3  # in which workers died and nothing was computed: then more rounds are useless
@@ -135,7 +136,7 @@ def _compute_all(
         if not left:
             return ""
         jobs = [_handed(job, folder, program, design.run) for job in left]
-        died, trouble = "", executors.Trouble()
+        died, trouble = "", Trouble()
         try:
             with _pool(given, design.run, folder) as (pool, asked):
                 died = _round(pool, jobs, lambda: _say(design, folder, progress), limits)
@@ -150,7 +151,7 @@ def _compute_all(
 
 
 def _pool(given: concurrent.futures.Executor | None, run: dict[str, Any], folder: Path) -> Any:
-    return contextlib.nullcontext((given, executors.Trouble)) if given is not None else executors.executor(run, folder)
+    return contextlib.nullcontext((given, Trouble)) if given is not None else executors.executor(run, folder)
 
 
 def _round(

@@ -41,7 +41,11 @@ class Quantity:
         return self.jobs.groupby(self.factors, sort=False, dropna=False)["value"].mean().reset_index()
 
 
-_AT = (("frequency_hz", "frequency", 10.0, "Hz"), ("temperature_c", "temperature", 20.0, "°C"), ("time_s", "", np.inf, "s"))
+_AT = (
+    ("frequency_hz", "frequency", 10.0, "Hz"),
+    ("temperature_c", "temperature", 20.0, "°C"),
+    ("time_s", "", np.inf, "s"),
+)
 # column of the table, and name, unit and factor of the report; larger values of a modulus are in GPa
 _SHOWN = (
     ("e_star_pa", "|E*|", "MPa", 1e-6),
@@ -53,8 +57,8 @@ _SHOWN = (
 
 
 def quantities(found: pd.DataFrame, design: Design) -> list[Quantity]:
-    """|E*| and phase angle at the frequency (and temperature) that [report] names, else next to 10 Hz (20 °C); of tests
-    in time what there is at the last time."""
+    """|E*| and phase angle at the frequency (and temperature) of [report], else next to 10 Hz (20 °C); for tests in time
+    the moduli and compliances at the last time."""
     units = table.units(design)
     names = {column: f"{f} ({units[f]})" if units[f] else f for f, column in table.columns(design).items()}
     experiments = found["experiment"].unique() if "experiment" in found else [None]
@@ -132,9 +136,9 @@ def continuous(points: pd.DataFrame, factor: str) -> bool:
 
 
 def _lines(points: pd.DataFrame, factors: list[str]) -> dict[str, tuple[float, float]]:
-    """Slope of each continuous factor, and the standard error of the slope for a standard deviation of 1 of the points:
-    least squares of all factors at once, since values of a hypercube are not quite independent, and one factor's effect
-    must not count as another's."""
+    """Returns the slope of each continuous factor, and its standard error if the points have a standard deviation of 1.
+    It fits all factors at once: values of a hypercube are not quite independent, and one factor's effect must not count
+    as another's."""
     smooth = [f for f in factors if continuous(points, f)]
     if not smooth:
         return {}
@@ -144,14 +148,15 @@ def _lines(points: pd.DataFrame, factors: list[str]) -> dict[str, tuple[float, f
     for factor in (f for f in factors if f not in smooth):
         codes = pd.factorize(points[factor])[0]
         matrix += [(codes == k).astype(float) for k in range(1, codes.max() + 1)]
-    matrix = np.column_stack([*matrix, np.ones(len(points))])
-    found = np.linalg.lstsq(matrix, points["value"].to_numpy(float), rcond=None)[0]
-    errors = np.sqrt(np.diag(np.linalg.pinv(matrix.T @ matrix)))
+    all_of_them = np.column_stack([*matrix, np.ones(len(points))])
+    found = np.linalg.lstsq(all_of_them, points["value"].to_numpy(float), rcond=None)[0]
+    errors = np.sqrt(np.diag(np.linalg.pinv(all_of_them.T @ all_of_them)))
     return {f: (float(v / s), float(e / s)) for f, v, e, s in zip(smooth, found, errors, scales, strict=False)}
 
 
 def effects(quantity: Quantity) -> list[Effect]:
-    """One a factor, the largest share of the variance first. The levels of a continuous one are its line's ends."""
+    """One effect per factor, the largest share of the variance first. The levels of a continuous factor are the ends of
+    its line."""
     points, out = quantity.points, []
     total = float(((points["value"] - points["value"].mean()) ** 2).sum())
     lines, chance = _lines(points, quantity.factors), scatter(quantity)

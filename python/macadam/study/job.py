@@ -29,8 +29,8 @@ _LIBC = ctypes.CDLL(None)  # before any fork
 
 def compute(job: dict[str, Any]) -> dict[str, Any]:
     """Makes the result of a job unless it is there. `job`: key, scene (TOML), command, threads, values, experiment,
-    program, folder (of the study). Returns its key and status: done, failed or stopped. If the program fails, no exception
-    is raised."""
+    program, folder (of the study). Returns its key and status: done, failed or stopped. A failure of the program
+    raises no exception."""
     folder, key = Path(job["folder"]), job["key"]
     done, failed, work = (folder / name / key for name in ("results", "failures", "running"))
     failed = failed.with_suffix(".json")

@@ -102,7 +102,7 @@ def _list(asked: Table, name: str) -> list[Table]:
 
 
 def _hypercube(block: Table) -> list[dict[str, Any]]:
-    """The points of a Latin hypercube: each range, cut into as many equal parts as there are points, has one in each."""
+    """The points of a Latin hypercube. Each range is cut into equal parts, one per point, with a point in each."""
     block = _flat(block, lambda value: "low" in value or "high" in value)
     number, seed = block.pop("points", None), block.pop("seed", 1)
     if not isinstance(number, int) or not 1 <= number <= MOST:

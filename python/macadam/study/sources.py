@@ -117,7 +117,7 @@ def path_of(key: str, scene: Table) -> Parts:
             if part in pairs:
                 index = pairs.index(part)
             elif 0 <= index < len(at):
-                part = pairs[index] if isinstance(pairs[index], str) else str(index)
+                part = str(pairs[index] if isinstance(pairs[index], str) else index)
             at = at[index] if 0 <= index < len(at) else None
         else:
             at = at.get(part) if isinstance(at, dict) else None

@@ -56,8 +56,8 @@ def _cell(value: Any, unit: str) -> Any:
 
 
 def read(design: Design, folder: Path) -> pd.DataFrame:
-    """A row for every frequency, temperature or time of every result that the study asks for and that is there. All in SI
-    units, as the names say; a factor has the unit of its values in the study."""
+    """A row for every frequency, temperature or time of every result of the study that is there. Units are SI; a factor
+    has the unit of its values in the study."""
     names, of = columns(design), units(design)
     rows = []
     for job in design.jobs:
