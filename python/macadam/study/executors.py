@@ -60,9 +60,9 @@ def _threads(number: int, folder: Path) -> Iterator[concurrent.futures.Executor]
         yield pool
     except BaseException:
         programs.stop(str(folder))
+        pool.shutdown(wait=False, cancel_futures=True)  # a thread may wait for the lock of a worker that is still alive
         raise
-    finally:
-        pool.shutdown(cancel_futures=True)
+    pool.shutdown()
 
 
 def patience(run: dict[str, Any]) -> tuple[float, float]:

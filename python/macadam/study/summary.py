@@ -177,7 +177,7 @@ def _table_of_effects(page: Page, q: Quantity, found: list[Effect]) -> None:
         heads.append("share of the variance")
         for row, e in zip(rows, found, strict=True):
             row.append(look.percent(e.share))
-        notes.append("Shares do not add up to 100 %: the rest is what factors do together, and scatter.")
+        notes.append("Shares need not add up to 100 %: the rest is joint effects of factors, and scatter.")
     page.table(heads, rows, f"{q.title}. {' '.join(notes)}", words=2)
 
 
@@ -276,9 +276,8 @@ def _seeds(page: Page, values: list[Quantity]) -> None:
         page.table(
             ["quantity", "standard deviation", "of the mean over seeds", "points", "seeds of each"],
             rows,
-            "How much another "
-            "specimen of the same mix differs, relative to the mean of its point, pooled over the points. Differences "
-            "between points that are smaller than this are chance.",
+            "Deviation of single specimens of a mix from the mean of its point, relative to this mean, pooled over the "
+            "points. Differences between points that are smaller than this may be chance.",
             words=1,
         )
 
