@@ -70,7 +70,7 @@ KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double 
     if (u.count() > 2 * targets.size()) break;
     std::vector<const Chain*> starts;
     if (fewer) starts.push_back(&*fewer);
-    Chain chain{u, fit_chain(u, targets, chain_limits(u, targets), {}, starts)};
+    Chain chain{u, fit_chain(u, targets, chain_limits(u, targets, {}), {}, starts, 1e-7)};
     KelvinConversion out{chain_of(u, chain.minimum.theta), 0};
     if (u.flow) out.law.C_m /= middle;
     for (double& viscosity : out.law.C) viscosity /= middle;

@@ -32,7 +32,8 @@ std::vector<double> embedded(const Unknowns& unknowns, const std::vector<Limits>
 
 }  // namespace
 
-std::vector<Limits> chain_limits(const Unknowns& unknowns, const std::vector<Target>& targets) {
+std::vector<Limits> chain_limits(const Unknowns& unknowns, const std::vector<Target>& targets,
+                                 const std::vector<double>& shift) {
   double soft = std::numeric_limits<double>::infinity(), stiff = -soft, slow = soft, fast = -soft;
   for (const Target& t : targets) {
     soft = std::min(soft, t.log_modulus);
@@ -41,7 +42,13 @@ std::vector<Limits> chain_limits(const Unknowns& unknowns, const std::vector<Tar
     fast = std::max(fast, std::log(t.place.omega));
   }
   constexpr double wide = 12;  // e^12: 1.6e5, which leaves nothing of a unit that noise could show
-  const double shifts = unknowns.shift == ShiftKind::none ? 0 : 25;  // eleven decades for what temperature adds
+  // Temperature adds the shift at the start and eleven decades more; beyond 200 (87 decades) a start makes no sense.
+  double shifts = 0;
+  std::vector<double> theta(unknowns.of_model(), 0.0);
+  theta.insert(theta.end(), shift.begin(), shift.end());
+  for (const Target& t : targets)
+    shifts = std::max(shifts, std::min(std::abs(log_shift(unknowns, theta.data(), t.place)), 200.0));
+  if (unknowns.shift != ShiftKind::none) shifts += 25;
   const Limits spring{soft - wide, stiff + wide};
   const Limits dashpot{soft - wide - fast - shifts, stiff + wide - slow + shifts};
   std::vector<Limits> out{spring};
@@ -58,7 +65,7 @@ bool contains(const Unknowns& larger, const Unknowns& smaller) {
 }
 
 Minimum fit_chain(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,
-                  const std::vector<double>& shift, const std::vector<const Chain*>& known) {
+                  const std::vector<double>& shift, const std::vector<const Chain*>& known, double tolerance) {
   std::vector<Minimum> minima;
   for (const std::vector<double>& theta : chain_starts(unknowns, targets, shift, known))
     minima.push_back(refine(unknowns, targets, limits, theta, near_enough));
@@ -69,12 +76,12 @@ Minimum fit_chain(const Unknowns& unknowns, const std::vector<Target>& targets, 
   Minimum best = minima.front();
   for (std::size_t i = 0; i < std::min(minima.size(), most_refined); ++i) {
     if (!std::isfinite(minima[i].misfit)) continue;
-    Minimum end = refine(unknowns, targets, limits, std::move(minima[i].theta));
+    Minimum end = refine(unknowns, targets, limits, std::move(minima[i].theta), tolerance);
     if (i == 0 || end.misfit < best.misfit) best = std::move(end);
   }
   for (const Chain* chain : known) {
     if (!contains(unknowns, chain->unknowns) || best.misfit <= chain->minimum.misfit) continue;
-    best = std::min(refine(unknowns, targets, limits, embedded(unknowns, limits, *chain)), best, lower);
+    best = std::min(refine(unknowns, targets, limits, embedded(unknowns, limits, *chain), tolerance), best, lower);
   }
   if (!std::isfinite(best.misfit)) throw RunError("fit: no start of the chain gives a finite misfit");
   return best;

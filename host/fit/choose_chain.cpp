@@ -64,7 +64,7 @@ class ChainSeries {
     add(chains_, units - 1, flow);
     add(chains_, flow ? units : units - 1, !flow);  // a dashpot is nearly a unit of a long retardation time
     for (const Chains& chains : known) add(chains, units, flow);
-    const auto limits = joined(chain_limits(u, problem_.targets), shift_limits(u, problem_.temperatures));
+    const auto limits = joined(chain_limits(u, problem_.targets, shift_), shift_limits(u, problem_.temperatures));
     Chain chain{u, {}};
     try {
       chain.minimum = fit_chain(u, problem_.targets, limits, shift_, starts);
