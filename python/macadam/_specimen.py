@@ -55,6 +55,11 @@ def _scene_of_particles(scene: _core.Scene | Mapping[str, Any] | str | PathLike[
     """Returns the scene with the given particles as its source, without a mixture, which does not describe them."""
     name, tables, options = tables_of(scene)
     section = tables.get("specimen", {})
+    if "recipe" in section:  # densities follow from it
+        recipe: Any = Scene(scene).recipe
+        for phase in ("aggregate", "mastic"):
+            if recipe[f"{phase}_density"] > 0:
+                tables.setdefault("materials", {})[phase] = {"density": recipe[f"{phase}_density"]}
     edges = section.get("box") if box is None else np.asarray(box).tolist()
     tables["specimen"] = {"file": _core.given_particles} | ({} if edges is None else {"box": edges})
     return Scene(tables, file=name, **{k: v for k, v in options.items() if k != "seed"})

@@ -123,7 +123,9 @@ def test_particles_of_ones_own_need_no_other_source(scene, tmp_path):
     of_section = {**minimal, "specimen": {"box": ["3 mm"] * 3}}
     assert len(mc.specimen(of_section, particles={k: v for k, v in particles.items() if k != "box"})) == 27
     recipe = mc.Scene(ROOT / "examples" / "ac14_recipe" / "scene.toml", seed=5)
-    assert mc.specimen(recipe, particles=particles).scene.recipe is None
+    of_recipe = mc.specimen(recipe, particles=particles)
+    assert of_recipe.scene.recipe is None
+    assert of_recipe.inertia()[0].sum() == pytest.approx(recipe.recipe["mastic_density"] * 27 * 4 / 3 * np.pi * 5e-4**3)
     with pytest.raises(mc.InputError, match="box"):
         mc.specimen(minimal, particles={k: v for k, v in particles.items() if k != "box"})
 
