@@ -136,7 +136,8 @@ TEST_F(ShapesCommand, WrapsOnlyWhenAsked) {
   stone("two.off", joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02})));
   const Outcome refused = shapes("repair stones/two.off --out one.off");
   EXPECT_EQ(refused.code, 1) << refused.out;
-  EXPECT_TRUE(contains(refused.err, "stones/two.off: the repair changes volume or area by more than 1 %")) << refused.err;
+  EXPECT_TRUE(contains(refused.err, "stones/two.off: the repair changes volume or area by more than 1 %"))
+      << refused.err;
   EXPECT_TRUE(contains(refused.err, "--wrap")) << refused.err;
   EXPECT_FALSE(fs::exists(folder_ / "one.off"));
   const Outcome done = shapes("repair stones/two.off --out one.off --wrap");

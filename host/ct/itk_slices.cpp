@@ -89,8 +89,8 @@ void attempt(const std::string& file, const char* what, const std::string& expec
   if (!fault.empty()) throw InputError(file, 0, what, "one that ITK cannot read (" + fault + ")", expected);
 }
 
-/// Looks at a file before ITK does. Returns the facts in its header that ITK does not report. \throws InputError for what ITK
-/// cannot bear.
+/// Looks at a file before ITK does. Returns the facts in its header that ITK does not report. \throws InputError for
+/// what ITK cannot bear.
 HeaderFacts check_file(const itk::ImageIOBase& io) {
   const std::string file = io.GetFileName();
   if (!fs::is_regular_file(file)) throw InputError(file, 0, "image", "no such file", "a file that can be read");

@@ -262,8 +262,8 @@ Surface repair_surface(const Surface& surface, SurfaceRepair* repair, const std:
         std::isnan(done.volume_before)
             ? "the volume before the repair is unknown"
             : fmt::format("the repair changes volume or area by more than {:.0f} %", 100 * SurfaceRepair::bound);
-    throw RunError(fmt::format("{}: {}, which only --wrap accepts: {}; {}", surface.name, why, done.what,
-                               done.changes()));
+    throw RunError(
+        fmt::format("{}: {}, which only --wrap accepts: {}; {}", surface.name, why, done.what, done.changes()));
   }
   if (repair) *repair = done;
   return repaired;
