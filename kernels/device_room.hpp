@@ -70,6 +70,12 @@ class DeviceRoom {
     }
     room.changed_.notify_all();
   }
+  /// Returns whether a specimen or solution waits for its turn.
+  static bool waits(std::uint64_t number) {
+    DeviceRoom& room = instance();
+    const std::lock_guard lock(room.mutex_);
+    return room.waiting_.contains(number);
+  }
   static void give(std::uint64_t number) {
     DeviceRoom& room = instance();
     {

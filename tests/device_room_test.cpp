@@ -83,14 +83,16 @@ TEST(DeviceRoom, GivesTurnsByTheSpecimensNumbers) {
     }
     DeviceRoom::give(first + number);
   };
-  const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(300)); };
+  const auto until_it_waits = [&](std::uint64_t number) {
+    while (!DeviceRoom::waits(first + number)) std::this_thread::yield();
+  };
   DeviceRoom::take(first, small, of_device, nowhere);
   std::thread young([&] { take(4, whole, 'y'); });
-  wait();  // so that it waits before the next comes
+  until_it_waits(4);
   std::thread large([&] { take(2, whole, 'L'); });
-  wait();
-  std::thread late([&] { take(3, small, 's'); });  // there would be room, but not its turn
-  wait();
+  until_it_waits(2);
+  std::thread late([&] { take(3, small, 's'); });  // it would fit beside the first, but it is not its turn
+  until_it_waits(3);
   take(1, other, 'o');  // another device is free
   DeviceRoom::give(first);
   for (std::thread* t : {&young, &large, &late}) t->join();

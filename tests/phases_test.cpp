@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
@@ -52,8 +53,12 @@ TEST(Phases, EndWithWhatIsThrown) {
   EXPECT_GE(all.stepping, 0.02);
 }
 
-/// A run of some tenths of a second, and the phases that its summary.json must have.
-void expect_whole(SolverMethod method, const std::vector<std::string>& expected) {
+/// Largest part of the wall time of a run that no phase has [s].
+constexpr double left_out = 0.05;
+
+/// Runs a scene of some tenths of a second, and checks the phases that its summary.json must have. Returns how far the
+/// sum of the phases is below nine tenths of the wall time [s].
+double missing_time(SolverMethod method, const std::vector<std::string>& expected) {
   Scene scene;
   scene.specimen.file = MACADAM_TEST_DATA "/t8.csv";
   scene.specimen.box.size = {0.008, 0.008, 0.011};
@@ -78,8 +83,16 @@ void expect_whole(SolverMethod method, const std::vector<std::string>& expected)
   }
   for (const auto& phase : expected) EXPECT_GT(timing.at(phase).get<double>(), 0) << phase;
   EXPECT_LE(sum, wall);
-  // what is left is the last writing of summary.json, 50 ms where a busy machine interrupts it
-  EXPECT_GE(sum, 0.9 * wall - 0.05) << timing.dump();
+  return 0.9 * wall - sum;
+}
+
+/// Only the last writing of summary.json is in no phase. Another program may interrupt just that, for however long; it
+/// does not do so in every one of many runs, while a part of the work without a phase is missing in all of them.
+void expect_whole(SolverMethod method, const std::vector<std::string>& expected) {
+  constexpr int runs = 20;
+  double least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < runs && least > left_out; ++k) least = std::min(least, missing_time(method, expected));
+  EXPECT_LE(least, left_out);
 }
 
 TEST(Phases, MakeUpASteppedRun) {

@@ -19,41 +19,48 @@ LONG = {"loading.frequencies": [0.5], "solver.tolerance": None, "solver.density_
 
 
 def interrupted(work, said, tmp_path):
-    """Runs `work` in a Python of its own, which says `ready` and gets Ctrl-C then; what it said, and how long that took."""
+    """Runs `work` in a Python of its own, which says `ready` while the call is under way and gets Ctrl-C then."""
     code = "import macadam as mc, numpy as np, sys\n" + textwrap.dedent(work)
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                              cwd=tmp_path, env={**os.environ, "PYTHONUNBUFFERED": "1"})
     before = child.stdout.readline()
     assert before.startswith("ready"), before + child.stdout.read()
-    time.sleep(0.3)
     child.send_signal(signal.SIGINT)
-    start = time.monotonic()
-    out, _ = child.communicate(timeout=60)
+    out, _ = child.communicate(timeout=900)  # only a call that does not end takes that long
     assert "KeyboardInterrupt" in out and said in out, out
-    return time.monotonic() - start
 
 
 def test_ctrl_c_ends_a_run_with_a_checkpoint(scene, small_file, tmp_path):
-    took = interrupted(f"""
-        def tell(decisions):
-            print("ready")
-        mc.run({str(small_file)!r}, out="out", on_plan=tell, **{LONG!r})""", "checkpoint", tmp_path)
+    interrupted(f"""
+        told = []
+        def tell(*step):
+            if not told:
+                told.append(print("ready"))
+        mc.run({str(small_file)!r}, out="out", on_step=tell, every=1, **{LONG!r})""", "checkpoint", tmp_path)
     assert (tmp_path / "out" / "checkpoint.h5").exists()
-    assert took < 20  # a second, and what the other tests on this machine take of it
 
 
 def test_ctrl_c_ends_what_prepares(scene, small_file, tmp_path):
     interrupted(f"""
-        scene = mc.Scene({str(small_file)!r}, **{{"specimen.box": ["40 mm", "40 mm", "60 mm"]}})
-        print("ready")
-        mc.specimen(scene)""", "nothing was written", tmp_path)
+        scene = mc.Scene({str(small_file)!r}, **{{"specimen.box": ["80 mm", "80 mm", "120 mm"]}})  # minutes
+        told = []
+        def tell(stage, share):
+            if not told:
+                told.append(print("ready"))
+        mc.specimen(scene, progress=tell)""", "nothing was written", tmp_path)
 
 
 def test_ctrl_c_leaves_a_stepper_that_goes_on(small_file, tmp_path):
     interrupted(f"""
         specimen = mc.specimen({str(small_file)!r})
         stepper = mc.Stepper(specimen, mc.Boundary(), backend="cpu")
-        print("ready")
+        import threading, time
+        begin = time.process_time()
+        def tell():  # nothing but the steps takes the processor
+            while time.process_time() < begin + 0.2:
+                time.sleep(0.001)
+            print("ready")
+        threading.Thread(target=tell).start()
         try:
             stepper.advance(10**9)
         except KeyboardInterrupt as error:
@@ -71,14 +78,13 @@ def test_python_runs_beside_a_long_call(specimen):
     beside = threading.Thread(target=count)
     stepper = mc.Stepper(specimen, mc.Boundary(), backend="cpu", threads=1)
     beside.start()
-    before = counted[0]
-    start = time.monotonic()
-    while time.monotonic() - start < 0.5:
-        stepper.advance(500)
-    gained = counted[0] - before
+    before, calls = counted[0], 0
+    while counted[0] - before <= 3 * calls + 20 and calls < 300:  # if a lock were held, one count at most between two calls
+        stepper.advance(5000)
+        calls += 1
     done.set()
     beside.join()
-    assert gained > 20  # of five hundred, where a lock was held none but those between calls
+    assert calls < 300
 
 
 def test_threads_get_the_numbers_of_one(scene):
