@@ -79,7 +79,12 @@ std::string refusal(int) { return "it is made of paper"; }
 constexpr auto make = nullptr;
 #endif
 
-constexpr CudaCode code{report, refusal, nullptr, make, nullptr, nullptr};
+/// The frequency domain: no test needs it on a device that is the processor.
+std::unique_ptr<DeviceSolver> make_solver(const LinearSystem&, const DeviceList&, std::int64_t&) {
+  throw RunError("the device of paper has no solver for the frequency domain");
+}
+
+constexpr CudaCode code{report, refusal, nullptr, make, make_solver, nullptr};
 
 }  // namespace
 

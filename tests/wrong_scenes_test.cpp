@@ -40,7 +40,7 @@ const std::vector<Wrong> wrong_scenes = {
     {"UnknownSection", {{35, "[solvr]"}}, 35, "unknown section", "expected solver "},
     {"UnknownSubsection", {{7, "[specimen.mastik]"}}, 7, "unknown key", "expected mastic "},
     {"UnknownPhase", {{12, "[materials.bitumen]"}}, 12, "unknown key", "aggregate, mastic"},
-    {"KeyOfAnotherLaw", {{26, "E_m = 1e9"}}, 26, "unknown key", "expected E "},
+    {"KeyOfAnotherLaw", {{26, "E_m = 1e9"}}, 26, "unknown key", "expected one of pair, law"},
     {"KeyBeforeAnySection", {{1, "seed = 1\n[specimen]"}}, 1, "unknown section", "expected "},
     {"NoBox", {{2, ""}}, 1, "nothing", "required"},
     {"NoLoading", {{29, ""}, {30, ""}, {31, ""}, {32, ""}, {33, ""}, {34, ""}}, 0, "nothing", "section, which is req"},

@@ -105,7 +105,7 @@ class FileForecast {
 
   double static_file(const FieldSize& size) const {
     const bool vtp = scene_.output.fields.format == FieldFormat::vtp;
-    constexpr double head = 2500, hdf5_head = 14e3;
+    constexpr double head = 2500, hdf5_head = 40e3;  // an HDF5 file has some kB of its own for each array
     return vtp ? head + size.mesh * size.entries : hdf5_head + size.packed * size.entries;
   }
 
@@ -116,9 +116,10 @@ class FileForecast {
     f_.field_frames += std::max(1.0, frames);
     if (frames == 0) return add(stem + (vtp ? ".vtp" : ".vtkhdf"), static_file(size) + of_frame);
     constexpr double list_line = 75, frame_head = 300, piece = 256, of_piece = 65e3;
+    constexpr double growing_head = 180e3;  // of the arrays of a VTKHDF file that grow with the frames
     if (!vtp) {
-      return add(stem + ".vtkhdf",
-                 static_file(size) + (of_frame + frame_head) * frames + of_piece * std::ceil(frames / piece));
+      return add(stem + ".vtkhdf", static_file(size) + growing_head + (of_frame + frame_head) * frames +
+                                       of_piece * std::ceil(frames / piece));
     }
     add(stem + ".pvd", 120 + list_line * frames);
     add(stem + "_*.vtp", (static_file(size) + of_frame) * frames);

@@ -203,4 +203,4 @@ def test_a_packing_that_does_not_fill_its_box_is_warned_of(scene, specimen):
     made = mc.specimen(high, particles=particles)
     assert len(made.warnings) == 1
     assert "does not fill its box" in made.warnings[0] and "with the +z wall" in made.warnings[0]
-    assert made.warnings[0] in mc.harmonic(made, hz=[10]).warnings
+    assert made.warnings[0] in mc.harmonic(made, frequencies=[10]).warnings

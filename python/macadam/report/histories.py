@@ -65,7 +65,7 @@ def _known(found: list[Folder]) -> str:
     words = ""
     for stepped, what in (
         (False, "The curves are known to"),
-        (True, "Error bars of what was stepped: the stresses of load and walls, one stress in equilibrium, differ by at most"),
+        (True, "Error bars of stepped points are their difference from the answer without steps, or an estimate of it: at most"),
     ):
         worst = max((_errors(f).max() for f in found if _is_stepped(f) == stepped), default=0)
         words += f" {what} {look.percent(float(worst), 2)}." if worst else ""
