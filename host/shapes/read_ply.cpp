@@ -169,8 +169,8 @@ SurfaceSoup read_ply(const SurfaceFile& file) {
     } else if (element.name == "face" || element.name == "faces") {
       once(element, facets);
       read_facets(file, element, numbers, soup);
-      // An element without properties takes no bytes, whatever its number of items.
     } else if (!element.properties.empty()) {
+      // Skips the items. An element without properties takes no bytes, whatever its number of items.
       for (std::size_t i = 0; i < element.items; ++i) {
         for (const PlyProperty& property : element.properties) numbers.pass(property, "element " + element.name);
       }
