@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// columns.cpp  Intersects columns with facets and spheres, and integrates the common volume.
+/// \file columns.cpp  Intersects columns with facets and spheres, and integrates the common volume.
 #include "host/shapes/columns.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fill.cpp  Draws sphere radii, places the spheres at random below the surface, and relaxes them against each other and
-// the surface.
+/// \file fill.cpp  Draws sphere radii, places the spheres at random below the surface, and relaxes them against each
+/// other and the surface.
 #include "host/shapes/fill.hpp"
 
 #include <algorithm>

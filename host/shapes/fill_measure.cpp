@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fill_measure.cpp  Measures how well a cluster of spheres represents its shape.
+/// \file fill_measure.cpp  Measures how well a cluster of spheres represents its shape.
 #include <algorithm>
 #include <cmath>
 #include <limits>

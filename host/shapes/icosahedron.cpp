@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// icosahedron.cpp  Builds the icosahedron and divides its facets.
+/// \file icosahedron.cpp  Builds the icosahedron and divides its facets.
 #include "host/shapes/icosahedron.hpp"
 
 #include <fmt/format.h>

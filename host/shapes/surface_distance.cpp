@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_distance.cpp  Builds the octree of the facets that can be nearest, and determines signs from angle-weighted
-// normals.
+/// \file surface_distance.cpp  Builds the octree of the facets that can be nearest, and determines signs from
+/// angle-weighted normals.
 #include "host/shapes/surface_distance.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// neighbours.cpp  Sorts spheres by size into groups of bins, searches all groups for the neighbours of each sphere, and
-// sorts each list.
+/// \file neighbours.cpp  Sorts spheres by size into groups of bins, searches all groups for the neighbours of each
+/// sphere, and sorts each list.
 #include "host/spheres/neighbours.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// relaxation.cpp  Minimises a harmonic overlap energy with the FIRE method (Bitzek et al. 2006).
+/// \file relaxation.cpp  Minimises a harmonic overlap energy with the FIRE method (Bitzek et al. 2006).
 #include "host/spheres/relaxation.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sphere_bins.cpp  Sorts spheres into cells with a counting sort.
+/// \file sphere_bins.cpp  Sorts spheres into cells with a counting sort.
 #include "host/spheres/sphere_bins.hpp"
 
 #include <algorithm>
