@@ -13,6 +13,7 @@ namespace macadam {
 struct Cluster {
   std::vector<std::int32_t> particles;  ///< ascending
   bool bottom = false, top = false;
+  /// Returns whether the cluster connects the bottom and the top wall.
   bool spans() const { return bottom && top; }
 };
 

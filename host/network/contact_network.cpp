@@ -80,7 +80,7 @@ double distance_to_wall(const Specimen& specimen, const Facet& f) {
   return h;
 }
 
-/// Returns a contact with distance, frame and lever arms: model, section 3.
+/// Returns a contact with its distance, frame and lever arms (model, section 3).
 Contact geometry(const Specimen& specimen, const Facet& f) {
   Contact c;
   c.a = f.a, c.b = f.b;

@@ -33,8 +33,8 @@ class Longest {
     if (chords_.size() >= 2 * kept_) prune();
   }
 
-  /// Returns the chords whose length is within rounding of the longest, in the order in which they were offered. Of
-  /// several chords with the same direction only the first is kept.
+  /// Returns the chords whose length is within rounding of the longest, in the order in which they were offered. If
+  /// several chords have the same direction, only the first one is kept.
   const std::vector<Chord>& chords() {
     prune();
     return chords_;
@@ -42,7 +42,7 @@ class Longest {
   double best() const { return best_; }
 
  private:
-  // Removes chords that are no longer among the longest, and repeated directions.
+  // Removes the chords that are shorter than the longest by more than rounding, and repeated directions.
   void prune() {
     std::vector<Chord> kept;
     for (const Chord& c : chords_) {

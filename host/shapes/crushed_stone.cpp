@@ -113,7 +113,7 @@ double CrushedStone::unevenness(const Vec3d& direction) const {
 }
 
 Surface CrushedStone::surface(const Stretching& stretching, double wear, int points) const {
-  static const std::vector<Vec3d> directions = geodesic_sphere(4).points;  // 2562
+  static const std::vector<Vec3d> directions = geodesic_sphere(4).points;  // 2562 directions
   std::vector<Site> sites;
   double size = 0;
   for (const Vec3d& u : directions) {

@@ -16,6 +16,7 @@ class Stretching {
  public:
   /// Appends a stretch by `factor[k]` along `axis[k]`; the axes are three orthogonal unit vectors.
   void stretch(const std::array<Vec3d, 3>& axis, const std::array<double, 3>& factor);
+  /// Map a point, or the direction of a normal.
   Vec3d point(const Vec3d& x) const { return image(points_, x); }
   Vec3d normal(const Vec3d& n) const { return image(normals_, n); }
 
@@ -26,7 +27,7 @@ class Stretching {
   Columns points_{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, normals_ = points_;
 };
 
-/// A stone is the set of points {g ≤ 1}, stretched, of the gauge function
+/// A stone is the set of points with g(x) ≤ 1, stretched, where g is the gauge function
 ///
 ///   g(x) = (1 − w) · (Σᵢ max(0, aᵢ·x)³²)^(1/32) + w · |x|,
 ///

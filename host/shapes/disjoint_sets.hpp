@@ -13,7 +13,8 @@ namespace macadam {
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  /// Returns the root of the set that contains i. Paths are shortened on the way.
+  /// Returns the root of the set that contains i. Shortens the path from i to the root, so that later searches are
+  /// faster.
   std::int32_t find(std::int32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

@@ -16,6 +16,7 @@ struct PlyType {
   std::size_t bytes;
   double low, high;  ///< range of an integer type; 0 and 0 for floating-point types
 
+  /// Returns whether the type is an integer type.
   bool whole() const { return high > 0; }
 };
 
@@ -38,6 +39,7 @@ struct PlyElement {
   std::optional<std::size_t> find(std::string_view property) const;
 };
 
+/// The header of a PLY file.
 struct PlyHeader {
   bool text = false, big_endian = false;
   std::vector<PlyElement> elements;

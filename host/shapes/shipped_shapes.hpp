@@ -8,6 +8,7 @@
 
 namespace macadam {
 
+/// One shipped surface, in the OFF format.
 struct ShippedShape {
   std::string_view name;  ///< file name without the ending
   std::string_view off;   ///< content of the file

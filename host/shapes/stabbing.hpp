@@ -9,6 +9,7 @@
 
 namespace macadam {
 
+/// A closed interval of numbers, for example the extent of an edge along an axis.
 struct Interval {
   double low, high;
 };

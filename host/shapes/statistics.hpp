@@ -18,7 +18,7 @@ struct ShapeProperty {
   double per_unit;     ///< factor from SI to `unit`
   int decimals;        ///< number of decimals in the printed table
   bool standardised;  ///< SI and Fl: their standards define them for D^I ≥ 4 mm only; tables leave out smaller shapes
-  bool correlated;    ///< whether it has a row in the correlation matrix
+  bool correlated;    ///< whether the property has a row in the correlation matrix
   double (*value)(const ShapeMeasure&);  ///< returns the property in SI units
   std::array<double, 3> paper;           ///< minimum, average and maximum of the 82 aggregates of [1], in `unit`
 };
@@ -34,6 +34,7 @@ struct Spread {
   double min = 0, average = 0, max = 0;  ///< NaN if no shape has a value
   std::int64_t shapes = 0;               ///< number of shapes that have a value
 };
+/// Computes the statistics of one property, with the values of tabulated().
 Spread spread_of(const ShapeProperty& property, const std::vector<ShapeMeasure>& shapes);
 
 /// Returns Pearson's correlation coefficient over the pairs in which both are numbers. Returns NaN if there are fewer

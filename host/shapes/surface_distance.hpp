@@ -40,8 +40,8 @@ class SurfaceDistance {
   const Vec3d& high() const { return high_; }
 
  private:
-  /// A facet and the normals of its features. Normals of corners and edges are sums over the facets around them and are
-  /// not normalised; that of the face is a unit vector.
+  /// A facet and the normals of its face, edges and corners. Normals of corners and edges are sums over the facets
+  /// around them and are not normalised; the normal of the face is a unit vector.
   struct Facet {
     std::array<Vec3d, 3> corner;
     std::array<Vec3d, 7> normal;  ///< of corners 0, 1, 2; of edges 01, 12, 20; of the face

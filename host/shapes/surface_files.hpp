@@ -10,13 +10,15 @@
 
 namespace macadam {
 
+/// The supported formats of surface files.
 enum class SurfaceFormat : std::uint8_t { stl, off, ply, obj };
 
 /// Returns the format that the file's ending stands for. \throws InputError for any other ending.
 SurfaceFormat format_of(const std::filesystem::path& file);
 
-/// Reads the surface from the bytes of a file, checks it and scales it. Its name is that of the file, as used in
-/// messages. \throws InputError if the file is not valid.
+/// Reads a surface from the bytes of a file: checks its numbers, scales the coordinates, divides polygons into
+/// triangles, and joins equal points and seams. The surface has the name of the file, which messages show. \throws
+/// InputError if the file is not valid.
 Surface surface_in(const SurfaceFile& file, SurfaceFormat format, double scale);
 
 /// \throws InputError if `scale`, metres per unit of the file, is not a finite positive number.
@@ -25,7 +27,7 @@ void require_scale(const std::filesystem::path& file, double scale);
 /// Returns whether read_surface() can read files with this ending.
 bool is_surface_file(const std::filesystem::path& file);
 
-/// Returns the surface files in a folder, ordered by name. \throws InputError if there are none.
+/// Returns the surface files in a folder, ordered by name. \throws InputError if the folder has no surface file.
 std::vector<std::filesystem::path> surface_files_in(const std::filesystem::path& folder);
 
 /// Returns the surface that read_surface() would return if this surface had been written to `file`. Writes no file.

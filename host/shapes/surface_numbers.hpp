@@ -9,11 +9,12 @@
 
 namespace macadam {
 
-/// \throws InputError naming the surface and the point if a coordinate is not finite or so large that volumes overflow.
+/// Checks the points. \throws InputError naming the surface and the point if a coordinate is not finite or is so large
+/// that volumes overflow.
 void require_sound_points(const Surface& surface);
 
-/// \throws InputError naming the surface and the point or facet if there are no facets, if a coordinate is invalid (see
-/// require_sound_points()), or if a facet refers to a point that does not exist.
+/// Checks the points (see require_sound_points()) and the facets. \throws InputError naming the surface and the point
+/// or facet if the surface has no facets, a coordinate is not valid, or a facet refers to a point that does not exist.
 void require_sound_numbers(const Surface& surface);
 
 /// Returns the length below which differences count as rounding of the coordinates [m]. Rotating and moving a surface

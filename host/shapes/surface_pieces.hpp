@@ -16,6 +16,7 @@ class SurfacePieces {
   /// Keeps a reference to the surface, which must have passed require_sound_numbers().
   explicit SurfacePieces(const Surface& surface);
 
+  /// Returns the number of pieces.
   std::int32_t count() const { return count_; }
 
   /// Returns the area of each piece [m²].

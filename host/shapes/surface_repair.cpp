@@ -59,7 +59,7 @@ Surface surface_of(const Mesh& mesh, const std::string& name) {
 
 double relative_change(double before, double after) { return (after - before) / before; }
 
-/// One repair of one surface. Collects a description of what it does.
+/// One repair of one surface. Collects a description of the steps.
 class Repair {
  public:
   /// `as`: the file that the surface will be read from; its format determines rounding. Empty if there is no such file.

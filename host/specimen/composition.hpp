@@ -37,7 +37,7 @@ struct Composition {
   std::vector<Population> mastic;     ///< one entry, or none without mastic
 };
 
-/// What a recipe requests for one class (aggregate, mastic or voids), before sizes are drawn.
+/// The request of a recipe for one class (aggregate, mastic or voids), before sizes are drawn.
 struct ClassRequest {
   std::string name;
   SizeRange range;

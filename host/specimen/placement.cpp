@@ -16,7 +16,7 @@
 namespace macadam {
 namespace {
 
-/// Number of random positions tried before the open cells are listed. Listing them costs about as much as so many
+/// Number of random positions tried before the open cells are listed; listing them takes about the time of this many
 /// trials.
 constexpr std::int64_t plain_attempts = 20'000;
 constexpr std::int64_t tries_at_once = 128;  // trials per thread and call

@@ -45,11 +45,14 @@ class Placement {
   Vec3d point_outside_aggregates();
 
  private:
+  /// Returns a random centre for a sphere, if there is room for one.
   std::optional<Vec3d> position_for(double radius, double spacing);
   [[noreturn]] void no_room_for_mastic() const;
   /// Returns whether a sphere of radius `distance` at this point overlaps no placed sphere and its centre is not taken.
   bool clear_of_placed(const Vec3d& point, double distance) const;
+  /// Returns the cells of the grid that may have room for the centre of a sphere.
   std::vector<std::size_t> open_cells(double radius) const;
+  /// Appends a sphere to the specimen.
   void add(const Vec3d& centre, double radius, Phase phase, std::int32_t body);
 
   Specimen& specimen_;

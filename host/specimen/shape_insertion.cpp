@@ -10,7 +10,7 @@
 namespace macadam {
 namespace {
 
-constexpr std::int64_t plain_shape_attempts = 2'000;  // listing the open cells costs about as much as so many trials
+constexpr std::int64_t plain_shape_attempts = 2'000;  // listing the open cells takes about the time of this many trials
 constexpr std::int64_t shape_tries_at_once = 4;       // per thread and call
 
 double smallest_radius(const std::vector<ShapeBody>& bodies) {

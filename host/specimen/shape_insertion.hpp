@@ -34,7 +34,9 @@ class ShapeInsertion {
   bool inside(const ShapeBody& body, const Extent& extent) const;
   /// Fast test with the centre of the body only.
   bool clear_at_centre(const ShapeBody& body) const;
+  /// Returns whether a body keeps the spacing to all placed bodies.
   bool clear(const ShapeBody& body) const;
+  /// Returns the centre of a cell.
   Vec3d middle(std::size_t cell) const { return grid_.corner(cell) + 0.5 * grid_.edge(); }
   /// Updates room_ for the bodies placed since the last call.
   void measure_room(std::size_t k);

@@ -29,7 +29,8 @@ constexpr double freeing = 1.4;  // factor by which the gaps of such bodies are 
 
 /// A displacement or a force.
 struct Motion {
-  /// Of the centre; of the rotation, multiplied by the body's lever arm, so that both are lengths.
+  /// Displacement or force of the centre, and rotation or moment of the body. The rotation is multiplied by the body's
+  /// lever arm and the moment divided by it, so that both members have the same unit.
   Vec3d shift{}, spin{};
 };
 

@@ -15,7 +15,8 @@ namespace {
 
 // Sort keys are sphere number + part of the list · 2^28; sphere numbers are below most_particles and fit in 28 bits.
 constexpr std::int32_t part = 1 << 28;
-constexpr int most_levels = 40;    // size groups; the radii of a group are up to twice those of the group before
+// Largest number of size groups; the radii in a group differ by at most a factor of two.
+constexpr int most_levels = 40;
 constexpr std::size_t block = 64;  // consecutive spheres whose lists share memory and are made by one thread
 // Lists up to this length are sorted by counting the smaller keys, which is faster.
 constexpr std::size_t ranked_up_to = 64;

@@ -17,9 +17,9 @@ inline constexpr std::size_t parallel_from = 1000;
 
 /// Neighbour lists. The list of a sphere contains at least all spheres whose surfaces are closer to its own than
 /// `skin`. The order of a list depends on radii and sphere numbers only: first the smaller spheres with a lower number
-/// than its own, then the larger spheres, then the smaller spheres with a higher number, each part sorted by number. Of
-/// two equal spheres the one with the higher number counts as the larger. Spheres that do not touch add nothing to a
-/// sum over the list. Such sums therefore have the same bits for any number of threads and any skin.
+/// than its own, then the larger spheres, then the smaller spheres with a higher number, each part sorted by number. If
+/// two spheres are equal, the one with the higher number counts as the larger. Spheres that do not touch add nothing to
+/// a sum over the list. Such sums therefore have the same bits for any number of threads and any skin.
 class Neighbours {
  public:
   /// Makes the lists of `spheres`, which must outlive this object; `skin` is in metres. Spheres with an index below
@@ -70,7 +70,7 @@ class Neighbours {
   std::size_t first_;
   SphereGrid still_;  ///< spheres that do not move, in cells that list those near enough to a moving sphere
   std::vector<SphereBins> moving_;            ///< moving spheres, in groups of similar size, at their listed positions
-  std::vector<std::int32_t> number_, place_;  ///< by index; index by number
+  std::vector<std::int32_t> number_, place_;  ///< number of each index, and index of each number
   std::vector<std::uint8_t> bins_of_;         ///< for each sphere with a list: its group in moving_
   /// Centre of each sphere when it was listed last.
   std::vector<Vec3d> listed_at_;

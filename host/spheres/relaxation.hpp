@@ -19,7 +19,9 @@ struct WallDepth {
 struct Enclosure {
   /// Returns the depth of a point; if it is more than `reach` [m], any value above `reach` may be returned.
   std::function<WallDepth(const Vec3d& point, double reach)> depth;
-  double stiffness = 10;  ///< relative to that of a pair; at most 10. Spheres may be pressed hard against the wall
+  /// Stiffness of the wall, relative to that of a pair of mastic spheres, at most 10. Spheres may be pressed hard
+  /// against the wall.
+  double stiffness = 10;
 };
 
 /// Minimises the energy ½·k·overlap² of all pairs and walls (model (21.1)) by moving the mastic, and the aggregates too

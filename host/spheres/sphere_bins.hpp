@@ -39,6 +39,7 @@ class SphereBins {
   std::size_t moved() const { return ball_.size() - given_.size(); }
 
   double largest() const { return largest_; }
+  /// Sphere and index at a slot; slots are numbered cell by cell.
   const Ball& ball(std::size_t slot) const { return ball_[slot]; }
   std::int32_t id(std::size_t slot) const { return id_[slot]; }
 

@@ -61,7 +61,7 @@ class Part {
   /// Whether a particle is not used yet, will be inserted, or is inserted.
   enum class State : std::uint8_t { away, taken, inserted };
 
-  /// Returns all tetrahedra of a triangulation in which those of the own particles are final.
+  /// Returns all tetrahedra of a triangulation that contains every tetrahedron at the own particles.
   std::vector<Tetrahedron> all_there() {
     Triangulation triangulation(sites_);
     std::vector<Tetrahedron> all;

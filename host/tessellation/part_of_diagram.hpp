@@ -14,11 +14,11 @@ namespace macadam {
 /// Returns the tetrahedra of the regular triangulation of all particles that have at least one of the particles `own`
 /// as a corner.
 ///
-/// The particles `own` and those near them are triangulated. A tetrahedron of this triangulation belongs to that of all
-/// particles if no other particle has a smaller power at its dual point than its corners have. The particles that
-/// violate this are found with `all`, the trees that together hold all particles, and are inserted; this is repeated
-/// until there are none. Neighbours are indices in the result, or −1 if the neighbour is infinite or has no corner in
-/// `own`.
+/// The particles `own` and those near them are triangulated. A tetrahedron of this triangulation also belongs to the
+/// triangulation of all particles if no other particle has a smaller power at its dual point than its corners have.
+/// Particles that violate this condition are found with `all`, the trees that together hold all particles, and are
+/// inserted. This is repeated until no particle violates it. Neighbours are indices in the result, or −1 if the
+/// neighbour is infinite or has no corner in `own`.
 std::vector<Tetrahedron> tetrahedra_at(const WeightedSites& sites, const std::vector<SiteTree>& all,
                                        const SiteTree& own);
 

@@ -14,7 +14,9 @@ namespace macadam {
 struct Bounds {
   Vec3d low, high;
 
+  /// Extends the box to contain the point.
   void grow(const Vec3d& p);
+  /// Returns the box extended by a length on all sides.
   Bounds wider(double by) const { return {low - Vec3d{by, by, by}, high + Vec3d{by, by, by}}; }
   /// Returns whether the box contains the point.
   bool has(const Vec3d& p) const;

@@ -25,6 +25,7 @@ class Triangulation {
   Triangulation(const Triangulation&) = delete;
   ~Triangulation();
 
+  /// Inserts particles by their numbers.
   void insert(const std::vector<std::int32_t>& particles);
   /// Returns all finite tetrahedra, in CGAL's order.
   std::vector<Tetrahedron> tetrahedra();
