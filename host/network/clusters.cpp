@@ -19,7 +19,7 @@ std::vector<Cluster> find_clusters(const ContactNetwork& network, std::size_t pa
   for (const Contact& c : network.contacts) {
     if (c.b < 0) continue;
     const std::int32_t a = root(c.a), b = root(c.b);
-    // So the root of a cluster is its smallest number.
+    // The root of a cluster is its smallest number.
     parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
   }
   std::map<std::int32_t, Cluster> found;

@@ -16,7 +16,8 @@ namespace {
 // Accepted densities. The range is wider than that of any road stone, slag, filler or binder; values outside of it are
 // errors of units, such as 2.65 for 2650.
 constexpr double lightest = 200, heaviest = 10'000;  // [kg/m³]
-// Relative to the mass of the aggregate; a thin mastic has 3. The limit detects 5.2 in place of 5.2 %.
+// Largest binder content, relative to the mass of the aggregate; a thin mastic has 3. The limit detects 5.2 in place of
+// 5.2 %.
 constexpr double most_binder = 3;
 
 bool is_share(double v) { return v >= 0 && v <= 1; }  // false for NaN

@@ -69,8 +69,8 @@ void Stretching::stretch(const std::array<Vec3d, 3>& axis, const std::array<doub
 CrushedStone::CrushedStone(RandomStream& random, int faces) {
   constexpr int trials = 8;
   std::vector<Vec3d> normals;
-  while (static_cast<int>(normals.size()) <
-         faces) {  // of several random directions, take the one farthest from all others
+  // Each normal is the one of several random directions that is farthest from all normals before it.
+  while (static_cast<int>(normals.size()) < faces) {
     Vec3d best{};
     double nearest = 2;
     for (int t = 0; t < trials; ++t) {

@@ -15,8 +15,8 @@ namespace macadam {
 namespace {
 
 Surface icosahedron() {
-  const double g = (1 + std::sqrt(5.0)) /
-                   2;  // golden ratio; the points are the corners of three rectangles, one in each coordinate plane
+  // The points are the corners of three golden rectangles, one in each coordinate plane; g is the golden ratio.
+  const double g = (1 + std::sqrt(5.0)) / 2;
   Surface s;
   for (const Vec3d& p : {Vec3d{-1, g, 0},
                          {1, g, 0},

@@ -66,7 +66,7 @@ class Check {
       const auto [a, b, c] = surface_.facets[f];
       const Vec3d &p = surface_.points[a], &q = surface_.points[b], &r = surface_.points[c];
       const double longest = std::max({norm(q - p), norm(r - q), norm(p - r)});
-      // The facet counts as degenerate if its height is within the rounding of its coordinates.
+      // The facet counts as degenerate if its height is within the rounding of its corners' coordinates.
       degenerate_[f] = a == b || b == c || c == a || norm(cross(q - p, r - p)) <= longest * rounding;
       if (degenerate_[f]) found.push_back(static_cast<std::int32_t>(f));
     }

@@ -53,7 +53,7 @@ SurfaceSoup read_off(const SurfaceFile& file) {
   Words words(file, '#');
   const std::string_view keyword = words.next("OFF");
   std::string_view plain = keyword;
-  // Prefixes for texture, colours, normals, which follow the coordinates.
+  // Removes the prefixes for texture coordinates, colours and normals. These values follow the coordinates in a line.
   for (const std::string_view extra : {"ST", "C", "N"})
     if (plain.starts_with(extra)) plain.remove_prefix(extra.size());
   if (plain != "OFF") words.fail("header", in_quotes(keyword), "OFF, a text file of points with three coordinates");

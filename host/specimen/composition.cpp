@@ -44,7 +44,7 @@ void check_count(const Origin& origin, const std::string& name, std::int64_t cou
     refuse(origin, name + ": count", std::to_string(count), "0 to " + std::to_string(most_particles));
 }
 
-/// Check one class, the mastic or the voids, and return what they request.
+/// Checks one class, the mastic or the voids, and returns its request.
 ClassRequest request_of(const AggregateClass& c, const SpecimenSpec& spec) {
   const std::string name = millimetres(c.sieve_min) + "-" + millimetres(c.sieve_max) + " mm";
   const Origin origin(spec, c.line);

@@ -47,7 +47,8 @@ struct ShapeBody {
   /// Radii of a ball about the centre that contains the body, and of one that the body contains [m].
   double radius() const { return sphere ? sphere_radius() : cluster ? cluster->radius() : scale * geometry->radius; }
   double inner_radius() const { return sphere ? sphere_radius() : cluster ? 0 : scale * geometry->inner; }
-  /// Transform a point from the frame of the template to the box, back, and to the frame of the cluster.
+  /// Transforms a point: from the frame of the template to the box, back to the frame of the template, and from the box
+  /// to the frame of the cluster.
   Vec3d to_space(const Vec3d& own) const { return centre + scale * rotation(own); }
   Vec3d to_own(const Vec3d& space) const { return (1 / scale) * rotation.back(space - centre); }
   Vec3d to_cluster(const Vec3d& space) const { return rotation.back(space - centre); }
@@ -80,7 +81,7 @@ struct ShapeContact {
   Vec3d point{};     ///< [m]
   Vec3d normal{};    ///< unit vector pointing from the second body to the first
 };
-/// Find the contact between two bodies, or between a body and the walls.
+/// Finds the contact between two bodies, or between a body and the walls.
 ShapeContact contact(const ShapeBody& a, const ShapeBody& b, double gap);
 ShapeContact wall_contact(const ShapeBody& body, const Box& box, double gap);
 

@@ -87,7 +87,8 @@ bool ShapeInsertion::inside(const ShapeBody& body, const Extent& e) const {
   return c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z;
 }
 
-/// Most trials fail, and most of those because of the position of the centre alone.
+/// Tests only whether the body's inner ball comes too close to a placed body. Most trials fail, most of them by this
+/// fast test.
 bool ShapeInsertion::clear_at_centre(const ShapeBody& body) const {
   const std::vector<std::int32_t>& near = near_.near(near_.cell_of(body.centre));
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) {
@@ -103,7 +104,8 @@ bool ShapeInsertion::clear(const ShapeBody& body) const {
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) { return nearer(placed_[j], body, spacing_); });
 }
 
-/// Only bodies and cells are considered for which the result can exclude a body that is still to come.
+/// Updates room_ for the bodies placed since the last call. Only cells near such a body are updated, because farther
+/// away it cannot exclude any body that is still to come.
 void ShapeInsertion::measure_room(std::size_t k) {
   if (room_.empty()) {
     room_.resize(grid_.cells());

@@ -19,9 +19,10 @@ namespace {
 // of this unit.
 constexpr double first_step = 0.1, longest_step = 0.3;
 constexpr double longest_move = 0.1;  // per iteration, in mean mastic radii
-// Skin in mean mastic radii. A smaller one makes lists too often, a larger one makes them too long.
+// Skin of the neighbour lists in mean mastic radii. With a smaller one lists are made too often, with a larger one they
+// are too long.
 constexpr double skin_share = 1.15;
-// For pairs and walls of free aggregates, which must not give way as mastic does.
+// Stiffness of pairs and walls of free aggregates, relative to mastic. Aggregates must not give way as mastic does.
 constexpr double aggregate_stiffness = 20;
 constexpr int most_iterations = 3000, stall_window = 50;
 constexpr double stalled = 5e-4;  // the energy has stalled if it falls by less than this fraction in one window
@@ -263,7 +264,7 @@ class Relaxation {
   Neighbours neighbours_;
   std::vector<Vec3d> velocity_, acceleration_;
   std::vector<double> energy_;
-  std::vector<Dots> dots_;                          ///< power with the velocity before the move
+  std::vector<Dots> dots_;                          ///< terms of the sums, with the velocity before the move
   std::vector<Dots> by_number_;                     ///< dots_ of the moving spheres, in the order of numbers
   std::vector<std::int32_t> place_;                 ///< places of the moving spheres, in the order of numbers
   std::vector<std::vector<std::int32_t>> strayed_;  ///< places that strayed, per range, ascending

@@ -33,7 +33,8 @@ struct Neighbour {
   std::int32_t particle, tetrahedron;
 };
 
-/// Makes the facets of particles one by one and appends them to a block. Each thread has its own, with its own buffers.
+/// Makes the facets of particles one by one and appends them to a block. Each block has its own maker, with its own
+/// buffers.
 class FacetMaker {
  public:
   FacetMaker(const Specimen& specimen, const PowerDiagram& diagram, const std::vector<std::uint8_t>& beyond,
@@ -89,7 +90,8 @@ class FacetMaker {
     polygon_.clear();
     unsigned some = 0;
     std::int32_t t = b.tetrahedron;
-    std::int32_t leave = -1, keep = -1;  // the next tetrahedron is across the face opposite to site number `leave`
+    // The next tetrahedron is across the face opposite to site `leave`; site `keep` stays.
+    std::int32_t leave = -1, keep = -1;
     for (int k = 0; k < 4; ++k) {
       const std::int32_t site = diagram_.tetrahedra[t].site[k];
       if (site == a || site == b.particle) continue;
