@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// clusters.cpp  Union–find over the contacts between particles.
+// clusters.cpp  Finds clusters by union–find over the contacts between particles.
 #include "host/network/clusters.hpp"
 
 #include <algorithm>
@@ -19,7 +19,8 @@ std::vector<Cluster> find_clusters(const ContactNetwork& network, std::size_t pa
   for (const Contact& c : network.contacts) {
     if (c.b < 0) continue;
     const std::int32_t a = root(c.a), b = root(c.b);
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);  // the root is the smallest number
+    // The root of a cluster is its smallest number.
+    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
   }
   std::map<std::int32_t, Cluster> found;
   for (std::size_t i = 0; i < particles; ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_network.cpp  Facets → contacts: which ones, their frames, lever arms, points, area moments, rows.
+/// \file contact_network.cpp  Builds contacts from facets: selects facets, and computes frames, lever arms, points,
+/// area moments, and the contacts of each particle.
 #include "macadam/contact_network.hpp"
 
 #include <fmt/format.h>
@@ -41,12 +42,12 @@ void check_input(const Specimen& specimen, const Tessellation& tessellation, con
   }
 }
 
-/// Whether a facet is free surface: that of a void.
+/// Returns whether a facet is a free surface, because one of its cells is a void.
 bool is_free(const Specimen& specimen, const Facet& f) {
   return std::max(f.a, f.b) >= static_cast<std::int32_t>(specimen.size());
 }
 
-/// Mean area of the facets between particles; 0 where there is none.
+/// Returns the mean area of the facets between particles [m²], or 0 if there are none.
 double mean_facet_area(const Specimen& specimen, const Tessellation& tessellation) {
   double sum = 0;
   std::int64_t count = 0;
@@ -64,7 +65,8 @@ PairType pair_of(const Specimen& specimen, const Facet& f) {
   return specimen.body[f.a] == specimen.body[f.b] ? PairType::inner : PairType::aa;
 }
 
-/// Distance from a centre to a wall, checked: a wall contact's stiffness is E·A/h.
+/// Returns the distance of a particle's centre from a wall [m]. \throws InputError if it is too small, because the
+/// stiffness of a wall contact is E·A/h.
 double distance_to_wall(const Specimen& specimen, const Facet& f) {
   const Vec3d &p = specimen.centre[f.a], &box = specimen.box.size;
   const double h = std::array<double, 6>{p.x, box.x - p.x, p.y, box.y - p.y, p.z, box.z - p.z}[-1 - f.b];
@@ -78,7 +80,7 @@ double distance_to_wall(const Specimen& specimen, const Facet& f) {
   return h;
 }
 
-/// Distance, frame and lever arms.
+/// Returns a contact with its distance, frame and lever arms (model, section 3).
 Contact geometry(const Specimen& specimen, const Facet& f) {
   Contact c;
   c.a = f.a, c.b = f.b;
@@ -97,8 +99,8 @@ Contact geometry(const Specimen& specimen, const Facet& f) {
   return c;
 }
 
-/// Area moments of one triangle by its corners: as three points of a third of the area each, and exactly. Both have the
-/// exact area and first moments.
+/// Adds the area moments of one triangle, given by the coordinates of its corners: `lumped` as three points with a
+/// third of the area each, `exact` as integrals. Both have the same area and first moments.
 void add_triangle(double area, const std::array<double, 3>& s, const std::array<double, 3>& t, AreaMoments& lumped,
                   AreaMoments& exact) {
   const auto product = [](const std::array<double, 3>& p, const std::array<double, 3>& q) {
@@ -114,7 +116,8 @@ void add_triangle(double area, const std::array<double, 3>& s, const std::array<
   exact.tt += area / 12 * (sum_t * sum_t + tt);
 }
 
-/// Fills in the contact's points (vertices, then centroid) with their areas; returns both kinds of moments.
+/// Sets the coordinates and areas of the contact's points (vertices, then centroid). Returns the lumped and the exact
+/// moments.
 std::array<AreaMoments, 2> set_points(const Specimen& specimen, const Tessellation& tessellation, const Facet& f,
                                       const Contact& c, ContactNetwork& out) {
   const auto polygon = tessellation.polygon(f);
@@ -128,7 +131,7 @@ std::array<AreaMoments, 2> set_points(const Specimen& specimen, const Tessellati
   set(n, f.centroid);
   const double *s = &out.point_s[first], *t = &out.point_t[first];
   AreaMoments lumped, exact;
-  for (std::size_t k = 0; k < n; ++k) {  // fan from the centroid: x0 may lie outside the polygon
+  for (std::size_t k = 0; k < n; ++k) {  // triangles begin at the centroid, because x0 may lie outside the polygon
     const std::size_t l = k + 1 < n ? k + 1 : 0;
     const double area = 0.5 * ((s[k] - s[n]) * (t[l] - t[n]) - (s[l] - s[n]) * (t[k] - t[n]));
     for (const std::size_t j : {k, l, n}) out.point_area[first + j] += area / 3;
@@ -137,7 +140,7 @@ std::array<AreaMoments, 2> set_points(const Specimen& specimen, const Tessellati
   return {lumped, exact};
 }
 
-/// Fills in the centroid as the contact's one point, with the whole area; returns its moments.
+/// Sets the centroid as the contact's only point, with the whole area. Returns its moments.
 AreaMoments set_one_point(const Specimen& specimen, const Facet& f, const Contact& c, ContactNetwork& out) {
   const Vec3d x = f.centroid - (specimen.centre[f.a] + c.arm_a * c.n);
   const double s = dot(x, c.s), t = dot(x, c.t);
@@ -147,7 +150,7 @@ AreaMoments set_one_point(const Specimen& specimen, const Facet& f, const Contac
   return {f.area, f.area * s, f.area * t, f.area * s * s, f.area * s * t, f.area * t * t};
 }
 
-/// Compressed rows particle → contacts, ascending.
+/// Builds the lists of the contacts of each particle (compressed rows, ascending).
 void build_rows(std::size_t particles, ContactNetwork& out) {
   out.row_begin.assign(particles + 1, 0);
   for (const Contact& c : out.contacts) {
@@ -182,6 +185,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
   }
   const double mean_area = mean_facet_area(specimen, tessellation);
   double dropped = 0, kept = 0;
+  // Returns whether a facet becomes a contact, and counts the facets that the limits drop.
   const auto wanted = [&](const Facet& f) {
     if (is_free(specimen, f)) return false;
     if (f.b < 0) return f.b <= wall_z_lo ? spec.bottom_top_walls : spec.lateral_walls;
@@ -192,7 +196,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
     if (f.area < limit.area_min.value_or(0) * mean_area) return ++out.dropped_area, dropped += f.area, false;
     return true;
   };
-  std::vector<std::uint32_t> facet_of, point_begin{0};  // of each contact
+  std::vector<std::uint32_t> facet_of, point_begin{0};  // for each contact: its facet; first of its points, and the end
   for (std::size_t k = 0; k < tessellation.facets.size(); ++k) {
     const Facet& f = tessellation.facets[k];
     if (!wanted(f)) continue;
@@ -203,6 +207,7 @@ ContactNetwork build_network(const Specimen& specimen, const Tessellation& tesse
   }
   out.contacts.resize(facet_of.size());
   for (auto* list : {&out.point_s, &out.point_t, &out.point_area}) list->resize(point_begin.back(), 0);
+  // Sums over the contacts for ContactNetwork::second_moment_difference.
   struct Sums {
     double difference = 0, total = 0;
     Sums& operator+=(const Sums& o) { return difference += o.difference, total += o.total, *this; }

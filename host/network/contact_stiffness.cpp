@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_stiffness.cpp  Gᵀ·D·G of one contact: G from motions to generalised displacements, D from its area moments.
+// contact_stiffness.cpp  Computes Gᵀ·D·G of one contact. G maps the motion of an end to the six generalised
+// displacements q of the contact, D is the stiffness matrix made of the area moments.
 #include "host/network/contact_stiffness.hpp"
 
 namespace macadam {
@@ -7,7 +8,7 @@ namespace {
 
 Eigen::Vector3d eigen(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
-/// The six generalised displacements of a contact as rows over the motion of one end.
+/// Returns the matrix that maps the motion (displacement, rotation) of one end to the six generalised displacements.
 Matrix6 generalised(const Contact& c, int end) {
   const double sign = end == 0 ? -1 : 1, lever = end == 0 ? c.arm_a : -c.arm_b;
   const Eigen::Vector3d n = eigen(c.n), s = eigen(c.s), t = eigen(c.t), zero = Eigen::Vector3d::Zero();

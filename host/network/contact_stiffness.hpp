@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_stiffness.hpp  Stiffness of one contact between the motions of its ends (geometry of the start).
+/// \file contact_stiffness.hpp  The 6×6 stiffness blocks of one contact with respect to the motions of its two
+/// particles, for the initial geometry.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,8 +11,10 @@ namespace macadam {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Resisting load on end i (force [N], moment [N·m]) per motion of end j (displacement [m], rotation [rad]); ends: 0 is
-/// A, 1 is B. `k` is the law's stiffness per area over distance [Pa].
+/// Returns the stiffness block (i, j) of a contact: load on end i (force [N], moment [N·m]) per motion of end j
+/// (displacement [m], rotation [rad]). Diagonal blocks are positive semidefinite; the contact exerts the negative of
+/// this load. End 0 is A, end 1 is B. `k` is the stiffness of the law per unit of area over distance [Pa]; `alpha` is
+/// the ratio of shear to normal stiffness.
 Matrix6 contact_block(const Contact& contact, double k, double alpha, int i, int j);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// names.cpp  Names of the choices of a network.
+// names.cpp  Names of pair types and quadratures, as scenes and results show them.
 #include <array>
 
 #include "macadam/contact_network.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// check_design.cpp  Curve, cut, envelope, contents and densities of a mix design, one by one.
+// check_design.cpp  Checks the gradation curve, cut, envelope, contents and densities of a mix design.
 #include "host/recipe/check_design.hpp"
 
 #include <algorithm>
@@ -13,9 +13,12 @@
 namespace macadam {
 namespace {
 
-// Wider than any road stone, slag, filler or binder: what lies outside is a slip of units, such as 2.65 for 2650.
+// Accepted densities. The range is wider than that of any road stone, slag, filler or binder; values outside of it are
+// errors of units, such as 2.65 for 2650.
 constexpr double lightest = 200, heaviest = 10'000;  // [kg/m³]
-constexpr double most_binder = 3;  // of the aggregate's mass: that of a thin mastic; 5.2 was meant as 5.2 %
+// Largest binder content, relative to the mass of the aggregate; a thin mastic has 3. The limit detects 5.2 in place of
+// 5.2 %.
+constexpr double most_binder = 3;
 
 bool is_share(double v) { return v >= 0 && v <= 1; }  // false for NaN
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file check_design.hpp  What each number of a mix design must be, before any is put together with another.
+/// \file check_design.hpp  Checks the numbers of a mix design one by one, before they are combined.
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ std::string in_percent(double share);
 /// `2433.4 kg/m3`, for messages.
 std::string in_kg_m3(double density);
 
-/// \throws InputError at the line of a key, or at `line` where it is given.
+/// \throws InputError at the line of `key` in the scene, or at `line` if it is not 0.
 [[noreturn]] void refuse(const MixDesign& design, const std::string& key, const std::string& found,
                          const std::string& expected, int line = 0);
 
-/// Checks everything that needs no volumes: the curve, the cut, the envelope, the contents and the densities.
-/// \throws InputError.
+/// Checks everything that does not depend on volumes: the gradation curve, the cut, the envelope, the contents and the
+/// densities. \throws InputError for the first fault.
 void check(const MixDesign& design);
 
 }  // namespace macadam

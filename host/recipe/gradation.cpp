@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gradation.cpp  The curve that a generated specimen reached, beside the one that was asked for.
+// gradation.cpp  Computes the gradation curve that a generated specimen reached, and compares the requested curve with
+// its envelope.
 #include <fmt/format.h>
 
 #include <iterator>
@@ -15,10 +16,11 @@ std::vector<GradationRow> gradation_of(const MixDesign& design, const std::vecto
   if (composition.size() < volumes.classes.size() + 1)
     throw InputError(design.source, design.line, "composition", fmt::format("{} classes", composition.size()),
                      fmt::format("{} and the mastic, those of the recipe", volumes.classes.size()));
-  // Dry aggregate in 1 m³ of the box [kg]: in the mastic as much as its volume holds, in its design's proportions.
+  // Dry fine aggregate and filler per 1 m³ of the box [kg]: the mastic contains them in the proportions of the design.
   const double fines = (volumes.mastic_fine_mass + volumes.mastic_filler_mass) * volumes.bulk_density /
                        volumes.mastic_volume * composition[volumes.classes.size()].fraction;
   double all = fines;
+  // Now all dry aggregate per 1 m³ of the box [kg].
   for (std::size_t k = 0; k < volumes.classes.size(); ++k) all += composition[k].fraction * volumes.classes[k].density;
 
   std::vector<GradationRow> rows;

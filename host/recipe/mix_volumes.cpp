@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mix_volumes.cpp  From masses to volumes: EN 12697-5 and EN 12697-8, all for 1 kg of mix.
+// mix_volumes.cpp  Converts the masses of a mix design to volumes, by EN 12697-5 and EN 12697-8, for 1 kg of mix:
+// model, section 22.
 #include <algorithm>
 #include <cmath>
 
@@ -11,10 +12,10 @@
 namespace macadam {
 namespace {
 
-/// Measured densities are reported to 1 kg/m³: half of it is rounding.
+/// Measured densities are rounded to 1 kg/m³, so they may be wrong by half of it [kg/m³].
 constexpr double rounding = 0.5;
 
-/// Dry mass [kg] and volume with its pores [m³] of an aggregate in 1 kg of mix.
+/// Dry mass [kg], and volume including pores [m³], of an aggregate fraction in 1 kg of mix.
 struct Portion {
   double mass = 0, volume = 0;
   Portion& operator+=(const Portion& other) {
@@ -25,25 +26,25 @@ struct Portion {
 
 Portion portion(double mass, double density) { return {mass, mass / density}; }
 
-/// What lies between the sieves k and k + 1.
+/// Returns the aggregate between the sieves k and k + 1; `aggregate` is the mass of all aggregate [kg].
 Portion fraction(const MixDesign& design, std::size_t k, double aggregate) {
   const double density =
       design.aggregate_density.size() == 1 ? design.aggregate_density[0] : design.aggregate_density[k];
   return portion(aggregate * (design.gradation[k].passing - design.gradation[k + 1].passing), density);
 }
 
-/// `0.948 kg / 2630 kg/m3 + 0.052 kg / 1030 kg/m3`, the sum of EN 12697-5 for messages; several aggregates have their
-/// mean density.
+/// Returns the sum of EN 12697-5 for messages, for example `1 kg / (0.948 kg / 2630 kg/m3 + 0.052 kg / 1030 kg/m3)`.
+/// For several aggregates their mean density is shown.
 std::string sum_of(const Portion& all, double binder, double binder_density) {
   return fmt::format("1 kg / ({:.6g} kg / {:.6g} kg/m3 + {:.6g} kg / {:.6g} kg/m3)", all.mass, all.mass / all.volume,
                      binder, binder_density);
 }
 
-/// Mass of the binder in the pores [kg], given or from the measured maximum density.
+/// Returns the mass of the binder absorbed in the pores [kg], from the design or from the measured maximum density.
 double absorbed_of(const MixDesign& design, const Portion& all, double binder) {
   double absorbed = all.mass * design.absorbed_binder.value_or(0);
   if (design.maximum_density) {
-    // 1/ρ = v_a + (b − absorbed)/ρ_b
+    // Model (22.1): 1/ρ_max = v_a + (b − absorbed)/ρ_b
     const double measured = *design.maximum_density, solid = all.volume + binder / design.binder_density;
     if (measured < 1 / solid - rounding)
       refuse(design, "maximum_density",
@@ -69,6 +70,7 @@ double absorbed_of(const MixDesign& design, const Portion& all, double binder) {
   return absorbed;
 }
 
+/// Returns the air voids as a fraction of the bulk volume, given or from the measured bulk density.
 double air_voids_of(const MixDesign& design, double maximum_density) {
   if (design.air_voids) return *design.air_voids;
   const double bulk = *design.bulk_density, voids = 1 - bulk / maximum_density;  // EN 12697-8
@@ -97,7 +99,7 @@ MixVolumes volumes_of(const MixDesign& design) {
       fine += p;
       continue;
     }
-    coarse += p;  // its volume is still of 1 kg of mix; below it becomes that of the box
+    coarse += p;  // p.volume is that of 1 kg of mix here; further down it is converted to a fraction of the box
     out.classes.push_back({curve[k + 1].size, curve[k].size, p.mass, p.volume, p.mass / p.volume, curve[k + 1].line});
   }
   const Portion filler =
@@ -108,11 +110,11 @@ MixVolumes volumes_of(const MixDesign& design) {
   const double absorbed = absorbed_of(design, all, out.binder);
   out.absorbed_binder = absorbed / all.mass;
   out.effective_binder = out.binder - absorbed;
-  const double solid = all.volume + out.effective_binder / design.binder_density;  // [m³] of 1 kg
+  const double solid = all.volume + out.effective_binder / design.binder_density;  // solid volume of 1 kg of mix [m³]
   out.maximum_density = 1 / solid;                                                 // EN 12697-5
   out.air_voids = air_voids_of(design, out.maximum_density);
   out.bulk_density = out.maximum_density * (1 - out.air_voids);
-  out.vma = 1 - out.bulk_density * all.volume;  // EN 12697-8; the same as V_m + B·ρ_bulk/ρ_B where none is absorbed
+  out.vma = 1 - out.bulk_density * all.volume;  // EN 12697-8; without absorption equal to V_m + B·ρ_bulk/ρ_B
   out.vfb = out.vma > 0 ? (out.vma - out.air_voids) / out.vma : 0;
 
   for (MixClass& c : out.classes) c.volume *= out.bulk_density;
@@ -145,12 +147,13 @@ void follow(const MixDesign& design, SpecimenSpec& spec) {
         "none: both follow from the recipe");
   alone(spec.voids && spec.voids->count, "a count of voids beside it", "a fraction of voids, or neither");
   if (spec.voids && !spec.voids->fraction) spec.voids->fraction = volumes.air_voids;
-  const double of_voids = spec.voids ? *spec.voids->fraction : 0;  // share of the box
+  const double of_voids = spec.voids ? *spec.voids->fraction : 0;  // fraction of the box
   alone(of_voids > volumes.air_voids + 1e-9,
         fmt::format("voids of {} of the box, and {} of air voids in the mix", in_percent(of_voids),
                     in_percent(volumes.air_voids)),
         "at most as much in [specimen.voids]");
-  spec.mastic->porosity = (volumes.air_voids - of_voids) / (1 - of_voids);  // air that is in no void of its own
+  // Air that is not in voids with cells of their own.
+  spec.mastic->porosity = (volumes.air_voids - of_voids) / (1 - of_voids);
   for (const MixClass& c : volumes.classes) {
     AggregateClass& out = spec.aggregate.emplace_back();
     out.sieve_min = c.sieve_min, out.sieve_max = c.sieve_max;

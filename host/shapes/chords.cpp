@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// chords.cpp  D^L over pairs of vertices, D^I in the planes of vertices, D^S over crossings seen along its direction.
+// chords.cpp  Finds D^L among pairs of vertices, D^I in the planes through vertices, and D^S among crossings in the
+// projection along its direction.
 #include "host/shapes/chords.hpp"
 
 #include <algorithm>
@@ -12,13 +13,14 @@
 namespace macadam {
 namespace {
 
-/// A chord and its direction.
+/// Length of a chord and its unit direction.
 struct Chord {
   double length = 0;
   Vec3d axis{};
 };
 
-/// The longest chords known, ties included: chords that rounding alone may set apart are one length.
+/// Collects the longest chords offered so far. Chords whose lengths differ by rounding only count as equally long, and
+/// all of them are kept.
 class Longest {
  public:
   explicit Longest(double rounding) : rounding_(rounding) {}
@@ -31,7 +33,8 @@ class Longest {
     if (chords_.size() >= 2 * kept_) prune();
   }
 
-  /// Those within rounding of the longest, in the order of arrival; of the same direction only the first.
+  /// Returns the chords whose length is within rounding of the longest, in the order in which they were offered. If
+  /// several chords have the same direction, only the first one is kept.
   const std::vector<Chord>& chords() {
     prune();
     return chords_;
@@ -39,6 +42,7 @@ class Longest {
   double best() const { return best_; }
 
  private:
+  // Removes the chords that are shorter than the longest by more than rounding, and repeated directions.
   void prune() {
     std::vector<Chord> kept;
     for (const Chord& c : chords_) {
@@ -56,6 +60,7 @@ class Longest {
   std::vector<Chord> chords_;
 };
 
+/// Finds the three chords of one surface. Coordinates are taken relative to the middle of the surface.
 class ChordFinder {
  public:
   explicit ChordFinder(const Surface& surface)
@@ -79,7 +84,8 @@ class ChordFinder {
     std::vector<Pair> pairs;
     double d_intermediate = 0;
     std::optional<Chords> best;
-    // All lengths are bounded by D^L: a shape as regular as a sphere is done with before all its ties are seen.
+    // D^I and D^S cannot exceed D^L. The search ends as soon as both equal D^L, which saves the many equally long
+    // chords of a nearly spherical shape.
     const auto as_long = [&](double length) { return length >= d_long - rounding_; };
     const auto measure_short = [&](const Pair& pair) {
       const Vec3d axis = cross(pair.axis_long, pair.intermediate.axis);
@@ -104,7 +110,8 @@ class ChordFinder {
   }
 
  private:
-  /// D^L, all of them. Vertices far from the middle come first, which ends the search early unless all are as far.
+  /// Returns all chords of length D^L. Vertices far from the middle are tried first, so that the search ends early
+  /// unless all vertices are equally far.
   Longest long_chords() const {
     std::vector<std::pair<double, std::int32_t>> order;
     for (std::size_t p = 0; p < points_.size(); ++p) order.push_back({-norm(points_[p]), static_cast<std::int32_t>(p)});
@@ -119,7 +126,8 @@ class ChordFinder {
     return longest;
   }
 
-  /// D^I: from each vertex to where edges meet the plane through it that is perpendicular to `axis`.
+  /// Returns all chords of length D^I: from each vertex to the points where edges cross the plane that contains the
+  /// vertex and is perpendicular to `axis`.
   Longest chords_across(const Vec3d& axis) const {
     std::vector<double> level;
     for (const Vec3d& p : points_) level.push_back(dot(axis, p));
@@ -129,7 +137,7 @@ class ChordFinder {
     stab(spans, level, rounding_, [&](std::size_t edge, std::size_t vertex) {
       const auto [a, b] = edges_[edge];
       const Vec3d &p = points_[a], &q = points_[b], &v = points_[vertex];
-      if (spans[edge].high - spans[edge].low <= rounding_) {  // it lies in the plane
+      if (spans[edge].high - spans[edge].low <= rounding_) {  // the edge lies in the plane
         longest.offer(p - v);
         longest.offer(q - v);
         return;
@@ -140,9 +148,9 @@ class ChordFinder {
     return longest;
   }
 
-  /// D^S: the longest chord along `axis`; `u` and `v` are perpendicular to it and to each other.
+  /// Returns D^S, the length of the longest chord along `axis`. `u` and `v` are perpendicular to it and to each other.
   double longest_along(const Vec3d& axis, const Vec3d& u, const Vec3d& v) const {
-    std::vector<Vec3d> seen;  // (along u, along v, height along axis)
+    std::vector<Vec3d> seen;  // coordinates (along u, along v, height along axis)
     for (const Vec3d& p : points_) seen.push_back({dot(u, p), dot(v, p), dot(axis, p)});
     return std::max(largest_gap_of_edges(seen, edges_, rounding_), largest_gap_over_facets(seen, facets_, rounding_));
   }

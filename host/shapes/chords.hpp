@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file chords.hpp  The three lengths of a surface that a calliper takes, Krumbein's way.
+/// \file chords.hpp  Measures the three principal lengths D^L, D^I and D^S of a surface as a calliper would (Krumbein's
+/// method).
 #pragma once
 
 #include <array>
@@ -14,17 +15,19 @@ struct Chords {
   std::array<Vec3d, 3> axis{};
 };
 
-/// Exact for the polyhedron, to rounding. A chord joins two points of the surface as the jaws of a calliper do: where
-/// the body is not convex it may leave it, and it ends at the outermost points.
+/// Measures the three chords of a surface. The result is exact for the polyhedron, up to rounding. A chord joins two
+/// points of the surface, as the jaws of a calliper do: if the body is not convex, the chord may leave the body in
+/// between, and it ends at the outermost points.
 ///
-/// D^L joins two vertices. D^I lies in a plane perpendicular to D^L; there the surface is a polygon whose corners slide
-/// along edges as the plane moves, so the squared distance of two of them is a convex quadratic of the plane's offset:
-/// the largest is found where one of the two corners is a vertex. D^S has a fixed direction; seen along it, its length
-/// is linear wherever one facet lies before another, so the largest is found where a vertex lies on a facet or two
-/// edges cross.
+/// D^L is the longest distance between two vertices. D^I lies in a plane perpendicular to D^L. Such a plane cuts the
+/// surface in a polygon whose corners move along edges when the plane is shifted. The squared distance of two corners
+/// is therefore a convex quadratic function of the shift, and its maximum is reached in a plane where one of the two
+/// corners is a vertex. D^S has a fixed direction, perpendicular to both. In the projection along it the length of a
+/// chord is linear as long as the chord runs between the same two facets, so the maximum is reached where a vertex is
+/// projected onto a facet or where two edges cross.
 ///
-/// Where several D^L are equally long (a cube has four) the one with the longest D^I counts, of several such D^I the
-/// one with the longest D^S: the lengths then do not depend on how the surface is turned.
+/// If several D^L are equally long (a cube has four), the one with the longest D^I is taken; among several such D^I,
+/// the one with the longest D^S. The lengths therefore do not depend on the orientation of the surface.
 Chords measure_chords(const Surface& surface);
 
 }  // namespace macadam

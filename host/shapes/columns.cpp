@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file columns.cpp  Where columns enter and leave the shape and the spheres.
+/// \file columns.cpp  Intersects columns with facets and spheres, and integrates the common volume.
 #include "host/shapes/columns.hpp"
 
 #include <algorithm>
@@ -9,16 +9,18 @@
 namespace macadam {
 namespace {
 
-constexpr double columns_along = 400;  // a cube and a sphere come out to about 1e-5 of their volumes
+constexpr double columns_along = 400;  // the volumes of a cube and a sphere are accurate to about 1e-5
 
+/// Returns the length of the column that lies in at least one body.
 double length(Column& column) {
   double sum = 0;
   for_each_part(column, [&](double low, double high) { sum += high - low; });
   return sum;
 }
 
-/// Whether (x, y) lies left of the edge a → b. Both facets of an edge ask for the same direction, so that a column
-/// passes through exactly one of them even where rounding decides.
+/// Returns whether (x, y) lies left of the edge a → b. The edge is always evaluated from its lower to its higher point
+/// number. The two facets at the edge therefore get opposite answers, and a column passes through exactly one of them
+/// even where rounding decides.
 bool left_of(const Surface& s, std::int32_t a, std::int32_t b, double x, double y) {
   const Vec3d& p = s.points[std::min(a, b)];
   const Vec3d& q = s.points[std::max(a, b)];
@@ -26,8 +28,9 @@ bool left_of(const Surface& s, std::int32_t a, std::int32_t b, double x, double 
   return a < b ? left : !left;
 }
 
-/// Turned by the unit quaternion (1, 2, 4, 8)/√85: no facet of a box or the like then runs along a row of columns,
-/// which would see all of it or nothing.
+/// Rotates a point by the unit quaternion (1, 2, 4, 8)/√85. After this rotation, facets of boxes and similar shapes are
+/// not parallel to the rows of columns. A row parallel to a facet would hit the facet with all of its columns or with
+/// no column.
 Vec3d turned(const Vec3d& p) {
   static const double w = 1 / std::sqrt(85.0);
   return Pose{{}, {w, 2 * w, 4 * w, 8 * w}}(p);
@@ -48,7 +51,8 @@ void cross_facets(const Surface& s, ColumnRow& row) {
       if (left != 0 && left != 3) continue;
       const double rise = normal.z == 0 ? 0 : (normal.x * (x - a.x) + normal.y * (row.y - a.y)) / normal.z;
       const double z = std::clamp(a.z - rise, std::min({a.z, b.z, c.z}), std::max({a.z, b.z, c.z}));
-      row.column[i].push_back({z, left == 3 ? -1 : 1});  // upward facets are left by
+      // If left is 3, the facet faces upwards and the column leaves the body.
+      row.column[i].push_back({z, left == 3 ? -1 : 1});
     }
   }
 }
@@ -96,7 +100,7 @@ SharedVolume shared_volume(const Surface& given_surface, const MultiSphere& give
     for (std::size_t i = 0; i < shape.size(); ++i) {
       const double in_shape = length(shape[i]), in_spheres = length(spheres[i]);
       sum.shape += in_shape, sum.spheres += in_spheres;
-      // the column's part in either body is that in the one, in the other, less what is common
+      // common volume = shape + spheres − union
       shape[i].insert(shape[i].end(), spheres[i].begin(), spheres[i].end());
       sum.common += in_shape + in_spheres - length(shape[i]);
       shape[i].clear(), spheres[i].clear();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file columns.hpp  Bodies seen along parallel columns: where they are entered and left, and what volumes follow.
+/// \file columns.hpp  Intersections of bodies with a row of parallel columns (rays along z), and volumes computed from
+/// them.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +12,14 @@
 
 namespace macadam {
 
-/// A point of a column, along z, where the number of bodies that hold it changes by `step`.
+/// A point on a column where the number of bodies that contain it changes by `step`.
 struct Crossing {
   double z;
   int step;
 };
 using Column = std::vector<Crossing>;
 
-/// Calls visit(low, high) for every part of a column that lies in at least one body.
+/// Calls visit(low, high) for every interval of the column that lies in at least one body. Sorts the column.
 template <class Visit>
 void for_each_part(Column& column, const Visit& visit) {
   std::sort(column.begin(), column.end(),
@@ -32,13 +33,13 @@ void for_each_part(Column& column, const Visit& visit) {
   }
 }
 
-/// Columns of one row, y fixed; index i stands at x0 + i·edge.
+/// A row of columns parallel to z with a common y. Column i is at x0 + i·edge.
 struct ColumnRow {
   double y, x0, edge;
   std::vector<Column> column;
 
   double x(std::size_t i) const { return x0 + static_cast<double>(i) * edge; }
-  /// Numbers of the columns with low ≤ x ≤ high: [first, last).
+  /// Returns the range [first, last) of the columns with low ≤ x ≤ high.
   std::pair<std::size_t, std::size_t> between(double low, double high) const {
     const auto n = static_cast<double>(column.size());
     return {static_cast<std::size_t>(std::clamp(std::ceil((low - x0) / edge), 0.0, n)),
@@ -46,17 +47,17 @@ struct ColumnRow {
   }
 };
 
-/// Adds where the columns of a row enter and leave a closed surface, or spheres.
+/// Adds the points where the columns of a row enter and leave a closed surface or a set of spheres.
 void cross_facets(const Surface& surface, ColumnRow& row);
 void cross_spheres(const MultiSphere& spheres, ColumnRow& row);
 
-/// All in m³.
+/// Volume of the shape, of the union of the spheres, and of the part that both have in common [m³].
 struct SharedVolume {
   double shape = 0, spheres = 0, common = 0;
 };
 
-/// Integrates over a regular grid of parallel columns, about 400 of them along the longer side: exactly along each
-/// column, by the midpoint rule across them.
+/// Integrates over a regular grid of parallel columns, about 400 of them along the longer side. The integral is exact
+/// along each column and uses the midpoint rule across columns.
 SharedVolume shared_volume(const Surface& surface, const MultiSphere& cluster);
 
 }  // namespace macadam

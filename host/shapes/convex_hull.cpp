@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file convex_hull.cpp  CGAL's quickhull: exact predicates, plain arrays out.
+/// \file convex_hull.cpp  CGAL's quickhull with exact predicates; takes and returns plain arrays.
 #include "host/shapes/convex_hull.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -16,7 +16,7 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
-/// Facets that lie in one plane have one number: that of the first of them.
+/// Returns a plane number for each facet: facets in one plane have the number of the first of them.
 std::vector<std::size_t> planes_of(const Mesh& hull) {
   std::vector<std::size_t> plane(hull.number_of_faces(), hull.number_of_faces());
   std::vector<Mesh::Face_index> next;
@@ -52,8 +52,8 @@ std::vector<std::array<std::int32_t, 3>> convex_hull(const std::vector<Vec3d>& p
   }
   Mesh hull;
   CGAL::convex_hull_3(sites.begin(), sites.end(), hull);
-  // Of points in one plane CGAL takes now these facets, now those: it follows addresses. So each plane is divided anew,
-  // by its corners alone, from the first of them.
+  // CGAL's triangulation of a polygonal face depends on memory addresses and differs from run to run. Each face is
+  // therefore triangulated again, from its corners only, starting at the smallest corner number.
   const std::vector<std::size_t> plane = planes_of(hull);
   std::vector<std::map<Mesh::Vertex_index, Mesh::Vertex_index>> border(plane.size());
   for (const Mesh::Halfedge_index edge : hull.halfedges())

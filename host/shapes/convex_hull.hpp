@@ -10,9 +10,10 @@
 
 namespace macadam {
 
-/// Facets of the convex hull, counter-clockwise seen from outside, each from its smallest point number on and all in
-/// lexicographic order. A plane is divided from the smallest number of its corners. So the answer depends on the points
-/// alone. Points inside the hull, and inside a plane or an edge of it, are in no facet.
+/// Returns the facets of the convex hull, counter-clockwise seen from outside. Each facet begins with its smallest
+/// point number, and the facets are in lexicographic order. A polygonal face is divided into triangles from the
+/// smallest of its point numbers. The result therefore depends on the points only. Points inside the hull, or in the
+/// interior of one of its faces or edges, belong to no facet.
 std::vector<std::array<std::int32_t, 3>> convex_hull(const std::vector<Vec3d>& points);
 
 }  // namespace macadam

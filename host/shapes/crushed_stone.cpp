@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// crushed_stone.cpp  Planes, wear, points, bumps.
+// crushed_stone.cpp  Draws planes and bumps, samples vertices, and joins them to a surface.
 #include "host/shapes/crushed_stone.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-/// Uniform on the unit sphere, without functions that differ between mathematics libraries.
+/// Returns a uniformly distributed unit vector. Uses no functions whose results differ between mathematics libraries.
 Vec3d random_direction(RandomStream& random) {
   while (true) {
     const Vec3d x{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
@@ -21,7 +21,7 @@ Vec3d random_direction(RandomStream& random) {
   }
 }
 
-/// x³² and its 32nd root.
+/// Returns x³²; root_32nd() is the inverse.
 double to_the_32nd(double x) {
   for (int i = 0; i < 5; ++i) x *= x;
   return x;
@@ -31,13 +31,13 @@ double root_32nd(double x) {
   return x;
 }
 
-/// Where rays from the origin meet a body, and its unit normal there.
+/// Intersection of a ray from the origin with a body, and the unit normal there.
 struct Site {
   Vec3d direction, position, normal;
 };
 
-/// Numbers of `count` sites, each the farthest from those before it. `weight` is the distance that a turn of the normal
-/// by one (in the chord of unit vectors) stands for.
+/// Returns the numbers of `count` sites; each is the site farthest from those chosen before (farthest-point sampling).
+/// `weight` [m] converts the difference of two unit normals into a distance.
 std::vector<std::size_t> spread_out(const std::vector<Site>& sites, int count, double weight) {
   std::vector<double> gap(sites.size(), std::numeric_limits<double>::infinity());
   std::vector<std::size_t> chosen;
@@ -69,7 +69,8 @@ void Stretching::stretch(const std::array<Vec3d, 3>& axis, const std::array<doub
 CrushedStone::CrushedStone(RandomStream& random, int faces) {
   constexpr int trials = 8;
   std::vector<Vec3d> normals;
-  while (static_cast<int>(normals.size()) < faces) {  // of some directions the one that leaves the widest gaps
+  // Each normal is the one of several random directions that is farthest from all normals before it.
+  while (static_cast<int>(normals.size()) < faces) {
     Vec3d best{};
     double nearest = 2;
     for (int t = 0; t < trials; ++t) {
@@ -112,7 +113,7 @@ double CrushedStone::unevenness(const Vec3d& direction) const {
 }
 
 Surface CrushedStone::surface(const Stretching& stretching, double wear, int points) const {
-  static const std::vector<Vec3d> directions = geodesic_sphere(4).points;  // 2562
+  static const std::vector<Vec3d> directions = geodesic_sphere(4).points;  // 2562 directions
   std::vector<Site> sites;
   double size = 0;
   for (const Vec3d& u : directions) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cut_polygon.cpp  Quadrilaterals by their better diagonal, others by CGAL's constrained Delaunay triangulation.
+// cut_polygon.cpp  Divides quadrilaterals along the better diagonal and other polygons by CGAL's constrained Delaunay
+// triangulation.
 #include "host/shapes/cut_polygon.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -22,15 +23,16 @@ namespace macadam {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;  // number among the corners
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<std::int32_t, Kernel>;  // info: corner number
 using FaceBase =
     CGAL::Triangulation_face_base_with_info_2<int, Kernel, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
 using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::No_constraint_intersection_tag>;
 
-using Triangle = std::array<std::int32_t, 3>;  // numbers among the corners
-/// How often each pair of corners is an edge from the lower to the higher number, less how often the other way round.
+using Triangle = std::array<std::int32_t, 3>;  // corner numbers
+/// For each pair of corners (lower, higher): how often the outline runs from the lower to the higher number, minus how
+/// often it runs the other way.
 using Outline = std::map<std::pair<std::int32_t, std::int32_t>, int>;
 
 bool same(const Vec3d& a, const Vec3d& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
@@ -39,6 +41,7 @@ void add_edge(Outline& outline, std::int32_t from, std::int32_t to, int times) {
   outline[{std::min(from, to), std::max(from, to)}] += from < to ? times : -times;
 }
 
+/// One polygon: its corners, mean plane and projection along the coordinate axis nearest to its normal.
 class Polygon {
  public:
   explicit Polygon(std::vector<Vec3d> corners) : corner_(std::move(corners)) {
@@ -60,8 +63,8 @@ class Polygon {
     return length > 0 && radius > 0 ? off / length / radius : 0;
   }
 
-  /// Cuts along the diagonal whose two triangles have the larger scalar product of normals: they face the same way, and
-  /// are the fuller ones.
+  /// Divides along the diagonal for which the scalar product of the two (unnormalised) triangle normals is larger. A
+  /// larger product means that the triangles face the same way and have more equal areas.
   std::vector<Triangle> quadrilateral() const {
     const Vec3d &p = corner_[0], &q = corner_[1], &r = corner_[2], &s = corner_[3];
     const double by_pr = dot(cross(q - p, r - q), cross(s - r, p - s));
@@ -70,7 +73,8 @@ class Polygon {
     return {{0, 1, 3}, {1, 2, 3}};
   }
 
-  /// The triangles within the outline; empty if it crosses or touches itself, or seen along its normal does so.
+  /// Returns the triangles within the outline. Returns nothing if the outline crosses or touches itself, in space or in
+  /// the projection.
   std::optional<std::vector<Triangle>> within_outline() const {
     Triangulation triangulation;
     const std::vector<std::int32_t> first = insert_corners(triangulation);
@@ -85,12 +89,14 @@ class Polygon {
       for (std::size_t k = 0; k < 3; ++k) add_edge(outline, t[k], t[(k + 1) % 3], 1);
       triangles.push_back(t);
     }
+    // The triangles must have exactly the polygon's outline.
     for (std::size_t k = 0; k < size(); ++k) add_edge(outline, first[k], first[(k + 1) % size()], -1);
     const bool kept = std::all_of(outline.begin(), outline.end(), [](const auto& edge) { return edge.second == 0; });
     if (triangles.empty() || !kept) return {};
     return triangles;
   }
 
+  /// Divides into triangles that all share corner 0. The fallback for outlines that cross themselves.
   std::vector<Triangle> fan() const {
     std::vector<Triangle> triangles;
     for (std::int32_t k = 1; k + 1 < static_cast<std::int32_t>(size()); ++k) triangles.push_back({0, k, k + 1});
@@ -100,13 +106,15 @@ class Polygon {
   std::size_t size() const { return corner_.size(); }
 
  private:
-  /// Sees the polygon along the axis that is nearest to its normal: no coordinate is rounded.
+  /// Projects a point along the coordinate axis nearest to the polygon's normal. Coordinates are only dropped, so
+  /// nothing is rounded.
   Triangulation::Point seen(const Vec3d& p) const {
     if (axis_ == 0) return {p.y, p.z};
     return axis_ == 1 ? Triangulation::Point(p.z, p.x) : Triangulation::Point(p.x, p.y);
   }
 
-  /// Numbers of the corners in an order in which the next one is near, so that it is found without a long way.
+  /// Returns the corner numbers along a Hilbert curve. Consecutive corners are near each other, which makes their
+  /// insertion fast.
   std::vector<std::int32_t> in_space() const {
     std::vector<Triangulation::Point> points;
     for (const Vec3d& p : corner_) points.push_back(seen(p));
@@ -118,7 +126,8 @@ class Polygon {
     return order;
   }
 
-  /// Corners and edges; for each corner the number of the first corner at its place. Empty where that fails.
+  /// Inserts corners and edges into the triangulation. Returns, for each corner, the number of the first corner at its
+  /// position; returns an empty list if the outline crosses or touches itself.
   std::vector<std::int32_t> insert_corners(Triangulation& triangulation) const {
     std::vector<Triangulation::Vertex_handle> vertex(size());
     Triangulation::Face_handle near;
@@ -132,9 +141,9 @@ class Polygon {
     std::vector<std::int32_t> first;
     for (std::size_t k = 0; k < size(); ++k) {
       first.push_back(vertex[k]->info());
-      if (!same(corner_[first[k]], corner_[k])) return {};  // one behind the other
+      if (!same(corner_[first[k]], corner_[k])) return {};  // different corners coincide in the projection
     }
-    // An edge that the outline passes twice, there and back, leads to a hole. It bounds nothing.
+    // An edge that the outline passes in both directions leads to a hole. It bounds no area and is left out.
     Outline edges;
     for (std::size_t k = 0; k < size(); ++k) add_edge(edges, first[k], first[(k + 1) % size()], 1);
     try {
@@ -144,7 +153,7 @@ class Polygon {
     return first;
   }
 
-  /// Numbers the faces by how many edges of the outline lie between them and the outside.
+  /// Sets the info of each face to the number of outline edges between it and the outside. Odd numbers are inside.
   static void mark_inside(Triangulation& triangulation) {
     for (const auto face : triangulation.all_face_handles()) face->info() = -1;
     std::vector<Triangulation::Face_handle> level{triangulation.infinite_face()}, next;
@@ -164,8 +173,8 @@ class Polygon {
 
   std::vector<Vec3d> corner_;
   Vec3d middle_{}, normal_{};
-  int axis_ = 0;         // nearest to the normal
-  bool turned_ = false;  // the normal points the other way
+  int axis_ = 0;         // coordinate axis nearest to the normal
+  bool turned_ = false;  // the normal points in the negative direction of that axis
 };
 
 std::vector<Triangle> triangles_of(const Polygon& polygon, bool& crossed) {
@@ -187,7 +196,7 @@ PolygonCut cut_polygon(const std::vector<Vec3d>& points, std::span<const std::in
     number.push_back(static_cast<std::int32_t>(corners[k]));
     corner.push_back(p);
   }
-  if (corner.size() < 3) {  // a facet without area, which a check of the surface names
+  if (corner.size() < 3) {  // a facet without area, which check_surface() reports
     const auto n = static_cast<std::int32_t>(corners[0]);
     facets.push_back({n, n, n});
     return {};

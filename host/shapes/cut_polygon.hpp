@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cut_polygon.hpp  Facets of more than three corners are cut into triangles.
+/// \file cut_polygon.hpp  Divides polygonal facets with more than three corners into triangles.
 #pragma once
 
 #include <cstdint>
@@ -10,17 +10,18 @@
 
 namespace macadam {
 
-/// Properties of a polygon that was cut.
+/// Properties of a polygon that was divided.
 struct PolygonCut {
-  /// Largest distance of a corner from the polygon's mean plane, over the largest distance from its middle.
+  /// Largest distance of a corner from the polygon's mean plane, divided by the largest distance of a corner from its
+  /// middle.
   double bend = 0;
-  /// Its outline crosses or touches itself, or encloses no area: its triangles may overlap.
+  /// Whether the outline crosses or touches itself or encloses no area. The triangles may then overlap.
   bool crossed = false;
 };
 
-/// Appends the triangles of a polygon of more than three corners to `facets`, without new points and with the polygon's
-/// outline as theirs, so that a surface that is closed stays closed. A polygon that is not convex is cut within its
-/// outline. Corners at the same place as the corner before are left out.
+/// Appends the triangles of a polygon to `facets`. No points are added, and the triangles keep the polygon's outline,
+/// so that a closed surface remains closed. A polygon that is not convex is divided within its outline. A corner with
+/// the same coordinates as the corner before it is skipped.
 PolygonCut cut_polygon(const std::vector<Vec3d>& points, std::span<const std::int64_t> corners,
                        std::vector<std::array<std::int32_t, 3>>& facets);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// equal_points.cpp  Points sorted by coordinates lie beside their equals.
+// equal_points.cpp  Finds equal points by sorting: after the sort, points of equal coordinates are adjacent.
 #include "host/shapes/equal_points.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file facet_tree.hpp  CGAL's tree of a mesh's facets, which CGAL 6 has by another name than CGAL 5.
+/// \file facet_tree.hpp  CGAL's AABB tree over the facets of a mesh, under one name for CGAL 5 and CGAL 6.
 #pragma once
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fill.cpp  Spheres drawn, placed at random below the surface, and relaxed between it and each other.
+/// \file fill.cpp  Draws sphere radii, places the spheres at random below the surface, and relaxes them against each
+/// other and the surface.
 #include "host/shapes/fill.hpp"
 
 #include <algorithm>
@@ -17,10 +18,10 @@ namespace macadam {
 namespace {
 
 constexpr std::uint64_t radius_stream = 0, position_stream = 1;
-constexpr int attempts = 200;            // points tried for one sphere
-constexpr int most_rounds = 10;          // of relaxation, to free the last hidden spheres
-constexpr double most_spheres = 1e5;     // more is a slip of the pen: a whole specimen's aggregates take fewer
-constexpr double least_porosity = -0.5;  // below, spheres would lie in one another
+constexpr int attempts = 200;            // random points per sphere
+constexpr int most_rounds = 10;          // relaxations, each after spheres without a cell got new positions
+constexpr double most_spheres = 1e5;     // more is taken for an input error: all aggregates of a specimen have fewer
+constexpr double least_porosity = -0.5;  // below, spheres would overlap too much to have cells
 
 void require(bool good, const std::string& name, const char* what, double found, const char* expected) {
   if (!good) throw InputError(name, 0, std::string("fill: ") + what, shown(found), expected);
@@ -84,7 +85,8 @@ WallDepth ShapeFiller::above(const Vec3d& point) const {
   return {-below.depth, -below.inward};
 }
 
-/// A random point where a sphere has room below the surface; where that is rare, the deepest of those tried.
+/// Returns a random point at least one radius below the surface. If no attempt finds one, returns the deepest point
+/// tried.
 Vec3d ShapeFiller::position(double radius, RandomStream& random) const {
   const Vec3d low = distance_.low(), high = distance_.high();
   Vec3d best = measure_.centroid;
@@ -101,7 +103,7 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
   const std::int64_t count = spheres(scale, spec);
   if (count < spec.least) return {{scale * measure_.centroid}, {scale * single_radius(spec.single)}};
 
-  // All lengths from here on are those of the unscaled shape, whose distances are known.
+  // All lengths from here on are in the scale of the unscaled shape, whose distances are precomputed.
   RandomStream radii(spec.seed, radius_stream), positions(spec.seed, position_stream);
   const double volume = (1 - spec.porosity) * measure_.volume * scale * scale * scale;
   const std::vector<double> diameter = draw_diameters(diameters(spec), count, volume, radii);
@@ -110,7 +112,7 @@ MultiSphere ShapeFiller::fill(double scale, const FillSpec& spec) const {
     cluster.radius.push_back(d / (2 * scale));
     cluster.centre.push_back(position(cluster.radius.back(), positions));
   }
-  const double r = cluster.radius.front();  // the largest: no side of the box comes near a sphere
+  const double r = cluster.radius.front();  // the largest radius; with this margin no sphere is near a side of the box
   const Vec3d low = distance_.low() - Vec3d{r, r, r}, high = distance_.high() + Vec3d{r, r, r};
   Specimen boxed = in_box(cluster, low, high);
   const Enclosure wall{[&](const Vec3d& point, double reach) { return distance_.below(low + point, reach); }};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fill.hpp  Filling many scaled copies of one shape.
+/// \file fill.hpp  Fills scaled copies of one shape with spheres.
 #pragma once
 
 #include "host/shapes/surface_distance.hpp"
@@ -8,38 +8,43 @@
 
 namespace macadam {
 
-/// Fills copies of a shape with spheres. What depends on the shape alone is made once; filling is const, so several
-/// threads may fill copies of one shape at a time.
+/// Fills scaled copies of a shape with spheres. Everything that depends on the shape only is computed once, in the
+/// constructor. Filling is const, so several threads may fill copies of one shape at the same time.
 class ShapeFiller {
  public:
-  /// \throws InputError naming the surface where it is faulty.
+  /// \throws InputError naming the surface if check_surface() finds a fault.
   explicit ShapeFiller(const Surface& surface);
 
-  /// The number of spheres for a copy `scale` times as large: those of mean volume that make up 1 − porosity of it.
-  /// Below `spec.least`, fill() gives a single one. \throws InputError for an impossible spec or scale.
+  /// Returns the number of spheres for a copy scaled by `scale`: the volume (1 − porosity)·V of the copy divided by the
+  /// mean volume of a sphere, rounded (model (20.3)). If it is below `spec.least`, fill() gives a single sphere.
+  /// \throws InputError for an invalid spec or scale.
   std::int64_t spheres(double scale, const FillSpec& spec) const;
 
-  /// Radius of the sphere that stands for the shape itself by a rule [m].
+  /// Returns the radius of the single sphere that represents the unscaled shape by this rule [m].
   double single_radius(SingleSphere rule) const;
 
   const ShapeMeasure& measure() const { return measure_; }
 
-  /// Whether a point, in the surface's own frame and scale, lies within.
+  /// Returns whether a point, in the frame and scale of the surface, lies inside it.
   bool contains(const Vec3d& point) const {
     return distance_.may_contain(point) && distance_.below(point, 0).depth > 0;
   }
 
-  /// Whether a point, in the surface's own frame and scale, may be within `reach` of the surface or inside.
+  /// Returns false only if a point, in the frame and scale of the surface, is farther than `reach` [m] outside of it.
+  /// Tests bounding sphere and box only.
   bool may_reach(const Vec3d& point, double reach) const;
 
-  /// Signed distance of a point outside the surface, in its own frame and scale, and the way out.
+  /// Returns the height of a point above the surface (negative inside) and the outward direction, in the frame and
+  /// scale of the surface [m].
   WallDepth above(const Vec3d& point) const;
 
-  /// fill_shape() of a copy `scale` times as large about the origin of the surface's frame. `spec` is of the copy.
-  /// \throws InputError for an impossible spec or scale; RunError where spheres remain without a Laguerre cell.
+  /// Does what fill_shape() does, for a copy scaled by `scale` about the origin of the surface's frame. `spec` applies
+  /// to the scaled copy. \throws InputError for an invalid spec or scale; RunError if spheres remain without a Laguerre
+  /// cell.
   MultiSphere fill(double scale, const FillSpec& spec) const;
 
  private:
+  /// Returns a random position below the surface for the centre of a sphere.
   Vec3d position(double radius, RandomStream& random) const;
 
   std::string name_;
@@ -47,7 +52,8 @@ class ShapeFiller {
   SurfaceDistance distance_;
 };
 
-/// The cluster as the mastic of a box from `low` to `high`, moved so that `low` is the origin.
+/// Returns the cluster as the mastic of a specimen whose box extends from `low` to `high`, shifted so that `low` is the
+/// origin.
 Specimen in_box(const MultiSphere& cluster, const Vec3d& low, const Vec3d& high);
 
 }  // namespace macadam

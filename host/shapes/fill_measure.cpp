@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fill_measure.cpp  How well a cluster of spheres stands for its shape.
+/// \file fill_measure.cpp  Measures how well a cluster of spheres represents its shape.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,7 +37,8 @@ void check(const Surface& surface, const MultiSphere& cluster) {
   }
 }
 
-/// The pairs of a cluster (a sphere with itself too), those that reach farthest first.
+/// All pairs of spheres of a cluster, including each sphere with itself. Spheres are sorted by the distance that they
+/// reach from the middle, farthest first.
 class Pairs {
  public:
   explicit Pairs(const MultiSphere& cluster) : cluster_(cluster), reach_(cluster.size()), order_(cluster.size()) {
@@ -48,10 +49,11 @@ class Pairs {
     std::stable_sort(order_.begin(), order_.end(), [&](auto a, auto b) { return reach_[a] > reach_[b]; });
   }
 
-  /// The longest segment between two points of the spheres' surfaces whose direction lies in a subspace. Of spheres a
-  /// and b, with d = b − a = p + q, p in the subspace and q perpendicular to it, it is |p| + √((Ra + Rb)² − q²): the
-  /// ends leave their centres by shares Ra : Rb of −q, which makes the slopes of the two circles equal. With the whole
-  /// space it is |d| + Ra + Rb. `project` gives p; `along` receives p of the longest.
+  /// Returns the longest segment between two points of the spheres' surfaces whose direction lies in a subspace. For
+  /// spheres a and b, with d = b − a = p + q, p in the subspace and q perpendicular to it, its length is |p| + √((Ra +
+  /// Rb)² − q²): the end points are displaced from their centres by q, divided in the ratio Ra : Rb, so that both
+  /// circles have the same slope there. If the subspace is the whole space, the length is |d| + Ra + Rb. `project`
+  /// returns p for d; `along` receives p of the longest segment.
   template <class Project>
   double longest(const Project& project, Vec3d& along) const {
     double best = 0;
@@ -75,7 +77,8 @@ class Pairs {
   std::vector<std::size_t> order_;
 };
 
-/// `v` as a unit vector; where it is zero (one sphere: any will do) a unit vector perpendicular to `other`.
+/// Returns `v` as a unit vector. If `v` is zero (a single sphere, for which any direction will do), returns a unit
+/// vector perpendicular to `other`.
 Vec3d direction(const Vec3d& v, const Vec3d& other) {
   if (const double length = norm(v); length > 0) return (1 / length) * v;
   const Vec3d least = std::abs(other.x) <= std::min(std::abs(other.y), std::abs(other.z)) ? Vec3d{1, 0, 0}
@@ -109,7 +112,8 @@ double largest_overlap(const MultiSphere& cluster) {
   return largest;
 }
 
-/// From the surface to the nearest sphere: the corners, and the middles of k² equal parts of each facet.
+/// Measures distances from the surface to the nearest sphere, at the points of the surface and at the centroids of the
+/// k² equal parts of each facet.
 void measure_deviation(const Surface& surface, const MultiSphere& cluster, FillReport& report) {
   const auto deviation = [&](const Vec3d& point) {
     double nearest = std::numeric_limits<double>::infinity();
@@ -141,8 +145,8 @@ void measure_deviation(const Surface& surface, const MultiSphere& cluster, FillR
   for (const Vec3d& p : surface.points) report.deviation_largest = std::max(report.deviation_largest, deviation(p));
   report.deviation_mean = sum / area;
 
-  // A sphere whose centre is d deep comes out by R − d, straight on past the surface's nearest point; where the surface
-  // is not convex it may come out by less.
+  // A sphere whose centre is at depth d protrudes by R − d beyond the nearest point of the surface. This is an upper
+  // bound if the surface is not convex.
   const SurfaceDistance distance(surface);
   for (std::size_t i = 0; i < cluster.size(); ++i)
     report.deviation_largest =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file icosahedron.cpp  The icosahedron and its subdivisions.
+/// \file icosahedron.cpp  Builds the icosahedron and divides its facets.
 #include "host/shapes/icosahedron.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,8 @@ namespace macadam {
 namespace {
 
 Surface icosahedron() {
-  const double g = (1 + std::sqrt(5.0)) / 2;  // three golden rectangles, each in a coordinate plane
+  // The points are the corners of three golden rectangles, one in each coordinate plane; g is the golden ratio.
+  const double g = (1 + std::sqrt(5.0)) / 2;
   Surface s;
   for (const Vec3d& p : {Vec3d{-1, g, 0},
                          {1, g, 0},
@@ -37,7 +38,7 @@ Surface icosahedron() {
   return s;
 }
 
-/// Every facet becomes four, with the middles of its edges moved out to the sphere.
+/// Divides every facet into four. The midpoints of edges are moved outwards onto the unit sphere.
 Surface subdivided(Surface s) {
   std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
   const auto middle = [&](std::int32_t a, std::int32_t b) {

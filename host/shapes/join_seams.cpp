@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// join_seams.cpp  Points at open edges, sorted into cells.
+// join_seams.cpp  Finds near points at open edges with a grid of cubic cells.
 #include "host/shapes/join_seams.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace macadam {
 namespace {
 
-/// Calls visit(lower point, higher point) for each side of each facet whose corners are three points.
+/// Calls visit(lower point, higher point) for each edge of each facet that has three different corners.
 template <class Visit>
 void each_side(const Surface& surface, Visit&& visit) {
   for (const auto& [a, b, c] : surface.facets) {
@@ -24,12 +24,13 @@ void each_side(const Surface& surface, Visit&& visit) {
   }
 }
 
+/// Packs an edge into 64 bits.
 std::uint64_t number_of_edge(std::int32_t low, std::int32_t high) {
   return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high);
 }
 
-/// Whether every edge has an even number of sides. Numbers of 64 random bits, one for each edge, are added up bit by
-/// bit: those of an even number of sides cancel. That a sum of others vanishes has a probability of 5e-20.
+/// Returns whether every edge belongs to an even number of facets. A fast test: a 64-bit hash of each edge is combined
+/// by exclusive or, so that an even number of equal edges cancels. An odd edge is missed with a probability of 5e-20.
 bool has_even_edges(const Surface& surface) {
   std::uint64_t sum = 0;
   each_side(surface, [&](std::int32_t low, std::int32_t high) {
@@ -41,7 +42,7 @@ bool has_even_edges(const Surface& surface) {
   return sum == 0;
 }
 
-/// The points of edges that have an odd number of sides, in ascending order.
+/// Returns the points of edges that belong to an odd number of facets, in ascending order.
 std::vector<std::int32_t> points_of_open_edges(const Surface& surface) {
   std::vector<std::uint64_t> sides;
   each_side(surface, [&](std::int32_t low, std::int32_t high) { sides.push_back(number_of_edge(low, high)); });
@@ -60,8 +61,8 @@ std::vector<std::int32_t> points_of_open_edges(const Surface& surface) {
   return points;
 }
 
-/// Points that others are joined with, in cubic cells. They are more than `width` apart, so that a cell of 2 widths has
-/// few of them, whatever the surface.
+/// Points that other points are joined with, in cubic cells with edges of 2·width. They are more than `width` apart, so
+/// that a cell holds only a few.
 class SeamPoints {
  public:
   SeamPoints(const std::vector<Vec3d>& points, const Vec3d& low, double width)
@@ -87,7 +88,8 @@ class SeamPoints {
     const auto along = [&](double x) { return static_cast<std::int64_t>(x / (2 * width_)) + 1; };
     return {along(p.x - low_.x), along(p.y - low_.y), along(p.z - low_.z)};
   }
-  /// A surface is 2^20 cells wide, see seam_width().
+  /// Packs cell coordinates of 21 bits each. A surface is at most about 2^20 cells wide, because seam_width() is a
+  /// fixed fraction of its size.
   static std::uint64_t key(const std::array<std::int64_t, 3>& cell) {
     return static_cast<std::uint64_t>(cell[0]) | static_cast<std::uint64_t>(cell[1]) << 21 |
            static_cast<std::uint64_t>(cell[2]) << 42;
@@ -104,8 +106,8 @@ class SeamPoints {
 double seam_width(const Surface& surface) {
   const auto [low, high] = bounds_of(surface.points);
   const Vec3d size = high - low;
-  // Coordinates that are rounded once are half a unit of the last place off. Those of a program that moves and turns
-  // them in single precision are a few off.
+  // Rounding to single precision changes a coordinate by half a unit in the last place. Programs that also move and
+  // rotate in single precision cause errors of a few units.
   constexpr double units = 4;
   return units * std::numeric_limits<float>::epsilon() * std::max({size.x, size.y, size.z});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file join_seams.hpp  Facets that share a corner only to rounding are joined there.
+/// \file join_seams.hpp  Joins points at open edges of a surface that differ by rounding only.
 #pragma once
 
 #include <cstdint>
@@ -11,15 +11,16 @@ namespace macadam {
 /// Counts of the changes that join_seams() made.
 struct SeamJoin {
   std::int64_t points = 0;  ///< joined with another one
-  std::int64_t facets = 0;  ///< dropped, as two of their corners were joined
+  std::int64_t facets = 0;  ///< dropped because two of their corners were joined
 };
 
-/// Distance below which two points at open edges are one [m]: rounding of single precision, of a surface of this size.
+/// Returns the distance below which two points at open edges count as one [m]: the single-precision rounding for a
+/// surface of this size.
 double seam_width(const Surface& surface);
 
-/// Joins points at open edges that are closer than seam_width(), each with the first such point. Other points are never
-/// joined, so that a closed surface is not changed, however fine it is. No point moves by more than that width.
-/// Equal points must have been joined before.
+/// Joins points at open edges that are closer than seam_width(): each one is replaced by the lowest-numbered such
+/// point. Other points are never joined, so that a closed surface is not changed, however fine it is. No point moves by
+/// more than seam_width(). join_equal_points() must have been called before.
 SeamJoin join_seams(Surface& surface);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// library_targets.cpp  Strata of distributions, paired by exchanges.
+// library_targets.cpp  Target values from strata of distributions, combined to shapes by exchanging values.
 #include "host/shapes/library_targets.hpp"
 
 #include <algorithm>
@@ -15,26 +15,29 @@
 namespace macadam {
 namespace {
 
-/// A distribution as its quantile function: straight between (shapes of the 82 of [1] below it, value).
+/// A knot of a distribution, which is given as its piecewise linear quantile function: number of shapes, out of the 82
+/// of [1], that lie below `value`.
 struct Knot {
   double shapes, value;
 };
 using Quantiles = std::vector<Knot>;
 constexpr double paper_shapes = 82;
 
-/// Shapes by sieve class: 1, 6, 17, 27, 14, 12, 4 and 1; half of the larger classes above a mean of their sieves. The
-/// ends make the middle of the first and the last stratum the smallest and the largest D^I of Table 1.
+/// D^I. The sieve classes hold 1, 6, 17, 27, 14, 12, 4 and 1 shapes. In each of the larger classes half of the shapes
+/// lie above a mean of the two sieves. The ends are chosen such that the midpoints of the first and the last stratum
+/// are the smallest and the largest D^I of Table 1.
 const Quantiles sizes_mm{{0, 0.46}, {1, 0.5},  {7, 1},    {15.5, 1.4}, {24, 2},    {37.5, 2.6}, {51, 4},
                          {58, 5},   {65, 6.3}, {71, 7.9}, {77, 10},    {79, 11.2}, {81, 12.5},  {82, 12.68}};
-/// 2 very, 15 moderately elongated, the others such that the average is 0.70.
+/// E. 2 very elongated and 15 moderately elongated shapes; the other knots are chosen such that the average is 0.70.
 const Quantiles elongations{{0, 0.38}, {2, 0.4}, {17, 0.6}, {61, 0.8}, {82, 0.978}};
-/// 3 very, 19 moderately flat, the others such that the average is 0.64.
+/// F. 3 very flat and 19 moderately flat shapes; the other knots are chosen such that the average is 0.64.
 const Quantiles flatnesses{{0, 0.358}, {3, 0.4}, {22, 0.6}, {60, 0.7}, {79, 0.8}, {82, 0.94}};
-/// Minimum, average and maximum of Table 1.
+/// ψ^w, with the minimum, average and maximum of Table 1.
 const Quantiles sphericities{{0, 0.718}, {8, 0.79}, {41, 0.865}, {74, 0.92}, {82, 0.968}};
-/// The same, and nine shapes of fewer than 100 facets.
+/// Number of points, with the minimum, average and maximum of Table 1 and nine shapes of fewer than 100 facets.
 const Quantiles points{{0, 24.5}, {9, 51}, {41, 145}, {70, 270}, {82, 411.5}};
 
+/// Returns the value below which this number of shapes (out of 82) lies.
 double quantile(const Quantiles& knots, double shapes) {
   auto upper = std::next(knots.begin());
   while (std::next(upper) != knots.end() && upper->shapes <= shapes) ++upper;
@@ -42,7 +45,7 @@ double quantile(const Quantiles& knots, double shapes) {
   return lower->value + (upper->value - lower->value) * (shapes - lower->shapes) / (upper->shapes - lower->shapes);
 }
 
-/// The middles of as many strata as there are shapes.
+/// Divides the distribution into `shapes` strata of equal probability and returns their midpoints.
 std::vector<double> strata(const Quantiles& knots, int shapes) {
   std::vector<double> values;
   for (int i = 0; i < shapes; ++i) values.push_back(quantile(knots, (i + 0.5) * paper_shapes / shapes));
@@ -51,11 +54,12 @@ std::vector<double> strata(const Quantiles& knots, int shapes) {
 
 enum class Statistic { least, average, greatest, correlation };
 
-/// One number of the tables that depends on the pairing, and how near is near enough.
+/// A target statistic that depends on which values are combined in one shape. Deviations within the tolerance do not
+/// count.
 struct Wish {
   Statistic statistic;
-  std::size_t property, other;  ///< of shape_properties()
-  double value, tolerance;      ///< [SI]
+  std::size_t property, other;  ///< index in shape_properties()
+  double value, tolerance;      ///< in SI units
 };
 
 std::size_t number_of(std::string_view name) {
@@ -63,7 +67,8 @@ std::size_t number_of(std::string_view name) {
   return std::find_if(all.begin(), all.end(), [&](const ShapeProperty& p) { return p.name == name; }) - all.begin();
 }
 
-/// Table 2 where the five distributions do not fix it; the last is ours: larger stones are scanned with more voxels.
+/// Correlations of Table 2 that the five distributions do not determine. The last one is not from [1]: larger stones
+/// are scanned with more voxels, so they have more points.
 struct Correlation {
   const char *property, *other;
   double value;
@@ -76,8 +81,8 @@ constexpr Correlation correlations[] = {{"SI", "D^L", -0.24},    {"SI", "D^I", -
                                         {"psi^A", "D^L", -0.07}, {"psi^A", "D^I", -0.03}, {"psi^A", "D^S", 0.24},
                                         {"psi^A", "F", 0.76},    {"psi^A", "E", 0.33},    {"points", "D^I", 0.6}};
 
-/// Tables 1 and 2 of [1], where pairing decides. Extremes are wished a little outside its own, so that its ranges are
-/// covered.
+/// Returns the statistics of Tables 1 and 2 of [1] that depend on the combination. The targets for the extremes lie 2 %
+/// outside the range of [1], so that the library covers that range.
 std::vector<Wish> paper_wishes() {
   using enum Statistic;
   std::vector<Wish> wishes;
@@ -93,6 +98,7 @@ std::vector<Wish> paper_wishes() {
   return wishes;
 }
 
+/// Returns the value of a statistic for the shapes; `columns` has the values of each property.
 double found(const Wish& wish, const std::vector<ShapeMeasure>& shapes,
              const std::vector<std::vector<double>>& columns) {
   if (wish.statistic == Statistic::correlation) return pearson(columns[wish.property], columns[wish.other]);
@@ -101,11 +107,11 @@ double found(const Wish& wish, const std::vector<ShapeMeasure>& shapes,
   return wish.statistic == Statistic::least ? spread.min : spread.max;
 }
 
-/// V over D^L·D^I·D^S of the smallest and the largest stone of [1] are 0.45 and 0.41, if their extremes are of one
-/// stone each; of an ellipsoid it is 0.52. To foresee V only: stones are not fitted to it.
+/// V/(D^L·D^I·D^S), used to predict V; shapes are not fitted to V. The extremes of Table 1 of [1] give 0.45 for the
+/// smallest and 0.41 for the largest stone, provided that all extremes belong to the same stone. An ellipsoid has 0.52.
 constexpr double fullness = 0.43;
 
-/// Columns of strata, and which values of them share a shape.
+/// The strata of D^I, E, F and number of points, and how they are combined to shapes.
 class Pairing {
  public:
   Pairing(RandomStream& random, int shapes)
@@ -117,7 +123,8 @@ class Pairing {
     }
   }
 
-  /// Exchanges two shapes' values of one column, and back where that did not help.
+  /// Exchanges the values of one column between two random shapes, and undoes the exchange if the cost has not
+  /// decreased.
   void improve(int exchanges) {
     double best = cost();
     for (int n = 0; n < exchanges && best > 0; ++n) {
@@ -133,13 +140,14 @@ class Pairing {
     }
   }
 
+  /// Returns the measures of all shapes for the present combination.
   std::vector<ShapeMeasure> targets() const {
     std::vector<ShapeMeasure> all(size_.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       const auto& [elongation, flatness, count] = columns_;
       ShapeMeasure& m = all[i];
       m.points = std::lround(count[i]);
-      m.facets = 2 * m.points - 4;  // Euler: closed, of triangles, without handles
+      m.facets = 2 * m.points - 4;  // Euler's formula for a closed triangulated surface without handles
       m.d_intermediate = 1e-3 * size_[i];
       m.d_long = m.d_intermediate / elongation[i];
       m.d_short = m.d_intermediate * flatness[i];
@@ -149,8 +157,9 @@ class Pairing {
   }
 
  private:
-  /// Squares of what wishes are missed by beyond their tolerances: nothing is gained by more order than the tables ask
-  /// for. What too few shapes leave undefined does not count.
+  /// Sum of squares of the deviations beyond the tolerances, in units of the tolerance. Deviations within the tolerance
+  /// cost nothing, so that shapes are not more ordered than the tables require. Statistics that are undefined (NaN) for
+  /// a small number of shapes do not count.
   double cost() const {
     const std::vector<ShapeMeasure> shapes = targets();
     std::vector<std::vector<double>> values;
@@ -172,10 +181,11 @@ class Pairing {
   std::array<std::vector<double>, 3> columns_;  ///< E, F, points
 };
 
-/// Gives the greatest ψ^w to the greatest ψ^A and so on, but for some disorder, and finer stones before coarser ones:
-/// Table 2 has correlations of 0.89 with ψ^A and -0.06 to -0.34 with the sizes. What a convex surface of few points
-/// lacks of the sphericity of the body that they lie on is about 0.8 over their number (sphere: 0.06 with the 12 points
-/// of the icosahedron, 0.02 with 42).
+/// Assigns the strata of ψ^w in ascending order of ψ^A, with two corrections and a random part. Table 2 has a
+/// correlation of ψ^w of 0.89 with ψ^A and of -0.06 to -0.34 with the sizes; `disorder` and `fineness` (smaller stones
+/// get larger values) reproduce these. A convex surface with few points has a lower sphericity than the smooth body
+/// through its points, by about 0.8 divided by the number of points (for a sphere: 0.06 with the 12 points of the
+/// icosahedron, 0.02 with 42).
 void add_sphericities(std::vector<ShapeMeasure>& shapes, RandomStream& random) {
   constexpr double disorder = 0.02, fineness = 0.04, lack = 0.8;
   std::vector<std::pair<double, std::size_t>> order;
@@ -192,7 +202,7 @@ void add_sphericities(std::vector<ShapeMeasure>& shapes, RandomStream& random) {
 }  // namespace
 
 std::vector<ShapeMeasure> draw_library_targets(RandomStream& random, int shapes) {
-  constexpr int exchanges = 20'000;  // afterwards one in thousands still helps
+  constexpr int exchanges = 20'000;  // with more, only one exchange in thousands still lowers the cost
   Pairing pairing(random, shapes);
   pairing.improve(exchanges);
   std::vector<ShapeMeasure> targets = pairing.targets();

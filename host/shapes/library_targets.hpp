@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file library_targets.hpp  What each shape of the library is to be: drawn so that Tables 1 and 2 come out.
+/// \file library_targets.hpp  Chooses target measures for the shapes of a generated library, such that its statistics
+/// are those of Tables 1 and 2 of [1].
 #pragma once
 
 #include <vector>
@@ -9,13 +10,14 @@
 
 namespace macadam {
 
-/// One measure a shape, from the smallest to the largest D^I. Set are points, facets, D^L, D^I, D^S, ψ^w
-/// and, roughly, V; what else a measure derives from these (SI, F, Fl, E, ψ^A) then has the statistics of [1].
+/// Returns the target measures of each shape, ordered from the smallest to the largest D^I. Points, facets, D^L, D^I,
+/// D^S, ψ^w and, approximately, V are set; all other measures that derive from these (SI, F, Fl, E, ψ^A) then have the
+/// statistics of [1]. `shapes` must be at least 1.
 ///
-/// D^I, E, F, ψ^w and the number of points are strata of distributions that have the ranges of [1], its averages, sieve
-/// classes and classes of elongation and flatness. Which of E, F and points meet which D^I is decided by exchanging
-/// values between two shapes as long as that brings what follows nearer to the rest of Table 1 and to Table 2; ψ^w then
-/// goes with ψ^A. `shapes` is one or more.
+/// The values of D^I, E, F, ψ^w and the number of points are the midpoints of equal strata of distributions with the
+/// ranges, averages, sieve classes and classes of elongation and flatness of [1]. The combinations of D^I with E, F and
+/// number of points start at random. Values are then exchanged between two shapes as long as this brings the remaining
+/// statistics closer to Table 1 and Table 2. Finally ψ^w is assigned in the order of ψ^A.
 std::vector<ShapeMeasure> draw_library_targets(RandomStream& random, int shapes);
 
 }  // namespace macadam

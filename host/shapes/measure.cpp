@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// measure.cpp  Volume, area and centroid from the facets, chords and bounding sphere from the points; sieves.
+// measure.cpp  Measures shapes: volume, area and centroid from the facets; chords and bounding sphere from the points;
+// sieve classes.
 #include <CGAL/Cartesian.h>
 #include <CGAL/Min_sphere_of_points_d_traits_3.h>
 #include <CGAL/Min_sphere_of_spheres_d.h>
@@ -24,7 +25,7 @@ void measure_body(const Surface& surface, ShapeMeasure& m) {
   Vec3d moment{};
   for (const auto& f : surface.facets) {
     const Vec3d a = surface.points[f[0]] - origin, b = surface.points[f[1]] - origin, c = surface.points[f[2]] - origin;
-    const double six_volumes = dot(a, cross(b, c));  // of the tetrahedron over the facet
+    const double six_volumes = dot(a, cross(b, c));  // six times the signed volume of the tetrahedron over the facet
     volume += six_volumes / 6;
     moment += (six_volumes / 24) * (a + b + c);
     area += norm(cross(b - a, c - a)) / 2;
@@ -39,7 +40,7 @@ void measure_bounding_sphere(const Surface& surface, ShapeMeasure& m) {
   using Kernel = CGAL::Cartesian<double>;
   using Traits = CGAL::Min_sphere_of_points_d_traits_3<Kernel, double, CGAL::Tag_true>;
   const Vec3d origin = middle_of(surface.points);
-  const double unit = m.d_long;  // the algorithm's own tolerances are absolute
+  const double unit = m.d_long;  // coordinates are divided by it, because the algorithm has absolute tolerances
   std::vector<Kernel::Point_3> points;
   for (const Vec3d& p : surface.points) {
     points.emplace_back((p.x - origin.x) / unit, (p.y - origin.y) / unit, (p.z - origin.z) / unit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ply_header.cpp  Lines up to `end_header`: the format, elements, and their properties.
+// ply_header.cpp  Reads the lines up to `end_header`: the format, the elements and their properties.
 #include "host/shapes/ply_header.hpp"
 
 #include <fmt/format.h>
@@ -27,6 +27,7 @@ const PlyType* type_of(std::string_view word, const Words& words) {
   words.fail("type", in_quotes(word), "char, uchar, short, ushort, int, uint, float, double, or int8 to float64");
 }
 
+/// Reads the rest of a `property` line.
 PlyProperty property_line(Words& words) {
   PlyProperty property{{}, nullptr, nullptr, words.line()};
   const std::string_view first = words.in_line();
@@ -41,6 +42,7 @@ PlyProperty property_line(Words& words) {
   return property;
 }
 
+/// Reads the rest of a `format` line.
 void format_line(Words& words, PlyHeader& header) {
   const std::string_view format = words.in_line();
   header.text = format == "ascii", header.big_endian = format == "binary_big_endian";
@@ -48,15 +50,17 @@ void format_line(Words& words, PlyHeader& header) {
     words.fail("format", in_quotes(format), "ascii, binary_little_endian or binary_big_endian");
 }
 
-/// No item takes fewer bytes than this.
+/// Returns the smallest number of bytes that an item of the element takes. In text each number takes a digit and a
+/// blank.
 std::size_t least_bytes(const PlyElement& element, bool text) {
   std::size_t bytes = 0;
   for (const PlyProperty& p : element.properties) bytes += text ? 2 : (p.count ? p.count : p.type)->bytes;
   return bytes;
 }
 
+/// Refuses item counts that the file cannot hold, before memory is allocated for them.
 void require_room(const SurfaceFile& file, const PlyHeader& header) {
-  std::size_t room = file.bytes.size() - header.end + 1;  // the last number of a text needs no blank after it
+  std::size_t room = file.bytes.size() - header.end + 1;  // plus 1: no blank is needed after the last number of a text
   for (const PlyElement& element : header.elements) {
     const std::size_t least = least_bytes(element, header.text);
     if (least > 0 && element.items > room / least)

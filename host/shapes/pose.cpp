@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pose.cpp  Rotation by a unit quaternion without forming its matrix.
+// pose.cpp  Applies a unit quaternion to a vector without forming the rotation matrix.
 #include "macadam/shape.hpp"
 
 namespace macadam {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// projected_edges.cpp  Edges that are parallel or end-on in the picture are no exceptions but the usual case of boxes
-// and prisms, so every meeting is closed: ends count, within rounding.
+// projected_edges.cpp  Compares edges in the xy projection. Parallel edges and edges along z are the usual case for
+// boxes and prisms. Every test therefore includes the ends of edges, within rounding.
 #include "host/shapes/projected_edges.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-/// z of the cross product, that of the picture.
+/// Returns the z component of the cross product, that is, the cross product in the projection.
 double turn(const Vec3d& a, const Vec3d& b) { return a.x * b.y - a.y * b.x; }
 double flat_dot(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y; }
 
@@ -25,10 +25,12 @@ struct Segment {
   double z_high() const { return std::max(from.z, to.z); }
 };
 
+/// Keeps the largest difference of height over all pairs of edges offered.
 class EdgeGap {
  public:
   explicit EdgeGap(double rounding) : rounding_(rounding) {}
 
+  /// Considers a pair of edges: their crossing, and the ends of each on the other.
   void offer(const Segment& a, const Segment& b) {
     if (a.y_low() > b.y_high() + rounding_ || b.y_low() > a.y_high() + rounding_) return;
     if (std::max(a.z_high() - b.z_low(), b.z_high() - a.z_low()) <= largest_) return;
@@ -36,11 +38,13 @@ class EdgeGap {
     for (const Vec3d* end : {&a.from, &a.to}) offer_end(*end, b);
     for (const Vec3d* end : {&b.from, &b.to}) offer_end(*end, a);
   }
+  /// Considers an edge that may be parallel to z: compares its two ends.
   void offer_end_on(const Segment& a) { offer(a.from, a.to); }
 
   double largest() const { return largest_; }
 
  private:
+  /// Records the difference of height of two points if they coincide in the projection.
   void offer(const Vec3d& p, const Vec3d& q) {
     const Vec3d apart = p - q;
     if (flat_dot(apart, apart) <= rounding_ * rounding_) largest_ = std::max(largest_, std::abs(apart.z));
@@ -49,7 +53,7 @@ class EdgeGap {
   void offer_crossing(const Segment& a, const Segment& b) {
     const Vec3d da = a.to - a.from, db = b.to - b.from, r = b.from - a.from;
     const double both = turn(da, db), s = turn(r, db) / both, t = turn(r, da) / both;
-    if (s >= 0 && s <= 1 && t >= 0 && t <= 1) offer(a.at(s), b.at(t));  // false for the NaN of parallel edges
+    if (s >= 0 && s <= 1 && t >= 0 && t <= 1) offer(a.at(s), b.at(t));  // false for parallel edges, which give NaN
   }
 
   void offer_end(const Vec3d& p, const Segment& s) {
@@ -75,7 +79,7 @@ double largest_gap_of_edges(const std::vector<Vec3d>& points, const std::vector<
   }
   EdgeGap gap(rounding);
   for (const Segment& s : segments) gap.offer_end_on(s);
-  // of two spans that overlap, one holds the other's beginning
+  // If two spans overlap, the beginning of one lies in the other; so all pairs are found.
   stab(spans, begins, rounding, [&](std::size_t i, std::size_t j) {
     if (i != j) gap.offer(segments[i], segments[j]);
   });
@@ -98,7 +102,7 @@ double largest_gap_over_facets(const std::vector<Vec3d>& points, const std::vect
     const double both = turn(e1, e2), s = turn(r, e2) / both, t = turn(e1, r) / both;
     if (!(s >= 0 && t >= 0 && s + t <= 1)) return;
     const Vec3d apart =
-        s * e1 + t * e2 - r;  // of a facet seen edge-on s and t are noise; its edges have been looked at
+        s * e1 + t * e2 - r;  // in a facet that is vertical, s and t are noise, but its edges were compared before
     if (flat_dot(apart, apart) <= rounding * rounding) largest = std::max(largest, std::abs(apart.z));
   });
   return largest;

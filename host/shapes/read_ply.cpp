@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read_ply.cpp  PLY, text and binary: points and facets; other elements and properties are passed over.
+// read_ply.cpp  Reads PLY files, text and binary: points and facets. Other elements and properties are skipped.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace macadam {
 namespace {
 
-/// The numbers after the header, one after another.
+/// Reads the numbers after the header one after another, as text or as bytes.
 class PlyNumbers {
  public:
   PlyNumbers(const SurfaceFile& file, const PlyHeader& header)
@@ -24,30 +24,32 @@ class PlyNumbers {
         words_(file, 0, header.end, header.lines + 1),
         rest_(file.bytes.substr(header.end)) {}
 
-  /// The next one. `what` is at hand, for messages.
+  /// Returns the next number. `what` names it in messages.
   double next(const PlyType& type, const std::string& what) {
     return text_ ? in_text(type, what) : in_bytes(type, what);
   }
 
-  /// The next one, as the length of a list.
+  /// Reads the next number as the length of a list.
   std::size_t length(const PlyProperty& list, const std::string& what) {
     const double length = next(*list.count, what);
     if (length < 0) fail(what, fmt::format("{} entries in a list", length), "0 or more");
     return static_cast<std::size_t>(length);
   }
 
+  /// Skips the value or list of a property.
   void pass(const PlyProperty& property, const std::string& what) {
     const std::size_t numbers = property.count ? length(property, what) : 1;
     if (!text_ && numbers > rest_.size() / property.type->bytes) ends(what);
     for (std::size_t k = 0; k < numbers; ++k) next(*property.type, what);
   }
 
-  /// The most numbers of a type that the rest of the file can hold.
+  /// Returns the largest count of numbers of a type that the remaining bytes can hold.
   std::size_t most(const PlyType& type) const {
-    return text_ ? (words_.left() + 1) / 2 : rest_.size() / type.bytes;  // of text, a digit and a blank each
+    // In text, each number takes a digit and a blank.
+    return text_ ? (words_.left() + 1) / 2 : rest_.size() / type.bytes;
   }
 
-  /// \throws InputError where something is left.
+  /// \throws InputError if the file has more content.
   void require_end() {
     if (text_ ? words_.next_line() : rest_.find_first_not_of(" \t\r\n") != std::string_view::npos)
       fail("surface", text_ ? in_quotes(words_.in_line()) : fmt::format("{} bytes more", rest_.size()),
@@ -93,6 +95,7 @@ class PlyNumbers {
   std::string_view rest_;
 };
 
+/// Reads the vertices and appends their coordinates.
 void read_points(const SurfaceFile& file, const PlyElement& element, PlyNumbers& numbers, SurfaceSoup& soup) {
   std::array<std::size_t, 3> column{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -119,6 +122,7 @@ void read_points(const SurfaceFile& file, const PlyElement& element, PlyNumbers&
   }
 }
 
+/// Reads the faces and appends their corners.
 void read_facets(const SurfaceFile& file, const PlyElement& element, PlyNumbers& numbers, SurfaceSoup& soup) {
   auto column = element.find("vertex_indices");
   if (!column) column = element.find("vertex_index");
@@ -165,7 +169,8 @@ SurfaceSoup read_ply(const SurfaceFile& file) {
     } else if (element.name == "face" || element.name == "faces") {
       once(element, facets);
       read_facets(file, element, numbers, soup);
-    } else if (!element.properties.empty()) {  // without any it takes no bytes, whatever its number
+    } else if (!element.properties.empty()) {
+      // Skips the items. An element without properties takes no bytes, whatever its number of items.
       for (std::size_t i = 0; i < element.items; ++i) {
         for (const PlyProperty& property : element.properties) numbers.pass(property, "element " + element.name);
       }

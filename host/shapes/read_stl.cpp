@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read_stl.cpp  STL, binary and ASCII.
+// read_stl.cpp  Reads STL files, binary and ASCII.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t header_bytes = 84, record_bytes = 50;
 
+/// Appends a facet of the last three points.
 void add_triangle(SurfaceSoup& soup) {
   const auto p = static_cast<std::int64_t>(soup.points.size());
   soup.corners.insert(soup.corners.end(), {p - 3, p - 2, p - 1});
@@ -24,7 +25,7 @@ void add_triangle(SurfaceSoup& soup) {
 }
 
 SurfaceSoup read_binary(const SurfaceFile& file, std::size_t facets) {
-  constexpr std::size_t normal_bytes = 12;  // a record begins with its normal
+  constexpr std::size_t normal_bytes = 12;  // each record begins with a normal, which is skipped
   SurfaceSoup soup;
   for (std::size_t f = 0; f < facets; ++f) {
     std::array<float, 9> x;
@@ -40,7 +41,7 @@ SurfaceSoup read_binary(const SurfaceFile& file, std::size_t facets) {
   return soup;
 }
 
-/// Whether a word is a keyword, which is in lower case, in any mixture of cases.
+/// Returns whether a word is `keyword` (given in lower case), whatever its case.
 bool is_keyword(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
                     [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
@@ -48,7 +49,8 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
 
 enum class Keyword : std::uint8_t { none, solid, endsolid, facet, vertex, endfacet };
 
-/// The keyword that a word is, with the next word where it is written as two: `end solid`, `end facet`.
+/// Returns the keyword for a word. For `end solid` and `end facet`, which some files write as two words, also reads the
+/// second word.
 Keyword keyword_of(std::string_view word, Words& words) {
   if (is_keyword(word, "vertex")) return Keyword::vertex;
   if (is_keyword(word, "facet")) return Keyword::facet;
@@ -61,8 +63,8 @@ Keyword keyword_of(std::string_view word, Words& words) {
   return is_keyword(second, "solid") ? Keyword::endsolid : Keyword::none;
 }
 
-/// `facet normal 0 0 1 outer loop vertex x y z vertex … endloop endfacet`. Words between these keywords are passed
-/// over, because some programs write normals that are not numbers.
+/// Reads the ASCII form `facet normal 0 0 1 outer loop vertex x y z vertex … endloop endfacet`. Other words between
+/// these keywords are skipped, because some programs write normals that are not numbers.
 class AsciiStl {
  public:
   explicit AsciiStl(const SurfaceFile& file) : words_(file) {}
@@ -76,6 +78,7 @@ class AsciiStl {
   }
 
  private:
+  /// Processes one word.
   void take(std::string_view word) {
     const Keyword keyword = keyword_of(word, words_);
     const bool inner = keyword == Keyword::vertex || keyword == Keyword::endfacet;
@@ -86,7 +89,7 @@ class AsciiStl {
       case Keyword::solid:
       case Keyword::endsolid:
         closed_ = keyword == Keyword::endsolid;
-        words_.skip_line();  // the rest is a name
+        words_.skip_line();  // the rest of the line is a name
         break;
       case Keyword::facet:
         in_facet_ = true, corners_ = 0;
@@ -119,7 +122,7 @@ class AsciiStl {
   std::size_t corners_ = 0;
 };
 
-/// Whether the first word is one that an ASCII file begins with.
+/// Returns whether the first word of the file is one that begins an ASCII file.
 bool begins_as_ascii(const SurfaceFile& file) {
   Words words(file);
   if (!words.next_line()) return false;
@@ -133,8 +136,9 @@ SurfaceSoup read_stl(const SurfaceFile& file) {
   std::uint32_t facets = 0;
   const std::size_t size = file.bytes.size();
   if (size >= header_bytes) std::memcpy(&facets, &file.bytes[header_bytes - 4], 4);
-  // The free text of a binary file may begin with "solid" as an ASCII file does, so that the size decides. The count of
-  // an ASCII file is four characters, which stand for 150 million facets or more.
+  // The header of a binary file may begin with "solid" like an ASCII file, so the file size decides. In an ASCII file
+  // the four bytes at the place of the count are characters, which read as a number give 150 million facets or more, so
+  // that the size does not match.
   const std::size_t expected = header_bytes + record_bytes * facets;
   if (size >= expected && size - expected < record_bytes) return read_binary(file, facets);
   const bool has_zero = file.bytes.substr(0, header_bytes).find('\0') != std::string_view::npos;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read_surface.cpp  STL, OFF, PLY and OBJ: which it is, and what a surface needs in any of them.
+// read_surface.cpp  Reads surfaces: chooses the format (STL, OFF, PLY or OBJ) and applies the checks and changes common
+// to all formats.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,13 +48,14 @@ SurfaceSoup read_soup(const SurfaceFile& file, SurfaceFormat format) {
   return read_obj(file);
 }
 
+/// Returns for example "1 polygon" or "3 polygons".
 std::string counted(std::int64_t n, const char* of) { return fmt::format("{} {}{}", n, of, n == 1 ? "" : "s"); }
 
 void add_note(Surface& surface, const std::string& note) {
   if (!note.empty()) surface.reading += (surface.reading.empty() ? "" : "; ") + note;
 }
 
-/// Every corner must be one of the points.
+/// \throws InputError if a corner is not the number of a point.
 void require_points(const SurfaceFile& file, const SurfaceSoup& soup) {
   const std::int64_t points = std::ssize(soup.points), first = soup.first_number;
   for (std::size_t f = 0; f < soup.facets(); ++f) {
@@ -66,9 +68,10 @@ void require_points(const SurfaceFile& file, const SurfaceSoup& soup) {
   }
 }
 
-/// The facets as triangles, in the order of the file.
+/// Appends the facets as triangles, in the order of the file.
 void add_facets(Surface& surface, const SurfaceSoup& soup) {
-  // A polygon whose corners are this far from its plane, over its radius, may be cut in ways that differ visibly.
+  // A polygon counts as bent if a corner is farther from its mean plane than this fraction of its radius; the way of
+  // dividing it then matters visibly.
   constexpr double bent = 0.01;
   std::int64_t polygons = 0, bent_ones = 0, crossed = 0;
   double bend = 0;
@@ -94,6 +97,7 @@ void add_facets(Surface& surface, const SurfaceSoup& soup) {
   add_note(surface, note);
 }
 
+/// Returns the content of a file.
 std::string bytes_of(const std::filesystem::path& file) {
   const auto fail = [&](const std::string& found, const char* expected) {
     throw InputError(file.string(), 0, "surface", found, expected);
@@ -106,7 +110,8 @@ std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   if (!in && errno == ENOMEM) throw std::bad_alloc();
   if (!in) fail(std::strerror(errno), "a readable file");
-  std::string bytes(static_cast<std::size_t>(in.tellg()), '\0');  // streams would take want of memory for a bad file
+  // The memory is allocated here, so that a lack of it throws std::bad_alloc. A stream would report it as a bad file.
+  std::string bytes(static_cast<std::size_t>(in.tellg()), '\0');
   if (!in.seekg(0).read(bytes.data(), std::ssize(bytes))) fail(std::strerror(errno), "a readable file");
   return bytes;
 }
@@ -157,7 +162,7 @@ bool is_surface_file(const std::filesystem::path& file) { return find_format(fil
 
 Surface read_surface(const std::filesystem::path& file, double scale) {
   require_scale(file, scale);
-  const SurfaceFormat format = format_of(file);  // before reading: another ending is the first thing to say
+  const SurfaceFormat format = format_of(file);  // before reading, so that a wrong ending is reported first
   const std::string bytes = bytes_of(file);
   Surface surface = surface_in({file.string(), bytes}, format, scale);
   surface.name = file.stem().string();

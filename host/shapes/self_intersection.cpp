@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// self_intersection.cpp  CGAL's own test wants a manifold mesh; faulty surfaces are none, so pairs are told apart here.
+// self_intersection.cpp  Tests pairs of facets with overlapping boxes. CGAL's own function needs a manifold mesh, and
+// faulty surfaces are not manifold, so the cases of common corners are distinguished here.
 #include "host/shapes/self_intersection.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -15,6 +16,7 @@ using Point = Kernel::Point_3;
 using Corners = std::array<std::int32_t, 3>;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::int32_t>;
 
+/// Tests pairs of facets of one surface for intersection.
 class FacetPairs {
  public:
   explicit FacetPairs(const Surface& surface) {
@@ -25,14 +27,15 @@ class FacetPairs {
 
   CGAL::Bbox_3 bounds(std::int32_t facet) const { return triangle(corners_[facet]).bbox(); }
 
+  /// Returns whether two facets intersect elsewhere than in their common corners and edges.
   bool cut(std::int32_t one, std::int32_t two) const {
     Corners a = corners_[one], b = corners_[two];
     switch (shared_first(a, b)) {
       case 0:
         return CGAL::do_intersect(triangle(a), triangle(b));
-      case 1:  // beyond the common corner one facet's far edge must cut the other facet
+      case 1:  // one common corner: the far edge of one facet must intersect the other facet
         return CGAL::do_intersect(triangle(a), far_edge(b)) || CGAL::do_intersect(triangle(b), far_edge(a));
-      case 2:  // beyond the common edge: only where one is folded flat onto the other
+      case 2:  // a common edge: they intersect if one is folded flat onto the other
         return CGAL::coplanar(at(a[0]), at(a[1]), at(a[2]), at(b[2])) &&
                CGAL::coplanar_orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == CGAL::POSITIVE;
       default:
@@ -45,7 +48,7 @@ class FacetPairs {
   Kernel::Triangle_3 triangle(const Corners& c) const { return {at(c[0]), at(c[1]), at(c[2])}; }
   Kernel::Segment_3 far_edge(const Corners& c) const { return {at(c[1]), at(c[2])}; }
 
-  /// Moves common corners to the front of both, in the same order; how many there are.
+  /// Moves the common corners to the front of both, in the same order, and returns their number.
   static int shared_first(Corners& a, Corners& b) {
     int n = 0;
     for (int i = n; i < 3; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file self_intersection.hpp  Facets of one surface that cut each other.
+/// \file self_intersection.hpp  Finds facets of one surface that intersect each other.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace macadam {
 
-/// Numbers, in ascending order, of the facets that meet another one elsewhere than in a common point or edge. Exact
-/// predicates: no tolerance. `skip` marks facets to leave out (those without area, which have no plane). Points of
-/// equal coordinates count as one.
+/// Returns, in ascending order, the numbers of the facets that meet another facet elsewhere than in a common point or
+/// edge. Uses exact predicates without tolerances. Facets marked in `skip` are left out (those without area, which have
+/// no plane). Points with equal coordinates count as one.
 std::vector<std::int32_t> self_intersecting_facets(const Surface& surface, const std::vector<bool>& skip);
 
 }  // namespace macadam

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shape_generator.cpp  Stones stretched and worn until they measure what the library is to hold.
+// shape_generator.cpp  Generates stones and adapts them by stretching and wear until their measures match the targets
+// of the library.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace macadam {
 namespace {
 
-constexpr double grid = 1e9;  // coordinates are whole nanometres: short in a file, and the same bits when read
+constexpr double grid = 1e9;  // coordinates are multiples of 1 nm: short in a file, and read back to the same bits
 
 Surface rounded(Surface s) {
   for (Vec3d& p : s.points)
@@ -22,30 +23,34 @@ Surface rounded(Surface s) {
   return s;
 }
 
+/// Returns the stretch factors that would bring D^L, D^I and D^S to their targets.
 std::array<double, 3> factors(const ShapeMeasure& target, const ShapeMeasure& found) {
   return {target.d_long / found.d_long, target.d_intermediate / found.d_intermediate, target.d_short / found.d_short};
 }
 
 std::array<Vec3d, 3> axes(const ShapeMeasure& m) { return {m.axis_long, m.axis_intermediate, m.axis_short}; }
 
-/// How far the stone is from its target: largest relative miss of D^L, D^I and D^S, and half that of ψ^w.
+/// Returns the deviation of a stone from its target: the largest relative deviation of D^L, D^I, D^S, and half of that
+/// of ψ^w.
 double miss(const ShapeMeasure& target, const ShapeMeasure& found) {
   double largest = 0.5 * std::abs(found.sphericity_true / target.sphericity_true - 1);
   for (const double f : factors(target, found)) largest = std::max(largest, std::abs(f - 1));
   return largest;
 }
 
-/// The most that the three lengths may be off, and half of what ψ^w may.
+/// Largest accepted deviation of the three lengths; that of ψ^w may be twice as large.
 constexpr double near_enough = 0.004;
 
+/// The best stone so far and its deviation from the target.
 struct Fit {
   Surface surface;
   double miss = std::numeric_limits<double>::infinity();
-  bool too_round = false;  ///< ψ^w above the target
+  bool too_round = false;  ///< ψ^w is above the target
 };
 
-/// Newton's way to the three lengths, along the stone's own axes, and to the sphericity by wear; at last to the lengths
-/// alone, with the finished surface.
+/// Fits one stone to its target by fixed-point iteration. Each step stretches the stone along its own chords by the
+/// ratios of target and measured lengths, and corrects the sphericity by more or less wear. Finally the finished
+/// surface, with rounded coordinates, is stretched again to match the lengths only.
 Fit fit_stone(const CrushedStone& stone, const ShapeMeasure& target) {
   constexpr int shapings = 8, stretchings = 4;
   constexpr double least_wear = 0.03, most_wear = 0.6, wear_per_sphericity = 4;
@@ -78,8 +83,8 @@ Fit fit_stone(const CrushedStone& stone, const ShapeMeasure& target) {
   return best;
 }
 
-/// The first stone that comes near enough, else the nearest of all that were tried. Fewer faces after one that was too
-/// round, more after one that was not round enough.
+/// Returns the first stone that is close enough to its target, or otherwise the best of all attempts. After a stone
+/// that was too round the next one has fewer faces, after one that was not round enough it has more.
 Surface make_stone(std::uint64_t seed, int number, const ShapeMeasure& target) {
   constexpr int attempts = 10;
   int fewest = 8, most = 28;
@@ -101,7 +106,7 @@ Surface make_stone(std::uint64_t seed, int number, const ShapeMeasure& target) {
 }  // namespace
 
 std::vector<Surface> generate_shape_library(std::uint64_t seed, int shapes) {
-  constexpr int most = 1'000;  // a minute or so
+  constexpr int most = 1'000;  // takes about a minute
   if (shapes < 1 || shapes > most)
     throw InputError("shape library", 0, "shapes", fmt::format("{}", shapes), fmt::format("1 to {}", most));
   RandomStream random(seed, 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_solid.hpp  Exact questions to the solid inside a closed surface (CGAL behind them).
+/// \file shape_solid.hpp  The solid inside a closed surface: nearest points and exact containment and intersection
+/// tests with CGAL.
 #pragma once
 
 #include <memory>
@@ -8,23 +9,24 @@
 
 namespace macadam {
 
-/// The solid that a closed surface bounds, with a tree over its facets. Queries may run on several threads at once.
+/// The solid bounded by a closed surface, with a search tree over its facets. Several threads may run queries at the
+/// same time.
 class ShapeSolid {
  public:
   explicit ShapeSolid(const Surface& surface);
   ~ShapeSolid();
   ShapeSolid(ShapeSolid&&) noexcept;
 
-  /// The point of the surface that is nearest to a point, to rounding.
+  /// Returns the nearest point of the surface, up to rounding.
   Vec3d nearest(const Vec3d& point) const;
 
-  /// Distance of a point from the surface, to rounding.
+  /// Returns the distance of a point from the surface, up to rounding [m].
   double distance(const Vec3d& point) const;
 
-  /// Whether a point is in the solid or on its surface, by exact predicates.
+  /// Returns whether a point lies in the solid or on its surface. Uses exact predicates.
   bool contains(const Vec3d& point) const;
 
-  /// Whether a triangle touches or cuts the surface, by exact predicates.
+  /// Returns whether a triangle touches or intersects the surface. Uses exact predicates.
   bool touches(const Vec3d& a, const Vec3d& b, const Vec3d& c) const;
 
  private:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shipped_shapes.hpp  The files of examples/shapes, put into the library by cmake/embed_shapes.cmake.
+/// \file shipped_shapes.hpp  The surface files of examples/shapes, compiled into the library by
+/// cmake/embed_shapes.cmake.
 #pragma once
 
 #include <string_view>
@@ -7,12 +8,13 @@
 
 namespace macadam {
 
+/// One shipped surface, in the OFF format.
 struct ShippedShape {
-  std::string_view name;  ///< without its ending
-  std::string_view off;   ///< the file's text
+  std::string_view name;  ///< file name without the ending
+  std::string_view off;   ///< content of the file
 };
 
-/// All of them, by name.
+/// Returns all shipped shapes, ordered by name.
 const std::vector<ShippedShape>& shipped_shapes();
 
 }  // namespace macadam

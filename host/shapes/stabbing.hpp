@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stabbing.hpp  Which intervals hold which positions, without trying every pair.
+/// \file stabbing.hpp  Finds the intervals that contain given positions by a sweep in ascending order, without testing
+/// every pair.
 #pragma once
 
 #include <algorithm>
@@ -8,12 +9,13 @@
 
 namespace macadam {
 
+/// A closed interval of numbers, for example the extent of an edge along an axis.
 struct Interval {
   double low, high;
 };
 
-/// Calls found(interval number, position number) wherever low − tolerance ≤ position ≤ high + tolerance. Positions come
-/// in ascending order, each with its intervals in an order that depends on the numbers alone.
+/// Calls found(interval number, position number) for every pair with low − tolerance ≤ position ≤ high + tolerance.
+/// Positions are visited in ascending order. The order of calls depends on the values only.
 template <class Found>
 void stab(const std::vector<Interval>& intervals, const std::vector<double>& positions, double tolerance,
           Found&& found) {

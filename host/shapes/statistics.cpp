@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// statistics.cpp  One list of properties makes every table.
+// statistics.cpp  Makes every table from one list of properties.
 #include "host/shapes/statistics.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,7 @@ namespace macadam {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double standard_size = 4e-3;  // [m], from which EN 933-3 and EN 933-4 apply
+constexpr double standard_size = 4e-3;  // [m]; EN 933-3 and EN 933-4 apply to larger particles
 
 std::vector<ShapeProperty> correlated_properties() {
   std::vector<ShapeProperty> out;
@@ -26,7 +26,7 @@ std::vector<ShapeProperty> correlated_properties() {
 
 std::string to_decimals(double x, int decimals) { return std::isfinite(x) ? fmt::format("{:.{}f}", x, decimals) : "-"; }
 
-/// For CSV files: nothing where there is no number.
+/// Formats a number for CSV files; NaN gives an empty field.
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; }
 
 }  // namespace
@@ -68,7 +68,7 @@ Spread spread_of(const ShapeProperty& property, const std::vector<ShapeMeasure>&
   for (const ShapeMeasure& shape : shapes) {
     const double x = tabulated(property, shape);
     if (!std::isfinite(x)) continue;
-    spread.min = std::fmin(spread.min, x);  // of a number and NaN: the number
+    spread.min = std::fmin(spread.min, x);  // fmin and fmax ignore a NaN argument
     spread.max = std::fmax(spread.max, x);
     sum += x;
     ++spread.shapes;
@@ -82,7 +82,7 @@ double pearson(const std::vector<double>& x, const std::vector<double>& y) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!std::isfinite(x[i]) || !std::isfinite(y[i])) continue;
     n += 1;
-    // moments about the running means, which keep their digits where the spread is small
+    // Moments about the running means do not lose digits when the spread is small compared with the mean.
     const double dx = x[i] - mean_x, dy = y[i] - mean_y, weight = (n - 1) / n;
     mean_x += dx / n;
     mean_y += dy / n;

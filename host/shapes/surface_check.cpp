@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_check.cpp  Every fault of a surface, with the facets where it is.
+// surface_check.cpp  Finds every fault of a surface and the facets where it occurs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,12 +14,13 @@ namespace {
 
 using Facets = std::vector<std::int32_t>;
 
-/// One side of a facet: from its corner number `corner` (0, 1, 2) to the next.
+/// One side of a facet: from its corner number `corner` (0, 1, 2) to the next corner.
 struct Side {
-  std::int32_t low, high, facet, corner;  // low < high: the edge's points
-  bool up;                                // runs from low to high
+  std::int32_t low, high, facet, corner;  // points of the edge, low < high
+  bool up;                                // the side runs from low to high
 };
 
+/// One check of one surface.
 class Check {
  public:
   explicit Check(const Surface& surface) : surface_(surface), degenerate_(surface.facets.size()) {
@@ -44,6 +45,7 @@ class Check {
   }
 
  private:
+  /// Returns the points that no facet uses.
   std::vector<std::int32_t> find_stray() const {
     std::vector<bool> named(surface_.points.size());
     for (const auto& facet : surface_.facets) {
@@ -56,6 +58,7 @@ class Check {
     return found;
   }
 
+  /// Returns the facets without area and marks them in degenerate_.
   Facets find_degenerate() {
     Facets found;
     const double rounding = coordinate_rounding(surface_.points);
@@ -63,18 +66,18 @@ class Check {
       const auto [a, b, c] = surface_.facets[f];
       const Vec3d &p = surface_.points[a], &q = surface_.points[b], &r = surface_.points[c];
       const double longest = std::max({norm(q - p), norm(r - q), norm(p - r)});
-      // its height is within the rounding of its corners
+      // The facet counts as degenerate if its height is within the rounding of its corners' coordinates.
       degenerate_[f] = a == b || b == c || c == a || norm(cross(q - p, r - p)) <= longest * rounding;
       if (degenerate_[f]) found.push_back(static_cast<std::int32_t>(f));
     }
     return found;
   }
 
-  /// Sides sorted so that those of one edge follow each other; edges_[k] is where edge k begins.
+  /// Sorts the sides of all facets by edge; edges_[k] is the index of the first side of edge k.
   void collect_sides() {
     for (std::size_t f = 0; f < surface_.facets.size(); ++f) {
       const auto [a, b, c] = surface_.facets[f];
-      if (a == b || b == c || c == a) continue;  // its neighbours meet each other
+      if (a == b || b == c || c == a) continue;  // skipped: without this facet, its neighbours share the edge directly
       for (int k = 0; k < 3; ++k) {
         const std::int32_t from = surface_.facets[f][k], to = surface_.facets[f][(k + 1) % 3];
         sides_.push_back({std::min(from, to), std::max(from, to), static_cast<std::int32_t>(f), k, from < to});
@@ -95,6 +98,7 @@ class Check {
     for (std::size_t e = 0; e + 1 < edges_.size(); ++e) visit(&sides_[edges_[e]], sides_.data() + edges_[e + 1]);
   }
 
+  /// An edge of one side is open; an edge of more than two sides is non-manifold.
   void faulty_edges() {
     each_edge([&](const Side* first, const Side* last) {
       if (last - first == 1) verdict_.open.push_back(first->facet);
@@ -102,7 +106,8 @@ class Check {
     });
   }
 
-  /// Around a sound point the facets hang together by their edges; around a pinched one they form two fans or more.
+  /// Finds pinched points. Around a regular point all facets are connected through shared edges. Around a pinched point
+  /// they form two or more separate fans.
   void pinched_points() {
     DisjointSets corners(3 * surface_.facets.size());
     each_edge([&](const Side* first, const Side* last) {
@@ -127,12 +132,14 @@ class Check {
     });
   }
 
-  /// The corner of the side's facet at the lower or the higher point of the edge.
+  /// Returns the index (3·facet + corner) of the corner of this side that lies at the lower or the higher point of the
+  /// edge.
   static std::int32_t corner_at(const Side& s, bool low) {
     return 3 * s.facet + (s.up == low ? s.corner : (s.corner + 1) % 3);
   }
 
-  /// Facets are sorted into two sides, A and B, so that neighbours on one side agree; the smaller side is at fault.
+  /// Finds misoriented facets. In each connected patch the facets are divided into two classes such that neighbours of
+  /// one class have consistent orientation. The facets of the smaller class are reported.
   void misoriented() {
     struct Neighbour {
       std::int32_t facet;
@@ -151,13 +158,13 @@ class Check {
       Facets patch{static_cast<std::int32_t>(start)}, one_sided;
       side_of[start] = 0;
       std::array<std::int64_t, 2> count{};
-      for (std::size_t i = 0; i < patch.size(); ++i) {  // patch grows
+      for (std::size_t i = 0; i < patch.size(); ++i) {  // patch grows in the loop
         const std::int32_t f = patch[i];
         ++count[side_of[f]];
         for (const auto& [g, agrees] : neighbours[f]) {
           const int expected = agrees ? side_of[f] : 1 - side_of[f];
           if (side_of[g] < 0) side_of[g] = expected, patch.push_back(g);
-          if (side_of[g] != expected) one_sided.push_back(f);  // as on a Möbius strip: no orientation suits both
+          if (side_of[g] != expected) one_sided.push_back(f);  // no consistent orientation exists, as on a Möbius strip
         }
       }
       const int minority = count[1] <= count[0] ? 1 : 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_distance.cpp  Octree of the facets that can be nearest; signs from angle-weighted normals.
+/// \file surface_distance.cpp  Builds the octree of the facets that can be nearest, and determines signs from
+/// angle-weighted normals.
 #include "host/shapes/surface_distance.hpp"
 
 #include <algorithm>
@@ -14,8 +15,8 @@
 namespace macadam {
 namespace {
 
-constexpr int deepest_level = 4;           // leaves of 1/16 of the box
-constexpr std::size_t few_candidates = 6;  // searched as fast as a level is descended
+constexpr int deepest_level = 4;           // the edges of these leaves are 1/16 of the box
+constexpr std::size_t few_candidates = 6;  // testing these takes as long as descending one level
 enum Feature { corner_0, edge_01 = 3, edge_12, edge_20, face };
 
 double angle_between(const Vec3d& a, const Vec3d& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
@@ -57,7 +58,8 @@ SurfaceDistance::SurfaceDistance(const Surface& surface) {
   grow(0, 0.5 * (low_ + high_), 0.5 * (high_ - low_), 0, all_, 0);
 }
 
-/// Closest point of a triangle (Ericson, Real-Time Collision Detection, section 5.1.5) and the normal there.
+/// Computes the closest point of a triangle (Ericson, Real-Time Collision Detection, section 5.1.5) and the normal
+/// there.
 SurfaceDistance::Nearest SurfaceDistance::nearest(const Facet& facet, const Vec3d& p) {
   const auto& [a, b, c] = facet.corner;
   const auto found = [&](const Vec3d& q, int feature) {
@@ -80,8 +82,8 @@ SurfaceDistance::Nearest SurfaceDistance::nearest(const Facet& facet, const Vec3
   return found(a + (vb / (va + vb + vc)) * ab + (vc / (va + vb + vc)) * ac, face);
 }
 
-/// Of candidates whose distances are known from a point that is `way` [m] from this one: the rest of them can be no
-/// nearer once the way is more than made up for.
+/// A candidate at distance D from the other point is at least D − way from this one. The search therefore ends when D −
+/// way exceeds the smallest distance found.
 SurfaceDistance::Nearest SurfaceDistance::nearest_of(std::span<const Candidate> nearest_first, double way,
                                                      const Vec3d& point) const {
   Nearest best{std::numeric_limits<double>::infinity(), {}, {}};
@@ -93,12 +95,12 @@ SurfaceDistance::Nearest SurfaceDistance::nearest_of(std::span<const Candidate> 
   return best;
 }
 
-/// Of a cell with half diagonal g whose centre is d from its nearest facet, the nearest facet of any point is within
-/// d + 2g of the centre: g from centre to point, d + g at most from there to a facet. `candidates` are the parent's,
-/// whose centre is `way` [m] off.
+/// In a cell with half diagonal g whose centre is at distance d from the nearest facet, the nearest facet of any point
+/// of the cell is within d + 2g of the centre: the point is at most g from the centre and at most d + g from that
+/// facet. `candidates` are those of the parent cell, whose centre is `way` [m] from this one.
 void SurfaceDistance::grow(std::int32_t node, const Vec3d& centre, const Vec3d& half, int level,
                            std::span<const Candidate> candidates, double way) {
-  const double g = norm(half) * (1 + 1e-9);  // rounding must lose no candidate
+  const double g = norm(half) * (1 + 1e-9);  // enlarged, so that rounding loses no candidate
   double nearest_one = std::numeric_limits<double>::infinity();
   std::vector<Candidate> kept;
   for (const auto& [distance, facet] : candidates) {
@@ -142,7 +144,7 @@ WallDepth SurfaceDistance::below(const Vec3d& p, double reach) const {
       centre = child_centre(centre, half, k);
       at = node_[at].child + k;
     }
-    // the depth changes by no more than the way from the centre
+    // The depth at p differs from the depth at the centre by at most their distance.
     const double way = norm(p - centre);
     if (const double least = node_[at].depth - way; least > reach) return {least, {}};
     best = nearest_of(std::span(candidates_).subspan(node_[at].first, node_[at].last - node_[at].first),
@@ -153,7 +155,7 @@ WallDepth SurfaceDistance::below(const Vec3d& p, double reach) const {
   const Vec3d d = p - best.point;
   const double distance = std::sqrt(best.squared);
   const bool outside = dot(d, best.normal) > 0;
-  // On the surface itself, to rounding, its normal is the direction.
+  // For a point on the surface, up to rounding, the direction is the inward normal.
   if (distance <= 1e-12 * norm(high_ - low_)) return {0, unit(-best.normal)};
   return {outside ? -distance : distance, (outside ? -1 / distance : 1 / distance) * d};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_distance.hpp  How deep a point lies below a surface: exact, and fast for many points.
+/// \file surface_distance.hpp  Signed distance of points from a closed surface: exact, and fast for many points.
 #pragma once
 
 #include <array>
@@ -12,59 +12,69 @@
 
 namespace macadam {
 
-/// Signed distance from a closed surface, exact for the polyhedron. An octree over the surface's box lists in each of
-/// its leaves the facets that can be the nearest of a point there; the sign follows from the angle-weighted normals of
-/// facets, edges and points (Bærentzen & Aanæs 2005), which are right wherever the nearest point lies.
+/// Computes the signed distance from a closed surface, exactly for the polyhedron. An octree over the surface's
+/// bounding box lists, in each leaf, the facets that can be nearest to a point of that leaf. The sign follows from the
+/// angle-weighted normal of the facet, edge or point on which the nearest point lies (Bærentzen & Aanæs 2005); this
+/// sign is correct in all three cases.
 class SurfaceDistance {
  public:
-  /// `surface` must be good(); it is copied as far as needed.
+  /// Copies what it needs of `surface`, which must be good().
   explicit SurfaceDistance(const Surface& surface);
 
-  /// Depth of a point [m], negative outside, and the unit vector along which it grows fastest. Where the depth exceeds
-  /// `reach` [m] a lower bound may come in its place, which exceeds `reach` as well, and no direction.
+  /// Returns the depth of a point [m], negative outside, and the unit vector along which the depth grows fastest. If
+  /// the depth exceeds `reach` [m], a lower bound of it that also exceeds `reach` may be returned instead, without a
+  /// direction.
   WallDepth below(const Vec3d& point, double reach) const;
 
-  /// Whether a point is in the box around the surface: at once, where a depth outside it takes all facets.
+  /// Returns whether a point lies in the bounding box of the surface. This is a fast test; computing the depth of a
+  /// point outside the box is slow because it searches all facets.
   bool may_contain(const Vec3d& p) const {
     return p.x >= low_.x && p.x <= high_.x && p.y >= low_.y && p.y <= high_.y && p.z >= low_.z && p.z <= high_.z;
   }
 
-  /// Depth [m], negative outside.
+  /// Returns the depth [m], negative outside.
   double depth(const Vec3d& point) const;
 
-  /// Corners of the box around the surface [m].
+  /// Corners of the bounding box [m].
   const Vec3d& low() const { return low_; }
   const Vec3d& high() const { return high_; }
 
  private:
-  /// Normals sum facets around the feature; none is of unit length but that of the face.
+  /// A facet and the normals of its face, edges and corners. Normals of corners and edges are sums over the facets
+  /// around them and are not normalised; the normal of the face is a unit vector.
   struct Facet {
     std::array<Vec3d, 3> corner;
-    std::array<Vec3d, 7> normal;  ///< of corners 0, 1, 2, of edges 01, 12, 20, of the face
+    std::array<Vec3d, 7> normal;  ///< of corners 0, 1, 2; of edges 01, 12, 20; of the face
   };
+  /// The nearest point of the surface, its squared distance, and the normal there.
   struct Nearest {
     double squared;
     Vec3d point, normal;
   };
   struct Candidate {
-    double distance;  ///< from a point near the one asked for, its cell's centre [m]
+    double distance;  ///< from the centre of the cell that lists the candidate [m]
     std::int32_t facet;
   };
+  /// A cell of the octree.
   struct Node {
-    double depth;              ///< of its centre [m]
-    std::int32_t child;        ///< the first of eight, −1 in a leaf
-    std::int32_t first, last;  ///< in candidates_
+    double depth;              ///< of the cell's centre [m]
+    std::int32_t child;        ///< index of the first of eight children; −1 for a leaf
+    std::int32_t first, last;  ///< range of a leaf in candidates_
   };
 
+  /// Returns the nearest point of one facet.
   static Nearest nearest(const Facet& facet, const Vec3d& point);
+  /// Returns the nearest point of the candidates. They are sorted by their distance from another point, which is `way`
+  /// [m] from `point`.
   Nearest nearest_of(std::span<const Candidate> nearest_first, double way, const Vec3d& point) const;
+  /// Makes a node and, recursively, its children.
   void grow(std::int32_t node, const Vec3d& centre, const Vec3d& half, int level, std::span<const Candidate> candidates,
             double way);
 
   std::vector<Facet> facet_;
   std::vector<Node> node_;
-  std::vector<Candidate> all_;         ///< every facet, at an unknown distance: 0
-  std::vector<Candidate> candidates_;  ///< of each leaf, nearest to its centre first
+  std::vector<Candidate> all_;         ///< every facet, with distance 0 because it is not known
+  std::vector<Candidate> candidates_;  ///< of each leaf, sorted by distance from the leaf's centre
   Vec3d low_, high_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_files.cpp  STL, OFF, PLY and OBJ, written by CGAL, and libraries of them.
+// surface_files.cpp  Writes STL, OFF, PLY and OBJ files with CGAL, and reads folders of surfaces (shape libraries).
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
 #include <CGAL/IO/PLY.h>
@@ -23,7 +23,7 @@ namespace {
 
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 
-/// The fewest digits, up to the 17 that always do, with which every coordinate comes back to the bit.
+/// Returns the smallest number of digits with which every coordinate is read back to the same bits; 17 always suffice.
 int digits_for(const std::vector<Point>& points) {
   int digits = 6;
   for (const Point& p : points) {
@@ -43,7 +43,7 @@ void require_floats(const std::filesystem::path& file, const std::vector<Point>&
   }
 }
 
-/// What the file will hold.
+/// Returns the content of the file for this surface.
 std::string bytes_for(const std::filesystem::path& file, const Surface& surface, double scale) {
   require_scale(file, scale);
   require_sound_numbers(surface);
@@ -52,7 +52,7 @@ std::string bytes_for(const std::filesystem::path& file, const Surface& surface,
   for (const Vec3d& p : surface.points) points.emplace_back(p.x / scale, p.y / scale, p.z / scale);
   if (format == SurfaceFormat::stl) require_floats(file, points);
   std::ostringstream out(std::ios::binary);
-  out.exceptions(std::ios::badbit);  // want of memory stays what it is
+  out.exceptions(std::ios::badbit);  // std::bad_alloc then leaves the stream as an exception
   const auto text = CGAL::parameters::stream_precision(digits_for(points));
   bool written = false;
   switch (format) {

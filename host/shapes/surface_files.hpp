@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_files.hpp  Which files are surfaces, and what becomes of a surface in one.
+/// \file surface_files.hpp  Surface files: formats by ending, reading from bytes, and listing a folder.
 #pragma once
 
 #include <filesystem>
@@ -10,28 +10,28 @@
 
 namespace macadam {
 
+/// The supported formats of surface files.
 enum class SurfaceFormat : std::uint8_t { stl, off, ply, obj };
 
-/// The format by the ending.
-/// \throws InputError for another ending.
+/// Returns the format that the file's ending stands for. \throws InputError for any other ending.
 SurfaceFormat format_of(const std::filesystem::path& file);
 
-/// The surface in a file's bytes, checked and scaled; its name is the file's, as messages show it.
-/// \throws InputError
+/// Reads a surface from the bytes of a file: checks its numbers, scales the coordinates, divides polygons into
+/// triangles, and joins equal points and seams. The surface has the name of the file, which messages show. \throws
+/// InputError if the file is not valid.
 Surface surface_in(const SurfaceFile& file, SurfaceFormat format, double scale);
 
-/// \throws InputError for metres per unit of the file that make no sense.
+/// \throws InputError if `scale`, metres per unit of the file, is not a finite positive number.
 void require_scale(const std::filesystem::path& file, double scale);
 
-/// Whether the ending is one that read_surface() knows.
+/// Returns whether read_surface() can read files with this ending.
 bool is_surface_file(const std::filesystem::path& file);
 
-/// The surfaces' files of a folder, by name.
-/// \throws InputError where there is none.
+/// Returns the surface files in a folder, ordered by name. \throws InputError if the folder has no surface file.
 std::vector<std::filesystem::path> surface_files_in(const std::filesystem::path& folder);
 
-/// The surface as read_surface() would have it from `file`, were it written there; nothing is.
-/// \throws InputError for another ending, or where the format cannot hold the surface.
+/// Returns the surface that read_surface() would return if this surface had been written to `file`. Writes no file.
+/// \throws InputError for an unknown ending, or if the format cannot hold the surface.
 Surface read_back(const std::filesystem::path& file, const Surface& surface);
 
 }  // namespace macadam

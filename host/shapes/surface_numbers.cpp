@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_numbers.cpp  Soundness, rounding and volume of plain arrays.
+// surface_numbers.cpp  Checks of coordinates and facets, rounding, bounds, area and volume.
 #include "host/shapes/surface_numbers.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-constexpr double largest_coordinate = 1e50;  // [m]; volumes stay far from overflow
+constexpr double largest_coordinate = 1e50;  // [m]; products of three such numbers do not overflow
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_numbers.hpp  What every routine on surfaces asks of their numbers.
+/// \file surface_numbers.hpp  Basic checks and sums over the points and facets of a surface.
 #pragma once
 
 #include <limits>
@@ -9,29 +9,32 @@
 
 namespace macadam {
 
-/// \throws InputError naming surface and point where a coordinate is not finite or so large that volumes overflow.
+/// Checks the points. \throws InputError naming the surface and the point if a coordinate is not finite or is so large
+/// that volumes overflow.
 void require_sound_points(const Surface& surface);
 
-/// \throws InputError naming surface and point or facet where a coordinate is not finite or a facet names no point.
+/// Checks the points (see require_sound_points()) and the facets. \throws InputError naming the surface and the point
+/// or facet if the surface has no facets, a coordinate is not valid, or a facet refers to a point that does not exist.
 void require_sound_numbers(const Surface& surface);
 
-/// Lengths below this are rounding of the coordinates [m]: turning and moving a surface leaves a few ulp of its largest
-/// coordinate.
+/// Returns the length below which differences count as rounding of the coordinates [m]. Rotating and moving a surface
+/// causes errors of a few units in the last place of its largest coordinate; the length is 64 such units.
 double coordinate_rounding(const std::vector<Vec3d>& points);
 
-/// The box around points, of which there must be one.
+/// The bounding box of a set of points, which must not be empty.
 struct Bounds {
   Vec3d low, high;
 };
 Bounds bounds_of(std::span<const Vec3d> points);
 
-/// Middle of that box; sums about it lose no digits to a far origin.
+/// Returns the middle of the bounding box. Sums relative to it do not lose digits when the surface is far from the
+/// origin.
 Vec3d middle_of(const std::vector<Vec3d>& points);
 
-/// Sum of the facets' areas [m²].
+/// Returns the sum of the areas of the facets [m²].
 double surface_area(const Surface& surface);
 
-/// Volume that the facets enclose, negative where they look inwards [m³].
+/// Returns the volume enclosed by the facets [m³]. It is negative if the facets face inwards.
 double signed_volume(const Surface& surface);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_pieces.cpp  Pieces by the points that facets share; inside or outside by exact predicates.
+// surface_pieces.cpp  Finds pieces by common points, and inner pieces by exact containment tests.
 #include "host/shapes/surface_pieces.hpp"
 
 #include <algorithm>

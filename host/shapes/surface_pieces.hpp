@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_pieces.hpp  Connected parts of a surface, and which of them lie inside another.
+/// \file surface_pieces.hpp  Connected pieces of a surface, and which of them lie inside another piece.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +9,30 @@
 
 namespace macadam {
 
-/// The connected parts of a surface: facets that share a point are in the same one. Numbered by their first facets.
+/// The connected pieces of a surface. Facets that share a point belong to the same piece. Pieces are numbered in the
+/// order of their first facets.
 class SurfacePieces {
  public:
-  /// Keeps a reference to the surface, whose numbers must be sound.
+  /// Keeps a reference to the surface, which must have passed require_sound_numbers().
   explicit SurfacePieces(const Surface& surface);
 
+  /// Returns the number of pieces.
   std::int32_t count() const { return count_; }
 
-  /// Area of each piece [m²].
+  /// Returns the area of each piece [m²].
   std::vector<double> areas() const;
 
-  /// For each piece whether it lies inside the piece of the largest volume: a closed pore, or what such a pore holds.
-  /// `verdict` has the faults of the surface, all but `pieces` and `inner`. A piece that is open or cuts another one
-  /// lies nowhere, and nothing lies inside a faulty one.
+  /// Returns for each piece whether it lies inside the piece with the largest volume, as a closed pore or inside one.
+  /// `verdict` must have all faults of the surface except `pieces` and `inner`. A faulty piece (open or intersecting
+  /// another one, for example) does not count as inside; if the largest piece is faulty, no piece does.
   std::vector<bool> find_inner(const SurfaceVerdict& verdict) const;
 
-  /// The surface without the pieces that are marked.
+  /// Returns the surface without the marked pieces.
   Surface without(const std::vector<bool>& dropped) const;
 
  private:
   const Surface& surface_;
-  std::vector<std::int32_t> piece_of_;  // of each facet
+  std::vector<std::int32_t> piece_of_;  // piece number of each facet
   std::int32_t count_ = 0;
 };
 

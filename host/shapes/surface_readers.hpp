@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_readers.hpp  One reader a format. They believe nothing: every word must be what its place asks for,
-/// and no count is taken that the bytes of the file could not hold.
+/// \file surface_readers.hpp  Readers of surface files, one per format. They do not trust the file: every word must be
+/// valid at its position, and a count of items is accepted only if the file is large enough to hold them.
 #pragma once
 
 #include <cstdint>
@@ -14,43 +14,45 @@
 
 namespace macadam {
 
-/// A file's bytes with its name, which every message needs.
+/// The bytes of a file and its name, which every message gives.
 struct SurfaceFile {
   std::string name;
   std::string_view bytes;
 
-  /// Line 0: no line applies.
+  /// \throws InputError for this line; 0 if no line applies.
   [[noreturn]] void fail(int line, const std::string& what, const std::string& found,
                          const std::string& expected) const {
     throw InputError(name, line, what, found, expected);
   }
 };
 
-/// Points and facets of a file, before they are checked as a whole. A facet is a polygon of three corners or more.
+/// Points and facets as read from a file, before they are checked together. A facet is a polygon with three or more
+/// corners.
 struct SurfaceSoup {
-  std::vector<Vec3d> points;          ///< finite
-  std::vector<std::int64_t> corners;  ///< numbers of points, from 0, facet after facet; they may be out of range
-  std::vector<std::size_t> ends;      ///< of each facet: one past its last corner in `corners`
-  std::vector<int> line;              ///< of each facet; empty where the file has none
-  std::int64_t first_number = 0;      ///< the file's number of point 0
-  std::string note;                   ///< names contents of the file that were left out; empty if there are none
+  std::vector<Vec3d> points;  ///< finite
+  /// Point numbers from 0, facet after facet; not yet checked against the number of points.
+  std::vector<std::int64_t> corners;
+  std::vector<std::size_t> ends;  ///< for each facet: index in `corners` one past its last corner
+  std::vector<int> line;          ///< line of each facet; empty for formats without lines
+  std::int64_t first_number = 0;  ///< the number that the file gives to point 0
+  std::string note;               ///< describes contents of the file that were skipped; empty if there are none
 
   std::size_t facets() const { return ends.size(); }
-  /// The corners of facet f.
+  /// Returns the corners of facet f.
   std::span<const std::int64_t> facet(std::size_t f) const {
     const std::size_t begin = f == 0 ? 0 : ends[f - 1];
     return std::span(corners).subspan(begin, ends[f] - begin);
   }
-  /// Number of triangles that the facets are cut into.
+  /// Returns the number of triangles into which the facets will be divided.
   std::size_t triangles() const { return corners.size() - 2 * ends.size(); }
-  /// Ends a facet whose corners are the last ones of `corners`.
+  /// Completes a facet whose corners were appended to `corners`.
   void end_facet() { ends.push_back(corners.size()); }
 };
 
-/// A facet's name in messages.
+/// Returns the name of a facet in messages.
 inline std::string facet_name(std::size_t facet) { return "facet " + std::to_string(facet); }
 
-/// \throws InputError naming file and, of text, line.
+/// Reads a file of one format. \throws InputError naming the file and, for text, the line.
 /// @{
 SurfaceSoup read_stl(const SurfaceFile& file);
 SurfaceSoup read_off(const SurfaceFile& file);

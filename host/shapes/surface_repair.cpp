@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_repair.cpp  From the gentlest means to the hardest: mend what is there; where that does not do, wrap it anew.
+// surface_repair.cpp  Repairs surfaces. First the existing facets are mended; if the surface is still faulty, it is
+// wrapped in a new one.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -32,6 +33,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
+/// Points and polygons as CGAL's functions on polygon soups take them.
 struct Soup {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> polygons;
@@ -57,13 +59,13 @@ Surface surface_of(const Mesh& mesh, const std::string& name) {
 
 double relative_change(double before, double after) { return (after - before) / before; }
 
-/// One attempt at a surface that is sound as it will be read; says in words what it does.
+/// One repair of one surface. Collects a description of the steps.
 class Repair {
  public:
-  /// `as`: the file that it will be read from; empty where there is none.
+  /// `as`: the file that the surface will be read from; its format determines rounding. Empty if there is no such file.
   Repair(const Surface& surface, const std::filesystem::path& as) : surface_(surface), as_(as) {}
 
-  /// \throws RunError where nothing helps.
+  /// Returns the repaired surface. \throws RunError if neither mending nor wrapping gives a good surface.
   Surface operator()() {
     const bool good = check_surface(surface_).good();
     if (good) set_before(surface_, true);
@@ -79,18 +81,20 @@ class Repair {
     throw RunError(fmt::format("{}: cannot be repaired: {}; still {}", surface_.name, repair_.what, verdict_.text()));
   }
 
-  /// Returns the report of the steps taken so far.
+  /// Returns the report of the steps so far.
   const SurfaceRepair& repair() const { return repair_; }
 
  private:
+  /// Appends a step to the description.
   void say(const std::string& done) { repair_.what += (repair_.what.empty() ? "" : "; ") + done; }
   void say_count(std::int64_t n, const char* done, const std::string& of, const std::string& several) {
     if (n > 0) say(fmt::format("{} {} {}", done, n, n == 1 ? of : several));
   }
   void say_count(std::int64_t n, const char* done, const std::string& of) { say_count(n, done, of, of + "s"); }
 
-  /// Whether the surface is good as it will be read, where points of equal coordinates are one and STL has floats:
-  /// parts that share no point here may meet there. Keeps what would be read.
+  /// Returns whether the surface will be good after it was written to the file and read again. Reading merges points
+  /// with equal coordinates, and STL rounds to floats, so that parts that share no point now may meet afterwards.
+  /// Stores the surface as it will be read.
   bool keep(const Surface& surface) {
     read_ = surface;
     if (as_.empty())
@@ -104,12 +108,14 @@ class Repair {
     return verdict_.good();
   }
 
-  /// The volume of a surface that is not closed is not known.
+  /// Stores volume and area before the repair. The volume of a surface that is not closed is unknown (NaN).
   void set_before(const Surface& surface, bool closed) {
     repair_.volume_before = closed ? signed_volume(surface) : std::numeric_limits<double>::quiet_NaN();
     repair_.area_before = surface_area(surface);
   }
 
+  /// Mends the existing facets: joins points, drops degenerate and repeated facets, orients facets, splits non-manifold
+  /// points, fills holes and drops closed pores.
   Surface mend(const Surface& surface) {
     Surface joined = surface;
     join_equal_points(joined);
@@ -163,7 +169,7 @@ class Repair {
     double area = 0;
     for (const Mesh::Halfedge_index border : borders) {
       std::vector<Mesh::Face_index> patch;
-#if CGAL_VERSION_NR >= 1060000000  // where this is a named parameter
+#if CGAL_VERSION_NR >= 1060000000  // from this version on, the patch is a named parameter
       pmp::triangulate_hole(mesh, border, CGAL::parameters::face_output_iterator(std::back_inserter(patch)));
 #else
       pmp::triangulate_hole(mesh, border, std::back_inserter(patch));
@@ -178,7 +184,7 @@ class Repair {
     say_count(std::ssize(borders) - filled, "could not fill", "hole");
   }
 
-  /// Turns a closed surface so that its normals point outwards.
+  /// Orients a closed surface such that its normals point outwards.
   Surface outward(Surface surface) {
     if (signed_volume(surface) >= 0) return surface;
     for (auto& facet : surface.facets) std::swap(facet[1], facet[2]);
@@ -186,7 +192,7 @@ class Repair {
     return surface;
   }
 
-  /// A particle is solid: the inner shells that closed pores leave in a surface of voxels are dropped.
+  /// Drops closed pores, because a particle is solid. Surfaces made from voxels have such inner shells.
   Surface without_pores(Surface surface) {
     const SurfacePieces pieces(surface);
     const std::vector<bool> inner = pieces.find_inner(check_surface(surface));
@@ -201,10 +207,11 @@ class Repair {
     return solid;
   }
 
-  /// Specks beside the body are dropped; two bodies are not ours to choose from.
+  /// Drops specks beside the largest piece. If there are two or more larger pieces, keeps everything, because the
+  /// program cannot choose between them.
   Surface without_specks(const Surface& surface) {
     const SurfacePieces pieces(surface);
-    constexpr double speck = 0.05;  // of the largest piece's area
+    constexpr double speck = 0.05;  // fraction of the area of the largest piece
     const std::vector<double> area = pieces.areas();
     const double largest = *std::max_element(area.begin(), area.end());
     std::vector<bool> dropped;
@@ -215,7 +222,8 @@ class Repair {
     return pieces.without(dropped);
   }
 
-  /// A new skin around all that is there, a little outside of it. Bounds its own faults: closed, manifold, outward.
+  /// Wraps everything in a new surface, slightly outside of the old one. The new surface is closed, manifold and
+  /// oriented outwards by construction.
   Surface wrap(const Surface& surface) {
     const Soup soup(surface);
     const CGAL::Bbox_3 box = CGAL::bbox_3(soup.points.begin(), soup.points.end());
@@ -230,13 +238,13 @@ class Repair {
   const Surface& surface_;
   const std::filesystem::path& as_;
   SurfaceRepair repair_{{}, std::numeric_limits<double>::quiet_NaN()};
-  Surface read_;            ///< the last one tried, as it will be read …
-  SurfaceVerdict verdict_;  ///< … and what is wrong with it
+  Surface read_;            ///< the surface tried last, as it will be read
+  SurfaceVerdict verdict_;  ///< faults of read_
 };
 
 std::string change(double before, double after) {
   if (std::isnan(before)) return "(before: unknown, as holes could not be filled)";
-  const double percent = std::round(1e4 * relative_change(before, after)) / 100 + 0.0;  // 0 for -0
+  const double percent = std::round(1e4 * relative_change(before, after)) / 100 + 0.0;  // + 0.0 turns -0 into 0
   return fmt::format("(before {:.6g}, {:+.2f} %)", before, percent);
 }
 

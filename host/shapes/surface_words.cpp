@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_words.cpp  Words end at white space; a word is a number only as a whole, so "1.5.5" is none.
+// surface_words.cpp  Words end at white space. A word is a number only if all of it is parsed, so "1.5.5" is not a
+// number.
 #include "host/shapes/surface_words.hpp"
 
 #include <algorithm>
@@ -12,14 +13,15 @@
 namespace macadam {
 namespace {
 
-constexpr std::string_view blank = " \t\r\n\v\f";  // of "\r\n", one may be left within a line
+constexpr std::string_view blank = " \t\r\n\v\f";  // lines are split at one of \r and \n only, so the other may remain
 
 std::string_view without_leading_blanks(std::string_view text) {
   text.remove_prefix(std::min(text.find_first_not_of(blank), text.size()));
   return text;
 }
 
-/// Whether all of the word is the number that `value` receives. std::from_chars knows no plus sign.
+/// Parses all of the word into `value`; returns false if it is not a number. Skips a leading plus sign, which
+/// std::from_chars does not accept.
 template <class T>
 bool parse(std::string_view word, T& value) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);

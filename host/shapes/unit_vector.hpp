@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file unit_vector.hpp  A vector's direction.
+/// \file unit_vector.hpp  Normalises a vector.
 #pragma once
 
 #include "macadam/numeric.hpp"
 
 namespace macadam {
 
-/// Of length 1; `v` is not 0.
+/// Returns the unit vector in the direction of `v`, which must not be zero.
 inline Vec3d unit(const Vec3d& v) { return (1 / norm(v)) * v; }
 
 }  // namespace macadam

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// aggregates_csv.cpp  One line an aggregate. fmt's "{}" prints the shortest digits that round-trip a double.
+// aggregates_csv.cpp  Writes one line per aggregate. fmt's "{}" prints the shortest digits that are read back to the
+// same double.
 #include <fmt/format.h>
 
 #include <iterator>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// census.cpp  Bodies of a specimen, counted.
+// census.cpp  Counts the bodies of a specimen.
 #include "host/specimen/census.hpp"
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 namespace macadam {
 namespace {
 
-/// Cells are made only where that takes seconds: 10 s per million cells and thread.
+/// Checks the packing of a file. For large specimens only the filled fraction is checked, because the tessellation
+/// takes 10 s per million cells and thread.
 std::vector<std::string> warnings_of(const Specimen& specimen) {
   constexpr std::size_t most_cells = 500'000;
   if (specimen.cells() <= most_cells) return packing_warnings(specimen, tessellate(specimen));
@@ -20,6 +21,7 @@ std::vector<std::string> warnings_of(const Specimen& specimen) {
   return sparse.empty() ? std::vector<std::string>() : std::vector{std::move(sparse)};
 }
 
+/// Reads a specimen file and counts.
 Census of_file(const SpecimenSpec& spec) {
   const Specimen specimen = read_specimen_csv(*spec.file, spec.box);
   Census out;

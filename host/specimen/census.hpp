@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file census.hpp  How many bodies and spheres a specimen will have, without a place for any.
+/// \file census.hpp  Counts the bodies and spheres that a specimen will have, without placing any.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,20 @@
 
 namespace macadam {
 
+/// Numbers of bodies and spheres, and warnings.
 struct Census {
   std::int64_t aggregates = 0;     ///< bodies
-  std::int64_t in_aggregates = 0;  ///< spheres of them: as many, or more where shapes are filled
+  std::int64_t in_aggregates = 0;  ///< their spheres: equal to `aggregates`, or more if shapes are filled
   std::int64_t mastic = 0, voids = 0;
-  std::int64_t templates = 0;  ///< shapes that they are copies of
-  /// Radii of the smallest spheres of a file [m]; 0: there is none, or no file.
+  std::int64_t templates = 0;  ///< shapes whose copies the aggregates are
+  /// For a file: radii of its smallest spheres [m]; 0 if there are none. Not set for a recipe.
   double smallest_mastic = 0, smallest_in_aggregates = 0;
-  std::vector<std::string> warnings;  ///< packing_warnings() of a file
+  std::vector<std::string> warnings;  ///< packing_warnings() of a file; empty for a recipe
   std::int64_t particles() const { return in_aggregates + mastic; }
 };
 
-/// Of a file, which is read, or of a recipe, whose classes are solved and of shapes drawn.
-/// \throws InputError for a file or recipe that a run would refuse too.
+/// Counts the spheres of a specimen. A file is read. For a recipe its classes are solved, and shapes and sizes are
+/// drawn if there are any. \throws InputError for a file or recipe that a run would refuse too.
 Census count_specimen(const SpecimenSpec& spec);
 
 }  // namespace macadam

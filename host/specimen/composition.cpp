@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file composition.cpp  Solves a recipe for the volumes of its classes, then draws their spheres.
+/// \file composition.cpp  Solves a recipe for the volumes of its classes, then draws the radii of their spheres.
 #include "host/specimen/composition.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace macadam {
 namespace {
 
-constexpr double tolerance = 0.002;  // of the box volume: how far a class may miss what was asked
+constexpr double tolerance = 0.002;  // fraction of the box volume by which a class may miss its volume
 
 [[noreturn]] void refuse(const Origin& origin, const std::string& what, const std::string& found,
                          const std::string& expected) {
@@ -44,6 +44,7 @@ void check_count(const Origin& origin, const std::string& name, std::int64_t cou
     refuse(origin, name + ": count", std::to_string(count), "0 to " + std::to_string(most_particles));
 }
 
+/// Checks one class, the mastic or the voids, and returns its request.
 ClassRequest request_of(const AggregateClass& c, const SpecimenSpec& spec) {
   const std::string name = millimetres(c.sieve_min) + "-" + millimetres(c.sieve_max) + " mm";
   const Origin origin(spec, c.line);
@@ -81,12 +82,13 @@ ClassRequest request_of(const VoidSpec& v, const SpecimenSpec& spec) {
   return out;
 }
 
-/// What the voids leave of the box [m³].
+/// Returns the volume of the box without the voids [m³].
 double volume_beside_voids(const SpecimenSpec& spec) {
   return spec.box.volume() - (spec.voids ? request_of(*spec.voids, spec).volume : 0);
 }
 
-/// Volume of everything solid [m³], the reference of the volume fractions.
+/// Returns the volume of aggregates and mastic [m³], to which volume fractions refer. Without mastic it is unknown, and
+/// the volume of the box without the voids takes its place.
 double solid_volume(const SpecimenSpec& spec, const std::vector<ClassRequest>& aggregate,
                     const std::optional<ClassRequest>& mastic) {
   if (!mastic) return volume_beside_voids(spec);
@@ -102,6 +104,7 @@ double solid_volume(const SpecimenSpec& spec, const std::vector<ClassRequest>& a
   return counted / (1 - fractions);
 }
 
+/// Draws the radii of one class.
 Population draw(const ClassRequest& r, double box_volume, RandomStream random) {
   const std::int64_t n = r.number(box_volume);
   Population p{{r.name, n, n, r.volume / box_volume, 0}, draw_diameters(r.range, n, r.volume, random), r.origin};
@@ -124,7 +127,8 @@ std::int64_t ClassRequest::number(double box_volume) const {
     refuse(origin, name + ": number of spheres for its volume", shown(mean),
            "at most " + std::to_string(most_particles));
   if (least <= most) return static_cast<std::int64_t>(std::clamp(mean, least, most));
-  // No number of spheres between the sieves has exactly this volume: `most` smaller than it or `least` beyond it.
+  // No number of spheres between the sieves has exactly this volume: `most` spheres have less, even if all are as large
+  // as allowed, and `least` spheres have more.
   const double below = volume - most * largest;
   const double above = least * smallest - volume;
   if (std::min(below, above) > tolerance * box_volume)
@@ -196,7 +200,8 @@ Composition compose(const SpecimenSpec& spec) {
 
 namespace {
 
-/// The same mastic where the aggregates are nothing but less room.
+/// Returns a recipe of the mastic only, in which a porosity is adjusted such that the mastic has the same volume as
+/// beside aggregates (of this volume) and voids.
 SpecimenSpec mastic_alone(const SpecimenSpec& spec, double aggregate_volume) {
   SpecimenSpec rest;
   rest.box = spec.box;

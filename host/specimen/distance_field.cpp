@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file distance_field.cpp  Exact distances at the nodes; signs carried along lines while no surface can lie between.
+/// \file distance_field.cpp  Computes exact distances at the grid nodes. Along a line of nodes the sign is kept as long
+/// as no surface can lie between two nodes.
 #include "host/specimen/distance_field.hpp"
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 namespace macadam {
 namespace {
 
+/// Linear interpolation.
 double mix(double a, double b, double t) { return a + t * (b - a); }
 
 }  // namespace
@@ -19,7 +21,7 @@ DistanceField::DistanceField(const Surface& surface, const ShapeSolid& solid, in
   const Vec3d size = high - low;
   edge_ = std::max({size.x, size.y, size.z}) / cells;
   error_ = std::sqrt(0.75) * edge_;
-  // One cell more on either side, so that the direction is that of the distance all over the surface.
+  // One more cell on each side, so that the gradient is that of the distance everywhere on the surface.
   const auto nodes = [&](double length) { return static_cast<std::int64_t>(std::ceil(length / edge_)) + 3; };
   nx_ = nodes(size.x), ny_ = nodes(size.y), nz_ = nodes(size.z);
   low_ = low - Vec3d{edge_, edge_, edge_};
@@ -31,6 +33,7 @@ DistanceField::DistanceField(const Surface& surface, const ShapeSolid& solid, in
       for (std::int64_t x = 0; x < nx_; ++x) {
         const Vec3d p = low_ + edge_ * Vec3d{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
         const double d = solid.distance(p);
+        // A node farther than one edge from the surface is on the same side as the node before it.
         if (d <= 1.001 * edge_) inside = solid.contains(p);
         *node++ = static_cast<float>(inside ? -d : d);
       }
@@ -57,13 +60,15 @@ DistanceField::Value DistanceField::value(const Vec3d& point) const {
   const Cell c = cell_of(point);
   const float* f = distance_.data() + c.node;
   const std::int64_t down = nx_, deep = nx_ * ny_;
-  // Along x on the four edges, then along y on the two faces, then along z.
+  // Trilinear interpolation: along x on four edges, then along y on two faces, then along z.
   const double e00 = mix(f[0], f[1], c.share.x), e10 = mix(f[down], f[down + 1], c.share.x);
   const double e01 = mix(f[deep], f[deep + 1], c.share.x), e11 = mix(f[deep + down], f[deep + down + 1], c.share.x);
   const double f0 = mix(e00, e10, c.share.y), f1 = mix(e01, e11, c.share.y);
   const double d = mix(f0, f1, c.share.z);
   const double beyond2 = dot(c.beyond, c.beyond);
-  // The grid's box is convex and holds the shape: the way from beyond it makes no acute angle with the rest.
+  // Outside the grid: let q be the nearest point of the grid's box. The box is convex and contains the shape, so the
+  // angle at q between this point and any point of the shape is at least 90°. The distance to the shape is therefore at
+  // least √(d² + beyond²), where d is the distance at q.
   if (beyond2 > 0) return {std::sqrt(d * d + beyond2), (1 / std::sqrt(beyond2)) * c.beyond};
   const double x0 = mix(f[1] - f[0], f[down + 1] - f[down], c.share.y);
   const double x1 = mix(f[deep + 1] - f[deep], f[deep + down + 1] - f[deep + down], c.share.y);

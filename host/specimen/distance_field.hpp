@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file distance_field.hpp  The signed distance from a shape's surface on a grid: fast, and never far from the truth.
+/// \file distance_field.hpp  The signed distance from the surface of a shape, interpolated on a grid: fast, with a
+/// known error bound.
 #pragma once
 
 #include <cstddef>
@@ -11,43 +12,44 @@
 
 namespace macadam {
 
-/// Signed distance (negative inside) at the nodes of a cubic grid around a shape, trilinear between them.
+/// Signed distance (negative inside) at the nodes of a cubic grid around a shape, with trilinear interpolation between
+/// them.
 class DistanceField {
  public:
-  /// A distance and the way out: unit vector, or 0 where there is none.
+  /// A signed distance, and the unit vector pointing outwards (0 if there is none).
   struct Value {
     double distance;
     Vec3d outward;
   };
 
-  /// `cells` along the longest edge of the surface's axis-aligned box.
+  /// `cells` is the number of cells along the longest edge of the surface's bounding box.
   DistanceField(const Surface& surface, const ShapeSolid& solid, int cells);
 
-  /// Interpolated signed distance; beyond the grid it is no more than the true one.
+  /// Returns the interpolated signed distance. Outside the grid it is a lower bound, up to the interpolation error.
   double at(const Vec3d& point) const;
 
-  /// The same with its direction.
+  /// Returns the same distance and its direction.
   Value value(const Vec3d& point) const;
 
-  /// Bounds of the true signed distance.
+  /// Lower and upper bound of the true signed distance.
   double at_least(const Vec3d& point) const { return at(point) - error_; }
-  double error() const { return error_; }  ///< what at_least() is below at()
+  double error() const { return error_; }  ///< difference of at() and at_least()
   double at_most(const Vec3d& point) const;
 
  private:
   struct Cell {
-    std::size_t node;  ///< number of its lower corner
-    Vec3d share;       ///< place within it, 0 … 1
-    Vec3d beyond;      ///< from the nearest point of the grid
+    std::size_t node;  ///< number of the lower corner
+    Vec3d share;       ///< position within the cell, 0 … 1
+    Vec3d beyond;      ///< vector from the nearest point of the grid; 0 inside the grid
   };
   Cell cell_of(const Vec3d& point) const;
 
   Vec3d low_;
   double edge_;
-  /// No interpolated distance is farther than this from the true one: distances change by no more than the way does,
-  /// and the mean way to the eight corners, by their weights, is at most half of the cell's diagonal.
+  /// Largest error of an interpolated distance. A distance changes by at most the length of the way, and the mean
+  /// length of the ways to the eight corners, weighted as in the interpolation, is at most half of the cell's diagonal.
   double error_;
-  std::int64_t nx_, ny_, nz_;  ///< nodes
+  std::int64_t nx_, ny_, nz_;  ///< numbers of nodes
   std::vector<float> distance_;
 };
 

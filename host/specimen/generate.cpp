@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generate.cpp  The generator: compose, place, relax, and make sure that every sphere has a Laguerre cell.
+/// \file generate.cpp  Generates a specimen: draws sizes, places aggregates, voids and mastic, relaxes the mastic, and
+/// ensures that every sphere has a Laguerre cell.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -18,7 +19,7 @@
 namespace macadam {
 namespace {
 
-/// Random streams of the placement; those of the sizes are numbered in composition.cpp.
+/// Random stream of the placement. The streams of the sizes are numbered in composition.cpp.
 constexpr std::uint64_t placement_stream = 2;
 
 double smallest_aggregate(const Composition& composition, const Box& box) {
@@ -28,6 +29,7 @@ double smallest_aggregate(const Composition& composition, const Box& box) {
   return smallest;
 }
 
+/// Appends the description of each aggregate that is a single sphere.
 void describe(Specimen& specimen, const std::vector<std::int32_t>& size_class, std::vector<Aggregate>& out) {
   for (std::size_t k = 0; k < size_class.size(); ++k) {
     Aggregate a;
@@ -41,26 +43,26 @@ void describe(Specimen& specimen, const std::vector<std::int32_t>& size_class, s
   }
 }
 
-/// The largest of the voids [m]; 0 where there are none.
+/// Returns the radius of the largest void [m], or 0 if there are none.
 double largest(const std::vector<Population>& voids) {
   return voids.empty() || voids.front().radius.empty() ? 0 : voids.front().radius.front();
 }
 
-/// Voids wait among the spheres behind the aggregates, as aggregates that hold still while the mastic relaxes. Returns
-/// where they begin.
+/// Adds the voids to the spheres, after the aggregates. Until the mastic is relaxed, they are treated as fixed
+/// aggregates. Returns the index of the first void.
 std::size_t place_voids(const std::vector<Population>& voids, GeneratedSpecimen& result, Placement& placement) {
   const std::size_t first = result.specimen.size();
   for (const Population& p : voids) placement.place_voids(p, static_cast<std::int32_t>(result.aggregates.size()));
   return first;
 }
 
-/// A specimen in the making.
+/// A specimen whose mastic is not relaxed yet, and the index range of its voids.
 struct Placed {
   Placement placement;
-  std::size_t first_void, end_of_voids;  ///< among its spheres
+  std::size_t first_void, end_of_voids;  ///< indices in the list of spheres
 };
 
-/// Aggregates that are single spheres, voids and the mastic.
+/// Places aggregates that are single spheres, voids and mastic.
 Placed with_spheres(const SpecimenSpec& spec, GeneratedSpecimen& result,
                     const std::function<void(double share)>& progress) {
   const Composition composition = compose(spec);
@@ -76,7 +78,8 @@ Placed with_spheres(const SpecimenSpec& spec, GeneratedSpecimen& result,
   return {std::move(placement), first_void, end_of_voids};
 }
 
-/// Aggregates of real shape, voids and the mastic; `wall` will hold it out of the shapes where that is asked for.
+/// Places aggregates with real shapes, voids and mastic. Sets `wall` to the wall that holds the mastic out of the
+/// shapes, if the recipe requests one.
 Placed with_shapes(const SpecimenSpec& spec, GeneratedSpecimen& result, Enclosure& wall,
                    const std::function<void(const char* stage, double share)>& progress) {
   const std::vector<Population> voids = compose_voids(spec);
@@ -127,6 +130,7 @@ GeneratedWithCells generate_with_cells(const SpecimenSpec& spec,
 
   SettledMastic settled = settle_mastic(specimen, placement, spec.fix_aggregates, Origin(spec), wall, progress);
   result.relaxation_iterations = settled.iterations;
+  // With voids among the spheres the cells are numbered differently, so the tessellation cannot be reused.
   if (first_void == end_of_voids) {
     cells.tessellation = std::move(settled.tessellation);
     cells.seconds_tessellation = settled.seconds_tessellation;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generate.hpp  generate_specimen(), with the cells that it looked at in the end.
+/// \file generate.hpp  generate_specimen() that also returns the tessellation made by its final check.
 #pragma once
 
 #include <functional>
@@ -10,14 +10,16 @@
 
 namespace macadam {
 
+/// A generated specimen and its cells.
 struct GeneratedWithCells {
   GeneratedSpecimen made;
-  /// Of the specimen as it is. None where it has voids: these stood among the spheres when the cells were looked at.
+  /// The tessellation of the specimen. Empty if there are voids, because these were among the particles when the
+  /// tessellation was made.
   std::optional<Tessellation> tessellation;
-  double seconds_tessellation = 0;  ///< what it took, where it is there
+  double seconds_tessellation = 0;  ///< time of the tessellation, if it is present [s]
 };
 
-/// As generate_specimen().
+/// Does what generate_specimen() does.
 GeneratedWithCells generate_with_cells(const SpecimenSpec& spec,
                                        const std::function<void(const char* stage, double share)>& progress);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mastic.cpp  Rounds of relaxation, between which hidden spheres are placed anew.
+// mastic.cpp  Relaxes the mastic repeatedly, and moves hidden spheres to new random places in between.
 #include "host/specimen/mastic.hpp"
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 namespace macadam {
 namespace {
 
-constexpr int most_rounds = 10;  // of relaxation, to free the last hidden spheres
+constexpr int most_rounds = 10;  // rounds of relaxation before the hidden spheres are an error
 
-/// Gives hidden mastic a new random place.
+/// Moves hidden mastic spheres to new random places.
 void reinsert(const std::vector<std::int32_t>& hidden, Specimen& specimen, Placement& placement) {
   for (std::int32_t i : hidden)
     if (specimen.phase[i] == Phase::mastic) specimen.centre[i] = placement.point_outside_aggregates();

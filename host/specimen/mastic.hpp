@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file mastic.hpp  Mastic that spreads around what holds still: aggregates and voids.
+/// \file mastic.hpp  Spreads the mastic around fixed aggregates and voids.
 #pragma once
 
 #include <functional>
@@ -10,20 +10,21 @@
 
 namespace macadam {
 
+/// Result of settle_mastic().
 struct SettledMastic {
   int iterations = 0;
-  Tessellation tessellation;        ///< of the settled spheres, none of which is hidden
-  double seconds_tessellation = 0;  ///< what that took
+  Tessellation tessellation;        ///< of the relaxed spheres, none of which is hidden
+  double seconds_tessellation = 0;  ///< time of this tessellation [s]
 };
 
-/// Relaxes a specimen until the spheres are evenly spread and each has a Laguerre cell; mastic without one gets another
-/// place. `wall` is relax()'s, `progress` may be empty. Voids are still among the aggregates. \throws RunError naming
-/// spheres without a cell.
+/// Relaxes a specimen until the spheres are evenly spread and each has a Laguerre cell. Mastic spheres without a cell
+/// are moved to new places. `wall` is passed to relax(); `progress` may be empty. Voids are still among the aggregates.
+/// \throws RunError naming the spheres without a cell if there are any after 10 rounds.
 SettledMastic settle_mastic(Specimen& specimen, Placement& placement, bool fix_aggregates, const Origin& origin,
                             const Enclosure& wall,
                             const std::function<void(const char* stage, double share)>& progress);
 
-/// Takes the voids, spheres from number `first` to below `end`, from among the particles.
+/// Moves the voids, which are the spheres from index `first` to `end` − 1, from the particles to Specimen::voids.
 void part_voids(std::size_t first, std::size_t end, Specimen& specimen);
 
 }  // namespace macadam

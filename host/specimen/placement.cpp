@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file placement.cpp  Random sequential placement, with a list of open cells when room is scarce.
+/// \file placement.cpp  Random sequential placement. When few places are left, it samples from a list of cells that
+/// still have space.
 #include "host/specimen/placement.hpp"
 
 #include <fmt/format.h>
@@ -15,9 +16,10 @@
 namespace macadam {
 namespace {
 
-/// Plain tries before the open cells are listed; a listing costs about as much as this many tries.
+/// Number of random positions tried before the open cells are listed; listing them takes about the time of this many
+/// trials.
 constexpr std::int64_t plain_attempts = 20'000;
-constexpr std::int64_t tries_at_once = 128;  // of one thread
+constexpr std::int64_t tries_at_once = 128;  // trials per thread and call
 
 double squared_distance(const Vec3d& a, const Vec3d& b) {
   const Vec3d d = a - b;
@@ -29,12 +31,13 @@ Vec3d random_point(Draws& draws, const Vec3d& low, const Vec3d& high) {
   return {x, y, draws.uniform(low.z, high.z)};
 }
 
-/// One aggregate that waits for its place.
+/// An aggregate to be placed.
 struct Waiting {
-  std::size_t population, rank;  ///< class, and place within its list of radii
+  std::size_t population, rank;  ///< class, and index in its list of radii
   double radius;
 };
 
+/// Returns the aggregates of all classes, largest first.
 std::vector<Waiting> largest_first(const std::vector<Population>& classes) {
   std::vector<Waiting> all;
   for (std::size_t k = 0; k < classes.size(); ++k)
@@ -89,7 +92,8 @@ std::vector<std::int32_t> Placement::place_aggregates(const std::vector<Populati
 }
 
 void Placement::add_aggregate(const Vec3d& centre, double radius, std::int32_t body, double spacing) {
-  // Later spheres are no larger, but for voids: they look for this one from no further away, the spacing included.
+  // Later spheres are not larger than this one, except voids. With this reach, every later sphere that could be too
+  // close finds this one in the list of the cell that contains its centre.
   grid_.insert(static_cast<std::int32_t>(specimen_.size()), centre, radius + std::max(radius, largest_void_) + spacing);
   add(centre, radius, Phase::aggregate, body);
 }
@@ -113,6 +117,7 @@ void Placement::place_mastic(const Population& mastic) {
     add(random_point(draws, {0, 0, 0}, specimen_.box.size), mastic.radius[placed], Phase::mastic, -1);
     return ++placed < mastic.radius.size();
   };
+  // The same numbers give the same point in `place` and `free`.
   const auto free = [&](Draws draws) { return clear_of_placed(random_point(draws, {0, 0, 0}, specimen_.box.size), 0); };
   if (!random_.each_good(attempts_, 3, tries_at_once, free, place)) no_room_for_mastic();
 }
@@ -129,14 +134,16 @@ void Placement::no_room_for_mastic() const {
                  " attempts; ask for less aggregate");
 }
 
+/// Returns a random centre for a sphere inside the box, clear of all placed spheres; nothing if there is none in
+/// attempts_ trials.
 std::optional<Vec3d> Placement::position_for(double radius, double spacing) {
   const Vec3d low{radius, radius, radius}, high = specimen_.box.size - low;
   const std::int64_t plain = std::min(attempts_, plain_attempts);
   const auto anywhere = [&](Draws draws) { return clear_of_placed(random_point(draws, low, high), radius + spacing); };
   if (auto found = random_.first_good(plain, 3, tries_at_once, anywhere)) return random_point(*found, low, high);
   if (plain == attempts_) return std::nullopt;
-  // Points drawn evenly over the cells that are not wholly taken are distributed as plain tries are, only more of them
-  // succeed.
+  // Points distributed uniformly over the cells that are not completely taken have the same distribution as successful
+  // trials over the whole box, but more trials succeed.
   const std::vector<std::size_t> open = open_cells(radius);
   if (open.empty()) return std::nullopt;
   const auto in_the_open = [&](Draws& draws) {
@@ -161,6 +168,7 @@ bool Placement::clear_of_placed(const Vec3d& point, double distance) const {
   return !(taken_ && taken_(point));
 }
 
+/// Returns the cells that may have space for the centre of a sphere of this radius.
 std::vector<std::size_t> Placement::open_cells(double radius) const {
   const Vec3d edge = grid_.edge(), size = specimen_.box.size;
   std::vector<std::size_t> open;

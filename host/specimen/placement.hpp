@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file placement.hpp  Random positions: aggregates without overlap, mastic anywhere outside them.
+/// \file placement.hpp  Random positions of spheres: aggregates without overlap, mastic anywhere outside them.
 #pragma once
 
 #include <functional>
@@ -13,41 +13,46 @@
 
 namespace macadam {
 
-/// Places spheres one by one, uniformly over the room that is left to each. Tries run on all threads; the places are
-/// those that one thread alone would have found.
+/// Places spheres one by one, each with a uniform distribution over the positions that are free for it. Trials run on
+/// all threads; the positions are those that a single thread would find.
 class Placement {
  public:
-  /// `specimen` receives the spheres and must outlive this; `smallest` is the smallest aggregate radius [m]; `taken`
-  /// tells of points where nothing else may be, on several threads at a time; `origin` is the recipe's; `largest_void`:
-  /// radius of the largest of the voids that will be placed [m].
+  /// `specimen` receives the spheres and must outlive this object. `smallest` is the smallest aggregate radius [m].
+  /// `attempts` is the number of trials for one sphere. `taken` returns whether a point is inside something else (a
+  /// shape), and must be callable from several threads. `origin` is that of the recipe, for messages. `largest_void` is
+  /// the radius of the largest void that will be placed [m].
   Placement(Specimen& specimen, double smallest, std::int64_t attempts, RandomStream random, const Origin& origin,
             std::function<bool(const Vec3d&)> taken = {}, double largest_void = 0);
 
-  /// Adds all aggregates, largest first over all classes, inside the box and `spacing` [m] from each other; returns the
-  /// class of each. \throws RunError naming the class that found no room, and how much of it had.
+  /// Adds all aggregates inside the box and at least `spacing` [m] apart, largest first over all classes. Returns the
+  /// class of each. \throws RunError naming the class for which there was no room, and how much of it was placed.
   std::vector<std::int32_t> place_aggregates(const std::vector<Population>& classes, double spacing,
                                              const std::function<void(double share)>& progress);
 
-  /// Adds a sphere of aggregate number `body` where it is; none larger that comes later is nearer than `spacing` [m].
+  /// Adds a sphere of aggregate number `body` at a given position. Spheres placed later keep at least `spacing` [m]
+  /// from it, provided that they are not larger.
   void add_aggregate(const Vec3d& centre, double radius, std::int32_t body, double spacing = 0);
 
-  /// Adds voids inside the box, clear of each other and of all that is there, as if they were aggregates: bodies from
-  /// `body` on. \throws RunError naming how many found room.
+  /// Adds voids inside the box, clear of each other and of all spheres placed so far. They are stored as aggregates
+  /// with body numbers from `body` on. \throws RunError saying how many were placed.
   void place_voids(const Population& voids, std::int32_t body);
 
-  /// Adds the mastic with centres outside the aggregates; mastic spheres may overlap anything.
+  /// Adds the mastic at random positions whose centres are outside the aggregates. Mastic spheres may overlap anything.
   void place_mastic(const Population& mastic);
 
-  /// A random point of the box outside the aggregates.
-  /// \throws RunError when `attempts` points all lay inside aggregates.
+  /// Returns a random point of the box outside the aggregates. \throws RunError if `attempts` points were all inside
+  /// aggregates.
   Vec3d point_outside_aggregates();
 
  private:
+  /// Returns a random centre for a sphere, if there is room for one.
   std::optional<Vec3d> position_for(double radius, double spacing);
   [[noreturn]] void no_room_for_mastic() const;
-  /// Whether a sphere of radius `distance` would overlap none, with its centre where nothing is taken.
+  /// Returns whether a sphere of radius `distance` at this point overlaps no placed sphere and its centre is not taken.
   bool clear_of_placed(const Vec3d& point, double distance) const;
+  /// Returns the cells of the grid that may have room for the centre of a sphere.
   std::vector<std::size_t> open_cells(double radius) const;
+  /// Appends a sphere to the specimen.
   void add(const Vec3d& centre, double radius, Phase phase, std::int32_t body);
 
   Specimen& specimen_;

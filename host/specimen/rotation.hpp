@@ -12,7 +12,7 @@ namespace macadam {
 
 using Quaternion = std::array<double, 4>;
 
-/// The matrix of a unit quaternion, or a product of such matrices, by its rows.
+/// The matrix of a unit quaternion (or a product of such matrices), stored by rows.
 struct Rotation {
   Vec3d x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 
@@ -24,11 +24,11 @@ struct Rotation {
 
   Vec3d operator()(const Vec3d& v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
 
-  /// The inverse rotation.
+  /// Applies the inverse rotation.
   Vec3d back(const Vec3d& v) const { return v.x * x + v.y * y + v.z * z; }
 };
 
-/// A rotation drawn evenly over all rotations (Shoemake 1992).
+/// Returns a random rotation, uniformly distributed over all rotations (Shoemake 1992).
 template <class Random>
 Quaternion random_turn(Random& random) {
   const double u = random.uniform(), a = 2 * std::numbers::pi * random.uniform(),
@@ -37,7 +37,8 @@ Quaternion random_turn(Random& random) {
   return {high * std::cos(b), low * std::sin(a), low * std::cos(a), high * std::sin(b)};
 }
 
-/// `q`, then the rotation by |angle| about `angle` [rad], in the frame of space.
+/// Returns `q` followed by a rotation about the vector `angle`, whose length is the angle [rad], in the space-fixed
+/// frame.
 inline Quaternion turned(const Quaternion& q, const Vec3d& angle) {
   const double size = norm(angle), share = size > 0 ? std::sin(size / 2) / size : 0.5;
   const double w = std::cos(size / 2);

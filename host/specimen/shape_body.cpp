@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_body.cpp  Exact tests after quick ones; contacts from samples in the other body's distance field.
+/// \file shape_body.cpp  Runs exact tests after faster approximate ones, and finds contacts from samples of one body in
+/// the distance field of the other.
 #include "host/specimen/shape_body.hpp"
 
 #include <algorithm>
@@ -9,8 +10,9 @@
 namespace macadam {
 namespace {
 
+// Number of cells along the longest edge of a shape.
 constexpr int field_cells = 40;
-constexpr double sample_tolerance = 0.003;  // of D^I: a fraction of the gaps that packing keeps
+constexpr double sample_tolerance = 0.003;  // in units of D^I; small compared with the gaps that packing keeps
 
 double farthest_point(const Surface& s) {
   double most = 0;
@@ -18,9 +20,9 @@ double farthest_point(const Surface& s) {
   return most;
 }
 
-/// From the frame of one body into that of another.
+/// Transforms points from the frame of one body into that of another.
 struct Transfer {
-  Rotation turn;  // with the scale in it
+  Rotation turn;  // includes the scale
   Vec3d shift;
 
   Transfer(const ShapeBody& from, const ShapeBody& to) {
@@ -33,7 +35,7 @@ struct Transfer {
   Vec3d operator()(const Vec3d& p) const { return turn(p) + shift; }
 };
 
-/// Sums over the samples of a contact, weighted by depth.
+/// Sums over the samples of a contact, weighted by their depths.
 struct Manifold {
   double deepest = 0, sum = 0, clear = std::numeric_limits<double>::infinity();
   Vec3d moment{}, push{};
@@ -49,7 +51,8 @@ struct Manifold {
   }
 };
 
-/// Samples of `a` in the field of `b`; `sign` 1 pushes `a` away, −1 pushes `b`.
+/// Adds the samples of `a` in the field of `b`. The normal pushes `a` away from `b` if `sign` is 1, and `b` away from
+/// `a` if it is −1.
 void add_samples(Manifold& m, const ShapeBody& a, const ShapeBody& b, double gap, double sign) {
   const Transfer transfer(a, b);
   const DistanceField& field = b.geometry->field;
@@ -78,6 +81,7 @@ void add_samples(Manifold& m, const ShapeBody& a, const ShapeBody& b, double gap
   m.push += (sign * k) * b.rotation(own.push);
 }
 
+/// Returns whether a sphere touches or overlaps a shape.
 bool sphere_touches(const ShapeBody& sphere, const ShapeBody& body) {
   const double r = sphere.sphere_radius();
   if (body.distance_at_least(sphere.centre) > r) return false;
@@ -85,7 +89,8 @@ bool sphere_touches(const ShapeBody& sphere, const ShapeBody& body) {
   return body.geometry->solid.contains(own) || body.scale * body.geometry->solid.distance(own) <= r;
 }
 
-/// Whether the field of `b` shows a sample of `a` inside. What it does not show may still be.
+/// Returns whether the field of `b` proves that a sample of `a` is inside `b`. Samples within the error of the field
+/// are not counted.
 bool sample_inside(const ShapeBody& a, const ShapeBody& b) {
   const Transfer transfer(a, b);
   const DistanceField& field = b.geometry->field;
@@ -97,7 +102,7 @@ bool sample_inside(const ShapeBody& a, const ShapeBody& b) {
   return inside;
 }
 
-/// Whether the surface of `a` cuts that of `b`, or some point of it is inside `b`.
+/// Returns whether the surface of `a` intersects that of `b`, or a point of it is inside `b`.
 bool surface_enters(const ShapeBody& a, const ShapeBody& b) {
   const Transfer transfer(a, b);
   const ShapeGeometry &ga = *a.geometry, &gb = *b.geometry;
@@ -112,17 +117,17 @@ bool surface_enters(const ShapeBody& a, const ShapeBody& b) {
     if (dot(p, p) > ball * ball || gb.field.at_least(p) > reach) continue;
     if (gb.solid.touches(p, moved[v[1]], moved[v[2]])) return true;
   }
-  // Without a cut all points are on one side.
+  // If the surfaces do not intersect, all points of `a` are on the same side of `b`.
   return gb.field.at_least(moved.front()) <= 0 && gb.solid.contains(moved.front());
 }
 
-/// Whether `a` holds `b`, whose surface does not cut its own.
+/// Returns whether `a` contains `b`. The surfaces must not intersect.
 bool holds(const ShapeBody& a, const ShapeBody& b) {
   const Vec3d p = a.to_own(b.to_space(b.geometry->shape.surface.points.front()));
   return a.geometry->field.at_least(p) <= 0 && a.geometry->solid.contains(p);
 }
 
-/// Of the spheres of two bodies at least one of which has a cluster.
+/// Does what nearer() does for two bodies, at least one of which has a cluster.
 bool spheres_nearer(const ShapeBody& a, const ShapeBody& b, double spacing) {
   if (a.sphere) return b.cluster->touches(b.to_cluster(a.centre), a.sphere_radius() + spacing);
   if (b.sphere) return spheres_nearer(b, a, spacing);
@@ -172,10 +177,10 @@ bool overlap(const ShapeBody& a, const ShapeBody& b) {
   const double apart = norm(d);
   if (apart > a.radius() + b.radius()) return false;
   if (apart <= a.inner_radius() + b.inner_radius()) return true;
-  if (a.sphere && b.sphere) return false;  // their inner radii are their radii
+  if (a.sphere && b.sphere) return false;  // the inner radius of a sphere is its radius
   if (a.sphere) return sphere_touches(a, b);
   if (b.sphere) return sphere_touches(b, a);
-  // A body's own inner ball is in it: where the other's field is too low for that ball there is an overlap.
+  // If the other surface comes closer to a body's centre than the radius of the inner ball, the bodies overlap.
   if (b.distance_at_most(a.centre) < a.inner_radius() || a.distance_at_most(b.centre) < b.inner_radius()) return true;
   return sample_inside(a, b) || sample_inside(b, a) || surface_enters(a, b) || holds(a, b);
 }
@@ -214,7 +219,8 @@ ShapeContact contact(const ShapeBody& a, const ShapeBody& b, double gap) {
   } else if (a.sphere || b.sphere) {
     const ShapeBody &s = a.sphere ? a : b, &body = a.sphere ? b : a;
     const Vec3d own = body.to_own(s.centre);
-    // Its centre is too far from the surface for the field, unless it has sunk in.
+    // The centre of a sphere is usually too far from the surface for the field to be accurate, so the distance is
+    // computed exactly. If the centre is inside the body, the field is used.
     DistanceField::Value v = body.geometry->field.value(own);
     if (v.distance > 0) {
       const Vec3d way = own - body.geometry->solid.nearest(own);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_body.hpp  Rigid aggregates in space, and where two of them meet.
+/// \file shape_body.hpp  Rigid aggregates in space, and tests and contacts between two of them.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@
 
 namespace macadam {
 
-/// A template with all that its copies are tested with. Lengths are in its own frame [m].
+/// A template with all data for testing its copies. Lengths are in the frame of the template [m].
 struct ShapeGeometry {
   explicit ShapeGeometry(const ShapeTemplate& shape);
 
@@ -21,18 +21,19 @@ struct ShapeGeometry {
   ShapeSolid solid;
   DistanceField field;
   SurfaceSamples samples;
-  std::vector<double> facet_reach;  ///< longest edge of each facet at its first point
-  double radius;                    ///< of the ball about the centroid that holds the shape
-  double inner;                     ///< of a ball about the centroid that the shape holds; 0 where there is none
+  std::vector<double> facet_reach;  ///< for each facet: longest edge at its first corner
+  double radius;                    ///< of the ball about the centroid that contains the shape
+  double inner;                     ///< of a ball about the centroid inside the shape; 0 if there is none
 };
 
-/// A scaled copy of a shape, or a sphere.
+/// A scaled copy of a shape, or a sphere, at a position in the box.
 struct ShapeBody {
   const ShapeGeometry* geometry = nullptr;
-  const SphereCluster* cluster = nullptr;  ///< its spheres at full scale, which stand for its surface where given
+  /// Its spheres at full scale; if present, they are tested in place of the surface.
+  const SphereCluster* cluster = nullptr;
   bool sphere = false;
   double size = 0;   ///< D^I at full scale [m]
-  double scale = 0;  ///< of the template's lengths
+  double scale = 0;  ///< factor for lengths of the template
   Vec3d centre{};    ///< [m]
   Quaternion turn{1, 0, 0, 0};
   Rotation rotation{};
@@ -43,39 +44,44 @@ struct ShapeBody {
 
   void set_turn(const Quaternion& q) { turn = q, rotation = Rotation(q); }
   double sphere_radius() const { return scale * geometry->shape.d_intermediate / 2 * geometry->shape.sphere_size; }
-  /// Radii of balls about the centre that hold the body and that the body holds [m].
+  /// Radii of a ball about the centre that contains the body, and of one that the body contains [m].
   double radius() const { return sphere ? sphere_radius() : cluster ? cluster->radius() : scale * geometry->radius; }
   double inner_radius() const { return sphere ? sphere_radius() : cluster ? 0 : scale * geometry->inner; }
+  /// Transforms a point: from the frame of the template to the box, back to the frame of the template, and from the box
+  /// to the frame of the cluster.
   Vec3d to_space(const Vec3d& own) const { return centre + scale * rotation(own); }
   Vec3d to_own(const Vec3d& space) const { return (1 / scale) * rotation.back(space - centre); }
   Vec3d to_cluster(const Vec3d& space) const { return rotation.back(space - centre); }
 
-  /// Bounds of the signed distance of a point from the surface [m], quickly found.
+  /// Lower and upper bound of the signed distance of a point from the surface [m]; fast.
   double distance_at_least(const Vec3d& space) const;
   double distance_at_most(const Vec3d& space) const;
 };
 
-/// Whether two bodies touch, overlap or hold one another: exact for the triangles as they lie in the frame of one of
-/// the two, to the rounding of that transform.
+/// Returns whether two bodies touch, overlap or contain one another. The test is exact for the triangles as transformed
+/// into the frame of one of the two bodies, that is, up to the rounding of this transform.
 bool overlap(const ShapeBody& a, const ShapeBody& b);
 
-/// Whether they overlap or are nearer to each other than `spacing` [m]: exact for the spheres of bodies with clusters;
-/// between two surfaces a spacing above 0 is told by samples of each in the other's field.
+/// Returns whether two bodies overlap or are closer than `spacing` [m]. The test is exact for the spheres of bodies
+/// with clusters. Between two surfaces a spacing above 0 is tested with the samples of each surface in the distance
+/// field of the other.
 bool nearer(const ShapeBody& a, const ShapeBody& b, double spacing);
 
-/// Least and largest coordinates of a body about its centre.
+/// Smallest and largest coordinates of a body relative to its centre.
 struct Extent {
   Vec3d low{}, high{};
 };
 Extent extent(const ShapeBody& body);
 
-/// Where two bodies (or a body and a wall) come closer than a gap: the mean over the samples that do, by their depths.
+/// A contact between two bodies (or a body and a wall) that are closer than a gap. Point and normal are means over all
+/// samples within the gap, weighted by their depths.
 struct ShapeContact {
-  double depth = 0;  ///< gap less distance at the deepest sample [m]; 0: no contact
-  double clear = 0;  ///< without a contact: what the distance has at least beyond the gap [m]
+  double depth = 0;  ///< gap minus distance at the deepest sample [m]; 0 if there is no contact
+  double clear = 0;  ///< if there is no contact: a lower bound of distance minus gap [m]
   Vec3d point{};     ///< [m]
-  Vec3d normal{};    ///< unit vector that pushes the first body away from the second
+  Vec3d normal{};    ///< unit vector pointing from the second body to the first
 };
+/// Finds the contact between two bodies, or between a body and the walls.
 ShapeContact contact(const ShapeBody& a, const ShapeBody& b, double gap);
 ShapeContact wall_contact(const ShapeBody& body, const Box& box, double gap);
 

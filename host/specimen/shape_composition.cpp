@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_composition.cpp  Sizes and templates of shaped aggregates whose volumes sum to those of their classes.
+/// \file shape_composition.cpp  Draws sizes and templates of shaped aggregates such that the volumes sum to those of
+/// their classes.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,14 +13,16 @@
 namespace macadam {
 namespace {
 
-constexpr double close_enough = 1e-3;  // of the class's volume
-constexpr double tolerance = 0.005;    // of the class's volume: beyond it a class is not what was asked
-constexpr int most_draws = 200;        // of templates for one class
-constexpr int size_shares = 64;        // of a size law, for means over it
+// A draw with an error below this fraction of the class's volume is accepted at once.
+constexpr double close_enough = 1e-3;
+constexpr double tolerance = 0.005;  // an error above this fraction of the class's volume is refused
+constexpr int most_draws = 200;      // attempts to draw the templates of one class
+constexpr int size_shares = 64;      // sample points of a size law for means over it
 
-/// Random streams of the classes; those of spheres begin at 100 (composition.cpp).
+/// Random streams of the classes start here; those of single spheres start at 100 (composition.cpp).
 constexpr std::uint64_t first_stream = 10'000;
 
+/// Draws the aggregates of one recipe.
 class Composer {
  public:
   Composer(const std::vector<ShapeTemplate>& shapes, const std::function<bool(int, double)>& is_sphere)
@@ -28,7 +31,7 @@ class Composer {
   bool sphere(int shape, double size) const { return is_sphere_ && is_sphere_(shape, size); }
   double volume(int shape, double size) const { return aggregate_volume(shapes_[shape], size, sphere(shape, size)); }
 
-  /// Mean volume of the templates' copies over that of spheres of the same sizes.
+  /// Returns the mean volume of the copies of all templates, divided by that of spheres of the same sizes.
   double form(const SizeRange& range) const {
     double bodies = 0, spheres = 0;
     for (int k = 0; k < size_shares; ++k) {
@@ -39,8 +42,8 @@ class Composer {
     return bodies / spheres;
   }
 
-  /// Templates at random, then sizes that give the class its volume. Few bodies of unlucky templates may not: others
-  /// are drawn then, of one more and of one less too where the number is free.
+  /// Draws templates at random, then sizes such that the class has its volume. With few bodies this may be impossible
+  /// for some templates. Templates are then drawn again, with one body more or less as well if the number is not given.
   std::vector<AggregateRequest> draw(const ClassRequest& request, int size_class, std::int64_t count,
                                      RandomStream random) const {
     std::vector<AggregateRequest> best;

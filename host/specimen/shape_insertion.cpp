@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_insertion.cpp  Random sequential insertion of shapes, with a list of open cells when room is scarce.
+/// \file shape_insertion.cpp  Random sequential insertion of shapes. When few places are left, it samples from a list
+/// of cells that still have space.
 #include "host/specimen/shape_insertion.hpp"
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 namespace macadam {
 namespace {
 
-constexpr std::int64_t plain_shape_attempts = 2'000;  // a listing of open cells costs about as much
-constexpr std::int64_t shape_tries_at_once = 4;       // of one thread
+constexpr std::int64_t plain_shape_attempts = 2'000;  // listing the open cells takes about the time of this many trials
+constexpr std::int64_t shape_tries_at_once = 4;       // per thread and call
 
 double smallest_radius(const std::vector<ShapeBody>& bodies) {
   double r = bodies.empty() ? 1 : bodies.front().radius();
@@ -47,7 +48,8 @@ bool ShapeInsertion::place(std::size_t k, ShapeBody& body) {
   };
   bool placed = find(plain, 6, anywhere, body);
   if (!placed && attempts_ > plain) {
-    // Points drawn evenly over the cells that are not wholly taken are distributed as plain ones are; more succeed.
+    // Points distributed uniformly over the cells that are not completely taken have the same distribution as
+    // successful trials over the whole box, but more trials succeed.
     const std::vector<std::size_t> open = open_cells(k, body.inner_radius());
     if (open.empty()) return false;
     const auto in_the_open = [&](Draws draws, ShapeBody& b) {
@@ -85,7 +87,8 @@ bool ShapeInsertion::inside(const ShapeBody& body, const Extent& e) const {
   return c.x >= low.x && c.x <= high.x && c.y >= low.y && c.y <= high.y && c.z >= low.z && c.z <= high.z;
 }
 
-/// Most tries fail, and most of these by their centre alone.
+/// Tests only whether the body's inner ball comes too close to a placed body. Most trials fail, most of them by this
+/// fast test.
 bool ShapeInsertion::clear_at_centre(const ShapeBody& body) const {
   const std::vector<std::int32_t>& near = near_.near(near_.cell_of(body.centre));
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) {
@@ -101,7 +104,8 @@ bool ShapeInsertion::clear(const ShapeBody& body) const {
   return std::none_of(near.begin(), near.end(), [&](std::int32_t j) { return nearer(placed_[j], body, spacing_); });
 }
 
-/// Takes into account the bodies that were placed since the last time, as far as a body to come can be told by them.
+/// Updates room_ for the bodies placed since the last call. Only cells near such a body are updated, because farther
+/// away it cannot exclude any body that is still to come.
 void ShapeInsertion::measure_room(std::size_t k) {
   if (room_.empty()) {
     room_.resize(grid_.cells());
@@ -124,7 +128,7 @@ void ShapeInsertion::measure_room(std::size_t k) {
 
 std::vector<std::size_t> ShapeInsertion::open_cells(std::size_t k, double inner_radius) {
   measure_room(k);
-  // No point of a cell has more room than its middle and half of its diagonal.
+  // A point of a cell has at most the room of the cell's middle plus half of the cell's diagonal.
   const double least = inner_radius - norm(grid_.edge()) / 2;
   std::vector<std::size_t> open;
   for (std::size_t cell = 0; cell < room_.size(); ++cell)

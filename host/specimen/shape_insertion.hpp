@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_insertion.hpp  Random places one after another, each clear of all before it.
+/// \file shape_insertion.hpp  Random sequential insertion of shaped bodies: each gets a random place clear of all
+/// bodies before it.
 #pragma once
 
 #include <functional>
@@ -12,39 +13,47 @@
 
 namespace macadam {
 
-/// Finds places for bodies that come in the order of their sizes, largest first.
+/// Finds places for bodies in the order of their sizes, largest first.
 class ShapeInsertion {
  public:
-  /// `bodies` are those that will come; they and `box` must outlive this. Two are at least `spacing` apart [m].
+  /// `bodies` are all bodies that will be placed; they and `box` must outlive this object. Two bodies are at least
+  /// `spacing` apart [m].
   ShapeInsertion(const Box& box, const std::vector<ShapeBody>& bodies, double spacing, std::int64_t attempts,
                  RandomStream random);
 
-  /// Turns body number `k` and moves it to where it is inside the box and touches nothing placed so far; false where
-  /// `attempts` rotations and positions all failed. Bodies come in order; one may be left out. Tries run on all
-  /// threads; the place is the one that the first good try of one thread alone would have found.
+  /// Sets the rotation and centre of body number `k` such that it is inside the box and touches no body placed so far.
+  /// Returns false if `attempts` trials failed. Bodies must come in order; some may be left out. Trials run on all
+  /// threads; the place is that of the first successful trial of a single thread.
   bool place(std::size_t k, ShapeBody& body);
 
  private:
+  /// Runs up to `most` trials and applies the first successful one to `body`.
   template <class Attempt>
   bool find(std::int64_t most, std::size_t draws, const Attempt& attempt, ShapeBody& body);
   static Vec3d point(Draws& draws, const Vec3d& from, const Vec3d& to);
   bool inside(const ShapeBody& body, const Extent& extent) const;
+  /// Fast test with the centre of the body only.
   bool clear_at_centre(const ShapeBody& body) const;
+  /// Returns whether a body keeps the spacing to all placed bodies.
   bool clear(const ShapeBody& body) const;
+  /// Returns the centre of a cell.
   Vec3d middle(std::size_t cell) const { return grid_.corner(cell) + 0.5 * grid_.edge(); }
+  /// Updates room_ for the bodies placed since the last call.
   void measure_room(std::size_t k);
+  /// Returns the cells that may contain the centre of body k.
   std::vector<std::size_t> open_cells(std::size_t k, double inner_radius);
 
   const Box& box_;
-  std::vector<double> radius_to_come_, inner_to_come_;  ///< largest of this body and those after it [m]
-  SphereGrid near_;                                     ///< lists the bodies that one to come may touch
-  SphereGrid grid_;                                     ///< cells that may be open; no lists
-  double spacing_;                                      ///< [m]
+  /// Largest radius and inner radius of this body and of those after it [m].
+  std::vector<double> radius_to_come_, inner_to_come_;
+  SphereGrid near_;  ///< for each cell, the placed bodies that a body to come may touch
+  SphereGrid grid_;  ///< fine cells for room_; their lists are not used
+  double spacing_;   ///< [m]
   std::int64_t attempts_;
   DrawsAhead random_;
   std::vector<ShapeBody> placed_;
-  std::vector<double>
-      room_;  ///< at most, from the middle of each cell to the first `measured_` bodies and the walls [m]
+  /// For each cell: an upper bound of the distance from its middle to the first `measured_` bodies and the walls [m].
+  std::vector<double> room_;
   std::size_t measured_ = 0;
 };
 

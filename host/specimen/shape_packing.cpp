@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_packing.cpp  Overlaps pushed apart, with momentum; growth whenever they are small.
+/// \file shape_packing.cpp  Pushes overlapping bodies apart by iteration with momentum, and lets them grow whenever the
+/// overlaps are small.
 #include "host/specimen/shape_packing.hpp"
 
 #include <algorithm>
@@ -11,29 +12,36 @@
 namespace macadam {
 namespace {
 
-// Contacts have the stiffness 1 and the smallest body the mass 1. Some twelve contacts act on a body, with levers too,
-// so stiffness over mass reaches about 50; a step with momentum is stable below 2·(1 + momentum)/step.
+// Contacts have the stiffness 1 and the smallest body has the mass 1. About twelve contacts act on a body, also through
+// lever arms, so that stiffness divided by mass reaches about 50. An iteration with momentum is stable if this ratio is
+// below 2·(1 + momentum)/step, which is 65.
 constexpr double step = 0.06, momentum = 0.95;
-constexpr double longest_move = 0.02;  // of the smallest body's D^I, in one iteration
-constexpr double skin_share = 0.2;     // of the same
-// Contacts are measured in gaps. While the bodies grow they may overlap somewhat, as long as they are not so deep in
-// each other that they could leave on the wrong side; in the end they may take half of the gap.
+constexpr double longest_move = 0.02;  // per iteration, in D^I of the smallest body
+constexpr double skin_share = 0.2;     // skin of the neighbour lists, in D^I of the smallest body
+// Depths of contacts, in units of the gap (1: the surfaces touch). While the bodies grow they may overlap a little, but
+// not so deeply that they could be pushed out on the wrong side. At the end they may use half of the gap.
 constexpr double settled = 0.5, growing = 4;
-constexpr double growth_a_gap = 0.15;  // of size, in one iteration, over the gap
-constexpr int most_idle = 2000;        // iterations without growth before the bodies count as jammed
-constexpr int most_rounds = 40;        // of freeing those that the samples take for free and the exact test does not
-constexpr double freeing = 1.4;        // what their gaps are widened by, each time
+constexpr double growth_a_gap = 0.15;  // relative growth in one iteration, divided by the relative gap
+constexpr int most_idle = 2000;        // iterations without growth after which the bodies count as jammed
+// Rounds of separating bodies that touch by the exact test although their samples show no contact.
+constexpr int most_rounds = 40;
+constexpr double freeing = 1.4;  // factor by which the gaps of such bodies are widened in each round
 
+/// A displacement or a force.
 struct Motion {
-  Vec3d shift{}, spin{};  ///< of the centre, and of the rotation times the body's lever: both lengths
+  /// Displacement or force of the centre, and rotation or moment of the body. The rotation is multiplied by the body's
+  /// lever arm and the moment divided by it, so that both members have the same unit.
+  Vec3d shift{}, spin{};
 };
 
+/// Two neighbouring bodies and the contact between them.
 struct PairContact {
   std::int32_t a, b;
   ShapeContact contact;
-  double look_at;  ///< travel of both bodies at which they may have come into contact
+  double look_at;  ///< the pair is tested again when the two bodies together have travelled this far [m]
 };
 
+/// One packing.
 class Packing {
  public:
   Packing(const Box& box, std::vector<ShapeBody>& bodies, double from, double gap)
@@ -77,7 +85,7 @@ class Packing {
       gather();
       move();
     }
-    return std::min(grown_, 1 - 1e-6);  // full size with overlaps is no packing
+    return std::min(grown_, 1 - 1e-6);  // less than 1, because full size with overlaps is not a valid packing
   }
 
  private:
@@ -87,16 +95,18 @@ class Packing {
     return size;
   }
 
-  /// The balls that hold the bodies at full size, for lists of neighbours.
+  /// Returns the balls that contain the bodies at full size, for the neighbour lists.
   static std::vector<Ball> proxies(const std::vector<ShapeBody>& bodies) {
     std::vector<Ball> balls;
     for (const ShapeBody& b : bodies) balls.push_back({b.centre, ShapeBody(*b.geometry, b.size, b.sphere).radius()});
     return balls;
   }
 
+  /// Returns the gap [m] that a body, or a pair of bodies, should keep.
   double gap(std::size_t i) const { return extra_[i] * gap_ * bodies_[i].size; }
   double gap(const PairContact& p) const { return std::min(gap(p.a), gap(p.b)); }
 
+  /// Grows all bodies by a relative step.
   void grow(double step) {
     grown_ = std::min(1.0, grown_ * (1 + step));
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -114,6 +124,7 @@ class Packing {
         if (j > static_cast<std::int32_t>(i)) pairs_.push_back({static_cast<std::int32_t>(i), j, {}, 0});
   }
 
+  /// Updates the contacts of the pairs that may have come into contact, and of all bodies with the walls.
   void find_contacts() {
     const bool threads = bodies_.size() >= parallel_from;
     for_each_in_blocks(pairs_.size(), threads, [&](std::size_t k) {
@@ -127,7 +138,7 @@ class Packing {
                        [&](std::size_t i) { walls_[i] = wall_contact(bodies_[i], box_, gap(i)); });
   }
 
-  /// The deepest contact, over its gap.
+  /// Returns the depth of the deepest contact, divided by its gap.
   double deepest() const {
     double worst = 0;
     for (const PairContact& p : pairs_) worst = std::max(worst, p.contact.depth / gap(p));
@@ -135,7 +146,8 @@ class Packing {
     return worst;
   }
 
-  // The sums run over the contacts in order, on one thread: the same bits for any number of threads.
+  // Sums the forces on each body. Sums run over the contacts in order, on one thread, so that they have the same bits
+  // for any number of threads.
   void gather() {
     std::fill(push_.begin(), push_.end(), Motion{});
     const auto push = [&](std::size_t i, const ShapeContact& c, double sign) {
@@ -152,7 +164,7 @@ class Packing {
     }
   }
 
-  /// Whom the exact test finds in touch gets a wider gap.
+  /// Widens the gaps of all bodies that touch another one by the exact test. Returns the number of such pairs.
   int widen_gaps_of_overlaps() {
     std::vector<std::uint8_t> touch(pairs_.size());
     for_each_in_blocks(pairs_.size(), bodies_.size() >= parallel_from,
@@ -161,10 +173,11 @@ class Packing {
       if (touch[k]) extra_[pairs_[k].a] *= freeing, extra_[pairs_[k].b] *= freeing;
     const auto touching = std::count(touch.begin(), touch.end(), 1);
     if (touching > 0)
-      for (PairContact& p : pairs_) p.look_at = 0;  // clearances were measured beyond the old gaps
+      for (PairContact& p : pairs_) p.look_at = 0;  // clearances were measured relative to the old gaps
     return static_cast<int>(touching);
   }
 
+  /// Moves all bodies by one step and updates the neighbour lists if needed.
   void move() {
     const double most = longest_move * smallest_;
     bool stale = false;
@@ -192,13 +205,16 @@ class Packing {
 
   const Box& box_;
   std::vector<ShapeBody>& bodies_;
-  double gap_;  // over the smaller body's D^I
+  double gap_;  // relative to the smaller body's D^I
+  /// Present scale of the bodies, and the smallest D^I at full size [m].
   double grown_, smallest_;
   std::vector<Ball> proxies_;
   Neighbours neighbours_;
   std::vector<PairContact> pairs_;
+  /// Factor on each body's gap, its mass, and its lever arm [m].
   std::vector<double> extra_, mass_, lever_;
-  std::vector<double> travel_;  ///< no point of a body has moved farther since the beginning [m]
+  /// Upper bound of the distance that any point of a body has moved since the beginning [m].
+  std::vector<double> travel_;
   std::vector<Motion> motion_, push_;
   std::vector<ShapeContact> walls_;
 };

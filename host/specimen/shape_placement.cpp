@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_placement.cpp  From requests to bodies in their places, by either method.
+/// \file shape_placement.cpp  Turns requests into placed bodies, by insertion or packing.
 #include "host/specimen/shape_placement.hpp"
 
 #include <algorithm>
@@ -17,11 +17,11 @@
 namespace macadam {
 namespace {
 
-/// Share of the box that bodies fill when packing begins: insertion finds places for so many at once.
+/// Fraction of the box that the bodies fill when packing begins. Insertion finds places for this fraction quickly.
 constexpr double share_at_first = 0.30;
 constexpr std::int64_t attempts_at_first = 100'000;
 
-/// Random stream of the places; those of sizes and shapes are numbered in shape_composition.cpp.
+/// Random stream of the placement. The streams of sizes and shapes are numbered in shape_composition.cpp.
 constexpr std::uint64_t place_stream = 20'000;
 
 using Geometries = std::vector<std::unique_ptr<const ShapeGeometry>>;
@@ -50,7 +50,7 @@ void check(const std::vector<ShapeTemplate>& shapes, const ShapeComposition& com
   }
 }
 
-/// What the shapes that are asked for are tested with.
+/// Returns the test data of each shape that is requested.
 Geometries prepare(const std::vector<ShapeTemplate>& shapes, const std::vector<AggregateRequest>& requests) {
   std::vector<std::uint8_t> used(shapes.size());
   for (const AggregateRequest& r : requests) used[r.shape] = 1;
@@ -61,7 +61,7 @@ Geometries prepare(const std::vector<ShapeTemplate>& shapes, const std::vector<A
   return geometries;
 }
 
-/// What the bodies are tested with where spheres are given; nothing of single spheres.
+/// Returns the test data of the given spheres. Single spheres need none.
 std::vector<std::unique_ptr<const SphereCluster>> clusters_of(const ShapeComposition& composition,
                                                               const ShapePlacementSpec& spec) {
   double largest = 0;
@@ -98,7 +98,8 @@ std::string no_room(const ShapeComposition& composition, const std::vector<Shape
   return text;
 }
 
-/// Which of the bodies found a place. A class is given up with the first one that did not.
+/// Inserts the bodies and returns which of them were placed. After the first body of a class that could not be placed,
+/// the rest of the class is skipped.
 std::vector<std::uint8_t> insert(const Box& box, const std::vector<ShapeTemplate>& shapes,
                                  const ShapeComposition& composition, const ShapePlacementSpec& spec,
                                  std::vector<ShapeBody>& bodies, const std::function<void(double)>& progress) {
@@ -116,6 +117,7 @@ std::vector<std::uint8_t> insert(const Box& box, const std::vector<ShapeTemplate
   return placed;
 }
 
+/// Places the bodies by insertion at a smaller scale, then packs them at full size. \throws RunError if they jam.
 void pack_all(const Box& box, const std::vector<ShapeTemplate>& shapes, const ShapeComposition& composition,
               const ShapePlacementSpec& spec, std::vector<ShapeBody>& bodies, const auto& report) {
   double volume = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_placement.hpp  Shaped aggregates in the box: turned and placed so that no two touch.
+/// \file shape_placement.hpp  Places shaped aggregates in the box, with random rotations, such that no two touch.
 #pragma once
 
 #include <cstdint>
@@ -14,71 +14,74 @@ namespace macadam {
 
 /// A shape of which scaled copies are placed.
 struct ShapeTemplate {
-  Surface surface;            ///< closed, its volume's centroid at the origin
+  Surface surface;            ///< closed; the centroid of its volume is at the origin
   double volume = 0;          ///< [m³]
-  double d_intermediate = 0;  ///< D^I, the size by which sieves part [m]
-  double sphere_size = 1;     ///< diameter of the single sphere that may stand for a copy, over the copy's D^I
+  double d_intermediate = 0;  ///< D^I, which sieves measure [m]
+  double sphere_size = 1;     ///< diameter of the single sphere that may represent a copy, divided by the copy's D^I
 };
 
-/// The surface about its centroid, measured.
-/// \throws InputError where the surface is not closed.
+/// Moves the surface to its centroid and measures it. \throws InputError if the surface is not closed.
 ShapeTemplate shape_template(const Surface& surface);
 
-/// One aggregate that must find a place.
+/// An aggregate to be placed.
 struct AggregateRequest {
-  int size_class = 0;   ///< in the recipe's order
-  int shape = 0;        ///< number of its template
-  double size = 0;      ///< its D^I [m]
-  bool sphere = false;  ///< a single sphere stands for the shape
+  int size_class = 0;   ///< index in the recipe's list of classes
+  int shape = 0;        ///< index of its template
+  double size = 0;      ///< D^I of the aggregate [m]
+  bool sphere = false;  ///< whether a single sphere represents the shape
 };
 
-/// An aggregate in its place. Its surface is its template's, moved by `pose`; of a sphere the pose's centre is the
-/// sphere's.
+/// An aggregate at its place. Its surface is that of its template, moved by `pose`. For a single sphere the pose gives
+/// the centre.
 struct PlacedAggregate {
   int size_class = 0, shape = 0;
   bool sphere = false;
   Pose pose;
 };
 
-/// What must find a place: one row a class (counts and fractions reached are those asked), aggregates largest first.
+/// The aggregates to be placed, largest first, and one row per class (its reached counts and fractions are those of
+/// these aggregates).
 struct ShapeComposition {
   std::vector<CompositionRow> row;
   std::vector<AggregateRequest> aggregate;
 };
 
-/// Volume of one aggregate [m³]: of the scaled shape, or of the sphere that stands for it.
+/// Returns the volume of one aggregate [m³]: that of the scaled shape, or of the sphere that represents it.
 double aggregate_volume(const ShapeTemplate& shape, double size, bool sphere);
 
-/// Draws the aggregates of a recipe: sizes D^I by the size law, templates evenly at random. Volume fractions are of the
-/// solid volume, as compose() has it. The summed volume of a class meets its own to 1e-3 of it; the nearest of many
-/// draws counts where none does. `is_sphere` tells for which template and D^I a single sphere stands for the shape.
-/// \throws InputError for a recipe that nobody could follow, and where a class would miss its volume by 5e-3 of it.
+/// Draws the aggregates of a recipe: sizes D^I by the size law, templates with equal probability. Volume fractions
+/// refer to the solid volume, as in compose(). The volume of a class is met to 1e-3 of it; if none of many draws is
+/// that close, the closest one is used. `is_sphere` returns whether a single sphere represents the shape for a template
+/// and a D^I. \throws InputError for a contradictory or impossible recipe, and if a class would miss its volume by more
+/// than 5e-3 of it.
 ShapeComposition compose_shapes(const SpecimenSpec& spec, const std::vector<ShapeTemplate>& shapes,
                                 const std::function<bool(int shape, double size)>& is_sphere);
 
-/// The search for places.
+/// Settings of the search for places.
 struct ShapePlacementSpec {
   PlacementMethod method = PlacementMethod::packing;
-  std::int64_t attempts = 2'000'000;  ///< insertion: rotations and positions tried for one aggregate
-  bool allow_short = false;           ///< insertion: return what found a place where not all did
-  double gap = 0.01;                  ///< packing: least distance of two surfaces, over the smaller one's D^I
+  std::int64_t attempts = 2'000'000;  ///< insertion: number of rotations and positions tried for one aggregate
+  bool allow_short = false;           ///< insertion: whether to return the placed aggregates if not all were placed
+  double gap = 0.01;                  ///< packing: least distance of two surfaces, relative to the smaller one's D^I
   double spacing = 0;                 ///< insertion: least distance of two aggregates [m]
-  /// Insertion: the spheres of each aggregate about its origin, unturned; they are tested in place of its surface.
+  /// Insertion: the spheres of each aggregate relative to its centre, before rotation; if given, they are tested in
+  /// place of its surface.
   std::vector<MultiSphere> spheres;
   std::uint64_t seed = 1;
-  std::string origin = "aggregates: ";  ///< of the recipe: begins the messages
+  std::string origin = "aggregates: ";  ///< begins the messages; names the recipe
 };
 
-/// Aggregates in their places, largest first.
+/// The placed aggregates, largest first.
 struct ShapePlacement {
   std::vector<PlacedAggregate> aggregate;
-  std::vector<std::size_t> request;  ///< number of each in the composition
-  std::vector<CompositionRow> row;   ///< what was asked and what found a place, one a class
+  std::vector<std::size_t> request;  ///< index of each in the composition
+  std::vector<CompositionRow> row;   ///< what was requested and what was placed, one row per class
 };
 
-/// Turns and places the aggregates at random inside the box; no two surfaces touch, nor holds one another, by exact
-/// tests of their triangles, or of the spheres that are given. The same input gives the same bits for any number of
-/// threads. \throws RunError naming the class that found no room and how much of it had, unless `spec.allow_short`.
+/// Places the aggregates at random positions and rotations inside the box, such that no two surfaces touch and none
+/// contains another. This is ensured by exact tests of the triangles, or of the spheres if these are given. The same
+/// input gives the same bits for any number of threads. \throws RunError naming the class for which there was no room,
+/// and how much of it was placed, unless `spec.allow_short`.
 ShapePlacement place_shapes(const Box& box, const std::vector<ShapeTemplate>& shapes,
                             const ShapeComposition& composition, const ShapePlacementSpec& spec,
                             const std::function<void(const char* stage, double share)>& progress = {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shaped_aggregates.cpp  Templates of a library, a place for each aggregate, spheres in each.
+// shaped_aggregates.cpp  Prepares the templates of a shape library, draws aggregates, fills them with spheres and
+// places them.
 #include "host/specimen/shaped_aggregates.hpp"
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 namespace macadam {
 namespace {
 
+/// Returns the surfaces of the library that the recipe names.
 std::vector<Surface> surfaces_of(const ShapeSpec& spec) {
   switch (spec.library) {
     case ShapeSpec::Library::aggregates:
@@ -32,7 +34,7 @@ std::vector<Surface> surfaces_of(const ShapeSpec& spec) {
   return read_shape_library(spec.folder);
 }
 
-/// A template with all that its copies need.
+/// A template with the data for placing and filling its copies.
 struct Shape {
   ShapeTemplate placed;
   ShapeFiller filler;
@@ -43,7 +45,7 @@ struct Shape {
   const ShapeMeasure& measure() const { return filler.measure(); }
 };
 
-/// The shapes of a recipe, and the aggregates that are drawn of them.
+/// The shapes of a recipe, and the aggregates that were drawn.
 struct Drawn {
   std::vector<std::shared_ptr<const Shape>> shapes;
   std::vector<ShapeTemplate> templates;
@@ -61,23 +63,23 @@ struct Drawn {
         spec, templates, [&](int shape, double size) { return spheres(shape, size, how.fill) < how.fill.least; });
   }
 
-  /// Of a shape of this size.
+  /// Returns the number of spheres that fill a shape of this size.
   std::int64_t spheres(int shape, double size, const FillSpec& fill) const {
     const Shape& s = *shapes[static_cast<std::size_t>(shape)];
     return s.filler.spheres(size / s.measure().d_intermediate, fill);
   }
 };
 
-/// The inverse of a motion.
+/// Applies the inverse of a pose.
 Vec3d back(const Pose& pose, const Vec3d& point) {
   const auto& q = pose.turn;
   return Pose{{}, {q[0], -q[1], -q[2], -q[3]}, 1 / pose.scale}(point - pose.centre);
 }
 
-/// The shapes in their places, single spheres left out.
+/// The placed shapes, without single spheres.
 class PlacedShapes {
  public:
-  /// `reach`: of the largest sphere that is to be held out [m].
+  /// `reach` is the radius of the largest sphere that will be held out of the shapes [m].
   PlacedShapes(const Box& box, std::vector<std::shared_ptr<const Shape>> shapes, std::vector<PlacedAggregate> placed,
                double reach)
       : shapes_(std::move(shapes)), placed_(std::move(placed)), grid_(box, smallest_edge(box) / 20) {
@@ -88,7 +90,7 @@ class PlacedShapes {
     }
   }
 
-  /// Whether a point is in one of them.
+  /// Returns whether a point is in one of the shapes.
   bool hold(const Vec3d& point) const {
     const auto& near = grid_.near(grid_.cell_of(point));
     return std::any_of(near.begin(), near.end(), [&](std::int32_t k) {
@@ -97,7 +99,8 @@ class PlacedShapes {
     });
   }
 
-  /// What keeps a sphere outside of all that it comes near to: the sum of how far it reaches into each, as one wall.
+  /// Combines all shapes near a sphere into one wall that pushes it outwards: the push is the vector sum of the depths
+  /// by which the sphere reaches into each shape. `reach` is the radius of the sphere.
   WallDepth outside(const Vec3d& point, double reach) const {
     Vec3d push{};
     for (const std::int32_t k : grid_.near(grid_.cell_of(point))) {
@@ -204,7 +207,8 @@ ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
   for (std::size_t k = 0; k < n; ++k) {
     const Pose& pose = placed.aggregate[k].pose;
     out.spheres[k] = std::move(spheres[placed.request[k]]);
-    if (placed.aggregate[k].sphere) out.spheres[k].radius = {out.aggregate[k].d_long / 2};  // to the bit
+    // The radius must have the same bits as in the description.
+    if (placed.aggregate[k].sphere) out.spheres[k].radius = {out.aggregate[k].d_long / 2};
     for (Vec3d& c : out.spheres[k].centre) c = Pose{pose.centre, pose.turn, 1}(c);
     out.aggregate[k].spheres = static_cast<std::int64_t>(out.spheres[k].size());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shaped_aggregates.hpp  The aggregates of a recipe with shapes: drawn, placed, and filled with spheres.
+/// \file shaped_aggregates.hpp  The aggregates of a recipe with shapes: drawn, filled with spheres, and placed.
 #pragma once
 
 #include <functional>
@@ -10,30 +10,32 @@
 
 namespace macadam {
 
-/// Aggregates in their places, largest first. All vectors but `row` and `surfaces` have one entry an aggregate.
+/// Placed aggregates, largest first. All vectors except `row` and `surfaces` have one entry per aggregate.
 struct ShapedAggregates {
   std::vector<Aggregate> aggregate;
-  std::vector<MultiSphere> spheres;  ///< in the specimen's box
-  std::vector<Surface> surfaces;     ///< GeneratedSpecimen::surfaces
-  std::vector<CompositionRow> row;   ///< one a class
-  /// Whether a point of the box lies in a shape; single spheres do not count.
+  std::vector<MultiSphere> spheres;  ///< in the frame of the box
+  std::vector<Surface> surfaces;     ///< as GeneratedSpecimen::surfaces
+  std::vector<CompositionRow> row;   ///< one per class
+  /// Returns whether a point of the box lies in a shape. Single spheres do not count.
   std::function<bool(const Vec3d&)> inside;
-  Enclosure outside;  ///< holds spheres out of the shapes, if any
+  Enclosure outside;  ///< wall that holds spheres out of the shapes; empty if the recipe does not request it
 
-  double volume() const;  ///< of all [m³]
+  double volume() const;  ///< of all aggregates [m³]
+  /// Returns the smallest radius of all spheres [m].
   double smallest_radius() const;
 };
 
-/// The aggregates of a recipe with shapes, drawn as they will be, but in no place.
+/// Counts of the aggregates of a recipe with shapes, which are drawn but not placed.
 struct ShapeCensus {
   std::int64_t aggregates = 0, spheres = 0, templates = 0;
-  double volume = 0;  ///< of all [m³]
+  double volume = 0;  ///< of all aggregates [m³]
 };
-/// \throws InputError for an impossible recipe or a faulty surface.
+/// Draws and counts the aggregates. \throws InputError for an impossible recipe or a faulty surface.
 ShapeCensus count_shapes(const SpecimenSpec& spec);
 
-/// Follows `spec.shapes`, which must be there. The same spec gives the same bits, for any number of threads.
-/// \throws InputError for an impossible recipe or a faulty surface; RunError where aggregates find no room.
+/// Draws, fills and places the aggregates of `spec.shapes`, which must be set. The same `spec` gives the same bits for
+/// any number of threads. \throws InputError for an impossible recipe or a faulty surface; RunError if aggregates
+/// cannot be placed.
 ShapedAggregates make_shaped_aggregates(const SpecimenSpec& spec,
                                         const std::function<void(const char* stage, double share)>& progress);
 

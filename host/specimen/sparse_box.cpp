@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sparse_box.cpp  Volumes of spheres, each counted whole, over that of the box.
+// sparse_box.cpp  Compares the sum of the sphere volumes with the volume of the box.
 #include "host/specimen/sparse_box.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace macadam {
 
 std::string sparse_box(const Specimen& specimen) {
-  constexpr double least = 0.1;  // spheres that touch fill half of a box at the least, those of porous asphalt a third
+  constexpr double least = 0.1;  // touching spheres fill at least half of a box, those of porous asphalt a third
   double filled = 0;
   for (const double r : specimen.radius) filled += 4 * std::numbers::pi / 3 * r * r * r / specimen.box.volume();
   if (filled >= least) return {};

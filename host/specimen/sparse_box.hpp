@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sparse_box.hpp  A specimen whose spheres are lost in their box: lengths of one of the two are in another unit.
+/// \file sparse_box.hpp  Detects a specimen whose spheres fill almost none of its box, because the lengths of one of
+/// the two are in a wrong unit.
 #pragma once
 
 #include <string>
@@ -8,7 +9,7 @@
 
 namespace macadam {
 
-/// A warning, or nothing where spheres fill as much of the box as in any specimen whose spheres touch.
+/// Returns a warning if the spheres fill less than a tenth of the box, otherwise an empty string.
 std::string sparse_box(const Specimen& specimen);
 
 }  // namespace macadam

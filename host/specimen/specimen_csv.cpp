@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen_csv.cpp  The specimen's file: `id,x,y,z,radius,phase,body`, plain or gzip.
+/// \file specimen_csv.cpp  Reads and writes specimen files: `id,x,y,z,radius,phase,body`, plain text or gzip.
 #include <fmt/format.h>
 #include <zlib.h>
 
@@ -28,7 +28,8 @@ namespace {
 constexpr std::string_view header = "id,x,y,z,radius,phase,body";
 constexpr std::size_t columns = 7;
 
-/// The lines of a text or gzip file, one after another: however much it unpacks to, one line is in memory.
+/// Reads the lines of a text or gzip file one by one. Only one line is in memory, whatever the size of the unpacked
+/// file.
 class Lines {
  public:
   explicit Lines(const std::filesystem::path& file) : name_(file.string()) {
@@ -36,7 +37,7 @@ class Lines {
     if (std::filesystem::is_directory(file, ignored)) fail("a directory", "a CSV file");
     errno = 0;
     in_.reset(gzopen(name_.c_str(), "rb"));
-    if (!in_ && (errno == ENOMEM || errno == 0)) throw std::bad_alloc();  // zlib's own words for it
+    if (!in_ && (errno == ENOMEM || errno == 0)) throw std::bad_alloc();  // zlib reports lack of memory in this way
     if (!in_) fail(std::strerror(errno), "a readable file");
   }
 
@@ -58,11 +59,11 @@ class Lines {
       return true;
     }
     if (line.empty()) return false;
-    // Cut within the last number, a file would be read as another one.
+    // If the file were cut off within its last number, it could be read as a different valid file.
     throw InputError(name_, number_, "last line", "no newline at its end", "one: without it the file may be cut off");
   }
 
-  /// Of the last line, from 1.
+  /// Returns the number of the last line, counted from 1.
   int number() const { return number_; }
 
  private:
@@ -70,31 +71,32 @@ class Lines {
     throw InputError(name_, 0, "specimen", found, expected);
   }
 
+  /// Reads the next part of the file into the buffer. Returns false at its end.
   bool fill() {
     at_ = 0;
     got_ = gzread(in_.get(), buffer_.data(), buffer_.size());
     if (got_ > 0) return true;
-    // A file cut off in mid-stream reads to its end and only then shows an error code.
+    // For a file that is cut off, gzread() returns all complete data first and reports the error afterwards.
     int code = Z_OK;
     const std::string reason = gzerror(in_.get(), &code);
     if (code == Z_MEM_ERROR) throw std::bad_alloc();
     if (code != Z_OK && code != Z_STREAM_END)
       fail(code == Z_ERRNO ? std::strerror(errno) : reason, "a whole readable file");
-    // gzread() takes what it cannot read behind a whole stream for nothing
+    // gzread() silently ignores data that follow the end of a gzip stream.
     if (!gzdirect(in_.get()) && gzoffset(in_.get()) != static_cast<z_off_t>(std::filesystem::file_size(name_)))
       fail("bytes behind the end of the gzip data", "none");
     got_ = 0;
     return false;
   }
 
-  static constexpr std::size_t longest = 1000;  // bytes of a line; seven numbers take some hundred
+  static constexpr std::size_t longest = 1000;  // longest line [bytes]; seven numbers take some hundred
   std::string name_;
   std::unique_ptr<gzFile_s, int (*)(gzFile)> in_{nullptr, gzclose_r};
   std::array<char, 1 << 16> buffer_;
   int at_ = 0, got_ = 0, number_ = 0;
 };
 
-/// Reads one file: knows the name and the line at hand, which every message needs.
+/// Reads one file. Keeps its name and the current line for messages.
 class CsvReader {
  public:
   CsvReader(const std::filesystem::path& file, const Box& box) : lines_(file) {
@@ -105,7 +107,7 @@ class CsvReader {
   Specimen read() {
     std::string line;
     constexpr int most_blank = 1000;
-    int blank = 0;  // the first of the blank lines at hand; there may be some at the end
+    int blank = 0;  // number of the first of the blank lines being skipped; blank lines are allowed at the end only
     while (lines_.next(line)) {
       if (lines_.number() == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // spreadsheets' byte-order mark
       if (line.empty() && (blank == 0 || lines_.number() - blank < most_blank)) {
@@ -115,7 +117,7 @@ class CsvReader {
       if (blank > 0) throw InputError(specimen_.source, blank, "line", "a blank line", "a record");
       if (specimen_.first_line == 0) {
         if (line != header) fail("header", in_quotes(line), in_quotes(header));
-        specimen_.first_line = lines_.number() + 1;  // one record a line from here on
+        specimen_.first_line = lines_.number() + 1;  // from here on there is one record per line
       } else {
         record(line);
       }
@@ -131,6 +133,7 @@ class CsvReader {
     throw InputError(specimen_.source, lines_.number(), what, found, expected);
   }
 
+  /// Parses a field as a number of type T.
   template <class T>
   T number(std::string_view field, const char* column, const char* expected) const {
     T value{};
@@ -141,6 +144,7 @@ class CsvReader {
     return value;
   }
 
+  /// Parses one record and appends the particle or void.
   void record(std::string_view line) {
     if (static_cast<std::int64_t>(specimen_.cells()) == most_particles)
       fail("particles", "one more", "at most " + std::to_string(most_particles));
@@ -193,7 +197,7 @@ Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box) { 
 
 void write_specimen_csv(const std::filesystem::path& file, const Specimen& particles) {
   const Specimen specimen = with_voids_as_cells(particles);
-  fmt::memory_buffer text;  // a stream would lose lines where memory ends
+  fmt::memory_buffer text;  // unlike a stream, it throws when memory is exhausted
   const auto to = std::back_inserter(text);
   fmt::format_to(to, "{}\n", header);
   for (std::size_t i = 0; i < specimen.size(); ++i) {
@@ -201,7 +205,7 @@ void write_specimen_csv(const std::filesystem::path& file, const Specimen& parti
     fmt::format_to(to, "{},{},{},{},{},{},{}\n", i, shown(c.x), shown(c.y), shown(c.z), shown(specimen.radius[i]),
                    to_string(specimen.phase[i]), specimen.body[i]);
   }
-  write_whole(file, fmt::to_string(text));  // it may be the very file that the scene was read from
+  write_whole(file, fmt::to_string(text));  // the file may be the one that the scene was read from
 }
 
 }  // namespace macadam

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sphere_cluster.cpp  A grid over the cube that holds the cluster; beyond it the nearest cell lists all that can
-// matter.
+// sphere_cluster.cpp  A grid over the cube that contains the cluster. A point outside the cube uses the nearest cell,
+// whose list contains all spheres that matter.
 #include "host/specimen/sphere_cluster.hpp"
 
 #include <algorithm>
@@ -27,7 +27,8 @@ SphereCluster::SphereCluster(MultiSphere spheres, double reach)
     grid_.insert(static_cast<std::int32_t>(i), spheres_.centre[i] - low_, spheres_.radius[i] + reach);
 }
 
-/// A point outside the cube is farther from every sphere than the cube's nearest point is, whose cell this is.
+/// Calls visit for the spheres near a point until it returns false. A point outside the cube is farther from every
+/// sphere than the nearest point of the cube, whose cell is used.
 template <class Visit>
 void SphereCluster::each_near(const Vec3d& point, const Visit& visit) const {
   for (const std::int32_t i : grid_.near(grid_.cell_of(point - low_))) {

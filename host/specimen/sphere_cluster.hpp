@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sphere_cluster.hpp  The spheres of one aggregate, and what touches them.
+/// \file sphere_cluster.hpp  The spheres of one aggregate, with fast tests of what touches them.
 #pragma once
 
 #include "host/spheres/sphere_grid.hpp"
@@ -7,19 +7,20 @@
 
 namespace macadam {
 
-/// Spheres about an origin, in a grid. Lengths are in their frame [m].
+/// Spheres around an origin, in a grid. Lengths are in the frame of the cluster [m].
 class SphereCluster {
  public:
-  /// Questions of touches() may be asked of spheres up to a radius of `reach` [m].
+  /// The tests are fast for spheres up to a radius of `reach` [m]; touches() tests all spheres for larger ones.
   SphereCluster(MultiSphere spheres, double reach);
 
   const MultiSphere& spheres() const { return spheres_; }
-  double radius() const { return radius_; }  ///< of the ball about the origin that holds all [m]
+  double radius() const { return radius_; }  ///< of the ball about the origin that contains all spheres [m]
 
-  /// Whether a sphere at a point touches one of these.
+  /// Returns whether a sphere with this centre and radius touches one of the spheres.
   bool touches(const Vec3d& point, double radius) const;
 
-  /// Signed distance from the nearest of these that a sphere of radius `reach` might touch [m]; infinite where none is.
+  /// Returns the signed distance from the nearest of the spheres that a sphere of radius `reach` could touch [m], or
+  /// infinity if there is none.
   double distance_at_most(const Vec3d& point) const;
 
  private:

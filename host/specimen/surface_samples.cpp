@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_samples.cpp  Samples of corners and edges, halved along their longest extent until few are left.
+/// \file surface_samples.cpp  Samples corners and edges; the tree halves them along their longest extent until few are
+/// left.
 #include "host/specimen/surface_samples.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace macadam {
 namespace {
 
 constexpr std::uint32_t leaf_size = 12;
+// Limit for very long or sharp edges.
 constexpr double most_samples_an_edge = 64;
 
 Vec3d unit_normal(const Surface& s, const std::array<std::int32_t, 3>& f) {
@@ -31,8 +33,8 @@ SurfaceSamples::SurfaceSamples(const Surface& s, double tolerance) : point_(s.po
     const auto other = facet_of.find({edge.second, edge.first});
     if (other == facet_of.end() || edge.first > edge.second) continue;
     const Vec3d a = s.points[edge.first], b = s.points[edge.second];
-    // At the distance x from a sample, a plane that just touches the sample can hide x·sin(half the angle by which the
-    // surface turns at the edge).
+    // A plane that just touches two neighbouring samples of an edge hides at most x·sin(half of the angle by which the
+    // surface turns at the edge), where x is the distance from the nearest sample.
     const double turn = norm(cross(unit_normal(s, s.facets[facet]), unit_normal(s, s.facets[other->second])));
     const double pieces = std::clamp(std::ceil(norm(b - a) * turn / (4 * tolerance)), 1.0, most_samples_an_edge);
     for (int k = 1; k < pieces; ++k) point_.push_back(a + (k / pieces) * (b - a));
@@ -52,7 +54,7 @@ void SurfaceSamples::build(std::uint32_t begin, std::uint32_t end) {
     const double longest = std::max({size.x, size.y, size.z});
     const auto along = [&](const Vec3d& p) { return size.x == longest ? p.x : size.y == longest ? p.y : p.z; };
     const std::uint32_t middle = begin + (end - begin) / 2;
-    // A full sort by all coordinates: the order, and with it every sum over samples, is the same everywhere.
+    // Sorts by all coordinates, so that the order, and with it every sum over samples, is the same on every machine.
     std::sort(point_.begin() + begin, point_.begin() + end, [&](const Vec3d& p, const Vec3d& q) {
       return std::tuple(along(p), p.x, p.y, p.z) < std::tuple(along(q), q.x, q.y, q.z);
     });

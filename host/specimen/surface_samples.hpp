@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_samples.hpp  Points of a surface at which it is tested against other bodies, in a tree of balls.
+/// \file surface_samples.hpp  Sample points of a surface for tests against other bodies, in a tree of balls.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,15 @@
 
 namespace macadam {
 
-/// Points and sharp edges are what a surface meets others with first: its corners, and points along its edges, the
-/// closer the sharper an edge is.
+/// Sample points where a surface can first touch other bodies: its corners, and points along its edges. The sharper an
+/// edge, the closer its points.
 class SurfaceSamples {
  public:
-  /// Between two samples of an edge no more than about `tolerance` [m] of it can dip into a plane unnoticed.
+  /// Between two samples of an edge at most about `tolerance` [m] of the edge can penetrate a plane without being
+  /// detected.
   SurfaceSamples(const Surface& surface, double tolerance);
 
-  /// Calls `visit(point)` for all samples whose balls `reaches(centre, radius)` lets pass.
+  /// Calls `visit(point)` for all samples in those balls for which `reaches(centre, radius)` is true.
   template <class Reaches, class Visit>
   void visit(const Reaches& reaches, const Visit& visit) const {
     for (std::size_t k = 0; k < node_.size();) {
@@ -33,16 +34,18 @@ class SurfaceSamples {
   std::size_t size() const { return point_.size(); }
 
  private:
+  /// A ball that contains a range of samples.
   struct Node {
     Vec3d centre;
     double radius;
-    std::uint32_t begin, end;  ///< samples of a leaf; none elsewhere
-    std::uint32_t next;        ///< the node that follows this one's descendants
+    std::uint32_t begin, end;  ///< samples of a leaf; empty for other nodes
+    std::uint32_t next;        ///< index of the node after this node and all its descendants
   };
+  /// Makes the node of a range of samples and, recursively, its children.
   void build(std::uint32_t begin, std::uint32_t end);
 
   std::vector<Vec3d> point_;
-  std::vector<Node> node_;  ///< a parent before its children
+  std::vector<Node> node_;  ///< depth-first: a parent precedes its children
 };
 
 }  // namespace macadam

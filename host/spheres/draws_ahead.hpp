@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file draws_ahead.hpp  Random tries on several threads with the results of tries one after another.
+/// \file draws_ahead.hpp  Runs random trials on several threads with the same results as trials made one after another
+/// on one thread.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +15,11 @@
 
 namespace macadam {
 
-/// What a try reads in place of the stream itself.
+/// The random numbers of one trial, which were drawn in advance. Has the same functions as RandomStream.
 class Draws {
  public:
   explicit Draws(const double* next) : next_(next) {}
 
-  /// As those of RandomStream.
   double uniform() { return *next_++; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   std::size_t index(std::size_t n) { return static_cast<std::size_t>(uniform() * static_cast<double>(n)); }
@@ -28,15 +28,17 @@ class Draws {
   const double* next_;
 };
 
-/// A stream whose numbers are looked at before they are used up. Tries run on all threads, more of them than are
-/// needed: which ones are good, and what the stream gives next, is as if they were made in order on one thread.
+/// A random stream whose numbers can be drawn in advance. Trials run on all threads, and more trials run than are
+/// needed. Which trials succeed, and which numbers the stream returns next, is as if the trials had been made in order
+/// on one thread.
 class DrawsAhead {
  public:
   explicit DrawsAhead(RandomStream random) : random_(random) {}
 
-  /// The first of up to `most` tries for which attempt(Draws) is true: its draws, if there is one, valid until the next
-  /// call. Its draws and those of all before it are used up. Every try takes `size`
-  /// draws, whether or not it reads them all; `chunk` tries are worth handing to a thread.
+  /// Returns the random numbers of the first of up to `most` trials for which attempt(Draws) returns true, or nothing
+  /// if no trial succeeds. The returned numbers are valid until the next call. The numbers of this trial and of all
+  /// earlier ones are consumed. Every trial gets `size` numbers, whether or not it reads all of them. `chunk` is the
+  /// number of trials that one thread processes at a time.
   template <class Attempt>
   std::optional<Draws> first_good(std::int64_t most, std::size_t size, std::int64_t chunk, const Attempt& attempt) {
     constexpr std::int64_t none = std::numeric_limits<std::int64_t>::max();
@@ -63,9 +65,9 @@ class DrawsAhead {
     return std::nullopt;
   }
 
-  /// Calls take(Draws) for the good ones among the next tries, in order, until it returns false; the draws of this one
-  /// and of all before it are used up. \returns false where `most` tries in a row were no good. For tries that do not
-  /// depend on what is taken.
+  /// Makes trials for which attempt(Draws) is tested, and calls take(Draws) for the successful ones, in order, until
+  /// take() returns false. The numbers of that trial and of all earlier ones are consumed. Returns false if `most`
+  /// consecutive trials failed. The test must not depend on what take() did.
   template <class Attempt, class Take>
   bool each_good(std::int64_t most, std::size_t size, std::int64_t chunk, const Attempt& attempt, const Take& take) {
     std::vector<std::uint8_t> good;
@@ -89,13 +91,15 @@ class DrawsAhead {
   }
 
  private:
-  static constexpr std::int64_t alone = 4;  ///< chunks: waking other threads takes longer than trying so many
+  /// Chunks that one thread tries alone, because waking other threads takes longer.
+  static constexpr std::int64_t alone = 4;
 
+  /// Returns the numbers of a trial.
   Draws draws(std::int64_t attempt, std::size_t size) const {
     return Draws(drawn_.data() + used_ + static_cast<std::size_t>(attempt) * size);
   }
 
-  /// Makes the next `n` draws known.
+  /// Draws numbers in advance until at least `n` are available.
   void look(std::size_t n) {
     if (drawn_.size() - used_ >= n) return;
     drawn_.erase(drawn_.begin(), drawn_.begin() + static_cast<std::ptrdiff_t>(used_));
@@ -104,6 +108,7 @@ class DrawsAhead {
   }
 
   RandomStream random_;
+  /// Numbers drawn in advance; the first used_ of them are consumed.
   std::vector<double> drawn_;
   std::size_t used_ = 0;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file neighbours.cpp  Spheres by size into bins; each row is searched for in all of them, then put in order.
+/// \file neighbours.cpp  Sorts spheres by size into groups of bins, searches all groups for the neighbours of each
+/// sphere, and sorts each list.
 #include "host/spheres/neighbours.hpp"
 
 #include <algorithm>
@@ -12,14 +13,16 @@
 namespace macadam {
 namespace {
 
-// Parts of a row in front of the numbers, of which there are fewer than most_particles.
+// Sort keys are sphere number + part of the list · 2^28; sphere numbers are below most_particles and fit in 28 bits.
 constexpr std::int32_t part = 1 << 28;
-constexpr int most_levels = 40;           // of sizes, each twice the one before
-constexpr std::size_t block = 64;         // rows listed at once
-constexpr std::size_t ranked_up_to = 64;  // keys that are sorted faster by counting those before each
-constexpr std::size_t few = 24;           // one in so many may stray before all are listed again
-constexpr std::size_t worth_waking = 16;  // strayed spheres: one thread is faster with fewer
-constexpr std::uint32_t spare = 2;        // room in a row for those that come near later
+// Largest number of size groups; the radii in a group differ by at most a factor of two.
+constexpr int most_levels = 40;
+constexpr std::size_t block = 64;  // consecutive spheres whose lists share memory and are made by one thread
+// Lists up to this length are sorted by counting the smaller keys, which is faster.
+constexpr std::size_t ranked_up_to = 64;
+constexpr std::size_t few = 24;           // all lists are made again when more than one sphere in `few` has strayed
+constexpr std::size_t worth_waking = 16;  // strayed spheres; with fewer, one thread is faster
+constexpr std::uint32_t spare = 2;        // capacity in a list for spheres that come near later
 
 double largest(std::span<const Ball> spheres) {
   double r = 0;
@@ -27,7 +30,7 @@ double largest(std::span<const Ball> spheres) {
   return r;
 }
 
-/// Bins of the spheres from `first` on, whose radii differ by a factor of two at most in each.
+/// Divides the spheres from index `first` on into bins such that the radii in each differ by at most a factor of two.
 std::vector<SphereBins> by_size(const Box& box, std::span<const Ball> spheres, std::size_t first, double skin) {
   double smallest = largest(spheres);
   for (const Ball& b : spheres.subspan(first)) smallest = std::min(smallest, b.radius);
@@ -71,7 +74,7 @@ Neighbours::Neighbours(const Box& box, std::span<const Ball> spheres, double ski
   rebuild();
 }
 
-/// What a neighbour is sorted by in a row: its part of the row, then its number.
+/// Returns the sort key of a neighbour: its part of the list, then its number.
 std::int32_t Neighbours::key(std::int32_t sphere, std::int32_t neighbour) const {
   const double own = spheres_[sphere].radius, radius = spheres_[neighbour].radius;
   const std::int32_t i = number_[sphere], j = number_[neighbour];
@@ -79,7 +82,7 @@ std::int32_t Neighbours::key(std::int32_t sphere, std::int32_t neighbour) const 
   return (larger ? part : j < i ? 0 : 2 * part) + j;
 }
 
-/// The spheres behind keys, which all differ, in the order of the keys.
+/// Writes the indices of the spheres with these (distinct) keys, in the order of the keys.
 void Neighbours::write_sorted(std::vector<std::int32_t>& key, std::int32_t* out) const {
   const std::size_t n = key.size();
   if (n > ranked_up_to) {
@@ -94,7 +97,7 @@ void Neighbours::write_sorted(std::vector<std::int32_t>& key, std::int32_t* out)
   }
 }
 
-/// Keys of the neighbours among those that stand still.
+/// Adds the keys of the neighbours among the spheres that do not move.
 void Neighbours::find_still(std::int32_t i, Buffer& buffer) const {
   const auto [centre, radius] = spheres_[i];
   for (const std::int32_t j : still_.near(still_.cell_of(centre))) {
@@ -104,7 +107,7 @@ void Neighbours::find_still(std::int32_t i, Buffer& buffer) const {
   }
 }
 
-/// Keys of the neighbours among the spheres of `bins`.
+/// Adds the keys of the neighbours among the spheres of `bins`.
 void Neighbours::find(std::int32_t i, const SphereBins& bins, Buffer& buffer) const {
   const auto [centre, radius] = spheres_[i];
   std::size_t found = 0;
@@ -112,7 +115,7 @@ void Neighbours::find(std::int32_t i, const SphereBins& bins, Buffer& buffer) co
             [&, centre = centre, radius = radius](std::uint32_t first, std::uint32_t last) {
               if (buffer.slot.size() < found + (last - first)) buffer.slot.resize(2 * (found + (last - first)));
               std::uint32_t* next = buffer.slot.data() + found;
-              for (std::uint32_t k = first; k < last; ++k) {  // without a branch: nobody could foresee it
+              for (std::uint32_t k = first; k < last; ++k) {  // without a branch, because it could not be predicted
                 const Ball& other = bins.ball(k);
                 const Vec3d d = other.centre - centre;
                 const double range = radius + other.radius + skin_;
@@ -127,6 +130,7 @@ void Neighbours::find(std::int32_t i, const SphereBins& bins, Buffer& buffer) co
   }
 }
 
+/// Collects the keys of all neighbours of a sphere.
 void Neighbours::find_all(std::int32_t i, Buffer& buffer) const {
   buffer.key.clear();
   if (first_ > 0) find_still(i, buffer);
@@ -140,6 +144,7 @@ void Neighbours::rebuild() {
       list_.size(), [&](std::size_t b) { list_block(b); }, row_.size() >= parallel_from);
 }
 
+/// Makes the lists of one block of spheres.
 void Neighbours::list_block(std::size_t number) {
   Buffer buffer;
   list_[number].clear();
@@ -152,6 +157,7 @@ void Neighbours::list_block(std::size_t number) {
   }
 }
 
+/// Ensures that a list has this capacity; if needed, moves it to the end of its block's memory.
 void Neighbours::make_room(Row& row, std::size_t size) {
   if (row.room >= size) return;
   std::vector<std::int32_t>& list = list_[row.block];
@@ -161,6 +167,7 @@ void Neighbours::make_room(Row& row, std::size_t size) {
   row.begin = static_cast<std::uint32_t>(begin), row.room = static_cast<std::uint32_t>(size);
 }
 
+/// Replaces the list of a sphere by the neighbours in `buffer`.
 void Neighbours::set(std::int32_t i, Buffer& buffer) {
   Row& row = row_[i - first_];
   row.size = 0;
@@ -169,6 +176,7 @@ void Neighbours::set(std::int32_t i, Buffer& buffer) {
   write_sorted(buffer.key, list_[row.block].data() + row.begin);
 }
 
+/// Inserts a neighbour into a list at its sorted position, unless it is there already.
 void Neighbours::add(std::int32_t i, std::int32_t neighbour) {
   const std::int32_t wanted = key(i, neighbour);
   Row& row = row_[i - first_];
@@ -183,8 +191,9 @@ void Neighbours::add(std::int32_t i, std::int32_t neighbour) {
   ++row.size;
 }
 
-/// Two spheres are in each other's lists if they were near where each was listed last. Pairs that have parted since
-/// stay in the other's list, which does no harm, until all are listed again.
+/// Two spheres are in each other's lists if they were near at the positions where they were last listed. A pair that
+/// has since moved apart may remain in one of the two lists until all lists are made again; this does not change sums
+/// over touching neighbours.
 void Neighbours::relist(std::span<const std::int32_t> strayed) {
   assert(std::is_sorted(strayed.begin(), strayed.end()));
   std::size_t moved = strayed.size();
@@ -195,7 +204,8 @@ void Neighbours::relist(std::span<const std::int32_t> strayed) {
     moving_[bins_of_[i - first_]].move(i, spheres_[i].centre);
   }
   const auto block_of = [&](std::int32_t i) { return (static_cast<std::size_t>(i) - first_) / block; };
-  std::vector<std::size_t> begin;  // of those of one block, whose rows share memory: a thread sets them all
+  // First entry of each block; the lists of a block share memory, so one thread updates all of them.
+  std::vector<std::size_t> begin;
   for (std::size_t k = 0; k < strayed.size(); ++k)
     if (k == 0 || block_of(strayed[k]) != block_of(strayed[k - 1])) begin.push_back(k);
   begin.push_back(strayed.size());
@@ -212,7 +222,8 @@ void Neighbours::relist(std::span<const std::int32_t> strayed) {
   for (const std::int32_t i : strayed) {
     const Row& row = row_[i - first_];
     for (std::uint32_t k = 0; k < row.size; ++k) {
-      const std::int32_t j = list_[row.block][row.begin + k];  // each time: add() may move the block's memory
+      // Read again each time, because add() may move the memory of the block.
+      const std::int32_t j = list_[row.block][row.begin + k];
       if (static_cast<std::size_t>(j) >= first_) add(j, i);
     }
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file neighbours.hpp  Full neighbour lists of spheres of any mix of sizes.
+/// \file neighbours.hpp  Full neighbour lists of spheres with any distribution of sizes.
 #pragma once
 
 #include <cstdint>
@@ -12,42 +12,46 @@
 
 namespace macadam {
 
-/// Loops over fewer spheres than this are not worth waking threads for.
+/// Loops over fewer spheres than this run on one thread.
 inline constexpr std::size_t parallel_from = 1000;
 
-/// For every sphere, at least the spheres whose surfaces are closer to its own than `skin`, in an order that depends on
-/// radii and numbers alone: first the smaller spheres of lower number than its own, then the larger ones, then the
-/// smaller ones of higher number, each part by number; of equal spheres the one of higher number counts as the larger.
-/// So sums over a row to which spheres that do not touch add nothing have the same bits for any number of threads and
-/// any skin.
+/// Neighbour lists. The list of a sphere contains at least all spheres whose surfaces are closer to its own than
+/// `skin`. The order of a list depends on radii and sphere numbers only: first the smaller spheres with a lower number
+/// than its own, then the larger spheres, then the smaller spheres with a higher number, each part sorted by number. If
+/// two spheres are equal, the one with the higher number counts as the larger. Spheres that do not touch add nothing to
+/// a sum over the list. Such sums therefore have the same bits for any number of threads and any skin.
 class Neighbours {
  public:
-  /// Lists for `spheres`, which must outlive this; `skin` in metres. Spheres before place `first` stand still and have
-  /// no list of their own. `number` are the spheres' numbers where these are not their places.
+  /// Makes the lists of `spheres`, which must outlive this object; `skin` is in metres. Spheres with an index below
+  /// `first` do not move and have no list. `number` gives the number of each sphere if it differs from its index.
   Neighbours(const Box& box, std::span<const Ball> spheres, double skin, std::size_t first = 0,
              std::vector<std::int32_t> number = {});
 
-  /// Whether a sphere has left where it was listed: by more than half of the skin.
+  /// Returns whether a sphere has moved by more than half of the skin since it was listed.
   bool strayed(std::size_t sphere) const {
     const Vec3d way = spheres_[sphere].centre - listed_at_[sphere - first_];
     return dot(way, way) > far2_;
   }
 
-  /// Lists again for the centres as they are now: all of them,
+  /// Makes all lists for the present centres.
   void rebuild();
-  /// or, where those that have strayed are few, as most times, these; ascending. The others' centres may have moved
-  /// too.
+  /// Updates the lists after some spheres have strayed, that is, moved by more than half of the skin; `strayed` has
+  /// their indices in ascending order. If many have strayed, makes all lists again. Other spheres may have moved too,
+  /// but by less than half of the skin.
   void relist(std::span<const std::int32_t> strayed);
 
+  /// Returns the indices of the neighbours of a sphere.
   std::span<const std::int32_t> of(std::size_t sphere) const {
     const Row& row = row_[sphere - first_];
     return {list_[row.block].data() + row.begin, row.size};
   }
 
  private:
+  /// The list of one sphere: a range in the memory of a block of spheres.
   struct Row {
-    std::uint32_t block, begin, size, room;  ///< of its list in a block's memory
+    std::uint32_t block, begin, size, room;  ///< `room` is the capacity
   };
+  /// Temporary memory for finding the neighbours of a sphere.
   struct Buffer {
     std::vector<std::uint32_t> slot;
     std::vector<std::int32_t> key;
@@ -65,12 +69,14 @@ class Neighbours {
   std::span<const Ball> spheres_;
   double skin_, far2_;  ///< [m], [m²]
   std::size_t first_;
-  SphereGrid still_;                ///< tells whom of those that stand still a moving sphere in a cell can be near
-  std::vector<SphereBins> moving_;  ///< each of spheres of about one size, where they were listed
-  std::vector<std::int32_t> number_, place_;  ///< by place, by number
-  std::vector<std::uint8_t> bins_of_;         ///< number in moving_ of each sphere with a list
+  SphereGrid still_;  ///< spheres that do not move, in cells that list those near enough to a moving sphere
+  std::vector<SphereBins> moving_;            ///< moving spheres, in groups of similar size, at their listed positions
+  std::vector<std::int32_t> number_, place_;  ///< number of each index, and index of each number
+  std::vector<std::uint8_t> bins_of_;         ///< for each sphere with a list: its group in moving_
+  /// Centre of each sphere when it was listed last.
   std::vector<Vec3d> listed_at_;
-  std::vector<std::vector<std::int32_t>> list_;  ///< rows of consecutive spheres
+  /// Memory of the lists; each entry belongs to a block of consecutive spheres.
+  std::vector<std::vector<std::int32_t>> list_;
   std::vector<Row> row_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file parallel_blocks.hpp  Many small pieces of work on all threads, where one of them may throw.
+/// \file parallel_blocks.hpp  Parallel loops over many small pieces of work that may throw.
 #pragma once
 
 #include <omp.h>
@@ -13,8 +13,8 @@
 
 namespace macadam {
 
-/// f(k) for k < n, in blocks on all threads, or in order on this one where `threads` is false. Exceptions as with
-/// for_each_in_parallel().
+/// Calls f(k) for all k < n, in blocks on all threads, or in order on the calling thread if `threads` is false. Handles
+/// exceptions as for_each_in_parallel() does.
 template <class F>
 void for_each_in_blocks(std::size_t n, bool threads, F&& f) {
   constexpr std::size_t block = 64;
@@ -25,13 +25,14 @@ void for_each_in_blocks(std::size_t n, bool threads, F&& f) {
   for_each_in_parallel((n + block - 1) / block, [&](std::size_t b) { run(b * block, std::min(n, (b + 1) * block)); });
 }
 
-/// How many ranges for_each_range() makes.
+/// Returns the number of ranges that for_each_range() makes.
 inline std::size_t number_of_ranges(bool threads) {
   return threads ? static_cast<std::size_t>(omp_get_max_threads()) : 1;
 }
 
-/// f(number, from, to) for ranges of the numbers below n, one for each thread, ascending. A thread has the same range
-/// each time, which its cache still holds then. Exceptions as with for_each_in_parallel(): that of the lowest range.
+/// Calls f(number, from, to) for consecutive ranges that cover 0 … n − 1, one range per thread. A thread gets the same
+/// range each time, so that its cache may still hold the data. If several ranges throw, the exception of the lowest
+/// range is rethrown.
 template <class F>
 void for_each_range(std::size_t n, bool threads, F&& f) {
   const std::size_t parts = number_of_ranges(threads);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file random_stream.hpp  Uniform numbers that are the same on every platform.
+/// \file random_stream.hpp  Uniform random numbers that are the same on every platform.
 #pragma once
 
 #include <cstdint>
@@ -7,23 +7,23 @@
 
 namespace macadam {
 
-/// Independent stream number `stream` of a seed. The engine's output is fixed by the C++ standard; the standard's
-/// distributions are not, hence the mapping here.
+/// Random stream number `stream` of a seed; the streams of a seed are independent. The C++ standard fixes the output of
+/// the engine but not that of its distributions, so the distributions are implemented here.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::uint64_t stream) : engine_(mixed(mixed(seed) + stream)) {}
 
-  /// Uniform in [0, 1).
+  /// Returns a number uniformly distributed in [0, 1).
   double uniform() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
-  /// Uniform in [low, high).
+  /// Returns a number uniformly distributed in [low, high).
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-  /// Uniform in 0 … n − 1; the bias of 2⁻⁵³·n is of no account here.
+  /// Returns an integer uniformly distributed in 0 … n − 1. The bias of 2⁻⁵³·n is negligible.
   std::size_t index(std::size_t n) { return static_cast<std::size_t>(uniform() * static_cast<double>(n)); }
 
  private:
-  /// SplitMix64's finaliser: neighbouring seeds and streams give unrelated engine states.
+  /// The finaliser of SplitMix64. It gives unrelated engine states for consecutive seeds and streams.
   static std::uint64_t mixed(std::uint64_t x) {
     x += 0x9E3779B97F4A7C15u;
     x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;

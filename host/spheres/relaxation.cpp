@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file relaxation.cpp  FIRE minimisation (Bitzek et al. 2006) of a harmonic overlap energy.
+/// \file relaxation.cpp  Minimises a harmonic overlap energy with the FIRE method (Bitzek et al. 2006).
 #include "host/spheres/relaxation.hpp"
 
 #include <algorithm>
@@ -14,22 +14,27 @@
 namespace macadam {
 namespace {
 
-// Lengths are in metres; stiffness of a mastic pair and mass of a mastic sphere are 1, so time is in units of one
-// pair's √(m/k). About twelve pairs act on a sphere: the explicit limit is near 2/√(2·12) = 0.4 of that unit.
+// Lengths are in metres. The stiffness k of a mastic pair and the mass m of a mastic sphere are 1, so the unit of time
+// is √(m/k) of one pair. About twelve pairs act on a sphere, so an explicit step is stable up to about 2/√(2·12) = 0.4
+// of this unit.
 constexpr double first_step = 0.1, longest_step = 0.3;
-constexpr double longest_move = 0.1;        // of the mean mastic radius, in one iteration
-constexpr double skin_share = 1.15;         // of the mean mastic radius; less: lists are made too often, more: too long
-constexpr double aggregate_stiffness = 20;  // free aggregates: they must not give way to each other as mastic does
+constexpr double longest_move = 0.1;  // per iteration, in mean mastic radii
+// Skin of the neighbour lists in mean mastic radii. With a smaller one lists are made too often, with a larger one they
+// are too long.
+constexpr double skin_share = 1.15;
+// Stiffness of pairs and walls of free aggregates, relative to mastic. Aggregates must not give way as mastic does.
+constexpr double aggregate_stiffness = 20;
 constexpr int most_iterations = 3000, stall_window = 50;
-constexpr double stalled = 5e-4;  // relative fall of the energy in one window
+constexpr double stalled = 5e-4;  // the energy has stalled if it falls by less than this fraction in one window
 
-/// Terms of the sums over all spheres.
+/// Sums over all spheres that FIRE needs, weighted by mass: a·v, v·v and a·a.
 struct Dots {
   double power = 0, v2 = 0, a2 = 0;
 };
 
-/// The moving spheres so that near ones stand near each other, aggregates before mastic: then loops find their data in
-/// the cache. Those before number `first` keep their places.
+/// Returns the order in which the relaxation keeps the spheres: aggregates before mastic, and moving spheres sorted by
+/// position, so that neighbours are near each other in memory. Spheres with a number below `first` do not move and keep
+/// their places.
 std::vector<std::int32_t> by_place(const Specimen& s, std::size_t first, std::size_t first_mastic) {
   const std::vector<Ball> balls = balls_of(s);
   std::vector<std::int32_t> order(first);
@@ -44,7 +49,8 @@ std::vector<std::int32_t> by_place(const Specimen& s, std::size_t first, std::si
   return order;
 }
 
-/// Works on a copy of the spheres in another order, which arrays have where nothing else is said of them.
+/// One relaxation. It works on a copy of the spheres in the order of by_place(). Arrays are in this order unless stated
+/// otherwise; "number" is the index in the specimen, "place" the index in this order.
 class Relaxation {
  public:
   Relaxation(Specimen& specimen, bool fix_aggregates, const Enclosure& wall)
@@ -66,7 +72,7 @@ class Relaxation {
     for (std::size_t i = first_; i < s_.size(); ++i) place_[number_[i] - first_] = static_cast<std::int32_t>(i);
   }
 
-  /// Moves the specimen's spheres.
+  /// Relaxes and writes the new centres into the specimen. Returns the number of iterations.
   int relax(const std::function<void(double)>& progress) {
     const int iterations = run(progress);
     for (std::size_t i = first_; i < ball_.size(); ++i) s_.centre[number_[i]] = ball_[i].centre;
@@ -74,6 +80,7 @@ class Relaxation {
   }
 
  private:
+  /// Runs the FIRE iterations. The energy is computed every `stall_window` iterations.
   int run(const std::function<void(double)>& progress) {
     double dt = first_step, mixing = 0.1, last_energy = 0;
     int downhill = 0;
@@ -105,6 +112,7 @@ class Relaxation {
     return balls;
   }
 
+  /// Returns the mean radius of the mastic, or of the aggregates if there is no mastic.
   double mean_radius() const {
     const std::size_t from = first_mastic_ < s_.size() ? first_mastic_ : 0;
     double sum = 0;
@@ -116,7 +124,8 @@ class Relaxation {
   std::size_t moving() const { return s_.size() - first_; }
   bool on_threads() const { return s_.size() >= parallel_from; }
 
-  /// Aggregates are heavier by volume, and by stiffness too, so that they allow the mastic's time step.
+  /// Returns the mass of a sphere. Aggregates are heavier in proportion to their volume and to their stiffness, so that
+  /// the time step of the mastic is stable for them too.
   double mass(std::size_t i) const {
     const double ratio = ball_[i].radius / unit_;
     return is_aggregate(i) ? aggregate_stiffness * std::max(1.0, ratio * ratio * ratio) : 1;
@@ -124,7 +133,7 @@ class Relaxation {
 
   void compute_accelerations(bool with_energy) {
     const auto one = [&](std::size_t k) { accelerate(first_ + k, with_energy); };
-    if (first_ < first_mastic_) {  // aggregates come first, and have many more neighbours than mastic has
+    if (first_ < first_mastic_) {  // aggregates have many more neighbours, so equal ranges would take unequal time
       for_each_in_blocks(moving(), on_threads(), one);
     } else {
       for_each_range(moving(), on_threads(), [&](std::size_t, std::size_t from, std::size_t to) {
@@ -133,7 +142,8 @@ class Relaxation {
     }
   }
 
-  void accelerate(std::size_t i, bool with_energy) {  // a wall may throw
+  /// Computes the acceleration of a sphere, its terms of the sums and, on request, its energy.
+  void accelerate(std::size_t i, bool with_energy) {  // the wall's depth function may throw
     const auto [c, r] = ball_[i];
     const double k_wall = is_aggregate(i) ? aggregate_stiffness : 1;
     Vec3d force{};
@@ -161,16 +171,17 @@ class Relaxation {
     dots_[i] = {m * dot(a, v), m * dot(v, v), m * dot(a, a)};
   }
 
-  /// Adds what the spheres of a part of a row do to sphere i, in the order of the row. Loops are kept apart so that
-  /// roots and quotients of several pairs are on their way at a time.
+  /// Adds the forces that up to `most_at_once` neighbours exert on sphere i, in the order of the list. Separate loops
+  /// allow the square roots and divisions of several pairs to overlap in the processor.
   void push(std::size_t i, std::span<const std::int32_t> near, Vec3d& force, double* energy) const {
     double x[most_at_once], y[most_at_once], z[most_at_once];
     double distance[most_at_once], reach[most_at_once], stiffness[most_at_once], push[most_at_once];
     std::int32_t number[most_at_once];
     const auto [c, r] = ball_[i];
-    const auto stiff = static_cast<std::int32_t>(is_aggregate(i) ? first_mastic_ : 0);  // with those before
+    // Pairs with spheres below this index have the stiffness of aggregates.
+    const auto stiff = static_cast<std::int32_t>(is_aggregate(i) ? first_mastic_ : 0);
     std::size_t n = 0;
-    for (const std::int32_t j : near) {  // without a branch: nobody could foresee it
+    for (const std::int32_t j : near) {  // without a branch, because it could not be predicted
       const Vec3d d = c - ball_[j].centre;
       const double d2 = dot(d, d), touch = r + ball_[j].radius;
       number[n] = j;
@@ -188,22 +199,22 @@ class Relaxation {
     if (!energy) return;
     for (std::size_t k = 0; k < n; ++k) {
       const double overlap = reach[k] - distance[k];
-      // A pair of two moving spheres is met from both sides.
+      // A pair of two moving spheres is visited from both sides, so each side adds half of its energy.
       *energy += (static_cast<std::size_t>(number[k]) >= first_ ? 0.25 : 0.5) * stiffness[k] * overlap * overlap;
     }
   }
 
-  // The sums run over the particles in the order of their numbers, on one thread: the same bits for any number of
-  // threads. Each thread has written its terms by place: of neighbouring numbers, several threads would write to one
-  // line of the cache.
+  // Sums run over the particles in the order of their numbers, on one thread, so that they have the same bits for any
+  // number of threads. Each thread wrote its terms by place; in the order of numbers, several threads would write to
+  // the same cache line.
   double total_energy() const {
     double sum = 0;
     for (const std::int32_t i : place_) sum += energy_[i];
     return sum;
   }
 
-  // All threads first copy the terms into the order of numbers: one alone would fetch nearly every line from the cache
-  // of another core.
+  // All threads first copy the terms into the order of numbers. A single thread would otherwise fetch nearly every
+  // cache line from another core.
   Dots dot_products() {
     for_each_range(moving(), on_threads(), [&](std::size_t, std::size_t from, std::size_t to) {
       for (std::size_t k = from; k < to; ++k) by_number_[k] = dots_[place_[k]];
@@ -213,6 +224,7 @@ class Relaxation {
     return sum;
   }
 
+  /// Moves all spheres by one step and updates the neighbour lists of those that strayed.
   void move(double dt, double mixing, double v_per_a) {
     strayed_.resize(number_of_ranges(on_threads()));
     for_each_range(moving(), on_threads(), [&](std::size_t number, std::size_t from, std::size_t to) {
@@ -235,27 +247,27 @@ class Relaxation {
     if (speed > most) v = (most / speed) * v;
     velocity_[i] = v;
     const Vec3d p = ball_[i].centre + dt * v;
-    // No centre may reach a wall: beyond it there is no cell.
+    // No centre may reach a wall, because a sphere outside the box has no cell.
     const auto inside = [&](double x, double length) { return std::clamp(x, 1e-3 * length, 0.999 * length); };
     ball_[i].centre = {inside(p.x, box_.x), inside(p.y, box_.y), inside(p.z, box_.z)};
   }
 
-  static constexpr std::size_t most_at_once = 64;  // pairs
+  static constexpr std::size_t most_at_once = 64;  // pairs that push() handles in one call
 
   Specimen& s_;
   Vec3d box_;  ///< edges [m]
   const Enclosure& wall_;
-  std::size_t first_mastic_, first_;  ///< first mastic sphere, first sphere that moves
+  std::size_t first_mastic_, first_;  ///< index of the first mastic sphere, and of the first sphere that moves
   double unit_;                       ///< mean radius of the mastic [m]
-  std::vector<std::int32_t> number_;  ///< in the specimen
+  std::vector<std::int32_t> number_;  ///< number of each place
   std::vector<Ball> ball_;
   Neighbours neighbours_;
   std::vector<Vec3d> velocity_, acceleration_;
   std::vector<double> energy_;
-  std::vector<Dots> dots_;                          ///< with the velocity before the move
-  std::vector<Dots> by_number_;                     ///< the same of the moving spheres, by number
-  std::vector<std::int32_t> place_;                 ///< of the moving spheres, by number
-  std::vector<std::vector<std::int32_t>> strayed_;  ///< [range], ascending: by place
+  std::vector<Dots> dots_;                          ///< terms of the sums, with the velocity before the move
+  std::vector<Dots> by_number_;                     ///< dots_ of the moving spheres, in the order of numbers
+  std::vector<std::int32_t> place_;                 ///< places of the moving spheres, in the order of numbers
+  std::vector<std::vector<std::int32_t>> strayed_;  ///< places that strayed, per range, ascending
 };
 
 }  // namespace

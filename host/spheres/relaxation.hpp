@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file relaxation.hpp  Spreads overlapping mastic evenly between the aggregates.
+/// \file relaxation.hpp  Spreads overlapping mastic spheres evenly between the aggregates by minimising an overlap
+/// energy.
 #pragma once
 
 #include <functional>
@@ -8,26 +9,29 @@
 
 namespace macadam {
 
-/// How deep a point lies below a wall [m], negative beyond it, and the unit vector away from the wall.
+/// Depth of a point below a wall [m], negative outside, and the unit vector pointing away from the wall.
 struct WallDepth {
   double depth;
   Vec3d inward;
 };
 
-/// A wall of any shape.
+/// A wall of any shape, given by its depth function.
 struct Enclosure {
-  /// Tells how deep a point lies; where that is more than `reach` [m], any depth above `reach` will do.
+  /// Returns the depth of a point; if it is more than `reach` [m], any value above `reach` may be returned.
   std::function<WallDepth(const Vec3d& point, double reach)> depth;
-  double stiffness = 10;  ///< over that of a pair, at most 10; what the wall holds may press hard against it
+  /// Stiffness of the wall, relative to that of a pair of mastic spheres, at most 10. Spheres may be pressed hard
+  /// against the wall.
+  double stiffness = 10;
 };
 
-/// Moves the mastic (and the aggregates, unless held) downhill in the energy ½·k·overlap² of all pairs and walls until
-/// the energy has stalled. The walls are the box and, if its depth is given, `wall`. Aggregates stand before the
-/// mastic in `specimen`. The same input gives the same bits for any number of threads. Returns the iterations taken.
+/// Minimises the energy ½·k·overlap² of all pairs and walls (model (21.1)) by moving the mastic, and the aggregates too
+/// unless they are fixed, until the energy has stalled. The walls are those of the box and, if its depth is given,
+/// `wall`. In `specimen` all aggregates must precede the mastic. The same input gives the same bits for any number of
+/// threads. Returns the number of iterations.
 int relax(Specimen& specimen, bool fix_aggregates, const std::function<void(double share)>& progress,
           const Enclosure& wall = {});
 
-/// Largest overlap of two aggregates [m], 0 if there is none.
+/// Returns the largest overlap of two aggregates [m], or 0 if none overlap.
 double largest_aggregate_overlap(const Specimen& specimen);
 
 }  // namespace macadam

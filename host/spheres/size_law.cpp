@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file size_law.cpp  Quantiles and means of the size laws, and stratified draws of a given volume.
+/// \file size_law.cpp  Quantiles and means of the size laws, and stratified samples with a given total volume.
 #include "host/spheres/size_law.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ double SizeRange::quantile(double u) const {
       d = min / std::sqrt(1 - u * (1 - ratio * ratio));
     }
   }
-  return std::clamp(d, min, max);  // rounding must not leave the sieves
+  return std::clamp(d, min, max);  // rounding must not leave the range of the sieves
 }
 
 double SizeRange::mean_volume() const {
@@ -53,6 +53,7 @@ std::vector<double> draw_sizes(const SizeRange& range, std::int64_t count, doubl
   std::vector<double> log_share(n), diameter(n);
   for (std::size_t i = 0; i < n; ++i)
     log_share[i] = std::log((static_cast<double>(i) + random.uniform()) / static_cast<double>(n));
+  // Sets the diameters for the exponent t of the map u → u^t and returns the sum of the volumes.
   const auto bend = [&](double t) {
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -61,7 +62,8 @@ std::vector<double> draw_sizes(const SizeRange& range, std::int64_t count, doubl
     }
     return sum;
   };
-  // The sum falls as t grows. Bisection in log t; the ends make every share 1 or 0 to rounding.
+  // The sum decreases with t. Bisection in log t; at the ends of the interval all probabilities are 1 or 0 up to
+  // rounding.
   double low = -40, high = 40;
   for (int k = 0; k < 60; ++k) {
     const double middle = (low + high) / 2;

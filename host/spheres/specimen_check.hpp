@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen_check.hpp  What is wrong with a specimen, before anyone knows which file or line to blame.
+/// \file specimen_check.hpp  Checks specimens, independently of where they came from.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@
 
 namespace macadam {
 
-/// No specimen has more: contact points are numbered in 32 bits and there are about forty a particle.
+/// Upper limit of the number of particles: contact points have 32-bit numbers, and there are about forty per particle.
 inline constexpr std::int64_t most_particles = 100'000'000;
 
-/// One thing wrong with a specimen; the parts of an InputError that do not depend on where the specimen came from.
+/// A fault of a specimen: the parts of an InputError that do not depend on the file and line.
 struct SpecimenFault {
-  std::int64_t particle = -1;  ///< specimen order; −1 when the box or an array as a whole is at fault
+  std::int64_t particle = -1;  ///< index in the specimen; −1 if the fault is in the box or in an array as a whole
   std::string what, found, expected;
 };
 
-/// The first fault of `specimen`, if it has one. O(n log n).
+/// Returns the first fault of `specimen`, or nothing if it has none. Takes O(n log n) time.
 std::optional<SpecimenFault> find_fault(const Specimen& specimen);
 
-/// A number as messages show it.
+/// Formats a number for messages.
 std::string shown(double value);
 
 }  // namespace macadam

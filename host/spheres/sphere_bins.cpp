@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sphere_bins.cpp  A counting sort by cell.
+/// \file sphere_bins.cpp  Sorts spheres into cells with a counting sort.
 #include "host/spheres/sphere_bins.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace macadam {
 namespace {
 
-constexpr double most_cells_a_sphere = 4;  // a grid that is emptier costs more to fill than it saves
+constexpr double most_cells_a_sphere = 4;  // filling a grid with more cells costs more than it saves
 
 }  // namespace
 
@@ -20,8 +20,8 @@ std::vector<Ball> balls_of(const Specimen& specimen) {
   return balls;
 }
 
-/// Monotone, which is all that a query needs: it asks for the cells of both ends of its range. Beyond the box are the
-/// outermost cells.
+/// Returns the cell of a coordinate; outside the box, the outermost cell. The function is monotone, so the cells of the
+/// two ends of a range enclose the cells of all points between them.
 std::int64_t SphereBins::Axis::cell(double x) const {
   return static_cast<std::int64_t>(std::clamp(x * per_length, 0.0, static_cast<double>(cells - 1)));
 }
@@ -29,7 +29,8 @@ std::int64_t SphereBins::Axis::cell(double x) const {
 SphereBins::SphereBins(const Box& box, std::span<const Ball> spheres, std::vector<std::int32_t> ids, double skin)
     : given_(std::move(ids)) {
   for (std::int32_t i : given_) largest_ = std::max(largest_, spheres[i].radius);
-  // A query's range, two radii and the skin, is two cells.
+  // The edge of a cell is half of a query's range, which is two radii and the skin; it is larger if there would be too
+  // many cells.
   const auto n = static_cast<double>(given_.size());
   const double least = std::cbrt(box.volume() / (most_cells_a_sphere * n));
   const double edge = std::max((2 * largest_ + skin) / 2, least);
@@ -51,8 +52,8 @@ void SphereBins::sort(std::span<const Ball> spheres) {
     cell_[k] = static_cast<std::uint32_t>((z_.cell(c.z) * y_.cells + y_.cell(c.y)) * x_.cells + x_.cell(c.x));
     ++start_[cell_[k]];
   }
-  for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];  // where each cell ends
-  for (std::size_t k = given_.size(); k-- > 0;) {                              // backwards: where it begins
+  for (std::size_t c = 1; c < start_.size(); ++c) start_[c] += start_[c - 1];  // start_[c] is now the end of cell c
+  for (std::size_t k = given_.size(); k-- > 0;) {  // filling backwards turns it into the beginning
     const std::uint32_t slot = slot_of_[k] = --start_[cell_[k]];
     id_[slot] = given_[k];
     ball_[slot] = spheres[given_[k]];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sphere_bins.hpp  Spheres of about one size, sorted into cells by their centres.
+/// \file sphere_bins.hpp  Spheres of similar size, sorted into the cells of a grid by their centres.
 #pragma once
 
 #include <cstdint>
@@ -11,39 +11,44 @@
 
 namespace macadam {
 
-/// Centre and radius side by side: whoever asks for one of them wants the other too [m].
+/// Centre and radius of a sphere [m], adjacent in memory because they are always used together.
 struct Ball {
   Vec3d centre;
   double radius;
 };
 
-/// The spheres of a specimen, in its order.
+/// Returns the spheres of a specimen in its order.
 std::vector<Ball> balls_of(const Specimen& specimen);
 
-/// Each sphere stands in one cell of a grid over the box. Those of a row of cells along x lie side by side, so that a
-/// query reads a few stretches of memory. A query goes as far as the largest sphere needs, hence the one size.
+/// A grid over the box in which each sphere belongs to the cell of its centre. The spheres of a row of cells along x
+/// are contiguous, so that a query reads a few ranges of memory. The range of a query is determined by the largest
+/// sphere, so the spheres should be of similar size.
 class SphereBins {
  public:
-  /// For the spheres `ids`, given by ascending number; `skin` [m] is what queries add to the sum of two radii.
+  /// Takes the spheres with the indices `ids`, in ascending order. `skin` [m] is the distance that queries add to the
+  /// sum of two radii.
   SphereBins(const Box& box, std::span<const Ball> spheres, std::vector<std::int32_t> ids, double skin);
 
-  /// Sorts again for the centres as they are now.
+  /// Sorts all spheres again by their present centres.
   void sort(std::span<const Ball> spheres);
 
-  /// Moves one of the spheres. All that were moved since they were sorted are met by every query: sort when they are
-  /// many.
+  /// Moves one sphere. Until the next sort(), every query visits all spheres that were moved, so call sort() when there
+  /// are many.
   void move(std::int32_t id, const Vec3d& centre);
+  /// Returns the number of spheres moved since the last sort().
   std::size_t moved() const { return ball_.size() - given_.size(); }
 
   double largest() const { return largest_; }
+  /// Sphere and index at a slot; slots are numbered cell by cell.
   const Ball& ball(std::size_t slot) const { return ball_[slot]; }
   std::int32_t id(std::size_t slot) const { return id_[slot]; }
 
-  /// The spheres given; and the same, cell by cell, while none has been moved.
+  /// `ids` returns the indices given to the constructor; `in_order` returns them sorted by cell, if no sphere was
+  /// moved.
   std::span<const std::int32_t> ids() const { return given_; }
   std::span<const std::int32_t> in_order() const { return id_; }
 
-  /// Calls visit(first, last) for stretches of slots that hold all spheres with centres within `range` [m] of a point.
+  /// Calls visit(first, last) for ranges of slots that contain all spheres with centres within `range` [m] of a point.
   template <class Visit>
   void near(const Vec3d& point, double range, const Visit& visit) const {
     const auto [x0, x1] = x_.between(point.x - range, point.x + range);
@@ -61,7 +66,7 @@ class SphereBins {
  private:
   struct Axis {
     std::int64_t cells = 1;
-    double per_length = 0;  ///< cells a metre
+    double per_length = 0;  ///< cells per metre
 
     std::int64_t cell(double x) const;
     std::pair<std::int64_t, std::int64_t> between(double low, double high) const { return {cell(low), cell(high)}; }
@@ -70,9 +75,9 @@ class SphereBins {
   std::vector<std::int32_t> given_;
   double largest_ = 0;  ///< radius [m]
   Axis x_, y_, z_;
-  std::vector<std::uint32_t> start_;           ///< first slot of each cell
-  std::vector<std::uint32_t> cell_, slot_of_;  ///< of each sphere given
-  std::vector<Ball> ball_;                     ///< by cell, then by number; behind them those that were moved
+  std::vector<std::uint32_t> start_;           ///< first slot of each cell, and the end
+  std::vector<std::uint32_t> cell_, slot_of_;  ///< for each index in given_
+  std::vector<Ball> ball_;  ///< sorted by cell, then by index; spheres that were moved follow at the end
   std::vector<std::int32_t> id_;
 };
 

@@ -36,7 +36,7 @@ std::pair<std::int64_t, std::int64_t> SphereGrid::range(double position, double 
 }
 
 void SphereGrid::insert(std::int32_t id, const Vec3d& c, double reach) {
-  reach *= 1 + 1e-9;  // a point on the border between two cells may be rounded into either
+  reach *= 1 + 1e-9;  // because rounding may assign a point on a border to either cell
   const auto [z0, z1] = range(c.z, reach, edge_.z, nz_);
   for (std::int64_t z = z0; z <= z1; ++z)
     within(c, reach, static_cast<std::size_t>(z), [&](std::size_t cell) { list_[cell].push_back(id); });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sphere_grid.hpp  Which spheres can matter at a point, for spheres of any mix of sizes.
+/// \file sphere_grid.hpp  Finds the spheres that are within reach of a point, for spheres with any distribution of
+/// sizes.
 #pragma once
 
 #include <algorithm>
@@ -11,26 +12,26 @@
 
 namespace macadam {
 
-/// Cubic cells over a box. Each cell lists the spheres whose reach touches it, so a query looks into one cell only and
-/// a few large spheres among many small ones cost nothing extra.
+/// A grid of nearly cubic cells over a box. Each cell lists all spheres whose reach touches the cell. A query therefore
+/// looks into one cell only, and a few large spheres among many small ones do not slow it down.
 class SphereGrid {
  public:
-  /// Cells of edge about `cell` [m], coarser where that would make more than two million of them.
+  /// Makes cells with edges of about `cell` [m]; they are larger if there would be more than two million cells.
   SphereGrid(const Box& box, double cell);
 
-  /// Empties the cells and keeps their memory.
+  /// Empties the lists and keeps their memory.
   void clear();
 
-  /// Adds number `id` to every cell within `reach` of `centre`.
+  /// Adds the number `id` to the lists of all cells within `reach` of `centre`.
   void insert(std::int32_t id, const Vec3d& centre, double reach);
 
   std::size_t cells() const { return list_.size(); }
 
-  /// Cells of equal z, numbered upwards, and the first and the end of their cells.
+  /// Number of layers (cells with equal z), and the number of the first cell of a layer.
   std::size_t layers() const { return static_cast<std::size_t>(nz_); }
   std::size_t layer_begin(std::size_t layer) const { return layer * static_cast<std::size_t>(nx_ * ny_); }
 
-  /// Calls visit(cell) for all cells of a layer that are within `reach` of a point.
+  /// Calls visit(cell) for all cells of a layer within `reach` of a point.
   template <class Visit>
   void within(const Vec3d& point, double reach, std::size_t layer, const Visit& visit) const {
     const auto gap2 = [](double p, double cell, double edge) {
@@ -49,20 +50,20 @@ class SphereGrid {
     }
   }
 
-  /// Cell of a point of the box.
+  /// Returns the cell that contains a point of the box.
   std::size_t cell_of(const Vec3d& point) const;
 
-  /// Lower corner of a cell [m].
+  /// Returns the lower corner of a cell [m].
   Vec3d corner(std::size_t cell) const;
 
-  /// Edge lengths of every cell [m].
+  /// Returns the edge lengths of the cells [m].
   const Vec3d& edge() const { return edge_; }
 
-  /// Spheres within reach of a cell, in the order of insertion.
+  /// Returns the spheres within reach of a cell, in the order of insertion.
   const std::vector<std::int32_t>& near(std::size_t cell) const { return list_[cell]; }
 
  private:
-  /// First and last cell along an axis.
+  /// Returns the first and the last cell along an axis.
   static std::pair<std::int64_t, std::int64_t> range(double position, double reach, double edge, std::int64_t n);
 
   Vec3d edge_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// dual_point.cpp  Cramer's rule in double, and exactly where a tetrahedron is flat.
+// dual_point.cpp  Solves for the dual point by Cramer's rule in double precision, and exactly if the tetrahedron is
+// flat.
 #include "host/tessellation/dual_point.hpp"
 
 #include <CGAL/MP_Float.h>
@@ -9,7 +10,7 @@
 namespace macadam {
 namespace {
 
-/// 2·q_k·c = b_k for k = 0, 1, 2 by Cramer's rule: numerators of c and their common denominator.
+/// Solves 2·q_k·c = b_k for k = 0, 1, 2 by Cramer's rule. Stores the numerators of c and their common denominator.
 template <class T>
 struct Cramer {
   T nx, ny, nz, den;
@@ -23,8 +24,8 @@ struct Cramer {
   }
 };
 
-/// Relative to the first site, which is a particle where any is: bounding sites are so far away that differences from
-/// them would be nearly parallel.
+/// The equations for the dual point, relative to the first site. If any of the sites is a particle, the first one is.
+/// Bounding sites are so far away that the differences from one of them would be nearly parallel.
 class Equations {
  public:
   Equations(const WeightedSites& sites, const SiteNumbers& number) {
@@ -33,6 +34,7 @@ class Equations {
 
   Vec3d origin() const { return site_[0].centre; }
 
+  /// Writes the equations in number type T.
   template <class T>
   void write(std::array<Vec3<T>, 3>& q, std::array<T, 3>& b) const {
     const WeightedSite& o = site_[0];
@@ -48,12 +50,12 @@ class Equations {
 };
 
 Vec3d exactly(const Equations& equations) {
-  using Exact = CGAL::MP_Float;  // sums and products of doubles without rounding
+  using Exact = CGAL::MP_Float;  // adds and multiplies doubles without rounding
   std::array<Vec3<Exact>, 3> q;
   std::array<Exact, 3> b;
   equations.write(q, b);
   const Cramer<Exact> c(q, b);
-  const double den = CGAL::to_double(c.den);  // not 0: the triangulation has no exactly flat tetrahedron
+  const double den = CGAL::to_double(c.den);  // not 0, because the triangulation contains no exactly flat tetrahedron
   return equations.origin() +
          Vec3d{CGAL::to_double(c.nx) / den, CGAL::to_double(c.ny) / den, CGAL::to_double(c.nz) / den};
 }
@@ -66,8 +68,9 @@ Vec3d dual_point(const WeightedSites& sites, const SiteNumbers& number) {
   std::array<double, 3> b;
   equations.write(q, b);
   const Cramer<double> c(q, b);
-  // Rounding moves c by about ε·|q|/flatness: below 1e-3 the error would show in the facets, so it is done exactly.
-  // (The dual of a flat tetrahedron of nearly cospherical sites may lie anywhere on a line when rounded badly.)
+  // Rounding moves c by about ε·|q| divided by the flatness. Below a flatness of 1e-3 the error would be visible in the
+  // facets, so the equations are solved exactly. (For a flat tetrahedron of nearly cospherical sites, rounding could
+  // place the dual point anywhere on a line.)
   constexpr double flat = 1e-3;
   if (std::abs(c.den) > 2 * flat * norm(q[0]) * norm(q[1]) * norm(q[2]))
     return equations.origin() + Vec3d{c.nx / c.den, c.ny / c.den, c.nz / c.den};

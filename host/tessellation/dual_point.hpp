@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file dual_point.hpp  The point that has the same power to four sites.
+/// \file dual_point.hpp  The point that has the same power with respect to four sites: a vertex of the power diagram.
 #pragma once
 
 #include "host/tessellation/weighted_sites.hpp"
 
 namespace macadam {
 
-/// The point of equal power to four sites in the order of comes_before(), on whose bits it depends. [m]
+/// Returns the point of equal power with respect to four sites [m]. The sites must be given in the order of
+/// comes_before(), because the bits of the result depend on their order.
 Vec3d dual_point(const WeightedSites& sites, const SiteNumbers& number);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file facets.cpp  From the dual of the triangulation to facets: polygons, clipping by the box, walls.
+/// \file facets.cpp  Makes facets from the dual of the triangulation: polygons, clipped by the walls of the box.
 #include "host/tessellation/facets.hpp"
 
 #include <fmt/format.h>
@@ -16,23 +16,25 @@
 namespace macadam {
 namespace {
 
-/// Of two centres, over the smaller radius; nearer ones are an error of the input. A contact's stiffness goes with 1/d:
-/// at a distance of 1e-6 radii the equations lose so many digits that the frequency domain cannot solve them to 1e-11.
+/// Smallest distance of two neighbouring centres, relative to the smaller radius. A smaller distance is an input error,
+/// because the stiffness of a contact is proportional to 1/d: at a distance of 1e-6 radii the equations lose so many
+/// digits that the frequency domain cannot be solved to 1e-11.
 constexpr double smallest_distance = 1e-5;
 
-/// Facets of consecutive particles; vertex ranges count from 0.
+/// Facets of a block of consecutive particles. Vertex ranges are counted from the beginning of the block.
 struct FacetBlock {
   std::vector<Facet> facets;
   std::vector<Vec3d> vertices;
   std::int64_t null_facets = 0;
 };
 
-/// An edge of the triangulation seen from one particle, with a tetrahedron at it.
+/// A neighbour of a particle in the triangulation, and a tetrahedron that contains both.
 struct Neighbour {
   std::int32_t particle, tetrahedron;
 };
 
-/// Makes the facets of particles one by one, with buffers of its own.
+/// Makes the facets of particles one by one and appends them to a block. Each block has its own maker, with its own
+/// buffers.
 class FacetMaker {
  public:
   FacetMaker(const Specimen& specimen, const PowerDiagram& diagram, const std::vector<std::uint8_t>& beyond,
@@ -44,7 +46,8 @@ class FacetMaker {
         rounding_(rounding_bound(box_)),
         out_(out) {}
 
-  /// Facets of particle a with the walls and with particles of greater number, in order.
+  /// Makes the facets of particle a with the walls and with particles of higher number, in this order. `begin` … `end`
+  /// are the tetrahedra that contain the particle.
   void particle(std::int32_t a, const std::int32_t* begin, const std::int32_t* end) {
     neighbours_.clear();
     unsigned walls = 0;
@@ -53,7 +56,8 @@ class FacetMaker {
       for (const std::int32_t b : diagram_.tetrahedra[*t].site)
         if (b >= 0 && b != a) neighbours_.push_back({b, *t});
     }
-    // Only the tetrahedron found first is needed; which it is must not depend on the sort.
+    // Keeps one tetrahedron per neighbour, the one with the lowest number, so that the result does not depend on their
+    // order.
     std::sort(neighbours_.begin(), neighbours_.end(), [](const Neighbour& p, const Neighbour& q) {
       return p.particle != q.particle ? p.particle < q.particle : p.tetrahedron < q.tetrahedron;
     });
@@ -69,7 +73,7 @@ class FacetMaker {
   }
 
  private:
-  /// \throws InputError where two centres nearly coincide.
+  /// \throws InputError if the centres of two particles nearly coincide.
   void require_apart(std::int32_t a, std::int32_t b) const {
     const double distance = norm(specimen_.centre[b] - specimen_.centre[a]);
     const double least = smallest_distance * std::min(specimen_.radius[a], specimen_.radius[b]);
@@ -80,13 +84,14 @@ class FacetMaker {
         fmt::format("{}", distance), fmt::format("more than {} of the smaller radius", smallest_distance));
   }
 
-  /// Dual points of the tetrahedra round the edge (a, b), in order, into polygon_. Returns the walls that some are
-  /// beyond.
+  /// Sets polygon_ to the dual points of the tetrahedra around the edge (a, b), in cyclic order. Returns the walls (as
+  /// bits) that some of these points are beyond.
   unsigned circulate(std::int32_t a, const Neighbour& b) {
     polygon_.clear();
     unsigned some = 0;
     std::int32_t t = b.tetrahedron;
-    std::int32_t leave = -1, keep = -1;  // the face to cross is opposite to site number `leave` of t
+    // The next tetrahedron is across the face opposite to site `leave`; site `keep` stays.
+    std::int32_t leave = -1, keep = -1;
     for (int k = 0; k < 4; ++k) {
       const std::int32_t site = diagram_.tetrahedra[t].site[k];
       if (site == a || site == b.particle) continue;
@@ -111,6 +116,7 @@ class FacetMaker {
     return some;
   }
 
+  /// Makes the facet between two particles, clipped by the walls that it crosses.
   void particle_facet(std::int32_t a, const Neighbour& b) {
     const unsigned walls = circulate(a, b);
     for (int k = 0; k < wall_count; ++k) {
@@ -125,6 +131,8 @@ class FacetMaker {
     if (!add(a, b.particle, plane.normal, plane.distance)) ++out_.null_facets;
   }
 
+  /// Makes the facet of a particle on wall k: the wall's rectangle, clipped by the planes of equal power with all
+  /// neighbours.
   void wall_facet(std::int32_t a, int k) {
     const WallPlane wall(k, box_);
     wall.rectangle(box_, polygon_);
@@ -141,9 +149,10 @@ class FacetMaker {
     add(a, -1 - k, wall.normal(), nearest);
   }
 
-  /// Cleans polygon_ and stores it; false when it has no area. What is shorter than 1e-10 of `scale`, the distance of
-  /// the centres, is taken for rounding of the input: lattices written in decimals have such edges, slivers and splits,
-  /// and vertices in the middle of an edge, on which the contact points of a facet must not depend.
+  /// Simplifies polygon_ and stores it as a facet. Returns false if it has no area. Lengths below 1e-10 of `scale`, the
+  /// distance of the centres, count as rounding of the input. Lattices written in decimals have such short edges,
+  /// slivers, split facets, and vertices in the middle of an edge; the contact points of a facet must not depend on
+  /// them.
   bool add(std::int32_t a, std::int32_t b, const Vec3d& normal, double scale) {
     const double tolerance = 1e-10 * scale + rounding_;
     merge_vertices(polygon_, tolerance);
@@ -171,7 +180,7 @@ class FacetMaker {
   std::vector<Neighbour> neighbours_;
 };
 
-/// For each dual point the walls (bits 0…5) that it is on or beyond, within rounding.
+/// Returns, for each dual point, the walls (bits 0…5) that it is on or beyond, within rounding.
 std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const Vec3d& box) {
   const double rounding = rounding_bound(box);
   std::vector<std::uint8_t> beyond(diagram.dual.size(), 0);
@@ -182,7 +191,7 @@ std::vector<std::uint8_t> beyond_walls(const PowerDiagram& diagram, const Vec3d&
   return beyond;
 }
 
-/// Tetrahedra at each particle, in any order: those of particle i are list[begin[i] … begin[i + 1]).
+/// The tetrahedra that contain each particle, in any order: those of particle i are list[begin[i] … begin[i + 1]).
 struct Incidence {
   std::vector<std::uint32_t> begin;
   std::vector<std::int32_t> list;
@@ -211,7 +220,8 @@ void make_facets(const Specimen& specimen, const PowerDiagram& diagram, Tessella
   const std::size_t n = specimen.size();
   const Incidence incidence(diagram, n);
   const std::vector<std::uint8_t> beyond = beyond_walls(diagram, specimen.box.size);
-  // Blocks of particles are independent and joined in order: the result does not depend on the number of threads.
+  // Blocks of particles are independent and are joined in order, so the result does not depend on the number of
+  // threads.
   constexpr std::size_t block_size = 256;
   std::vector<FacetBlock> blocks((n + block_size - 1) / block_size);
   for_each_in_parallel(blocks.size(), [&](std::size_t k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file facets.hpp  Facets of a power diagram inside the box, and the walls' planes.
+/// \file facets.hpp  Facets of a power diagram inside the box, and the planes of the walls.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 
 namespace macadam {
 
-/// The plane of the wall with number −1 − k, k = 0…5.
+/// The plane of the wall with the number −1 − k, k = 0…5.
 struct WallPlane {
-  double Vec3d::*coordinate;  ///< the one that is constant on the wall
-  double Vec3d::*u;           ///< the next two in cyclic order
+  double Vec3d::*coordinate;  ///< the coordinate that is constant on the wall
+  double Vec3d::*u;           ///< u and v are the next two in cyclic order
   double Vec3d::*v;
   double position;  ///< [m]
   double outward;   ///< −1 or +1
@@ -28,17 +28,17 @@ struct WallPlane {
     position = k % 2 ? box.*coordinate : 0;
   }
 
-  /// Signed distance of a point, positive outside the box.
+  /// Returns the signed distance of a point [m], positive outside the box.
   double height(const Vec3d& p) const { return outward * (p.*coordinate - position); }
 
-  /// Outward unit normal.
+  /// Returns the outward unit normal.
   Vec3d normal() const {
     Vec3d n{};
     n.*coordinate = outward;
     return n;
   }
 
-  /// Corners of the box on this wall, counter-clockwise about the outward normal.
+  /// Sets `polygon` to the wall's rectangle, counter-clockwise about the outward normal.
   void rectangle(const Vec3d& box, Polygon& polygon) const {
     const std::array<std::pair<double, double>, 4> corner{{{0, 0}, {box.*u, 0}, {box.*u, box.*v}, {0, box.*v}}};
     polygon.assign(4, {});
@@ -51,11 +51,11 @@ struct WallPlane {
   }
 };
 
-/// The plane of equal power of two particles.
+/// The plane of equal power of two particles (model (2.1)).
 struct Bisector {
-  Vec3d normal;     ///< unit, from a to b
-  double distance;  ///< d between the centres [m]
-  double arm;       ///< from a's centre to the plane along the normal, (d² + R_a² − R_b²)/(2d) [m]
+  Vec3d normal;     ///< unit vector from a to b
+  double distance;  ///< distance of the centres, d [m]
+  double arm;       ///< h_A, from the centre of a to the plane along the normal: (d² + R_a² − R_b²)/(2d) [m]
 
   Bisector(const Specimen& specimen, std::int32_t a, std::int32_t b) {
     const Vec3d ab = specimen.centre[b] - specimen.centre[a];
@@ -66,11 +66,12 @@ struct Bisector {
   }
 };
 
-/// Bound of what rounding does to a coordinate in the box: a coordinate carries ε/2 of the box's diagonal, sixteen such
-/// errors cover the few operations between it and a facet's vertex.
+/// Returns a bound of the rounding error of a coordinate in the box [m]. A coordinate has an error of ε/2 of the box's
+/// diagonal; sixteen such errors cover the few operations from a coordinate to a vertex of a facet.
 inline double rounding_bound(const Vec3d& box) { return 8 * std::numeric_limits<double>::epsilon() * norm(box); }
 
-/// Fills `facets`, `vertices` and `null_facets` of `out` with all facets inside the box, sorted as documented there.
+/// Sets `facets`, `vertices` and `null_facets` of `out` to all facets inside the box, sorted as documented there.
+/// \throws InputError if two centres nearly coincide.
 void make_facets(const Specimen& specimen, const PowerDiagram& diagram, Tessellation& out);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file invariants.cpp  What every Laguerre diagram obeys, measured.
+/// \file invariants.cpp  Measures how far a tessellation deviates from the properties that every Laguerre diagram has.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,7 +24,8 @@ TessellationInvariants measure_invariants(const Specimen& particles, const Tesse
     if (f.b < 0) {
       const WallPlane wall(-1 - f.b, box);
       wall_area[-1 - f.b] += f.area;
-      // A particle and its mirror image: their distance is twice the one to the wall, or nothing on it.
+      // The distance between a particle and its mirror image is twice the distance from the wall; the radius is used
+      // for a centre on the wall.
       const double scale = std::max(2 * std::abs(wall.height(pa)), specimen.radius[f.a]);
       for (const Vec3d& v : tessellation.polygon(f))
         out.flatness = std::max(out.flatness, std::abs(wall.height(v)) / scale);
@@ -36,7 +37,7 @@ TessellationInvariants measure_invariants(const Specimen& particles, const Tesse
     for (const Vec3d& v : tessellation.polygon(f)) {
       const double off = dot(v - pa, plane.normal) - plane.arm;
       out.flatness = std::max(out.flatness, std::abs(dot(v - f.centroid, f.normal)) / plane.distance);
-      // pow_a − pow_b = 2·d·(height above the plane): formed so, it does not cancel where the powers are large.
+      // pow_a − pow_b = 2·d·(height above the plane). In this form no digits cancel when the powers are large.
       out.power = std::max(out.power, 2 * std::abs(off) / plane.distance);
     }
   }
@@ -48,7 +49,7 @@ TessellationInvariants measure_invariants(const Specimen& particles, const Tesse
     out.walls = std::max(out.walls, std::abs(wall_area[k] - area) / area);
   }
   const auto& volume = tessellation.cell_volume;
-  // In double, a sum of n equal cells would itself be off by up to n·ε/2.
+  // In double precision, a sum of n equal volumes could be wrong by up to n·ε/2.
   const long double sum = std::accumulate(volume.begin(), volume.end(), 0.0L);
   out.volume = static_cast<double>(std::abs(sum - specimen.box.volume()) / specimen.box.volume());
   return out;

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// packing_check.cpp  Cells that reach far beyond their spheres, and spheres that fill more than their box.
+// packing_check.cpp  Detects cells that reach far beyond their spheres, and spheres that fill more than their box.
 //
-// Bounds. Cells of the committed examples reach at most 1.5 radii beyond their spheres. Packings of spheres placed at
-// random without overlap, which fill 10 to 30 % of their box, reach 7 radii where sizes are alike and far more among
-// small spheres, but at most 1.8 mean spacings (up to 3,000 spheres); an empty ball of 2 spacings contains 33 spheres
-// on average, so that one in the interior has a probability of exp(-33). A region of large spheres in a specimen of
-// mostly small ones has holes of many mean spacings, but of less than 2 of its own radii. A cell that exceeds both
-// bounds is thus neither. Mastic that overlaps fills up to 102 % of the box in the examples; radii that are diameters
-// make it eightfold, which exceeds 150 % for any packing of 19 % or more.
+// Reasons for the bounds: in the committed examples cells reach at most 1.5 radii beyond their spheres. Packings of
+// spheres placed at random without overlap, which fill 10 to 30 % of their box, reach 7 radii if the sizes are similar,
+// and far more radii among small spheres, but at most 1.8 mean spacings (measured with up to 3,000 spheres). An empty
+// ball with a radius of 2 spacings contains 33 spheres on average, so an empty one in the interior has a probability of
+// exp(-33). A region of large spheres in a specimen of mostly small ones has holes of many mean spacings, but of less
+// than 2 of its own radii. A cell that exceeds both bounds is therefore neither of these. Overlapping mastic fills up
+// to 102 % of the box in the examples. If diameters are given as radii, the fill becomes eight times as large, which
+// exceeds 150 % for any packing of 19 % or more.
 #include "host/tessellation/packing_check.hpp"
 
 #include <fmt/format.h>
@@ -27,8 +28,8 @@ constexpr double most_radii = 4, most_spacings = 2, most_fill = 1.5;
 
 double sphere_volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
-/// Volume of all spheres over the volume of the box. A sphere of an aggregate of several spheres counts for at most its
-/// cell.
+/// Returns the volume of all spheres, divided by the volume of the box. For a sphere of an aggregate with several
+/// spheres, at most the volume of its cell is counted.
 double filled_fraction(const Specimen& all, const Tessellation& tessellation) {
   std::unordered_map<std::int32_t, int> spheres_of;
   for (const std::int32_t body : all.body) ++spheres_of[body];
@@ -41,19 +42,20 @@ double filled_fraction(const Specimen& all, const Tessellation& tessellation) {
   return volume / all.box.volume();
 }
 
-/// The point of a cell that is farthest from its sphere.
+/// The point of a cell that is farthest from the surface of the cell's sphere.
 struct Reach {
-  double radii = 0;         ///< distance over the largest radius of the particle and its neighbours
+  double radii = 0;         ///< distance, divided by the largest radius of the particle and its neighbours
   double distance = 0;      ///< from the sphere's surface [m]
-  std::int32_t cell = -1;   ///< particle or void; −1: none exceeds both bounds
-  std::int32_t other = -1;  ///< on the other side of the facet: a particle, a void or a Wall
+  std::int32_t cell = -1;   ///< particle or void; −1 if no cell exceeds both bounds
+  std::int32_t other = -1;  ///< other side of the facet: a particle, a void or a Wall
   Vec3d point{};            ///< [m]
   Reach& operator+=(const Reach& o) {
-    if (o.radii > radii) *this = o;  // the first of equals
+    if (o.radii > radii) *this = o;  // the first of equal ones
     return *this;
   }
 };
 
+/// Returns, for each cell, the largest radius of its sphere and its neighbours' spheres.
 std::vector<double> largest_radii_of_neighbours(const Specimen& all, const Tessellation& tessellation) {
   std::vector<double> out = all.radius;
   for (const Facet& f : tessellation.facets) {
@@ -64,6 +66,7 @@ std::vector<double> largest_radii_of_neighbours(const Specimen& all, const Tesse
   return out;
 }
 
+/// Returns the farthest point of all cells that exceed both bounds.
 Reach farthest_reach(const Specimen& all, const Tessellation& tessellation) {
   const std::vector<double> largest = largest_radii_of_neighbours(all, tessellation);
   const double spacing = std::cbrt(all.box.volume() / static_cast<double>(all.size()));
@@ -82,8 +85,9 @@ Reach farthest_reach(const Specimen& all, const Tessellation& tessellation) {
   });
 }
 
-/// Returns the other side of one facet of the cell that meets the farthest point: the facet whose plane is farthest
-/// from the centre. In a box that is too high, this is the top wall and not one of the two side walls of its corner.
+/// Returns the other side of the facet whose plane is farthest from the centre, among the facets of the cell that
+/// contain the farthest point. In a box that is too high, this is the top wall and not one of the two side walls that
+/// meet in the corner.
 std::int32_t farthest_side(const Specimen& all, const Tessellation& tessellation, const Reach& reach) {
   const Vec3d arm = reach.point - all.centre[reach.cell];
   double farthest = -1;
@@ -92,7 +96,7 @@ std::int32_t farthest_side(const Specimen& all, const Tessellation& tessellation
     if (f.a != reach.cell && f.b != reach.cell) continue;
     const auto polygon = tessellation.polygon(f);
     const bool meets = std::ranges::any_of(
-        polygon, [&](const Vec3d& p) { return norm(p - reach.point) <= 1e-9 * norm(arm); });  // rounding of a vertex
+        polygon, [&](const Vec3d& p) { return norm(p - reach.point) <= 1e-9 * norm(arm); });  // rounding of vertices
     const double plane = std::abs(dot(f.normal, arm));
     if (meets && plane > farthest) farthest = plane, out = f.a == reach.cell ? f.b : f.a;
   }

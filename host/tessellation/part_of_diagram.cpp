@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// part_of_diagram.cpp  Triangulates a part of the particles and inserts further particles until its tetrahedra are
+// those of the whole triangulation.
 #include "host/tessellation/part_of_diagram.hpp"
 
 #include <algorithm>
@@ -10,11 +12,13 @@
 namespace macadam {
 namespace {
 
-/// Of spacings: how far around a part particles are taken at first. Less, and more is missing; more costs more.
+/// Particles within this many mean spacings around a part are inserted at the start. With a smaller margin more
+/// particles are missing at first; with a larger one more are inserted in vain.
 constexpr double first_margin = 2.5;
 
-/// A dual point, and a bound of its power to the corners. dual_point() is good to 1e-10 of the lengths, and powers to
-/// rounding of the weights; who is taken without need does no harm.
+/// The dual point of a tetrahedron, and an upper bound of its power with respect to the corners. dual_point() is
+/// accurate to 1e-10 of the lengths, and powers to the rounding of the weights. A bound that is too large only inserts
+/// particles that are not needed.
 struct DualSphere {
   Vec3d centre;
   double most_power;
@@ -31,7 +35,7 @@ struct DualSphere {
   }
 };
 
-/// Of the particles' centres: in a layer or a row of them as in a heap.
+/// Returns the mean spacing of the particles' centres. Also works if they lie in one layer or one row.
 double spacing_of(const SiteTree& tree) {
   const Vec3d edge = tree.bounds().high - tree.bounds().low;
   const auto n = static_cast<double>(tree.numbers().size());
@@ -40,6 +44,7 @@ double spacing_of(const SiteTree& tree) {
       {std::cbrt(edge.x * edge.y * edge.z / n), std::sqrt(face / n), std::max({edge.x, edge.y, edge.z}) / n});
 }
 
+/// The triangulation of one part.
 class Part {
  public:
   Part(const WeightedSites& sites, const std::vector<SiteTree>& all, const SiteTree& own)
@@ -53,16 +58,17 @@ class Part {
   std::vector<Tetrahedron> tetrahedra() { return own_of(all_there()); }
 
  private:
+  /// Whether a particle is not used yet, will be inserted, or is inserted.
   enum class State : std::uint8_t { away, taken, inserted };
 
-  /// Of a triangulation that has all tetrahedra at own particles.
+  /// Returns all tetrahedra of a triangulation that contains every tetrahedron at the own particles.
   std::vector<Tetrahedron> all_there() {
     Triangulation triangulation(sites_);
     std::vector<Tetrahedron> all;
     while (!taken_.empty()) {
       const std::vector<std::int32_t> fresh = std::exchange(taken_, {});
       triangulation.insert(fresh);
-      all = {};  // of a large specimen as much memory as the new ones
+      all = {};  // frees the memory first: for a large specimen the old tetrahedra take as much as the new ones
       all = triangulation.tetrahedra();
       for (const Tetrahedron& t : all)
         if (is_own(t) && is_new(t)) take_in_conflict(t);
@@ -74,30 +80,33 @@ class Part {
   bool is_own(const Tetrahedron& t) const {
     return std::ranges::any_of(t.site, [&](std::int32_t i) { return i >= 0 && own_[i]; });
   }
-  /// An insertion makes tetrahedra at the particle that is inserted, no others.
+  /// Returns whether the tetrahedron is new. An insertion makes tetrahedra only at the inserted particle.
   bool is_new(const Tetrahedron& t) const {
     return std::ranges::any_of(t.site, [&](std::int32_t i) { return i >= 0 && state_[i] == State::taken; });
   }
 
+  /// Marks a particle for insertion.
   void take(std::int32_t i) {
     if (state_[i] != State::away) return;
     state_[i] = State::taken;
     taken_.push_back(i);
   }
+  /// Marks the particles for insertion that have a smaller power at the dual point than the tetrahedron's corners.
   void take_in_conflict(const Tetrahedron& t) {
     const DualSphere sphere(sites_, t.site);
-    // Spheres with a smaller power reach to within √power of the dual point: if that is far enough inside, they are
-    // there
+    // A sphere of smaller power reaches to within √power of the dual point. If this neighbourhood lies inside the
+    // searched bounds, all such spheres have been taken already.
     const double reach = std::sqrt(std::max(sphere.most_power, 0.0));
     if (searched_.wider(-reach).has(sphere.centre)) return;
     for (const SiteTree& tree : all_) {
       if (std::isfinite(sphere.most_power))
         tree.each_of_power(sphere.centre, sphere.most_power, [&](std::int32_t i) { take(i); });
-      else  // of centres that coincide but for rounding: which it is can only be told by all
+      else  // the centres coincide up to rounding and the dual point is not known, so all particles are taken
         for (const std::int32_t i : tree.numbers()) take(i);
     }
   }
 
+  /// Selects the tetrahedra at own particles and renumbers their neighbours.
   std::vector<Tetrahedron> own_of(const std::vector<Tetrahedron>& all) const {
     std::vector<std::int32_t> number(all.size(), -1);
     std::int32_t count = 0;
@@ -116,10 +125,10 @@ class Part {
 
   const WeightedSites& sites_;
   const std::vector<SiteTree>& all_;
-  Bounds searched_;                  ///< all spheres that reach into it are taken
-  std::vector<bool> own_;            ///< by particle
-  std::vector<State> state_;         ///< by particle
-  std::vector<std::int32_t> taken_;  ///< and not inserted yet
+  Bounds searched_;                  ///< all spheres that reach into these bounds are taken
+  std::vector<bool> own_;            ///< for each particle: whether it belongs to the part
+  std::vector<State> state_;         ///< for each particle
+  std::vector<std::int32_t> taken_;  ///< particles that are taken but not inserted yet
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file part_of_diagram.hpp  The tetrahedra at some of the particles, without a triangulation of all.
+/// \file part_of_diagram.hpp  Computes the tetrahedra that contain some of the particles, without triangulating all
+/// particles.
 #pragma once
 
 #include <span>
@@ -10,15 +11,18 @@
 
 namespace macadam {
 
-/// The tetrahedra of the regular triangulation of all particles that have one of `own` as a corner.
+/// Returns the tetrahedra of the regular triangulation of all particles that have at least one of the particles `own`
+/// as a corner.
 ///
-/// `own` and what is near is triangulated. A tetrahedron is one of the whole triangulation if no other particle has a
-/// smaller power at its dual point than its corners have: particles that do are looked for in the trees of all, and
-/// inserted, until there is none. Neighbours are numbers in the result; −1: without a corner of `own`, or infinite.
+/// The particles `own` and those near them are triangulated. A tetrahedron of this triangulation also belongs to the
+/// triangulation of all particles if no other particle has a smaller power at its dual point than its corners have.
+/// Particles that violate this condition are found with `all`, the trees that together hold all particles, and are
+/// inserted. This is repeated until no particle violates it. Neighbours are indices in the result, or −1 if the
+/// neighbour is infinite or has no corner in `own`.
 std::vector<Tetrahedron> tetrahedra_at(const WeightedSites& sites, const std::vector<SiteTree>& all,
                                        const SiteTree& own);
 
-/// Those of the whole triangulation, by one that is not divided.
+/// Returns all tetrahedra of the triangulation of `particles`.
 std::vector<Tetrahedron> all_tetrahedra(const WeightedSites& sites, const std::vector<std::int32_t>& particles);
 
 }  // namespace macadam

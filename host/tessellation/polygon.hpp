@@ -14,13 +14,14 @@ namespace macadam {
 
 using Polygon = std::vector<Vec3d>;
 
-/// Keeps the part of `polygon` where `height(x) <= 0` (Sutherland–Hodgman; `height` is affine). Vertices within
-/// `tolerance` of the plane count as on it: a polygon in the plane stays whole. `land(x)` is called with each new
-/// vertex and may put it on a plane to the last bit. `scratch` is overwritten. New vertices are always interpolated
-/// from inside to outside: facets that share an edge get the same bits.
+/// Keeps the part of `polygon` where `height(x) <= 0` (Sutherland–Hodgman algorithm; `height` must be affine). Vertices
+/// within `tolerance` of the plane count as lying on it, so a polygon in the plane is kept completely. `land(x)` is
+/// called for each new vertex and may move it exactly onto a plane. `scratch` is overwritten. New vertices are always
+/// interpolated from the inner to the outer vertex, so that facets with a common edge get the same bits.
 template <class Height, class Land>
 void clip(Polygon& polygon, Polygon& scratch, double tolerance, Height height, Land land) {
   scratch.clear();
+  // Returns the height of a point, 0 within the tolerance.
   const auto snapped = [&](const Vec3d& p) {
     const double h = height(p);
     return std::abs(h) <= tolerance ? 0.0 : h;
@@ -41,14 +42,14 @@ void clip(Polygon& polygon, Polygon& scratch, double tolerance, Height height, L
   polygon.swap(scratch);
 }
 
-/// Removes vertices that lie within `tolerance` of the one before (cyclically).
+/// Removes vertices that lie within `tolerance` of the vertex before them; the polygon is cyclic.
 inline void merge_vertices(Polygon& polygon, double tolerance) {
   const auto close = [tolerance](const Vec3d& p, const Vec3d& q) { return norm(p - q) <= tolerance; };
   polygon.erase(std::unique(polygon.begin(), polygon.end(), close), polygon.end());
   while (polygon.size() > 1 && close(polygon.back(), polygon.front())) polygon.pop_back();
 }
 
-/// Removes vertices within `tolerance` of the line between their neighbours, as long as three are left.
+/// Removes vertices within `tolerance` of the line between their neighbours, as long as at least three vertices remain.
 inline void drop_collinear(Polygon& polygon, double tolerance) {
   for (std::size_t k = 0; k < polygon.size() && polygon.size() > 3;) {
     const std::size_t n = polygon.size();
@@ -60,14 +61,15 @@ inline void drop_collinear(Polygon& polygon, double tolerance) {
   }
 }
 
-/// Area and centroid of a polygon about a unit normal; the area is negative when it runs clockwise.
+/// Area and centroid of a polygon about a unit normal. The area is negative if the polygon runs clockwise.
 struct PolygonMeasure {
   double area = 0;
   Vec3d centroid{};
-  double extent = 0;  ///< largest distance of a vertex from the first: between half the diameter and the diameter
+  /// Largest distance of a vertex from the first one, which is between half the diameter and the diameter.
+  double extent = 0;
 };
 
-/// Measures a polygon of at least one vertex.
+/// Measures a polygon with at least one vertex.
 inline PolygonMeasure measure(const Polygon& polygon, const Vec3d& normal) {
   PolygonMeasure m;
   const Vec3d& o = polygon.front();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file power_diagram.cpp  Parts of the triangulation made side by side, and joined in an order of their own.
+/// \file power_diagram.cpp  Triangulates parts of the specimen in parallel and joins them in an order that does not
+/// depend on the parts.
 #include "host/tessellation/power_diagram.hpp"
 
 #include <fmt/format.h>
@@ -19,7 +20,7 @@
 namespace macadam {
 namespace {
 
-/// Particles of a part at least: of fewer, most would be triangulated by several parts.
+/// Smallest number of particles in a part. In smaller parts most particles would be triangulated by several parts.
 constexpr std::size_t least_in_a_part = 2000;
 
 std::size_t parts_for(std::size_t particles) {
@@ -29,8 +30,9 @@ std::size_t parts_for(std::size_t particles) {
 
 using Parts = std::vector<std::vector<Tetrahedron>>;
 
-/// Each tetrahedron belongs to its first particle, and this to a part. So a part numbers its own, and knows both sides
-/// of every face whose first particle is its own.
+/// Joins the tetrahedra of all parts. Each tetrahedron belongs to its first particle, and each particle to one part. A
+/// part numbers the tetrahedra that belong to its particles. It knows both sides of every face whose first particle
+/// belongs to it, and links these.
 class Joined {
  public:
   Joined(const WeightedSites& sites, const Parts& parts, const std::vector<std::int32_t>& part_of)
@@ -58,11 +60,12 @@ class Joined {
   bool belongs(std::int32_t site, std::size_t part) const {
     return site >= 0 && part_of_[site] == static_cast<std::int32_t>(part);
   }
-  /// Those of a particle.
+  /// Returns the tetrahedra that belong to a particle.
   std::span<Tetrahedron> of(std::int32_t particle) {
     return std::span(out_.tetrahedra).subspan(begin_[particle], begin_[particle + 1] - begin_[particle]);
   }
 
+  /// Copies the tetrahedra that belong to a part, sorts those of each particle, and computes their dual points.
   void put_in_order(std::size_t part) {
     for (const Tetrahedron& t : parts_[part])
       if (belongs(t.site[0], part)) out_.tetrahedra[next_[t.site[0]]++] = {t.site, {-1, -1, -1, -1}};
@@ -74,6 +77,7 @@ class Joined {
     }
   }
 
+  /// Returns the index of a tetrahedron in the result. \throws RunError if the parts do not agree.
   std::int32_t number_of(const Tetrahedron& t) {
     const std::span<Tetrahedron> all = of(t.site[0]);
     const auto found = std::ranges::lower_bound(all, t.site, come_before, &Tetrahedron::site);
@@ -84,6 +88,7 @@ class Joined {
     return static_cast<std::int32_t>(begin_[t.site[0]] + (found - all.begin()));
   }
 
+  /// Sets the neighbours across the faces whose first particle belongs to the part.
   void link(std::size_t part) {
     const std::vector<Tetrahedron>& all = parts_[part];
     std::vector<std::int32_t> number;
@@ -99,8 +104,9 @@ class Joined {
 
   const WeightedSites& sites_;
   const Parts& parts_;
-  const std::vector<std::int32_t>& part_of_;  ///< by particle
-  std::vector<std::int64_t> begin_, next_;    ///< of the tetrahedra that belong to a particle
+  const std::vector<std::int32_t>& part_of_;  ///< for each particle
+  /// For each particle: range of the tetrahedra that belong to it, and next free index in it.
+  std::vector<std::int64_t> begin_, next_;
   PowerDiagram out_;
 };
 

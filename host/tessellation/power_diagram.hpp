@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file power_diagram.hpp  The regular triangulation of the spheres and its dual, made part by part.
+/// \file power_diagram.hpp  The regular triangulation of the spheres and its dual, computed in parts on several
+/// threads.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +11,18 @@
 
 namespace macadam {
 
-/// Regular triangulation (weights R²) of particles and bounding sites, with its dual points: tetrahedra that have a
-/// particle, ordered by their corners. Neighbours are known across faces that have one.
+/// The regular triangulation (weights R²) of particles and bounding sites, and its dual points. Contains the tetrahedra
+/// that have at least one particle as a corner, sorted by their corners. The neighbour across a face is known if the
+/// face has a particle.
 struct PowerDiagram {
   std::vector<Tetrahedron> tetrahedra;
-  std::vector<Vec3d> dual;  ///< point of equal power to the four sites of each tetrahedron [m]
+  std::vector<Vec3d> dual;  ///< for each tetrahedron, the point of equal power with respect to its four sites [m]
 };
 
-/// Triangulates the particles with `active[i] != 0`. Particles without a cell in all of space appear in no tetrahedron.
-/// Around an edge between two particles every tetrahedron is finite. Same input, same bits, for any number of threads
-/// and of parts, which are triangulated side by side (0: as many as there are threads, if they are large enough).
+/// Triangulates the particles with `active[i] != 0`. Particles that have no cell, even outside the box, appear in no
+/// tetrahedron. All tetrahedra around an edge between two particles are finite. The same input gives the same bits for
+/// any number of threads and of parts. Parts are triangulated in parallel; `parts` 0 stands for one per thread, or
+/// fewer if the parts would be small.
 PowerDiagram power_diagram(const Specimen& specimen, const std::vector<std::uint8_t>& active, std::size_t parts = 0);
 
 }  // namespace macadam

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// site_tree.cpp  Builds the tree by halving ranges of particle numbers at the median.
 #include "host/tessellation/site_tree.hpp"
 
 #include <algorithm>
@@ -17,7 +18,8 @@ Bounds bounds_of(const WeightedSites& sites, std::span<const std::int32_t> numbe
   return out;
 }
 
-/// Puts those on the lower side, along the longest edge, before place `middle`.
+/// Reorders the numbers such that the sites with lower coordinates along the longest edge of the box come before index
+/// `middle`.
 void halve(const WeightedSites& sites, std::span<std::int32_t> numbers, std::size_t middle, const Bounds& bounds) {
   const Vec3d edge = bounds.high - bounds.low;
   const double Vec3d::*along = edge.x >= edge.y && edge.x >= edge.z ? &Vec3d::x
@@ -27,6 +29,7 @@ void halve(const WeightedSites& sites, std::span<std::int32_t> numbers, std::siz
                    [&](std::int32_t a, std::int32_t b) { return sites[a].centre.*along < sites[b].centre.*along; });
 }
 
+/// Divides a range into parts. `first` is the index of its first number in the whole array.
 void divide(const WeightedSites& sites, std::span<std::int32_t> numbers, std::size_t parts, std::size_t first,
             std::vector<std::size_t>& begin) {
   if (parts == 1) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file site_tree.hpp  Particles in boxes within boxes, and who of them is near.
+/// \file site_tree.hpp  A tree of bounding boxes over particles, for finding those near a point or a box.
 #pragma once
 
 #include <cmath>
@@ -10,28 +10,34 @@
 
 namespace macadam {
 
-/// An upright box [m].
+/// An axis-aligned box [m].
 struct Bounds {
   Vec3d low, high;
 
+  /// Extends the box to contain the point.
   void grow(const Vec3d& p);
+  /// Returns the box extended by a length on all sides.
   Bounds wider(double by) const { return {low - Vec3d{by, by, by}, high + Vec3d{by, by, by}}; }
+  /// Returns whether the box contains the point.
   bool has(const Vec3d& p) const;
+  /// Returns whether the two boxes have a common point.
   bool meets(const Bounds& other) const;
-  /// From a point to the nearest one of the box, squared. [m²]
+  /// Returns the squared distance of a point from the box [m²], 0 inside.
   double distance2(const Vec3d& p) const;
 };
 
-/// Some particles, halved along the longest edge of the box of their centres until few are left.
+/// A tree over some particles, which are halved along the longest edge of the bounding box of their centres until few
+/// are left.
 class SiteTree {
  public:
-  /// Of `numbers`, which it sorts and, as the sites, must outlive it.
+  /// Makes the tree of the particles `numbers`, which are reordered. `numbers` and `sites` must outlive the tree.
   SiteTree(const WeightedSites& sites, std::span<std::int32_t> numbers);
 
   std::span<const std::int32_t> numbers() const { return numbers_; }
   const Bounds& bounds() const { return nodes_.front().bounds; }
 
-  /// f(number) for those whose centre is in a box that is wider by their radius than this one.
+  /// Calls f(number) for each particle whose sphere may reach the box: its centre lies in the box widened by its
+  /// radius.
   template <class F>
   void each_reaching(const Bounds& bounds, F&& f) const {
     visit([&](const Node& node) { return node.bounds.meets(bounds.wider(std::sqrt(node.most_weight))); },
@@ -41,7 +47,7 @@ class SiteTree {
           });
   }
 
-  /// f(number) for those with at most this power at a point.
+  /// Calls f(number) for each particle whose power at point p is at most `most`.
   template <class F>
   void each_of_power(const Vec3d& p, double most, F&& f) const {
     visit([&](const Node& node) { return node.bounds.distance2(p) - node.most_weight <= most; },
@@ -51,18 +57,22 @@ class SiteTree {
   }
 
  private:
+  /// A node: the range of its particles, their bounding box, and their largest weight.
   struct Node {
     Bounds bounds;
     double most_weight;
-    std::size_t begin, end;   ///< in the numbers
-    std::size_t second_half;  ///< node; the first half is the next one; 0: a leaf
+    std::size_t begin, end;  ///< range in numbers_
+    /// Index of the node of the second half, 0 for a leaf; the node of the first half is the next one.
+    std::size_t second_half;
   };
 
+  /// Makes the node of a range and, recursively, its children.
   void divide(std::size_t begin, std::size_t end);
 
+  /// Calls f for the particles in the leaves that are reached through nodes for which wanted(node) is true.
   template <class Wanted, class F>
   void visit(Wanted&& wanted, F&& f) const {
-    std::size_t waiting[64], count = 0;  // halves of less than 2^31 sites
+    std::size_t waiting[64], count = 0;  // enough for halving 2^31 sites
     for (waiting[count++] = 0; count > 0;) {
       const std::size_t k = waiting[--count];
       const Node& node = nodes_[k];
@@ -80,8 +90,8 @@ class SiteTree {
   std::vector<Node> nodes_;
 };
 
-/// Divides particles into so many parts of about equal number, each in a box of its own, one behind the other: where
-/// they begin, and the end.
+/// Divides particles into `parts` ranges of about equal number, each in its own box, and reorders `numbers`
+/// accordingly. Returns the beginning of each range, and the end.
 std::vector<std::size_t> divide_into(const WeightedSites& sites, std::span<std::int32_t> numbers, std::size_t parts);
 
 }  // namespace macadam

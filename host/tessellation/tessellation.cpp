@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tessellation.cpp  Triangulation, facets, cell volumes, and which particles have no cell.
+/// \file tessellation.cpp  Computes the tessellation: triangulation, facets, cell volumes, and the particles that have
+/// no cell.
 #include "macadam/tessellation.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +14,8 @@
 namespace macadam {
 namespace {
 
-/// R² enters every plane's position: above this, in box diagonals, its rounding would be seen in the facets.
+/// Largest radius in units of the box's diagonal. R² enters the position of every facet's plane; with larger radii its
+/// rounding would be visible in the facets.
 constexpr double largest_radius = 1000;
 
 void check_radii(const Specimen& specimen) {
@@ -25,7 +27,8 @@ void check_radii(const Specimen& specimen) {
                        fmt::format("at most {}, {} diagonals of the box", limit, largest_radius));
 }
 
-/// Cell volumes as signed pyramids about the centres (a centre may lie outside its own cell), and cell surfaces.
+/// Computes cell volumes as sums of signed pyramids over the facets (a centre may lie outside its own cell). Returns
+/// the surface area of each cell.
 std::vector<double> measure_cells(const Specimen& specimen, Tessellation& out) {
   std::vector<double> surface(specimen.size(), 0);
   out.cell_volume.assign(specimen.size(), 0);
@@ -43,8 +46,8 @@ std::vector<double> measure_cells(const Specimen& specimen, Tessellation& out) {
   return surface;
 }
 
-/// Takes particles whose cell has no volume out of `active`; true if any of them had facets. Such a cell is a sheet
-/// between two others (or on a wall) that only rounding opened: 1e-10 is the facets' own tolerance.
+/// Removes particles whose cells have no volume from `active`. Returns whether any of them had facets. Such a cell is a
+/// sheet between two other cells, or on a wall, that exists due to rounding only; 1e-10 is the tolerance of the facets.
 bool retire_empty_cells(const Tessellation& tessellation, const std::vector<double>& surface,
                         std::vector<std::uint8_t>& active) {
   bool again = false;
@@ -64,7 +67,7 @@ Tessellation tessellate(const Specimen& particles) {
   check_radii(specimen);
   Tessellation out;
   std::vector<std::uint8_t> active(specimen.size(), 1);
-  for (bool again = true; again;) {  // a second round is rare: without the sheets, their two sides meet
+  for (bool again = true; again;) {  // a second pass is rare; without the sheets, the cells on both sides meet
     make_facets(specimen, power_diagram(specimen, active), out);
     again = retire_empty_cells(out, measure_cells(specimen, out), active);
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// triangulation.cpp  The only file that includes CGAL's triangulations: exact predicates, plain arrays out.
+// triangulation.cpp  CGAL's regular triangulation with exact predicates; the only file that includes CGAL's
+// triangulations.
 #include "host/tessellation/triangulation.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -19,7 +20,7 @@ using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<std::int32_t, Ker
                                                                CGAL::Regular_triangulation_vertex_base_3<Kernel>>;
 using PlainCell =
     CGAL::Triangulation_cell_base_with_info_3<std::int32_t, Kernel, CGAL::Triangulation_cell_base_3<Kernel>>;
-// Hidden points never come back (nothing is removed), so they need not be stored.
+// Hidden points are not stored: they would be needed only if points were removed.
 using CellBase = CGAL::Regular_triangulation_cell_base_3<Kernel, PlainCell, CGAL::Discard_hidden_points>;
 using Regular = CGAL::Regular_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<VertexBase, CellBase>>;
 
@@ -27,7 +28,7 @@ Regular::Weighted_point point_of(const WeightedSite& site) {
   return {{site.centre.x, site.centre.y, site.centre.z}, site.weight};
 }
 
-/// Corners in order, each with the neighbour opposite to it.
+/// Sorts the corners, each together with the neighbour opposite to it.
 void put_in_order(Tetrahedron& t) {
   for (int i = 1; i < 4; ++i) {
     for (int k = i; k > 0 && comes_before(t.site[k], t.site[k - 1]); --k)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file triangulation.hpp  The regular triangulation of some particles as plain arrays (no CGAL types).
+/// \file triangulation.hpp  The regular triangulation of particles as plain arrays, without CGAL types.
 #pragma once
 
 #include <memory>
@@ -9,23 +9,25 @@
 
 namespace macadam {
 
-/// One cell of a regular triangulation.
+/// One cell of a regular triangulation, made of four sites.
 struct Tetrahedron {
-  SiteNumbers site;                       ///< in the order of comes_before()
-  std::array<std::int32_t, 4> neighbour;  ///< tetrahedron across the face opposite to site k; −1: none that matters
+  SiteNumbers site;  ///< in the order of comes_before()
+  /// Number of the tetrahedron across the face opposite to site k; −1 if it is infinite or not part of the result.
+  std::array<std::int32_t, 4> neighbour;
 };
 
-/// The bounding sites, and the particles inserted so far. Exact: where no two centres are the same, what it holds does
-/// not depend on the order of insertion, cospherical sites included.
+/// A regular triangulation of the bounding sites and of the particles inserted so far. It is exact: if no two centres
+/// coincide, it does not depend on the order of insertion, even for cospherical sites.
 class Triangulation {
  public:
-  /// Of sites that outlive it.
+  /// `sites` must outlive the triangulation.
   explicit Triangulation(const WeightedSites& sites);
   Triangulation(const Triangulation&) = delete;
   ~Triangulation();
 
+  /// Inserts particles by their numbers.
   void insert(const std::vector<std::int32_t>& particles);
-  /// All finite tetrahedra, in an order of CGAL's.
+  /// Returns all finite tetrahedra, in CGAL's order.
   std::vector<Tetrahedron> tetrahedra();
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file weighted_sites.hpp  What a regular triangulation is made of: particles, weighted by R², and six sites far
-/// away.
+/// \file weighted_sites.hpp  The sites of a regular triangulation: particles with the weight R², and six bounding sites
+/// far away.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,22 @@
 
 namespace macadam {
 
+/// A point with a weight.
 struct WeightedSite {
   Vec3d centre;   ///< [m]
   double weight;  ///< [m²]
 
+  /// Returns the power of p with respect to the site [m²].
   double power(const Vec3d& p) const { return dot(p - centre, p - centre) - weight; }
 };
 
 inline constexpr std::int32_t bounding_site_count = 6;
 
-/// Corners of a tetrahedron by number: particles count from 0, bounding sites from −1 down.
+/// The corners of a tetrahedron. Particles are numbered from 0 up, bounding sites from −1 down.
 using SiteNumbers = std::array<std::int32_t, 4>;
 
-/// The order that corners have in a tetrahedron, and tetrahedra in a diagram: particles by number, then bounding sites.
+/// The order of the corners of a tetrahedron, and of the tetrahedra of a diagram: particles by number, then bounding
+/// sites.
 inline bool comes_before(std::int32_t a, std::int32_t b) {
   return static_cast<std::uint32_t>(a) < static_cast<std::uint32_t>(b);
 }
@@ -31,17 +34,18 @@ inline bool come_before(const SiteNumbers& a, const SiteNumbers& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), comes_before);
 }
 
-/// The sites of a specimen by number.
+/// The sites of a specimen by number: its particles and six bounding sites.
 ///
-/// Bounding sites are on the axes through the box's centre, at L = 4·(Lx + Ly + Lz) from it, weight 0. They cut nothing
-/// inside the box: for x in the box and any particle p, pow_p(x) = |x − p|² − R² ≤ diagonal², while a bounding site q
-/// has pow_q(x) = |x − q|² ≥ (L − half an edge)² > (3·(Lx + Ly + Lz))² > diagonal². This holds for every radius. Their
-/// hull |x| + |y| + |z| ≤ L about the centre holds the box, whose half edges sum to L/8, in its interior, so no edge
-/// between particles is on the hull and all its tetrahedra are finite. As corners of the hull they are never hidden,
-/// whatever the weights.
+/// The bounding sites lie on the axes through the centre of the box, at the distance L = 4·(Lx + Ly + Lz) from it, and
+/// have weight 0. They cut nothing off the cells inside the box: for x in the box and any particle p, pow_p(x) = |x −
+/// p|² − R² ≤ diagonal², whereas a bounding site q has pow_q(x) = |x − q|² ≥ (L − half an edge)² > (3·(Lx + Ly + Lz))²
+/// > diagonal². This holds for every radius. Their convex hull |x| + |y| + |z| ≤ L (relative to the centre) contains
+/// the box, whose half edges sum to L/8, in its interior. Therefore no edge between particles lies on the hull, and all
+/// tetrahedra around such an edge are finite. Because the bounding sites are the corners of the hull, they are never
+/// hidden, whatever the weights are.
 class WeightedSites {
  public:
-  /// Of a specimen that outlives it.
+  /// `specimen` must outlive this object.
   explicit WeightedSites(const Specimen& specimen) : specimen_(specimen) {
     const Vec3d &box = specimen.box.size, c = 0.5 * box;
     const double far = 4 * (box.x + box.y + box.z);
