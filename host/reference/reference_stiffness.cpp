@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_stiffness.cpp  Sum of BᵀDB over all contact points.
+/// \file reference_stiffness.cpp  Sums BᵀDB over all contact points.
 #include "host/reference/reference_stiffness.hpp"
 
 #include "host/reference/reference_contact.hpp"
@@ -9,7 +9,8 @@ namespace {
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-/// Displacement of the material point at `lever` from a centre: u + θ × lever = [I, −lever×]·(u, θ).
+/// Returns the matrix that gives the displacement of the material point at `lever` from a centre: u + θ × lever = [I,
+/// −lever×]·(u, θ).
 Matrix36 point_motion(const Vector3d& lever) {
   Matrix36 out;
   out.leftCols<3>().setIdentity();
