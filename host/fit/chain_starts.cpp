@@ -141,7 +141,7 @@ class Starts {
     for (const double beyond : {1.0, 10.0}) add(spaced(low / beyond, high * beyond, units), shift, at);
   }
 
-  /// Adds starts from another chain with at most as many units. If it has fewer, a retardation time is added at each of
+  /// Adds starts from another chain that is not longer. If it has fewer units, a retardation time is added at each of
   /// the three places where it lowers the linear misfit most, one start per place.
   void add_from(const Chain& other) {
     const auto units = static_cast<std::size_t>(unknowns_.units);

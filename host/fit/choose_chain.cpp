@@ -28,7 +28,7 @@ class ChainSeries {
         shift_(start_shift(problem.unknowns, problem.targets, problem.temperatures)) {}
 
   /// Fits all chains up to the length at which the criterion has risen twice in a row. `known` has chains of other
-  /// shift laws, converted to these unknowns; a chain also starts from those of the same length.
+  /// shift laws, converted to these unknowns; a chain also starts from the known chains of the same length.
   Chains fit(const std::vector<Chains>& known) {
     const int most = options_.units.value_or(options_.most_units);
     for (int units = 0; units <= most; ++units)

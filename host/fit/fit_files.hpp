@@ -35,7 +35,7 @@ std::string fit_text(const Fit& fit);
 /// Returns a sentence about the chain that replaces a fitted model.
 std::string conversion_text(const KelvinConversion& conversion, std::pair<double, double> range_hz);
 
-/// Returns the frequency range of that chain [Hz]: as given, or that of the data. \throws InputError when there is
+/// Returns the frequency range of that chain [Hz]: as given, or the range of the data. \throws InputError when there is
 /// neither.
 std::pair<double, double> chain_range(std::optional<double> from, std::optional<double> to,
                                       std::optional<std::pair<double, double>> data);

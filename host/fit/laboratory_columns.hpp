@@ -27,7 +27,7 @@ enum class Quantity {
 struct LaboratoryColumn {
   std::string name;
   Quantity quantity;
-  std::string unit;  ///< the unit as messages write it; empty: the same as that of the modulus or phase column
+  std::string unit;  ///< the unit as messages write it; empty: the unit of the modulus or phase column
   double factor = 1, offset = 0;
 };
 

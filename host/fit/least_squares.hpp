@@ -21,7 +21,7 @@ struct Limits {
   double low, high;
 };
 
-/// Returns the limits of the model's unknowns followed by those of the shift's.
+/// Returns one list of limits, first of the unknowns of the model and then of the unknowns of the shift.
 inline std::vector<Limits> joined(std::vector<Limits> first, const std::vector<Limits>& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;

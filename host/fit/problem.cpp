@@ -112,7 +112,8 @@ Problem make_problem(const ModulusData& data, const FitOptions& options) {
   u.reference_temperature = out.temperatures[u.reference_isotherm];
   out.wanted_reference = options.reference_temperature.value_or(u.reference_temperature);
   out.wanted_isotherm = isotherm_at(isotherms, out.wanted_reference);
-  // with a free shift only the isotherms have factors, so the reference temperature becomes that of the isotherm
+  // with a free shift only the isotherms have factors, so the reference temperature becomes the temperature of an
+  // isotherm
   if (u.shift == ShiftKind::free) out.wanted_reference = out.temperatures[out.wanted_isotherm];
   for (const ModulusPoint& p : data.points) {
     Target t;

@@ -18,7 +18,8 @@ using kernels::Placement;
 using kernels::Twist;
 
 /// Returns the number of particles per piece. Pieces are small, so that no thread waits long for the last one (large
-/// particles with hundreds of contacts have consecutive numbers), but so few that adding their sums takes no time.
+/// particles with hundreds of contacts have consecutive numbers), but not so small that adding the sums of all pieces
+/// takes time.
 std::size_t piece_of(std::size_t particles) { return std::max<std::size_t>(64, particles / 4096); }
 
 /// Sums over a piece of particles, for one solution.

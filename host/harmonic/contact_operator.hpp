@@ -79,7 +79,7 @@ class ContactOperator {
 
   const ContactNetwork& network_;
   std::size_t particles_;
-  /// contacts of the two walls, ascending; those of the top wall sorted by particle
+  /// contacts of the two walls, ascending; the list of the top wall is sorted by particle
   std::vector<std::uint32_t> on_bottom_, on_top_;
 };
 

@@ -5,8 +5,8 @@
 /// K*(s) = Σ k_p·(N_p + α_p·S_p) over the pairs p, with real matrices N and S that do not depend on the laws. A few
 /// real motions v_j, which are at rest at the walls, reduce N, S and M to small matrices, once. Then any laws and any s
 /// take only a small linear system (Galerkin's method, model section 17). If the real and imaginary parts of a solution
-/// are among the motions, E* and its derivatives equal those of the solution. Otherwise the error of E* grows with the
-/// square of the distance from the motions.
+/// are among the motions, the model gives the same E* and derivatives as the solution. Otherwise the error of E* grows
+/// with the square of the distance from the motions.
 #pragma once
 
 #include <Eigen/Dense>

@@ -39,7 +39,7 @@ struct ContactFrame {
 /// the step, a rigid turn by θ would open the contact by (1 − cos θ)·d in every step.
 ContactFrame middle_of(const ContactFrame& before, const ContactFrame& after);
 
-/// One contact with its points. Its stiffness is that of the initial distance and areas at all times; only the frame
+/// One contact with its points. Its stiffness is always computed from the initial distance and areas; only the frame
 /// and the lever arms follow the particles.
 struct ReferenceContact {
   std::int32_t a = 0, b = 0;  ///< particle numbers; b may be a Wall

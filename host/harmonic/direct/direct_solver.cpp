@@ -97,7 +97,7 @@ class DirectSolver : public LinearSolver {
   /// Computes z = P⁻¹·r.
   void precondition(const LinearTask& task, const Vector& r, Vector& z) const {
     factors_.solve(r, z);
-    // The load does not act on the free motions, so with inertia the solution contains none of them. The
+    // The load does not act on the free motions, so with inertia they are absent from the solution. The
     // preconditioner, which has pins in place of that inertia, would put some into z; the solution would then take
     // three times as many iterations.
     if (task.inertia == 0.0) return;

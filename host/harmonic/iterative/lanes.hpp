@@ -14,7 +14,7 @@
 
 namespace macadam::harmonic {
 
-/// The SIMD type of F complex numbers. A template specialised by hand, because gcc accepts only a literal as the size
+/// The SIMD type of F complex numbers. Each size is written out, because gcc accepts only a literal as the size
 /// of a vector.
 template <int F>
 struct Registers;
