@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrate.cpp  Searches the parameters of least misfit, and judges whether the result is acceptable.
+// calibrate.cpp  Searches for the parameters of least misfit, and judges whether the result is acceptable.
 //
 // Each round minimises the misfit that the reduced model predicts, then solves the networks at the minimum. The motions
 // of the new solution join the reduced model. The search ends when the prediction finds nothing better than the last

@@ -22,7 +22,8 @@ std::string calibration_text(const Calibration& calibration);
 /// written by a calibration.
 void require_calibration_folder(const Scene& scene, const std::filesystem::path& out);
 
-/// Writes calibration.json, predicted.csv and scene.toml, the scene's text with the calibrated values.
+/// Writes calibration.json, predicted.csv and scene.toml, the scene's text with the calibrated values. \throws
+/// InputError when the scene was not read from a file.
 /// \throws RunError when a file cannot be written, and when the scene.toml does not give the calibrated values when it
 /// is read.
 void write_calibration(const std::filesystem::path& out, const Scene& scene, const Calibration& calibration);

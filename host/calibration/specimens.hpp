@@ -16,7 +16,7 @@ namespace macadam::calibration {
 struct Predicted {
   std::complex<double> modulus;          ///< mean over the specimens [Pa]
   std::vector<std::complex<double>> by;  ///< derivatives by the logarithms of the free parameters [Pa]
-  /// standard deviations between specimens: of ln |E*|, and of the phase
+  /// Standard deviations between specimens, of ln |E*| and of the phase.
   double e_star_scatter = 0, phase_scatter_deg = 0;
 };
 

@@ -16,8 +16,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A combination of parameters counts as undetermined when the standard deviation of its logarithm exceeds this (a
 /// factor of 2).
 constexpr double untold = 0.7;
-/// Exponents below the first fraction of the largest are left out of a combination's name. A parameter with a component
-/// below the second in an undetermined direction is not part of that direction.
+/// `named`: exponents below this fraction of the largest are left out of a combination's name. `no_part`: a parameter
+/// belongs to an undetermined direction only if its component of the unit vector exceeds this.
 constexpr double named = 0.02, no_part = 1e-3;
 
 /// Returns the rows with only the columns in `kept`. `all`: number of columns.

@@ -16,7 +16,7 @@ namespace {
 
 /// Range of the targets, as logarithms.
 struct Extent {
-  /// softest and stiffest modulus, lowest and highest frequency
+  /// Softest and stiffest modulus, lowest and highest frequency.
   double soft = std::numeric_limits<double>::infinity(), stiff = -soft, slow = soft, fast = -soft;
 };
 

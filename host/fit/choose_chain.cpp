@@ -36,6 +36,7 @@ class ChainSeries {
     return std::move(chains_);
   }
 
+  /// Returns the criterion of a fitted chain; less is better.
   double criterion_of(const Chain& chain) const {
     return criterion(options_.criterion, chain.minimum.misfit, 2 * problem_.targets.size(), chain.unknowns.count(),
                      deviations_);

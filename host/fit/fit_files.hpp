@@ -16,7 +16,7 @@ namespace macadam {
 /// line.
 std::string law_toml(const laws::GeneralisedKelvin& law, const laws::Shift& shift, const std::string& origin);
 
-/// Returns all data of a fit, and the chain that replaces its model if the model is not a chain (otherwise nullptr).
+/// Returns all data of a fit. `conversion`: the chain that replaces a model that is not a chain, or nullptr.
 std::string fit_json(const Fit& fit, const KelvinConversion* conversion);
 
 /// Returns one line per measurement: measured, fitted, difference.

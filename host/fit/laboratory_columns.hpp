@@ -8,6 +8,7 @@
 
 namespace macadam::fitting {
 
+/// What a column measures.
 enum class Quantity {
   frequency,
   e_star,

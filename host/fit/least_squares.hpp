@@ -38,7 +38,7 @@ struct Minimum {
 inline constexpr double to_rounding = 1e-13, near_enough = 1e-5;
 
 /// Minimises the misfit from a start, which is first moved between the limits. The misfit of the result is infinite if
-/// that of the start is not finite.
+/// the misfit of the start is not finite.
 Minimum refine(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,
                std::vector<double> theta, double tolerance = to_rounding);
 
@@ -50,6 +50,7 @@ struct Prediction {
   Polar<double> value;
   std::vector<double> log_modulus_by, phase_by;
 };
+/// Returns the predictions of the model with the constants θ.
 std::vector<Prediction> predict(const Unknowns& unknowns, const std::vector<Place>& places,
                                 const std::vector<double>& theta);
 

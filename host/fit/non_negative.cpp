@@ -15,7 +15,7 @@ Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& matrix, const 
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   std::vector<bool> free(static_cast<std::size_t>(n), false);
   const double rounding = 1e-13 * b.norm();
-  // about three times n are usual; the limit is for ties, which could repeat for ever
+  // about three times n are usual; the limit is for ties, which could repeat forever
   for (Eigen::Index round = 0; round < 10 * n; ++round) {
     const Eigen::VectorXd rest = b - A * x, gradient = A.transpose() * rest;
     if (rest.cwiseAbs().maxCoeff() <= enough) break;

@@ -101,6 +101,7 @@ class Check {
       return L(of(0));
   }
 
+  /// Returns the sums over particles begin … end − 1.
   AllSums sums_of(std::size_t begin, std::size_t end) const {
     AllSums out;
     PairProducts pairs[pair_types];

@@ -20,10 +20,10 @@ struct SolutionCheck {
 };
 
 /// Checks the motions of tasks, four in one pass. The numbers of a motion have rounding errors, which the stiffness of
-/// stiff contacts turns into errors of the loads. Where the load is much smaller than these errors, no smaller residual
-/// can be expected. `rounding`: relative rounding error, as a fraction of the load that a particle would have if
-/// nothing cancelled; residuals below that are put down to rounding. 0: nothing is. Sums are computed per piece of
-/// particles, then added in order, so that the result does not depend on the number of threads.
+/// stiff contacts turns into errors of the loads. If the load is much smaller than these errors, no smaller residual
+/// can be expected. `rounding`: fraction of the load that a particle would have if nothing cancelled; residuals up to
+/// this are attributed to rounding (0: no residual is). Sums are computed per piece of particles, then added in order,
+/// so that the result does not depend on the number of threads.
 std::vector<SolutionCheck> check_solutions(const ContactNetwork& network, const Inertia& inertia,
                                            const std::vector<const LinearTask*>& tasks, double rounding);
 

@@ -39,7 +39,7 @@ inline FourNumbers size_of(FourNumbers x) {
 }
 
 /// N contacts of a particle, with normals that point away from it. If fewer are left, only the first `count` entries
-/// count; the others repeat the first contact.
+/// are valid; the others repeat the first contact.
 template <int N>
 struct ContactGroup {
   const Contact* contact[N];

@@ -27,7 +27,7 @@ struct ParticleLoad {
   std::int32_t particle;
   std::array<Complex, 6> load;
 };
-/// in ascending order of particles; particles that are not listed have no load
+/// Loads in ascending order of particles. Particles that are not listed have no load.
 using Loads = std::vector<ParticleLoad>;
 
 /// Returns the Euclidean length ‖x‖.
@@ -42,7 +42,7 @@ struct PairStiffness {
 
 /// Returns the stiffness of all laws for motions as e^(s·t). \throws InputError if a law has none.
 PairStiffness pair_stiffness(const LawTable& laws, Complex s);
-// deleted so that ω is not passed in place of iω
+// Deleted so that ω cannot be passed in place of iω.
 PairStiffness pair_stiffness(const LawTable& laws, double) = delete;
 
 /// Returns the six relative displacements of a contact (Eq. 8 about x0) when the particles move by `motion` and the top
@@ -79,7 +79,7 @@ class ContactOperator {
 
   const ContactNetwork& network_;
   std::size_t particles_;
-  /// contacts of the two walls, ascending; the list of the top wall is sorted by particle
+  /// Contacts of the two walls, in ascending order; the list of the top wall is sorted by particle.
   std::vector<std::uint32_t> on_bottom_, on_top_;
 };
 

@@ -30,6 +30,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// \throws InputError naming a pair that has contacts but no law.
 void require_laws_of(const ContactNetwork& network, const LawTable& laws) {
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (network.count[pair] > 0 && !laws[pair]) {
@@ -39,6 +40,7 @@ void require_laws_of(const ContactNetwork& network, const LawTable& laws) {
   }
 }
 
+/// Returns |E*| and φ.
 Stiffness modulus(Complex e) { return {std::abs(e), std::arg(e) * 180 / std::numbers::pi}; }
 
 /// A task with the results of the last check of its solution.

@@ -23,14 +23,15 @@ struct LinearTask {
   Complex inertia = 0;   ///< −(s² + s·β)·density scaling; 0: without inertia
   Loads right;           ///< f; particles that are not listed have no load
   double tolerance = 0;  ///< largest ‖f − K·u‖ / ‖f‖
-  /// largest rᴴ·P⁻¹·r, with the solver's preconditioner P
+  /// Largest rᴴ·P⁻¹·r, with the solver's preconditioner P.
   double energy_limit = std::numeric_limits<double>::infinity();
   Vector motion;  ///< the start of the iteration (empty: at rest), then the solution
   /// rᴴ·P⁻¹·r of the solution. The residual r is computed from the solution, because the residual that the iteration
   /// updates has accumulated rounding errors.
   double energy = 0;
   int iterations = 0;  ///< increased by the iterations of each solve()
-  /// by the residual that the iteration updates; rounding errors make it differ from the true one
+  /// Whether tolerance and energy limit are met, judged by the residual that the iteration updates; rounding errors
+  /// make it differ from the true residual.
   bool converged = false;
 };
 

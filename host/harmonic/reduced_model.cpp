@@ -79,8 +79,8 @@ void relative_motions(const Contact& c, const Row& row, Index count, ContactMoti
   }
 }
 
-/// The 3 × 3 matrices that turn relative displacements into forces per k*, with the same sums as condensed_load() at α
-/// = 1.
+/// The 3 × 3 matrices that turn relative displacements into forces per k*, for α = 1, with the same sums as
+/// condensed_load().
 Eigen::Matrix3d normal_form(const Contact& c) {
   const auto& m = c.moments;
   Eigen::Matrix3d out;

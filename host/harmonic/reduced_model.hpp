@@ -54,7 +54,8 @@ class ReducedModel {
   const Specimen& specimen_;
   const ContactNetwork& network_;
   Inertia inertia_;
-  /// [6·particles][motions]; in the first the top wall moves by one, in the others it rests; these are orthonormal
+  /// [6·particles][motions]. In the first motion the top wall moves by one. In the others it is at rest; these are
+  /// orthonormal.
   Matrix basis_;
   std::array<Matrix, pair_types> normal_, shear_;  ///< vᵢᵀ·N·vⱼ and vᵢᵀ·S·vⱼ
   Matrix mass_;                                    ///< vᵢᵀ·M·vⱼ

@@ -158,7 +158,7 @@ class Part {
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> left(all * all.transpose(), whole);
     int gone = 0;
     while (gone < rigid_.cols() && left.eigenvalues()(gone) < 1e-9)
-      ++gone;  // smaller than the fraction that one particle in 1e9 leaves if it does not turn by itself
+      ++gone;  // 1e-9 is the fraction that is left if one particle in 1e9 does not turn by itself
     rigid_ = (rigid_ * left.eigenvectors().rightCols(rigid_.cols() - gone)).eval();
   }
 

@@ -48,8 +48,8 @@ struct FreeMotions {
   std::vector<FreeMotion> motions;  ///< orthonormal with respect to masses and moments of inertia
 };
 
-/// Returns the free motions of all clusters. \throws InputError naming the particles of a cluster that does not touch
-/// both walls, because nothing determines its position.
+/// Returns the free motions of all clusters (sets of particles that contacts join). \throws InputError naming the
+/// particles of a cluster that does not touch both walls, because nothing determines its position.
 FreeMotions find_free_motions(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& stiffness,
                               const Inertia& inertia);
 

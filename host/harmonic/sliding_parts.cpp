@@ -15,6 +15,7 @@ namespace {
 /// Largest sine of the angle between normals that count as parallel: the rounding error of coordinates.
 constexpr double parallel = 1e-12;
 
+/// Returns whether a contact is horizontal and has no shear stiffness.
 bool slides_horizontally(const Contact& c, const PairStiffness& stiffness) {
   return stiffness.alpha[static_cast<std::size_t>(c.pair)] == 0 && std::hypot(c.n.x, c.n.y) <= parallel;
 }

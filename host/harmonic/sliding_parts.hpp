@@ -13,8 +13,9 @@
 
 namespace macadam::harmonic {
 
-/// Splits a cluster at flat horizontal contacts without shear stiffness (alpha = 0, normal along z). Particles of a
-/// part are in ascending order, and parts are ordered by their first particle. Most clusters have one part.
+/// Splits a cluster (a set of particles that contacts join) at flat horizontal contacts without shear stiffness (alpha
+/// = 0, normal along z). Particles of a part are in ascending order, and parts are ordered by their first particle.
+/// Most clusters have one part.
 std::vector<std::vector<std::int32_t>> sliding_parts(const Cluster& cluster, const ContactNetwork& network,
                                                      const PairStiffness& stiffness);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_law.cpp  The trapezoidal rule for a chain of springs and dashpots, derived independently of Eq.
-/// 13–17.
+/// \file reference_law.cpp  The trapezoidal rule (Eq. 13–17) for a chain of springs and dashpots, derived
+/// independently.
 #include "host/reference/reference_law.hpp"
 
 #include <cmath>
@@ -12,6 +12,7 @@
 namespace macadam::reference {
 namespace {
 
+/// \throws InputError naming the pair and the parameter, if `good` is false.
 void require(bool good, const std::string& pair, const char* what, double found, const char* expected) {
   if (!good) throw InputError("law of pair " + pair, 0, what, fmt::format("{}", found), expected);
 }
@@ -93,8 +94,9 @@ ReferenceLaw make_reference_law(const Law& law, const std::string& pair) {
 // With a = 1 + kΔt/(2η) and b = 1 − kΔt/(2η), the bracket is c of [1], Eq. 15, and μ_l·k·x_l = (1 − b/a)·x_l. Adding
 // c·f0 on both sides gives
 //   c·f1 = dx + Σ (1 − b/a)·x_l − g·f0,   g = Σ μ_l/2 − 1/k_m + Δt/(2η_m),
-// so that Eq. 13 holds if its factor (1 + g/c) stands outside the bracket. The new stretch is x_l + Δx_l = [b·x_l +
-// Δt/(2η)·(f1 + f0)]/a, which is Eq. 14 with the sum of the two forces in place of their difference.
+// so that Eq. 13 holds if its factor (1 + g/c) stands outside the bracket. The new stretch is
+//   x_l + Δx_l = [b·x_l + Δt/(2η)·(f1 + f0)]/a,
+// which is Eq. 14 with the sum of the two forces in place of their difference.
 void advance_chain(const ReferenceLaw& law, double scale, double dt, double dx, ChainState& state) {
   const auto mobility = [&](const KelvinUnit& unit) {
     return dt / (unit.C * scale) / (1 + dt * unit.E / (2 * unit.C));  // μ_l [m/N]

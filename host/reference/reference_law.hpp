@@ -38,7 +38,7 @@ struct ReferenceLaw {
   double alpha = 0;  ///< shear over normal stiffness
   PointLaw point;    ///< if set, it is used in place of the chains; E_m is then the initial stiffness
   int kept = 0;      ///< how many numbers `point` keeps in each component's `stretch`
-  /// returns how a point broke; empty if the law cannot break
+  /// Returns how a point broke; an empty function if the law cannot break.
   std::function<Break(const ChainState (&chain)[3])> break_of = {};
 
   /// Returns how many numbers each chain keeps in its `stretch`.

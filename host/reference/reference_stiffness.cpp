@@ -9,8 +9,8 @@ namespace {
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-/// Returns the matrix that gives the displacement of the material point at `lever` from a centre: u + θ × lever = [I,
-/// −lever×]·(u, θ).
+/// Returns [I, −lever×], which gives the displacement u + θ × lever of the material point at `lever` from a centre, for
+/// a motion (u, θ).
 Matrix36 point_motion(const Vector3d& lever) {
   Matrix36 out;
   out.leftCols<3>().setIdentity();
@@ -18,6 +18,7 @@ Matrix36 point_motion(const Vector3d& lever) {
   return out;
 }
 
+/// Adds a 6 × 6 block to the entries of K.
 void add_block(std::vector<Eigen::Triplet<double>>& entries, std::int32_t row, std::int32_t column,
                const Eigen::Matrix<double, 6, 6>& block) {
   for (int i = 0; i < 6; ++i) {

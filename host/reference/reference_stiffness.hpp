@@ -9,9 +9,10 @@
 namespace macadam::reference {
 
 /// The stiffness matrix K for u = (displacement, rotation) of every particle, six numbers each, and the effect of
-/// moving the top wall. For instantaneous stiffnesses and all other walls at rest, the loads on the particles are −K·u
-/// + top_wall·w when the displacement of the top wall is w. The force on the top wall along z is top_wall·u −
-/// top_stiffness·w.
+/// moving the top wall. All other walls are at rest, and stiffnesses are instantaneous. If w is the displacement of the
+/// top wall, then
+///   loads on the particles:         −K·u + top_wall·w
+///   force on the top wall along z:  top_wall·u − top_stiffness·w
 struct Stiffness {
   Eigen::SparseMatrix<double> K;  ///< [N/m], [N], [N·m]
   Eigen::VectorXd top_wall;       ///< forces and moments on the particles for a unit displacement of the top wall

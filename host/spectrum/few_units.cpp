@@ -10,7 +10,7 @@
 namespace macadam {
 namespace {
 
-/// Fraction of E(0) below which E(t) is not resolved: relative differences are taken of at least this.
+/// Fraction of E(0) below which E(t) is not resolved: there, differences are taken relative to this value.
 constexpr double nothing = 1e-9;
 /// Times per decade at which series are compared.
 constexpr int per_decade = 20;

@@ -23,7 +23,8 @@ using Complex = std::complex<double>;
 
 /// E(t) depends on E*(s) for s from about 0.1/t to 10/t.
 constexpr double slower = 10, faster = 10;
-/// s of the solution for the instantaneous response, in which no dashpot moves, times the fastest relaxation time.
+/// This over the fastest relaxation time (or over the shortest time that is asked for, if that is less) is the s of a
+/// solution for the instantaneous response, in which no dashpot moves.
 constexpr double at_once = 1e8;
 /// The residual tolerance of the solutions is this times the square root of the tolerance, since the error of E* is the
 /// square of the error of a solution.

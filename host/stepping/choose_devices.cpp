@@ -10,11 +10,11 @@
 namespace macadam {
 namespace {
 
-/// Number of contacts from which several devices are worthwhile. With two H100, steps of 221,000 contacts are 1.2 times
-/// faster than with one, and steps of 441,000 contacts, which do not fit in the registers and shared memory of one, are
-/// 4 times faster (bench/results/team-*.csv).
+/// Number of contacts from which several devices are worthwhile. Two H100 step 221,000 contacts at 1.2 times the speed
+/// of one. They step 441,000 contacts, which do not fit in the registers and shared memory of one, at 4 times its speed
+/// (bench/results/team-*.csv).
 constexpr std::size_t contacts_of_a_team = 300'000;
-// smallest number of contacts per device when there are several
+// Smallest number of contacts per device when there are several.
 constexpr std::size_t contacts_of_a_device = 150'000;
 
 }  // namespace

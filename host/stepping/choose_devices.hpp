@@ -10,7 +10,8 @@
 
 namespace macadam {
 
-/// Returns whether `device` can exchange data with `first` and no process uses it.
+/// Returns whether `device` can step a specimen together with `first` (it is of the same model, and each reaches the
+/// memory of the other) and no process uses it.
 using IdleBeside = std::function<bool(int device, int first)>;
 
 /// Returns the devices that step a specimen with this number of contacts: the first of `devices`, and idle ones besides

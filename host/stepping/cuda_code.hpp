@@ -19,7 +19,6 @@ inline constexpr std::chrono::milliseconds none_is_known_within{50};
 /// Returns the numbers of the devices that `asked` means for backend cuda: all, the first (if `asked` is empty), or the
 /// named ones.
 /// \throws InputError when a named device is not there.
-/// \throws InputError for one that is not there.
 DeviceList device_numbers(const DeviceList& asked);
 
 }  // namespace macadam

@@ -10,7 +10,7 @@ namespace macadam {
 struct PluginFile {
   const char* file;    ///< e.g. "libmacadam_cuda.so"
   const char* symbol;  ///< C name of the table that it exports
-  /// the table begins with this number, the interface of the build, then Macadam's version as a C string
+  /// The table begins with this number, the interface of the build, followed by Macadam's version as a C string.
   int interface;
   const char* makes;  ///< what a build needs to make it, in words
 };

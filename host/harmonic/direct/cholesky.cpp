@@ -52,8 +52,9 @@ void limit_blas_threads() {
   if (openblas_set_num_threads && !std::getenv("OPENBLAS_NUM_THREADS")) openblas_set_num_threads(1);
 }
 
-/// Makes OpenBLAS allocate its buffer. OpenBLAS maps the buffer at its first call and keeps it; if there is no memory,
-/// it retries for ever. So this function first checks that memory for the buffer can be mapped, and then makes a call.
+/// Makes OpenBLAS allocate its buffer. OpenBLAS maps the buffer at its first call and keeps it; if memory does not
+/// suffice, it retries forever. So this function first checks that memory for the buffer can be mapped, and then makes
+/// a call.
 /// \throws std::bad_alloc.
 void make_room_for_blas() {
   constexpr std::size_t buffer = std::size_t{32} << 22;  // bytes: the largest buffer of OpenBLAS's builds for x86-64

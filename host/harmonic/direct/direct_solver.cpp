@@ -28,6 +28,7 @@ double energy_of(const Vector& r, const Vector& z) {
   for (std::size_t i = 0; i < r.size(); ++i) sum += (std::conj(r[i]) * z[i]).real();
   return std::max(sum, 0.0);  // may be negative if r is rounding error only
 }
+/// The solver that make_direct_solver() returns.
 class DirectSolver : public LinearSolver {
  public:
   DirectSolver(const ContactNetwork& network, const ContactOperator& contacts, const PairStiffness& typical,
@@ -97,9 +98,8 @@ class DirectSolver : public LinearSolver {
   /// Computes z = P⁻¹·r.
   void precondition(const LinearTask& task, const Vector& r, Vector& z) const {
     factors_.solve(r, z);
-    // The load does not act on the free motions, so with inertia they are absent from the solution. The
-    // preconditioner, which has pins in place of that inertia, would put some into z; the solution would then take
-    // three times as many iterations.
+    // The load does not act on the free motions, so with inertia they are absent from the solution. The preconditioner,
+    // which has pins in place of that inertia, would put some into z; the number of iterations would then triple.
     if (task.inertia == 0.0) return;
     for (const FreeMotion& motion : free_.motions) motion.remove_from(z, inertia_);
   }

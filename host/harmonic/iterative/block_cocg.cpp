@@ -138,8 +138,8 @@ class BlockCocg {
     }
   }
 
-  /// Updates the state of each task and computes β = rᵀz / (rᵀz of the previous iteration). Tasks that are done get β =
-  /// 0 and no longer change. Returns the largest relative residual of the others, 0 if all are done.
+  /// Updates the state of each task and computes β = rᵀz / (rᵀz of the previous iteration). For tasks that are done β
+  /// is 0, and they no longer change. Returns the largest relative residual of the others, 0 if all are done.
   double judge(int k, const Sums& sums, Factor<F>& beta) {
     double worst = 0;
     for (int f = 0; f < F; ++f) {

@@ -25,6 +25,7 @@ void for_each_block(const std::vector<LinearTask*>& tasks, F&& f) {
   }
 }
 
+/// The iterative solver on the CPU.
 class CpuSolver : public LinearSolver {
  public:
   CpuSolver(kernels::Layout layout, kernels::LinearSystem system)
@@ -42,6 +43,7 @@ class CpuSolver : public LinearSolver {
   std::vector<double> inverse_;
 };
 
+/// The iterative solver on CUDA devices, where the whole iteration runs.
 class CudaSolver : public LinearSolver {
  public:
   CudaSolver(kernels::Layout layout, const kernels::LinearSystem& system, const DeviceList& devices)

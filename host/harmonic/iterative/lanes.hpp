@@ -14,8 +14,8 @@
 
 namespace macadam::harmonic {
 
-/// The SIMD type of F complex numbers. Each size is written out, because gcc accepts only a literal as the size
-/// of a vector.
+/// The SIMD type of F complex numbers. Each size is written out, because gcc accepts only a literal as the size of a
+/// vector.
 template <int F>
 struct Registers;
 template <>
@@ -88,9 +88,11 @@ struct Products {
     crossed += x * y.swapped();
   }
   void add(const Products& o) { straight += o.straight, crossed += o.crossed; }
+  /// Returns Σ x·y of number f, without conjugates.
   std::complex<double> plain(int f) const {
     return {straight.v[f] - straight.v[F + f], crossed.v[f] + crossed.v[F + f]};
   }
+  /// Returns Re Σ conj(x)·y of number f.
   double conjugated(int f) const { return straight.v[f] + straight.v[F + f]; }
 };
 
