@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrate.cpp  Which parameters are free, the way to the least misfit, and whether what was found can be meant.
+// calibrate.cpp  Searches for the parameters of least misfit, and judges whether the result is acceptable.
+//
+// Each round minimises the misfit that the reduced model predicts, then solves the networks at the minimum. The motions
+// of the new solution join the reduced model. The search ends when the prediction finds nothing better than the last
+// solution.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,27 +24,30 @@ namespace macadam {
 namespace calibration {
 namespace {
 
-/// Root mean square errors beyond which a target counts as not reached. Models miss good data by less, by far.
+/// Root-mean-square errors of |E*| and φ [°] beyond which a target counts as not reached. Suitable models have far
+/// smaller errors for good data.
 constexpr double worst_modulus = 0.15, worst_phase = 8;
-/// Standard deviations, root mean square, beyond which the result says that it misses them: noise alone stays below 2.
+/// Root-mean-square error, in standard deviations, beyond which a warning says that the measurements are missed. Noise
+/// alone stays below 2.
 constexpr double worst_miss = 2;
 
-/// Of measured over predicted |E*|: one unit for another.
+/// A ratio of measured to predicted |E*| below this, or above its inverse, suggests that the unit is wrong.
 constexpr double wrong_unit = 1 / 300.0;
-/// Standard deviations to either side that hold 95 % of a normal distribution.
+/// A normal distribution has 95 % within this number of standard deviations on both sides.
 constexpr double two_sided = 1.96;
 
-/// Error of a modulus or phase that was not measured.
+/// The error of a modulus or phase that was not measured.
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
-/// Of a logarithm, in a round: how far it may go, and how little ends the way: so near to a solution the error of an
-/// estimate is about the square of that, below 1e-12.
+/// Largest change of a parameter's logarithm in one round, and the change below which the search ends. That near to a
+/// solution, the error of an estimate is about the square of the change, below 1e-12.
 constexpr double farthest = 2, least_move = 1e-6;
-/// Loss of misfit that ends the way, in squares of standard deviations: parameters then move by 1e-3 of theirs.
+/// Decrease of the misfit below which the search ends, in squared standard deviations. The parameters then move by
+/// about 1e-3 of their standard deviations.
 constexpr double least_gain = 1e-6;
 constexpr int most_rounds = 40;
 
-/// One calibration from start to end.
+/// One calibration from start to end. The constructor checks the input.
 class Calibrator {
  public:
   Calibrator(const Scene& scene, const ModulusData& data, const CalibrationOptions& options, const Watcher& watcher)
@@ -81,6 +88,7 @@ class Calibrator {
   using Clock = std::chrono::steady_clock;
   static double seconds(Clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
+  /// Returns the scene's laws with the free parameters exp(theta).
   LawTable laws_at_theta(const std::vector<double>& theta) const {
     LawTable laws = scene_.laws;
     for (std::size_t i = 0; i < free_.size(); ++i)
@@ -88,14 +96,15 @@ class Calibrator {
     return laws;
   }
 
-  /// What laws predict, the residuals of the measurements and then of the priors, with their derivatives.
+  /// A prediction with its residuals, first of the measurements and then of the priors, and their derivatives.
   struct State {
     std::vector<double> theta;  ///< logarithms of the free parameters
     std::vector<Predicted> predicted;
     std::vector<double> residuals, jacobian;
-    double misfit = 0;  ///< Σ of squares, priors included
+    double misfit = 0;  ///< sum of squares, priors included
   };
 
+  /// Returns the state for predictions at `theta`.
   State state_of(const std::vector<double>& theta, std::vector<Predicted> predicted) const {
     State out{theta, std::move(predicted), {}, {}, 0};
     add_residuals(data_, options_, out.predicted, out.residuals, out.jacobian);
@@ -109,12 +118,14 @@ class Calibrator {
     return out;
   }
 
+  /// Returns the state from solutions of the networks at `theta`.
   State solved(Specimens& specimens, const std::vector<double>& theta) {
     ++out_.solutions;
     return state_of(theta, specimens.solve(laws_at_theta(theta), free_));
   }
 
-  /// The least misfit by the estimates, from θ and within a factor of e² of it: farther away they are worth little.
+  /// Returns the state of least misfit according to the estimates. The search starts at θ and stays within a factor of
+  /// e², beyond which the estimates are poor.
   State least_by_estimate(const Specimens& specimens, std::vector<double> theta) const {
     std::vector<Bounds> bounds;
     for (std::size_t i = 0; i < theta.size(); ++i) {
@@ -129,9 +140,9 @@ class Calibrator {
         r = state.residuals, j = state.jacobian;
         const auto finite = [](double v) { return std::isfinite(v); };
         return std::all_of(r.begin(), r.end(), finite) && std::all_of(j.begin(), j.end(), finite);
-      } catch (const InterruptedError&) {  // may not pass through Ceres
+      } catch (const InterruptedError&) {  // an exception must not pass through Ceres
         interrupted = std::current_exception();
-      } catch (const RunError&) {}  // no solution: a shorter step is tried
+      } catch (const RunError&) {}  // no solution at this point: Ceres tries a shorter step
       return false;
     };
     const std::size_t count = static_cast<std::size_t>(residuals_each(options_.misfit)) * data_.points.size() + priors_;
@@ -140,7 +151,7 @@ class Calibrator {
     return state_of(theta, specimens.estimate(laws_at_theta(theta), free_));
   }
 
-  /// Solves at a place, or nearer to a good one where there is no solution.
+  /// Solves at `theta`; if there is no solution, nearer to `good`, halving the distance up to five times.
   State solved_near(Specimens& specimens, std::vector<double> theta, const State& good) {
     constexpr int halvings = 5;
     for (int i = 0;; ++i) {
@@ -153,7 +164,8 @@ class Calibrator {
     }
   }
 
-  /// To where the estimates, which are exact at the best solution and have its derivatives, find nothing better.
+  /// Returns the state of least misfit. The search ends when the estimates, which are exact at the best solution and
+  /// have its derivatives, find nothing better.
   State find(Specimens& specimens) {
     std::vector<double> theta;
     for (const CalibratedParameter& p : out_.parameters)
@@ -164,7 +176,8 @@ class Calibrator {
       double moved = 0;
       for (std::size_t i = 0; i < theta.size(); ++i) moved = std::max(moved, std::abs(next.theta[i] - best.theta[i]));
       if (moved < least_move) return next;
-      // exact measurements leave no misfit in the end, and their parameters are wanted as exactly
+      // with exact measurements the misfit goes to zero; the search then continues until the parameters are exact as
+      // well
       if (best.misfit > least_gain && best.misfit - next.misfit < least_gain) return best;
       State there = solved_near(specimens, next.theta, best);
       if (there.misfit < best.misfit) best = std::move(there);
@@ -175,6 +188,7 @@ class Calibrator {
     return best;
   }
 
+  /// Fills in the results for the final state.
   void finish(const State& found) {
     out_.laws = laws_at_theta(found.theta);
     const std::size_t n = free_.size(), measured = found.residuals.size() - priors_;
@@ -192,7 +206,7 @@ class Calibrator {
     warn();
   }
 
-  /// Measured against predicted.
+  /// Fills in measured and predicted values of each measurement, and the errors.
   void compare(const std::vector<Predicted>& predicted) {
     const std::vector<std::optional<double>> temperatures = temperatures_of(scene_, data_);
     FitErrors& e = out_.errors;
@@ -204,11 +218,11 @@ class Calibrator {
                         std::arg(predicted[i].modulus) * 180 / std::numbers::pi,
                         predicted[i].e_star_scatter,
                         predicted[i].phase_scatter_deg};
-      // not measured: no error
+      // NaN stands for the error of a value that was not measured
       const double modulus = data_.moduli ? p.e_star_pa / m.e_star_pa - 1 : not_measured;
       const double phase = data_.phases ? p.phase_deg - m.phase_deg : not_measured;
       e.e_star_rms += modulus * modulus, e.phase_rms_deg += phase * phase;
-      // in this order NaN is kept
+      // std::max keeps its first argument if that is NaN
       e.e_star_largest = std::max(std::abs(modulus), e.e_star_largest);
       e.phase_largest_deg = std::max(std::abs(phase), e.phase_largest_deg);
       out_.points.push_back(p);
@@ -217,7 +231,8 @@ class Calibrator {
     e.phase_rms_deg = std::sqrt(e.phase_rms_deg / static_cast<double>(predicted.size()));
   }
 
-  /// What was found must be near the targets, and nearest for another reason than that the way ended there.
+  /// Checks that the prediction is near the targets, and that no parameter without bounds ran to the limit of its
+  /// search range. \throws RunError if not, or adds a warning if the options ask for the nearest values.
   void judge() {
     const FitErrors& e = out_.errors;
     std::vector<std::string> ends;
@@ -232,7 +247,8 @@ class Calibrator {
     const bool phase = options_.misfit != Misfit::modulus && e.phase_rms_deg > worst_phase;
     if (ends.empty() && !modulus && !phase) return;
     const double ratio =
-        data_.moduli ? out_.points.front().measured.e_star_pa / out_.points.front().e_star_pa : 1;  // 1: not measured
+        // 1 if moduli were not measured
+        data_.moduli ? out_.points.front().measured.e_star_pa / out_.points.front().e_star_pa : 1;
     std::string what = fmt::format(
         "{}{}{}", data_.moduli ? fmt::format("|E*| is missed by {:.3g} % (rms)", 100 * e.e_star_rms) : "",
         data_.moduli && data_.phases ? ", " : "",
@@ -252,6 +268,8 @@ class Calibrator {
     out_.warnings.push_back(first + ": " + what);
   }
 
+  /// Adds warnings about parameters at bounds, undetermined combinations, a large misfit, and parts of the scene that
+  /// have no effect.
   void warn() {
     for (std::size_t i = 0; i < free_.size(); ++i) {
       const CalibratedParameter& p = out_.parameters[i];
@@ -268,7 +286,7 @@ class Calibrator {
               : fmt::format("the measurements{} say nothing of {}", alone, words(out_, c)));
     }
     const double missed = std::sqrt(out_.misfit / static_cast<double>(out_.points.size()) /
-                                    residuals_each(options_.misfit));  // in standard deviations
+                                    residuals_each(options_.misfit));  // in standard deviations (rms)
     if (missed > worst_miss) {
       out_.warnings.push_back(
           fmt::format("the measurements are missed by {:.3g} of their standard deviations (rms): these parameters do "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrated_scene.cpp  The scene's file with calibrated values, and whether it reads as them.
+// calibrated_scene.cpp  Writes the scene's file with the calibrated values, and checks that the file gives these
+// values.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +29,7 @@ void require_calibrated(const Scene& scene, const Calibration& calibration) {
   const std::vector<calibration::Parameter> known = calibration::parameters_of(scene);
   for (const CalibratedParameter& p : calibration.parameters) {
     const auto at = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.name == p.name; });
-    // products of a few factors, each rounded
+    // the value is a product of a few factors, each of them rounded
     if (at == known.end() || !(std::abs(at->value / p.value - 1) < 1e-14)) {
       throw RunError(fmt::format("{}: {} is {}, calibrated was {}", scene.file.string(), p.name,
                                  at == known.end() ? "not there" : fmt::format("{}", at->value), p.value));

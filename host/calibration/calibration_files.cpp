@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibration_files.cpp  A calibration as JSON, CSV and text.
+// calibration_files.cpp  Writes a calibration as JSON, CSV and text.
 #include "host/calibration/calibration_files.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no infinity: null.
+/// Returns a JSON number; null for infinity, which JSON does not have.
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json matrix(const std::vector<double>& values, std::size_t n) {
@@ -103,7 +103,8 @@ std::string predicted_csv(const Calibration& c) {
 std::string calibration_text(const Calibration& c) {
   std::string out = fmt::format("{:<16} {:>13} {:>13} {:>14}\n", "parameter", "scene", "calibrated", "within (95 %)");
   for (const CalibratedParameter& p : c.parameters) {
-    // beyond a half the logarithm is normal, not the value
+    // for factors from 1.5 on the limits are given as a factor, because the logarithm has a normal distribution, not
+    // the value
     const double factor = std::exp(1.96 * p.deviation / p.value);
     const std::string within = p.at_bound                    ? "at its bound"
                                : !std::isfinite(p.deviation) ? "unknown"
@@ -147,7 +148,8 @@ void require_calibration_folder(const Scene& scene, const std::filesystem::path&
 
 namespace {
 
-/// The calibrated scene must say what was found. \throws RunError where its text could not be made to.
+/// Writes the calibrated scene and reads it again. \throws RunError, and removes the file, if it does not give the
+/// calibrated values.
 void write_scene(const Scene& scene, const Calibration& calibration, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "scene.toml";
   write_whole(file, calibrated_scene(scene, calibration, folder));
@@ -164,7 +166,7 @@ void write_scene(const Scene& scene, const Calibration& calibration, const std::
 
 void write_calibration(const std::filesystem::path& out, const Scene& scene, const Calibration& calibration) {
   std::error_code error;
-  std::filesystem::remove(out / "calibration.png", error);  // of an older calibration
+  std::filesystem::remove(out / "calibration.png", error);  // from an older calibration
   write_whole(out / "calibration.json", calibration_json(calibration));
   write_whole(out / "predicted.csv", predicted_csv(calibration));
   write_scene(scene, calibration, out);

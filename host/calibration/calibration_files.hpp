@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file calibration_files.hpp  What `macadam calibrate` writes and says.
+/// \file calibration_files.hpp  The files that `macadam calibrate` writes, and the text that it prints.
 #pragma once
 
 #include <filesystem>
@@ -9,20 +9,23 @@
 
 namespace macadam {
 
-/// Everything about a calibration.
+/// Returns all data of a calibration.
 std::string calibration_json(const Calibration& calibration);
 
-/// A line a measurement: measured, predicted, difference.
+/// Returns one line per measurement: measured, predicted, difference.
 std::string predicted_csv(const Calibration& calibration);
 
-/// Parameters and errors as people read them.
+/// Returns parameters and errors as text for people.
 std::string calibration_text(const Calibration& calibration);
 
-/// \throws InputError for a folder with a scene.toml that would be replaced and that no calibration wrote.
+/// Checks the output folder. \throws InputError if it has a scene.toml that would be overwritten and that was not
+/// written by a calibration.
 void require_calibration_folder(const Scene& scene, const std::filesystem::path& out);
 
-/// calibration.json, predicted.csv and, of a scene that was read from a text, scene.toml with the calibrated values.
-/// \throws RunError, also where the text of the scene could not be made to say what was found.
+/// Writes calibration.json, predicted.csv and scene.toml, the scene's text with the calibrated values. \throws
+/// InputError when the scene was not read from a file.
+/// \throws RunError when a file cannot be written, and when the scene.toml does not give the calibrated values when it
+/// is read.
 void write_calibration(const std::filesystem::path& out, const Scene& scene, const Calibration& calibration);
 
 }  // namespace macadam

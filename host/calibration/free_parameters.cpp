@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// free_parameters.cpp  Which parameters are free, between which bounds, and whether what was asked has sense.
+// free_parameters.cpp  Finds the free parameters and their bounds, and checks what the user asks for.
 #include "host/calibration/free_parameters.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,8 @@
 namespace macadam::calibration {
 namespace {
 
-/// Decades that a parameter without bounds may go from where it starts: beyond them nothing is meant.
+/// Factor by which a parameter without bounds may change in each direction (four decades). A larger change is not
+/// plausible.
 constexpr double unbounded = 1e4;
 [[noreturn]] void refuse(const std::string& what, const std::string& found, const std::string& expected) {
   throw InputError("calibration", 0, what, found, expected);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// minimise.cpp  Ceres Solver with derivatives that are known.
+// minimise.cpp  Uses Ceres Solver with derivatives that the caller computes.
 #include "host/calibration/minimise.hpp"
 
 #include <ceres/cost_function.h>
@@ -14,7 +14,8 @@
 namespace macadam::calibration {
 namespace {
 
-/// Ceres asks for the residuals of a trial and, if it is taken, for derivatives at the same place.
+/// The cost function for Ceres. Ceres asks for the residuals of a trial step and, if it accepts the step, for the
+/// derivatives at the same θ; so the last result is kept.
 class Cost : public ceres::CostFunction {
  public:
   Cost(const Residuals& residuals, std::size_t count, std::size_t unknowns)
@@ -55,7 +56,7 @@ bool minimise(const Residuals& residuals, std::size_t count, const std::vector<B
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = 200;  // along valleys that are narrow and bent; the next round goes on
+  options.max_num_iterations = 200;  // needed in narrow, bent valleys; the next round continues from there
   options.function_tolerance = 1e-9;
   options.gradient_tolerance = 1e-13;
   options.parameter_tolerance = 1e-10;
@@ -68,12 +69,12 @@ bool minimise(const Residuals& residuals, std::size_t count, const std::vector<B
 Directions directions(const std::vector<double>& jacobian, std::size_t columns) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto n = static_cast<Eigen::Index>(columns);
-  // as many rows of zeros make V square: a direction for each unknown
+  // n rows of zeros are appended so that the SVD has a direction for each unknown
   RowMajor full = RowMajor::Zero(static_cast<Eigen::Index>(jacobian.size()) / n + n, n);
   full.topRows(full.rows() - n) = Eigen::Map<const RowMajor>(jacobian.data(), full.rows() - n, n);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(full, Eigen::ComputeThinV);
   const Eigen::VectorXd& s = svd.singularValues();
-  const double least = 1e-10 * s[0];  // below it is what the tolerance of the solutions leaves of nothing
+  const double least = 1e-10 * s[0];  // smaller singular values are errors of the solutions, which have a tolerance
   Directions out;
   for (Eigen::Index i = 0; i < n; ++i) {
     out.deviation.push_back(s[i] > least ? 1 / s[i] : std::numeric_limits<double>::infinity());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file minimise.hpp  Least squares of a function that gives its derivatives (Ceres Solver), and their statistics.
+/// \file minimise.hpp  Least squares of a function with known derivatives (Ceres Solver), and the statistics of the
+/// result.
 #pragma once
 
 #include <functional>
@@ -8,19 +9,23 @@
 
 namespace macadam::calibration {
 
-/// Residuals and, row by row, their derivatives by θ. Whether θ has any.
+/// Computes residuals and, row by row, their derivatives by θ. Returns false if θ has none.
 using Residuals = std::function<bool(const std::vector<double>& theta, std::vector<double>& residuals,
                                      std::vector<double>& jacobian)>;
 
+/// Bounds of an unknown.
 struct Bounds {
   double low, high;
 };
 
-/// Levenberg-Marquardt within bounds from θ, which lies between them. Whether it came to an end with finite residuals.
+/// Minimises the sum of the squared residuals by Levenberg–Marquardt within bounds. It starts from θ, which must lie
+/// within the bounds, and returns the result in θ. `count`: number of residuals. Returns whether it ended with finite
+/// residuals.
 bool minimise(const Residuals& residuals, std::size_t count, const std::vector<Bounds>& bounds,
               std::vector<double>& theta);
 
-/// Principal directions of θ by a Jacobian: unit vectors, the standard deviation of each (∞ where nothing tells).
+/// Principal directions of θ for a Jacobian: unit vectors, and the standard deviation of θ along each (∞ if the
+/// residuals do not depend on it).
 struct Directions {
   std::vector<std::vector<double>> vector;
   std::vector<double> deviation;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// misfit.cpp  Residuals of |E*| and φ, or of E' and E''.
+// misfit.cpp  Residuals of |E*| and φ, or of their real and imaginary parts E' and E''.
 #include "host/calibration/misfit.hpp"
 
 #include <cmath>
@@ -45,7 +45,8 @@ void add_residuals(const ModulusData& data, const CalibrationOptions& options, c
       row((p.modulus - measured).imag() / loss, [&](Complex change) { return change.imag() / loss; });
       continue;
     }
-    const Complex ratio = p.modulus / measured;  // its argument is the difference of phases, far from ±180°
+    // its argument is the difference of the phases, which is far from ±180°
+    const Complex ratio = p.modulus / measured;
     if (options.misfit != Misfit::phase) {
       row(std::log(std::abs(ratio)) / modulus_deviation,
           [&](Complex change) { return (change / p.modulus).real() / modulus_deviation; });

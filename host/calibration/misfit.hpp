@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file misfit.hpp  Measured against predicted, in standard deviations.
+/// \file misfit.hpp  Differences between measured and predicted moduli, in standard deviations.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace macadam::calibration {
 
-/// Adds the residuals of every measurement and, row by row, their derivatives by the logarithms of the parameters.
+/// Appends the residuals of every measurement and, row by row, their derivatives by the logarithms of the parameters.
 void add_residuals(const ModulusData& data, const CalibrationOptions& options, const std::vector<Predicted>& predicted,
                    std::vector<double>& residuals, std::vector<double>& jacobian);
 
-/// How many of them a measurement has.
+/// Returns the number of residuals per measurement.
 int residuals_each(Misfit misfit);
 
 }  // namespace macadam::calibration

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// parameters.cpp  Names, values and changes of the parameters of a scene's laws.
+// parameters.cpp  Lists the parameters of a scene's laws with their values, and changes them.
 #include "host/calibration/parameters.hpp"
 
 #include <cmath>
@@ -21,7 +21,7 @@ std::vector<Parameter> parameters_of(const Scene& scene) {
                        static_cast<PairType>(pair), key, value});
     };
     const double delta = scene.deltas[pair];
-    // the scene's laws are those of its temperature; the file has them at the reference temperature
+    // the scene's laws are at the scene's temperature, but the file gives them at the reference temperature
     const double shift = scene.materials.temperature
                              ? std::pow(10.0, laws::log10_shift(scene.shifts[pair], *scene.materials.temperature))
                              : 1;

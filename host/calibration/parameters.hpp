@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file parameters.hpp  The parameters of a scene's laws by their names.
+/// \file parameters.hpp  The parameters of a scene's laws, by their names.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace macadam::calibration {
 
-/// One of them, "M-A.E_1": its pair and the key in the pair's section.
+/// One parameter, for example "M-A.E_1": its pair, and its key in the `[[contacts]]` section of the pair.
 struct Parameter {
   std::string name, unit;
   PairType pair{};
   std::string key;
-  double value = 0;  ///< in the scene's file
+  double value = 0;  ///< as in the scene's file
 };
 
-/// All parameters that the scene's laws have; no α of 0, no C_m of infinity.
+/// Returns all parameters that the scene's laws have, except an α of 0 and an infinite C_m.
 std::vector<Parameter> parameters_of(const Scene& scene);
 
-/// Laws whose parameter is multiplied by a factor.
+/// Multiplies a parameter of the laws by a factor.
 void multiply(LawTable& laws, const Parameter& parameter, double factor);
 
 }  // namespace macadam::calibration

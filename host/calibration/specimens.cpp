@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// specimens.cpp  Solutions of the frequency domain for other laws, each begun at its estimate, and these estimates.
+// specimens.cpp  Solves the specimens for given laws, each solution starting from its estimate, and computes these
+// estimates.
 #include "host/calibration/specimens.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ using Complex = std::complex<double>;
 
 bool shifts(const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); }
 
-/// Standard deviation of a sample.
+/// Returns the standard deviation of a sample; 0 for a single value.
 double scatter(const std::vector<double>& values) {
   double mean = 0, sum = 0;
   for (const double v : values) mean += v / static_cast<double>(values.size());
@@ -28,12 +29,13 @@ double scatter(const std::vector<double>& values) {
   return values.size() > 1 ? std::sqrt(sum / static_cast<double>(values.size() - 1)) : 0;
 }
 
-/// E* has nine digits by it (harmonic.cpp), and its derivatives, which are first order in the motion, seven.
+/// Residual tolerance of the solutions. It gives E* nine digits (harmonic.cpp). The derivatives of E*, whose error is
+/// of first order in that of the motion, get seven.
 constexpr double residual = 1e-8;
 
 double degrees(Complex modulus) { return std::arg(modulus) * 180 / std::numbers::pi; }
 
-/// Frequencies [Hz] and temperatures [°C] that the scene's test has; a test over time has none.
+/// Frequencies [Hz] and temperatures [°C] of the scene's experiment; empty for experiments in time.
 struct Loading {
   std::vector<double> frequencies, temperatures;
 };
@@ -107,7 +109,7 @@ double Specimens::density_scaling_at(double frequency) const {
 Specimens::Specimens(const Scene& scene, const ModulusData& data, int seeds, const Watcher& watcher)
     : scene_(scene), data_(data), watcher_(watcher) {
   const SolverSpec& solver = scene.solver;
-  inertia_ = solver.inertia || solver.method == SolverMethod::explicit_;  // a stepped run has it always
+  inertia_ = solver.inertia || solver.method == SolverMethod::explicit_;  // a stepped run always has inertia
   viscous_ = inertia_ && solver.damping_kind == Damping::viscous ? solver.damping : 0;
   backend_ = select_backend(solver.backend, nullptr, solver.devices);
   if (backend_ == Backend::reference || solver.linear == LinearMethod::direct) backend_ = Backend::cpu;
@@ -173,7 +175,7 @@ Specimens::Answers Specimens::solve(Body& body, const LawTable& laws, const std:
     for (const std::size_t p : places) frequencies.push_back(places_[p].frequency);
     Harmonic harmonic(body.specimen, body.network, at, body.inertia,
                       harmonic_options(scene_, backend_, watcher_.stop, residual), geometric_mean(frequencies));
-    constexpr std::size_t block = 4;  // solved side by side
+    constexpr std::size_t block = 4;  // places solved side by side
     for (std::size_t begin = 0; begin < places.size(); begin += block) {
       if (watcher_.stop && watcher_.stop()) throw InterruptedError("");
       const std::size_t count = std::min(block, places.size() - begin);

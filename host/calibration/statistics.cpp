@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// statistics.cpp  Covariance and poorly determined combinations by the principal directions of the derivatives.
+// statistics.cpp  Computes the covariance and the undetermined combinations from the principal directions of the
+// derivatives.
 #include "host/calibration/statistics.hpp"
 
 #include <fmt/format.h>
@@ -12,12 +13,14 @@ namespace macadam::calibration {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Of a combination's logarithm, beyond which the measurements are said not to tell: half as much or twice as much.
+/// A combination of parameters counts as undetermined when the standard deviation of its logarithm exceeds this (a
+/// factor of 2).
 constexpr double untold = 0.7;
-/// Exponents of a combination below this share of the largest are not worth naming, parts in it none at all.
+/// `named`: exponents below this fraction of the largest are left out of a combination's name. `no_part`: a parameter
+/// belongs to an undetermined direction only if its component of the unit vector exceeds this.
 constexpr double named = 0.02, no_part = 1e-3;
 
-/// Rows without the columns that are not in `kept`.
+/// Returns the rows with only the columns in `kept`. `all`: number of columns.
 std::vector<double> columns_of(const std::vector<double>& rows, std::size_t all, const std::vector<std::size_t>& kept) {
   std::vector<double> out;
   for (std::size_t row = 0; row < rows.size(); row += all)
@@ -25,7 +28,8 @@ std::vector<double> columns_of(const std::vector<double>& rows, std::size_t all,
   return out;
 }
 
-/// In terms of all `count` parameters.
+/// Returns a direction of the kept parameters as a combination of all `count` parameters, scaled so that its largest
+/// exponent is 1.
 Combination combination(const std::vector<double>& vector, const std::vector<std::size_t>& kept, std::size_t count,
                         double deviation) {
   const double largest =
@@ -39,7 +43,7 @@ Combination combination(const std::vector<double>& vector, const std::vector<std
 
 void add_statistics(Calibration& out, std::vector<double> data, std::vector<double> priors) {
   const std::size_t all = out.parameters.size();
-  std::vector<std::size_t> kept;  // a parameter at its bound is as if it were given
+  std::vector<std::size_t> kept;  // a parameter at its bound counts as fixed
   for (std::size_t i = 0; i < all; ++i)
     if (!out.parameters[i].at_bound) kept.push_back(i);
   const std::size_t n = kept.size();
@@ -52,7 +56,7 @@ void add_statistics(Calibration& out, std::vector<double> data, std::vector<doub
   if (n == 0) return;
   const std::size_t measurements = data.size() / n;
   out.degrees_of_freedom = static_cast<double>(measurements) - static_cast<double>(n);
-  // Deviations that nobody stated are those assumed, or what the misfit shows where that is more.
+  // Assumed standard deviations are enlarged if the misfit shows larger ones.
   const double scale =
       !out.deviations && out.degrees_of_freedom > 0 ? std::max(1.0, std::sqrt(out.misfit / out.degrees_of_freedom)) : 1;
   for (double& v : data) v /= scale;

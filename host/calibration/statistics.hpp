@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file statistics.hpp  What the measurements say of the parameters, and what they do not.
+/// \file statistics.hpp  How well the measurements determine the parameters.
 #pragma once
 
 #include "host/calibration/minimise.hpp"
@@ -7,12 +7,12 @@
 
 namespace macadam::calibration {
 
-/// Fills in degrees of freedom, deviations, covariance, correlation and combinations. `data`: derivatives of the
-/// measurements' residuals, row by row; `priors`: those of the priors; both by the logarithms of the parameters, in
-/// standard deviations. What a parameter at its bound would change is left out.
+/// Fills in degrees of freedom, standard deviations, covariance, correlation and combinations. `data`: derivatives of
+/// the measurements' residuals, row by row; `priors`: those of the priors' residuals. Both are by the logarithms of the
+/// parameters, and residuals are in standard deviations. A parameter at its bound counts as fixed.
 void add_statistics(Calibration& out, std::vector<double> data, std::vector<double> priors);
 
-/// "M-A.delta * M-A.E_m^-0.98": a combination in words.
+/// Returns the name of a combination, for example "M-A.delta * M-A.E_m^-0.98".
 std::string words(const Calibration& calibration, const Combination& combination);
 
 }  // namespace macadam::calibration

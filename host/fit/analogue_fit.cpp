@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// analogue_fit.cpp  2S2P1D and Huet-Sayegh: starts on a grid of usual values, the best of which are refined.
+// analogue_fit.cpp  Fits 2S2P1D and Huet–Sayegh: computes the misfit of a grid of usual values and refines the best
+// ones.
 #include "host/fit/analogue_fit.hpp"
 
 #include <algorithm>
@@ -13,8 +14,10 @@
 namespace macadam::fitting {
 namespace {
 
+/// Range of the targets, as logarithms.
 struct Extent {
-  double soft = std::numeric_limits<double>::infinity(), stiff = -soft, slow = soft, fast = -soft;  // logarithms
+  /// Softest and stiffest modulus, lowest and highest frequency.
+  double soft = std::numeric_limits<double>::infinity(), stiff = -soft, slow = soft, fast = -soft;
 };
 
 Extent extent_of(const std::vector<Target>& targets) {
@@ -28,7 +31,8 @@ Extent extent_of(const std::vector<Target>& targets) {
   return e;
 }
 
-/// The same curve with k < h: 1 + δ·(sτ)^(−k) + (sτ)^(−h) with the two elements' names exchanged.
+/// Exchanges k and h if k > h. The curve stays the same: in 1 + δ·(sτ)^(−k) + (sτ)^(−h) the two elements exchange their
+/// names.
 void order(const Unknowns& u, std::vector<double>& theta) {
   double &k = theta[2], &h = theta[3], &log_delta = theta[4], &log_tau = theta[5];
   if (k <= h) return;
@@ -43,7 +47,7 @@ void order(const Unknowns& u, std::vector<double>& theta) {
 
 std::vector<Limits> analogue_limits(const Unknowns& u, const std::vector<Target>& targets) {
   const Extent e = extent_of(targets);
-  const double shifts = u.shift == ShiftKind::none ? 0 : 25;  // eleven decades for what temperature adds
+  const double shifts = u.shift == ShiftKind::none ? 0 : 25;  // eleven decades for the effect of temperature
   std::vector<Limits> out{{e.stiff - 0.5, e.stiff + 7},
                           {e.soft - 14, e.soft + 0.5},
                           {0.01, 1},
@@ -56,9 +60,9 @@ std::vector<Limits> analogue_limits(const Unknowns& u, const std::vector<Target>
 
 namespace {
 
-constexpr std::size_t refined = 6;  ///< starts of least misfit that are refined
+constexpr std::size_t refined = 6;  ///< number of best starts that are refined
 
-/// θ of usual values over a grid of τ, E_00 and δ, those of least misfit first.
+/// Returns θ of usual values over a grid of τ, E_00 and δ: the few with the smallest misfit, best first.
 std::vector<std::vector<double>> usual_starts(const Unknowns& u, const std::vector<Target>& targets,
                                               const std::vector<double>& shift) {
   const Extent e = extent_of(targets);
@@ -94,7 +98,7 @@ Minimum fit_analogue(const Unknowns& u, const std::vector<Target>& targets, cons
     fewer.erase(fewer.begin() + beta);
     std::vector<double> theta = fit_analogue(without, targets, fewer, shift).theta;
     theta.insert(theta.begin() + beta, 0);
-    for (const double log_beta : {5.0, 12.0, limits[beta].high}) {  // at its limit the dashpot has no effect
+    for (const double log_beta : {5.0, 12.0, limits[beta].high}) {  // at its upper limit the dashpot has no effect
       theta[beta] = log_beta;
       starts.push_back(theta);
     }

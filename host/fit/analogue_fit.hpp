@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file analogue_fit.hpp  2S2P1D or Huet–Sayegh through given moduli.
+/// \file analogue_fit.hpp  Fits 2S2P1D or Huet–Sayegh to moduli.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace macadam::fitting {
 
-/// Limits of sense for the model's unknowns.
+/// Returns bounds for the unknowns of the model.
 std::vector<Limits> analogue_limits(const Unknowns& unknowns, const std::vector<Target>& targets);
 
-/// The model with the least misfit that the best of many starts reach, k < h. `shift` and `limits` as fit_chain() has
-/// them. 2S2P1D starts from the Huet–Sayegh model too, which it contains, and a free shift from `contained`: θ of shift
-/// laws, in terms of these unknowns. The misfit is at most theirs.
+/// Returns the model with the smallest misfit that the best of many starts reach, with k < h. `shift` and `limits` are
+/// as for fit_chain(). 2S2P1D also starts from the Huet–Sayegh model, which it contains; a free shift also starts from
+/// `contained`, fits with shift laws that are converted to these unknowns. The misfit is not above theirs.
 Minimum fit_analogue(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,
                      const std::vector<double>& shift, const std::vector<std::vector<double>>& contained = {});
 
-/// The model that θ stands for.
+/// Returns the model with the constants θ.
 AnalogueModel analogue_of(const Unknowns& unknowns, const std::vector<double>& theta);
 
 }  // namespace macadam::fitting

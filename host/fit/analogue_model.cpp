@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// analogue_model.cpp  2S2P1D and Huet-Sayegh: their modulus, and the Kelvin chain that stands for them.
+// analogue_model.cpp  2S2P1D and Huet–Sayegh: their modulus, and the Kelvin chain that replaces them in a contact law.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-/// Frequencies with so many a decade, both ends among them.
+/// Returns frequencies from low to high, both included, with at least `a_decade` per decade.
 std::vector<double> between(double low, double high, double a_decade) {
   const auto steps = static_cast<int>(std::ceil(std::max(a_decade * std::log10(high / low), 1.0)));
   std::vector<double> out;
@@ -41,8 +41,8 @@ KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double 
   if (!(largest_error >= 1e-6 && largest_error <= 0.5)) {
     refuse("largest error", fmt::format("{}", largest_error), "a number from 1e-6 to 0.5");
   }
-  // In units of the middle of the range, rounded to 10 digits of the logarithm: the same curve at another reference
-  // temperature then gives the same chain, though a_T has rounded its numbers differently.
+  // Times are in units of the middle of the range, rounded to 10 digits of their logarithm. So the same curve at
+  // another reference temperature gives the same chain, although a_T has rounded its constants differently.
   const double middle = std::sqrt(lowest_hz) * std::sqrt(highest_hz);
   const auto rounded = [](double value) { return std::exp(std::round(std::log(value) * 1e10) / 1e10); };
   AnalogueModel scaled = model;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bands.cpp  What a fit says away from the measurements: curves with confidence limits, and names.
+// bands.cpp  Predictions of a fit between and beyond the measurements: curves with confidence limits. Also the names of
+// the options.
 #include <fmt/format.h>
 
 #include <boost/math/distributions/normal.hpp>
@@ -49,7 +50,7 @@ std::vector<BandPoint> confidence_bands(const Fit& fit, const std::vector<double
   if (!(level > 0 && level < 1)) {
     throw InputError("confidence bands", 0, "level", fmt::format("{}", level), "a number between 0 and 1");
   }
-  Unknowns u;  // at the reference temperature, where the shift is 1 and its parameters have no effect
+  Unknowns u;  // at the reference temperature the shift factor is 1 and its parameters have no effect
   u.model = fit.options.model;
   if (const auto* chain = std::get_if<laws::GeneralisedKelvin>(&fit.model)) {
     u.units = chain->units();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// chain_fit.cpp  A Kelvin chain refined from several starts.
+// chain_fit.cpp  Refines a Kelvin chain from several starts.
 #include "host/fit/chain_fit.hpp"
 
 #include <algorithm>
@@ -41,8 +41,8 @@ std::vector<Limits> chain_limits(const Unknowns& unknowns, const std::vector<Tar
     slow = std::min(slow, std::log(t.place.omega));
     fast = std::max(fast, std::log(t.place.omega));
   }
-  constexpr double wide = 12;  // e^12: 1.6e5, which leaves nothing of a unit that noise could show
-  // Temperature adds the shift at the start and eleven decades more; beyond 200 (87 decades) a start makes no sense.
+  constexpr double wide = 12;  // a factor of e^12 = 1.6e5; the effect of a unit beyond it is far below the noise
+  // Temperature adds the shift of the start and eleven decades more. Shifts beyond 200 (87 decades) are not plausible.
   double shifts = 0;
   std::vector<double> theta(unknowns.of_model(), 0.0);
   theta.insert(theta.end(), shift.begin(), shift.end());
@@ -71,7 +71,7 @@ Minimum fit_chain(const Unknowns& unknowns, const std::vector<Target>& targets, 
     minima.push_back(refine(unknowns, targets, limits, theta, near_enough));
   const auto lower = [](const Minimum& a, const Minimum& b) { return a.misfit < b.misfit; };
   std::sort(minima.begin(), minima.end(), lower);
-  // The lowest three are refined to the end: a start that came down slowly may pass one that is lower now.
+  // The lowest three are refined to the end, because a start that converges slowly may still become the lowest.
   constexpr std::size_t most_refined = 3;
   Minimum best = minima.front();
   for (std::size_t i = 0; i < std::min(minima.size(), most_refined); ++i) {

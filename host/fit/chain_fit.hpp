@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file chain_fit.hpp  A generalised Kelvin chain of so many units through given moduli.
+/// \file chain_fit.hpp  Fits a generalised Kelvin chain with a given number of units to moduli.
 #pragma once
 
 #include <vector>
@@ -8,30 +8,30 @@
 
 namespace macadam::fitting {
 
-/// Limits of sense for the unknowns of a chain: springs and times by several decades around those of the targets.
-/// `shift`: unknowns of the shift to begin with.
+/// Returns bounds for the unknowns of a chain: moduli and times several decades beyond those of the targets.
+/// `shift`: first values of the unknowns of the shift.
 std::vector<Limits> chain_limits(const Unknowns& unknowns, const std::vector<Target>& targets,
                                  const std::vector<double>& shift);
 
-/// A chain that was found, and what its unknowns are.
+/// A fitted chain (or other model), with the meaning of its unknowns.
 struct Chain {
   Unknowns unknowns;
   Minimum minimum;
 };
 
-/// Whether every curve of the smaller chain is one of the larger chain too.
+/// Returns whether every curve of the smaller chain is also a curve of the larger chain.
 bool contains(const Unknowns& larger, const Unknowns& smaller);
 
-/// The chain of `unknowns.units` units with the least misfit that chain_starts() lead to. The misfit is at most that of
-/// each chain in `known` that this one contains. An element without effect then lies at its limit, where a spring still
-/// changes |E*| by at most e^-12 of it.
-/// `limits`: of all unknowns, shift included. `shift`: unknowns of the shift to begin with. `tolerance`: relative
-/// change of the misfit in a step at which the refinement ends. \throws RunError if no start has a finite misfit.
+/// Returns the chain of `unknowns.units` units with the smallest misfit that is reached from chain_starts(). Its misfit
+/// is at most that of each chain in `known` that it contains. An element that has no effect then lies at its limit. A
+/// spring at its limit still changes |E*| by at most a fraction of e^-12. `limits`: of all unknowns, shift included.
+/// `shift`: first values of the unknowns of the shift. `tolerance`: relative change of the misfit per step at which the
+/// refinement ends. \throws RunError if no start has a finite misfit.
 Minimum fit_chain(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,
                   const std::vector<double>& shift, const std::vector<const Chain*>& known,
                   double tolerance = to_rounding);
 
-/// The law that θ stands for, α = 0.
+/// Returns the law with the constants θ, with α = 0.
 laws::GeneralisedKelvin chain_of(const Unknowns& unknowns, const std::vector<double>& theta);
 
 }  // namespace macadam::fitting

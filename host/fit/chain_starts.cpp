@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// chain_starts.cpp  Starts of a Kelvin chain by linear least squares in the compliances.
+// chain_starts.cpp  Starting values of a Kelvin chain by linear least squares in the compliances.
 #include "host/fit/chain_starts.hpp"
 
 #include <Eigen/Dense>
@@ -15,12 +15,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// The targets at the reference temperature: ω·a_T.
+/// Frequencies of the targets at the reference temperature, ω·a_T, and their range.
 struct Reduced {
   std::vector<double> omega;
   double lowest = std::numeric_limits<double>::infinity(), highest = 0;
 };
 
+/// Returns the reduced frequencies of the targets for given unknowns of the shift.
 Reduced reduced(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<double>& shift) {
   std::vector<double> theta(unknowns.of_model(), 0.0);
   theta.insert(theta.end(), shift.begin(), shift.end());
@@ -33,16 +34,17 @@ Reduced reduced(const Unknowns& unknowns, const std::vector<Target>& targets, co
   return out;
 }
 
-/// Compliances of spring, dashpot and units, and what the misfit is to first order.
+/// Compliances of spring, dashpot and units at given retardation times, and the misfit to first order.
 struct Linear {
   double spring = 0, dashpot = 0;
   std::vector<double> tau, unit;
   double misfit = 0;
 };
 
+/// Finds the compliances for given retardation times.
 Linear solve_linear(const Unknowns& unknowns, const std::vector<Target>& targets, const Reduced& at,
                     const std::vector<double>& tau) {
-  // δ(J*·E*) = δ ln|J*| + i·δ arg J* about J*·E* = 1
+  // residuals are linear in J*: near J*·E* = 1, δ(J*·E*) = δ ln|J*| + i·δ arg J*
   const Eigen::Index fixed = unknowns.flow ? 2 : 1, columns = fixed + std::ssize(tau);
   Eigen::MatrixXd A(2 * std::ssize(targets), columns);
   Eigen::VectorXd b(2 * std::ssize(targets));
@@ -71,6 +73,7 @@ Linear solve_linear(const Unknowns& unknowns, const std::vector<Target>& targets
   return out;
 }
 
+/// Returns `count` values between low and high, equally spaced in the logarithm.
 std::vector<double> spaced(double low, double high, std::size_t count) {
   std::vector<double> out;
   for (std::size_t i = 0; i < count; ++i)
@@ -78,7 +81,8 @@ std::vector<double> spaced(double low, double high, std::size_t count) {
   return out;
 }
 
-/// Retardation times of a fine grid that carry anything, merged where they are nearest until `count` are left.
+/// Returns the retardation times of a fine grid that carry a compliance. The nearest two are merged until `count` are
+/// left.
 std::vector<double> merged(Linear grid, std::size_t count) {
   std::vector<std::pair<double, double>> peaks;  // ln τ, compliance
   const double most = *std::max_element(grid.unit.begin(), grid.unit.end());
@@ -99,7 +103,8 @@ std::vector<double> merged(Linear grid, std::size_t count) {
   return out;
 }
 
-/// Unknowns from compliances; what is zero becomes a spring too stiff to matter, from where refining can come back.
+/// Returns θ for given compliances. A compliance of zero becomes a very stiff spring that hardly matters, from which
+/// the refinement can still move away.
 std::vector<double> theta_of(const Unknowns& unknowns, const Linear& linear, const std::vector<double>& shift,
                              const Reduced& at) {
   double sum = linear.spring;
@@ -115,7 +120,7 @@ std::vector<double> theta_of(const Unknowns& unknowns, const Linear& linear, con
   return theta;
 }
 
-/// Starts of one chain, collected from linear solutions and from the chains that it contains.
+/// Collects starts of one chain, from linear solutions and from smaller chains.
 class Starts {
  public:
   Starts(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<double>& shift)
@@ -127,7 +132,7 @@ class Starts {
       return;
     }
     const double low = 1 / at.highest, high = 1 / at.lowest;
-    // grids of several densities merge into different times; which of them ends lowest depends on the data
+    // Grids of different density merge into different times; which start reaches the lowest misfit depends on the data.
     for (const double per_decade : {2.0, 4.0, 8.0}) {
       const std::vector<double> grid = spaced(0.1 * low, 10 * high, grid_points(at, per_decade));
       const std::vector<double> times = merged(solve_linear(unknowns, targets, at, grid), units);
@@ -136,15 +141,16 @@ class Starts {
     for (const double beyond : {1.0, 10.0}) add(spaced(low / beyond, high * beyond, units), shift, at);
   }
 
-  /// Starts from another chain with at most the same number of units. A missing retardation time is added at each of
-  /// the three places where it lowers the linear misfit most.
+  /// Adds starts from another chain that is not longer. If it has fewer units, a retardation time is added at each of
+  /// the three places where it lowers the linear misfit most, one start per place.
   void add_from(const Chain& other) {
     const auto units = static_cast<std::size_t>(unknowns_.units);
     if (other.unknowns.units == unknowns_.units && other.unknowns.flow == unknowns_.flow)
       thetas_.push_back(other.minimum.theta);
     std::vector<double> shift = shift_of(other);
     Reduced at = reduced(unknowns_, targets_, shift);
-    if (!is_sensible(at)) shift = shift_, at = reduced(unknowns_, targets_, shift);  // that of far too few units
+    // the shift of a chain with far too few units may be useless
+    if (!is_sensible(at)) shift = shift_, at = reduced(unknowns_, targets_, shift);
     const std::vector<double> tau = times_of(other);
     if (tau.size() >= units) return add(tau, shift, at);
     constexpr std::size_t most_added = 3;
@@ -159,6 +165,7 @@ class Starts {
 
   const std::vector<std::vector<double>>& thetas() const { return thetas_; }
 
+  /// Returns the retardation times of a chain.
   static std::vector<double> times_of(const Chain& chain) {
     std::vector<double> out;
     const std::vector<double>& theta = chain.minimum.theta;
@@ -166,17 +173,18 @@ class Starts {
       out.push_back(std::exp(theta[i + 1] - theta[i]));
     return out;
   }
+  /// Returns the unknowns of the shift of a chain.
   static std::vector<double> shift_of(const Chain& chain) {
     const std::vector<double>& theta = chain.minimum.theta;
     return {theta.begin() + static_cast<std::ptrdiff_t>(chain.unknowns.of_model()), theta.end()};
   }
 
  private:
-  /// Whether frequencies times a_T can be meant: within 60 decades.
+  /// Returns whether the reduced frequencies are plausible: within 60 decades.
   static bool is_sensible(const Reduced& at) { return at.lowest > 0 && at.highest / at.lowest < 1e60; }
 
-  /// Retardation times whose addition lowers the linear misfit more than those beside them on a grid, the best one
-  /// first.
+  /// Returns retardation times whose addition lowers the linear misfit more than the neighbouring times of a grid, the
+  /// best one first.
   std::vector<double> places_for_one(std::vector<double> tau, const Reduced& at) const {
     const std::vector<double> grid = spaced(0.1 / at.highest, 10 / at.lowest, grid_points(at, 2));
     std::vector<double> misfit;
@@ -198,9 +206,11 @@ class Starts {
     return out;
   }
 
+  /// Returns the number of points of a grid that extends one decade beyond the frequencies at both ends.
   static std::size_t grid_points(const Reduced& at, double per_decade) {
     return static_cast<std::size_t>(std::ceil(per_decade * (2 + std::log10(at.highest / at.lowest))));
   }
+  /// Adds the start with given retardation times.
   void add(const std::vector<double>& tau, const std::vector<double>& shift, const Reduced& at) {
     thetas_.push_back(theta_of(unknowns_, solve_linear(unknowns_, targets_, at, tau), shift, at));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// choose_chain.cpp  Chains of every length, each from those that it contains.
+// choose_chain.cpp  Fits chains of every length, each starting also from the shorter ones.
 #include "host/fit/choose_chain.hpp"
 
 #include <fmt/format.h>
@@ -15,10 +15,10 @@
 namespace macadam::fitting {
 namespace {
 
-/// Chains by units and dashpot.
+/// Chains by (number of units, whether there is a dashpot).
 using Chains = std::map<std::pair<int, bool>, Chain>;
 
-/// Fits chains of rising length, with and without a dashpot.
+/// Fits chains of increasing length, with and without a dashpot.
 class ChainSeries {
  public:
   ChainSeries(const Problem& problem, const FitOptions& options, bool deviations)
@@ -27,8 +27,8 @@ class ChainSeries {
         deviations_(deviations),
         shift_(start_shift(problem.unknowns, problem.targets, problem.temperatures)) {}
 
-  /// All chains up to the length at which the criterion has risen twice in a row. `known` holds chains of another shift
-  /// law in terms of these unknowns, from which those of the same length start too.
+  /// Fits all chains up to the length at which the criterion has risen twice in a row. `known` has chains of other
+  /// shift laws, converted to these unknowns; a chain also starts from the known chains of the same length.
   Chains fit(const std::vector<Chains>& known) {
     const int most = options_.units.value_or(options_.most_units);
     for (int units = 0; units <= most; ++units)
@@ -36,20 +36,23 @@ class ChainSeries {
     return std::move(chains_);
   }
 
+  /// Returns the criterion of a fitted chain; less is better.
   double criterion_of(const Chain& chain) const {
     return criterion(options_.criterion, chain.minimum.misfit, 2 * problem_.targets.size(), chain.unknowns.count(),
                      deviations_);
   }
 
-  /// Why a chain could not be fitted; empty where all were.
+  /// Returns why a chain could not be fitted; empty if all could.
   const std::string& failure() const { return failure_; }
 
  private:
+  /// Progress of one series: the smallest criterion so far, and how many chains in a row have not improved it.
   struct Course {
     double best = std::numeric_limits<double>::infinity();
     int worse = 0;
   };
 
+  /// Fits one chain, unless its series has ended or the measurements are too few.
   void fit_one(int units, bool flow, const std::vector<Chains>& known) {
     Course& course = courses_[flow];
     if (!options_.units && course.worse >= 2) return;
@@ -62,13 +65,13 @@ class ChainSeries {
       if (const auto found = chains.find({of_units, of_flow}); found != chains.end()) starts.push_back(&found->second);
     };
     add(chains_, units - 1, flow);
-    add(chains_, flow ? units : units - 1, !flow);  // a dashpot is nearly a unit of a long retardation time
+    add(chains_, flow ? units : units - 1, !flow);  // a dashpot is nearly a unit with a long retardation time
     for (const Chains& chains : known) add(chains, units, flow);
     const auto limits = joined(chain_limits(u, problem_.targets, shift_), shift_limits(u, problem_.temperatures));
     Chain chain{u, {}};
     try {
       chain.minimum = fit_chain(u, problem_.targets, limits, shift_, starts);
-    } catch (const RunError& error) {  // the other chains are fitted all the same
+    } catch (const RunError& error) {  // the other chains are fitted nevertheless
       failure_ = error.what();
       return;
     }
@@ -87,7 +90,7 @@ class ChainSeries {
   Chains chains_;
 };
 
-/// A free shift contains every shift law: the chains of each law, with the law's factors at the temperatures.
+/// Returns the chains of every shift law that a free shift contains, converted to one factor per temperature.
 std::vector<Chains> contained_laws(const Problem& problem, const FitOptions& options, bool deviations) {
   std::vector<Chains> out;
   for (const ShiftKind kind : laws_in(problem)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file choose_chain.hpp  Chains of every length, with and without a dashpot, and the one that the criterion takes.
+/// \file choose_chain.hpp  Fits chains of every length, with and without a dashpot, and chooses one by the criterion.
 #pragma once
 
 #include "host/fit/chain_fit.hpp"
@@ -7,10 +7,11 @@
 
 namespace macadam::fitting {
 
-/// Fits the chains that the options of `fit` ask for and adds them to `fit.candidates`. A chain starts from those that
-/// it contains, so its misfit is not above theirs. Returns the one with the least criterion among those whose
-/// parameters are all determined, or among all where there is none; its number goes into `fit.chosen`. \throws
-/// InputError where the measurements are fewer than the parameters of the smallest chain.
+/// Fits the chains that the options of `fit` ask for and adds them to `fit.candidates`. A chain also starts from the
+/// smaller chains that it contains, so its misfit is not above theirs. Returns the chain with the smallest criterion
+/// among those without a parameter at its limits, or among all chains if each has one; its number is stored in
+/// `fit.chosen`.
+/// \throws InputError when there are fewer measured numbers than the smallest chain needs.
 Chain choose_chain(const Problem& problem, const ModulusData& data, Fit& fit);
 
 }  // namespace macadam::fitting

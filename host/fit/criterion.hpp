@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file criterion.hpp  How many parameters the data carry.
+/// \file criterion.hpp  Information criteria, which decide how many parameters the data determine.
 #pragma once
 
 #include <algorithm>
@@ -10,21 +10,22 @@
 
 namespace macadam::fitting {
 
-/// Parameters that a criterion counts: where the size of the errors comes from the misfit, that is one more.
+/// Returns the number of parameters that a criterion counts: one more if the size of the errors is estimated from the
+/// misfit.
 inline double counted(std::size_t parameters, bool deviations) {
   return static_cast<double>(parameters) + (deviations ? 0 : 1);
 }
 
-/// Whether so many numbers are enough for the parameters: one is left to tell the errors' size, and the correction in
-/// AICc is finite.
+/// Returns whether this many measured numbers are enough for the parameters: at least one is left to estimate the size
+/// of the errors, and the correction in AICc is finite.
 inline bool enough(std::size_t numbers, std::size_t parameters, Criterion criterion) {
   return numbers >= parameters + (criterion == Criterion::aicc ? 3 : 1);
 }
 
-/// −2·ln(likelihood) + penalty, with normal errors of known (`deviations`) or unknown size:
+/// Returns −2·ln(likelihood) + penalty, for normal errors of known (`deviations`) or unknown size:
 /// AICc = … + 2p + 2p(p + 1)/(n − p − 1) (Hurvich and Tsai), BIC = … + p·ln n (Schwarz).
 inline double criterion(Criterion kind, double misfit, std::size_t numbers, std::size_t parameters, bool deviations) {
-  // A misfit of 1e-16 an entry is a relative error of 1e-8 standard deviations: rounding, which tells nothing.
+  // A misfit of 1e-16 per entry is an error of 1e-8 standard deviations: rounding, without any information.
   constexpr double rounding = 1e-16;
   const auto n = static_cast<double>(numbers);
   const double p = counted(parameters, deviations);

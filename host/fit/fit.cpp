@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit.cpp  fit_modulus: the chosen model with its statistics and warnings.
+// fit.cpp  fit_modulus(): fits the model, then adds statistics and warnings.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@ namespace macadam {
 namespace fitting {
 namespace {
 
+/// Fits the model that the options ask for.
 Chain fit_any(const Problem& problem, const ModulusData& data, Fit& fit) {
   if (problem.unknowns.model == FitModel::kelvin) return choose_chain(problem, data, fit);
   const Unknowns& u = problem.unknowns;
@@ -38,6 +39,7 @@ Chain fit_any(const Problem& problem, const ModulusData& data, Fit& fit) {
   return {u, fit_with(u, contained)};
 }
 
+/// Returns the shift law with the constants θ.
 laws::Shift shift_of(const Unknowns& u, const std::vector<double>& theta, const std::vector<double>& temperatures) {
   const double* own = theta.data() + u.of_model();
   switch (u.shift) {
@@ -56,7 +58,7 @@ laws::Shift shift_of(const Unknowns& u, const std::vector<double>& theta, const 
   }
 }
 
-/// Names, units and the logarithmic ones of θ, in its order.
+/// Returns names and units of θ, in its order, and which entries are logarithms.
 std::vector<FitParameter> named(const Unknowns& u, const std::vector<double>& temperatures) {
   std::vector<FitParameter> out;
   const auto add = [&](const std::string& name, const std::string& unit, bool logarithmic = true) {
@@ -90,7 +92,7 @@ std::vector<FitParameter> named(const Unknowns& u, const std::vector<double>& te
   return out;
 }
 
-/// Units of a chain by rising retardation time.
+/// Sorts the units of a chain by ascending retardation time.
 void sort_units(const Unknowns& u, std::vector<double>& theta) {
   if (u.model != FitModel::kelvin) return;
   std::vector<std::pair<double, double>> units;
@@ -104,7 +106,7 @@ void sort_units(const Unknowns& u, std::vector<double>& theta) {
   }
 }
 
-/// Parameters with their standard deviations, and the covariance.
+/// Adds the parameters with their standard deviations, and the covariance.
 void add_statistics(const Problem& problem, const Chain& fitted, Fit& fit) {
   const std::vector<double>& theta = fitted.minimum.theta;
   const Covariance covariance = covariance_at(fitted.unknowns, problem.targets, theta);
@@ -129,6 +131,7 @@ void add_statistics(const Problem& problem, const Chain& fitted, Fit& fit) {
         "a parameter lies at the bounds of sense: fewer units, or another model, would do as well");
 }
 
+/// Adds measured and fitted values of each measurement, and the errors.
 void add_points(const Problem& problem, const ModulusData& data, const Chain& fitted, Fit& fit) {
   double modulus = 0, phase = 0;
   for (std::size_t i = 0; i < problem.targets.size(); ++i) {
@@ -151,7 +154,8 @@ void add_points(const Problem& problem, const ModulusData& data, const Chain& fi
   fit.errors.phase_rms_deg = std::sqrt(phase / n);
 }
 
-/// Median of absolute values, as the standard deviation of a normal distribution; a few outliers do not change it.
+/// Returns an estimate of the standard deviation of a normal distribution from the median of the absolute values; a few
+/// outliers do not change it.
 double robust_deviation(std::vector<double> values) {
   for (double& v : values) v = std::abs(v);
   const auto middle = values.begin() + std::ssize(values) / 2;
@@ -159,9 +163,9 @@ double robust_deviation(std::vector<double> values) {
   return *middle / 0.6745;
 }
 
-/// Names measurements that lie far off the fit. Of 20,000 normal errors one exceeds five standard deviations in a
-/// hundredth of all files; the deviation is the larger of two: that of the data (or the
-/// assumed one), and that of all differences, which is large if the model misses the whole curve.
+/// Warns of measurements that lie more than five standard deviations off the fit. In a file of 20,000 normal errors one
+/// does so with a probability of 1 %. The standard deviation is the larger of two: that of the data (or the assumed
+/// one), and that of all differences, which is large if the model misses the whole curve.
 void warn_of_outliers(const Problem& problem, Fit& fit) {
   constexpr double far_off = 5;
   constexpr std::size_t most_named = 3;
@@ -193,7 +197,7 @@ void warn_of_outliers(const Problem& problem, Fit& fit) {
                                      named.size() > shown ? "; ..." : ""));
 }
 
-/// Warm materials flow faster: log10 a_T falls. Temperatures, each once, rising.
+/// Warns if log10 a_T rises with temperature, since warm materials flow faster. `temperatures`: each once, ascending.
 void warn_of_shift(Fit& fit, const std::vector<double>& temperatures) {
   for (std::size_t i = 1; i < temperatures.size(); ++i) {
     if (laws::log10_shift(fit.shift, temperatures[i]) <= laws::log10_shift(fit.shift, temperatures[i - 1])) continue;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit_files.cpp  A fit as TOML, JSON, CSV and text.
+// fit_files.cpp  Writes a fit as TOML, JSON, CSV and text.
 #include "host/fit/fit_files.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no infinity: null.
+/// Returns a JSON number; null for infinity, which JSON does not have.
 Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json shift_json(const laws::Shift& shift) {
@@ -48,12 +48,13 @@ Json analogue_json(const AnalogueModel& m) {
 
 std::string list_of(const std::vector<double>& values) { return fmt::format("[{}]", fmt::join(values, ", ")); }
 
-/// A TOML number: a double with a point or an exponent.
+/// Returns a number as a TOML float, which needs a point or an exponent.
 std::string real(double v) {
   const std::string text = fmt::format("{}", v);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
+/// Returns the frequencies of curve.csv, to half a decade beyond the data on both sides.
 std::vector<double> curve_frequencies(const Fit& fit) {
   const auto [low, high] = fit.reduced_range();
   const double from = low / std::sqrt(10.0), to = high * std::sqrt(10.0);

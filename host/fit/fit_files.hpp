@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fit_files.hpp  What `macadam fit` writes.
+/// \file fit_files.hpp  The files that `macadam fit` writes.
 #pragma once
 
 #include <filesystem>
@@ -12,54 +12,57 @@
 
 namespace macadam {
 
-/// A `[[contacts]]` section of a scene with the chain and its shift law; `origin` is a comment of one line.
+/// Returns a `[[contacts]]` section of a scene with the chain and its shift law; `origin` becomes a comment of one
+/// line.
 std::string law_toml(const laws::GeneralisedKelvin& law, const laws::Shift& shift, const std::string& origin);
 
-/// Everything about a fit, and the chain that stands for its model where that is none.
+/// Returns all data of a fit. `conversion`: the chain that replaces a model that is not a chain, or nullptr.
 std::string fit_json(const Fit& fit, const KelvinConversion* conversion);
 
-/// A line a measurement: measured, fitted, difference.
+/// Returns one line per measurement: measured, fitted, difference.
 std::string fit_csv(const Fit& fit);
 
-/// The fitted curve at the reference temperature with its 95 % limits, half a decade beyond the data on either side.
+/// Returns the fitted curve at the reference temperature with its 95 % limits, to half a decade beyond the data on both
+/// sides.
 std::string curve_csv(const Fit& fit);
 
-/// Names the columns of the data that were passed over, in a line; empty if all are used.
+/// Returns a line that names the columns of the data that were not used; empty if all are used.
 std::string unused_columns_text(const ModulusData& data);
 
-/// Parameters as people read them, and the errors.
+/// Returns candidates, parameters and errors as text for people.
 std::string fit_text(const Fit& fit);
 
-/// The chain that stands for a fitted model, in words.
+/// Returns a sentence about the chain that replaces a fitted model.
 std::string conversion_text(const KelvinConversion& conversion, std::pair<double, double> range_hz);
 
-/// The range of that chain [Hz]: as given, or that of the data. \throws InputError where there is neither.
+/// Returns the frequency range of that chain [Hz]: as given, or the range of the data. \throws InputError when there is
+/// neither.
 std::pair<double, double> chain_range(std::optional<double> from, std::optional<double> to,
                                       std::optional<std::pair<double, double>> data);
 
-/// What `macadam fit` leaves in its folder: names of files and their texts.
+/// The files of `macadam fit`: names and contents.
 using FitFiles = std::map<std::string, std::string>;
 
-/// What `macadam fit` writes and prints.
+/// The files of `macadam fit` and the text that it prints.
 struct FitReport {
   FitFiles files;    ///< fit.json, fit.csv, curve.csv; and law.toml if there is a chain
   std::string text;  ///< for people to read
-  /// Why no chain stands for the fitted 2S2P1D or Huet–Sayegh model; empty where one does. The other files are
-  /// complete.
+  /// Why no chain replaces the fitted 2S2P1D or Huet–Sayegh model; empty if one does. The other files are complete.
   std::string refusal;
 };
 
-/// Makes the files. A model that is no chain is converted to one from `from` to `to` [Hz] (empty: the range of the
-/// data) with at most `error`, relative. \throws InputError for a range that makes no sense.
+/// Returns the files and the text. A model that is not a chain is converted to one that has a relative error of at most
+/// `error` between `from` and `to` [Hz] (empty: the range of the data). \throws InputError when the range is invalid.
 FitReport report_of(const Fit& fit, std::optional<double> from, std::optional<double> to, double error);
 
-/// Writes the files; an older law.toml goes where these files have none. \throws RunError
+/// Writes the files, and removes an older law.toml if the report has none. \throws RunError when a file cannot be
+/// written.
 void write_report(const std::filesystem::path& folder, const FitReport& report);
 
-/// law.toml of a model that somebody else has fitted.
+/// Returns the law.toml of a model that was fitted elsewhere.
 FitFiles conversion_files(const ShiftedAnalogue& model, const KelvinConversion& conversion,
                           std::pair<double, double> range_hz);
-/// \throws RunError
+/// Writes files into a folder. \throws RunError when one cannot be written.
 void write_files(const std::filesystem::path& folder, const FitFiles& files);
 
 }  // namespace macadam

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fit_model.hpp  ln |E*| and φ as functions of the unknowns of a fit, written once for numbers and derivatives.
+/// \file fit_model.hpp  ln |E*| and φ as functions of the unknowns of a fit. They are templates, used with plain
+/// numbers and with Ceres' derivative type.
 #pragma once
 
 #include <cmath>
@@ -11,16 +12,16 @@
 
 namespace macadam::fitting {
 
-/// Where the modulus is wanted.
+/// Frequency and temperature at which a modulus is computed.
 struct Place {
   double omega = 0;          ///< [1/s]
   double temperature = 0;    ///< [°C]
-  std::size_t isotherm = 0;  ///< number of the temperature, for a free shift
+  std::size_t isotherm = 0;  ///< number of the isotherm, for a free shift
 };
 
-/// What the unknowns θ are, in this order: of a chain ln E_m, ln C_m (if it flows), ln E_1, ln C_1, …; of 2S2P1D
-/// ln E_0, ln E_00, k, h, ln δ, ln τ and (not Huet–Sayegh) ln β; then the shift: ln C1, ln C2, or ln E_a, or log10 a_T
-/// of each temperature but the reference one.
+/// The unknowns θ, in this order. Of a chain: ln E_m, ln C_m (if it flows), ln E_1, ln C_1, … Of 2S2P1D: ln E_0, ln
+/// E_00, k, h, ln δ, ln τ and ln β (Huet–Sayegh has no ln β). Then those of the shift: ln C1, ln C2 (WLF), or ln E_a
+/// (Arrhenius), or log10 a_T of each isotherm except the reference one (free).
 struct Unknowns {
   FitModel model = FitModel::kelvin;
   int units = 0;
@@ -29,10 +30,12 @@ struct Unknowns {
   double reference_temperature = 0;  ///< [°C]
   std::size_t reference_isotherm = 0, isotherms = 1;
 
+  /// Number of unknowns of the model.
   std::size_t of_model() const {
     if (model == FitModel::kelvin) return 1 + (flow ? 1 : 0) + 2 * static_cast<std::size_t>(units);
     return model == FitModel::two_s2p1d ? 7 : 6;
   }
+  /// Number of unknowns of the shift.
   std::size_t of_shift() const {
     switch (shift) {
       case ShiftKind::wlf:
@@ -46,18 +49,19 @@ struct Unknowns {
     }
   }
   std::size_t count() const { return of_model() + of_shift(); }
-  /// Position of a temperature's own log10 a_T where the shift is free.
+  /// Position in θ of log10 a_T of an isotherm, for a free shift.
   std::size_t of_isotherm(std::size_t isotherm) const {
     return of_model() + isotherm - (isotherm > reference_isotherm ? 1 : 0);
   }
 };
 
-/// ln |E*| [of Pa] and φ [rad].
+/// ln |E*| [|E*| in Pa] and φ [rad].
 template <class T>
 struct Polar {
   T log_modulus, phase;
 };
 
+/// Returns ln a_T at a place.
 template <class T>
 T log_shift(const Unknowns& u, const T* theta, const Place& place) {
   using std::exp;
@@ -74,7 +78,7 @@ T log_shift(const Unknowns& u, const T* theta, const Place& place) {
   return T(0);
 }
 
-/// J* = 1/E_m + 1/(iω·C_m) + Σ 1/(E_l + iω·C_l)
+/// Returns the modulus of the chain, 1/J* with J* = 1/E_m + 1/(iω·C_m) + Σ 1/(E_l + iω·C_l).
 template <class T>
 Polar<T> chain_modulus(const Unknowns& u, const T* theta, const T& log_omega) {
   using std::atan2;
@@ -86,7 +90,7 @@ Polar<T> chain_modulus(const Unknowns& u, const T* theta, const T& log_omega) {
   for (int l = 0; l < u.units; ++l, unit += 2) {
     const T log_x = log_omega + unit[1] - unit[0];  // x = ω·τ
     const bool slow = log_x > 0.0;
-    const T y = exp(slow ? T(-log_x) : log_x);  // the smaller of x and 1/x, so that nothing overflows
+    const T y = exp(slow ? T(-log_x) : log_x);  // the smaller of x and 1/x, to avoid overflow
     const T part = exp(-unit[0]) / (1.0 + y * y);
     real += slow ? T(part * y * y) : part;
     loss += part * y;
@@ -94,6 +98,7 @@ Polar<T> chain_modulus(const Unknowns& u, const T* theta, const T& log_omega) {
   return {-0.5 * log(real * real + loss * loss), atan2(loss, real)};
 }
 
+/// Returns the modulus of 2S2P1D or Huet–Sayegh, model (24.2).
 template <class T>
 Polar<T> analogue_modulus(const Unknowns& u, const T* theta, const T& log_omega) {
   using std::atan2;
@@ -106,13 +111,14 @@ Polar<T> analogue_modulus(const Unknowns& u, const T* theta, const T& log_omega)
   const T x = log_omega + theta[5];  // ln ωτ
   const T slow = exp(theta[4] - k * x), fast = exp(-h * x);
   const T real = 1.0 + slow * cos(quarter * k) + fast * cos(quarter * h);
-  T loss = slow * sin(quarter * k) + fast * sin(quarter * h);  // 1 + … = real − i·loss
+  T loss = slow * sin(quarter * k) + fast * sin(quarter * h);  // 1 + … of (24.2) is real − i·loss
   if (u.model == FitModel::two_s2p1d) loss += exp(-x - theta[6]);
   const T statics = exp(theta[1]), scale = (exp(theta[0]) - statics) / (real * real + loss * loss);
   const T storage = statics + scale * real, dissipated = scale * loss;
   return {0.5 * log(storage * storage + dissipated * dissipated), atan2(dissipated, storage)};
 }
 
+/// Returns the modulus of the model at a place, shifted by temperature.
 template <class T>
 Polar<T> modulus_at(const Unknowns& u, const T* theta, const Place& place) {
   const T log_omega = std::log(place.omega) + log_shift(u, theta, place);

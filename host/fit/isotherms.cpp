@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// isotherms.cpp  Readings that differ by tenths of a kelvin as one temperature.
+// isotherms.cpp  Joins readings that differ by tenths of a kelvin into one temperature.
 #include "host/fit/isotherms.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file isotherms.hpp  Readings of a thermometer as the temperatures of a test.
+/// \file isotherms.hpp  Groups thermometer readings into the temperatures of a test.
 #pragma once
 
 #include <cstddef>
@@ -7,26 +7,26 @@
 
 namespace macadam::fitting {
 
-/// Readings that one temperature of the test gave.
+/// The readings that belong to one temperature of the test.
 struct Isotherm {
-  double temperature = 0;          ///< their mean, rounded to 0.01 K where they differ [°C]
-  double lowest = 0, highest = 0;  ///< of the readings [°C]
+  double temperature = 0;          ///< mean of the readings, rounded to 0.01 K if they differ [°C]
+  double lowest = 0, highest = 0;  ///< smallest and largest reading [°C]
 };
 
-/// Neighbouring readings that differ by at most this belong to one isotherm [K]: chambers hold a few tenths of a
-/// kelvin, and tests choose temperatures that lie some kelvins apart.
+/// Readings that differ by at most this from the next one belong to one isotherm [K]. Temperature chambers hold a few
+/// tenths of a kelvin, and test temperatures lie some kelvins apart.
 inline constexpr double same_isotherm = 0.5;
-/// Readings of one isotherm lie within this [K].
+/// Largest difference between the readings of one isotherm [K].
 inline constexpr double widest_isotherm = 1;
 
-/// The isotherms of readings in any order, rising. Readings that follow each other closely over more than
-/// `widest_isotherm`, as on a ramp, are cut into pieces of that width.
+/// Returns the isotherms of readings, which may be in any order; isotherms ascend. Readings that follow each other
+/// closely over more than `widest_isotherm`, as in a temperature ramp, are divided into pieces of that width.
 std::vector<Isotherm> isotherms_of(std::vector<double> readings);
 
-/// Number of the isotherm whose readings lie nearest to a temperature.
+/// Returns the number of the isotherm whose readings are nearest to a temperature.
 std::size_t isotherm_at(const std::vector<Isotherm>& isotherms, double temperature);
 
-/// Distance of a temperature from the readings of an isotherm [K]; 0 within them.
+/// Returns the distance of a temperature from the readings of an isotherm [K]; 0 if it lies between them.
 double distance_from(const Isotherm& isotherm, double temperature);
 
 }  // namespace macadam::fitting

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// laboratory_columns.cpp  Quantities times units: the names that columns may have.
+// laboratory_columns.cpp  The names that columns may have: every quantity with its units.
 #include "host/fit/laboratory_columns.hpp"
 
 #include <fmt/format.h>
@@ -73,7 +73,8 @@ std::string unit_suffix(std::string_view cell) {
 std::string expected_of(const LaboratoryColumn& column, double value) {
   using enum Quantity;
   switch (column.quantity) {
-    case phase:  // measured angles scatter beyond 0 and 90 degrees; a negative sign throughout is another convention
+    // measured angles scatter beyond 0 and 90 degrees; if all are negative, the file has another sign convention
+    case phase:
       if (value > -5 && value < 95) return "";
       return column.factor == 1 ? "degrees between -5 and 95" : "radians between -0.087 and 1.66";
     case temperature:

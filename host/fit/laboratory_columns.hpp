@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file laboratory_columns.hpp  Names of the columns of measured moduli, and the units in them.
+/// \file laboratory_columns.hpp  Names of the columns of measured moduli, and the units that these names contain.
 #pragma once
 
 #include <string>
@@ -8,6 +8,7 @@
 
 namespace macadam::fitting {
 
+/// What a column measures.
 enum class Quantity {
   frequency,
   e_star,
@@ -23,24 +24,26 @@ enum class Quantity {
   phase_std
 };
 
-/// A column that is understood: value in SI (Hz, Pa, degrees, degrees Celsius) = factor · cell + offset.
+/// A known column. Value in Hz, Pa, degrees or degrees Celsius = factor · cell + offset.
 struct LaboratoryColumn {
   std::string name;
   Quantity quantity;
-  std::string unit;  ///< as messages have it; empty: that of the modulus or phase column
+  std::string unit;  ///< the unit as messages write it; empty: the unit of the modulus or phase column
   double factor = 1, offset = 0;
 };
 
-/// All columns that are understood: each modulus in Pa, kPa, MPa and GPa, for example.
+/// Returns all known columns, for example each modulus in Pa, kPa, MPa and GPa.
 const std::vector<LaboratoryColumn>& laboratory_columns();
 
-/// The column of a name, in any case; null where there is none.
+/// Returns the column with a name, upper or lower case; nullptr if there is none.
 const LaboratoryColumn* find_column(std::string_view name);
 
-/// A cell of a row of units as the end of a column's name: "[MPa]" is mpa, "°C" is c, "rad/s" is rad_s.
+/// Returns a cell of a row of units as the ending of a column's name: "[MPa]" gives mpa, "°C" gives c, "rad/s" gives
+/// rad_s.
 std::string unit_suffix(std::string_view cell);
 
-/// Why a value [SI] cannot be one of a quantity: what was expected, with the unit; empty where it can.
+/// Returns what a message expects in place of `value` [SI], with the unit, if the value is impossible for the quantity
+/// of the column; empty if it is possible.
 std::string expected_of(const LaboratoryColumn& column, double value);
 
 }  // namespace macadam::fitting

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// laboratory_table.cpp  Separators, quotes and comments of a table of text.
+// laboratory_table.cpp  Splits a text table at its separators, with quotes and comments.
 #include "host/fit/laboratory_table.hpp"
 
 #include <fmt/format.h>
@@ -23,6 +23,7 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
+/// Returns the cells of a line, which may stand in double quotes.
 std::vector<std::string> cells_of(const std::string& line, char separator) {
   using Separator = boost::escaped_list_separator<char>;
   std::vector<std::string> out;
@@ -31,13 +32,14 @@ std::vector<std::string> cells_of(const std::string& line, char separator) {
   return out;
 }
 
-/// A tab or a semicolon in the header separates; a comma only where there is neither.
+/// Returns the separator: a tab or a semicolon if the header has one, otherwise a comma.
 char separator_of(const std::string& header) {
   for (const char c : {'\t', ';'})
     if (header.find(c) != std::string::npos) return c;
   return ',';
 }
 
+/// Returns the contents of a file. \throws InputError when it is not a regular file, too large, or unreadable.
 std::string text_of(const std::filesystem::path& file) {
   const auto fail = [&](const std::string& found, const std::string& expected) {
     throw InputError(file.string(), 0, "measurements", found, expected);
@@ -86,7 +88,7 @@ LaboratoryTable read_laboratory_table(const std::filesystem::path& file, Complai
   LaboratoryTable out;
   const std::string text = text_of(file);
   std::string_view rest = text;
-  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // spreadsheets' byte-order mark
+  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);  // the byte-order mark that spreadsheets write
   int number = 0;
   const auto is_text = [&](const std::string& cell) { return !number_in(out, cell); };
   while (!rest.empty()) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// least_squares.cpp  Ceres Solver at work: Levenberg-Marquardt within bounds, derivatives by automatic differentiation.
+// least_squares.cpp  Uses Ceres Solver: Levenberg–Marquardt within bounds, with derivatives by automatic
+// differentiation.
 #include "host/fit/least_squares.hpp"
 
 #include <ceres/dynamic_autodiff_cost_function.h>
@@ -21,7 +22,7 @@ bool finite(const ceres::Jet<double, N>& value) {
   return std::isfinite(value.a) && value.v.allFinite();
 }
 
-/// (value − target)/deviation of ln |E*| and of φ, one after another for each place.
+/// (value − target)/deviation of ln |E*| and of φ, in this order for each target.
 struct Residuals {
   const Unknowns& unknowns;
   const std::vector<Target>& targets;
@@ -30,7 +31,8 @@ struct Residuals {
   bool operator()(T const* const* parameters, T* residuals) const {
     for (const Target& t : targets) {
       const Polar<T> value = modulus_at(unknowns, parameters[0], t.place);
-      if (!finite(value.log_modulus) || !finite(value.phase)) return false;  // Ceres tries a shorter step, in silence
+      // Ceres then tries a shorter step, without a message
+      if (!finite(value.log_modulus) || !finite(value.phase)) return false;
       *residuals++ = (value.log_modulus - t.log_modulus) / t.modulus_deviation;
       *residuals++ = (value.phase - t.phase) / t.phase_deviation;
     }
@@ -47,7 +49,8 @@ std::unique_ptr<ceres::CostFunction> cost_of(const Unknowns& unknowns, const std
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Residuals and their derivatives by θ.
+/// Computes residuals and, if `jacobian` is given, their derivatives by θ. Residuals are infinite if they cannot be
+/// evaluated.
 void evaluate(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<double>& theta,
               std::vector<double>& residuals, RowMajor* jacobian) {
   residuals.resize(2 * targets.size());
@@ -123,7 +126,8 @@ Covariance covariance_at(const Unknowns& unknowns, const std::vector<Target>& ta
   evaluate(unknowns, targets, theta, residuals, &jacobian);
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeThinV);
   const Eigen::VectorXd& s = svd.singularValues();
-  // Below this a direction changes nothing that double precision could tell; logarithms are of order one.
+  // A direction with a smaller singular value has no effect in double precision, since θ consists of logarithms of
+  // order one.
   const double least = 1e-10 * (s.size() > 0 ? s[0] : 0);
   Covariance out;
   out.undetermined.assign(theta.size(), false);

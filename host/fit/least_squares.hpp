@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file least_squares.hpp  The non-linear least squares of a fit (Ceres Solver, exact derivatives) and its statistics.
+/// \file least_squares.hpp  Non-linear least squares of a fit, by Ceres Solver with exact derivatives, and the
+/// covariance.
 #pragma once
 
 #include <vector>
@@ -8,50 +9,53 @@
 
 namespace macadam::fitting {
 
-/// A measured modulus in the terms of the misfit.
+/// A measured modulus, in the terms of the misfit (model (24.1)).
 struct Target {
   Place place;
-  double log_modulus = 0, phase = 0;                  ///< ln |E*| [of Pa], φ [rad]
-  double modulus_deviation = 1, phase_deviation = 1;  ///< of them
+  double log_modulus = 0, phase = 0;                  ///< ln |E*| [|E*| in Pa], φ [rad]
+  double modulus_deviation = 1, phase_deviation = 1;  ///< standard deviations of ln |E*| and of φ [rad]
 };
 
-/// Bounds of sense for an unknown.
+/// Bounds of an unknown.
 struct Limits {
   double low, high;
 };
 
-/// Limits of the model's unknowns and then of the shift's.
+/// Returns one list of limits, first of the unknowns of the model and then of the unknowns of the shift.
 inline std::vector<Limits> joined(std::vector<Limits> first, const std::vector<Limits>& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
 }
 
+/// A result of the least squares.
 struct Minimum {
   std::vector<double> theta;
-  double misfit = 0;       ///< Σ of the squared residuals
-  bool determined = true;  ///< no unknown lies at its limits
+  double misfit = 0;       ///< sum of the squared residuals
+  bool determined = true;  ///< whether no unknown lies at its limits
 };
 
-/// Relative change of the misfit in a step at which the way down ends: as far as rounding lets it, or near enough.
+/// Relative change of the misfit per step at which the refinement ends: at the limit of rounding, or early.
 inline constexpr double to_rounding = 1e-13, near_enough = 1e-5;
 
-/// Goes down from a start, which is put between the limits first. The misfit is infinite where that has none.
+/// Minimises the misfit from a start, which is first moved between the limits. The misfit of the result is infinite if
+/// the misfit of the start is not finite.
 Minimum refine(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<Limits>& limits,
                std::vector<double> theta, double tolerance = to_rounding);
 
-/// The residuals' sum of squares at θ.
+/// Returns the sum of the squared residuals at θ.
 double misfit_at(const Unknowns& unknowns, const std::vector<Target>& targets, const std::vector<double>& theta);
 
-/// ln |E*| and φ at a place with their derivatives by θ.
+/// ln |E*| and φ at a place, with their derivatives by θ.
 struct Prediction {
   Polar<double> value;
   std::vector<double> log_modulus_by, phase_by;
 };
+/// Returns the predictions of the model with the constants θ.
 std::vector<Prediction> predict(const Unknowns& unknowns, const std::vector<Place>& places,
                                 const std::vector<double>& theta);
 
-/// (JᵀJ)⁻¹ of the residuals at θ, row by row. What the data do not determine at all is left out of it, and the unknowns
-/// that have a part in that are marked in `undetermined`.
+/// (JᵀJ)⁻¹ of the residuals at θ, row by row. Directions that the data do not determine at all are left out of it; the
+/// unknowns that belong to such a direction are marked in `undetermined`.
 struct Covariance {
   std::vector<double> matrix;
   std::vector<bool> undetermined;

@@ -13,7 +13,7 @@
 namespace macadam::fitting {
 namespace {
 
-/// Refuses what cannot be fitted.
+/// \throws InputError when measurements are invalid or options out of range.
 void check(const ModulusData& data, const FitOptions& options) {
   const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
     throw InputError(data.source, 0, what, found, expected);
@@ -44,7 +44,7 @@ void check(const ModulusData& data, const FitOptions& options) {
   }
 }
 
-/// The temperatures that were measured must determine the shift that is asked for.
+/// \throws InputError when the measured temperatures do not determine the shift law that the user asks for.
 void check_shift(const ModulusData& data, const FitOptions& options, const std::vector<Isotherm>& isotherms) {
   const auto refuse = [&](const std::string& what, const std::string& found, const std::string& expected) {
     throw InputError(data.source, 0, what, found, expected);
@@ -112,7 +112,8 @@ Problem make_problem(const ModulusData& data, const FitOptions& options) {
   u.reference_temperature = out.temperatures[u.reference_isotherm];
   out.wanted_reference = options.reference_temperature.value_or(u.reference_temperature);
   out.wanted_isotherm = isotherm_at(isotherms, out.wanted_reference);
-  // a factor of its own belongs to the isotherm
+  // with a free shift only the isotherms have factors, so the reference temperature becomes the temperature of an
+  // isotherm
   if (u.shift == ShiftKind::free) out.wanted_reference = out.temperatures[out.wanted_isotherm];
   for (const ModulusPoint& p : data.points) {
     Target t;

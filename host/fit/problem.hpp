@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file problem.hpp  Measurements and options, checked and put into the terms of the misfit.
+/// \file problem.hpp  Checks measurements and options, and turns them into the least-squares problem.
 #pragma once
 
 #include <numbers>
@@ -9,22 +9,24 @@
 
 namespace macadam::fitting {
 
+/// One degree [rad].
 inline constexpr double degree = std::numbers::pi / 180;
 
-/// The measurements as the least squares want them. The unknowns are those at the isotherm in the middle, so that the
-/// result does not depend on the reference temperature that is asked for.
+/// The measurements as the least squares need them. The unknowns refer to the middle isotherm, so that the result does
+/// not depend on the reference temperature that the user asks for.
 struct Problem {
-  std::vector<double> temperatures;  ///< of the isotherms, rising [°C]
+  std::vector<double> temperatures;  ///< temperatures of the isotherms, ascending [°C]
   std::vector<Target> targets;
   Unknowns unknowns;
-  double wanted_reference = 0;  ///< reference temperature that is asked for [°C]
-  std::size_t wanted_isotherm = 0;
+  double wanted_reference = 0;      ///< reference temperature that the user asks for [°C]
+  std::size_t wanted_isotherm = 0;  ///< the isotherm nearest to it
 };
 
-/// \throws InputError for what cannot be fitted.
+/// Returns the problem. \throws InputError when measurements or options are invalid or do not determine the shift.
 Problem make_problem(const ModulusData& data, const FitOptions& options);
 
-/// The shift laws that a free shift contains and that the temperatures determine; none for another shift.
+/// Returns the shift laws that are special cases of a free shift and that the temperatures determine; empty if the
+/// shift is not free.
 std::vector<ShiftKind> laws_in(const Problem& problem);
 
 }  // namespace macadam::fitting

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read_analogue.cpp  2S2P1D or Huet-Sayegh from a small TOML file.
+// read_analogue.cpp  Reads the constants of 2S2P1D or Huet–Sayegh from a small TOML file.
 #include <fmt/format.h>
 
 #include "host/scene/sections.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read_data.cpp  Measured moduli from the columns of a laboratory's table.
+// read_data.cpp  Reads measured moduli from the columns of a laboratory's table.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,11 +19,11 @@ namespace macadam {
 namespace fitting {
 namespace {
 
-constexpr std::size_t most_points = 10'000;  // the least squares are dense
-/// Letters by which a name may differ from a known one and still be taken for a misspelling of it.
+constexpr std::size_t most_points = 10'000;  // because the least-squares matrices are dense
+/// Largest number of letters by which a name may differ from a known one to be reported as a misspelling of it.
 constexpr std::size_t misspelt = 2;
 
-/// Gives the columns of one table their meaning.
+/// Reads the measurements from one table.
 class DataReader {
  public:
   DataReader(const std::filesystem::path& file, std::optional<double> poisson, Measured needed)
@@ -55,7 +55,7 @@ class DataReader {
  private:
   struct Used {
     LaboratoryColumn column;
-    std::size_t at;  ///< position in the table
+    std::size_t at;  ///< column number in the table
   };
 
   bool has(Quantity quantity) const { return used_.contains(quantity); }
@@ -63,17 +63,18 @@ class DataReader {
     complaints_.add(table_.header_line, "header", found, expected);
   }
 
+  /// Returns whether a column has no values.
   bool is_blank(std::size_t at) const {
     return !table_.rows.empty() && std::all_of(table_.rows.begin(), table_.rows.end(),
                                                [&](const LaboratoryTable::Row& row) { return row.cells[at].empty(); });
   }
 
-  /// One name of the header: a quantity, a misspelling of one, or a column to be passed over.
+  /// Assigns one column of the header to a quantity by its name, reports it as misspelt, or passes it over.
   void understand(std::size_t at) {
     const std::string& name = table_.names[at];
     const std::string unit = table_.units ? unit_suffix(table_.units->cells[at]) : "";
     const LaboratoryColumn* column = find_column(name);
-    if (!column && !unit.empty()) column = find_column(name + "_" + unit);  // "phase" above "deg"
+    if (!column && !unit.empty()) column = find_column(name + "_" + unit);  // for example "phase" above "deg"
     if (!column) return pass_over(name);
     if (is_blank(at)) return;
     if (!unit.empty() && unit != "-" && !column->name.ends_with("_" + unit) && !column->unit.empty()) {
@@ -87,6 +88,7 @@ class DataReader {
                          "each column once");
   }
 
+  /// Handles an unknown column name: a fault if it resembles a known one or lacks its unit, otherwise an unused column.
   void pass_over(const std::string& name) {
     if (name.empty()) return;
     std::vector<std::string> known;
@@ -104,7 +106,7 @@ class DataReader {
     }
   }
 
-  /// Which columns count, and whether they are enough.
+  /// Decides which columns are used, and reports if they do not suffice.
   void choose() {
     using enum Quantity;
     if (table_.names.empty()) return;
@@ -118,7 +120,7 @@ class DataReader {
     deviation_ = shear ? g_star_std : e_star_std;
     parts_ = has(real_) && has(imaginary_) && ((needs_modulus_ && !has(star_)) || (needs_phase_ && !has(phase)));
     data_.moduli = parts_ || has(star_), data_.phases = parts_ || has(phase), data_.temperatures = has(temperature);
-    if (misspelt_) return;  // a column that seems to be missing may be there under that name
+    if (misspelt_) return;  // a column that seems to be missing may be present under a misspelt name
     if (!has(frequency)) complain_of_missing("a column frequency_hz");
     if ((needs_modulus_ && !data_.moduli) || (needs_phase_ && !data_.phases)) {
       complain_of_missing(!needs_phase_ ? "a column e_star_pa or g_star_pa"
@@ -143,6 +145,7 @@ class DataReader {
                        expected);
   }
 
+  /// Decides whether the standard deviations are used, and gives them their units.
   void choose_deviations() {
     using enum Quantity;
     if (has(deviation_ == e_star_std ? g_star_std : e_star_std))
@@ -153,7 +156,7 @@ class DataReader {
     if (!data_.deviations && (modulus || angle))
       complain_of_header(modulus ? "the standard deviation of the modulus alone" : "phase_std alone",
                          "standard deviations of both modulus and phase, or of none");
-    // a deviation is in the unit of its column
+    // a deviation has the unit of the column that it belongs to
     const auto take_unit = [&](Quantity of, Quantity from) {
       if (!has(of) || !has(from)) return;
       LaboratoryColumn& column = used_.at(of).column;
@@ -164,12 +167,13 @@ class DataReader {
     if (has(phase_std) && used_.at(phase_std).column.unit.empty()) used_.at(phase_std).column.unit = "degrees";
   }
 
+  /// Returns the name of the column that gives the modulus; empty if there is none.
   std::string modulus_unit() const {
     if (!data_.moduli) return "";
     return used_.at(parts_ ? real_ : star_).column.name;
   }
 
-  /// The value of a quantity in a row [SI]; 0 where there is no such column.
+  /// Returns the value of a quantity in a row [SI]; 0 if there is no such column. Impossible values become complaints.
   double value(const LaboratoryTable::Row& row, Quantity quantity) {
     const auto found = used_.find(quantity);
     if (found == used_.end()) return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reference.cpp  Another reference temperature rescales time.
+// reference.cpp  A new reference temperature rescales time.
 #include "host/fit/reference.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 namespace macadam::fitting {
 namespace {
 
-/// Adds ln a to the logarithm of every time of the model: E*(ω) becomes E*(a·ω).
+/// Adds ln a to the logarithm of every time of the model, so that E*(ω) becomes E*(a·ω).
 void scale_times(const Unknowns& u, double log_a, double* theta) {
   if (u.model != FitModel::kelvin) {
     theta[5] += log_a;  // ln τ

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shift_start.cpp  Isotherms laid on each other, and the shift law through the distances.
+// shift_start.cpp  Moves isotherms onto each other, and fits the shift law to the distances.
 #include "host/fit/shift_start.hpp"
 
 #include <Eigen/Dense>
@@ -9,11 +9,12 @@
 namespace macadam::fitting {
 namespace {
 
-/// log10 f and ln |E*| of one temperature, by frequency.
+/// (log10 of the angular frequency, ln |E*|) at one temperature, sorted by frequency.
 using Curve = std::vector<std::pair<double, double>>;
 
-/// Mean of the distances log10 f_cold − log10 f_hot at equal |E*|, over what both curves have; where they have nothing
-/// in common, between the hot curve's last point and the cold curve's first, along the cold one's slope.
+/// Returns the mean of log10 f_cold − log10 f_hot at equal |E*|, over the moduli that both curves have. If they have
+/// none in common, returns the distance from the hot curve's last point to the cold curve's first, extrapolated along
+/// the steeper of the two slopes; `otherwise` if both curves are flat.
 double distance(const Curve& cold, const Curve& hot, double otherwise) {
   double sum = 0;
   int count = 0;
@@ -36,14 +37,14 @@ double distance(const Curve& cold, const Curve& hot, double otherwise) {
   return cold.front().first - hot.back().first - (cold.front().second - hot.back().second) / mean;
 }
 
-/// log10 a_T of every temperature, 0 at the first.
+/// Returns log10 a_T of every temperature that lays the curves on each other, 0 at the first temperature.
 std::vector<double> laid(const std::vector<Target>& targets, const std::vector<double>& temperatures) {
   std::vector<Curve> curves(temperatures.size());
   for (const Target& t : targets) curves[t.place.isotherm].emplace_back(std::log10(t.place.omega), t.log_modulus);
   for (Curve& curve : curves) std::sort(curve.begin(), curve.end());
   std::vector<double> out{0};
   for (std::size_t i = 1; i < curves.size(); ++i) {
-    constexpr double usual = 0.1;  // decades a kelvin: of binders at room temperature
+    constexpr double usual = 0.1;  // decades per kelvin, as for binders at room temperature
     const double otherwise = -usual * (temperatures[i] - temperatures[i - 1]);
     out.push_back(out.back() + std::min(distance(curves[i - 1], curves[i], otherwise), 0.0));
   }
@@ -56,7 +57,7 @@ std::vector<double> start_shift(const Unknowns& u, const std::vector<Target>& ta
                                 const std::vector<double>& temperatures) {
   if (u.shift == ShiftKind::none) return {};
   std::vector<double> log_a = laid(targets, temperatures);
-  // at the reference temperature 0, along the nearest chord where it was not measured
+  // log_a is made 0 at the reference temperature; if that was not measured, by linear interpolation
   const auto above = std::clamp<std::ptrdiff_t>(
       std::lower_bound(temperatures.begin(), temperatures.end(), u.reference_temperature) - temperatures.begin(), 1,
       std::ssize(temperatures) - 1);
@@ -77,7 +78,7 @@ std::vector<double> start_shift(const Unknowns& u, const std::vector<Target>& ta
     }
     return {std::log(std::max(product / square, 1e4))};
   }
-  // y·d = −C1·d − C2·y; where that makes no sense, a usual C2 with the C1 that fits best
+  // WLF as a linear system, y·d = −C1·d − C2·y; if the result is not sensible, a usual C2 and the C1 that fits best
   const double coldest = u.reference_temperature - temperatures.front();
   const auto n = static_cast<Eigen::Index>(log_a.size());
   Eigen::MatrixXd A(n, 2);
@@ -115,7 +116,7 @@ std::vector<double> with_free_shift(const Unknowns& u, const std::vector<double>
 std::vector<Limits> shift_limits(const Unknowns& u, const std::vector<double>& temperatures) {
   switch (u.shift) {
     case ShiftKind::wlf: {
-      // C2 + T − T_r is positive at every temperature
+      // C2 + T − T_r must be positive at every temperature
       const double least = std::max(u.reference_temperature - temperatures.front() + 0.5, 0.5);
       return {{std::log(1e-3), std::log(1e4)}, {std::log(least), std::log(1e5)}};
     }

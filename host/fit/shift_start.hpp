@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shift_start.hpp  Shift factors to begin with, read off the curves.
+/// \file shift_start.hpp  First values of the shift factors, from the distances between the measured curves.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,18 @@
 
 namespace macadam::fitting {
 
-/// The unknowns of the shift such that curves of |E*| at neighbouring temperatures lie on each other as well as they do
-/// by the mean distance along the frequency axis. `temperatures` [°C] rise; Place::isotherm counts them.
+/// Returns first values for the unknowns of the shift. They move the curves of |E*| at neighbouring temperatures by
+/// their mean distance along the frequency axis, so that the curves lie on each other. `temperatures` [°C] ascend;
+/// Place::isotherm is an index into them.
 std::vector<double> start_shift(const Unknowns& unknowns, const std::vector<Target>& targets,
                                 const std::vector<double>& temperatures);
 
-/// θ with the shift of a law, `unknowns`, as θ with a factor for each temperature and the same reference temperature.
+/// Converts θ with a shift law (as in `unknowns`) to θ with one factor per temperature and the same reference
+/// temperature.
 std::vector<double> with_free_shift(const Unknowns& unknowns, const std::vector<double>& theta,
                                     const std::vector<double>& temperatures);
 
-/// Limits of sense for these unknowns.
+/// Returns the bounds of the unknowns of the shift.
 std::vector<Limits> shift_limits(const Unknowns& unknowns, const std::vector<double>& temperatures);
 
 }  // namespace macadam::fitting

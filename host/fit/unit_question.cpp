@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// unit_question.cpp  Moduli in MPa and temperatures in kelvins, told by their size.
+// unit_question.cpp  Recognises moduli in MPa and temperatures in kelvins by their size.
 #include "host/fit/unit_question.hpp"
 
 #include <fmt/format.h>
@@ -9,13 +9,15 @@
 namespace macadam::fitting {
 namespace {
 
-/// No solid is stiffer than diamond, 1.2e12 Pa.
+/// Larger moduli are questioned [Pa]: no solid is stiffer than diamond, 1.2e12 Pa.
 constexpr double stiffest_solid = 2e12;
-/// Bitumen, mastics, mixtures and other polymers below their glass transition have 1e8 Pa and more where the phase is
-/// below 10 degrees, and 1e6 Pa and more where it is below 45. Rubber and gels are softer: their moduli are given in
-/// kPa or MPa, which is not questioned.
+/// Returns the modulus [Pa] below which the largest modulus of a file is questioned, for its phase. Bitumen, mastics,
+/// mixtures and other polymers below their glass transition have 1e8 Pa and more at phases below 10 degrees, and 1e6 Pa
+/// and more at phases below 45. Rubber and gels are softer, but their moduli are given in kPa or MPa, which is not
+/// questioned.
 double least_modulus(double phase_deg) { return phase_deg < 10 ? 1e8 : phase_deg < 45 ? 1e6 : 0; }
-/// Nothing whose moduli shift with temperature is tested above 200 degrees C or below -123.15 (150 K).
+/// Temperatures beyond these are questioned [°C]. No material whose moduli shift with temperature is tested above 200
+/// degrees C or below -123.15 degrees C (150 K).
 constexpr double hottest = 200, coldest = -123.15;
 
 void ask_about_moduli(const ModulusData& data, const std::string& column, Complaints& complaints) {
@@ -25,7 +27,7 @@ void ask_about_moduli(const ModulusData& data, const std::string& column, Compla
     complaints.add(0, "column " + column, fmt::format("moduli of up to {:.3g} Pa", stiffest->e_star_pa),
                    "less than 2e12 Pa: are they in another unit than the name of the column says?");
   }
-  const double phase = data.phases ? stiffest->phase_deg : 44;  // a mixture without phase is a solid
+  const double phase = data.phases ? stiffest->phase_deg : 44;  // without phases the material is taken for a solid
   if (!column.ends_with("_pa") || stiffest->e_star_pa >= least_modulus(phase)) return;
   complaints.add(
       0, "column " + column,

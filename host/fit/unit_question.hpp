@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file unit_question.hpp  Measurements that seem to be in another unit than their columns say.
+/// \file unit_question.hpp  Detects measurements that seem to be in another unit than the names of their columns say.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace macadam::fitting {
 
-/// Adds a question to the complaints where moduli or temperatures cannot be in the unit that the names of their columns
-/// say. A column whose name has the unit in which the numbers are meant answers it.
+/// Adds a question to the complaints if moduli or temperatures cannot be in the unit of their column. The user answers
+/// it by a column name with the unit that is meant.
 void ask_about_units(const ModulusData& data, const std::string& modulus_column, const std::string& temperature_column,
                      Complaints& complaints);
 

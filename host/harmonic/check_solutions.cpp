@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// check_solutions.cpp  Every particle adds up the loads of its own contacts, which are computed from the network and
-// not from the arrays of the solvers: one contact of four solutions at a time, or four contacts of one.
+// check_solutions.cpp  Each particle sums the loads of its own contacts. These are computed from the network and not
+// from the arrays of the solvers, so that the check is independent of them. SIMD lanes hold one contact of four
+// solutions, or four contacts of one solution.
 #include "host/harmonic/check_solutions.hpp"
 
 #include <algorithm>
@@ -16,13 +17,14 @@ using L = FourNumbers;
 using kernels::Placement;
 using kernels::Twist;
 
-/// Particles of a piece: few enough that no thread waits long for the last (large particles, with hundreds of contacts,
-/// stand together), and enough that pieces are added up in no time.
+/// Returns the number of particles per piece. Pieces are small, so that no thread waits long for the last one (large
+/// particles with hundreds of contacts have consecutive numbers), but not so small that adding the sums of all pieces
+/// takes time.
 std::size_t piece_of(std::size_t particles) { return std::max<std::size_t>(64, particles / 4096); }
 
-/// Sums over a piece, of one solution.
+/// Sums over a piece of particles, for one solution.
 struct Sums {
-  double residual = 0, beyond = 0;  ///< squares
+  double residual = 0, beyond = 0;  ///< sums of squares
   Complex inertia = 0;
   ModulusParts parts;
 
@@ -36,14 +38,14 @@ struct Sums {
 };
 using AllSums = std::array<Sums, at_once>;
 
-/// `single`: one solution, whose contacts are taken four at a time.
+/// Check of up to four solutions. `single`: of one solution only, whose contacts are processed four at a time.
 template <bool single>
 class Check {
  public:
   Check(const ContactNetwork& network, const Inertia& inertia, const std::vector<const LinearTask*>& tasks,
         double rounding)
       : network_(network), inertia_(inertia), rounding_(rounding) {
-    for (int f = 0; f < at_once; ++f) {  // the last of fewer than four fill the block
+    for (int f = 0; f < at_once; ++f) {  // with fewer than four tasks the last one fills the lanes
       const LinearTask& task = *tasks[std::min(static_cast<std::size_t>(f), tasks.size() - 1)];
       motion_[f] = task.motion.data();
       for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -55,6 +57,7 @@ class Check {
     }
   }
 
+  /// Returns the sums over all particles, for each of the solutions.
   AllSums sums() const {
     const std::size_t particles = inertia_.mass.size();
     const std::size_t piece = piece_of(particles);
@@ -71,6 +74,7 @@ class Check {
   }
 
  private:
+  /// Sums of load times relative displacement over the contacts of one pair. `share`: the fraction that counts.
   struct PairProducts {
     Products<at_once> normal, shear;
     void add(const kernels::FacetLoad<L>& load, const L (&u)[6], L share) {
@@ -79,15 +83,16 @@ class Check {
       shear.add(load.s * share, u[3]), shear.add(load.t * share, u[4]), shear.add(load.moment_n * share, u[5]);
     }
   };
-  /// Loads on a particle: their sum, and force and moment by magnitude if nothing cancelled.
+  /// Loads on a particle: their sum, and the force and moment that result if all terms are added by magnitude.
   struct Total {
     Twist<L> sum;
     L force, moment;
   };
-  static constexpr int step = single ? at_once : 1;  ///< contacts of a group
+  static constexpr int step = single ? at_once : 1;  ///< number of contacts per group
   using Group = ContactGroup<step>;
 
-  /// What is of a contact, and alike for all solutions.
+  /// Returns a property `of(f)` of the contacts of a group. If `single`, each lane has the value of its own contact;
+  /// otherwise all lanes have the value of the only contact.
   template <class Of>
   static L of_contact(Of&& of) {
     if constexpr (single)
@@ -96,6 +101,7 @@ class Check {
       return L(of(0));
   }
 
+  /// Returns the sums over particles begin … end − 1.
   AllSums sums_of(std::size_t begin, std::size_t end) const {
     AllSums out;
     PairProducts pairs[pair_types];
@@ -131,6 +137,7 @@ class Check {
     return out;
   }
 
+  /// Adds the squares of residuals beyond rounding; `largest` is the load by magnitude.
   void add_beyond(L rest, L largest, AllSums& sums) const {
     for (int f = 0; f < at_once; ++f) {
       const double excess = std::max(std::abs(rest.at(f)) - rounding_ * largest.at(f).real(), 0.0);
@@ -138,7 +145,7 @@ class Check {
     }
   }
 
-  /// Of a particle or wall, which may be another one in each lane.
+  /// Returns the motion of the particle or wall `end(f)`, which may differ from lane to lane if `single`.
   template <class End>
   Twist<L> motion_of(End&& end) const {
     static constexpr Complex at_rest[6] = {}, moved[6] = {0, 0, 1, 0, 0, 0};
@@ -153,6 +160,7 @@ class Check {
     return kernels::to_twist(x);
   }
 
+  /// Returns the loads of all contacts of a particle, and adds their products to `pairs`.
   Total loads_on(std::size_t particle, const Twist<L>& own, PairProducts (&pairs)[pair_types]) const {
     Total out;
     const std::size_t end = network_.row_begin[particle + 1];
@@ -168,7 +176,7 @@ class Check {
     return out;
   }
 
-  /// The sum over all lanes in the first.
+  /// Returns the sum over all lanes, in the first lane.
   static L in_first(L x) {
     Complex sum = 0;
     for (int f = 0; f < at_once; ++f) sum += x.at(f);
@@ -177,6 +185,8 @@ class Check {
     return out;
   }
 
+  /// Adds the loads of a group of contacts to `out`, and their products with the relative displacements to `pairs`.
+  /// `own` is the motion of the particle.
   void add_loads(const Group& g, const Twist<L>& own, Total& out, PairProducts (&pairs)[pair_types]) const {
     const auto at = [&g](int f) -> const Contact& { return *g.contact[f]; };
     const Twist<L> other = motion_of([&](int f) { return g.far[f]; });
@@ -217,9 +227,11 @@ class Check {
     if (rounding_ > 0) add_largest(g, k, own, other, out);
   }
 
-  /// Of a contact that is seen from one end, in the sum over both.
+  /// Returns the fraction of a contact that counts at one end: a half, since a contact is visited from both of its
+  /// particles, but all of it for a wall contact.
   static double share(std::int32_t far) { return far < 0 ? 1 : 0.5; }
 
+  /// Returns the stiffness of each contact of a group; lanes without a contact get 0.
   Factor<at_once> stiffness_of(const Group& g) const {
     if (g.alike && g.count == at_once) return k_[g.pair[0]];
     Factor<at_once> k{};
@@ -228,15 +240,14 @@ class Check {
     return k;
   }
 
-  /// Force and moment of contacts if nothing cancelled between the motions of their ends.
+  /// Adds the force and moment by magnitude: as if nothing cancelled between the motions of the contacts' ends.
   void add_largest(const Group& g, const Factor<at_once>& k, const Twist<L>& own, const Twist<L>& other,
                    Total& out) const {
     const auto three = [](const Vec3<L>& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };
     const auto moments = [&g](int f) -> const AreaMoments& { return g.contact[f]->moments; };
     const L own_arm = of_contact([&](int f) { return std::abs(g.own_arm[f]); }),
             far_arm = of_contact([&](int f) { return std::abs(g.far_arm[f]); }),
-            moves =
-                of_contact([&](int f) { return g.far[f] < 0 ? 0.0 : 1.0; }),  // what a wall moves by has no rounding
+            moves = of_contact([&](int f) { return g.far[f] < 0 ? 0.0 : 1.0; }),  // the motion of a wall is exact
         area = of_contact([&](int f) { return moments(f).a * g.over_d[f]; }),
             second = of_contact([&](int f) { return (moments(f).ss + moments(f).tt) * g.over_d[f]; }),
             stiff = real_lanes([&](int f) { return std::abs(k.real.v[f]) + std::abs(k.imaginary.v[f]); });
@@ -254,7 +265,7 @@ class Check {
   const Complex* motion_[at_once];
   Factor<at_once> k_[pair_types], mass_factor_{};
   double alpha_[pair_types];
-  bool inert_ = true;
+  bool inert_ = true;  ///< whether no solution has inertia
 };
 
 template <bool single>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file check_solutions.hpp  What is left of the loads in solutions, and what their contacts carry, computed anew from
-/// the network: of four in one pass over the contacts.
+/// \file check_solutions.hpp  Checks solutions of the linear systems: computes residuals and the parts of E* from the
+/// network itself, for up to four solutions in one pass over the contacts.
 #pragma once
 
 #include <vector>
@@ -9,20 +9,21 @@
 
 namespace macadam::harmonic {
 
-/// What a look at a solution u finds, where the top wall moves by one.
+/// Results of the check of a solution u, in which the top wall moves by one.
 struct SolutionCheck {
   double residual = 0;         ///< ‖f − (K* − inertia·M)·u‖ [N]
-  double beyond_rounding = 0;  ///< of it [N]
+  double beyond_rounding = 0;  ///< the residual without the parts that rounding explains [N]
   Complex inertia = 0;         ///< uᵀ·M·u [kg]
-  /// Σ u·k*·u over the contacts of each pair, u their relative displacements, without conjugates: twice the energy,
-  /// where real. Not yet over the specimen's size, and without inertia.
+  /// Sums of u·k*·u over the contacts of each pair, with their relative displacements u and without conjugates; for a
+  /// real stiffness this is twice the energy. Not yet divided by the specimen's size, and without inertia.
   ModulusParts parts;
 };
 
-/// Checks tasks that have their motions, four in a pass. Motions are known to rounding, and loads of stiff contacts to
-/// that of them: where the load is far less, that is all that can be asked. `rounding`: of what a load would be if
-/// nothing cancelled, the share that is put down to it; 0: none is. Sums are made piece by piece of particles and then
-/// in order: the same bits for any number of threads.
+/// Checks the motions of tasks, four in one pass. The numbers of a motion have rounding errors, which the stiffness of
+/// stiff contacts turns into errors of the loads. If the load is much smaller than these errors, no smaller residual
+/// can be expected. `rounding`: fraction of the load that a particle would have if nothing cancelled; residuals up to
+/// this are attributed to rounding (0: no residual is). Sums are computed per piece of particles, then added in order,
+/// so that the result does not depend on the number of threads.
 std::vector<SolutionCheck> check_solutions(const ContactNetwork& network, const Inertia& inertia,
                                            const std::vector<const LinearTask*>& tasks, double rounding);
 

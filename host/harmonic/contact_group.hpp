@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_group.hpp  Four complex numbers in a register, and some contacts of a particle seen from that
-/// particle.
+/// \file contact_group.hpp  Four complex numbers in one SIMD register, and up to four contacts of a particle as that
+/// particle sees them.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 
 namespace macadam::harmonic {
 
-/// Complex numbers in a register: one of each of four solutions, or one of each of four contacts.
+/// Number of complex numbers in a register: one for each of four solutions, or one for each of four contacts.
 inline constexpr int at_once = kernels::most_loads;
 using FourNumbers = Lanes<at_once>;
 
-/// The real number of(f) for each f, in both of its lanes. Written out: a compiler makes a loop of one lane after the
-/// other of it.
+/// Returns the real numbers of(f), each in the real and in the imaginary lane of number f. Written out because the
+/// compiler turns a loop into inserts of one lane after the other.
 template <class Of>
 FourNumbers real_lanes(Of&& of) {
   static_assert(at_once == 4);
@@ -25,33 +25,33 @@ FourNumbers real_lanes(Of&& of) {
   return FourNumbers::Register{a, b, c, d, a, b, c, d};
 }
 
-/// The complex number of(f) for each f.
+/// Returns the complex numbers of(f), f = 0 … 3.
 template <class Of>
 FourNumbers complex_lanes(Of&& of) {
   const std::complex<double> a = of(0), b = of(1), c = of(2), d = of(3);
   return FourNumbers::Register{a.real(), b.real(), c.real(), d.real(), a.imag(), b.imag(), c.imag(), d.imag()};
 }
 
-/// |Re| + |Im| of each number, in both of its lanes.
+/// Returns |Re| + |Im| of each number, in both of its lanes.
 inline FourNumbers size_of(FourNumbers x) {
   const FourNumbers positive = x.v < 0 ? -x.v : x.v;
   return positive + positive.swapped();
 }
 
-/// Contacts of a particle, their normals away from it: N of them, or `count`, and then the first again in place of
-/// those that are not there.
+/// N contacts of a particle, with normals that point away from it. If fewer are left, only the first `count` entries
+/// are valid; the others repeat the first contact.
 template <int N>
 struct ContactGroup {
   const Contact* contact[N];
-  double sign[N];                 ///< 1, or −1 where the particle is the second end: n and t have the other direction
+  double sign[N];                 ///< 1; −1 if the particle is the contact's second end, where n and t are reversed
   double over_d[N];               ///< 1/distance [1/m]
-  double own_arm[N], far_arm[N];  ///< [m]
-  std::int32_t far[N];            ///< the other end
+  double own_arm[N], far_arm[N];  ///< lever arms of this particle and of the other end [m]
+  std::int32_t far[N];            ///< the other end: a particle, or a wall (negative)
   std::size_t pair[N];
-  int count;
-  bool alike = true;  ///< all are of the same pair
+  int count;          ///< contacts that are there, at most N
+  bool alike = true;  ///< whether all contacts are of the same pair
 
-  /// Those that entry `at` of the network's rows and the next ones name, before `end`.
+  /// Takes the contacts of entry `at` of the network's `rows` and the entries after it, up to `end`.
   ContactGroup(const ContactNetwork& network, std::size_t at, std::size_t end, std::size_t particle)
       : count(static_cast<int>(std::min<std::size_t>(N, end - at))) {
     for (int f = 0; f < N; ++f) {
@@ -71,8 +71,8 @@ struct ContactGroup {
   }
 
  private:
-  /// Contacts of which a particle is the second end lie anywhere in memory: they are asked for before it is their turn,
-  /// which makes a pass over a million particles more than twice as fast.
+  /// Prefetches a contact that will be needed later. Contacts of which the particle is the second end are scattered in
+  /// memory; prefetching makes a pass over a million particles more than twice as fast.
   static void ask_for(const ContactNetwork& network, std::size_t at) {
     if (at >= network.rows.size()) return;
     const auto* contact = reinterpret_cast<const char*>(&network.contacts[network.rows[at]]);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_operator.cpp  A contact's complex load: its real kinematics on real and imaginary parts, times k*(s).
+// contact_operator.cpp  The complex load of a contact: the real kinematics are applied to real and imaginary parts
+// separately.
 #include "host/harmonic/contact_operator.hpp"
 
 #include <algorithm>
@@ -34,7 +35,7 @@ std::array<double, 6> moments_over_distance(const Contact& c) {
           c.moments.ss / c.distance, c.moments.st / c.distance, c.moments.tt / c.distance};
 }
 
-/// `a`, `b`: motions of the ends, none for walls.
+/// `a`, `b`: motions of the two ends (six numbers each), nullptr for a wall.
 std::array<Complex, 6> relative_motion(const Contact& c, const Complex* a, const Complex* b, Complex wall) {
   const auto twist = [&](std::int32_t end, const Complex* x, auto part) -> Twist<double> {
     if (x) return {{part(x[0]), part(x[1]), part(x[2])}, {part(x[3]), part(x[4]), part(x[5])}};
@@ -117,7 +118,7 @@ ContactOperator::ContactOperator(const ContactNetwork& network, std::size_t part
     on_bottom_.insert(on_bottom_.end(), bottom.begin(), bottom.end());
     on_top_.insert(on_top_.end(), top.begin(), top.end());
   }
-  // so that wall_loads() finds all contacts of a particle side by side, in networks made by hand too
+  // wall_loads() needs the contacts of one particle side by side; a network from elsewhere may have another order
   std::stable_sort(on_top_.begin(), on_top_.end(),
                    [&](std::uint32_t x, std::uint32_t y) { return network.contacts[x].a < network.contacts[y].a; });
 }
@@ -137,7 +138,7 @@ Loads ContactOperator::wall_loads(const PairStiffness& stiffness) const {
 void ContactOperator::resistance(const PairStiffness& stiffness, Complex factor, const Inertia& inertia,
                                  const Vector& motion, Vector& out) const {
   out.resize(6 * particles_);
-#pragma omp parallel for schedule(dynamic, 64)  // large particles, with hundreds of contacts, stand together
+#pragma omp parallel for schedule(dynamic, 64)  // large particles have hundreds of contacts and consecutive numbers
   for (std::size_t i = 0; i < particles_; ++i) {
     Complex sum[6] = {};
     for (const std::uint32_t number : network_.row(i)) {

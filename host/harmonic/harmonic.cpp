@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// harmonic.cpp  Frequencies to linear systems and back, by iteration first and by factors where that does not do.
+// harmonic.cpp  Turns loads at given frequencies into linear systems, solves and checks them, and turns the solutions
+// into E*. Systems that the iterative solver cannot solve go to the direct solver.
 #include "macadam/harmonic.hpp"
 
 #include <fmt/format.h>
@@ -29,6 +30,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+/// \throws InputError naming a pair that has contacts but no law.
 void require_laws_of(const ContactNetwork& network, const LawTable& laws) {
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (network.count[pair] > 0 && !laws[pair]) {
@@ -38,12 +40,13 @@ void require_laws_of(const ContactNetwork& network, const LawTable& laws) {
   }
 }
 
+/// Returns |E*| and φ.
 Stiffness modulus(Complex e) { return {std::abs(e), std::arg(e) * 180 / std::numbers::pi}; }
 
-/// A task with what was found of it so far.
+/// A task with the results of the last check of its solution.
 struct Work {
   LinearTask task;
-  ModulusParts parts;  ///< of the motion
+  ModulusParts parts;  ///< of uᵀ·(K* − inertia·M)·u
   double residual = 0, beyond_rounding = 0, energy_error = 0;
   LinearMethod method = LinearMethod::iterative;
   std::string why_factors;
@@ -80,7 +83,7 @@ class Harmonic::Implementation {
     } catch (const NotIterable& error) {
       if (options.linear == LinearMethod::iterative || specimen.size() > largest_direct) throw;
       why_factors_ = error.what();
-      direct();  // which says what is wrong, if it is
+      direct();  // its error names the particle that can move, if the stiffness is singular
     }
   }
 
@@ -110,10 +113,12 @@ class Harmonic::Implementation {
   }
 
  private:
-  /// Forces of contacts that are far stiffer than the others, walls for instance, make up nearly all of ‖f‖, so that a
-  /// small residual says nothing of the rest. The error in the energy norm over the energy of the solution does:
-  /// √(rᴴ·P⁻¹·r / uᵀ·K·u). E* has its square over the least eigenvalue of P⁻¹·K, some thousandths, since tens of
-  /// iterations do: 1e-9 for a residual of 1e-8, nothing for one of 1e-11.
+  /// Largest error in the energy norm relative to the energy of the solution, √(rᴴ·P⁻¹·r / uᵀ·K·u).
+  ///
+  /// Contacts that are far stiffer than the others, for instance with walls, make up nearly all of ‖f‖. A small
+  /// residual then says nothing about the softer contacts, but this error does. The relative error of E* is its square
+  /// over the smallest eigenvalue of P⁻¹·K. That eigenvalue is some thousandths, because tens of iterations suffice. So
+  /// with a residual tolerance of 1e-8 the error of E* is 1e-9, and with 1e-11 it is below rounding.
   double energy_tolerance() const { return 100 * options_.tolerance; }
 
   LinearSolver& direct() {
@@ -121,6 +126,7 @@ class Harmonic::Implementation {
     return *direct_;
   }
 
+  /// Returns the linear system of a load. \throws InputError when a law has no finite, non-zero stiffness at this s.
   Work work_of(const HarmonicLoad& load) {
     const Complex s = load.s();
     Work out;
@@ -128,7 +134,8 @@ class Harmonic::Implementation {
     task.stiffness = pair_stiffness(laws_, s);
     task.inertia = -load.density_scaling * (s * s + s * load.viscous_damping);
     task.right = contacts_.wall_loads(task.stiffness);
-    task.tolerance = 0.3 * options_.tolerance;  // rounding parts the solver's own residual from the true one
+    // stricter, because rounding makes the solver's own residual differ from the true one
+    task.tolerance = 0.3 * options_.tolerance;
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       const Complex k = task.stiffness.k[pair];
       if (network_.count[pair] > 0 && !(std::isfinite(k.real()) && std::isfinite(k.imag()) && k != 0.0)) {
@@ -140,16 +147,17 @@ class Harmonic::Implementation {
     return out;
   }
 
-  /// With inertia no iteration finds its way out of motions that nothing resists.
+  /// Removes the free motions from a start. With inertia the iteration cannot remove them by itself.
   Vector without_free_motions(Vector x) const {
     for (const FreeMotion& motion : free_.motions) motion.remove_from(x, inertia_);
     return x;
   }
 
-  /// With factors, from what the iteration left if that is near.
+  /// Prepares a task for the direct solver. It starts from the result of the iterative solver if the residual of that
+  /// is below 1.
   void begin_again(Work& w, const HarmonicLoad& load) {
     w.why_factors = refusal(w, load);
-    w.task.energy_limit = std::numeric_limits<double>::infinity();  // by another preconditioner
+    w.task.energy_limit = std::numeric_limits<double>::infinity();  // the limit is for another preconditioner
     if (!(w.residual < 1)) w.task.motion.clear();
     w.tried = false;
   }
@@ -158,7 +166,8 @@ class Harmonic::Implementation {
     return std::all_of(works.begin(), works.end(), [](const Work& w) { return w.good; });
   }
 
-  /// Solves what is not good yet, with what a check of the solution asks for, as long as the solver gets there.
+  /// Solves the tasks whose solutions are not good yet, in up to four rounds. The check after each round may ask for a
+  /// smaller energy error in the next. A task that did not converge is not attempted again.
   void attempt(std::vector<Work>& works, LinearSolver& solver, LinearMethod method) {
     for (int round = 0; round < 4; ++round) {
       std::vector<Work*> open;
@@ -174,7 +183,9 @@ class Harmonic::Implementation {
     }
   }
 
-  /// Residuals computed anew, and errors in the energy norm.
+  /// Checks solutions by residuals that are computed from the network, and by errors in the energy norm. The part of a
+  /// residual that exceeds rounding takes longer to compute, so it is asked for only when a residual exceeds the
+  /// tolerance.
   void check(const std::vector<Work*>& works) {
     std::vector<const LinearTask*> tasks;
     for (const Work* w : works) tasks.push_back(&w->task);
@@ -190,6 +201,7 @@ class Harmonic::Implementation {
     for (std::size_t i = 0; i < works.size(); ++i) take(*works[i], found[i]);
   }
 
+  /// Stores the check of a solution, decides whether the solution is good, and sets the energy limit of the next round.
   void take(Work& w, const SolutionCheck& found) const {
     LinearTask& task = w.task;
     const double whole = std::abs(found.parts.modulus()), scale = length(task.right);
@@ -202,6 +214,7 @@ class Harmonic::Implementation {
     task.energy_limit = 0.1 * energy_tolerance() * energy_tolerance() * whole;
   }
 
+  /// Returns why a solution is not accepted, for messages.
   std::string refusal(const Work& w, const HarmonicLoad& load) const {
     const std::string larger = specimen_.size() > largest_direct && options_.linear == LinearMethod::automatic
                                    ? fmt::format("; of more than {} particles nothing is factored", largest_direct)
@@ -215,8 +228,9 @@ class Harmonic::Implementation {
         to_string(w.method), larger);
   }
 
-  /// The top wall's reaction at unit displacement is uᵀ·(K* − inertia·M)·u, without conjugates: the error of the
-  /// solution enters it squared, and nothing cancels where the wall is far stiffer than the specimen.
+  /// Returns the result of a solved task. The reaction of the top wall at unit displacement is uᵀ·(K* − inertia·M)·u,
+  /// without conjugates. In this form the error of the solution enters squared, and nothing cancels when the wall is
+  /// far stiffer than the specimen.
   HarmonicResult result_of(Work& w, const HarmonicLoad& load) const {
     const LinearTask& task = w.task;
     const Vector& x = task.motion;
@@ -254,7 +268,7 @@ class Harmonic::Implementation {
   PairStiffness typical_;
   FreeMotions free_;
   std::unique_ptr<LinearSolver> iterative_, direct_;
-  std::string why_factors_;  ///< where no iteration can be set up
+  std::string why_factors_;  ///< why the iterative solver could not be set up; empty if it could
 };
 
 Harmonic::Harmonic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file law_stiffness.hpp  The one way from any law to its complex stiffness, which not every law has.
+/// \file law_stiffness.hpp  Access to the complex stiffness of a law, with an error for laws that have none. All code
+/// of the frequency domain uses it.
 #pragma once
 
 #include <optional>
@@ -12,8 +13,8 @@
 
 namespace macadam {
 
-/// f(law) as an `Out`, of the law of a pair that has a place in the frequency domain: f may ask it for stiffness(),
-/// unit_compliance() and each_parameter(). \throws InputError naming pair, law and what to do where it has none.
+/// Returns f(law), for the law of a pair that has a complex stiffness: f may call its stiffness(), unit_compliance()
+/// and each_parameter(). \throws InputError naming pair, law and remedy if the law has none.
 template <class Out, class... L, class F>
 Out with_stiffness(PairType pair, const std::variant<L...>& law, F&& f) {
   return std::visit(
@@ -32,7 +33,8 @@ Out with_stiffness(PairType pair, const std::variant<L...>& law, F&& f) {
       law);
 }
 
-/// \throws InputError naming the first pair whose law has none, as with_stiffness().
+/// Checks that all laws have a complex stiffness. \throws InputError naming the first pair whose law has none, as
+/// with_stiffness().
 inline void require_stiffness(const LawTable& laws) {
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (laws[pair]) with_stiffness<void>(static_cast<PairType>(pair), *laws[pair], [](const auto&) {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file linear_solver.hpp  (K*(s) − inertia·M)·u = f, by whichever means.
+/// \file linear_solver.hpp  The linear systems (K*(s) − inertia·M)·u = f of the frequency domain, and the interface of
+/// the two solvers, iterative and direct.
 #pragma once
 
 #include <functional>
@@ -15,53 +16,61 @@
 
 namespace macadam::harmonic {
 
-/// One system to be solved: six numbers a particle.
+/// One linear system: its matrix and load, the start and the accuracy that is asked for, and the solution. Vectors have
+/// six numbers per particle.
 struct LinearTask {
   PairStiffness stiffness;
   Complex inertia = 0;   ///< −(s² + s·β)·density scaling; 0: without inertia
-  Loads right;           ///< f: nothing on all other particles
-  double tolerance = 0;  ///< of ‖f − K·u‖ / ‖f‖
-  double energy_limit = std::numeric_limits<double>::infinity();  ///< of rᴴ·P⁻¹·r, P the solver's preconditioner
-  Vector motion;                                                  ///< where to begin, then the solution
-  /// rᴴ·P⁻¹·r of the solution's residual, computed anew: that of the iteration has gathered rounding.
+  Loads right;           ///< f; particles that are not listed have no load
+  double tolerance = 0;  ///< largest ‖f − K·u‖ / ‖f‖
+  /// Largest rᴴ·P⁻¹·r, with the solver's preconditioner P.
+  double energy_limit = std::numeric_limits<double>::infinity();
+  Vector motion;  ///< the start of the iteration (empty: at rest), then the solution
+  /// rᴴ·P⁻¹·r of the solution. The residual r is computed from the solution, because the residual that the iteration
+  /// updates has accumulated rounding errors.
   double energy = 0;
-  int iterations = 0;      ///< added to
-  bool converged = false;  ///< by the solver's own residual, which rounding may have parted from the true one
+  int iterations = 0;  ///< increased by the iterations of each solve()
+  /// Whether tolerance and energy limit are met, judged by the residual that the iteration updates; rounding errors
+  /// make it differ from the true residual.
+  bool converged = false;
 };
 
-/// A way of solving, made ready for one network. Motions of the whole that nothing resists stay out of the solutions,
-/// or are held by pins without force.
+/// A solver with a preconditioner that is made for one network. Free motions of the specimen (motions that no contact
+/// resists) are removed from the solutions, or held by pins that carry no force.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
-  /// \throws InterruptedError where `stop`, if there is one, says so.
+  /// Solves all tasks and stores the results in them. Tasks that do not converge have `converged` false.
+  /// \throws InterruptedError when `stop` is given and returns true.
   virtual void solve(const std::vector<LinearTask*>& tasks, const std::function<bool()>& stop) = 0;
 };
 
-/// \throws InterruptedError where `stop`, if there is one, says so.
+/// \throws InterruptedError when `stop` is given and returns true.
 void require_not_stopped(const std::function<bool()>& stop);
 
-/// Preconditioned by Cholesky factors of Re K at one frequency: some ten iterations, but memory grows as n^(4/3).
-/// \throws RunError when the stiffness is singular, or memory does not suffice.
+/// Returns the direct solver: COCG preconditioned by Cholesky factors of Re K at one frequency. It takes about ten
+/// iterations, but its memory grows as n^(4/3).
+/// \throws RunError when the stiffness is singular or memory does not suffice.
 std::unique_ptr<LinearSolver> make_direct_solver(const ContactNetwork& network, const ContactOperator& contacts,
                                                  const PairStiffness& typical, const Inertia& inertia,
                                                  const FreeMotions& free);
 
-/// The iteration cannot be set up for this network; factors may do.
+/// Thrown when the iterative solver cannot be set up for this network. The direct solver may still work.
 class NotIterable : public RunError {
  public:
   using RunError::RunError;
 };
 
-/// Boxes of particles that make_iterative_solver() takes: more take fewer iterations, but a dense matrix that grows as
-/// their square.
+/// Returns the number of boxes of particles that make_iterative_solver() uses by default. More boxes take fewer
+/// iterations, but the dense coarse matrix grows as the square of their number.
 std::size_t usual_boxes(std::size_t particles);
 
-/// Preconditioned by each particle itself and by the rigid motions of boxes of particles: no factors but of a small
-/// matrix. Up to four tasks are solved side by side. `backend`: cpu, or cuda on `devices`, where all of the iteration
-/// runs. `boxes`: another number of them, about; 0: each particle alone. \throws NotIterable when
-/// a particle alone can move without force, or the whole in more than six ways; RunError when a device has too little
-/// memory.
+/// Returns the iterative solver: COCG preconditioned by each particle's own stiffness block and by the rigid motions of
+/// boxes of particles. Only the small matrix of the boxes is factored. Up to four tasks are solved side by side.
+/// `backend`: cpu, or cuda on `devices`, where the whole iteration runs. `boxes`: approximate number of boxes, if it is
+/// not to be usual_boxes(); 0 leaves out the boxes, so that each particle stands alone.
+/// \throws NotIterable when a single particle can move without force or the specimen has more than six free motions;
+/// RunError when a device has too little memory.
 std::unique_ptr<LinearSolver> make_iterative_solver(const Specimen& specimen, const ContactNetwork& network,
                                                     const PairStiffness& typical, const Inertia& inertia,
                                                     const FreeMotions& free, Backend backend = Backend::cpu,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reduced_model.cpp  Motions made orthonormal, the network's matrices between them, and the small systems.
+// reduced_model.cpp  Makes motions orthonormal, computes the small matrices between them, and solves the small systems.
 #include "host/harmonic/reduced_model.hpp"
 
 #include <algorithm>
@@ -16,18 +16,19 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-/// What is left of a motion beside those that are there, as a share of it, below which it brings nothing new: E* has
+/// A motion whose part outside the present ones is below this fraction of its length is not added. The error of E* is
 /// the square of it.
 constexpr double nothing_new = 1e-6;
 
-/// Sums are taken of so many pieces and then of these, in order: the same bits for any number of threads.
+/// Sums are computed in this many parts, which are then added in order. So the result does not depend on the number of
+/// threads.
 constexpr std::size_t pieces = 16;
 
 auto as_columns(const Vector& motion) {
   return Eigen::Map<const VectorXcd>(motion.data(), static_cast<Index>(motion.size()));
 }
 
-/// f(first row, rows) of each piece.
+/// Calls f(piece, first row, number of rows) for all pieces in parallel.
 template <class F>
 void for_each_piece(Index rows, F&& f) {
   for_each_in_parallel(pieces, [&](std::size_t p) {
@@ -36,7 +37,7 @@ void for_each_piece(Index rows, F&& f) {
   });
 }
 
-/// aᵀ·b.
+/// Returns aᵀ·b.
 MatrixXd products(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const MatrixXd>& b) {
   std::vector<MatrixXd> sums(pieces);
   for_each_piece(a.rows(), [&](std::size_t p, Index begin, Index rows) {
@@ -46,22 +47,23 @@ MatrixXd products(const Eigen::Ref<const MatrixXd>& a, const Eigen::Ref<const Ma
   return sums[0];
 }
 
-/// from −= columns·shares.
+/// Computes from −= columns·shares.
 void take_away(MatrixXd& from, const Eigen::Ref<const MatrixXd>& columns, const MatrixXd& shares) {
   for_each_piece(from.rows(), [&](std::size_t, Index begin, Index rows) {
     from.middleRows(begin, rows).noalias() -= columns.middleRows(begin, rows) * shares;
   });
 }
 
-/// The three relative displacements of a contact that resist together (opening and bending, or slip and twist), of each
-/// motion, and the moments over the distance that join them.
+/// The three relative displacements of a contact in every motion, a column per motion.
 using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
+/// `normal` has opening and bending, `shear` slip and twist; the two groups do not act on each other.
 struct ContactMotions {
   Rows normal, shear;
 };
 
-/// `basis(dof)` is the row of a degree of freedom; the first motion moves the top wall by one.
+/// Computes the relative displacements of a contact in motions 0 … count − 1. `row(dof, j)` is degree of freedom `dof`
+/// in motion j. Motion 0 moves the top wall by one.
 template <class Row>
 void relative_motions(const Contact& c, const Row& row, Index count, ContactMotions& out) {
   double u[6];
@@ -77,7 +79,8 @@ void relative_motions(const Contact& c, const Row& row, Index count, ContactMoti
   }
 }
 
-/// Forces per k* of a contact's displacements, by the same sums as condensed_load() with α = 1.
+/// The 3 × 3 matrices that turn relative displacements into forces per k*, for α = 1, with the same sums as
+/// condensed_load().
 Eigen::Matrix3d normal_form(const Contact& c) {
   const auto& m = c.moments;
   Eigen::Matrix3d out;
@@ -118,7 +121,7 @@ MatrixXd ReducedModel::new_columns(const std::vector<Vector>& motions) const {
   const auto others = basis_.rightCols(basis_.cols() - 1);
   Index kept = 0;
   for (int twice = 0; twice < 2; ++twice)
-    take_away(out, others, products(others, out));  // twice: rounding of the first
+    take_away(out, others, products(others, out));  // the second pass removes the rounding error of the first
   for (Index j = 0; j < out.cols(); ++j) {
     MatrixXd column = out.col(j);
     for (int twice = 0; twice < 2; ++twice) {
@@ -131,9 +134,9 @@ MatrixXd ReducedModel::new_columns(const std::vector<Vector>& motions) const {
   return out.leftCols(kept);
 }
 
-/// Columns from `from` on of the matrices, and the rows that mirror them.
+/// Computes the columns from `from` on of the small matrices, and the rows that mirror them.
 void ReducedModel::project(Index from) {
-  constexpr Index stack = 48;  // contacts whose products are taken together
+  constexpr Index stack = 48;  // contacts whose products are computed as one matrix product
   const Index count = basis_.cols(), added = count - from;
   const auto& contacts = network_.contacts;
   using Sums = std::array<MatrixXd, 2 * pair_types>;
@@ -205,7 +208,8 @@ ReducedModel::Solution ReducedModel::solve(const LawTable& laws, const HarmonicL
   out.of_the_motions = VectorXcd::Ones(basis_.cols());
   const Index free = basis_.cols() - 1;
   if (free > 0) {
-    // degrees of freedom have no common unit, and stiff walls dwarf the rest: each row by its own diagonal
+    // Degrees of freedom have different units, and stiff walls make some rows far larger: each row is scaled by its
+    // diagonal.
     const Eigen::VectorXd scale = whole.diagonal().tail(free).cwiseAbs().cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXcd scaled = scale.asDiagonal() * whole.bottomRightCorner(free, free) * scale.asDiagonal();
     const VectorXcd right = scale.asDiagonal() * whole.bottomLeftCorner(free, 1);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reduced_model.hpp  A specimen held to the motions that it was seen to have: E* for other laws, at once.
+/// \file reduced_model.hpp  A specimen restricted to motions of earlier solutions (a reduced basis), which gives E* for
+/// other laws within milliseconds.
 ///
-/// K*(s) = Σ k_p·(N_p + α_p·S_p) over the pairs p, with real N and S that no law changes. Between real motions v_j,
-/// which rest at the walls, N, S and M become small matrices, once; then any laws and any s take a small linear system.
-/// Where the real and imaginary parts of a solution are among the motions, E* there is that of the solution, and so are
-/// its derivatives; elsewhere its error goes with the square of the distance (Galerkin's method).
+/// K*(s) = Σ k_p·(N_p + α_p·S_p) over the pairs p, with real matrices N and S that do not depend on the laws. A few
+/// real motions v_j, which are at rest at the walls, reduce N, S and M to small matrices, once. Then any laws and any s
+/// take only a small linear system (Galerkin's method, model section 17). If the real and imaginary parts of a solution
+/// are among the motions, the model gives the same E* and derivatives as the solution. Otherwise the error of E* grows
+/// with the square of the distance from the motions.
 #pragma once
 
 #include <Eigen/Dense>
@@ -14,42 +16,47 @@
 
 namespace macadam::harmonic {
 
+/// The reduced model of one specimen, see the top of this file.
 class ReducedModel {
  public:
-  /// Specimen and network must outlive it. \param inertia  of the particles; empty: none in any solution.
+  /// Specimen and network must outlive it. \param inertia  of the particles; empty: solutions have no inertia.
   ReducedModel(const Specimen& specimen, const ContactNetwork& network, Inertia inertia);
 
-  /// Motions that solutions have at unit displacement of the top wall (HarmonicResult::motion) join. What is among
-  /// them already is left out.
+  /// Adds the motions of solutions at unit displacement of the top wall (HarmonicResult::motion). Parts that the model
+  /// contains already are left out.
   void add(const std::vector<Vector>& motions);
 
   struct Solution {
     ModulusParts parts;               ///< of E* [Pa]
-    Eigen::VectorXcd of_the_motions;  ///< how much of each the motion has
+    Eigen::VectorXcd of_the_motions;  ///< coefficients of the motions
   };
-  /// Of `load`, whose `near` is not used. At least one motion must be there. \throws RunError where nothing finite
-  /// solves it.
+  /// Returns the solution for `load`; its `near` is not used. At least one motion must have been added. \throws
+  /// RunError when the small system has no finite solution.
   Solution solve(const LawTable& laws, const HarmonicLoad& load) const;
 
-  /// The particles' motion, to begin an iteration at (HarmonicLoad::near).
+  /// Returns the motion of the particles, [6·particles], as a start for an iteration (HarmonicLoad::near).
   Vector motion(const Solution& solution) const;
 
-  /// uᵀ·K·u of a pair per k*, between the motions: N + α·S. Not over the specimen's size.
+  /// Returns N + α·S of a pair between the motions, [motions][motions]: uᵀ·K·u per k*, not yet divided by the
+  /// specimen's size.
   Eigen::MatrixXd form(std::size_t pair, double alpha) const { return normal_[pair] + alpha * shear_[pair]; }
 
-  Eigen::Index motions() const { return basis_.cols(); }  ///< real ones, the first included
+  Eigen::Index motions() const { return basis_.cols(); }  ///< number of real motions, the first included
 
  private:
   using Matrix = Eigen::MatrixXd;
 
-  /// What the motions bring beside those that are there, orthonormal.
+  /// Returns orthonormal columns that span what `motions` add to the present ones.
   Matrix new_columns(const std::vector<Vector>& motions) const;
+  /// Extends the small matrices by the motions from number `from` on.
   void project(Eigen::Index from);
 
   const Specimen& specimen_;
   const ContactNetwork& network_;
   Inertia inertia_;
-  Matrix basis_;  ///< [6·particles][motions]; the first goes with the wall, the others rest there and are orthonormal
+  /// [6·particles][motions]. In the first motion the top wall moves by one. In the others it is at rest; these are
+  /// orthonormal.
+  Matrix basis_;
   std::array<Matrix, pair_types> normal_, shear_;  ///< vᵢᵀ·N·vⱼ and vᵢᵀ·S·vⱼ
   Matrix mass_;                                    ///< vᵢᵀ·M·vⱼ
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rigid_motions.cpp  Free motions as null spaces: of the contacts around a part on six rigid motions, and of particles.
+// rigid_motions.cpp  Finds free motions as null spaces: of the stiffness of the contacts around a part for its six
+// rigid motions, and of the stiffness of single particles.
 #include "host/harmonic/rigid_motions.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -15,19 +16,20 @@ namespace {
 
 using OwnMotions = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< columns: motions of one particle
 
-/// Motion of a particle under the six rigid motions about the middle of the box, turns scaled to lengths.
+/// Returns the motion of a particle under the six rigid motions about the middle of the box, one per column. Turns are
+/// multiplied by the height of the box, so that all six coefficients are lengths.
 Matrix6 rigid(const Specimen& specimen, std::int32_t particle) {
   const double height = specimen.box.size.z;
   const Vec3d r = specimen.centre[static_cast<std::size_t>(particle)] - 0.5 * specimen.box.size;
   Matrix6 out = Matrix6::Identity();
-  // translation of a turn about axis k: e_k × r
+  // translation by a turn about axis k: e_k × r
   out.topRightCorner<3, 3>() << 0, r.z, -r.y, -r.z, 0, r.x, r.y, -r.x, 0;
   out.rightCols<3>() /= height;
   return out;
 }
 
-/// Adds a motion to the list, made orthonormal to those from number `first` on. Each of these moves one particle of the
-/// new one, or all of its particles.
+/// Makes a motion orthonormal to the motions of the list from number `first` on, with respect to masses, and appends
+/// it. Each of those motions moves either one particle of the new motion or all of its particles.
 void add_orthonormal(FreeMotion added, std::size_t first, const Inertia& inertia, std::vector<FreeMotion>& list) {
   const auto weighted = [&](const FreeMotion& m, const double* a, const double* b) {
     return sum_in_parallel<double>(m.motion.size(), [&](std::size_t i) {
@@ -46,14 +48,15 @@ void add_orthonormal(FreeMotion added, std::size_t first, const Inertia& inertia
   list.push_back(std::move(added));
 }
 
-/// So many columns that are independent: each time the longest, whose direction is then taken out of all.
+/// Returns the indices of `wanted` linearly independent columns. It takes the longest column and removes its direction
+/// from all columns, again and again; the matrix is overwritten.
 std::vector<std::size_t> independent_columns(Eigen::MatrixXd& matrix, int wanted) {
   const auto columns = static_cast<std::size_t>(matrix.cols());
   struct Longest {
     double square = -1;
     std::size_t column = 0;
     Longest& operator+=(const Longest& o) {
-      if (o.square > square) *this = o;  // the first of equals
+      if (o.square > square) *this = o;  // the first of equal ones
       return *this;
     }
   };
@@ -73,7 +76,7 @@ std::vector<std::size_t> independent_columns(Eigen::MatrixXd& matrix, int wanted
   return out;
 }
 
-/// One part of a cluster with its free motions.
+/// One part of a cluster with its free motions: rigid motions of the part, and motions of single particles.
 class Part {
  public:
   Part(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& stiffness,
@@ -83,6 +86,7 @@ class Part {
     if (members.size() > 1) find_own();
   }
 
+  /// Appends pins and orthonormal motions of this part.
   void add_to(FreeMotions& out, const Inertia& inertia) const {
     const std::size_t first = out.motions.size();
     for (const auto& [k, own] : own_) {
@@ -97,7 +101,7 @@ class Part {
           motion.motion[c] = c < 3 ? v : v / radius;
         }
         out.pins.push_back(pin);
-        // those before it of other particles have nothing in common with it
+        // motions of other particles are orthogonal to this one already
         add_orthonormal(std::move(motion), out.motions.size() - static_cast<std::size_t>(m), inertia, out.motions);
       }
     }
@@ -117,7 +121,8 @@ class Part {
  private:
   double radius_of(std::size_t k) const { return specimen_.radius[static_cast<std::size_t>(members_[k])]; }
 
-  /// The rigid motions of the part that the contacts around it do not resist while all else is at rest.
+  /// Finds the rigid motions of the part that its contacts with other parts and with walls do not resist while all else
+  /// is at rest.
   void find_rigid(bool is_cluster) {
     Matrix6 around = Matrix6::Zero();
     for (const std::int32_t particle : members_) {
@@ -135,11 +140,11 @@ class Part {
     const Eigen::SelfAdjointEigenSolver<Matrix6> modes(around);
     largest_ = modes.eigenvalues()(5);
     int free = 0;
-    while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest_) ++free;  // sums of at most 1e4 terms to rounding
+    while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest_) ++free;  // rounding of sums of at most 1e4 terms
     rigid_ = modes.eigenvectors().leftCols(free);
   }
 
-  /// Motions of particles by themselves, and the rigid motions that are not made of them alone.
+  /// Finds the free motions of single particles, and removes from the rigid motions those that are made of them alone.
   void find_own() {
     for (std::size_t k = 0; k < members_.size(); ++k) {
       OwnMotions own = own_motions(members_[k], specimen_, network_, stiffness_);
@@ -149,15 +154,16 @@ class Part {
     Eigen::MatrixXd all = scaled_motions();
     const Eigen::MatrixXd whole = all * all.transpose();
     remove_own(all);
-    // the part of each rigid motion that is left, 0 to 1
+    // eigenvalues: the fraction of a rigid motion that is left without the particles' own motions, 0 to 1
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> left(all * all.transpose(), whole);
     int gone = 0;
     while (gone < rigid_.cols() && left.eigenvalues()(gone) < 1e-9)
-      ++gone;  // one particle in 1e9 does not turn by itself
+      ++gone;  // 1e-9 is the fraction that is left if one particle in 1e9 does not turn by itself
     rigid_ = (rigid_ * left.eigenvectors().rightCols(rigid_.cols() - gone)).eval();
   }
 
-  /// [rigid motion][6·member + component], rotations times the particles' radii [m].
+  /// Returns the rigid motions as [rigid motion][6·member + component], rotations multiplied by the particles' radii
+  /// [m].
   Eigen::MatrixXd scaled_motions() const {
     Eigen::MatrixXd out(rigid_.cols(), static_cast<Eigen::Index>(6 * members_.size()));
 #pragma omp parallel for schedule(static)
@@ -169,6 +175,7 @@ class Part {
     return out;
   }
 
+  /// Removes the particles' own motions from the rigid motions in `all`.
   void remove_own(Eigen::MatrixXd& all) const {
     for (const auto& [k, own] : own_) {
       auto columns = all.middleCols<6>(static_cast<Eigen::Index>(6 * k));
@@ -176,8 +183,9 @@ class Part {
     }
   }
 
-  /// Pins on single degrees of freedom, far apart ones. A rotation is taken where the part lies on the axis of the
-  /// turn, so that no displacement shows it.
+  /// Adds one pin for each rigid motion, on single degrees of freedom of particles that are far apart. Displacements
+  /// are preferred. A rotation is pinned only if the part lies on the axis of the turn, so that the turn displaces no
+  /// particle.
   void add_pins(FreeMotions& out) const {
     constexpr double of_rotations = 1e-3;
     Eigen::MatrixXd all = scaled_motions();
@@ -196,9 +204,9 @@ class Part {
   const ContactNetwork& network_;
   const PairStiffness& stiffness_;
   const std::vector<std::int32_t>& members_;
-  double largest_ = 0;                                   ///< stiffness around the part [N/m]
-  OwnMotions rigid_;                                     ///< columns of coefficients of rigid()
-  std::vector<std::pair<std::size_t, OwnMotions>> own_;  ///< by member
+  double largest_ = 0;                                   ///< largest stiffness of the contacts around the part [N/m]
+  OwnMotions rigid_;                                     ///< free rigid motions; columns of coefficients of rigid()
+  std::vector<std::pair<std::size_t, OwnMotions>> own_;  ///< (member, its own free motions), members ascending
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file rigid_motions.hpp  Motions that nothing resists, and springs to ground that hold them without force.
+/// \file rigid_motions.hpp  Free motions (motions that no contact resists), and springs to ground that hold them
+/// without carrying force.
 #pragma once
 
 #include <array>
@@ -12,13 +13,13 @@
 
 namespace macadam::harmonic {
 
-/// A spring to ground on one particle: its load is stiffness·direction·(directionᵀ·motion).
+/// A spring between one particle and ground. Its load is stiffness·direction·(directionᵀ·motion).
 struct Pin {
   std::size_t particle;
-  std::array<double, 6> direction;  ///< translations [1], then rotations [m]
+  std::array<double, 6> direction;  ///< three translations [1], then three rotations [m]
   double stiffness;                 ///< [N/m]
 
-  /// Force of the spring under a motion of all particles [6·particles].
+  /// Returns the force of the spring under a motion of all particles, [6·particles].
   Complex force(const Vector& motion) const {
     Complex along = 0;
     for (std::size_t c = 0; c < 6; ++c) along += direction[c] * motion[6 * particle + c];
@@ -26,28 +27,29 @@ struct Pin {
   }
 };
 
-/// A motion of some particles; all others are at rest.
+/// A motion of some particles that no contact resists; all other particles are at rest.
 struct FreeMotion {
   std::vector<std::int32_t> particles;  ///< ascending
-  std::vector<double> motion;           ///< [particle of the list][6], of length 1 with respect to masses [1/√kg]
+  std::vector<double> motion;           ///< [particle of the list][6], with motionᵀ·M·motion = 1 [1/√kg]
 
-  /// Takes this motion out of another one, [6·particles of the specimen].
+  /// Removes this motion from another one, [6·particles of the specimen], by projection with respect to masses.
   void remove_from(Vector& other, const Inertia& inertia) const;
 };
 
-/// The motions of zero stiffness. Between frictionless walls a specimen has three: x, y, and the turn about z. Parts of
-/// it that only flat contacts without shear stiffness join, as the spheres of a vertical column with alpha = 0, have
-/// these three each. A particle between contacts of parallel normals may also turn by itself.
+/// The motions without stiffness. A specimen between frictionless walls has three: along x, along y, and the turn about
+/// z. If parts of a specimen are joined only by flat horizontal contacts without shear stiffness, each part has these
+/// three; an example are the spheres of a vertical column with alpha = 0. A particle whose contact normals are all
+/// parallel may also turn by itself.
 ///
-/// The load is orthogonal to all of them: a contact that a motion does not deform does not transfer the motion of the
-/// top wall to it either. So they leave E* determined.
+/// The load is orthogonal to all of them, because a contact that a motion does not deform does not transfer the motion
+/// of the top wall to it either. So E* is determined although these motions are not.
 struct FreeMotions {
-  std::vector<Pin> pins;            ///< one per motion; under a load in equilibrium they carry no force
+  std::vector<Pin> pins;            ///< one per motion; they carry no force under a load in equilibrium
   std::vector<FreeMotion> motions;  ///< orthonormal with respect to masses and moments of inertia
 };
 
-/// Finds the free motions of all clusters. \throws InputError naming the particles of a cluster that does not touch
-/// both walls: nothing determines where it is.
+/// Returns the free motions of all clusters (sets of particles that contacts join). \throws InputError naming the
+/// particles of a cluster that does not touch both walls, because nothing determines its position.
 FreeMotions find_free_motions(const Specimen& specimen, const ContactNetwork& network, const PairStiffness& stiffness,
                               const Inertia& inertia);
 

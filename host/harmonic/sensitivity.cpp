@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sensitivity.cpp  From the parts of E* to derivatives and shares.
+// sensitivity.cpp  Computes derivatives of E* and the fraction that each pair carries from the parts of E* (model,
+// section 16).
 #include "macadam/sensitivity.hpp"
 
 #include <numbers>

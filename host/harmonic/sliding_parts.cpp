@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sliding_parts.cpp  Union–find over the contacts that resist sliding, and null spaces of single particles.
+// sliding_parts.cpp  Parts by union–find over the contacts that resist sliding; free motions of a particle as the null
+// space of its stiffness block.
 #include "host/harmonic/sliding_parts.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -11,9 +12,10 @@
 namespace macadam::harmonic {
 namespace {
 
-/// Largest sine of the angle between parallel normals: what rounding leaves of coordinates.
+/// Largest sine of the angle between normals that count as parallel: the rounding error of coordinates.
 constexpr double parallel = 1e-12;
 
+/// Returns whether a contact is horizontal and has no shear stiffness.
 bool slides_horizontally(const Contact& c, const PairStiffness& stiffness) {
   return stiffness.alpha[static_cast<std::size_t>(c.pair)] == 0 && std::hypot(c.n.x, c.n.y) <= parallel;
 }
@@ -71,11 +73,11 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> own_motions(std::int32_t particle, cons
     block += contact_block(c, stiffness.k[pair].real(), stiffness.alpha[pair], end, end);
   }
   Eigen::Vector<double, 6> scale = Eigen::Vector<double, 6>::Ones();
-  scale.tail<3>() /= specimen.radius[static_cast<std::size_t>(particle)];  // rotations as lengths
+  scale.tail<3>() /= specimen.radius[static_cast<std::size_t>(particle)];  // rotations become lengths
   const Eigen::SelfAdjointEigenSolver<Matrix6> modes(scale.asDiagonal() * block * scale.asDiagonal());
   const double largest = modes.eigenvalues()(5);
   int free = 0;
-  while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest) ++free;  // rounding of a few contacts
+  while (free < 6 && modes.eigenvalues()(free) < 1e-12 * largest) ++free;  // rounding error of a few contacts
   return modes.eigenvectors().leftCols(free);
 }
 

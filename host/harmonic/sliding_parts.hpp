@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sliding_parts.hpp  Parts of a cluster that slide on one another, and particles that turn by themselves.
+/// \file sliding_parts.hpp  Parts of a cluster that can slide on one another, and free motions of single particles.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,14 +13,15 @@
 
 namespace macadam::harmonic {
 
-/// Splits a cluster where horizontal contacts without shear stiffness (alpha = 0, normal along z) join it. Particles of
-/// a part ascend, and parts ascend by their first particle. Usually the cluster is one part.
+/// Splits a cluster (a set of particles that contacts join) at flat horizontal contacts without shear stiffness (alpha
+/// = 0, normal along z). Particles of a part are in ascending order, and parts are ordered by their first particle.
+/// Most clusters have one part.
 std::vector<std::vector<std::int32_t>> sliding_parts(const Cluster& cluster, const ContactNetwork& network,
                                                      const PairStiffness& stiffness);
 
-/// Motions of one particle that none of its contacts resists, where it has two contacts or more and all of their
-/// normals are parallel: columns of translations and rotations times the radius [m], orthonormal; [6 × number], usually
-/// none. Particles with other contacts that can move by themselves are mechanisms, and not looked for.
+/// Returns the motions of one particle that none of its contacts resists, if it has at least two contacts and all
+/// normals are parallel. Columns are orthonormal, [6 × number], with rotations multiplied by the radius [m]; usually
+/// there are none. Particles with other contacts that can move by themselves are mechanisms and are not searched for.
 Eigen::Matrix<double, 6, Eigen::Dynamic> own_motions(std::int32_t particle, const Specimen& specimen,
                                                      const ContactNetwork& network, const PairStiffness& stiffness);
 

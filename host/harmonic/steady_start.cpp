@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// steady_start.cpp  A complex motion seen one step before t = 0, with the chains that belong to it.
+// steady_start.cpp  Displacements one step before t = 0, velocities half a step before, and contact states of a complex
+// motion (model (18.1)).
 #include <numbers>
 
 #include "host/harmonic/contact_operator.hpp"
@@ -12,7 +13,7 @@ using namespace harmonic;
 StartState steady_start(const ContactNetwork& network, const LawTable& laws,
                         const std::vector<std::complex<double>>& motion, const drives::Cyclic& loading) {
   const double omega = 2 * std::numbers::pi * loading.frequency, dt = loading.dt();
-  // the wall moves by −A·sin ωt = Im(−A·e^{iωt}), and so does all else with its own factor
+  // the wall moves by −A·sin ωt = Im(−A·e^{iωt}), and everything else by this times its own complex factor
   const Complex before = -loading.amplitude * std::polar(1.0, -omega * dt);
   const Complex rate =
       -loading.amplitude * Complex(2 * std::pow(std::sin(omega * dt / 2), 2), std::sin(omega * dt)) / dt;
@@ -29,7 +30,7 @@ StartState steady_start(const ContactNetwork& network, const LawTable& laws,
     out.velocity.push_back(vector(rate, m));
     out.spin.push_back(vector(rate, m + 3));
   }
-  struct Response {  // of a law at ω
+  struct Response {  // complex response of a law at ω
     Complex stiffness;
     std::vector<Complex> unit_compliance;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_contact.cpp  How the frame of a contact follows its particles.
+/// \file reference_contact.cpp  Moves the frame of a contact with its particles.
 #include "host/reference/reference_contact.hpp"
 
 #include <cmath>
@@ -36,13 +36,13 @@ ContactFrame middle_of(const ContactFrame& before, const ContactFrame& after) {
   return out;
 }
 
-// x0 lies at R_A − Un/2 − dv from A with Un = R_A + R_B − d and dv fixed (Eq. 5, 6): it moves by half of the change of
-// d, and the other half is B's.
+// x0 lies at R_A − Un/2 − dv from A, with Un = R_A + R_B − d and dv fixed (Eq. 5, 6). So the lever arm of A changes by
+// half of the change of d, and the lever arm of B by the other half.
 void ReferenceContact::follow_pair(const Vector3d& centres, const Vector3d& mean_turn) {
   const ContactFrame before = frame;
   const double d = centres.norm();
   frame.n = centres / d;
-  // The smallest rotation that takes the old normal to the new: about their cross product.
+  // the smallest rotation that takes the old normal to the new one turns about their cross product
   frame.s = Eigen::Quaterniond::FromTwoVectors(before.n, frame.n) * frame.s;
   spin_frame(mean_turn);
   frame.arm_a = initial_arm_a + (d - initial_distance) / 2;
@@ -57,8 +57,8 @@ void ReferenceContact::follow_wall(double distance, const Vector3d& mean_turn) {
   middle = middle_of(before, frame);
 }
 
-// Turns ŝ about n by the pair's mean turn about n, then makes the frame orthonormal again: rounding would otherwise
-// add up over millions of steps.
+// Turns ŝ about n by the pair's mean turn about n, then makes the frame orthonormal again; otherwise rounding errors
+// would add up over millions of steps.
 void ReferenceContact::spin_frame(const Vector3d& mean_turn) {
   frame.s = Eigen::AngleAxisd(mean_turn.dot(frame.n), frame.n) * frame.s;
   frame.s = (frame.s - frame.s.dot(frame.n) * frame.n).normalized();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_input.hpp  What the reference checks before it computes.
+/// \file reference_input.hpp  Checks of the reference stepper's input: laws, network, masses and options.
 #pragma once
 
 #include <array>
@@ -11,23 +11,24 @@
 
 namespace macadam::reference {
 
-/// One chain for each pair type; empty where the network has no such contact.
+/// The law of each pair type; empty for pairs that the network does not have.
 using ReferenceLaws = std::array<std::optional<ReferenceLaw>, pair_types>;
 
-/// Reads the laws of the pair types that the network has.
-/// \throws InputError naming a pair type without a law, or a law that is not one.
+/// Returns the laws of the pair types that the network has.
+/// \throws InputError naming a pair type that has no law, or a law with an invalid parameter.
 ReferenceLaws read_laws(const ContactNetwork& network, const LawTable& laws);
 
-/// \throws InputError when `found` is not `expected`; `what` is plural ("velocities").
+/// \throws InputError when `found` is not `expected`; `what` is the plural name of the items ("velocities").
 void require_count(const char* what, std::size_t found, std::size_t expected);
 
-/// \throws InputError naming the first contact whose particles, distance or points are not there.
+/// \throws InputError naming the first contact whose particles or points do not exist or whose distance is not
+/// positive.
 void require_network(const ContactNetwork& network, std::size_t particles);
 
 /// \throws InputError naming the first particle whose mass or moment of inertia is not positive and finite.
 void require_inertia(const Inertia& inertia, std::size_t particles);
 
-/// \throws InputError naming the first option that the reference stepper cannot follow.
+/// \throws InputError naming the first option that the reference stepper does not support.
 void require_options(const StepperOptions& options);
 
 }  // namespace macadam::reference

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_law.cpp  The trapezoidal rule for a chain of springs and dashpots, Eq. 13–17 derived again.
+/// \file reference_law.cpp  The trapezoidal rule (Eq. 13–17) for a chain of springs and dashpots, derived
+/// independently.
 #include "host/reference/reference_law.hpp"
 
 #include <cmath>
@@ -11,6 +12,7 @@
 namespace macadam::reference {
 namespace {
 
+/// \throws InputError naming the pair and the parameter, if `good` is false.
 void require(bool good, const std::string& pair, const char* what, double found, const char* expected) {
   if (!good) throw InputError("law of pair " + pair, 0, what, fmt::format("{}", found), expected);
 }
@@ -40,8 +42,8 @@ ReferenceLaw read(const laws::GeneralisedKelvin& law, const std::string& pair) {
   return out;
 }
 
-// Two springs k = E·A_J/d and α·k, whose stretch is kept beside the force: what has been pulled apart is known after
-// the break as well, and pushes again once it is closed. Stresses are forces over A_J.
+// Two springs, k = E·A_J/d and α·k. The state keeps their stretch beside their force, so that the opening is known
+// after the break, and a closed point transfers pressure again. Stresses are forces over A_J.
 ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
   require(std::isfinite(law.E) && law.E > 0, pair, "E", law.E, "a positive modulus");
   require(law.tensile_strength > 0, pair, "tensile_strength", law.tensile_strength, "a positive strength");
@@ -49,7 +51,7 @@ ReferenceLaw read(const laws::BrittleBond& law, const std::string& pair) {
   ReferenceLaw out;
   out.E_m = law.E;
   out.alpha = law.alpha;
-  out.kept = 2;  // the stretch, and how it broke
+  out.kept = 2;  // the stretch; in component 0 also how the point broke
   out.break_of = [](const ChainState(&chain)[3]) { return static_cast<Break>(static_cast<int>(chain[0].stretch[1])); };
   out.point = [law](double area, double distance, double, const std::array<double, 3>& dx, ChainState(&chain)[3]) {
     const double k[3] = {law.E * area / distance, law.alpha * law.E * area / distance,
@@ -77,23 +79,24 @@ ReferenceLaw make_reference_law(const Law& law, const std::string& pair) {
   return out;
 }
 
-// All elements carry the force f. Over one step, f0 at its start and f0 + Δf at its end, the trapezoidal rule replaces
-// every f by its mean f0 + Δf/2, and every stretch by its mean as well:
+// All elements carry the same force f, which is f0 at the start of the step and f0 + Δf at its end. The trapezoidal
+// rule replaces every f by its mean f0 + Δf/2, and every stretch by its mean as well:
 //
 //   spring            Δx_m = Δf/k_m
 //   dashpot           Δx_η = (Δt/η_m)·(f0 + Δf/2)
 //   Kelvin unit       η·Δx_l/Δt + k·(x_l + Δx_l/2) = f0 + Δf/2
 //                     ⇒ Δx_l = μ_l·(f0 + Δf/2 − k·x_l)    with μ_l = (Δt/η)/(1 + k·Δt/(2η))
 //
-// The stretches add up to dx. Collecting what does and what does not multiply Δf:
+// The stretches add up to dx. With the terms of Δf on the left:
 //
 //   Δf·[ 1/k_m + Δt/(2η_m) + Σ μ_l/2 ] = dx − (Δt/η_m)·f0 − Σ μ_l·(f0 − k·x_l)
 //
-// With a = 1 + kΔt/(2η), b = 1 − kΔt/(2η) the bracket is c of [1], Eq. 15, and μ_l·k·x_l = (1 − b/a)·x_l. Adding f0
-// gives
+// With a = 1 + kΔt/(2η) and b = 1 − kΔt/(2η), the bracket is c of [1], Eq. 15, and μ_l·k·x_l = (1 − b/a)·x_l. Adding
+// c·f0 on both sides gives
 //   c·f1 = dx + Σ (1 − b/a)·x_l − g·f0,   g = Σ μ_l/2 − 1/k_m + Δt/(2η_m),
-// so that Eq. 13 holds without its factor (1 + g/c) inside the bracket, and x_l + Δx_l = [b·x_l + Δt/(2η)·(f1 + f0)]/a
-// is Eq. 14 with the sum of the two forces, not their difference.
+// so that Eq. 13 holds if its factor (1 + g/c) stands outside the bracket. The new stretch is
+//   x_l + Δx_l = [b·x_l + Δt/(2η)·(f1 + f0)]/a,
+// which is Eq. 14 with the sum of the two forces in place of their difference.
 void advance_chain(const ReferenceLaw& law, double scale, double dt, double dx, ChainState& state) {
   const auto mobility = [&](const KelvinUnit& unit) {
     return dt / (unit.C * scale) / (1 + dt * unit.E / (2 * unit.C));  // μ_l [m/N]

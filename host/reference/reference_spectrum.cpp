@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_spectrum.cpp  Eigenvalues by a dense solver, equilibrium by LDLᵀ with the free motions held softly.
+/// \file reference_spectrum.cpp  Eigenvalues by a dense solver. Equilibrium by LDLᵀ factors, with weak springs that
+/// hold the free motions.
 #include "host/reference/reference_spectrum.hpp"
 
 #include <cmath>
@@ -27,13 +28,14 @@ double reference_largest_frequency(const ContactNetwork& network, const LawTable
   return std::sqrt(modes.eigenvalues().maxCoeff());
 }
 
-// K is singular where motions have no stiffness, but the load of a wall does no work on them. So K·u = f is solved by
-// repeating u += (K + H)⁻¹·(f − K·u) with weak holding springs H: a stiff motion converges by a factor H/K each time,
-// and a free one gets no force and stays. At the end f − K·u ≈ 0: nothing is held by H.
+// K is singular if some motions have no stiffness, but the load of a wall does no work on these motions. So K·u = f is
+// solved by repeating u += (K + H)⁻¹·(f − K·u) with weak springs H. The error of a motion with stiffness shrinks by a
+// factor H/K each time. A free motion gets no force and stays at rest. At the end f − K·u ≈ 0, so H holds nothing.
 double reference_static_modulus(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws) {
-  constexpr double holding = 1e-8;     // of the particle's own stiffness: far below the softest elastic motion, and far
-                                       // above the rounding of the factors
-  constexpr double tolerance = 1e-12;  // of the load; the reaction is that accurate
+  // fraction of a particle's own stiffness: far below the softest elastic motion, and far above the rounding errors of
+  // the factors
+  constexpr double holding = 1e-8;
+  constexpr double tolerance = 1e-12;  // fraction of the load; the reaction is as accurate
   constexpr int most_rounds = 100;
 
   const reference::Stiffness stiffness = reference::assemble_stiffness(network, laws, specimen.size());
@@ -46,7 +48,7 @@ double reference_static_modulus(const Specimen& specimen, const ContactNetwork& 
 
   const double displacement = specimen.box.size.z;  // a unit strain
   const Eigen::VectorXd load = stiffness.top_wall * displacement;
-  // Forces and moments have different units; a lever of one particle radius makes them comparable.
+  // Forces and moments have different units; dividing moments by the particle's radius makes them comparable.
   const auto size_of = [&](const Eigen::VectorXd& v) {
     double sum = 0;
     for (std::size_t i = 0; i < specimen.size(); ++i) {

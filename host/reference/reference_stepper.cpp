@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_stepper.cpp  Leapfrog over contact points: docs/model.md, sections 1, 5, 6 and 8 to 10, in the
+/// \file reference_stepper.cpp  Leapfrog over contact points (docs/model.md, sections 1, 5, 6 and 8 to 10), in the
 /// order of a step.
 #include "host/reference/reference_stepper.hpp"
 
@@ -13,14 +13,14 @@ namespace macadam {
 namespace reference {
 namespace {
 
-/// A rigid sphere in motion.
+/// A particle: a rigid sphere in motion.
 struct Body {
   Vector3d start = Vector3d::Zero();         ///< centre at the start [m]
   Vector3d displacement = Vector3d::Zero();  ///< at the whole step [m]
-  Vector3d rotation = Vector3d::Zero();      ///< sum of its turns [rad]
+  Vector3d rotation = Vector3d::Zero();      ///< sum of its turns since the start [rad]
   Vector3d velocity = Vector3d::Zero();      ///< at the last half step [m/s]
-  Vector3d spin = Vector3d::Zero();          ///< likewise [rad/s]
-  Vector3d force = Vector3d::Zero();         ///< of the contacts at the whole step [N]
+  Vector3d spin = Vector3d::Zero();          ///< at the last half step [rad/s]
+  Vector3d force = Vector3d::Zero();         ///< sum of its contacts' forces at the whole step [N]
   Vector3d moment = Vector3d::Zero();        ///< about the centre [N·m]
   Vector3d weight = Vector3d::Zero();        ///< body force [N]
   double radius = 0, mass = 0, inertia = 0;  ///< [m] [kg] [kg·m²], density scaling included
@@ -29,7 +29,7 @@ struct Body {
   Vector3d centre() const { return start + displacement; }
 };
 
-/// A wall: it translates, or rests.
+/// A wall, which can be displaced but does not turn.
 struct WallPlane {
   Vector3d displacement = Vector3d::Zero();  ///< [m]
   Vector3d velocity = Vector3d::Zero();      ///< [m/s]
@@ -38,6 +38,7 @@ struct WallPlane {
 
 Vec3d to_vec3(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+/// The stepper that make_reference_stepper() returns.
 class ReferenceStepper : public Stepper {
  public:
   ReferenceStepper(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
@@ -151,8 +152,9 @@ class ReferenceStepper : public Stepper {
  private:
   [[noreturn]] static void refuse_checkpoints() { throw RunError("backend reference keeps no checkpoints"); }
 
-  /// Sets the motion of step −1 and takes the step to 0. The force that step −1 would need is not known, nor needed:
-  /// the velocities are already those of half a step later.
+  /// Sets the motion of step −1 and takes the step to step 0. The forces at step −1 are unknown and stay 0: the given
+  /// velocities are already those half a step later. They are divided by the factor with which viscous damping will
+  /// multiply them in this step.
   void start_from(const StartState& start) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       Body& body = bodies_[i];
@@ -198,7 +200,7 @@ class ReferenceStepper : public Stepper {
     advance(1);
   }
 
-  /// From the undeformed frame to that of step −1, in one step.
+  /// Moves the frame of a contact from the undeformed geometry to step −1, as one step.
   void carry_to_start(ReferenceContact& contact, const std::vector<Vec3d>& rotation) const {
     const Body& a = bodies_[contact.a];
     const Vector3d turn_a = to_eigen(rotation[contact.a]);
@@ -212,11 +214,12 @@ class ReferenceStepper : public Stepper {
 
   const ReferenceLaw& law(PairType pair) const { return *laws_[static_cast<std::size_t>(pair)]; }
 
-  /// m·dv/dt = F + F_d over one step, for forces and likewise for moments (Eq. 1, 2; model (10.1)).
+  /// Returns the velocity after one step of m·dv/dt = F + F_d; for moments likewise, with spin and moment of inertia
+  /// (Eq. 1, 2; model (10.1)).
   Vector3d accelerate(const Vector3d& v, const Vector3d& load, double mass) const {
     const double dt = options_.dt, damping = options_.damping;
     switch (options_.damping_kind) {
-      case Damping::viscous:  // F_d = −β·m·(v + v')/2: central, therefore implicit in v'
+      case Damping::viscous:  // F_d = −β·m·(v + v')/2 contains the new velocity v', for which it is solved
         return (v * (1 - damping * dt / 2) + dt * load / mass) / (1 + damping * dt / 2);
       case Damping::local: {  // F_d = −χ·|F|·sign(v) by component
         const Vector3d sign = v.unaryExpr([](double c) { return static_cast<double>((c > 0) - (c < 0)); });
@@ -228,7 +231,7 @@ class ReferenceStepper : public Stepper {
     return v + dt * load / mass;
   }
 
-  /// v(k+1/2) from the forces at k, then the displacement at k+1.
+  /// Computes v(k+1/2) of the particles from the forces at k, then their displacements at k+1.
   void move_bodies() {
     for (Body& body : bodies_) {
       if (!body.fixed) {
@@ -242,11 +245,13 @@ class ReferenceStepper : public Stepper {
     }
   }
 
+  /// Moves the walls likewise. Axes with a given displacement follow their drive; axes with a given force move as a
+  /// platen (model (10.2)).
   void move_walls() {
     for (std::size_t w = 0; w < walls_.size(); ++w) {
       WallPlane& wall = walls_[w];
       const WallMotionSpec& told = options_.boundary.wall[w];
-      Vector3d loaded = wall.force;  // of the particles, and of the drives: a platen follows both
+      Vector3d loaded = wall.force;  // force of the particles plus force of the drives
       for (int axis = 0; axis < 3; ++axis) {
         const WallAxis& driven = told.axis[static_cast<std::size_t>(axis)];
         if (driven.by == DrivenBy::force) loaded[axis] += driven.drive->value(step_);
@@ -263,7 +268,8 @@ class ReferenceStepper : public Stepper {
     }
   }
 
-  /// The geometry at k+1, where forces act, and half-way to it, where velocities are seen.
+  /// Moves the frame of a contact to k+1, where forces act, and the middle frame to half a step earlier, where
+  /// velocities are taken.
   void follow(ReferenceContact& contact) const {
     const Body& a = bodies_[contact.a];
     if (contact.at_wall()) {
@@ -275,7 +281,7 @@ class ReferenceStepper : public Stepper {
     }
   }
 
-  /// Advances the chains of every point of a contact and gives their forces to the two sides.
+  /// Advances the chains of all points of a contact and adds their forces to both sides.
   void load(ReferenceContact& contact) {
     const ReferenceLaw& law = this->law(contact.pair);
     Body& a = bodies_[contact.a];
@@ -288,10 +294,10 @@ class ReferenceStepper : public Stepper {
       }
       for (int axis = 0; axis < 3 && !law.point; ++axis) {
         const double scale = (axis == 0 ? 1.0 : law.alpha) * point.area / contact.initial_distance;
-        // No area, no shear stiffness (α = 0) or no modulus: no force, and no chain to advance.
+        // without area, shear stiffness (α = 0) or modulus there is no force and no chain to advance
         if (scale * law.E_m != 0) advance_chain(law, scale, options_.dt, local[axis], point.chain[axis]);
       }
-      // The chains resist the motion of B away from A: they pull A along it and B back.
+      // The chains resist the motion of B away from A: they pull A towards B, and B back.
       const Vector3d force =
           point.chain[0].force * frame.n + point.chain[1].force * frame.s + point.chain[2].force * frame.t;
       a.force += force;
@@ -306,7 +312,7 @@ class ReferenceStepper : public Stepper {
     }
   }
 
-  /// Model (5.1): of B with respect to A where both meet.
+  /// Returns the velocity of B relative to A at a contact point, model (5.1).
   Vector3d relative_velocity(const ReferenceContact& contact, const ContactPoint& point) const {
     const Body& a = bodies_[contact.a];
     const Vector3d side_a = a.velocity + a.spin.cross(contact.middle.lever_a(point));

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_stepper.hpp  The time step written a second time, for reading: per contact point, Eigen, double.
+/// \file reference_stepper.hpp  Reference implementation of the time step, written to be read: per contact point, with
+/// Eigen, in double precision.
 ///
-/// It shares no arithmetic with the kernels, so that the two can be compared. It is slow on purpose: one thread, no
-/// precomputed coefficients. `StepperOptions::form` does not matter here (it always works per point, which is also why
-/// only lumped area moments have a counterpart); `threads` neither.
+/// It shares no arithmetic with the kernels, so that the two can be compared. It favours clarity over speed: one
+/// thread, no precomputed coefficients. `StepperOptions::form` and `threads` have no effect. It always works per
+/// contact point, so it can be compared only with area moments that are lumped in points.
 #pragma once
 
 #include <memory>
@@ -12,9 +13,9 @@
 
 namespace macadam {
 
-/// Makes the reference stepper, at rest and free of force.
-/// \throws InputError for a precision other than double, and for whatever in the network, laws, masses or options
-/// cannot be stepped; the contact or particle is named.
+/// Returns a reference stepper, at rest and free of force.
+/// \throws InputError for a precision other than double, and for network, laws, masses or options that cannot be
+/// stepped; the message names the contact or particle.
 std::unique_ptr<Stepper> make_reference_stepper(const Specimen& specimen, const ContactNetwork& network,
                                                 const LawTable& laws, const Inertia& inertia,
                                                 const StepperOptions& options);

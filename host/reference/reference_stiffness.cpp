@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_stiffness.cpp  Sum of BᵀDB over all contact points.
+/// \file reference_stiffness.cpp  Sums BᵀDB over all contact points.
 #include "host/reference/reference_stiffness.hpp"
 
 #include "host/reference/reference_contact.hpp"
@@ -9,7 +9,8 @@ namespace {
 
 using Matrix36 = Eigen::Matrix<double, 3, 6>;
 
-/// Displacement of the material point at `lever` from a centre: u + θ × lever = [I, −lever×]·(u, θ).
+/// Returns [I, −lever×], which gives the displacement u + θ × lever of the material point at `lever` from a centre, for
+/// a motion (u, θ).
 Matrix36 point_motion(const Vector3d& lever) {
   Matrix36 out;
   out.leftCols<3>().setIdentity();
@@ -17,6 +18,7 @@ Matrix36 point_motion(const Vector3d& lever) {
   return out;
 }
 
+/// Adds a 6 × 6 block to the entries of K.
 void add_block(std::vector<Eigen::Triplet<double>>& entries, std::int32_t row, std::int32_t column,
                const Eigen::Matrix<double, 6, 6>& block) {
   for (int i = 0; i < 6; ++i) {

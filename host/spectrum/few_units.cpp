@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// few_units.cpp  A sum of exponentials by some of its own: least squares with weights that may not be negative, which
-// take one more at a time until the sum is right.
+// few_units.cpp  Approximates a sum of exponentials by a few of its own units: non-negative least squares, which adds
+// one unit at a time until the error is below the tolerance.
 #include <algorithm>
 #include <cmath>
 
@@ -10,17 +10,20 @@
 namespace macadam {
 namespace {
 
-/// Of E(0): what is below it counts as nothing.
+/// Fraction of E(0) below which E(t) is not resolved: there, differences are taken relative to this value.
 constexpr double nothing = 1e-9;
+/// Times per decade at which series are compared.
 constexpr int per_decade = 20;
 
-/// Where series are compared: 0, the times asked for, and two decades before, where E(0) turns into E(t).
+/// Returns the times of the least-squares fit: 0, the given range, and two decades before it, where E(0) turns into
+/// E(t).
 std::vector<double> places(double shortest, double longest) {
   std::vector<double> out = log_range(1e-2 * shortest, longest, per_decade);
   out.insert(out.begin(), 0);
   return out;
 }
 
+/// Returns E(t), but at least the smallest value that is resolved; differences are divided by it.
 double scale(const PronySeries& exact, double t) { return std::max(exact.modulus(t), nothing * exact.instantaneous()); }
 
 }  // namespace
@@ -35,7 +38,7 @@ double difference(const PronySeries& series, const PronySeries& exact, double sh
 PronySeries few_units(const PronySeries& series, double shortest, double longest, double tolerance) {
   const std::vector<double> times = places(shortest, longest);
   const auto rows = std::ssize(times), units = std::ssize(series.units);
-  Eigen::MatrixXd of_units(rows, units + 1);  // the last is what stays
+  Eigen::MatrixXd of_units(rows, units + 1);  // column j: unit j over time; the last: the long-term modulus
   Eigen::VectorXd sum(rows);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const double t = times[static_cast<std::size_t>(i)], over = 1 / scale(series, t);

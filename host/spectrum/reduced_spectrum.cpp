@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reduced_spectrum.cpp  Springs, and dashpots as inner variables, as one symmetric eigenvalue problem.
+// reduced_spectrum.cpp  Relaxation times as the eigenvalues of one symmetric matrix, with the strains of the dashpots
+// as additional variables.
 //
-// A pair p whose k*(s) = k_p + Σ g_j·s·τ_j/(1 + s·τ_j) strains its Maxwell units by u − x_j, x_j being the strain of
-// the dashpot, ẋ_j = (u − x_j)/τ_j. Let G_p = L_p·L_pᵀ be its form between the motions, u = (1, v) with the wall's
-// motion first, and y_j = √(g_j·τ_j)·L_pᵀ·x_j. Then the energy is V = ½·Σ |√g_j·L_pᵀ·u − y_j/√τ_j|² + ½·uᵀ·(Σ
-// k_p·G_p)·u, and ẏ = −∂V/∂y. With v such that ∂V/∂v = 0 that is ẏ = c − H·y, H symmetric and not negative, and the
-// wall's force is E_0 − cᵀ·y: eigenvalues λ of H are 1/τ, and a residue is (cᵀ·q)²/λ.
+// For a pair p, k*(s) = k_p + Σ g_j·s·τ_j/(1 + s·τ_j): a spring k_p beside Maxwell units. At a strain u the spring of
+// unit j has the strain u − x_j. Its dashpot has the strain x_j, with ẋ_j = (u − x_j)/τ_j.
+//
+// Let u = (1, v) be the coefficients of the motions, with the motion of the wall first. Let G_p = L_p·L_pᵀ be the small
+// matrix of pair p between the motions, and y_j = √(g_j·τ_j)·L_pᵀ·x_j. Then the energy is
+//   V = ½·Σ |√g_j·L_pᵀ·u − y_j/√τ_j|² + ½·uᵀ·(Σ k_p·G_p)·u,
+// and ẏ = −∂V/∂y. Equilibrium, ∂V/∂v = 0, eliminates v. This leaves ẏ = c − H·y with a symmetric, positive semidefinite
+// H, and the force of the wall is E_0 − cᵀ·y. So each eigenvalue λ of H, with eigenvector q, is 1/τ of one unit, and
+// the modulus of that unit is (cᵀ·q)²/λ.
 #include "host/spectrum/reduced_spectrum.hpp"
 
 #include <algorithm>
@@ -18,12 +23,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Of a form's largest eigenvalue, below which a direction is rounding.
+/// Eigenvalues of a form below this fraction of its largest one are rounding errors.
 constexpr double rounding = 1e-14;
-/// Of E_0: units below it are rounding too.
+/// Units with a modulus below this fraction of E_0 are rounding errors too.
 constexpr double no_unit = 1e-14;
 
-/// Lᵀ with LᵀᵀLᵀ = G, a row for each direction that G resists.
+/// Returns Lᵀ with L·Lᵀ = `form`, with one row for each direction that the form resists.
 MatrixXd root_of(const MatrixXd& form) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(form);
   const VectorXd& values = eigen.eigenvalues();
@@ -40,8 +45,8 @@ PronySeries reduced_spectrum(const ReducedModel& model, const std::array<std::op
                              double to_modulus) {
   const Index n = model.motions();
   MatrixXd at_rest = MatrixXd::Zero(n, n), at_once = MatrixXd::Zero(n, n);
-  std::vector<MatrixXd> blocks;  // √g·Lᵀ
-  std::vector<double> rates;     // 1/√τ of each
+  std::vector<MatrixXd> blocks;  // √g·Lᵀ of each unit
+  std::vector<double> rates;     // 1/√τ of each unit
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
     if (!laws[pair]) continue;
     const PronySeries series = prony_series(*laws[pair]);
@@ -59,22 +64,22 @@ PronySeries reduced_spectrum(const ReducedModel& model, const std::array<std::op
   }
   Index rows = 0;
   for (const MatrixXd& b : blocks) rows += b.rows();
-  MatrixXd strain(rows, n);  // B
-  VectorXd rate(rows);       // R
+  MatrixXd strain(rows, n);  // all blocks, one below the other
+  VectorXd rate(rows);       // 1/√τ of each row
   for (Index at = 0, k = 0; k < std::ssize(blocks); ++k) {
     const MatrixXd& b = blocks[static_cast<std::size_t>(k)];
     strain.middleRows(at, b.rows()) = b;
     rate.segment(at, b.rows()).setConstant(rates[static_cast<std::size_t>(k)]);
     at += b.rows();
   }
-  // equilibrium of the motions that are free, by their own scales: degrees of freedom have no common unit
+  // equilibrium of the free motions; degrees of freedom have different units, so each row is scaled by its diagonal
   const Index free = n - 1;
   const VectorXd scale = at_once.diagonal().tail(free).cwiseSqrt().cwiseInverse();
   const MatrixXd scaled = scale.asDiagonal() * at_once.bottomRightCorner(free, free) * scale.asDiagonal();
   const Eigen::LDLT<MatrixXd> resistance(scaled);
-  const MatrixXd of_free = strain.rightCols(free) * scale.asDiagonal();  // B_f
+  const MatrixXd of_free = strain.rightCols(free) * scale.asDiagonal();  // the columns of the free motions
   const VectorXd pull = scale.asDiagonal() * at_once.bottomLeftCorner(free, 1);
-  const VectorXd answer = resistance.solve(pull);  // −v at once
+  const VectorXd answer = resistance.solve(pull);  // −v of the instantaneous response
   const double instantaneous = at_once(0, 0) - pull.dot(answer);
   MatrixXd decay = -of_free * resistance.solve(of_free.transpose());
   decay.diagonal().array() += 1;
@@ -91,7 +96,7 @@ PronySeries reduced_spectrum(const ReducedModel& model, const std::array<std::op
     out.units.push_back({to_modulus * modulus, 1 / lambda});
     rest -= modulus;
   }
-  // what is left where nothing at rest resists is rounding of E_0
+  // if no spring resists at rest, the remainder is the rounding error of E_0
   out.long_term = at_rest.isZero(0) || rest < 1e-12 * instantaneous ? 0 : to_modulus * rest;
   return out;
 }

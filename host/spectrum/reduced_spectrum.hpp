@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reduced_spectrum.hpp  The relaxation of a specimen held to the motions of a reduced model.
+/// \file reduced_spectrum.hpp  The relaxation modulus of a reduced model.
 #pragma once
 
 #include "host/harmonic/reduced_model.hpp"
@@ -7,7 +7,8 @@
 
 namespace macadam::harmonic {
 
-/// All poles and residues: E*(s) of the series is that of the model, at any s. \param to_modulus  height over area.
+/// Returns all poles and residues of the reduced model as a series. At any s the series has the same E*(s) as the
+/// model. \param to_modulus  height over cross-section [1/m], which turns stiffness into modulus.
 PronySeries reduced_spectrum(const ReducedModel& model, const std::array<std::optional<Law>, pair_types>& laws,
                              double to_modulus);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// series.cpp  Sums of exponentials, and from relaxation to creep and back by roots that lie between poles.
+// series.cpp  Sums of exponentials, and the conversion of laws to relaxation and of relaxation to creep. The poles of
+// one are the zeros of the other, which lie between its poles.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,7 +49,8 @@ double CreepSeries::compliance(double t) const {
 
 namespace {
 
-/// x − 1 + e^(−x). Of a unit that is much slower than its ramp, x²/2 is left of two numbers near x.
+/// Returns x − 1 + e^(−x). For small x (a unit much slower than its ramp) a power series is used, because x²/2 would be
+/// the difference of two numbers near x.
 double lag(double x) {
   if (x > 0.5) return x + std::expm1(-x);
   double out = 0;
@@ -70,8 +72,8 @@ double CreepSeries::after_ramp(double t, double duration) const {
 
 namespace {
 
-/// The root of a function that grows from below zero at ln r = low to above it at ln r = high. Bisection in the
-/// logarithm: both ends may be poles.
+/// Returns the root r of a function that increases from below zero at ln r = low to above zero at ln r = high.
+/// Bisection of ln r, because both ends may be poles.
 template <class F>
 double root(F&& f, double low, double high) {
   for (int i = 0; i < 200; ++i) {
@@ -82,7 +84,8 @@ double root(F&& f, double low, double high) {
   return std::exp(0.5 * (low + high));
 }
 
-/// So many decades beyond the outermost time a root must lie, or what it stands for is nothing.
+/// How far beyond the outermost pole a root is searched, as a natural logarithm (a factor of 1e26). A unit beyond that
+/// would contribute nothing.
 constexpr double beyond = 60;
 
 }  // namespace
@@ -95,15 +98,15 @@ PronySeries prony_series(const Law& law) {
         fmt::format("{} or {}, whose relaxation times are known", laws::Elastic::name, laws::GeneralisedKelvin::name));
   }
   const auto& chain = std::get<laws::GeneralisedKelvin>(law);
-  // On s = −r the compliance 1/E_m − 1/(r·C_m) + Σ 1/(E_l − r·C_l) grows from −∞ to ∞ between its poles and once more
-  // behind the last: k*(s) has its poles at these zeros.
+  // At s = −r the compliance 1/E_m − 1/(r·C_m) + Σ 1/(E_l − r·C_l) increases from −∞ to ∞ between two poles, and once
+  // more beyond the last pole. The poles of k*(s) are its zeros.
   struct Pole {
     double rate, E, C;
   };
   std::vector<Pole> poles;
   for (std::size_t l = 0; l < chain.E.size(); ++l) poles.push_back({chain.E[l] / chain.C[l], chain.E[l], chain.C[l]});
   std::sort(poles.begin(), poles.end(), [](const Pole& a, const Pole& b) { return a.rate < b.rate; });
-  // units of one time are one unit: without it two poles would have no zero between them
+  // units with the same time are merged into one: two equal poles would have no zero between them
   std::vector<Pole> apart;
   for (const Pole& p : poles) {
     if (!apart.empty() && p.rate <= apart.back().rate * (1 + 1e-12)) {
@@ -120,7 +123,7 @@ PronySeries prony_series(const Law& law) {
     for (const Pole& p : apart) out += 1 / (p.E - r * p.C);
     return out;
   };
-  const auto slope = [&](double r) {  // by r
+  const auto slope = [&](double r) {  // derivative by r
     double out = flows ? 1 / (r * r * chain.C_m) : 0;
     for (const Pole& p : apart) out += p.C / ((p.E - r * p.C) * (p.E - r * p.C));
     return out;
@@ -128,7 +131,7 @@ PronySeries prony_series(const Law& law) {
   PronySeries out;
   double sum = 0;
   for (std::size_t i = 0; i <= apart.size(); ++i) {
-    if (i == 0 && !flows) continue;  // no pole at 0: positive up to the first one
+    if (i == 0 && !flows) continue;  // without a dashpot there is no pole at 0 and no zero before the first pole
     const bool last = i == apart.size();
     const double fastest = apart.empty() ? chain.E_m / chain.C_m : apart.back().rate;
     const double low =
@@ -155,8 +158,8 @@ CreepSeries creep_series(const PronySeries& relaxation) {
     throw InputError("creep of a series", 0, "its modulus", fmt::format("{:g} Pa", relaxation.instantaneous()),
                      "a positive one");
   }
-  // On s = −r, E*(s) = E_∞ − Σ g·r·τ/(1 − r·τ) falls from E_∞ at r = 0 and from ∞ to −∞ between its poles; behind the
-  // last it stays positive. J* = 1/E* has its poles at these zeros.
+  // At s = −r, E*(s) = E_∞ − Σ g·r·τ/(1 − r·τ) decreases from E_∞ at r = 0, and from ∞ to −∞ between two poles; beyond
+  // the last pole it stays positive. The poles of J* = 1/E* are its zeros.
   const auto minus_modulus = [&](double r) {
     double out = -relaxation.long_term;
     for (const auto& u : relaxation.units) out += u.modulus * r * u.time / (1 - r * u.time);
@@ -176,9 +179,9 @@ CreepSeries creep_series(const PronySeries& relaxation) {
     out.fluidity = 1 / viscosity;
   }
   for (std::size_t i = 0; i < units.size(); ++i) {
-    // the zero on the slower side of this unit's pole
+    // the zero next to the pole of this unit, on the side of slower times
     const bool slowest = i + 1 == units.size();
-    if (slowest && relaxation.long_term == 0) continue;  // it is at 0: the dashpot
+    if (slowest && relaxation.long_term == 0) continue;  // this zero is at r = 0: the dashpot
     const double high = -std::log(units[i].time), low = slowest ? high - beyond : -std::log(units[i + 1].time);
     const double r = root(minus_modulus, low, high);
     out.units.push_back({1 / (slope(r) * r), 1 / r});
@@ -187,8 +190,7 @@ CreepSeries creep_series(const PronySeries& relaxation) {
 }
 
 std::vector<double> log_range(double first, double last, int per_decade) {
-  // the ratio of the smallest and the largest numbers is none; of others its logarithm loses less than a difference
-  // would
+  // If last/first overflows, logarithms are subtracted. Otherwise the logarithm of the ratio loses fewer digits.
   const bool far_apart = !std::isfinite(last / first);
   const double decades = far_apart ? std::log10(last) - std::log10(first) : std::log10(last / first);
   const auto at = [&](double decade) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spectrum.cpp  Solutions at real s, more of them between those that are there, until E(t) stays as it is.
+// spectrum.cpp  Solves the network at several real s, and adds solutions between them until E(t) no longer changes.
 #include "macadam/spectrum.hpp"
 
 #include <fmt/format.h>
@@ -21,18 +21,22 @@ using harmonic::ReducedModel;
 using harmonic::Vector;
 using Complex = std::complex<double>;
 
-/// E(t) at t is that of s from about 0.1/t to 10/t.
+/// E(t) depends on E*(s) for s from about 0.1/t to 10/t.
 constexpr double slower = 10, faster = 10;
-/// s of the motion at once, where no dashpot moves, times the fastest time.
+/// This over the fastest relaxation time (or over the shortest time that is asked for, if that is less) is the s of a
+/// solution for the instantaneous response, in which no dashpot moves.
 constexpr double at_once = 1e8;
-/// Solutions that are asked for a residual of this times the root of the tolerance: E* has the square of their error.
+/// The residual tolerance of the solutions is this times the square root of the tolerance, since the error of E* is the
+/// square of the error of a solution.
 constexpr double residual_share = 1e-4;
-/// Of the tolerance, which no estimate is below: the residuals alone left 0.03 of it on 175 particles.
+/// The error estimate contains this fraction of the tolerance for the residuals of the solutions. Residuals alone left
+/// an error of 0.03 times the tolerance on 175 particles.
 constexpr double of_residuals = 0.1;
-constexpr int first_places = 9, most_rounds = 4;  // 66 solutions
-/// Frequencies of the check, beside s of the series.
+constexpr int first_places = 9, most_rounds = 4;  // up to 66 solutions
+/// Number of frequencies at which the series is compared with solutions that it is not made of.
 constexpr int checks = 3;
 
+/// The search for the spectrum of one specimen.
 class Finder {
  public:
   Finder(const Specimen& specimen, const ContactNetwork& network,
@@ -53,7 +57,7 @@ class Finder {
     std::vector<double> places;
     for (int i = 0; i < first_places; ++i) {
       places.push_back(high + (low - high) * i / (first_places - 1));
-      join({places.back()});  // each helps the next, slower one, which is worse conditioned
+      join({places.back()});  // solutions serve as starts for slower ones, which are worse conditioned
     }
     std::sort(places.begin(), places.end());
     double before = 1;
@@ -62,7 +66,8 @@ class Finder {
       const PronySeries next = harmonic::reduced_spectrum(model_, laws_, to_modulus_);
       const double now = round == 0 ? 1 : change(out_.relaxation, next);
       out_.relaxation = next;
-      // twice the places square the error, about; that they lessen it as the round before did is on the safe side
+      // Twice the number of places about squares the error. The estimate assumes only that the error shrinks by the
+      // same factor as in the round before.
       out_.error = now * std::min(1.0, now / before) + of_residuals * options_.tolerance;
       before = now;
       if (options_.told) options_.told(out_.solutions, out_.error);
@@ -73,7 +78,7 @@ class Finder {
   }
 
  private:
-  /// The fastest time of any law; infinite where nothing flows.
+  /// Returns the shortest relaxation time of all laws, infinity if no law flows.
   double fastest_time() const {
     double out = std::numeric_limits<double>::infinity();
     for (const auto& law : laws_) {
@@ -83,7 +88,7 @@ class Finder {
     return out;
   }
 
-  /// A place more between each two.
+  /// Adds a place in the middle between each two, and solves there.
   void halve(std::vector<double>& places) {
     std::vector<double> between;
     for (std::size_t i = 1; i < places.size(); ++i) between.push_back(0.5 * (places[i - 1] + places[i]));
@@ -92,13 +97,14 @@ class Finder {
     std::sort(places.begin(), places.end());
   }
 
-  /// Solves at s and lets the motions join those that are known.
+  /// Solves at s = exp(log_s) and adds the motions to the reduced model.
   void join(const std::vector<double>& log_s) {
     std::vector<Vector> motions;
     for (const double place : log_s) motions.push_back(solve({.growth = std::exp(place)}).motion);
     model_.add(motions);
   }
 
+  /// Solves the whole network for a load, starting from the motion that the reduced model predicts.
   HarmonicResult solve(HarmonicLoad load) {
     Harmonic harmonic(specimen_, network_, laws_, weights_,
                       {.tolerance = residual_share * std::sqrt(options_.tolerance),
@@ -117,11 +123,13 @@ class Finder {
     return std::move(harmonic.solve(std::vector{load}).front());
   }
 
+  /// Returns the largest relative difference of E(t) between two series.
   double change(const PronySeries& before, const PronySeries& now) const {
     return difference(before, now, options_.shortest, options_.longest);
   }
 
-  /// Against solutions that have no part in the series.
+  /// Compares the series with solutions that it is not made of, at frequencies within the range. Returns whether the
+  /// largest difference is within the tolerance.
   bool checked() {
     const double slow = 1 / (2 * std::numbers::pi * options_.longest),
                  fast = 1 / (2 * std::numbers::pi * options_.shortest);
@@ -144,7 +152,7 @@ class Finder {
   const std::array<std::optional<Law>, pair_types>& laws_;
   const SpectrumOptions& options_;
   ReducedModel model_;
-  Inertia weights_;  ///< tell motions that nothing resists from others; no load has inertia
+  Inertia weights_;  ///< masses for density 1, used only to separate free motions from others; no load has inertia
   double to_modulus_ = 0;
   Spectrum out_;
 };
@@ -163,7 +171,7 @@ Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
   }
   require_stiffness(laws);
   for (const auto& law : laws)
-    if (law) prony_series(*law);  // all of them before any work
+    if (law) prony_series(*law);  // fails before any work if a law has no series
   return Finder(specimen, network, laws, options).find();
 }
 

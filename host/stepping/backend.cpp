@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// backend.cpp  What the machine offers, and the one switch between backends.
+// backend.cpp  Reports what the machine offers, chooses a backend, and makes its stepper.
 #include "macadam/backend.hpp"
 
 #include <omp.h>
@@ -17,7 +17,7 @@ namespace macadam {
 
 namespace {
 
-/// The device of a number. \throws InputError listing those of the report.
+/// Returns the device with a number. \throws InputError listing the devices of the report.
 const DeviceInfo& device_of(const BackendReport& report, int number) {
   std::string list;
   for (const DeviceInfo& d : report.devices) {
@@ -31,7 +31,8 @@ const DeviceInfo& device_of(const BackendReport& report, int number) {
                    ", expected the number of one that can run: " + report.cuda_status + ": " + list);
 }
 
-/// Those of the numbers, of all, or the first of the report, which has one at least. \throws InputError
+/// Returns the devices of a list of numbers, all devices, or the first of the report (which must have one). \throws
+/// InputError when a number is not in the report.
 std::vector<DeviceInfo> chosen_devices(const BackendReport& report, const DeviceList& numbers) {
   if (numbers.empty()) return {report.devices.front()};
   if (numbers == DeviceList{every_device}) return report.devices;
@@ -40,7 +41,7 @@ std::vector<DeviceInfo> chosen_devices(const BackendReport& report, const Device
   return out;
 }
 
-/// Why a device that answers cannot be used after all; empty where it can.
+/// Returns why a device that responds cannot be used after all; empty if it can.
 std::string refusal_of(const DeviceInfo& device) {
   const std::string why = cuda_code()->refusal(device.number);
   return why.empty() ? "" : device.name + " cannot be used: " + why;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// choose_code.cpp  Which generation's code this processor runs.
+// choose_code.cpp  Chooses the processor generation whose code runs.
 #include <cstdlib>
 #include <string_view>
 
@@ -16,6 +16,7 @@ extern const ProcessorCode macadam_code_v3, macadam_code_v4;
 
 namespace {
 
+/// Returns the newest code that the processor supports, but none newer than MACADAM_PROCESSOR.
 const ProcessorCode& chosen() {
 #ifdef MACADAM_ALL_PROCESSORS
   const char* const named = std::getenv("MACADAM_PROCESSOR");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// choose_devices.cpp  A second device is taken unasked where it pays, and where it is nobody else's.
+// choose_devices.cpp  Takes further devices without being asked, if they make steps faster and no other process uses
+// them.
 #include "host/stepping/choose_devices.hpp"
 
 #include <fmt/format.h>
@@ -9,10 +10,12 @@
 namespace macadam {
 namespace {
 
-/// Of two H100, the second makes steps of 221,000 contacts 1.2 times as fast, and of 441,000, which are too many for
-/// the chip of one, 4 times (bench/results/team-*.csv).
+/// Number of contacts from which several devices are worthwhile. Two H100 step 221,000 contacts at 1.2 times the speed
+/// of one. They step 441,000 contacts, which do not fit in the registers and shared memory of one, at 4 times its speed
+/// (bench/results/team-*.csv).
 constexpr std::size_t contacts_of_a_team = 300'000;
-constexpr std::size_t contacts_of_a_device = 150'000;  // at the least, in a team
+// Smallest number of contacts per device when there are several.
+constexpr std::size_t contacts_of_a_device = 150'000;
 
 }  // namespace
 

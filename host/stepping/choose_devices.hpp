@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file choose_devices.hpp  How many devices step a specimen where nobody has said it.
+/// \file choose_devices.hpp  Decides how many devices step a specimen if the user does not say.
 #pragma once
 
 #include <functional>
@@ -10,14 +10,15 @@
 
 namespace macadam {
 
-/// Whether a device could help another, and nobody uses it.
+/// Returns whether `device` can step a specimen together with `first` (it is of the same model, and each reaches the
+/// memory of the other) and no process uses it.
 using IdleBeside = std::function<bool(int device, int first)>;
 
-/// Those of `devices` that step a specimen of so many contacts, none having been named: the first and, where more pay,
-/// idle ones. `decision`: a sentence where these are several. Empty without devices.
+/// Returns the devices that step a specimen with this number of contacts: the first of `devices`, and idle ones besides
+/// if several are worthwhile. `decision` is then set to a sentence for the user. Empty if there are no devices.
 DeviceList choose_devices(std::size_t contacts, const std::vector<DeviceInfo>& devices, const IdleBeside& idle_beside,
                           std::string& decision);
-/// The same of this machine's devices.
+/// Likewise, with the devices of this machine.
 DeviceList choose_devices(std::size_t contacts, std::string& decision);
 
 }  // namespace macadam

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// critical_step.cpp  Inertia of solid spheres, and a time step that cannot blow up.
+// critical_step.cpp  Mass and inertia of solid spheres, and a time step that is certainly stable.
 //
-// Leapfrog is stable for Δt ≤ 2/ω_max of M⁻¹K. A contact's energy ½·k·(a − b)² is at most k·a² + k·b²: twice the sum of
-// its ends' own. So λ_max(M⁻¹K) ≤ 2·max_i λ_max(M_i⁻¹·K_ii) with the 6 × 6 blocks K_ii of the particles.
+// Leapfrog is stable for Δt ≤ 2/ω_max of M⁻¹K. The energy of a contact, ½·k·(a − b)², is at most k·a² + k·b², twice the
+// sum of the energies that each end alone would give. So λ_max(M⁻¹K) ≤ 2·max_i λ_max(M_i⁻¹·K_ii) with the 6 × 6 blocks
+// K_ii of the particles (model (11.1)).
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
@@ -26,7 +27,7 @@ Inertia make_inertia(const Specimen& specimen, double density_aggregate, double 
 
 namespace {
 
-/// Stiffness of all contacts on a wall along an axis [N/m].
+/// Returns the stiffness of all contacts on a wall along an axis [N/m].
 double stiffness_on(const ContactNetwork& network, const FactsTable& laws, std::int32_t wall, int axis) {
   double sum = 0;
   for (const Contact& c : network.contacts) {
@@ -42,7 +43,7 @@ double stiffness_on(const ContactNetwork& network, const FactsTable& laws, std::
 
 CriticalStep critical_step(const ContactNetwork& network, const FactsTable& laws, const Inertia& inertia,
                            const StepperOptions& options) {
-  std::vector<double> largest(inertia.mass.size());  // eigenvalue of each particle
+  std::vector<double> largest(inertia.mass.size());  // largest eigenvalue of each particle
   for_each_in_blocks(largest.size(), true, [&](std::size_t i) {
     Matrix6 block = Matrix6::Zero();
     for (const std::uint32_t number : network.row(i)) {
@@ -51,7 +52,7 @@ CriticalStep critical_step(const ContactNetwork& network, const FactsTable& laws
       const int end = c.a == static_cast<std::int32_t>(i) ? 0 : 1;
       block += contact_block(c, law.instantaneous, law.alpha, end, end);
     }
-    Eigen::Matrix<double, 6, 1> scale;  // M_i^(-1/2), so that the eigenproblem stays symmetric
+    Eigen::Matrix<double, 6, 1> scale;  // M_i^(-1/2), which keeps the eigenvalue problem symmetric
     scale.head<3>().setConstant(1 / std::sqrt(inertia.mass[i] * options.density_scaling));
     scale.tail<3>().setConstant(1 / std::sqrt(inertia.inertia[i] * options.density_scaling));
     const Matrix6 scaled = scale.asDiagonal() * block * scale.asDiagonal();

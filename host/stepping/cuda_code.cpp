@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cuda_code.cpp  Looks for libmacadam_cuda.so, which is a library of its own: it needs a CUDA toolkit to be built, and
-// the licences of CUDA and of CGAL do not go together in one that is passed on.
+// cuda_code.cpp  Loads libmacadam_cuda.so. It is a separate library because it needs a CUDA toolkit to be built, and
+// because the licences of CUDA and CGAL do not allow distributing one library that contains both.
 #include "host/stepping/cuda_code.hpp"
 
 #include "host/stepping/plugin_file.hpp"
@@ -8,6 +8,7 @@
 namespace macadam {
 namespace {
 
+/// Result of the search for the plugin.
 struct Found {
   const kernels::CudaCode* code = nullptr;
   std::string why;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_code.hpp  The CUDA backend, where its plugin is found.
+/// \file cuda_code.hpp  Access to the CUDA backend, which is a plugin.
 #pragma once
 
 #include <chrono>
@@ -9,15 +9,16 @@
 
 namespace macadam {
 
-/// The plugin's code, or nullptr where there is none; `why` then says it. It is looked for once: in the folders that
-/// MACADAM_PLUGIN_PATH names, with colons between them, then beside the library itself.
+/// Returns the code of the plugin, or nullptr if there is none; `why` then gets the reason. The plugin is searched for
+/// once, in the folders of MACADAM_PLUGIN_PATH (separated by colons) and then in the folder of the library itself.
 const kernels::CudaCode* cuda_code(std::string* why = nullptr);
 
-/// Devices take some tenths of a second to be counted. Where none is there, that is known within so long.
+/// Counting the devices takes some tenths of a second. If there is no device, this is known within the following time.
 inline constexpr std::chrono::milliseconds none_is_known_within{50};
 
-/// The numbers of the devices that are meant, where cuda is the backend: all, the first, or those that are named.
-/// \throws InputError for one that is not there.
+/// Returns the numbers of the devices that `asked` means for backend cuda: all, the first (if `asked` is empty), or the
+/// named ones.
+/// \throws InputError when a named device is not there.
 DeviceList device_numbers(const DeviceList& asked);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file divergence.hpp  Whether a stepped run still makes sense.
+/// \file divergence.hpp  Checks whether a stepped run has diverged.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace macadam {
 
-/// `of`: what is stepped, in words (may be empty). \throws DivergenceError naming the first particle whose motion is
-/// out of range, or the top wall.
+/// `of`: name of what is stepped, for the message; may be empty. \throws DivergenceError naming the first particle
+/// whose motion is out of range, or the top wall.
 void require_convergence(const Sample& sample, const std::string& of);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// names.cpp  Names of the choices of a stepper, and of devices.
+// names.cpp  Names of the stepper's options, and lists of device numbers as text.
 #include "macadam/backend.hpp"
 
 namespace macadam {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plugin_file.cpp  dlopen() in the folders where plugins may be.
+// plugin_file.cpp  Loads plugins with dlopen() from the folders where they may be.
 #include "host/stepping/plugin_file.hpp"
 
 #include <dlfcn.h>
@@ -16,12 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How every table begins.
+/// The first members of the table of every plugin.
 struct Head {
   int interface;
   const char* version;
 };
 
+/// Returns the folders in which plugins are searched for.
 std::vector<fs::path> folders() {
   std::vector<fs::path> out;
   const char* const named = std::getenv("MACADAM_PLUGIN_PATH");

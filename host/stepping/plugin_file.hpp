@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file plugin_file.hpp  Libraries that this one looks for when it runs.
+/// \file plugin_file.hpp  Finds and loads plugins: shared libraries that are not linked but searched for at run time.
 #pragma once
 
 #include <string>
 
 namespace macadam {
 
-/// What is asked of a plugin.
+/// Description of a plugin.
 struct PluginFile {
   const char* file;    ///< e.g. "libmacadam_cuda.so"
   const char* symbol;  ///< C name of the table that it exports
-  int interface;       ///< the table begins with this number, of its build, and the version of Macadam as a C string
-  const char* makes;   ///< what a build needs to make it, in words
+  /// The table begins with this number, the interface of the build, followed by Macadam's version as a C string.
+  int interface;
+  const char* makes;  ///< what a build needs to make it, in words
 };
 
-/// The table of a plugin, which then stays loaded. It is looked for in the folders that MACADAM_PLUGIN_PATH names, with
-/// colons between them, then beside this library. nullptr where there is none that fits; `why` then says it.
+/// Returns the table of a plugin, which then stays loaded. The plugin is searched for in the folders of
+/// MACADAM_PLUGIN_PATH (separated by colons) and then in the folder of this library. Returns nullptr if the first file
+/// found does not fit or there is none; `why` then gets the reason.
 const void* find_plugin(const PluginFile& asked, std::string& why);
 
 }  // namespace macadam

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// processor_code.cpp  The entries of one generation's code; CMakeLists.txt compiles this file for each, under the name
-// of each.
+// processor_code.cpp  The table of one processor generation. CMakeLists.txt compiles this file once for each
+// generation, with its own MACADAM_CODE as the name of the table.
 #include "host/stepping/processor_code.hpp"
 
 #include "host/harmonic/iterative/block_cocg.hpp"
@@ -9,12 +9,13 @@
 
 #ifndef MACADAM_CODE
 #define MACADAM_CODE macadam_code_base
-#define MACADAM_CODE_NAME MACADAM_BASE_NAME  // of a build
+#define MACADAM_CODE_NAME MACADAM_BASE_NAME  // set by the build
 #endif
 
 namespace macadam {
 namespace {
 
+/// Makes a CPU stepper in the precision of the options.
 std::unique_ptr<Stepper> make(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                               const Inertia& inertia, const StepperOptions& options, std::unique_ptr<Stepper> used) {
   const auto make_in = [&]<class P>(P) {

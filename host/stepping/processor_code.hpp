@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file processor_code.hpp  Code whose speed is that of the processor's registers, compiled once for each generation.
+/// \file processor_code.hpp  Code whose speed depends on the SIMD registers of the processor. It is compiled once for
+/// each processor generation, and the newest that can run is chosen at run time.
 #pragma once
 
 #include <functional>
@@ -14,7 +15,8 @@
 
 namespace macadam {
 
-/// The time step, and the iteration of the frequency domain with its check, of one generation.
+/// Functions compiled for one processor generation: the time step, the iterative solver of the frequency domain, and
+/// the check of its solutions.
 struct ProcessorCode {
   const char* name;  ///< "native": compiled for this machine; "x86-64", "x86-64-v3" (AVX2), "x86-64-v4" (AVX-512)
   std::unique_ptr<Stepper> (*make_stepper)(const Specimen& specimen, const ContactNetwork& network,
@@ -28,8 +30,9 @@ struct ProcessorCode {
                                                           double rounding);
 };
 
-/// The newest that this processor runs. A build for this machine alone (MACADAM_NATIVE) has one. MACADAM_PROCESSOR in
-/// the environment (x86-64, x86-64-v3, x86-64-v4) asks for an older one.
+/// Returns the code of the newest generation that this processor can run. A build for this machine alone
+/// (MACADAM_NATIVE) has only one. The environment variable MACADAM_PROCESSOR (x86-64, x86-64-v3, x86-64-v4) asks for an
+/// older one.
 const ProcessorCode& processor_code();
 
 }  // namespace macadam

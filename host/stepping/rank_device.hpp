@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file rank_device.hpp  Which device is whose, of several processes; and whether there can be several.
+/// \file rank_device.hpp  Assigns devices to the processes of a multi-process run, and tells why such a run is
+/// impossible.
 #pragma once
 
 #include <string>
@@ -9,11 +10,12 @@
 
 namespace macadam {
 
-/// The device of this rank: the ranks of a host have those that are asked for, or all, in order. As asked where none
-/// answers. \throws InputError for one that is not there, and for more ranks than devices.
+/// Returns the device of this rank. The ranks of a host get the devices that are asked for (or all devices) in order.
+/// Returns `asked` if no device responds. \throws InputError when a device is not there or a host has more ranks than
+/// devices.
 DeviceList device_of(const Ranks& team, const DeviceList& asked);
 
-/// Why join_ranks() can join nobody here; empty where it can.
+/// Returns why join_ranks() cannot work here; empty if it can.
 std::string why_no_ranks();
 
 }  // namespace macadam

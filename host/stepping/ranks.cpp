@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ranks.cpp  The processes that mpirun began with this one. What joins them is a library of its own,
-// libmacadam_ranks.so: nobody else needs MPI and NCCL.
+// ranks.cpp  Joins the processes that mpirun started together with this one. The code that uses MPI and NCCL is a
+// separate library, libmacadam_ranks.so, so that only multi-process runs need them.
 #include "macadam/ranks.hpp"
 
 #include <cstdlib>
@@ -15,13 +15,13 @@ namespace {
 
 Ranks* joined = nullptr;
 
-/// nullptr where it is not there; `why` then says so.
+/// Returns the table of the plugin, or nullptr if there is none; `why` then gets the reason.
 const RanksPlugin* find(std::string& why) {
   const PluginFile asked{"libmacadam_ranks.so", "macadam_ranks_plugin", ranks_interface, "MPI, NCCL and CUDA"};
   return static_cast<const RanksPlugin*>(find_plugin(asked, why));
 }
 
-/// Processes of one command, as Open MPI, MPICH and Slurm say it to each of them.
+/// Returns how many processes the command has, from the environment variables of Open MPI, MPICH and Slurm.
 int processes_begun() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}) {
     if (const char* value = std::getenv(name)) return std::atoi(value);
@@ -43,7 +43,8 @@ DeviceList device_of(const Ranks& team, const DeviceList& asked) {
   if (report_backends().devices.empty()) return asked;
   DeviceList devices = device_numbers(asked.empty() ? DeviceList{every_device} : asked);
   const auto own = static_cast<std::size_t>(team.number_on_host());
-  if (devices.size() == 1) return devices;  // each process sees another one, or the error of sharing it is NCCL's
+  // each process may see another device as its only one; if processes share one, NCCL reports the error
+  if (devices.size() == 1) return devices;
   if (own >= devices.size()) {
     throw InputError("ranks: found " + std::to_string(team.count_on_host()) + " on this host beside " +
                      std::to_string(devices.size()) + " devices, expected one for each device");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sample.cpp  Observations at even distances of a run, and that it has not blown up until then.
+// sample.cpp  Samples a run at even intervals and checks in each sample that it has not diverged.
 #include <fmt/format.h>
 
 #include <cmath>

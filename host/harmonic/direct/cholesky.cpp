@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cholesky.cpp  METIS orders particles (35,000 nodes in place of 215,000 unknowns), CHOLMOD factors by
-// supernodes.
+// cholesky.cpp  METIS orders particles instead of unknowns (35,000 nodes in place of 215,000); CHOLMOD factors by
+// supernodes (groups of columns with the same structure, as dense blocks).
 #include "host/harmonic/direct/cholesky.hpp"
 
 #include <cholmod.h>
@@ -13,9 +13,9 @@
 
 #include "macadam/error.hpp"
 
-/// OpenBLAS has it, other BLAS libraries have not.
+/// Only OpenBLAS defines this function. The weak symbol is null with other BLAS libraries.
 extern "C" __attribute__((weak)) void openblas_set_num_threads(int threads);
-/// Any BLAS: C = alpha·A·B + beta·C.
+/// Part of every BLAS library: C = alpha·A·B + beta·C.
 extern "C" void dgemm_(const char*, const char*, const int* m, const int* n, const int* k, const double* alpha,
                        const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
                        const int* ldc);
@@ -23,6 +23,7 @@ extern "C" void dgemm_(const char*, const char*, const int* m, const int* n, con
 namespace macadam::harmonic {
 namespace {
 
+/// Returns the position of each particle in an order that keeps the factors sparse; the given order if METIS fails.
 std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::size_t particles) {
   std::vector<idx_t> begin{0}, neighbour;
   for (std::size_t i = 0; i < particles; ++i) {
@@ -44,29 +45,31 @@ std::vector<std::int32_t> nested_dissection(const ContactNetwork& network, std::
   return {place.begin(), place.end()};
 }
 
-/// Gives OpenBLAS one thread, unless the environment sets OPENBLAS_NUM_THREADS. It cuts products by its number of
-/// threads, so that the last digits of the factors would depend on it; and its threads are not among those that a job
-/// is given. Most supernodes are small: 16 threads took twice as long as four.
+/// Gives OpenBLAS one thread, unless the environment sets OPENBLAS_NUM_THREADS. OpenBLAS divides products by its number
+/// of threads, so that the last digits of the factors would depend on it, and its threads are not counted among those
+/// of a job. More threads would not help either: most supernodes are small, and 16 threads took twice as long as four.
 void limit_blas_threads() {
   if (openblas_set_num_threads && !std::getenv("OPENBLAS_NUM_THREADS")) openblas_set_num_threads(1);
 }
 
-/// OpenBLAS maps a buffer when it is first called and, where there is no memory, tries for ever. So it is called here,
-/// once there is surely room for the buffer, which it then keeps. \throws std::bad_alloc.
+/// Makes OpenBLAS allocate its buffer. OpenBLAS maps the buffer at its first call and keeps it; if memory does not
+/// suffice, it retries forever. So this function first checks that memory for the buffer can be mapped, and then makes
+/// a call.
+/// \throws std::bad_alloc.
 void make_room_for_blas() {
-  constexpr std::size_t buffer = std::size_t{32} << 22;  // bytes, the largest of OpenBLAS's builds for x86-64
+  constexpr std::size_t buffer = std::size_t{32} << 22;  // bytes: the largest buffer of OpenBLAS's builds for x86-64
   void* room = ::mmap(nullptr, buffer, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (room == MAP_FAILED) throw std::bad_alloc();
   ::munmap(room, buffer);
   limit_blas_threads();
-  constexpr int n = 128;  // smaller products may do without the buffer
+  constexpr int n = 128;  // smaller products may not use the buffer
   const std::vector<double> a(n * n, 1);
   std::vector<double> c(n * n);
   const double one = 1, zero = 0;
   dgemm_("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &zero, c.data(), &n);
 }
 
-/// CHOLMOD's view of a lower triangle in compressed columns.
+/// Returns CHOLMOD's view of a lower triangle in compressed columns; the data are not copied.
 cholmod_sparse view(Eigen::SparseMatrix<double>& matrix) {
   cholmod_sparse out{};
   out.nrow = out.ncol = static_cast<std::size_t>(matrix.rows());
@@ -94,7 +97,7 @@ struct Cholesky::Factor {
     make_room_for_blas();
     cholmod_start(&common);
   }
-  /// \throws RunError where CHOLMOD's last call failed.
+  /// \throws RunError when CHOLMOD's last call failed; `what` says what it did.
   void require(const char* what, std::size_t particles) const {
     if (common.status >= CHOLMOD_OK) return;
     const char* why = common.status == CHOLMOD_OUT_OF_MEMORY ? "not enough memory"
@@ -117,7 +120,8 @@ Cholesky::Cholesky(const ContactNetwork& network, std::size_t particles, const P
   Eigen::SparseMatrix<double> matrix = assemble_lower(network, stiffness, f.place, pins);
   cholmod_sparse sparse = view(matrix);
   f.common.nmethods = 1;
-  f.common.method[0].ordering = CHOLMOD_NATURAL;  // already ordered; postordering keeps the fill
+  // the particles are ordered already; CHOLMOD's postordering does not add fill-in
+  f.common.method[0].ordering = CHOLMOD_NATURAL;
   f.common.supernodal = CHOLMOD_SUPERNODAL;
   f.common.print = 0;
   f.factor = cholmod_analyze(&sparse, &f.common);

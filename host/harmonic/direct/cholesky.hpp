@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cholesky.hpp  Cholesky factors of a real stiffness matrix (CHOLMOD), applied to complex vectors.
+/// \file cholesky.hpp  Cholesky factors of a real stiffness matrix, by CHOLMOD, applied to complex vectors.
 #pragma once
 
 #include <memory>
@@ -8,15 +8,16 @@
 
 namespace macadam::harmonic {
 
+/// The factors of one matrix. They are made once and used for every iteration of the direct solver.
 class Cholesky {
  public:
-  /// Orders the particles (METIS nested dissection on the contact graph), assembles and factors.
+  /// Orders the particles (METIS nested dissection on the contact graph), assembles the matrix and factors it.
   /// \throws RunError when the matrix is not positive definite (a mechanism) or memory does not suffice.
   Cholesky(const ContactNetwork& network, std::size_t particles, const PairStiffness& stiffness,
            const std::vector<Pin>& pins);
   ~Cholesky();
 
-  /// out = M⁻¹·in
+  /// Computes out = M⁻¹·in, for real and imaginary parts together; M is the factored matrix.
   void solve(const Vector& in, Vector& out) const;
 
  private:

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // direct_solver.cpp  COCG (conjugate gradients for complex symmetric matrices) with a real Cholesky preconditioner.
 //
-// K*(s) is the real network with each contact multiplied by the complex number of its pair. Preconditioned by the real
-// parts at one frequency, its eigenvalues gather about a few such ratios: some ten iterations do.
+// K*(s) is the real stiffness matrix of the network with each contact multiplied by the complex number of its pair.
+// Preconditioned by the real parts at one frequency, its eigenvalues lie close to the few ratios of these numbers. So
+// about ten iterations suffice.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,17 +16,19 @@ namespace {
 
 constexpr int most_iterations = 500;
 
-/// xᵀ·y without conjugation, and ‖x‖; sums in a fixed order.
+/// Returns xᵀ·y without conjugates, summed in a fixed order.
 Complex product(const Vector& x, const Vector& y) {
   Complex sum = 0;
   for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * y[i];
   return sum;
 }
+/// Returns rᴴ·z, not below 0.
 double energy_of(const Vector& r, const Vector& z) {
   double sum = 0;
   for (std::size_t i = 0; i < r.size(); ++i) sum += (std::conj(r[i]) * z[i]).real();
-  return std::max(sum, 0.0);  // of a residual of rounding it may be below
+  return std::max(sum, 0.0);  // may be negative if r is rounding error only
 }
+/// The solver that make_direct_solver() returns.
 class DirectSolver : public LinearSolver {
  public:
   DirectSolver(const ContactNetwork& network, const ContactOperator& contacts, const PairStiffness& typical,
@@ -40,6 +43,8 @@ class DirectSolver : public LinearSolver {
   }
 
  private:
+  /// Solves a task, then computes its energy from a new residual, because the residual that the iteration updates has
+  /// accumulated rounding errors.
   void solve(LinearTask& task, const std::function<bool()>& stop) const {
     iterate(task, stop);
     Vector r, z;
@@ -48,6 +53,7 @@ class DirectSolver : public LinearSolver {
     task.energy = energy_of(r, z);
   }
 
+  /// Iterates until the task has converged, at most most_iterations times.
   void iterate(LinearTask& task, const std::function<bool()>& stop) const {
     Vector& x = task.motion;
     if (x.empty()) x.assign(6 * inertia_.mass.size(), 0);
@@ -80,7 +86,7 @@ class DirectSolver : public LinearSolver {
     }
   }
 
-  /// r = f − K·x
+  /// Computes r = f − K·x.
   void rest(const LinearTask& task, Vector& r) const {
     apply(task, task.motion, r);
     for (Complex& z : r) z = -z;
@@ -89,15 +95,16 @@ class DirectSolver : public LinearSolver {
     }
   }
 
+  /// Computes z = P⁻¹·r.
   void precondition(const LinearTask& task, const Vector& r, Vector& z) const {
     factors_.solve(r, z);
-    // The load is in equilibrium, so that with inertia nothing moves freely. The preconditioner, which has pins in
-    // place of that inertia, would have to find this out: it takes three times the iterations.
+    // The load does not act on the free motions, so with inertia they are absent from the solution. The preconditioner,
+    // which has pins in place of that inertia, would put some into z; the number of iterations would then triple.
     if (task.inertia == 0.0) return;
     for (const FreeMotion& motion : free_.motions) motion.remove_from(z, inertia_);
   }
 
-  /// out = (K* − inertia·M)·x, or (K* + pins)·x without inertia: with it free motions need no pins.
+  /// Computes out = (K* − inertia·M)·x with inertia, or (K* + pins)·x without. With inertia free motions need no pins.
   void apply(const LinearTask& task, const Vector& x, Vector& out) const {
     contacts_.resistance(task.stiffness, task.inertia, inertia_, x, out);
     if (task.inertia != 0.0) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stiffness_matrix.cpp  K = Σ Gᵀ·D·G over the contacts, written straight into compressed columns.
+// stiffness_matrix.cpp  Sums K = Σ Gᵀ·D·G over the contacts and writes it straight into compressed columns.
 #include "host/harmonic/direct/stiffness_matrix.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace macadam::harmonic {
 Eigen::SparseMatrix<double> assemble_lower(const ContactNetwork& network, const PairStiffness& stiffness,
                                            const std::vector<std::int32_t>& place, const std::vector<Pin>& pins) {
   const std::size_t n = place.size();
-  // rows of blocks below the diagonal in each block column: (row, contact), sorted
+  // for each block column, the blocks below its diagonal, as (row, contact)
   std::vector<std::vector<std::pair<std::int32_t, std::uint32_t>>> columns(n);
   for (std::uint32_t number = 0; number < network.contacts.size(); ++number) {
     const Contact& c = network.contacts[number];

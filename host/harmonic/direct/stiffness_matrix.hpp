@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stiffness_matrix.hpp  A real stiffness matrix of the network, for the preconditioner.
+/// \file stiffness_matrix.hpp  Assembles the real stiffness matrix of a network, from which the direct solver makes its
+/// preconditioner.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -8,8 +9,8 @@
 
 namespace macadam::harmonic {
 
-/// Lower triangle of Σ Re k_pair · K_pair (6 × 6 blocks, particle by particle), pins added. `place[i]` is the position
-/// of particle i in the matrix.
+/// Returns the lower triangle of Σ Re k_pair · K_pair over the pairs, plus the pins, in 6 × 6 blocks for pairs of
+/// particles. `place[i]` is the position of particle i in the matrix.
 Eigen::SparseMatrix<double> assemble_lower(const ContactNetwork& network, const PairStiffness& stiffness,
                                            const std::vector<std::int32_t>& place, const std::vector<Pin>& pins);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// apply_row.cpp  The kernels' kinematics on registers of frequencies.
+// apply_row.cpp  Applies the contact kinematics of the kernels to registers that hold all solutions.
 #include "host/harmonic/iterative/apply_row.hpp"
 
 #include "kernels/harmonic/particle_block.hpp"
@@ -27,7 +27,7 @@ void apply_row(const kernels::LinearSystem& system, const BlockStiffness<F>& sti
   T load[6];
   kernels::to_array(sum, load);
   for (std::size_t c = 0; c < 6; ++c) {
-    out[c] = -load[c];  // the load that holds the motion is opposite to what contacts exert
+    out[c] = -load[c];  // the load that holds the motion is opposite to the load that the contacts exert
     if (!stiffness.inert) out[c] -= system.mass[2 * body + c / 3] * stiffness.inertia(x[6 * body + c]);
   }
 }

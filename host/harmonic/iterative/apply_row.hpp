@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file apply_row.hpp  K*(s) without a matrix: every particle adds up the loads of its own contacts.
+/// \file apply_row.hpp  Multiplies by K*(s) without a stored matrix: every particle sums the loads of its own contacts.
 #pragma once
 
 #include "host/harmonic/iterative/lanes.hpp"
@@ -7,16 +7,16 @@
 
 namespace macadam::harmonic {
 
-/// Stiffness of each pair at F frequencies, and the inertia that is taken off.
+/// Stiffness of each pair for F solutions, and the factor `inertia` of M that is subtracted.
 template <int F>
 struct BlockStiffness {
   std::array<Factor<F>, pair_types> k{};
   std::array<double, pair_types> alpha{};
   Factor<F> inertia{};
-  bool inert = true;  ///< no inertia at any frequency
+  bool inert = true;  ///< whether no solution has inertia
 };
 
-/// (K* − inertia·M)·x of one body.
+/// Computes (K* − inertia·M)·x for one body and all F solutions.
 template <int F>
 void apply_row(const kernels::LinearSystem& system, const BlockStiffness<F>& stiffness, std::size_t body,
                const LaneVector<F>& x, Lanes<F> (&out)[6]);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// block_cocg.cpp  Three sweeps an iteration: q = K·p; x, r and the fine level; z and p. Sums are made block by block of
-// particles and then in order, so that they do not depend on the number of threads.
+// block_cocg.cpp  COCG is the conjugate-gradient method with products xᵀ·y without conjugates, for complex symmetric
+// matrices. The preconditioner adds a fine level (the inverse block of each particle) and a coarse level (rigid motions
+// of boxes). One iteration has three sweeps over the particles: q = K·p; x, r and the fine level of z; the coarse level
+// of z, and p. Sums are computed per block of particles and then added in order, so that they do not depend on the
+// number of threads.
 #include "host/harmonic/iterative/block_cocg.hpp"
 
 #include <algorithm>
@@ -13,8 +16,9 @@
 namespace macadam::harmonic {
 namespace {
 
-constexpr std::size_t chunk = 128;  ///< particles whose sums are made by one thread
+constexpr std::size_t chunk = 128;  ///< particles per block of a sum
 
+/// The iteration for F tasks side by side.
 template <int F>
 class BlockCocg {
   using L = Lanes<F>;
@@ -52,7 +56,7 @@ class BlockCocg {
       L drop[kernels::most_free_motions];
       precondition(sums, drop);
       Factor<F> beta;
-      const double worst = judge(k, sums, beta);  // of those that are not done
+      const double worst = judge(k, sums, beta);  // the largest residual of the tasks that are not done
       if (worst < 0.9 * best) best = worst, best_at = k;
       if (worst == 0 || k >= kernels::most_iterations || k - best_at > kernels::most_stagnant) break;
       require_not_stopped(stop);
@@ -72,6 +76,7 @@ class BlockCocg {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
+  /// Sums over particles: rᵀ·z and rᵀ·r, and the products of z with the free motions (`drop`), by mass.
   struct Sums {
     Products<F> rz, rr;
     L drop[kernels::most_free_motions];
@@ -81,6 +86,7 @@ class BlockCocg {
     }
   };
 
+  /// Calls work(body, sums) for all bodies in parallel and returns the total.
   template <class Work>
   Sums sum(Work&& work) {
 #pragma omp parallel for schedule(static)
@@ -94,7 +100,7 @@ class BlockCocg {
     return out;
   }
 
-  /// out = what `of` says of each task and number.
+  /// Sets out to of(task, number), for every task and every number of its vector.
   template <class Of>
   void load(LaneVector<F>& out, Of&& of) const {
 #pragma omp parallel for schedule(static)
@@ -105,6 +111,7 @@ class BlockCocg {
       }
     }
   }
+  /// Sets r to the loads f.
   void load_right() {
     load(r_, [](const LinearTask&, std::size_t) { return Complex(0); });
     for (int f = 0; f < F; ++f) {
@@ -114,10 +121,12 @@ class BlockCocg {
       }
     }
   }
+  /// Sets r to the loads and x to the starts of the tasks.
   void load_tasks() {
     load_right();
     load(x_, [](const LinearTask& task, std::size_t i) { return task.motion.empty() ? Complex(0) : task.motion[i]; });
   }
+  /// Writes the solutions into the tasks.
   void store_tasks() {
     for (LinearTask* task : tasks_) task->motion.resize(6 * n_);
 #pragma omp parallel for schedule(static)
@@ -129,8 +138,8 @@ class BlockCocg {
     }
   }
 
-  /// Looks where each frequency stands, and finds β = rᵀz / rᵀz before. What is done no longer moves. Returns the
-  /// largest relative residual of the others, 0 where there are none.
+  /// Updates the state of each task and computes β = rᵀz / (rᵀz of the previous iteration). For tasks that are done β
+  /// is 0, and they no longer change. Returns the largest relative residual of the others, 0 if all are done.
   double judge(int k, const Sums& sums, Factor<F>& beta) {
     double worst = 0;
     for (int f = 0; f < F; ++f) {
@@ -141,7 +150,7 @@ class BlockCocg {
         done_[f] = residual <= task.tolerance && task.energy <= task.energy_limit;
         task.converged = done_[f];
         task.iterations += k > 0;
-        if (!std::isfinite(residual)) done_[f] = true;  // lost; the others go on
+        if (!std::isfinite(residual)) done_[f] = true;  // not finite: this task is lost, the others continue
         if (!done_[f]) worst = std::max(worst, residual);
       }
       const Complex rho = done_[f] ? Complex(0) : sums.rz.plain(f) + coarse_product_.plain(f);
@@ -151,10 +160,11 @@ class BlockCocg {
     return worst;
   }
 
+  /// Returns rᴴ·P⁻¹·r of a task, not below 0.
   double energy_of(const Sums& sums, int f) const {
     return std::max(sums.rz.conjugated(f) + coarse_product_.conjugated(f), 0.0);
   }
-  /// From r = f − K·x: that of the iteration has gathered rounding.
+  /// Computes the energy from r = f − K·x, because the r that the iteration updates has accumulated rounding errors.
   void renew_energy() {
     load_right();
     const Sums sums = start();
@@ -163,7 +173,7 @@ class BlockCocg {
     for (int f = 0; f < F; ++f) tasks_[static_cast<std::size_t>(f)]->energy = energy_of(sums, f);
   }
 
-  /// r = f − K·x and what follows from it.
+  /// Computes r = f − K·x (r must hold f) and the fine level of the preconditioner. Returns the sums.
   Sums start() {
     return sum([&](std::size_t i, Sums& own) {
       L kx[6];
@@ -173,7 +183,7 @@ class BlockCocg {
     });
   }
 
-  /// z = K_ii⁻¹·r of one body, and its shares in the sums.
+  /// Computes z = K_ii⁻¹·r of one body, and adds its terms to the sums.
   void fine(std::size_t i, Sums& own) {
     const double* inverse = &inverse_[36 * i];
     const L* r = &r_[6 * i];
@@ -190,7 +200,8 @@ class BlockCocg {
     }
   }
 
-  /// coarse = (RᵀKR)⁻¹·Rᵀ·r
+  /// Computes the coarse level, coarse = (RᵀKR)⁻¹·Rᵀ·r, and in `drop` the products of the whole z with the free
+  /// motions.
   void precondition(const Sums& sums, L (&drop)[kernels::most_free_motions]) {
     const std::size_t boxes = system_.boxes();
 #pragma omp parallel for schedule(static)
@@ -221,7 +232,7 @@ class BlockCocg {
     for (auto i = static_cast<std::size_t>(system_.box_body[box]); i < end; ++i) work(i);
   }
 
-  /// p = z + β·p with the coarse correction added to z and the free motions taken out.
+  /// Computes p = z + β·p, after adding the coarse level to z and removing the free motions from it.
   void turn(const Factor<F>& beta, const L (&drop)[kernels::most_free_motions]) {
 #pragma omp parallel for schedule(static)
     for (std::size_t b = 0; b < system_.boxes(); ++b) {
@@ -239,7 +250,7 @@ class BlockCocg {
     }
   }
 
-  /// q = K·p, and pᵀ·q.
+  /// Computes q = K·p and returns pᵀ·q.
   Products<F> apply() {
     return sum([&](std::size_t i, Sums& own) {
              L q[6];
@@ -252,7 +263,7 @@ class BlockCocg {
         .rz;
   }
 
-  /// x += α·p, r −= α·q
+  /// Computes x += α·p, r −= α·q and the fine level. Returns the sums.
   Sums advance(const Factor<F>& alpha) {
     return sum([&](std::size_t i, Sums& own) {
       for (std::size_t c = 0; c < 6; ++c) {
@@ -286,7 +297,8 @@ void solve_block(const kernels::LinearSystem& system, const std::vector<double>&
     BlockCocg<1>(system, inverse, layout, tasks).solve(stop);
     return;
   }
-  LinearTask spare = *tasks.front();  // fills the block; it is done before it begins
+  // fills the lanes; with its infinite tolerance it is done before the first iteration
+  LinearTask spare = *tasks.front();
   spare.tolerance = std::numeric_limits<double>::infinity();
   while (tasks.size() < static_cast<std::size_t>(kernels::most_loads)) tasks.push_back(&spare);
   BlockCocg<kernels::most_loads>(system, inverse, layout, tasks).solve(stop);

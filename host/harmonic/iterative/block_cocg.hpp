@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file block_cocg.hpp  Conjugate gradients for complex symmetric matrices (COCG), several frequencies side by side.
+/// \file block_cocg.hpp  Conjugate gradients for complex symmetric matrices (COCG), for several frequencies side by
+/// side.
 #pragma once
 
 #include <vector>
@@ -10,7 +11,8 @@
 
 namespace macadam::harmonic {
 
-/// Solves up to four tasks at once. `inverse`: of invert_particle_blocks().
+/// Solves up to four tasks at once and stores the results in them. `inverse`: from invert_particle_blocks(). \throws
+/// InterruptedError when `stop` is given and returns true.
 void solve_block(const kernels::LinearSystem& system, const std::vector<double>& inverse, const kernels::Layout& layout,
                  std::vector<LinearTask*> tasks, const std::function<bool()>& stop);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// invert.cpp  Cholesky factors block by block, and then columns of the inverse. Eigen does this by one thread.
+// invert.cpp  Cholesky factorization by blocks, then the columns of the inverse by triangular solves. Eigen would use
+// one thread for both.
 #include "host/harmonic/iterative/invert.hpp"
 
 #include <Eigen/Cholesky>
@@ -12,8 +13,9 @@
 namespace macadam::harmonic {
 namespace {
 
-constexpr Eigen::Index width = 48;  ///< of a block: small enough for a dozen threads
+constexpr Eigen::Index width = 48;  ///< rows of a block: small enough to give a dozen threads work
 
+/// A matrix seen as square blocks.
 struct Blocks {
   Eigen::MatrixXd& matrix;
   Eigen::Index count = (matrix.rows() + width - 1) / width;
@@ -24,7 +26,8 @@ struct Blocks {
   }
 };
 
-/// The lower triangle by its factor L; what is above keeps what it has.
+/// Replaces the lower triangle by its Cholesky factor L; the upper triangle is not touched. Returns false if the matrix
+/// is not positive definite.
 bool factor(const Blocks& blocks) {
   for (Eigen::Index j = 0; j < blocks.count; ++j) {
     const Eigen::LLT<Eigen::MatrixXd> own(blocks.at(j, j));
@@ -55,7 +58,7 @@ bool invert_in_parallel(Eigen::MatrixXd& matrix) {
   if (!factor(blocks)) return false;
   const Eigen::Index size = matrix.rows();
   Eigen::MatrixXd inverse(size, size);
-  // The inverse is symmetric: of a block of columns, the part from the diagonal down is computed, and mirrored.
+  // The inverse is symmetric: each block of columns is computed from the diagonal down and then mirrored.
   for_each_in_parallel(static_cast<std::size_t>(blocks.count), [&](std::size_t number) {
     const auto j = static_cast<Eigen::Index>(number);
     const Eigen::Index first = width * j, rest = size - first, columns = blocks.size(j);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file invert.hpp  The inverse of a dense matrix by all threads.
+/// \file invert.hpp  Inverts a dense matrix with all threads.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace macadam::harmonic {
 
-/// Replaces a symmetric positive definite matrix, of which the lower triangle counts, by its inverse; the same bits for
-/// any number of threads. False, with the matrix lost, where it is not positive definite.
+/// Replaces a symmetric positive definite matrix by its inverse; only the lower triangle is read. The result does not
+/// depend on the number of threads. Returns false if the matrix is not positive definite; its contents are then lost.
 bool invert_in_parallel(Eigen::MatrixXd& matrix);
 
 }  // namespace macadam::harmonic

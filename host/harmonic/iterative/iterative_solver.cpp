@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// iterative_solver.cpp  A network made ready for the iteration, on the CPU or on a device.
+// iterative_solver.cpp  Prepares a network for the iterative solver, on the CPU or on a CUDA device.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr auto block = static_cast<std::size_t>(kernels::most_loads);
 
-/// f for each block of tasks.
+/// Calls f for each block of up to four tasks.
 template <class F>
 void for_each_block(const std::vector<LinearTask*>& tasks, F&& f) {
   for (std::size_t first = 0; first < tasks.size(); first += block) {
@@ -25,6 +25,7 @@ void for_each_block(const std::vector<LinearTask*>& tasks, F&& f) {
   }
 }
 
+/// The iterative solver on the CPU.
 class CpuSolver : public LinearSolver {
  public:
   CpuSolver(kernels::Layout layout, kernels::LinearSystem system)
@@ -42,6 +43,7 @@ class CpuSolver : public LinearSolver {
   std::vector<double> inverse_;
 };
 
+/// The iterative solver on CUDA devices, where the whole iteration runs.
 class CudaSolver : public LinearSolver {
  public:
   CudaSolver(kernels::Layout layout, const kernels::LinearSystem& system, const DeviceList& devices)
@@ -73,18 +75,18 @@ class CudaSolver : public LinearSolver {
         std::copy(on.load.begin(), on.load.end(), load.load);
       }
     }
-    // To make memory for large solutions takes the processor as long as tens of iterations take the device: it is done
-    // while the device iterates.
+    // Allocating memory for large solutions takes the CPU as long as tens of iterations take the device. So it is done
+    // in another thread while the device iterates.
     const auto make_room = [&] {
       for (LinearTask* task : tasks) task->motion.resize(6 * layout_.particles());
     };
     std::future<void> room;
     try {
       room = std::async(std::launch::async, make_room);
-    } catch (const std::system_error&) {}  // no more threads: then it is done afterwards
+    } catch (const std::system_error&) {}  // no thread available: memory is allocated afterwards
     const std::vector<kernels::LinearState> states = solver_->solve(loads, [&] { require_not_stopped(stop); });
     if (room.valid())
-      room.get();  // which says if there was no memory
+      room.get();  // rethrows if there was not enough memory
     else
       make_room();
     for (std::size_t t = 0; t < tasks.size(); ++t) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file lanes.hpp  One complex number of each of F frequencies in a SIMD register: real parts, then imaginary parts.
+/// \file lanes.hpp  One complex number for each of F solutions in a SIMD register: first the real parts, then the
+/// imaginary parts.
 ///
-/// Everything that is real (frames, arms, moments, the preconditioner) then works on 2F plain numbers, and what is read
-/// of a contact serves all frequencies.
+/// Real factors (frames, lever arms, moments, the preconditioner) then multiply 2F plain numbers, and the data of a
+/// contact are read once for all solutions.
 #pragma once
 
 #include <complex>
@@ -13,7 +14,8 @@
 
 namespace macadam::harmonic {
 
-/// gcc takes the size of a vector from a number only.
+/// The SIMD type of F complex numbers. Each size is written out, because gcc accepts only a literal as the size of a
+/// vector.
 template <int F>
 struct Registers;
 template <>
@@ -25,6 +27,7 @@ struct Registers<4> {
   typedef double Number __attribute__((vector_size(64)));
 };
 
+/// F complex numbers. Products are lane by lane: one factor must be real, with the same number in both lanes.
 template <int F>
 struct Lanes {
   static constexpr int width = 2 * F;
@@ -35,6 +38,7 @@ struct Lanes {
   Lanes(Register r) : v(r) {}
   explicit Lanes(double x) : v(Register{} + x) {}
 
+  /// Returns the complex number f.
   std::complex<double> at(int f) const { return {v[f], v[F + f]}; }
   void set(int f, std::complex<double> z) { v[f] = z.real(), v[F + f] = z.imag(); }
 
@@ -52,7 +56,7 @@ struct Lanes {
   friend Lanes operator*(Lanes a, Lanes b) { return a.v * b.v; }
   friend Lanes operator*(double a, Lanes b) { return a * b.v; }
 
-  /// Real and imaginary parts exchanged.
+  /// Returns the numbers with real and imaginary parts exchanged.
   Lanes swapped() const { return in_order(std::make_integer_sequence<int, width>()); }
 
  private:
@@ -62,10 +66,10 @@ struct Lanes {
   }
 };
 
-/// A complex factor of each frequency, ready to multiply.
+/// A complex factor for each solution, prepared for multiplication.
 template <int F>
 struct Factor {
-  Lanes<F> real, imaginary;  ///< each twice; the imaginary part with the sign that i·i gives to the real lanes
+  Lanes<F> real, imaginary;  ///< each in both lanes; the imaginary part has the sign of i·i in the real lanes
 
   void set(int f, std::complex<double> z) {
     real.v[f] = real.v[F + f] = z.real();
@@ -74,7 +78,7 @@ struct Factor {
   Lanes<F> operator()(Lanes<F> x) const { return real * x + imaginary * x.swapped(); }
 };
 
-/// Σ x·y without conjugates, and Σ conj(x)·y, real part, of each frequency.
+/// The sums Σ x·y without conjugates and Re Σ conj(x)·y, for each solution.
 template <int F>
 struct Products {
   Lanes<F> straight, crossed;
@@ -84,13 +88,15 @@ struct Products {
     crossed += x * y.swapped();
   }
   void add(const Products& o) { straight += o.straight, crossed += o.crossed; }
+  /// Returns Σ x·y of number f, without conjugates.
   std::complex<double> plain(int f) const {
     return {straight.v[f] - straight.v[F + f], crossed.v[f] + crossed.v[F + f]};
   }
+  /// Returns Re Σ conj(x)·y of number f.
   double conjugated(int f) const { return straight.v[f] + straight.v[F + f]; }
 };
 
-/// [particle][6]: ux uy uz θx θy θz of all frequencies.
+/// [particle][6]: ux uy uz θx θy θz of all solutions.
 template <int F>
 using LaneVector = kernels::AlignedVector<Lanes<F>>;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// make_system.cpp  Contacts between boxes make up the coarse matrix: a rigid motion strains none inside.
+// make_system.cpp  The coarse matrix RᵀKR is summed over contacts between boxes only, because a rigid motion of a box
+// does not strain the contacts inside.
 #include "host/harmonic/iterative/make_system.hpp"
 
 #include "host/harmonic/iterative/invert.hpp"
@@ -23,6 +24,7 @@ using kernels::Twist;
 
 namespace {
 
+/// Returns a contact as its first particle sees it.
 ContactEnd seen_from_a(const Contact& c, const kernels::Layout& layout) {
   const double d = c.distance;
   const AreaMoments& m = c.moments;
@@ -35,7 +37,7 @@ ContactEnd seen_from_a(const Contact& c, const kernels::Layout& layout) {
           static_cast<std::int32_t>(c.pair)};
 }
 
-/// The frame (−n, s, −t): local coordinates t change their sign.
+/// Returns a contact as its second particle sees it, in the frame (−n, s, −t): coordinates along t change their sign.
 ContactEnd seen_from_b(const Contact& c, const kernels::Layout& layout) {
   ContactEnd e = seen_from_a(c, layout);
   for (double& x : e.n) x = -x;
@@ -46,6 +48,7 @@ ContactEnd seen_from_b(const Contact& c, const kernels::Layout& layout) {
   return e;
 }
 
+/// Fills the contacts of every particle.
 void make_rows(const ContactNetwork& network, const kernels::Layout& layout, LinearSystem& out) {
   const std::size_t n = layout.particles();
   out.particle = layout.particle;
@@ -67,7 +70,7 @@ void make_rows(const ContactNetwork& network, const kernels::Layout& layout, Lin
   }
 }
 
-/// f(box, body) for the bodies of every box.
+/// Calls f(box, body) for the bodies of every box; boxes run in parallel.
 template <class F>
 void for_each_body(const LinearSystem& system, F&& f) {
 #pragma omp parallel for schedule(dynamic, 1)
@@ -76,6 +79,8 @@ void for_each_body(const LinearSystem& system, F&& f) {
   }
 }
 
+/// Computes the lever of every body: its position relative to the middle of its box, and the half diagonal of the box,
+/// which scales rotations to lengths.
 void make_levers(const Specimen& specimen, const kernels::Layout& layout, LinearSystem& out) {
   out.box_body = layout.tile_body;
   out.lever.resize(layout.particles());
@@ -93,14 +98,14 @@ void make_levers(const Specimen& specimen, const kernels::Layout& layout, Linear
   });
 }
 
-/// R's columns of one box for one of its bodies: motion c of the box.
+/// Returns the motion of a body under motion c of its box: column c of R.
 Twist<double> box_motion(const Lever& lever, int c) {
   double y[6] = {};
   y[c] = 1;
   return kernels::moved_with_box(lever, y);
 }
 
-/// RᵀKR, every box its own six rows.
+/// Returns RᵀKR, [6·boxes][6·boxes]. Each box writes only its own six rows, so that boxes run in parallel.
 Eigen::MatrixXd coarse_stiffness(const LinearSystem& system) {
   const auto size = static_cast<Eigen::Index>(6 * system.boxes());
   std::vector<std::int32_t> box_of(system.bodies());
@@ -131,7 +136,8 @@ Eigen::MatrixXd coarse_stiffness(const LinearSystem& system) {
   return k;
 }
 
-/// A rigid motion of the whole as motions of the boxes; any body of a box says which.
+/// Returns a free motion of the whole specimen as motions of the boxes. Since it is rigid, the first body of a box
+/// determines the motion of the box.
 Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
   Eigen::VectorXd out(static_cast<Eigen::Index>(6 * system.boxes()));
   for (std::size_t b = 0; b < system.boxes(); ++b) {
@@ -146,13 +152,14 @@ Eigen::VectorXd motions_of_boxes(const LinearSystem& system, int motion) {
   return out;
 }
 
-/// Products of a free motion of some particles with the boxes' motions, by mass: they are not zero for a motion of the
-/// boxes that contains the free one.
+/// Returns the products, by mass, of a free motion of some particles with the motions of the boxes. They are not zero
+/// for a motion of the boxes that contains the free motion.
 Eigen::VectorXd weights_of_boxes(const LinearSystem& system, int motion) {
   const auto size = static_cast<Eigen::Index>(6 * system.boxes());
   return Eigen::Map<const Eigen::VectorXd>(system.weight.data() + motion * size, size);
 }
 
+/// Copies masses and free motions into the order of the layout.
 void make_motions(const kernels::Layout& layout, const Inertia& inertia, const FreeMotions& free, LinearSystem& out) {
   const std::size_t n = layout.particles(), motions = free.motions.size();
   out.free = static_cast<int>(motions);
@@ -175,7 +182,7 @@ void make_motions(const kernels::Layout& layout, const Inertia& inertia, const F
   }
 }
 
-/// What the free motions of the whole have in common with the boxes', times mass.
+/// Computes Rᵀ·M·motion for all free motions: their products, by mass, with the motions of the boxes.
 void make_weights(LinearSystem& out) {
   const auto motions = static_cast<std::size_t>(out.free);
   out.weight.assign(motions * 6 * out.boxes(), 0);
@@ -203,8 +210,8 @@ LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen
   make_motions(layout, inertia, free, out);
   make_weights(out);
   Eigen::MatrixXd k = coarse_stiffness(out);
-  // Motions of the whole that no wall resists have no stiffness among the boxes either. They are given some: what of
-  // them gets into z is taken out of it anyway.
+  // Free motions of the whole specimen have no stiffness among the boxes either, so the coarse matrix would be
+  // singular. They are given some stiffness; the part of them that gets into z is removed from it anyway.
   const double usual = k.trace() / static_cast<double>(k.rows());
   for (int m = 0; m < out.free; ++m) {
     const bool of_all = free.motions[static_cast<std::size_t>(m)].particles.size() == layout.particles();

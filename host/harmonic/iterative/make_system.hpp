@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file make_system.hpp  From a network to the arrays of the iteration.
+/// \file make_system.hpp  Builds the arrays of the iterative solver from a network.
 #pragma once
 
 #include "host/harmonic/rigid_motions.hpp"
@@ -9,17 +9,19 @@
 
 namespace macadam::harmonic {
 
-/// Rows of contacts, and the coarse level of the preconditioner: the rigid motions of the layout's tiles.
+/// Returns the linear system in the order of the layout: the contacts of each particle, the free motions, and the
+/// coarse level of the preconditioner, whose motions are the rigid motions of the layout's tiles (boxes of particles).
 /// \throws NotIterable when boxes of particles can move without force.
 kernels::LinearSystem make_system(const ContactNetwork& network, const Specimen& specimen,
                                   const kernels::Layout& layout, const PairStiffness& typical, const Inertia& inertia,
                                   const FreeMotions& free);
 
-/// K_ii⁻¹ of every body, [body][36]: the fine level of the preconditioner.
-/// \throws NotIterable naming the particle that can move by itself without force.
+/// Returns K_ii⁻¹ of every particle, [body][36]: the fine level of the preconditioner.
+/// \throws NotIterable naming a particle that can move by itself without force.
 std::vector<double> invert_particle_blocks(const kernels::LinearSystem& system, const kernels::Layout& layout);
 
-/// \throws NotIterable saying so; `body`: the first of them.
+/// Throws NotIterable naming the particle that can move by itself. `body`: the first such particle, as its number in
+/// the layout.
 [[noreturn]] void refuse_loose_particle(std::int64_t body, const kernels::Layout& layout);
 
 }  // namespace macadam::harmonic
