@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// memory.cpp  What Linux says of memory: of the machine, of this process and of its group.
+// memory.cpp  Reads from Linux how much memory is available: on the machine, to this process, and to its control group.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The number in the first line of a small file; `without` where there is none.
+/// Returns the number in the first line of a small file, or `without` if there is none.
 double number_in(const char* file, double without) {
   std::ifstream in(file);
   double value = 0;
@@ -42,7 +42,7 @@ double left_of_address_space() {
 
 double memory_available() {
   const double group = number_in("/sys/fs/cgroup/memory.max", unlimited) -
-                       number_in("/sys/fs/cgroup/memory.current", 0);  // of a container
+                       number_in("/sys/fs/cgroup/memory.current", 0);  // limit of a container
   return std::min({free_of_machine(), left_of_address_space(), std::max(0.0, group)});
 }
 
