@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file placement_bench.cpp  How much shaped aggregate finds a place, by either method, and how long it takes.
+/// \file placement_bench.cpp  Measures how many shaped aggregates can be placed by packing and by insertion, and how
+/// long it takes.
 ///
-///   placement_bench [DIR [SEEDS [ATTEMPTS]]]   shapes: all OFF files of DIR ("-": stones made here), then the
-///                                              icosahedron; seeds 1 … SEEDS; ATTEMPTS of the insertion
+///   placement_bench [DIR [SEEDS [ATTEMPTS]]]   DIR: folder of OFF files, or "-" for generated aggregates; the
+///                                              icosahedron is measured too. Seeds 1 … SEEDS. ATTEMPTS: of the
+///                                              insertion
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
