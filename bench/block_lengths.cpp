@@ -18,6 +18,7 @@ namespace {
 using kernels::Placement;
 using kernels::Twist;
 
+/// A case: binder, frequency, and size of specimen and run.
 struct Case {
   const char* binder;
   double frequency;    // [Hz]

@@ -19,6 +19,7 @@ using namespace macadam;
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+/// Reads the shapes of a folder in the order of their names; "-" generates 20 aggregates.
 std::vector<ShapeTemplate> shapes_of(const std::string& folder) {
   std::vector<ShapeTemplate> shapes;
   if (folder == "-") {
@@ -32,6 +33,7 @@ std::vector<ShapeTemplate> shapes_of(const std::string& folder) {
   return shapes;
 }
 
+/// Places one recipe and prints what was reached per size class.
 void run(const char* name, const std::vector<ShapeTemplate>& shapes, PlacementMethod method, std::uint64_t seed,
          std::int64_t attempts) {
   SpecimenSpec recipe = test::design_formulation();

@@ -22,6 +22,7 @@ struct Between {
   float share;
 };
 
+/// Returns the neighbours of a fine voxel's centre among `size` coarse voxels.
 Between between(std::int64_t fine, std::int64_t factor, std::int64_t size) {
   const double at = (static_cast<double>(fine) + 0.5) / static_cast<double>(factor) - 0.5, floor = std::floor(at);
   const auto inside = [size](double n) {
@@ -41,6 +42,7 @@ float noise_of(std::uint64_t voxel) {
   return sum * 1.7320508f;  // a uniform number of width 1 has a variance of 1/12, so the sum has 1/3
 }
 
+/// Writes the enlarged scan: interpolates along y and z per coarse row, then along x.
 void enlarge(const Image<std::uint16_t>& scan, const std::string& file, std::int64_t factor, float noise) {
   const auto n = [factor](std::int64_t size) { return size * factor; };
   const auto [nx, ny, nz] = std::array{n(scan.size[0]), n(scan.size[1]), n(scan.size[2])};

@@ -82,6 +82,7 @@ void write_spheres(const std::string& file, const std::vector<Study>& studies) {
   if (!out.flush()) throw RunError(file + ": cannot be written");
 }
 
+/// Fills each surface, and an icosahedron, with every range of radii and every seed, and writes the files.
 int study(const std::string& folder, const std::vector<std::string>& files) {
   std::vector<Surface> surfaces;
   for (const std::string& file : files) surfaces.push_back(of_common_size(read_surface(file)));

@@ -21,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 Backend backend = Backend::cpu;
 
+/// Returns the full specimen with given laws and contact rules.
 TestScene full(const NetworkSpec& spec = {}, const test::Laws& laws = test::am1_laws()) {
   static const Specimen specimen = read_specimen_csv(MACADAM_TEST_DATA "/ss_full.csv.gz", {{0.05, 0.05, 0.08}});
   return test::make_scene(specimen, spec, laws);

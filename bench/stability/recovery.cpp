@@ -38,6 +38,7 @@ struct Exact {
   std::vector<double> force;  ///< f/E_m at the end of each stage
   double flow = 0;            ///< y at the release
 };
+/// Integrates the stages with matrix exponentials.
 Exact exact_solution(const laws::GeneralisedKelvin& law, double step) {
   Eigen::Matrix<double, 5, 5> A = Eigen::Matrix<double, 5, 5>::Zero();
   Eigen::Matrix<double, 1, 5> f;

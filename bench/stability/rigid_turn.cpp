@@ -20,6 +20,7 @@ test::TestScene free_assembly() {
   return test::make_scene(test::random_specimen(41, 3, 3, 3), spec, elastic_laws());
 }
 
+/// The axis of the turn.
 const Vec3d oblique = (1 / std::sqrt(14.0)) * Vec3d{1, -2, 3};
 
 Vec3d turned(const Vec3d& v, double by, const Vec3d& axis = oblique) {  // rotation by Rodrigues' formula

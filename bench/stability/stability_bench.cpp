@@ -26,6 +26,7 @@ std::string processor() {
   return "unknown processor";
 }
 
+/// Prints the verdict of a case and its main rows; details only if they fail.
 void print(const Outcome& outcome) {
   std::string text = fmt::format("{}: {} lines, {} failed, {:.1f} s\n", outcome.of.name, outcome.rows.size(),
                                  outcome.failed(), outcome.seconds);

@@ -21,6 +21,7 @@ namespace macadam::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+/// Returns the wall time of a call [s].
 double seconds_of(const std::function<void()>& f) {
   const auto start = Clock::now();
   f();

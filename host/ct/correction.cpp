@@ -91,6 +91,7 @@ double in_contrasts(double brighter, const GreyLevels& whole) {
 
 }  // namespace
 
+// Blocks at the far ends that are not complete are left out.
 std::pair<Image<float>, Image<std::uint8_t>> means_of_blocks(const Image<float>& scan,
                                                              const Image<std::uint8_t>& region, Grid block) {
   Grid size;
@@ -127,6 +128,7 @@ std::pair<Image<float>, Image<std::uint8_t>> means_of_blocks(const Image<float>&
   return {std::move(means), std::move(inside)};
 }
 
+// Block means of 3 × 3 voxels within a slice reduce the noise before the levels are fitted.
 double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [means, inside] = means_of_blocks(scan, region, {3, 3, 1});
   const auto slices = static_cast<std::size_t>(scan.size[2]);
@@ -141,6 +143,8 @@ double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region, Cor
   return in_contrasts(std::sqrt(squares / static_cast<double>(slices)), parts.whole);
 }
 
+// The brightness of each ring (one voxel of radius wide) is compared with the median of the rings up to 8 voxels away.
+// The median follows smooth changes, which belong to beam hardening; the difference is the ring's offset.
 double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [cx, cy] = middle_of(region);
   const auto [means, inside] = means_of_blocks(scan, region, {1, 1, 3});
@@ -211,6 +215,8 @@ double ring_share(const Image<float>& scan, const Image<std::uint8_t>& region) {
   return variance > 0 ? explained / variance : 0;
 }
 
+// Divides the specimen into 12 ranges of ρ (squared radius) and 6 of height, finds the brightness of each cell, and
+// fits the polynomial 1, ρ, ρ², ζ, ζ², ρζ to them by least squares, weighted with the numbers of voxels.
 double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [cx, cy] = middle_of(region);
   const std::int64_t edge = std::clamp<std::int64_t>(scan.size[0] / 100, 1, 4);

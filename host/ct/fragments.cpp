@@ -97,7 +97,7 @@ Fragments flood(const Image<float>& distance, const Image<float>& grey, double r
   out.labels = Image<std::uint32_t>::like(distance);
   std::vector<std::uint32_t>& label = out.labels.voxels;
   Joined basins;
-  basins.add(0);  // number 0 is no basin
+  basins.add(0);  // number 0 is reserved for voxels without a basin
   for (const std::uint32_t at : from_inside_out(distance, voxel / 64)) {
     const std::int64_t i = at % nx, j = at / nx % ny, k = at / (nx * ny);
     const float d = distance.voxels[at];

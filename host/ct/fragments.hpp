@@ -16,6 +16,7 @@ struct Face {
   Vec3d middle{};              ///< sum of the positions of the pairs [m]
 };
 
+/// The fragments of a scan and the faces between them.
 struct Fragments {
   Image<std::uint32_t> labels;  ///< number of the fragment; 0: none
   std::vector<double> radius;   ///< radius of the largest inscribed sphere of each fragment [m]; entry 0 is unused

@@ -12,6 +12,7 @@
 namespace macadam::ct {
 namespace {
 
+/// Returns the number in a text. \throws InputError if it is not a finite number.
 double number(const std::string& text, const std::string& file, int line) {
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);

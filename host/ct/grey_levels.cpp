@@ -10,6 +10,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+/// Density of a normal distribution at x.
 double normal(double x, double mean, double deviation) {
   const double t = (x - mean) / deviation;
   return std::exp(-0.5 * t * t) / (deviation * std::sqrt(2 * pi));
@@ -177,6 +178,8 @@ double otsu(const Histogram& h, std::size_t from, std::size_t to) {
   return at;
 }
 
+// Starts a mixture of three phases from Otsu's two thresholds. If its levels are not plausible as air, mastic and
+// aggregate, fits two phases instead.
 GreyLevels fit_levels(const Histogram& h) {
   const auto [i, j] = otsu3(h);
   const Mixture three = fitted(h, {mean_of(h, 0, i), mean_of(h, i, j), mean_of(h, j, h.counts.size())});
@@ -198,6 +201,8 @@ GreyLevels fit_levels(const Histogram& h) {
   return levels;
 }
 
+// Repeats two steps: one iteration of expectation maximisation, whose means move freely; then the means are replaced by
+// the whole scan's levels, shifted by the one brightness that fits them best (least squares).
 PartLevel level_of_part(const Histogram& h, const GreyLevels& whole) {
   const auto total = static_cast<double>(h.total());
   if (total < 200) return {};

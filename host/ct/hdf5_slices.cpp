@@ -11,6 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Returns HDF5's type for a voxel type.
 const H5::PredType& native(VoxelType type) {
   using H5::PredType;
   static const PredType* const types[] = {&PredType::NATIVE_UINT8,  &PredType::NATIVE_INT8,   &PredType::NATIVE_UINT16,
@@ -20,6 +21,7 @@ const H5::PredType& native(VoxelType type) {
   return *types[static_cast<std::size_t>(type)];
 }
 
+/// Returns the voxel type of a dataset. \throws InputError if its values are not numbers.
 VoxelType type_of(const H5::DataSet& set, const std::string& file) {
   const std::size_t bytes = set.getDataType().getSize();
   if (set.getTypeClass() == H5T_FLOAT) return bytes > 4 ? VoxelType::f64 : VoxelType::f32;
@@ -91,6 +93,7 @@ void check_storage(const H5::DataSet& set, const ImageHeader& header, const std:
     throw InputError(file, 0, "dataset", "one whose voxels are in other files", "voxels in this file");
 }
 
+/// A dataset of an open HDF5 file.
 class Hdf5Slices : public ImageSlices {
  public:
   Hdf5Slices(const fs::path& path, const std::string& dataset) {

@@ -13,6 +13,7 @@
 namespace macadam::ct {
 namespace {
 
+/// Slices that follow one another from a given offset in a file.
 class ImagejStack : public ImageSlices {
  public:
   ImagejStack(const std::filesystem::path& file, const TiffPages& pages)

@@ -167,6 +167,7 @@ ImageHeader header_of(itk::ImageIOBase& io, const HeaderFacts& facts) {
   return header;
 }
 
+/// Returns the voxel type that ITK found. \throws InputError if it is not known.
 VoxelType type_of(const itk::ImageIOBase& io) {
   using Type = itk::IOComponentEnum;
   switch (io.GetComponentType()) {

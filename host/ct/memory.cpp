@@ -22,6 +22,7 @@ double number_in(const char* file, double without) {
   return in >> value ? value : without;
 }
 
+/// Returns the free memory of the machine [bytes].
 double free_of_machine() {
   std::ifstream in("/proc/meminfo");
   std::string name;
@@ -31,6 +32,7 @@ double free_of_machine() {
   return unlimited;
 }
 
+/// Returns how much this process may still allocate under its limit of address space (ulimit -v) [bytes].
 double left_of_address_space() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;

@@ -28,6 +28,7 @@ bool is_copied(std::string_view key) {
 /// Whether the value of ElementDataFile means that the voxels follow the header in the same file.
 bool is_local(std::string_view value) { return value == "LOCAL" || value == "Local" || value == "local"; }
 
+/// Whether the whole text is a number, which is stored in `number`.
 bool is_number(std::string_view text, std::uintmax_t& number) {
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
   return fault == std::errc{} && end == text.data() + text.size();

@@ -24,6 +24,7 @@ Colour colour_of(std::uint32_t label) {
   return {part(0), part(4), part(2)};
 }
 
+/// Returns a + share·(b − a).
 Colour mixed(const Colour& a, const Colour& b, double share) {
   Colour out;
   for (std::size_t c = 0; c < 3; ++c) out[c] = static_cast<std::uint8_t>((1 - share) * a[c] + share * b[c]);
@@ -68,6 +69,7 @@ double round_length(double longest) {
 
 }  // namespace
 
+// Nearest voxel for each pixel, so that voxels with different edges keep their proportions.
 void write_overlay(const std::filesystem::path& file, const Segmentation& s) {
   constexpr std::size_t gap = 16;  // between planes, and around the labels below them [pixels]
   const double edges[3] = {s.labels.spacing.x, s.labels.spacing.y, s.labels.spacing.z};
@@ -108,6 +110,8 @@ void write_overlay(const std::filesystem::path& file, const Segmentation& s) {
   write_png(file, picture);
 }
 
+// Draws the facets into a depth buffer: each pixel keeps the facet nearest to the viewer. The brightness of a facet
+// follows from the angle between its normal and the light.
 void write_view(const std::filesystem::path& file, const Segmentation& s) {
   constexpr std::size_t edge = 900;
   Picture picture(edge, edge);

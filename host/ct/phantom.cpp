@@ -22,8 +22,10 @@ using ct::Body;
 using ct::Coverage;
 using ct::SawnCore;
 
+/// Largest number of voxels of a phantom.
 constexpr double most_voxels = 2e9;
 
+/// \throws InputError if `wrong` is true.
 void refuse(bool wrong, const char* what, double found, const char* expected) {
   if (wrong) throw InputError("phantom", 0, what, fmt::format("{}", found), expected);
 }
@@ -231,6 +233,8 @@ void settle(const PhantomSpec& spec, const Shares& shares, Phantom& out, Image<f
 
 }  // namespace
 
+// Steps: generate the specimen; fractions of aggregate, voids and specimen in each voxel; phases and grey values from
+// them; faults of a scanner; gaps between grains.
 Phantom make_phantom(const Scene& scene, const PhantomSpec& spec,
                      const std::function<void(const std::string& stage, double share)>& progress) {
   check(spec, scene.specimen.box);

@@ -53,6 +53,7 @@ std::string contacts_csv(const Phantom& p, double voxel) {
   return fmt::to_string(text);
 }
 
+/// Returns the table of the grains. Values are in SI units.
 std::string grains_csv(const Phantom& p) {
   fmt::memory_buffer text;
   auto to = std::back_inserter(text);

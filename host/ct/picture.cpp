@@ -15,6 +15,7 @@ constexpr std::size_t dot_size = 2, glyph_columns = 5, glyph_rows = 7;  // pixel
 constexpr std::size_t advance = dot_size * (glyph_columns + 1);         // from letter to letter [pixels]
 static_assert(dot_size * glyph_rows == label_height);
 
+/// A letter as rows of dots.
 struct Glyph {
   char letter;
   std::array<std::uint8_t, glyph_rows> dots;  ///< five bits per row; the leftmost dot is the highest bit

@@ -21,6 +21,8 @@ struct Nodes {
   std::int64_t end() const { return first[2] + edge * size[2]; }
 };
 
+/// Returns the nodes for a grain: so fine that about `across` of them lie along its intermediate side, with a margin
+/// around it.
 Nodes nodes_of(std::size_t grain, const GrainBox& box, const FineScan& scan) {
   Nodes nodes{grain, box, std::max<std::int64_t>(1, scan.block * box.middle_side() / across), {}, {}, {}};
   for (std::size_t a = 0; a < 3; ++a) {  // a surface may lie up to one block outside the labels

@@ -9,6 +9,7 @@
 namespace macadam::ct {
 namespace {
 
+/// The outline of the specimen: columns of voxels, and a range of slices.
 struct Outline {
   std::vector<std::uint8_t> columns;  ///< one per column of voxels; 1: within the specimen
   std::int64_t bottom = 0, top = 0;   ///< slices [bottom, top)

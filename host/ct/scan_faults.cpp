@@ -15,6 +15,7 @@
 namespace macadam::ct {
 namespace {
 
+/// Numbers of the streams of random numbers.
 constexpr std::uint64_t drift_stream = 1, ring_stream = 2, slice_streams = 1000;
 
 /// Returns a sample of the standard normal distribution (Box and Muller).
@@ -23,6 +24,7 @@ double normal(RandomStream& random) {
   return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
 }
 
+/// Gaussian blur; `voxels` is the standard deviation [voxels].
 void blur(Image<float>& grey, double voxels) {
   using Filter = itk::DiscreteGaussianImageFilter<itk::Image<float, 3>, itk::Image<float, 3>>;
   const auto filter = Filter::New();

@@ -38,6 +38,7 @@ std::array<double, 4> turn_of(const ShapeMeasure& m) {
   }
 }
 
+/// Returns the number in a text. \throws InputError if it is not a finite number.
 double number(std::string_view text, const std::string& file, int line) {
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -112,6 +113,7 @@ std::vector<GrainCut> read_cuts(const std::filesystem::path& file) {
   return cuts;
 }
 
+// Folders of surfaces are emptied first, so that no surface of an earlier segmentation remains.
 void write_segmentation(const std::filesystem::path& folder, const Segmentation& out, const SegmentOptions& options) {
   namespace fs = std::filesystem;
   const ResultFolder held(folder);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* option = "--region";
 
+/// Returns the lengths [m] in a list separated by commas. \throws InputError.
 std::vector<double> lengths_in(std::string_view list) {
   std::vector<double> out;
   for (;;) {

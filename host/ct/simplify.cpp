@@ -17,6 +17,7 @@ namespace sms = CGAL::Surface_mesh_simplification;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
+/// Converts a surface to CGAL's mesh.
 Mesh mesh_of(const Surface& surface) {
   Mesh mesh;
   for (const Vec3d& p : surface.points) mesh.add_vertex({p.x, p.y, p.z});
@@ -28,6 +29,7 @@ Mesh mesh_of(const Surface& surface) {
   return mesh;
 }
 
+/// Converts a mesh to a surface, leaving out removed vertices.
 Surface surface_of(const Mesh& mesh) {
   Surface surface;
   std::vector<std::int32_t> number(mesh.num_vertices() + mesh.number_of_removed_vertices(), -1);

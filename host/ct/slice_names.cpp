@@ -42,6 +42,7 @@ struct Name {
   std::vector<std::int64_t> numbers;  ///< all numbers; empty also if one is too large
 };
 
+/// Splits a file name at its numbers. Returns an empty Name if a number has more than 18 digits.
 Name name_of(const std::filesystem::path& file) {
   constexpr const char* digits = "0123456789";
   const std::string text = file.stem().string();

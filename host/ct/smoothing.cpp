@@ -6,6 +6,8 @@
 
 namespace macadam::ct {
 
+// Each round adds to a voxel a fraction of the differences d to its six neighbours, weighted with 1/(1 + (d/edge)²), so
+// that large differences count little.
 void diffuse(Image<float>& image, double edge, int rounds) {
   const auto [nx, ny, nz] = image.size;
   const float scale = static_cast<float>(1 / (edge * edge));

@@ -203,6 +203,7 @@ std::optional<std::uint64_t> raw_voxels(const Page& page) {
   return page.at(tags::strips, 0) > 0 ? std::optional(page.at(tags::strips)) : std::nullopt;
 }
 
+/// Returns the voxel type of a page that check_voxels() accepted.
 VoxelType type_of(const Page& page) {
   const std::uint64_t format = page.at(tags::format, 1);
   if (page.at(tags::bits) == 32) return VoxelType::f32;

@@ -78,6 +78,9 @@ void keep_cuts_smooth(const Image<std::uint32_t>& before, Image<std::uint32_t>& 
 
 }  // namespace
 
+// The shortest paths start from the cores of all grains, the voxels deep inside them, at the same time. A step through
+// a voxel is longer the darker the voxel is, so that paths go around mastic. Each voxel outside the cores gets the
+// grain whose path reaches it first.
 Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::vector<std::uint32_t>& grain,
                                        const Image<float>& grey, double depth) {
   Image<std::uint32_t> labels = fragments.labels;

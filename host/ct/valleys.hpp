@@ -12,7 +12,6 @@ namespace macadam::ct {
 /// Therefore voxels less than `depth` [m] below a cut or a surface are assigned again, each to the grain that is
 /// reached through the least mastic (`grey` is 0 for mastic and 1 for aggregate). If no mastic is visible, a cut stays
 /// within about a voxel. With a depth of 0 all cuts stay.
-/// depth of 0 all do.
 Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::vector<std::uint32_t>& grain,
                                        const Image<float>& grey, double depth);
 
