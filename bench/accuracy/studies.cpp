@@ -82,8 +82,8 @@ class List {
       for (const double scaling : scalings) {
         if (quick_ && frequency == 2 && scaling < 1e3) continue;
         for (const Precision precision : precisions) {
-          if (frequency == 2 && scaling == 10 && precision == Precision::double_)
-            continue;  // takes minutes and adds little
+          // takes minutes and adds little
+          if (frequency == 2 && scaling == 10 && precision == Precision::double_) continue;
           add("drift", "t8", frequency, scaling).precision = precision;
         }
       }
@@ -141,9 +141,8 @@ class List {
     const auto with = [&](Damping kind, double value, double scaling) {
       Case& c = add("damping", "t8", 20, scaling);
       c.damping_kind = kind, c.damping = value;
-      if (kind == Damping::viscous)
-        return;  // the other runs start from rest, because local damping has no
-                 // frequency-domain solution
+      // the other runs start from rest, because local damping has no frequency-domain solution
+      if (kind == Damping::viscous) return;
       c.start = Start::rest, c.cycles = {5};
     };
     for (const double scaling : quick_ ? std::vector{1e4} : std::vector{1e4, 1e2}) {

@@ -35,8 +35,8 @@ Specimen spheres_of_two_sizes(double ratio) {
     add(edge * cell + jitter(0.03 * radius), ratio == 1 ? small : radius, Phase::aggregate);
   }
   constexpr int m = n - 1;
-  const double apart = std::max(1.2 * small, 0.02 * radius);  // half the edge of the cube on four of whose corners the
-                                                              // small spheres are placed
+  // half the edge of the cube on four of whose corners the small spheres are placed
+  const double apart = std::max(1.2 * small, 0.02 * radius);
   for (int i = 0; i < m * m * m; ++i) {
     const Vec3d gap{i % m + 1.0, i / m % m + 1.0, i / (m * m) + 1.0};
     for (const Vec3d& corner : {Vec3d{1, 1, 1}, Vec3d{1, -1, -1}, Vec3d{-1, 1, -1}, Vec3d{-1, -1, 1}}) {

@@ -74,9 +74,8 @@ void driven_run(Rows& rows, const std::string& name, const test::TestScene& scen
   options.boundary = moving_top(loading);
   const auto stepper = make(setting, scene, options);
   const std::int64_t cycles = steps / loading.steps_per_period;
-  const std::int64_t first = std::max(20000 / loading.steps_per_period, cycles / 20);  // long enough for the ramp and
-                                                                                       // 50 times the law's relaxation
-                                                                                       // time of 300 steps
+  // long enough for the ramp and 50 times the law's relaxation time of 300 steps
+  const std::int64_t first = std::max(20000 / loading.steps_per_period, cycles / 20);
   const Stiffness early = fundamental(last_cycle(*stepper, scene.specimen, loading, first));
   const Stiffness late = fundamental(last_cycle(*stepper, scene.specimen, loading, cycles - first));
   const std::string run = fmt::format("{}, cyclic, {:.0e} steps, {} cycles", name, static_cast<double>(steps), cycles);
@@ -103,8 +102,8 @@ Stiffness column_stiffness(const test::TestScene& scene, const laws::Generalised
   const Complex rate(0, 2 / dt * std::tan(half));
   const Complex modulus = 1.0 / (1 / law.E_m + 1.0 / (rate * law.C_m) + 1.0 / (law.E[0] + rate * law.C[0]));
   const double edge = scene.specimen.box.size.x, inertia = scene.inertia.mass[0] * std::pow(2 / dt * std::sin(half), 2);
-  const Complex between = modulus * edge, wall = 2.0 * between;  // stiffness E·A/d: A/d = edge²/edge between particles,
-                                                                 // edge²/(edge/2) at a wall
+  // stiffness E·A/d: A/d = edge²/edge between particles, edge²/(edge/2) at a wall
+  const Complex between = modulus * edge, wall = 2.0 * between;
   // (wall + between − inertia)·u₂ − between·u₁ = wall·w, and the same for u₁ with right-hand side 0
   const Complex own = wall + between - inertia;
   const Complex upper = wall * own / (own * own - between * between);

@@ -114,8 +114,8 @@ double energy_over_bound(const Setting& setting, const test::TestScene& scene, c
   const double share = options.dt / limit;
   const double bound = kinetic_energy(scene, stepper->particles()) / (1 - share * share);
   double largest = 0;
-  const std::int64_t stride = std::max<std::int64_t>(1, steps / 400) | 1;  // odd, so that samples do not coincide with
-                                                                           // the period of a mode at the limit
+  // odd, so that samples do not coincide with the period of a mode at the limit
+  const std::int64_t stride = std::max<std::int64_t>(1, steps / 400) | 1;
   for (std::int64_t done = 0; done < steps; done += stride) {
     stepper->advance(stride);
     const double energy = kinetic_energy(scene, stepper->particles());

@@ -89,8 +89,8 @@ class Measured {
       row.seconds.push_back(seconds_of([&] { stepper->advance(row.iterations); }) /
                             static_cast<double>(row.iterations));
     }
-    std::map<std::string, std::vector<double>> parts;  // times of each repetition, whose median is used, because one
-                                                       // repetition may be disturbed
+    // times of each repetition, whose median is used, because one repetition may be disturbed
+    std::map<std::string, std::vector<double>> parts;
     for (int k = 0; k < axes_.repetitions; ++k) {
       for (const PartTime& part : stepper->advance_timed(std::min<std::int64_t>(row.iterations, 2000)))
         parts[part.name].push_back(part.seconds);

@@ -21,8 +21,8 @@ class Joined {
     while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
     return n;
   }
-  void join(std::uint32_t a, std::uint32_t b) {  // a and b must be roots; the one with the higher peak stays, or the
-                                                 // lower number if the peaks are equal
+  // a and b must be roots; the one with the higher peak stays, or the lower number if the peaks are equal
+  void join(std::uint32_t a, std::uint32_t b) {
     if (peak_[a] < peak_[b] || (peak_[a] == peak_[b] && b < a)) std::swap(a, b);
     parent_[b] = a;
   }

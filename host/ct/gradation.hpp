@@ -14,7 +14,8 @@ namespace macadam::ct {
 std::vector<SievePassing> read_gradation(const std::filesystem::path& file);
 
 /// Returns the fraction of a laboratory's gradation below `size` [m], interpolated linearly over the logarithm of the
-/// size between its sieves. With `from` [m], returns the fraction of the part that is larger than `from`.
+/// size between its sieves; below the smallest sieve it is proportional to the size. With `from` [m], returns the
+/// fraction of the part that is larger than `from`.
 double passing_at(const std::vector<SievePassing>& gradation, double size, double from = 0);
 
 /// Returns a table of the fraction of the grains' volume that passes each sieve, by D^I and by the square mesh. If a

@@ -128,8 +128,8 @@ Simplified fit_surface(const Surface& fine, const SegmentOptions& options, doubl
     out = simplified(fine, facets, std::max(facets, most), error);
     if (check_surface(out.surface).good()) return out;
   }
-  out.surface = repair_surface(out.surface, nullptr, {}, true);  // may wrap the grain in a new surface, which is better
-                                                                 // than losing the grain
+  // may wrap the grain in a new surface, which is better than losing the grain
+  out.surface = repair_surface(out.surface, nullptr, {}, true);
   return out;
 }
 

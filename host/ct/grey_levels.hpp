@@ -23,8 +23,8 @@ struct Histogram {
   std::int64_t total() const;
 };
 
-/// Returns empty bins for the grey values in an image's region. The range excludes the rarest 1e-4 of the values at
-/// both ends; these count in the first and last bin. \throws InputError for an empty region or a constant grey value.
+/// Returns empty bins for the grey values in an image's region. The range leaves out the lowest and the highest 1e-4 of
+/// the values; these count in the first and last bin. \throws InputError for an empty region or a constant grey value.
 Histogram bins_of(const Image<float>& image, const Image<std::uint8_t>& region, std::size_t bins);
 
 /// Returns the histogram of the region on the bins of bins_of().

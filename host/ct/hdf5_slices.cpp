@@ -82,8 +82,8 @@ void check_storage(const H5::DataSet& set, const ImageHeader& header, const std:
   double bytes = header.bits / 8.0;
   for (const std::int64_t n : header.size) bytes *= static_cast<double>(n);
   const auto there = static_cast<double>(set.getStorageSize());
-  const double packed = how.getNfilters() > 0 ? 1 / 4000.0 : 1;  // 4000 is above the largest compression ratio of any
-                                                                 // filter
+  // 4000 is above the largest compression ratio of any filter
+  const double packed = how.getNfilters() > 0 ? 1 / 4000.0 : 1;
   if (how.getLayout() != H5D_VIRTUAL && there < packed * bytes) {
     throw InputError(file, 0, "bytes of the dataset", fmt::format("{:.0f}", there),
                      fmt::format("those of {} x {} x {} voxels of {} bits", header.size[0], header.size[1],

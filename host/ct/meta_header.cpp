@@ -17,8 +17,8 @@
 namespace macadam::ct {
 namespace {
 
-constexpr std::size_t copied = 254;  // longest text [bytes]: ITK copies keys, and the values of some keys, into 255
-                                     // bytes
+// longest text [bytes]: ITK copies keys, and the values of some keys, into 255 bytes
+constexpr std::size_t copied = 254;
 
 /// Whether ITK copies the value of this key into 255 bytes.
 bool is_copied(std::string_view key) {

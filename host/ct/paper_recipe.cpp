@@ -117,8 +117,8 @@ Segmentation segment_as_paper(Image<float> scan, const Image<std::uint8_t>& regi
   }
   Image<float> distance = distance_inside(mask);
   const double voxel = std::cbrt(scan.voxel_volume());
-  for (std::size_t at = 0; at < scan.count(); ++at)
-    mask.voxels[at] = distance.voxels[at] > voxel;  // erosion by one voxel
+  // erosion by one voxel
+  for (std::size_t at = 0; at < scan.count(); ++at) mask.voxels[at] = distance.voxels[at] > voxel;
   distance = distance_inside(mask);
   const Fragments fragments = flood(distance, scan, 1);
   out.labels = spread(out.phases, fragments.labels, 1);  // dilation

@@ -50,8 +50,8 @@ void add(Nodes& nodes, const std::vector<float>& slab, std::int64_t from, std::i
   }
 }
 
-/// Two fields on the coarse grid around a grain: `own` is positive where no other grain is, `inside` is positive within
-/// the specimen. The grain's surface must stay where both are positive.
+/// Two fields on the coarse grid around a grain: `own` is positive except in aggregate that does not belong to the
+/// grain, `inside` is positive within the specimen. The grain's surface must stay where both are positive.
 struct Around {
   Image<float> own, inside;
   std::array<std::int64_t, 3> first{};
@@ -122,8 +122,8 @@ struct Refiner {
     };
     field.origin = header.origin +
                    Vec3d{scan.spacing.x * middle(0, 0), scan.spacing.y * middle(1, 0), scan.spacing.z * middle(2, 0)};
-    const auto voxels = [&](std::size_t axis, std::int64_t node) {  // number of voxels of the scan in a node along an
-                                                                    // axis
+    // number of voxels of the scan in a node along an axis
+    const auto voxels = [&](std::size_t axis, std::int64_t node) {
       const std::int64_t low = nodes.first[axis] + nodes.edge * node;
       return std::max<std::int64_t>(0, std::min(header.size[axis], low + nodes.edge) - std::max<std::int64_t>(0, low));
     };

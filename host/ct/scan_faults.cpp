@@ -56,23 +56,23 @@ void add_faults(Image<float>& grey, const PhantomSpec& spec, double radius) {
   if (spec.blur > 0) blur(grey, spec.blur);
   const double range = spec.grey_aggregate - spec.grey_air;
   const std::vector<double> brightness = drift(spec, grey.size[2]);
-  const Vec3d axis =
-      grey.centre(0, 0, 0) + grey.centre(grey.size[0] - 1, grey.size[1] - 1, 0);  // twice the position of the axis
+  // twice the position of the axis
+  const Vec3d axis = grey.centre(0, 0, 0) + grey.centre(grey.size[0] - 1, grey.size[1] - 1, 0);
   const auto from_axis = [&](std::int64_t i, std::int64_t j) {
     const Vec3d p = grey.centre(i, j, 0);
     return std::hypot(p.x - axis.x / 2, p.y - axis.y / 2);
   };
   const double edge = std::min(grey.spacing.x, grey.spacing.y);
-  std::vector<double> lasting(static_cast<std::size_t>(from_axis(0, 0) / edge) + 1);  // offsets of the rings that are
-                                                                                      // the same in all slices
+  // offsets of the rings that are the same in all slices
+  std::vector<double> lasting(static_cast<std::size_t>(from_axis(0, 0) / edge) + 1);
   RandomStream of_rings(spec.seed, ring_stream);
   for (double& offset : lasting) offset = normal(of_rings);
 
   for_each_in_parallel(static_cast<std::size_t>(grey.size[2]), [&](std::size_t slice) {
     RandomStream random(spec.seed, slice_streams + slice);
     std::vector<double> ring(lasting.size());
-    for (std::size_t k = 0; k < ring.size(); ++k)  // half of the variance is common to all slices, half belongs to each
-                                                   // slice
+    // half of the variance is common to all slices, half belongs to each slice
+    for (std::size_t k = 0; k < ring.size(); ++k)
       ring[k] = spec.rings * range * std::sqrt(0.5) * (lasting[k] + normal(random));
     const auto k = static_cast<std::int64_t>(slice);
     for (std::int64_t j = 0; j < grey.size[1]; ++j) {

@@ -6,11 +6,11 @@
 
 namespace macadam::ct {
 
-/// Edge-preserving diffusion (Perona and Malik): grey value differences below `edge` are smoothed, larger ones remain.
-/// `rounds` is the number of steps. Not ITK's filter, because that takes twenty times as long.
+/// Smooths by edge-preserving diffusion (Perona and Malik): grey value differences below `edge` are smoothed, larger
+/// ones remain. `rounds` is the number of steps. Not ITK's filter, because that takes twenty times as long.
 void diffuse(Image<float>& image, double edge, int rounds);
 
-/// Median of 3 × 3 × 3 voxels, computed by ITK.
+/// Replaces each voxel by the median of 3 × 3 × 3 voxels, computed by ITK.
 void median(Image<float>& image);
 
 }  // namespace macadam::ct

@@ -25,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t placement_stream = 2;  // same number as in generate.cpp
-constexpr double most_outside = 0.01;          // largest fraction of the voxels of a box that may be outside the
-                                               // specimen; voxels at its sides that are partly filled may count as
-                                               // outside
+// Largest fraction of the voxels of a box that may be outside the specimen. Partly filled voxels at its sides may count
+// as outside.
+constexpr double most_outside = 0.01;
 
 double radius_of(double volume) { return std::cbrt(volume * 3 / (4 * std::numbers::pi)); }
 
@@ -106,7 +106,7 @@ std::map<std::uint32_t, Part> parts_of(const Image<std::uint32_t>& labels) {
 struct Cut {
   Image<std::uint8_t> phases;
   Image<std::uint32_t> labels;
-  /// lower corner of the box in the scan's coordinates [m]
+  /// Lower corner of the box in the scan's coordinates [m].
   Vec3d corner{};
   Box box;
 };
@@ -178,8 +178,8 @@ std::function<bool(const Vec3d&)> taken_in(const Cut& cut) {
 /// them. Returns the numbers of removed particles of mastic and of other phases.
 std::array<std::int64_t, 2> remove_hanging(Specimen& s, const NetworkSpec& spec) {
   std::array<std::int64_t, 2> out{};
-  for (int round = 0; round < 5; ++round) {  // repeats, because a cell that grows into the freed space may lose another
-                                             // contact
+  // repeats, because a cell that grows into the freed space may lose another contact
+  for (int round = 0; round < 5; ++round) {
     std::vector<bool> gone(s.size());
     bool any = false;
     const std::vector<Cluster> clusters = find_clusters(build_network(s, tessellate(s), spec), s.size());

@@ -105,8 +105,8 @@ Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::ve
   }
   // voxels deep within a grain, which keep their label
   const auto core = [&](std::size_t at) {
-    const float most = deepest[labels.voxels[at]];  // 0 if the grain is one or two voxels thin: all its voxels keep
-                                                    // their label
+    // 0 if the grain is one or two voxels thin: all its voxels keep their label
+    const float most = deepest[labels.voxels[at]];
     return labels.voxels[at] != 0 &&
            (most <= 0 || below.voxels[at] >= std::min(static_cast<float>(depth), 0.5f * most));
   };
