@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// block_lengths.cpp  What blocks of steps cost in |E*| and phase by their length, as CSV on standard output.
+// block_lengths.cpp  Measures the error of |E*| and phase from taking steps in blocks, for several block lengths.
+// Writes CSV to standard output.
 //
-// Steps as a device takes them in blocks (kernels/cuda_tile_runner.hpp), written plainly and in double precision, of
-// small networks of spheres in geometry of the start, from the steady state. Each row is against blocks of one step of
-// the same time step and masses. It takes some minutes.
+// The program repeats the stepping in blocks of the GPU backend (kernels/cuda_tile_runner.hpp) in simple code and in
+// double precision, for small networks of spheres with fixed geometry, from the steady state. Each row compares with
+// blocks of one step at the same time step and masses. It takes some minutes.
 #include <fmt/format.h>
 
 #include "host/experiments/cyclic/error_model.hpp"
@@ -17,24 +18,26 @@ namespace {
 using kernels::Placement;
 using kernels::Twist;
 
+/// A case: binder, frequency, and size of specimen and run.
 struct Case {
   const char* binder;
   double frequency;    // [Hz]
-  std::int64_t steps;  // a period
+  std::int64_t steps;  // per period
   int cycles, cells;
 };
 
-/// A contact in blocks: TileScene's numbers of it, in double precision.
+/// A contact stepped in blocks: the values that TileScene holds for a contact, in double precision.
 struct Element {
   Placement<double> frame;
   double moments[6];
   std::size_t a, b;
   double alpha, rate, relax, follow;
-  const laws::GeneralisedKelvin::Block* block;  ///< null: elastic
+  const laws::GeneralisedKelvin::Block* block;  ///< null for an elastic law
   double f[6] = {}, change[6] = {}, sum[6] = {}, drive[6] = {};
   std::vector<double> x[6];
 
-  /// Ends a block of `steps`, 0 for none, and begins the next.
+  /// Ends a block of `steps` steps by updating the viscoelastic state, and begins the next block. With 0 steps it only
+  /// begins the first block.
   void settle(int steps, const std::vector<Twist<double>>& u) {
     double at[6];
     relative_rates(frame, Twist<double>{{}, u[a].angular}, {u[b].linear - u[a].linear, u[b].angular}, at);
@@ -47,7 +50,7 @@ struct Element {
       change[c] = sum[c] = 0;
     }
   }
-  /// One step within a block.
+  /// Does one step of a contact within a block and returns its load.
   kernels::ContactLoad<double> step(const std::vector<Twist<double>>& v, double dt) {
     double u[6], now[6];
     relative_rates(frame, v[a], v[b], u);
@@ -61,6 +64,7 @@ struct Element {
   }
 };
 
+/// Steps a specimen in blocks of `block` steps and returns |E*| and phase of the last period.
 Stiffness stepped(const test::TestScene& scene, const StartState& start, const drives::Cyclic& loading, double scaling,
                   int block, int cycles) {
   const double dt = loading.dt();
@@ -132,6 +136,8 @@ Stiffness stepped(const test::TestScene& scene, const StartState& start, const d
   return evaluate_cyclic(response, loading.frequency, 1).fit;
 }
 
+/// Prints a row for each block length. The length is given as the number of blocks in the shortest time of load and
+/// laws.
 void run(const Case& c) {
   auto scene = test::make_scene(test::random_specimen(3, c.cells, c.cells, c.cells * 3 / 2), {},
                                 std::string(c.binder) == "AM2" ? test::am2_laws() : test::am1_laws());

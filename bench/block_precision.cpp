@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// block_precision.cpp  What rounding costs in |E*| and phase by the steps of a block, as CSV on standard output.
+// block_precision.cpp  Measures the rounding error of |E*| and phase for several block lengths. Writes CSV to standard
+// output.
 //
-// Within a block, changes of force and their sums are in single precision. The specimen t8 in geometry of the start, a
-// cycle of 20 Hz from the steady state, in so many steps that blocks may be as long as kernels::longest_block admits.
-// Against the same steps in double precision, which are not taken in blocks. It takes some minutes.
+// Within a block, changes of force and their sums are in single precision. The program steps the specimen t8 with fixed
+// geometry through one cycle of 20 Hz from the steady state. There are so many steps per period that blocks can be as
+// long as kernels::longest_block allows. It compares with the same steps in double precision, which does not use
+// blocks. It takes some minutes.
 //
 // usage: block_precision [cpu|cuda]
 #include <fmt/format.h>
@@ -22,6 +24,7 @@ constexpr double frequency = 20;  // [Hz]
 constexpr std::int64_t steps_per_period = 4000000;
 constexpr std::int64_t samples = 200;
 
+/// One cycle of the specimen, stepped with different settings.
 class OneCycle {
  public:
   explicit OneCycle(Backend backend) : backend_(backend) {

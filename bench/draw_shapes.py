@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contact sheet of a folder of OFF surfaces: draw_shapes.py DIR FILE.png, each scaled to its cell, its D^L below it."""
+"""Draws a contact sheet of a folder of OFF surfaces: `draw_shapes.py DIR FILE.png`. Each surface is scaled to its
+cell and has its D^L below it."""
 import io
 import sys
 from pathlib import Path
@@ -14,8 +15,9 @@ from matplotlib.collections import PolyCollection  # noqa: E402
 from PIL import Image  # noqa: E402
 
 COLUMNS = 12
-VIEW = np.array([[0.80, -0.60, 0.0], [0.21, 0.28, 0.936], [-0.562, -0.749, 0.351]])  # right, up, towards the eye
-LIGHT = np.array([-0.45, 0.65, 0.61])  # in that frame
+VIEW = np.array([[0.80, -0.60, 0.0], [0.21, 0.28, 0.936], [-0.562, -0.749, 0.351]])  # rows: directions right, up,
+                                                                                     # towards the viewer
+LIGHT = np.array([-0.45, 0.65, 0.61])  # direction of the light in that frame
 
 
 def read_off(path):
@@ -32,7 +34,7 @@ def draw(ax, path):
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     seen = np.flatnonzero(normals[:, 2] > 0)
-    seen = seen[np.argsort(corners[seen, :, 2].mean(axis=1))]  # the nearest last
+    seen = seen[np.argsort(corners[seen, :, 2].mean(axis=1))]  # the nearest facets are drawn last
     bright = 0.25 + 0.7 * np.clip(normals[seen] @ LIGHT, 0, 1)
     colours = bright[:, None] * np.array([1.0, 0.97, 0.90])
     ax.add_collection(PolyCollection(corners[seen, :, :2], facecolors=colours, edgecolors=colours, linewidths=0.3))

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file placement_bench.cpp  How much shaped aggregate finds a place, by either method, and how long it takes.
+/// \file placement_bench.cpp  Measures how many shaped aggregates can be placed by packing and by insertion, and how
+/// long it takes.
 ///
-///   placement_bench [DIR [SEEDS [ATTEMPTS]]]   shapes: all OFF files of DIR ("-": stones made here), then the
-///                                              icosahedron; seeds 1 … SEEDS; ATTEMPTS of the insertion
+///   placement_bench [DIR [SEEDS [ATTEMPTS]]]   DIR: folder of OFF files, or "-" for generated aggregates; the
+///                                              icosahedron is measured too. Seeds 1 … SEEDS. ATTEMPTS: of the
+///                                              insertion
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +19,7 @@ using namespace macadam;
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+/// Reads the shapes of a folder in the order of their names; "-" generates 20 aggregates.
 std::vector<ShapeTemplate> shapes_of(const std::string& folder) {
   std::vector<ShapeTemplate> shapes;
   if (folder == "-") {
@@ -30,6 +33,7 @@ std::vector<ShapeTemplate> shapes_of(const std::string& folder) {
   return shapes;
 }
 
+/// Places one recipe and prints what was reached per size class.
 void run(const char* name, const std::vector<ShapeTemplate>& shapes, PlacementMethod method, std::uint64_t seed,
          std::int64_t attempts) {
   SpecimenSpec recipe = test::design_formulation();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file case.hpp  One run of bench/accuracy: every setting that it varies, and what came out.
+/// \file case.hpp  One run of bench/accuracy: all settings that the study varies, and the result.
 #pragma once
 
 #include <cstdint>
@@ -13,52 +13,57 @@
 
 namespace macadam::accuracy {
 
-/// Settings of a run. The defaults are the base about which one factor is varied at a time.
+/// Settings of a run. The defaults are the base case, about which one factor is varied at a time.
 struct Case {
-  std::string study;             ///< why it was run: the figure or table that it belongs to
-  std::string scene = "t8";      ///< "t8", "demo", "full", "seed N": another mixture in a smaller box, "clusters", "few
-                                 ///< clusters", "grid NxNxN": spheres of all pair types jittered about a grid
+  std::string study;             ///< study for which it is run; names the figure or table that it belongs to
+  std::string scene = "t8";      ///< specimen: "t8", "demo", "full", "seed N" (another mixture in a smaller box),
+                                 ///< "clusters", "few clusters", "grid NxNxN" (spheres of all pair types at jittered
+                                 ///< grid points)
   std::string mix = "AM1";       ///< binder: "AM1" or "AM2"
-  std::string stiff;             ///< made stiffer: "aggregate" or "walls"; empty: nothing
-  double factor = 1;             ///< by which
+  std::string stiff;             ///< what is made stiffer: "aggregate" or "walls"; empty: nothing
+  double factor = 1;             ///< factor of its stiffness
   double frequency = 20;         ///< [Hz]
   double density_scaling = 1;    ///< multiplies mass and inertia
-  std::int64_t cycle_steps = 0;  ///< decides the density scaling where it is not 0
-  double step_share = 0.95;      ///< of critical_step()
+  std::int64_t cycle_steps = 0;  ///< steps per cycle; if not 0, it determines the density scaling
+  double step_share = 0.95;      ///< time step over critical_step()
   Backend backend = Backend::cpu;
   Precision precision = Precision::mixed;
   ContactForm form = ContactForm::condensed;
   Geometry geometry = Geometry::fixed;
   Damping damping_kind = Damping::none;
-  double damping = 0;  ///< χ, or β [1/s]
+  double damping = 0;  ///< χ of local damping, or β of viscous damping [1/s]
   Start start = Start::steady;
   double ramp_cycles = 0;
-  std::vector<int> cycles{1};  ///< one run as long as the last; a line of the table after each of these
+  std::vector<int> cycles{1};  ///< numbers of cycles to evaluate; there is one run up to the last of them, and one line
+                               ///< of the table for each
   Quadrature quadrature = Quadrature::lumped;
   std::optional<double> gap_max, area_min;
-  double strain = 1e-4;             ///< amplitude over the height
-  std::optional<double> tolerance;  ///< run as `[solver] tolerance`, which chooses all that is above
+  double strain = 1e-4;             ///< amplitude of the strain
+  std::optional<double> tolerance;  ///< run as `[solver] tolerance`, which then chooses the settings above
 };
 
-/// What came out after so many cycles.
+/// The result after a number of cycles.
 struct Outcome {
-  int cycles = 0, fit_cycles = 0;  ///< fitted: the last two of four or more, else one
+  int cycles = 0, fit_cycles = 0;  ///< fit_cycles: number of cycles fitted; the last two of four or more, otherwise one
   Stiffness found;
-  Stiffness truth;              ///< harmonic solution of the same network at true mass
-  Stiffness own;                ///< harmonic solution with the inertia and viscous damping of the run
-  Stiffness model;              ///< truth of the unfiltered network with lumped quadrature
-  double seconds = 0;           ///< of stepping
-  double seconds_harmonic = 0;  ///< to factor and solve the harmonic solution that a steady start needs
-  double seconds_by_hand = 0;   ///< of a run with a tolerance: stepping of the best settings found by hand that keep it
+  Stiffness truth;              ///< frequency-domain solution of the same network with true mass
+  Stiffness own;                ///< frequency-domain solution with the inertia and viscous damping of the run
+  Stiffness model;              ///< frequency-domain solution with true mass of the unfiltered network with lumped
+                                ///< quadrature
+  double seconds = 0;           ///< time of the stepping
+  double seconds_harmonic = 0;  ///< time of the frequency-domain solution that a steady start needs, with its
+                                ///< factorisation
+  double seconds_by_hand = 0;   ///< for a run with a tolerance: stepping time of the best settings found by hand that
+                                ///< meet the tolerance
   double dt = 0, step_share = 0;
   std::int64_t steps = 0, bytes = 0, contacts = 0;
-  std::string status = "done";  ///< or why there is no number
+  std::string status = "done";  ///< otherwise the reason why there is no result
 };
 
-/// The CSV of all runs: one line an outcome, every setting named, flushed line by line.
+/// Writes the CSV of all runs: one line per outcome, with every setting in a column of its own. Each line is flushed.
 class Table {
  public:
-  /// `about`: lines that begin the file after "# ": machine, date.
+  /// `about` are lines such as machine and date; each is written at the top of the file after "# ".
   Table(const std::filesystem::path& file, const std::vector<std::string>& about);
   ~Table();
   Table(const Table&) = delete;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures from the CSV of bench/accuracy: draw.py FILE.csv writes FILE-*.png and FILE-*.svg. scripts/documents makes
-the tables."""
+"""Draws figures from the CSV of bench/accuracy: `draw.py FILE.csv` writes FILE-*.png and FILE-*.svg. The tables are
+made by scripts/documents."""
 import csv
 import math
 import sys
@@ -15,7 +15,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 E_STAR, PHASE = "error_e_star", "error_phase_deg"
 OWN = {E_STAR: "own_error_e_star", PHASE: "own_error_phase_deg"}
 LABEL = {E_STAR: "error of |E*| (relative)", PHASE: "error of φ (degrees)"}
-LIMIT = {E_STAR: 1e-5, PHASE: 0.002}  # what a steady start and mixed precision must keep
+LIMIT = {E_STAR: 1e-5, PHASE: 0.002}  # errors that a steady start in mixed precision must not exceed
 COLOUR = {"double": "tab:blue", "mixed": "tab:orange", "single": "tab:green"}
 MARKER = {("condensed", "fixed"): "o", ("condensed", "updated"): "s", ("points", "fixed"): "^",
           ("points", "updated"): "v"}
@@ -80,7 +80,8 @@ class Drawing:
         plt.close(figure)
 
     def front(self, name, mix="AM1"):
-        """Error against run time at 20 Hz; the lower left border is the best that can be had."""
+        """Draws the error against the run time at 20 Hz. The line connects the best settings: no run is both faster
+        and more accurate."""
         rows = [r for r in done(select(self.rows, scene=name, mix=mix, **USUAL))
                 if r["study"] in ("front", "tolerance", "backend") and r["backend"] != "reference"
                 or r["study"] == "damping" and r["damping_kind"] != "none"
@@ -118,7 +119,7 @@ class Drawing:
         self.save(figure, f"front-{name}")
 
     def front_clusters(self):
-        """The same of clusters and of AM2, from the steady start."""
+        """Draws the same for clusters and for binder AM2, for the steady start only."""
         groups = {("clusters", "AM1"): "tab:purple", ("clusters", "AM2"): "tab:red", ("seed 101", "AM2"): "tab:brown"}
         found = {group: [r for r in done(select(self.rows, scene=group[0], mix=group[1], **USUAL))
                          if r["study"] in ("front", "tolerance")] for group in groups}
@@ -143,7 +144,7 @@ class Drawing:
         self.save(figure, "front-clusters")
 
     def ways(self, rows):
-        """Legend of the forms and geometries that are drawn."""
+        """Returns the legend entries of the forms and geometries that occur in the rows."""
         return [dot(marker=m, color="0.3", label=", ".join(key)) for key, m in MARKER.items()
                 if any(way(r) == key for r in rows)]
 
@@ -155,7 +156,8 @@ class Drawing:
                         fontsize=7, color="0.3")
 
     def drift_differences(self):
-        """(row, difference from double) at the same settings; from the harmonic solution where double was not run."""
+        """Yields (row, difference from double precision at the same settings). If double was not run, the
+        difference is taken from the frequency-domain solution."""
         rows = done(select(self.rows, study="drift"))
         def key(r):
             return tuple(r[k] for k in ("scene", "mix", "frequency_hz", "density_scaling", "cycles", "geometry"))

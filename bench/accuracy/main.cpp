@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// main.cpp  Run time against error of everything that can be chosen: writes one CSV (bench/accuracy/run calls it).
+// main.cpp  Measures run time and error for all settings that a user can choose, and writes one CSV. Called by
+// bench/accuracy/run.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -72,7 +73,7 @@ int main(int argc, char** argv) {
       std::vector<Outcome> outcomes;
       try {
         outcomes = runner.run(c);
-      } catch (const InputError& error) {  // filters may leave a network that falls apart
+      } catch (const InputError& error) {  // filters may remove so many contacts that the specimen is not connected
         outcomes.emplace_back().status = error.what();
       }
       for (const Outcome& o : outcomes) table.add(c, o);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// precision.cpp  The study of precision: its scenes, and its table.
+// precision.cpp  The runs of the study of precision, and its table.
 #include "bench/accuracy/precision.hpp"
 
 #include <fmt/chrono.h>
@@ -14,13 +14,14 @@
 namespace macadam::accuracy {
 namespace {
 
-/// The backend, the scene, how it is loaded and how it is stepped.
+/// Returns a text with the backend, the specimen, the loading and the stepping of a case.
 std::string describe(const Case& c) {
   return fmt::format("{} {} {}{}, {:g} Hz, {} x {} steps, {} {} from {}", to_string(c.backend), c.scene, c.mix,
                      c.stiff.empty() ? "" : fmt::format(" {} x {:g}", c.stiff, c.factor), c.frequency, c.cycles.back(),
                      c.cycle_steps, to_string(c.form), to_string(c.geometry), to_string(c.start));
 }
 
+/// Builds the list of runs.
 class List {
  public:
   explicit List(Backend backend) : backend_(backend) {}
@@ -56,7 +57,7 @@ class List {
     return c;
   }
 
-  /// The stiffer, the more steps: inertia must not decide.
+  /// The stiffer the contacts, the more steps, so that the error of inertia stays small.
   void stiffer() {
     const auto add_stiff = [&](const char* scene, const char* what, double factor, std::int64_t steps) {
       Case& c = add(scene, "AM1", 20, steps);
@@ -71,7 +72,7 @@ class List {
     }
   }
 
-  /// Other geometry, form, start and number of cycles.
+  /// Adds runs with updated geometry, with points, from rest, and over several cycles.
   void otherwise() {
     for (const char* scene : {"t8", "few clusters", "grid 2x2x30"}) {
       add(scene, "AM1", 20, 100'000).geometry = Geometry::updated;
@@ -88,7 +89,7 @@ class List {
 
 constexpr const char* first_columns = "backend,scene,mix,stiff,factor,";
 
-/// Head and rows that a table has of other backends.
+/// Returns the comment lines and the rows that a table has for other backends.
 std::pair<std::string, std::string> of_others(const std::filesystem::path& csv, const std::string& backend) {
   std::pair<std::string, std::string> out;
   std::ifstream in(csv);

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file precision.hpp  What mixed and single precision change, against double at the same settings.
+/// \file precision.hpp  Measures the differences of mixed and single precision from double precision at the same
+/// settings.
 #pragma once
 
 #include "bench/accuracy/runner.hpp"
 
 namespace macadam::accuracy {
 
-/// The runs of the study, each to be made in every precision; the full specimen on a device alone.
+/// Returns the runs of the study, each of which is made in every precision. The full specimen is included only on a
+/// GPU.
 std::vector<Case> precision_cases(Backend backend);
 
-/// Runs them and writes a line for each scene and each of mixed and single: how far |E*| (relative) and φ are from
-/// those of double, and what rounding_scale() says of the run. Lines that the file has of other backends stay. `only`:
-/// those whose description holds this text. \throws RunError, InputError.
+/// Makes the runs and writes a line for each run in mixed and in single precision: the differences of |E*| (relative)
+/// and φ from double precision, and the values of rounding_scale() for the run. Lines of other backends in the file are
+/// kept. `only` selects the runs whose description contains this text. \throws RunError, InputError.
 void measure_precision(Runner& runner, Backend backend, const std::filesystem::path& csv, const std::string& machine,
                        const std::string& only);
 

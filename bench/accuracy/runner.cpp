@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// runner.cpp  One run: network, harmonic solutions, stepping, evaluation after each number of cycles asked.
+// runner.cpp  Makes one run: network, frequency-domain solutions, stepping, and an evaluation after each requested
+// number of cycles.
 #include "bench/accuracy/runner.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 constexpr int samples_per_cycle = 500;
 
-/// A whole number of samples a period, a whole number of steps a sample.
+/// Returns a loading with a whole number of samples per period and a whole number of steps per sample.
 drives::Cyclic make_loading(const Case& c, double height, double step) {
   drives::Cyclic loading;
   loading.amplitude = c.strain * height;
@@ -28,7 +29,7 @@ drives::Cyclic make_loading(const Case& c, double height, double step) {
   return loading;
 }
 
-/// A law whose moduli and viscosities are so many times as large.
+/// Returns the law with its moduli and viscosities multiplied by `factor`.
 Law stiffened(Law law, double factor) {
   if (auto* elastic = std::get_if<laws::Elastic>(&law)) elastic->E *= factor;
   if (auto* kelvin = std::get_if<laws::GeneralisedKelvin>(&law)) {
@@ -39,7 +40,7 @@ Law stiffened(Law law, double factor) {
   return law;
 }
 
-/// "grid 4x4x5": of spheres about a grid; all else by its recipe.
+/// Prepares a specimen: "grid 4x4x5" are spheres at jittered grid points; other specimens follow from the scene.
 Preparation prepare_case(const std::string& name, const Scene& scene) {
   if (!name.starts_with("grid ")) return prepare(scene);
   int n[3];
@@ -53,7 +54,8 @@ Preparation prepare_case(const std::string& name, const Scene& scene) {
 
 }  // namespace
 
-/// A specimen with one choice of contacts, and its harmonic solutions.
+/// A specimen with its contacts for one choice of quadrature and filters, and its frequency-domain solutions, which are
+/// kept.
 struct Runner::Network {
   Preparation prepared;
   LawTable laws;
@@ -79,7 +81,8 @@ struct Runner::Network {
 Runner::Runner(std::filesystem::path root, std::filesystem::path out) : root_(std::move(root)), out_(std::move(out)) {}
 Runner::~Runner() = default;
 
-/// Laws and materials of the specimens of [1]: those of `mix`, and of a cluster's inner contacts.
+/// Returns the scene for a specimen name. The materials and laws are those of the specimens of [1]: the laws of `mix`,
+/// and those of the contacts within clusters.
 const Scene& Runner::scene(const std::string& name, const std::string& mix) {
   auto [at, fresh] = scenes_.try_emplace({name, mix});
   if (!fresh) return at->second;
@@ -89,7 +92,7 @@ const Scene& Runner::scene(const std::string& name, const std::string& mix) {
   made.laws[static_cast<std::size_t>(PairType::inner)] = clusters.laws[static_cast<std::size_t>(PairType::inner)];
   made.experiment = {};
   made.solver = {};
-  if (name == "clusters") {  // the demo's box and classes, with real shapes, finely filled
+  if (name == "clusters") {  // box and size classes of the demo, with real shapes and fine filling
     made.specimen.shapes = clusters.specimen.shapes;
     made.specimen.shapes->placement = PlacementMethod::packing;
   } else if (name.starts_with("seed ")) {
@@ -207,7 +210,7 @@ std::vector<Outcome> Runner::run(Case& c) {
   return out;
 }
 
-/// The whole program with `[solver] tolerance`: it chooses, and the case's settings say afterwards what it chose.
+/// Runs the whole program with `[solver] tolerance`, and writes the settings that it chose into the case.
 std::vector<Outcome> Runner::run_asked(Case& c) {
   Scene asked = scene(c.scene, c.mix);
   asked.cyclic().frequencies = {c.frequency};
@@ -241,9 +244,10 @@ std::vector<Outcome> Runner::run_asked(Case& c) {
   return {out};
 }
 
-/// What somebody who knows the answer would find: single precision, fixed geometry, one cycle from the steady start, a
-/// step beyond what is proven, and the scaling raised until the error is just below what is asked. Stepping alone: the
-/// steady start needs the harmonic solution by hand too. Infinite where no run keeps the tolerance.
+/// Returns the stepping time of the best settings that an expert who knows the exact result would find: single
+/// precision, fixed geometry, one cycle from the steady start, a time step beyond the proven limit, and the density
+/// scaling raised until the error is just below the tolerance. Only the stepping counts, because the steady start needs
+/// the frequency-domain solution in both cases. Infinite if no run meets the tolerance.
 double Runner::seconds_by_hand(const Case& asked) {
   Case hand = asked;
   hand.tolerance = std::nullopt;

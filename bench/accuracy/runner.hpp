@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file runner.hpp  Runs cases: specimens, networks and harmonic solutions are made once and kept.
+/// \file runner.hpp  Runs cases. Specimens, networks and frequency-domain solutions are computed once and reused.
 #pragma once
 
 #include <map>
@@ -10,18 +10,20 @@
 
 namespace macadam::accuracy {
 
+/// Runs cases and keeps what several of them need.
 class Runner {
  public:
-  /// `root`: of the repository, where tests/data and examples/demo are. `out`: folder for the files of run().
+  /// `root` is the folder of the repository, which contains tests/data and examples/demo. `out` is a folder for the
+  /// files of run().
   Runner(std::filesystem::path root, std::filesystem::path out);
   ~Runner();
 
-  /// One outcome for each of the case's `cycles`, fewer where the run diverges. What a tolerance chose is written into
-  /// the settings. \throws InputError, RunError.
+  /// Runs a case. Returns one outcome for each of its `cycles`, fewer if the run diverges. If a tolerance is set, the
+  /// settings that it chose are written into the case. \throws InputError, RunError.
   std::vector<Outcome> run(Case& settings);
-  /// The specimen and its contacts.
+  /// Returns the specimen of a case and its contacts.
   const Preparation& prepared(const Case& settings);
-  /// With the laws of a case, stiffened ones among them.
+  /// Returns the scene with the laws of a case, including stiffened ones.
   Scene scene_of(const Case& settings);
 
  private:
@@ -38,7 +40,8 @@ class Runner {
       networks_;
 };
 
-/// All runs in order. `quick`: a minute; `full`: the full specimen too; `cuda`: a device is there.
+/// Returns all runs in order. `quick`: a short list that takes a minute; `full`: also the full specimen; `cuda`: also
+/// runs on a GPU.
 std::vector<Case> studies(bool quick, bool full, bool cuda);
 
 }  // namespace macadam::accuracy

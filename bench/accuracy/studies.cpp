@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// studies.cpp  What is run: one factor at a time about a base (see Case), and the crossings that matter.
+// studies.cpp  The list of runs: one factor is varied at a time about a base case (see Case), and some combinations of
+// factors.
 #include <algorithm>
 
 #include "bench/accuracy/runner.hpp"
@@ -11,6 +12,7 @@ constexpr std::initializer_list<Precision> precisions{Precision::double_, Precis
 constexpr std::initializer_list<ContactForm> forms{ContactForm::condensed, ContactForm::points};
 constexpr std::initializer_list<Geometry> geometries{Geometry::fixed, Geometry::updated};
 
+/// Builds the list of runs.
 class List {
  public:
   List(bool quick, bool full, bool cuda) : quick_(quick), full_(full), cuda_(cuda) {}
@@ -36,7 +38,7 @@ class List {
     return c;
   }
 
-  /// Error against run time: form × precision × geometry × scaling from the steady start.
+  /// Error against run time from the steady start: all combinations of form, precision, geometry and density scaling.
   void front() {
     for (const double scaling : quick_ ? std::vector{1e4, 1e3} : std::vector{1e4, 1e3, 1e2, 1e1}) {
       for (const ContactForm form : forms) {
@@ -71,7 +73,8 @@ class List {
     add("front", "full", 2, 1e6);
   }
 
-  /// What rounding leaves after so many steps, up to true mass; differences from double at the same settings count.
+  /// Rounding error against the number of steps, down to true mass. The figure uses differences from double precision
+  /// at the same settings.
   void drift() {
     for (const double frequency : {20.0, 2.0}) {
       std::vector<double> scalings{1e4, 1e3, 1e2};
@@ -79,7 +82,8 @@ class List {
       for (const double scaling : scalings) {
         if (quick_ && frequency == 2 && scaling < 1e3) continue;
         for (const Precision precision : precisions) {
-          if (frequency == 2 && scaling == 10 && precision == Precision::double_) continue;  // minutes for little
+          // takes minutes and adds little
+          if (frequency == 2 && scaling == 10 && precision == Precision::double_) continue;
           add("drift", "t8", frequency, scaling).precision = precision;
         }
       }
@@ -97,8 +101,8 @@ class List {
     }
   }
 
-  /// Cycles from rest until the steady state is there, against the harmonic solution of the same inertia: the scalings
-  /// are about those of tolerances of 1e-2, 1e-3 and 1e-4.
+  /// Numbers of cycles from rest until the steady state is reached, compared with the frequency-domain solution of the
+  /// same inertia. The density scalings are about those that tolerances of 1e-2, 1e-3 and 1e-4 choose.
   void rest() {
     std::vector<int> cycles;
     for (int n = 1; n <= (quick_ ? 8 : 40); n += n < 16 ? 1 : 4) cycles.push_back(n);
@@ -115,10 +119,10 @@ class List {
       Case& c = add("rest", scene, frequency, scaling);
       c.start = Start::rest, c.ramp_cycles = ramp, c.cycles = cycles;
     }
-    add("rest", scene, frequency, scaling);  // the steady start beside them
+    add("rest", scene, frequency, scaling);  // a steady start for comparison
   }
 
-  /// Step as a share of the computed critical one, which is about 0.71 of the true limit.
+  /// Error against the time step as a fraction of the computed critical step, which is about 0.71 of the true limit.
   void step_share() {
     for (const double share : {0.3, 0.5, 0.7, 0.8, 0.95, 1.1, 1.2, 1.3, 1.35, 1.4, 1.45}) {
       if (quick_ && share != 0.5 && share != 0.95 && share != 1.3) continue;
@@ -137,7 +141,8 @@ class List {
     const auto with = [&](Damping kind, double value, double scaling) {
       Case& c = add("damping", "t8", 20, scaling);
       c.damping_kind = kind, c.damping = value;
-      if (kind == Damping::viscous) return;  // the others from rest: local damping has no harmonic solution
+      // the other runs start from rest, because local damping has no frequency-domain solution
+      if (kind == Damping::viscous) return;
       c.start = Start::rest, c.cycles = {5};
     };
     for (const double scaling : quick_ ? std::vector{1e4} : std::vector{1e4, 1e2}) {
@@ -147,7 +152,7 @@ class List {
     }
   }
 
-  /// Where fixed geometry, and linearity itself, stop being good enough.
+  /// Strain amplitudes up to those at which fixed geometry, and the linear solution itself, are no longer accurate.
   void strain() {
     for (const char* scene : {"t8", "demo"}) {
       const bool demo = scene[0] == 'd';
@@ -200,7 +205,7 @@ class List {
     }
   }
 
-  /// What `[solver] tolerance` chooses, and what comes of it.
+  /// Runs in which `[solver] tolerance` chooses the settings.
   void tolerance() {
     for (const char* scene : {"t8", "seed 101", "seed 102", "demo"}) {
       if (quick_ && scene[0] != 't') break;
@@ -213,8 +218,8 @@ class List {
     }
   }
 
-  /// What is above for single spheres and AM1 once more for clusters and for AM2: error against time, drift, filters
-  /// and tolerances.
+  /// Repeats a selection of the studies above (error against time, drift, filters, tolerances) for clusters and for
+  /// AM2; the studies above use single spheres and AM1.
   void clusters_and_am2() {
     const auto with_mix = [&](const char* mix, const char* study, const char* scene, double frequency,
                               double scaling) -> Case& {

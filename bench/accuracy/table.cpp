@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// table.cpp  The CSV of bench/accuracy.
+// table.cpp  Writes the CSV of bench/accuracy.
 #include <fmt/format.h>
 
 #include "bench/accuracy/case.hpp"

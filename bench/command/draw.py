@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The chart of bench/command/run: for each case the shares that phases have in its wall time."""
+"""Draws the chart of bench/command/run: the fraction of the wall time that each phase takes, for each case."""
 import matplotlib
 
 matplotlib.use("Agg")
@@ -11,7 +11,7 @@ CASE = ("scene", "method", "specimen", "backend", "threads")
 
 
 def draw(files, out):
-    """A PNG and an SVG of some CSVs, each of one machine."""
+    """Writes a PNG and an SVG from several CSV files, each of one machine."""
     bars = {}  # machine and case → phase → seconds
     for file in files:
         for row in rows(file):
@@ -22,7 +22,7 @@ def draw(files, out):
     left = [0.0] * len(bars)
     colours = matplotlib.colormaps["tab20"].colors
     for phase, colour in zip(PHASES, colours):
-        # medians of phases need not sum up to the median of the wall time: shares are of their sum
+        # fractions refer to the sum of the medians, because medians of phases need not add up to the median wall time
         share = [100 * bar[phase] / sum(bar[p] for p in PHASES) for bar in bars.values()]
         ax.barh(range(len(bars)), share, left=left, color=colour, label=phase)
         left = [a + b for a, b in zip(left, share)]

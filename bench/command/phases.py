@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Wall time of a command by phases, from its summary.json and the time that its process took."""
+"""Splits the wall time of a command into phases, using its summary.json and the measured time of its process."""
 import statistics
 
-# of timing_s in summary.json, in the order of a run; "solve" there is the sum of several
+# phases in timing_s of summary.json, in the order of a run; "solve" there is a sum of several phases and is not listed
 TIMED = ["start", "specimen", "tessellation", "network", "planning", "preconditioner", "harmonic", "stepper",
          "stepping", "writing"]
 REST = "rest"  # process start, reading the scene, end of the process
@@ -11,11 +11,11 @@ WALL = "wall"
 
 
 def phases_of(summary, wall):
-    """Seconds of each phase of a run that took `wall` seconds from process start to exit.
+    """Returns the seconds of each phase of a run that took `wall` seconds from process start to exit.
 
-    What the program's phases leave of the wall time is the rest. It must be small, else a phase is missing from
-    summary.json or counted twice: at most 5 % of the wall time, or the 0.3 s that starting and ending a process may take
-    on a busy machine. ValueError says what was found."""
+    The phase "rest" is the wall time that the phases of summary.json do not cover. It must be small, otherwise a
+    phase is missing from summary.json or counted twice: at most 5 % of the wall time, or 0.3 s if that is more,
+    which starting and ending a process may take on a busy machine. Raises ValueError with what was found."""
     if summary.get("status") != "done":
         raise ValueError(f"summary.json: status '{summary.get('status')}', expected 'done'")
     timing = summary["timing_s"]
@@ -24,18 +24,19 @@ def phases_of(summary, wall):
         raise ValueError(f"summary.json: timing_s has no {', '.join(missing)}")
     phases = {phase: float(timing[phase]) for phase in TIMED}
     for phase, seconds in phases.items():
-        if not seconds > -1e-6:  # rounding of differences of the clock
+        if not seconds > -1e-6:  # differences of clock readings are rounded
             raise ValueError(f"summary.json: timing_s, {phase}: {seconds} s")
     total = sum(phases.values())
     rest, most = wall - total, max(0.05 * wall, 0.3)
-    if not -1e-3 <= rest <= most:  # both clocks count on without jumps
+    if not -1e-3 <= rest <= most:  # both clocks advance without jumps
         raise ValueError(f"the phases of summary.json sum up to {total:.3f} s of {wall:.3f} s of wall time; at most "
                          f"{most:.3f} s of that may be left")
     return {**phases, REST: rest}
 
 
 def collected(runs):
-    """(phase, median, least, largest) of several runs, each a dictionary of phases; then the same of the wall time."""
+    """Returns (phase, median, smallest, largest) over several runs, each a dictionary of phases, and the same for
+    the wall time at the end."""
     named = [*((phase, [run[phase] for run in runs]) for phase in PHASES),
              (WALL, [sum(run.values()) for run in runs])]
     return [(name, statistics.median(values), min(values), max(values)) for name, values in named]

@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compares a segmentation with the truth of a phantom: one line of numbers, or `name value` lines.
+"""Compares a segmentation with the truth of a phantom. Prints `name value` lines, or CSV with --csv.
 
     bench/ct/compare.py DIR TRUTH [--above 4e-3] [--csv]
 
-DIR holds labels.mha, phases.mha and grains.csv of `macadam ct segment`, TRUTH those of `macadam ct phantom`. Grains
-count whose true volume is that of a sphere of at least --above [m] in diameter. A grain is found where one label shares
-more than half of the union of both. It is split where a second label has a tenth of it; a label is a merger where a
-second true grain has a tenth of it. Both count over the true grains. Volumes, sieve classes and measures are of grains
-that were found and that nothing cuts off. Needs Debian's python3-numpy."""
+DIR holds labels.mha, phases.mha and grains.csv of `macadam ct segment`, TRUTH those of `macadam ct phantom`. Only
+grains count whose true volume is at least that of a sphere of diameter --above [m]. A grain is found if its overlap
+with one label is more than half of their union. It is wrongly split if two or more labels each contain a tenth of
+it. A label is a wrong merge if two or more true grains each make up a tenth of it. Both are given relative to the
+number of true grains. Volumes, sieve classes and measures are of grains that were found and that the border does
+not cut. Needs Debian's python3-numpy."""
 import argparse
 import csv
 import zlib
@@ -18,11 +19,11 @@ import numpy as np
 
 TYPES = {"MET_UCHAR": "<u1", "MET_USHORT": "<u2", "MET_UINT": "<u4", "MET_FLOAT": "<f4"}
 MEASURES = ("volume_m3", "area_m2", "d_long_m", "d_intermediate_m", "d_short_m", "sphericity", "sieve_m")
-SIEVES = np.array([0, 0.5, 1, 2, 4, 6.3, 10, 12.5, 16, 20]) * 1e-3  # as `macadam ct segment` has them
+SIEVES = np.array([0, 0.5, 1, 2, 4, 6.3, 10, 12.5, 16, 20]) * 1e-3  # same sieves as in `macadam ct segment`
 
 
 def read_mha(file):
-    """Voxels as z, y, x and the volume of one [m³]."""
+    """Returns the voxels as an array with axes z, y, x, and the volume of a voxel [m³]."""
     raw = Path(file).read_bytes()
     head, at = {}, 0
     while "ElementDataFile" not in head:
@@ -46,14 +47,14 @@ def read_grains(file):
 
 
 def pairs(truth, labels):
-    """Voxels that a true grain and a label share: {(grain, label): count}."""
+    """Returns the number of voxels that each true grain shares with each label: {(grain, label): count}."""
     both = truth.astype(np.uint64) << np.uint64(32) | labels.astype(np.uint64)
     keys, counts = np.unique(both, return_counts=True)
     return {(int(k >> np.uint64(32)), int(k & np.uint64(0xFFFFFFFF))): int(n) for k, n in zip(keys, counts)}
 
 
 def at_border(labels, phases):
-    """Labels at the end of the image or beside voxels outside the specimen."""
+    """Returns the labels that touch the end of the image or voxels outside the specimen."""
     found = set()
     for axis in range(3):
         for end in (0, -1):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// enlarge.cpp  A scan of smaller voxels from one of larger ones: grey values between the middles of voxels, and noise
-// of its own, a layer at a time into a MetaImage, so that neither size nor memory bound it.
+// enlarge.cpp  Makes a scan with smaller voxels from one with larger ones: interpolates the grey values between voxel
+// centres and adds noise. Writes a MetaImage layer by layer, so that the output may be larger than memory.
 //   enlarge SCAN.mha OUT.mha FACTOR NOISE      NOISE: standard deviation in grey values
 #include <cmath>
 #include <cstdio>
@@ -16,12 +16,13 @@ namespace {
 
 using macadam::Image;
 
-/// The two voxels beside a place on an axis, and the share of the second.
+/// The two voxels next to a position on an axis, and the weight of the second.
 struct Between {
   std::int64_t low, high;
   float share;
 };
 
+/// Returns the neighbours of a fine voxel's centre among `size` coarse voxels.
 Between between(std::int64_t fine, std::int64_t factor, std::int64_t size) {
   const double at = (static_cast<double>(fine) + 0.5) / static_cast<double>(factor) - 0.5, floor = std::floor(at);
   const auto inside = [size](double n) {
@@ -30,7 +31,7 @@ Between between(std::int64_t fine, std::int64_t factor, std::int64_t size) {
   return {inside(floor), inside(floor + 1), static_cast<float>(at - floor)};
 }
 
-/// Noise of a voxel by its number alone: the sum of four even ones, of deviation 1.
+/// Returns noise with standard deviation 1 that depends on the voxel's index alone: the sum of four uniform numbers.
 float noise_of(std::uint64_t voxel) {
   std::uint64_t z = voxel * 0x9e3779b97f4a7c15u + 0x9e3779b97f4a7c15u;  // SplitMix64
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -38,9 +39,10 @@ float noise_of(std::uint64_t voxel) {
   z ^= z >> 31;
   float sum = 0;
   for (int part = 0; part < 4; ++part, z >>= 16) sum += static_cast<float>(z & 0xffff) / 65536.0f - 0.5f;
-  return sum * 1.7320508f;  // each has a variance of 1/12
+  return sum * 1.7320508f;  // a uniform number of width 1 has a variance of 1/12, so the sum has 1/3
 }
 
+/// Writes the enlarged scan: interpolates along y and z per coarse row, then along x.
 void enlarge(const Image<std::uint16_t>& scan, const std::string& file, std::int64_t factor, float noise) {
   const auto n = [factor](std::int64_t size) { return size * factor; };
   const auto [nx, ny, nz] = std::array{n(scan.size[0]), n(scan.size[1]), n(scan.size[2])};

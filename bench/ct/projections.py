@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""projections.py PHANTOM [--angles 600] [--photons 3e4] [--seed 1]: puts a scan made of projections in the place of
-PHANTOM/scan.mha.
+"""Replaces PHANTOM/scan.mha by a scan that is reconstructed from simulated X-ray projections.
 
-PHANTOM is a folder of `macadam ct phantom` without faults (--blur 0 --noise 0 --cupping 0 --rings 0 --drift 0): its grey
-values are shares of air, mastic and aggregate. Each slice is projected in a parallel beam (ASTRA, on the CPU: pip install
-astra-toolbox), for photons of 20 to 140 keV of a tungsten tube behind 1 mm of copper. Aggregate is limestone of 2.70 g/cm3,
-mastic 3 parts of it and 1 of bitumen by mass at 2.11 g/cm3. The detector counts photons (Poisson), each of its pixels with a
-gain of its own that is known to 0.2 % only (rings), and the tube's spot blurs by a pixel. Filtered back-projection of the
-logarithms, without any correction: beam hardening, rings, streaks and noise are those of the physics, not of a formula."""
+usage: projections.py PHANTOM [--angles 600] [--photons 3e4] [--seed 1]
+
+PHANTOM is a folder of `macadam ct phantom` without faults (--blur 0 --noise 0 --cupping 0 --rings 0 --drift 0), so
+that its grey values follow from the fractions of air, mastic and aggregate. Each slice is projected in a parallel
+beam (ASTRA, on the CPU: pip install astra-toolbox), for photons of 20 to 140 keV of a tungsten tube behind 1 mm of
+copper. Aggregate is limestone of 2.70 g/cm3; mastic is 3 parts of limestone and 1 part of bitumen by mass at 2.11
+g/cm3. The detector counts photons (Poisson). Each of its pixels has its own gain, known to 0.2 % only, which causes
+rings; the tube's focal spot blurs by a pixel. The slices are reconstructed by filtered back-projection of the
+logarithms without any correction, so that beam hardening, rings, streaks and noise follow from the physics and not
+from a formula."""
 import argparse
 import json
 from pathlib import Path
@@ -21,7 +24,8 @@ KEV = np.arange(20.0, 140.0, 5.0)
 
 
 def calcite(kev):
-    """Mass attenuation [cm2/g], photoelectric and Compton: within some per cent of NIST's table from 40 to 150 keV."""
+    """Returns the mass attenuation [cm2/g] from photoelectric and Compton terms. It agrees within a few per cent
+    with NIST's table from 40 to 150 keV."""
     return 55000 / kev**3 + 0.14
 
 
@@ -30,21 +34,22 @@ def bitumen(kev):
 
 
 def spectrum():
-    """Photons of each energy that the detector would count in air, shares: Kramers' law, and the filter."""
+    """Returns the fraction of photons of each energy that the detector would count in air: Kramers' law and the
+    filter."""
     copper = 3.1e5 / KEV**3 + 0.12
     counts = (140 - KEV) / KEV * np.exp(-copper * 8.96 * 0.1)
     return counts / counts.sum()
 
 
 def shares(grey, levels):
-    """Of mastic and of aggregate in each voxel."""
+    """Returns the fractions of mastic and of aggregate in each voxel."""
     aggregate = np.clip((grey - levels["mastic"]) / (levels["aggregate"] - levels["mastic"]), 0, 1)
     air = np.clip((levels["mastic"] - grey) / (levels["mastic"] - levels["air"]), 0, 1)
     return 1 - aggregate - air, aggregate
 
 
 def blurred(rows):
-    """A spot of about a pixel: weights 1, 2, 1 along the detector."""
+    """Blurs by a focal spot of about a pixel: weights 1, 2, 1 along the detector."""
     padded = np.pad(rows, ((0, 0), (1, 1)), mode="edge")
     return 0.25 * padded[:, :-2] + 0.5 * padded[:, 1:-1] + 0.25 * padded[:, 2:]
 
@@ -95,7 +100,7 @@ def main():
     scanner = Scanner(grey.shape[1:], made["voxel_m"] * 100, arguments.angles, arguments.photons,
                       np.random.default_rng(arguments.seed))
     found = np.stack([scanner.slice(m, a) for m, a in zip(mastic, aggregate)])
-    # 16 bit: air at about 8000, and limestone at 60 keV at about 40000
+    # 16 bit: air is at about 8000, limestone at 60 keV at about 40000
     grey = np.clip(np.round(8000 + 30000 * found), 0, 65535).astype("<u2")
     head = file.read_bytes().split(b"ElementDataFile", 1)[0].decode()
     n = grey.shape

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""twin.py PROGRAM SEEDS FILE.csv: specimens of examples/ct/scene.toml, their twins by truth and by segmentation, and other
-specimens of the same mixture: |E*| and phase angle of each, a row a frequency. SEEDS as 1-3."""
+"""Compares |E*| and phase angle of specimens of examples/ct/scene.toml with their twins, made from the truth and
+from the segmentation, and with other specimens of the same mixture. Writes one row per specimen and frequency.
+
+usage: twin.py PROGRAM SEEDS FILE.csv      SEEDS is a range such as 1-3"""
 import csv
 import json
 import re
@@ -15,7 +17,7 @@ HERE = Path(__file__).resolve().parent
 SCENE = HERE.parents[1] / "examples" / "ct" / "scene.toml"
 VOXEL = "100 um"
 CASES = {"whole": [], "sawn": ["--sawn", "2 mm"]}
-REPACKED = 1000  # added to the seed of a specimen: another one of the same mixture
+REPACKED = 1000  # added to the seed of a specimen to get another specimen of the same mixture
 COLUMNS = ["case", "seed", "kind", "frequency_hz", "e_star_pa", "phase_deg", "particles", "grains", "aggregate", "void",
            "seconds"]
 
@@ -37,7 +39,7 @@ class Bench:
             print(*self.rows[-1], flush=True)
 
     def source(self, case, seed, kind):
-        """Scans the specimen of a seed, and solves what was scanned."""
+        """Scans the specimen of a seed, and computes |E*| of the scanned part."""
         started, scan = time.monotonic(), self.folder / f"phantom-{kind}"
         self.macadam("ct", "phantom", SCENE, "--voxel", VOXEL, "--specimen-seed", seed, "--seed", seed, "--out", scan,
                      *CASES[case])

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figure from the CSV of iterations_bench: draw.py FILE.csv writes FILE.png and FILE.svg."""
+"""Draws a figure from the CSV of iterations_bench: `draw.py FILE.csv` writes FILE.png and FILE.svg."""
 import csv
 import sys
 from pathlib import Path
@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
 
 MANY = 640
-LINES = [  # which rows, how they are called
+LINES = [  # which rows, label, colour
     (lambda boxes: boxes == 0, "each particle by itself", "tab:red"),
     (lambda boxes: 0 < boxes < MANY, "and up to 160 boxes (the solver's)", "tab:blue"),
     (lambda boxes: boxes == MANY, "and 640 boxes", "tab:green"),

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// iterations.cpp  How many iterations the frequency domain takes as specimens grow, with boxes of particles and
-// without.
+// iterations.cpp  Counts the iterations of the frequency-domain solver as specimens grow, with and without the coarse
+// correction by boxes of particles.
 //
-// Usage: iterations_bench SCENE PARTICLES … : specimens of the scene's recipe, which counts its particles, in boxes of
-// the same shape. Iterates on a CUDA device where one answers. Prints a CSV, a row a specimen and number of boxes.
+// Usage: iterations_bench SCENE PARTICLES … : generates specimens by the scene's recipe, which must have particle
+// counts, in boxes of the same shape. Solves on a CUDA device if one is available. Prints a CSV with one row per
+// specimen and number of boxes.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -22,12 +23,12 @@ namespace {
 using namespace harmonic;
 
 constexpr double frequency_hz = 20, tolerance = 1e-8;
-constexpr std::size_t many_boxes = 640;  ///< a dense matrix of 118 MB
+constexpr std::size_t many_boxes = 640;  ///< gives a dense matrix of 118 MB
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// The same gradation for another number of particles.
+/// Returns the recipe with the same gradation for another number of particles. \throws InputError if it has no counts.
 SpecimenSpec resized(SpecimenSpec spec, std::int64_t particles) {
   if (!spec.mastic || !spec.mastic->count) throw InputError(spec.source + ": mastic without count");
   std::int64_t usual = *spec.mastic->count;
@@ -45,7 +46,7 @@ SpecimenSpec resized(SpecimenSpec spec, std::int64_t particles) {
   return spec;
 }
 
-/// Specimen, network, and the one system that is solved in several ways.
+/// A specimen, its network, and a linear system that is solved with several numbers of boxes.
 class Case {
  public:
   Case(const Scene& scene, std::int64_t particles) {
@@ -62,7 +63,8 @@ class Case {
   void solve() const {
     const std::size_t usual = usual_boxes(specimen_.size());
     for (const std::size_t boxes : {std::size_t{0}, usual, many_boxes}) {
-      if (boxes == many_boxes && specimen_.size() < 40 * many_boxes) continue;  // boxes of a few particles
+      // boxes would have fewer than 40 particles
+      if (boxes == many_boxes && specimen_.size() < 40 * many_boxes) continue;
       const auto start = Clock::now();
       const auto solver = make_iterative_solver(specimen_, network_, stiffness_, inertia_, free_, backend_, {}, boxes);
       const double made_s = seconds_since(start);
@@ -80,7 +82,7 @@ class Case {
   }
 
  private:
-  /// ‖f − K·u‖ / ‖f‖, computed anew.
+  /// Returns ‖f − K·u‖ / ‖f‖, computed independently of the solver.
   double residual(const LinearTask& task) const {
     return check_solutions(network_, inertia_, {&task}, 0).front().residual / length(right_);
   }

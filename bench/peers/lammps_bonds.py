@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steps of LAMMPS over given spheres and bonds: its input as files.
+"""Writes LAMMPS input files that step given spheres and bonds.
 
-Every contact between two particles is a bond of style `bpm/rotational`, with normal, shear, bending and twisting stiffness,
-none of which breaks. There is no search for contacts: no pair style is set."""
+Every contact between two particles becomes an unbreakable bond of style `bpm/rotational` with normal, shear,
+bending and twisting stiffness. There is no search for contacts: no pair style is set."""
 import csv
 import math
 import random
@@ -30,7 +30,7 @@ def rows(path):
 
 
 def write_input(specimen, contacts, folder, runs=7, steps=10):
-    """LAMMPS's commands for RUNS runs of STEPS steps each; returns their path and the number of bonds."""
+    """Writes LAMMPS's commands for `runs` runs of `steps` steps each. Returns their path and the number of bonds."""
     spheres = [(*(float(row[k]) for k in "xyz"), float(row["radius"])) for row in rows(specimen)]
     bonds = [(int(row["a"]), int(row["b"])) for row in rows(contacts) if int(row["b"]) >= 0]
     random.seed(1)

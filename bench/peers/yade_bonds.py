@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Steps of Yade over given spheres and bonds: run by bench/peers/run with `yade -x -n -jTHREADS`.
+"""Times steps of Yade over given spheres and bonds. Called by bench/peers/run with `yade -x -n -jTHREADS`.
 
 usage: yade_bonds.py SPECIMEN.csv CONTACTS.csv
 
-Every contact between two particles is a cohesive bond with normal, shear, bending and twisting stiffness, none of which
-breaks. There is no search for contacts: bonds are made once. Prints bonds and milliseconds a step, the median of seven runs."""
+Every contact between two particles becomes an unbreakable cohesive bond with normal, shear, bending and twisting
+stiffness. There is no search for contacts: bonds are made once. Prints the number of bonds and the milliseconds per
+step, the median of seven runs."""
 import csv
 import random
 import statistics
@@ -37,7 +38,7 @@ with open(contacts) as f:
     for row in csv.DictReader(line for line in f if not line.startswith("#")):
         if int(row["b"]) >= 0:
             utils.createInteraction(int(row["a"]), int(row["b"]))
-O.dt = 1e-9  # a step takes the same time whatever its length
+O.dt = 1e-9  # the computing time of a step does not depend on its length
 O.run(5, True)
 bonds = sum(1 for i in O.interactions if i.isReal and i.phys.cohesionBroken is False)
 times = []

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// aggregate_cube.cpp  The modulus of a cube of aggregate: a CSV, a row a cube, to the standard output.
+// aggregate_cube.cpp  Computes the modulus of cubes of aggregate. Writes a CSV with one row per cube to standard
+// output.
 #include "tests/aggregate_cube.hpp"
 
 #include <fmt/format.h>
@@ -9,20 +10,22 @@
 namespace macadam::test {
 namespace {
 
-/// The contact modulus that gives the target, from the moduli with two contact moduli: the compliances of contacts and
-/// walls add up, so that 1/modulus is linear in 1/E but for how the walls' share is spread.
+/// Returns the contact modulus for which the cube has the modulus of the aggregate, from the cube moduli at two contact
+/// moduli. The compliances of contacts and walls add up, so 1/modulus is linear in 1/E, except for small changes in how
+/// the walls spread the load.
 double contact_for_target(double E, double modulus, double other_E, double other_modulus) {
   const double slope = (1 / other_modulus - 1 / modulus) / (1 / other_E - 1 / E);
   return 1 / (1 / E + (1 / aggregate_modulus - 1 / modulus) / slope);
 }
 
-/// How the cubes of one group are made and held.
+/// How the cubes of a group are made and loaded.
 struct Choice {
   double porosity = scene_porosity, wall_modulus = paper_wall_modulus, edge = cube_edge;
   bool lateral_walls = false, calibrate = false;
   std::uint64_t seeds = 3;
 };
 
+/// Prints a row for each seed of a group of cubes.
 void measure(const InnerSpheres& spheres, CubeFilling filling, const Choice& choice) {
   for (std::uint64_t seed = 1; seed <= choice.seeds; ++seed) {
     const Specimen cube = aggregate_cube(spheres, filling, choice.porosity, seed, choice.edge);

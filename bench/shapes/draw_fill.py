@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures from the files of fill_study: draw_fill.py DIR OUT writes OUT/fill-study.png and OUT/fill-spheres.png."""
+"""Draws figures from the files of fill_study: `draw_fill.py DIR OUT` writes OUT/fill-study.png and
+OUT/fill-spheres.png."""
 import csv
 import sys
 from collections import defaultdict
@@ -13,9 +14,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-CIRCUMSCRIBED = 6.295  # mm
+CIRCUMSCRIBED = 6.295  # half of D^I of every shape [mm]
 LIGHT = np.array([-0.45, 0.55, 0.70])
-# spheres of the paper's Figs. 5 and 6 against the radius (mm) and against R_max / R_min at R_min = 0.5 mm
+# numbers of spheres in Figs. 5 and 6 of [1], by radius (mm), and by R_max / R_min at R_min = 0.5 mm
 PUBLISHED = [("icosahedron", "*", {0.5: 1568, 2: 24}, {1: 1568}),
              ("aggregate #1", "X", {0.5: 634, 1: 79, 2: 9}, {1: 634, 3: 79})]
 SHOWN = [(0.5, 0.5), (0.75, 0.75), (1.0, 1.0), (2.0, 2.0), (0.5, 1.5)]
@@ -27,7 +28,7 @@ def read(path):
 
 
 def seed_means(rows):
-    """Means over the seeds: {shape: {(radius_min, radius_max): row}}."""
+    """Returns the means over the seeds: {shape: {(radius_min, radius_max): row}}."""
     groups = defaultdict(list)
     for row in rows:
         groups[row["shape"], row["radius_min_mm"], row["radius_max_mm"]].append(row)
@@ -87,7 +88,7 @@ def draw_study(rows, out):
 
 
 def view():
-    """Rows: right, up, towards the eye."""
+    """Returns a matrix whose rows are the directions right, up and towards the viewer."""
     towards = np.array([0.45, -0.80, 0.40])
     towards /= np.linalg.norm(towards)
     right = np.cross([0, 0, 1], towards)
@@ -96,7 +97,8 @@ def view():
 
 
 def picture(spheres, half, pixels=260):
-    """Spheres (x, y, z, R) in parallel projection with a depth buffer, lit from the upper left; ±half [mm] is seen."""
+    """Draws spheres (x, y, z, R) in parallel projection with a depth buffer, lit from the upper left. The picture
+    shows ±half [mm]."""
     image, depth = np.ones((pixels, pixels, 3)), np.full((pixels, pixels), -np.inf)
     size = 2 * half / pixels
     centres = (spheres[:, :3] - spheres[:, :3].mean(axis=0)) @ view().T

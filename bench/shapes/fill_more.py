@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Fillings without voids for docs/filling.md: usage: fill_more.py PROGRAM RESULT.csv
+"""Fills shapes without voids for docs/filling.md.
 
-Fills four shapes of D^I = 12.59 mm with seven ranges of radii (seeds 1 to 3), and all shapes of the library at
-D^I = 9 mm with 1-2 mm, by `macadam shapes fill`, and writes what it reports, a row a filling."""
+usage: fill_more.py PROGRAM RESULT.csv
+
+Runs `macadam shapes fill` for four shapes of D^I = 12.59 mm with seven ranges of radii (seeds 1 to 3), and for all
+shapes of the library at D^I = 9 mm with radii of 1 to 2 mm. Writes the values that it reports, one row per filling."""
 import concurrent.futures
 import csv
 import re

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fill_study.cpp  Number of spheres and dimensions of clusters against their radii: fill_study DIR SURFACE…
+// fill_study.cpp  Measures the number of spheres and the dimensions of clusters for several radii of the spheres.
+// Usage: fill_study DIR SURFACE…
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -17,6 +18,7 @@ namespace {
 constexpr double circumscribed = 6.295e-3;  // half the intermediate dimension of every shape [m]
 constexpr std::uint64_t seeds = 3;
 
+/// One filling of a shape, and its results.
 struct Study {
   const Surface* surface;
   ShapeMeasure shape;
@@ -25,13 +27,14 @@ struct Study {
   FillReport report;
 };
 
+/// Scales a surface to the common intermediate dimension.
 Surface of_common_size(Surface surface) {
   const double factor = 2 * circumscribed / measure_shape(surface).d_intermediate;
   for (Vec3d& p : surface.points) p = factor * p;
   return surface;
 }
 
-/// Equal spheres of five radii, then radii from 0.5 mm up to four times as much.
+/// Returns the ranges of radii: equal spheres of five radii, then radii from 0.5 mm up to 1.5 to 4 times that.
 std::vector<std::pair<double, double>> ranges() {
   std::vector<std::pair<double, double>> all;
   for (double r : {0.5e-3, 0.75e-3, 1e-3, 1.5e-3, 2e-3}) all.emplace_back(r, r);
@@ -64,7 +67,7 @@ void write_table(const std::string& file, const std::vector<Study>& studies) {
   if (!out.flush()) throw RunError(file + ": cannot be written");
 }
 
-/// The spheres themselves, to be drawn.
+/// Writes the spheres of seed 1, for draw_fill.py.
 void write_spheres(const std::string& file, const std::vector<Study>& studies) {
   std::ofstream out(file);
   out << "shape,radius_min_mm,radius_max_mm,x,y,z,radius\n";
@@ -79,6 +82,7 @@ void write_spheres(const std::string& file, const std::vector<Study>& studies) {
   if (!out.flush()) throw RunError(file + ": cannot be written");
 }
 
+/// Fills each surface, and an icosahedron, with every range of radii and every seed, and writes the files.
 int study(const std::string& folder, const std::vector<std::string>& files) {
   std::vector<Surface> surfaces;
   for (const std::string& file : files) surfaces.push_back(of_common_size(read_surface(file)));

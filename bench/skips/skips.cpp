@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  What leaving out what a scene does not need saves, and what it changes: with and without, side by side.
+// skips.cpp  Measures what a step saves when it skips work that a scene does not need, and whether results change.
 //
-// Both run the same scene in turns within one process, and the ratio is the median over the turns, so that a busy
-// machine slows both alike. Prints a CSV, a row a skip. Usage: skips [cpu|cuda]
+// Each skip is compared with a run that does the work. Both run in turns within one process, and the ratio is the
+// median over the turns, so that other load on the machine slows both equally. Prints a CSV with one row per skip.
+// Usage: skips [cpu|cuda]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,12 +21,13 @@ using Clock = std::chrono::steady_clock;
 
 Backend backend = Backend::cpu;
 
+/// Returns the full specimen with given laws and contact rules.
 TestScene full(const NetworkSpec& spec = {}, const test::Laws& laws = test::am1_laws()) {
   static const Specimen specimen = read_specimen_csv(MACADAM_TEST_DATA "/ss_full.csv.gz", {{0.05, 0.05, 0.08}});
   return test::make_scene(specimen, spec, laws);
 }
 
-/// Equal spheres on a cubic lattice without shear.
+/// Returns equal spheres on a cubic lattice, with α = 0, so that no particle rotates.
 TestScene lattice() {
   constexpr int nx = 25, ny = 25, nz = 40;
   constexpr double side = 2e-3;
@@ -42,6 +44,7 @@ TestScene lattice() {
   return test::make_scene(out, {}, laws);
 }
 
+/// Returns the laws of AM1 as springs with their instantaneous stiffness.
 test::Laws elastic() {
   test::Laws laws = test::am1_laws();
   for (auto& law : laws) {
@@ -52,17 +55,19 @@ test::Laws elastic() {
   return laws;
 }
 
-/// One way of stepping a scene.
+/// A scene, its laws and the options with which it is stepped.
 struct Way {
   const TestScene& scene;
   test::Laws laws;
   StepperOptions options;
 };
 
+/// Times per step [µs], their ratio (without over with the skip), and the relative difference of the velocities.
 struct Comparison {
   double with_us = 0, without_us = 0, ratio = 0, difference = 0;
 };
 
+/// Steps both in turns and compares them.
 Comparison compare(const Way& with, const Way& without) {
   const auto make = [](const Way& way) {
     return make_stepper(backend, way.scene.specimen, way.scene.network, way.laws, way.scene.inertia, way.options);
@@ -88,8 +93,8 @@ Comparison compare(const Way& with, const Way& without) {
           test::relative_difference(steppers[0]->particles().velocity, steppers[1]->particles().velocity)};
 }
 
-/// One row: what is skipped, what is stepped with the skip and without it, and what differs. Where the skip is another
-/// model, `change` is that of |E*|.
+/// Prints one row: what is skipped, what is stepped with and without the skip, and the difference. If the skip changes
+/// the model, `change` is the relative change of |E*|.
 void row(const char* what, const char* with, const char* without, const Comparison& c, const char* compared,
          double change = 0) {
   fmt::print("{},\"{}\",\"{}\",{:.1f},{:.1f},{:.3f},{},{:.2e}\n", what, with, without, c.with_us, c.without_us, c.ratio,
@@ -97,12 +102,12 @@ void row(const char* what, const char* with, const char* without, const Comparis
   std::fflush(stdout);
 }
 
-/// |E*| at 20 Hz without inertia.
+/// Returns |E*| at 20 Hz without inertia.
 double modulus(const TestScene& scene) {
   return Harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, 20).solve(20).top.e_star_pa;
 }
 
-/// Wall time and result of a whole test with and without response.csv.
+/// Compares a whole experiment with and without response.csv: wall time and result.
 void observation() {
   Scene scene;
   scene.specimen.file = MACADAM_TEST_DATA "/t8.csv";

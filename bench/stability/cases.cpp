@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cases.cpp  The list of cases: a new one is a function and a line here.
+// cases.cpp  The list of cases. A new case is a function and a line in this list.
 #include "bench/stability/stability.hpp"
 
 namespace macadam::stability {

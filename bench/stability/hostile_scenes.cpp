@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// hostile_scenes.cpp  Stiffness ratios, size ratios and slivers.
+// hostile_scenes.cpp  Makes networks with extreme stiffness ratios, size ratios and slivers.
 #include "bench/stability/hostile_scenes.hpp"
 
 #include <cmath>
@@ -10,7 +10,8 @@
 namespace macadam::stability {
 namespace {
 
-/// Large spheres about a grid of edge 2R, and in each of the gaps between eight of them four small ones of R/ratio.
+/// Returns large spheres on a jittered grid of edge 2R, and four small ones of radius R/ratio in each gap between eight
+/// large ones.
 Specimen spheres_of_two_sizes(double ratio) {
   std::mt19937 random(77);
   const auto uniform = [&](double lo, double hi) {
@@ -34,7 +35,8 @@ Specimen spheres_of_two_sizes(double ratio) {
     add(edge * cell + jitter(0.03 * radius), ratio == 1 ? small : radius, Phase::aggregate);
   }
   constexpr int m = n - 1;
-  const double apart = std::max(1.2 * small, 0.02 * radius);  // half the edge of the cube whose four corners they take
+  // half the edge of the cube on four of whose corners the small spheres are placed
+  const double apart = std::max(1.2 * small, 0.02 * radius);
   for (int i = 0; i < m * m * m; ++i) {
     const Vec3d gap{i % m + 1.0, i / m % m + 1.0, i / (m * m) + 1.0};
     for (const Vec3d& corner : {Vec3d{1, 1, 1}, Vec3d{1, -1, -1}, Vec3d{-1, 1, -1}, Vec3d{-1, -1, 1}}) {
@@ -44,8 +46,9 @@ Specimen spheres_of_two_sizes(double ratio) {
   return out;
 }
 
-/// A cubic lattice of 3 × 3 × 3 equal spheres whose centres are off their places by up to `jitter` edges. The four
-/// cells along an edge then share a facet of about jitter × edge by edge, the eight at a corner some of jitter² edge².
+/// Returns a cubic lattice of 3 × 3 × 3 equal spheres whose centres are moved by up to `jitter` edges. The four cells
+/// along an edge then share a facet of about jitter × edge by edge; some of the eight cells at a corner share a facet
+/// of about jitter² edge².
 Specimen disturbed_lattice(double jitter) {
   std::mt19937 random(5);
   const auto offset = [&] { return jitter * (2 * (static_cast<double>(random()) / 4294967296.0) - 1); };

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file hostile_scenes.hpp  Networks on which a solver may fail; all elastic.
+/// \file hostile_scenes.hpp  Elastic networks on which a solver may fail.
 #pragma once
 
 #include "tests/test_scenes.hpp"
 
 namespace macadam::stability {
 
-/// A random specimen whose A–A, inner and A–W contacts are `ratio` times as stiff as M–M and M–W, M–A the root of that.
+/// Returns a random specimen whose A–A, inner and A–W contacts are `ratio` times as stiff as M–M and M–W; M–A contacts
+/// are √ratio times as stiff.
 test::TestScene stiff_aggregates(double ratio);
-/// Clusters whose inner contacts are `ratio` times as stiff as all others.
+/// Returns clusters whose inner contacts are `ratio` times as stiff as all other contacts.
 test::TestScene stiff_clusters(double ratio);
-/// Large spheres with small ones of 1/ratio the radius in their gaps.
+/// Returns large spheres with small ones of 1/ratio the radius in their gaps.
 test::TestScene two_sizes(double ratio);
-/// A cubic lattice off by `jitter` of its edge: slivers of facets.
+/// Returns a cubic lattice whose spheres are moved by up to `jitter` of its edge, which gives very narrow facets
+/// (slivers).
 test::TestScene nearly_cubic(double jitter);
 
 }  // namespace macadam::stability

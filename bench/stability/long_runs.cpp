@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// long_runs.cpp  Drift of energy, momenta and |E*| over 1e8 steps of two particles and 1e7 of a hundred.
+// long_runs.cpp  Measures the drift of energy, momenta and |E*| over 1e8 steps of two particles and 1e7 steps of a
+// hundred.
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr const char* energy_change = "largest |energy / that of the start − 1|";
 
-/// Free and elastic: energy, linear and angular momentum against the start.
+/// Runs a free elastic assembly, and compares energy, linear and angular momentum with their initial values.
 void free_run(Rows& rows, const std::string& name, const test::TestScene& scene, const Modes& modes,
               const Setting& setting, Geometry geometry, std::int64_t steps) {
   StepperOptions options;
@@ -46,7 +47,7 @@ void free_run(Rows& rows, const std::string& name, const test::TestScene& scene,
   const double particles = static_cast<double>(scene.specimen.size());
   const double walk = std::sqrt(static_cast<double>(steps));
   const double eps = setting.rounding();
-  // Strain of the fastest motion, which is how far geometry turns.
+  // strain of the fastest motion, which is about the angle by which the geometry turns
   const double strain = 10 * speed * options.dt / 1e-3;
   rows.push_back({run, setting.name(), energy_change, 0, 10 * eps * walk + (displaced ? 10 * strain : 0),
                   displaced ? "geometry turns by angles of the order of the strain, to and fro: bounded, no drift"
@@ -63,7 +64,7 @@ void free_run(Rows& rows, const std::string& name, const test::TestScene& scene,
                   norm(after.angular - before.angular) / (momentum * norm(scene.specimen.box.size))});
 }
 
-/// E* of cycles early and at the end of a driven run, and an expectation of it.
+/// Runs a loaded specimen, and compares E* of a late cycle with that of an early cycle and with the expected value.
 void driven_run(Rows& rows, const std::string& name, const test::TestScene& scene, const Setting& setting,
                 const drives::Cyclic& loading, std::int64_t steps, const Stiffness& expected, double tolerance,
                 const char* reason) {
@@ -73,7 +74,8 @@ void driven_run(Rows& rows, const std::string& name, const test::TestScene& scen
   options.boundary = moving_top(loading);
   const auto stepper = make(setting, scene, options);
   const std::int64_t cycles = steps / loading.steps_per_period;
-  const std::int64_t first = std::max(20000 / loading.steps_per_period, cycles / 20);  // ramp, then 50 of 300 steps
+  // long enough for the ramp and 50 times the law's relaxation time of 300 steps
+  const std::int64_t first = std::max(20000 / loading.steps_per_period, cycles / 20);
   const Stiffness early = fundamental(last_cycle(*stepper, scene.specimen, loading, first));
   const Stiffness late = fundamental(last_cycle(*stepper, scene.specimen, loading, cycles - first));
   const std::string run = fmt::format("{}, cyclic, {:.0e} steps, {} cycles", name, static_cast<double>(steps), cycles);
@@ -90,9 +92,9 @@ void driven_run(Rows& rows, const std::string& name, const test::TestScene& scen
                   stiffness_difference(late, expected)});
 }
 
-/// Two particles between the walls, a chain wall – 1 – 2 – wall along z. Trapezoidal rule and leapfrog at ω replace iω
-/// by i·(2/Δt)·tan(ωΔt/2) in the law and ω² by ((2/Δt)·sin(ωΔt/2))² in the inertia, both exactly; symmetric and
-/// antisymmetric motion then give the top reaction in closed form.
+/// Returns the exact E* of two particles between the walls, a chain wall – 1 – 2 – wall along z. At a frequency ω the
+/// trapezoidal rule and leapfrog exactly replace iω by i·(2/Δt)·tan(ωΔt/2) in the law and ω² by ((2/Δt)·sin(ωΔt/2))² in
+/// the inertia. The top reaction then follows in closed form from two linear equations.
 Stiffness column_stiffness(const test::TestScene& scene, const laws::GeneralisedKelvin& law,
                            const drives::Cyclic& loading) {
   using Complex = std::complex<double>;
@@ -100,17 +102,18 @@ Stiffness column_stiffness(const test::TestScene& scene, const laws::Generalised
   const Complex rate(0, 2 / dt * std::tan(half));
   const Complex modulus = 1.0 / (1 / law.E_m + 1.0 / (rate * law.C_m) + 1.0 / (law.E[0] + rate * law.C[0]));
   const double edge = scene.specimen.box.size.x, inertia = scene.inertia.mass[0] * std::pow(2 / dt * std::sin(half), 2);
-  const Complex between = modulus * edge, wall = 2.0 * between;  // A/d: edge²/edge, and edge²/(edge/2) at a wall
-  // (wall + between − inertia)·u₂ − between·u₁ = wall·w, and the same without load for u₁
+  // stiffness E·A/d: A/d = edge²/edge between particles, edge²/(edge/2) at a wall
+  const Complex between = modulus * edge, wall = 2.0 * between;
+  // (wall + between − inertia)·u₂ − between·u₁ = wall·w, and the same for u₁ with right-hand side 0
   const Complex own = wall + between - inertia;
   const Complex upper = wall * own / (own * own - between * between);
-  const Complex reaction = wall * (1.0 - upper);  // of the top wall per displacement w
+  const Complex reaction = wall * (1.0 - upper);  // reaction of the top wall per displacement w
   const Complex e_star = reaction * scene.specimen.box.size.z / (edge * edge);
   return {std::abs(e_star), std::arg(e_star) * 180 / std::numbers::pi};
 }
 
-/// How many steps a setting takes: all in double on the cpu. A launch costs cuda more than a small step costs the cpu;
-/// the other precisions show their drift sooner.
+/// Returns the number of steps for a setting: all of them in double precision on the CPU. On cuda a hundredth, because
+/// a launch takes longer than a small step on the CPU; in single precision a tenth, because drift shows sooner.
 std::int64_t steps_of(const Setting& setting, std::int64_t steps) {
   if (setting.backend == Backend::cuda) return steps / 100;
   return setting.precision == Precision::single ? steps / 10 : steps;

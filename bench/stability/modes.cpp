@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// modes.cpp  Modes, energy and momenta of an assembly.
+// modes.cpp  Eigenmodes, energy and momenta of an assembly.
 #include "bench/stability/modes.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -32,7 +32,7 @@ Modes::Modes(const test::TestScene& scene) {
   const Eigen::MatrixXd K = reference::assemble_stiffness(with_points_of_moments(scene.network), scene.laws, n).K;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inverse.asDiagonal() * K * inverse.asDiagonal());
   const Eigen::VectorXd& all = modes.eigenvalues();
-  const double rigid = 1e-10 * all.maxCoeff();  // far below the softest elastic mode, far above rounding
+  const double rigid = 1e-10 * all.maxCoeff();  // far below the softest elastic mode, and far above rounding
   Eigen::Index first = 0;
   while (all(first) < rigid) ++first;
   square_ = all.tail(all.size() - first);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file modes.hpp  Energy of a linear elastic assembly from the forces that it shows.
+/// \file modes.hpp  Computes the energy of a linear elastic assembly from the forces on its particles.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,29 +8,30 @@
 
 namespace macadam::stability {
 
-/// Modes of M^(-1/2)·K·M^(-1/2), dense: some hundred particles. K is the reference's, geometry of the start, area
-/// moments of the network's quadrature.
+/// The eigenmodes of M^(-1/2)·K·M^(-1/2), computed with dense matrices, for some hundred particles. K comes from the
+/// reference implementation, with the initial geometry and the area moments of the network's quadrature.
 class Modes {
  public:
   explicit Modes(const test::TestScene& scene);
 
-  /// H = ½·v(k−½)·M·v(k+½) + ½·F·K⁺·F [J], which leapfrog keeps exactly for elastic contacts and fixed geometry. The
-  /// rotations that the elastic part needs are nowhere stored; the forces F = −K·q say as much.
+  /// Returns H = ½·v(k−½)·M·v(k+½) + ½·F·K⁺·F [J], which leapfrog keeps exactly for elastic contacts and fixed
+  /// geometry. The elastic energy is computed from the forces F = −K·q, because the rotations in q are not stored.
   double energy(const ParticleState& state, double dt) const;
 
-  /// Takes the rigid part away from velocities and spins, so that the assembly neither drifts nor turns.
+  /// Removes the rigid motion from velocities and spins, so that the assembly neither drifts nor turns.
   void remove_rigid_part(std::vector<Vec3d>& velocity, std::vector<Vec3d>& spin) const;
 
  private:
-  Eigen::VectorXd root_mass_;  ///< √m and √I, six a particle
+  Eigen::VectorXd root_mass_;  ///< √m and √I, six values per particle
   Eigen::VectorXd square_;     ///< ω² of the modes that are not rigid
-  Eigen::MatrixXd shape_;      ///< their columns
+  Eigen::MatrixXd shape_;      ///< eigenvectors of these modes, one per column
 };
 
-/// Linear momentum, and angular momentum about the origin at the places of the start.
+/// Linear momentum, and angular momentum about the origin.
 struct Momenta {
   Vec3d linear, angular;
 };
+/// Computes the momenta with the initial positions or, with `displaced`, the current ones.
 Momenta momenta(const test::TestScene& scene, const ParticleState& state, bool displaced = false);
 
 }  // namespace macadam::stability

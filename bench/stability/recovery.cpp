@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// recovery.cpp  Load, hold, reversal, hold, release to rest: what comes back, and what the dashpot in series keeps.
+// recovery.cpp  Loads, holds, reverses, holds and releases particles, and checks how much deformation remains: springs
+// and Kelvin units recover completely, the dashpot in series does not.
 //
-// Positions are imposed until the release, then the particles are free. The forces after the release have no impulse,
-// since they take particles from rest to rest; so the dashpot in series keeps what it had at the release, whatever the
-// masses: u(∞) = y(t₃), y = ∫f/C_m dt. Springs and Kelvin units give everything back.
+// Positions are imposed until the release; then the particles are free. They go from rest to rest after the release, so
+// the forces have no net impulse, and the dashpot in series keeps the displacement that it had at the release, whatever
+// the masses: u(∞) = y(t₃), y = ∫f/C_m dt.
 #include <Eigen/Dense>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
@@ -15,25 +16,29 @@
 namespace macadam::stability {
 namespace {
 
+/// A stage of the loading with constant velocity.
 struct Stage {
-  double steps;     ///< of the coarsest Δt
-  double velocity;  ///< displacement a coarsest step, of the largest displacement
+  double steps;     ///< duration in steps of the coarsest Δt
+  double velocity;  ///< displacement per coarsest step, as a fraction of the largest displacement
 };
-/// To 1, hold, to −0.5, hold.
+/// The displacement goes to 1, is held, goes to −0.5, and is held.
 constexpr Stage stages[] = {{1000, 1e-3}, {2000, 0}, {1500, -1e-3}, {1000, 0}};
-constexpr double relaxing = 25000;  ///< fifty times the slower Kelvin unit's 500
+constexpr double relaxing = 25000;  ///< duration of the recovery in coarsest steps: fifty times the 500 steps of the
+                                    ///< slower Kelvin unit
 
-/// Times in coarsest steps.
+/// Returns a law whose relaxation times are given in coarsest steps: 2000 for the dashpot in series (`flows`), 500 and
+/// 100 for the Kelvin units.
 laws::GeneralisedKelvin test_law(double step, bool flows) {
   return {1e10, flows ? 1e10 * 2000 * step : INFINITY, {0.5e10, 2e10}, {0.5e10 * 500 * step, 2e10 * 100 * step}, 0.3};
 }
 
-/// The stages' exact solution: y' = f/C_m, x_l' = (f − E_l·x_l)/C_l, f = E_m·(x − y − Σ x_l), and x' is constant in a
-/// stage, so that (y, x_1, x_2, x, x') obeys a constant matrix. The largest displacement is 1.
+/// Exact solution of the stages: y' = f/C_m, x_l' = (f − E_l·x_l)/C_l, f = E_m·(x − y − Σ x_l). x' is constant in a
+/// stage, so that (y, x_1, x_2, x, x') follows a linear system with a constant matrix. The largest displacement is 1.
 struct Exact {
-  std::vector<double> force;  ///< at the end of each stage, of E_m
+  std::vector<double> force;  ///< f/E_m at the end of each stage
   double flow = 0;            ///< y at the release
 };
+/// Integrates the stages with matrix exponentials.
 Exact exact_solution(const laws::GeneralisedKelvin& law, double step) {
   Eigen::Matrix<double, 5, 5> A = Eigen::Matrix<double, 5, 5>::Zero();
   Eigen::Matrix<double, 1, 5> f;
@@ -57,13 +62,15 @@ Exact exact_solution(const laws::GeneralisedKelvin& law, double step) {
   return out;
 }
 
+/// Results of a stepped run.
 struct Measured {
-  std::vector<double> force;  ///< of the observed particle along its displacement, at the end of each stage [N]
-  double impulse = 0;         ///< its trapezoidal integral up to the release [N·s]
-  std::vector<Vec3d> left;    ///< displacements in the end [m]
+  std::vector<double> force;  ///< force on the observed particle along its displacement, at the end of each stage [N]
+  double impulse = 0;         ///< trapezoidal time integral of that force up to the release [N·s]
+  std::vector<Vec3d> left;    ///< displacements at the end [m]
 };
 
-/// Moves every particle along its own `direction` (its displacement where the stages say 1), then lets go.
+/// Moves every particle along its own `direction`, which is its displacement where the stages have 1, and then releases
+/// it.
 Measured run(Stepper& stepper, const test::TestScene& scene, const std::vector<Vec3d>& direction, std::size_t observed,
              double dt, double step, double settle) {
   const std::size_t n = scene.specimen.size();
@@ -71,7 +78,8 @@ Measured run(Stepper& stepper, const test::TestScene& scene, const std::vector<V
   const double along = dot(direction[observed], direction[observed]);
   std::vector<Vec3d> velocity(n), spin(n);
   ParticleState state = stepper.particles();
-  // What a step adds to the velocity is taken off before, so that the velocity of the step is the one wanted.
+  // The velocity change of the step is subtracted beforehand, so that the step moves the particle at exactly the wanted
+  // velocity.
   const auto set = [&](double rate, double share) {
     for (std::size_t i = 0; i < n; ++i) {
       velocity[i] = rate * direction[i] - (share * dt / scene.inertia.mass[i]) * state.force[i];
@@ -92,13 +100,13 @@ Measured run(Stepper& stepper, const test::TestScene& scene, const std::vector<V
     }
     out.force.push_back(force);
   }
-  set(0, 0.5);  // at rest at the whole step: the half step before it had minus half of a step's impulse
+  set(0, 0.5);  // half a step's velocity change is subtracted, so that particles are at rest at the full step
   stepper.advance(std::llround(settle * step / dt));
   out.left = stepper.particles().displacement;
   return out;
 }
 
-/// Two particles along z; the lower one is too heavy to move.
+/// Checks a pair of particles along z; the lower one is too heavy to move.
 void pair_rows(Rows& rows, const Setting& setting, bool flows, Effort effort) {
   test::HandMade made = test::two_sphere_network();
   made.inertia.mass[0] = made.inertia.inertia[0] = 1e30;
@@ -122,13 +130,13 @@ void pair_rows(Rows& rows, const Setting& setting, bool flows, Effort effort) {
     const auto stepper = make(setting, scene, options);
     const Measured found = run(*stepper, scene, {Vec3d{}, Vec3d{0, 0, largest}}, 1, options.dt, step, relaxing);
     const double left = found.left[1].z / largest;
-    // Rounding walks over the steps; single states of 1 lose half an ulp a step.
+    // rounding errors add up like a random walk over the steps; single states of size 1 lose half an ulp per step
     const double steps = (5500 + relaxing) / fraction;
     const double rounding = setting.precision == Precision::single  ? 10 * 0x1p-24 * std::sqrt(steps)
                             : setting.precision == Precision::mixed ? 0x1p-24
                                                                     : 10 * 0x1p-53 * std::sqrt(steps);
     const double order =
-        1e-4 / 12 * fraction * fraction;  // (Δt·rate)²/12, rate = Σ E_m/C + E_l/C_l < 0.01 a coarsest step
+        1e-4 / 12 * fraction * fraction;  // (Δt·rate)²/12, rate = Σ E_m/C + E_l/C_l < 0.01 per coarsest step
     double worst = 0;
     for (std::size_t s = 0; s < exact.force.size(); ++s) {
       worst = std::max(worst, std::abs(found.force[s] / (stiffness * largest) - exact.force[s]) / peak);
@@ -156,7 +164,7 @@ void pair_rows(Rows& rows, const Setting& setting, bool flows, Effort effort) {
   }
 }
 
-/// δ − its rigid rotation and translation about the centre of mass, largest length.
+/// Returns the largest length of δ after its rigid rotation about the centre of mass is subtracted.
 double beyond_rigid(const test::TestScene& scene, std::vector<Vec3d> delta, const std::vector<Vec3d>& arm) {
   Vec3d turning{};
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
@@ -170,8 +178,8 @@ double beyond_rigid(const test::TestScene& scene, std::vector<Vec3d> delta, cons
   return test::largest(delta);
 }
 
-/// A free assembly with one law everywhere, stretched and sheared as a whole. All contacts then have the same history,
-/// the dashpots' displacements are a field that fits together, and the assembly keeps y(t₃) of the imposed one.
+/// Checks a free assembly with one law everywhere that is stretched and sheared uniformly. All contacts have the same
+/// history, so the dashpots' displacements are compatible, and the assembly keeps y(t₃) times the imposed displacement.
 void assembly_rows(Rows& rows, const Setting& setting, bool flows) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// relaxation_times.cpp  Chains whose relaxation times lie far below and far above the step.
+// relaxation_times.cpp  Laws whose relaxation times are far below and far above the time step.
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -16,7 +16,8 @@ constexpr double modulus = 1e10;
 constexpr std::int64_t per_cycle = 100;
 constexpr const char* alternating = "alternating part of the force after 1000 steps / η·v";
 
-/// One particle too heavy to move, and the top wall pulling at its single contact: the law alone, through the stepper.
+/// Returns one particle that is too heavy to move, with the top wall pulling at its only contact. The stepper then
+/// shows the law alone.
 test::TestScene one_contact(const laws::GeneralisedKelvin& law) {
   test::HandMade made;
   const double edge = 2e-3;
@@ -27,8 +28,8 @@ test::TestScene one_contact(const laws::GeneralisedKelvin& law) {
   return {made.specimen, made.network, test::same_law(law), made.inertia};
 }
 
-/// The chain that the trapezoidal rule makes of springs and dashpots: it replaces iω by i·(2/Δt)·tan(ωΔt/2). Written
-/// here from x = f/E_m + ∫f/C_m + Σ x_l, C_l·ẋ_l + E_l·x_l = f.
+/// Returns the complex stiffness of the springs and dashpots under the trapezoidal rule, which replaces iω by
+/// i·(2/Δt)·tan(ωΔt/2). It follows from x = f/E_m + ∫f/C_m + Σ x_l, C_l·ẋ_l + E_l·x_l = f.
 Complex discrete_stiffness(const laws::GeneralisedKelvin& law, double dt) {
   const Complex rate(0, 2 / dt * std::tan(std::numbers::pi / per_cycle));
   Complex compliance = 1 / law.E_m + 1.0 / (rate * law.C_m);
@@ -36,16 +37,18 @@ Complex discrete_stiffness(const laws::GeneralisedKelvin& law, double dt) {
   return 1.0 / compliance;
 }
 
-/// The smooth start's cycles, and what it leaves of a ringing that does not die out: the velocity starts as
-/// 3·(π/2R)²·k²/2 of its peak over R steps, a quarter of whose second difference alternates; of that the fit of one
-/// cycle takes 8.0 over the steps of a cycle (4.9 if it did not fit the second harmonic). Twice the hundredth that 4.9
-/// was first counted as, times 8.0/4.9.
+/// Number of cycles of the smooth start, and a bound for the error that it leaves if the response rings without dying
+/// out. Over R steps of the start the velocity begins as 3·(π/2R)²·k²/2 of its peak at step k. A quarter of its second
+/// difference alternates from step to step; the fit of one cycle takes 8.0 over the steps of a cycle of that (4.9 if it
+/// did not fit the second harmonic). The bound is 2·1.5·(π/2R)² over the steps of a cycle, which was set for a fit
+/// without the second harmonic, times 8.0/4.9.
 constexpr std::int64_t ramp_cycles = 10;
 constexpr double smooth_start =
     2 * 1.5 * 2.4674 * (8.0 / 4.9) / (ramp_cycles * per_cycle * ramp_cycles * per_cycle) / per_cycle;
 
-/// A sudden start of a Maxwell unit with τ far below the step. The rule multiplies what does not fit by
-/// −(1 − 2τ/Δt)/(1 + 2τ/Δt) a step: f, which should be η·v at once and starts from 0, swings about it for Δt/4τ steps.
+/// Checks a sudden start of a Maxwell unit with τ far below the time step. The rule multiplies the deviation from η·v
+/// by −(1 − 2τ/Δt)/(1 + 2τ/Δt) in each step. So f, which should equal η·v immediately but starts from 0, alternates
+/// about it for Δt/4τ steps.
 void ringing(Rows& rows, double dt) {
   for (const double tau : {1e-6, 1e-4, 1e-2}) {
     const auto scene = one_contact({modulus, modulus * tau * dt, {}, {}, 0});
@@ -112,8 +115,8 @@ Rows relaxation_times(Effort effort) {
     options.dt = loading.dt();
     options.geometry = Geometry::fixed;
     options.boundary = moving_top(loading);
-    // The start dies out with the slowest relaxation time, and as (1 − 4τ/Δt)^k where τ is below the step. The smooth
-    // start hardly excites the latter; of the former the fit takes offset and trend, and its curvature is left.
+    // The start decays with the slowest relaxation time, and as (1 − 4τ/Δt)^k for a τ below the step. The smooth start
+    // hardly excites the latter. The fit removes offset and trend of the former; the curvature remains.
     const double memory = std::max({slowest, 1 / fastest, 10.0});
     const std::int64_t cycles = std::min(most, static_cast<std::int64_t>(40 * memory)) / per_cycle + 20;
     const double settled = static_cast<double>(cycles * per_cycle);
@@ -126,7 +129,7 @@ Rows relaxation_times(Effort effort) {
       const auto stepper = make(setting, scene, options);
       const Stiffness found =
           evaluate_cyclic(last_cycle(*stepper, scene.specimen, loading, cycles), loading.frequency, 1).fit;
-      // The box is one contact: stress over strain is f/x, but for the box's height over the contact's distance.
+      // the box holds a single contact, so stress over strain is f/x times (box height / contact distance)
       const double scale = scene.network.contacts[0].distance / scene.specimen.box.size.z;
       const bool mixed = setting.precision == Precision::mixed;
       rows.push_back(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file report.hpp  The table as CSV, of which scripts/documents makes docs/stability.md.
+/// \file report.hpp  Writes the results as CSV, from which scripts/documents makes docs/stability.md.
 #pragma once
 
 #include <filesystem>
@@ -8,25 +8,26 @@
 
 namespace macadam::stability {
 
-/// A case that has run.
+/// Results of a case.
 struct Outcome {
   Case of;
   Rows rows;
   double seconds = 0;
-  std::string error;  ///< what it threw; a failure
+  std::string error;  ///< message of the exception that stopped the case, which counts as a failure; empty if there was
+                      ///< none
 
-  int failed() const;  ///< rows that do not pass, and one for an error
+  int failed() const;  ///< number of rows that do not pass, plus one for an error
 };
 
-/// Where and when, as the head says it.
+/// When and on what machine the cases ran, for the head of the file.
 struct Circumstances {
   std::string date, commit, processor, effort;
-  std::string cuda;  ///< in words: run, or why not
+  std::string cuda;  ///< device on which cuda ran, or why it was skipped
 };
 
 void write_csv(const std::filesystem::path& file, const std::vector<Outcome>& outcomes, const Circumstances& where);
 
-/// One line of a row for a terminal.
+/// Returns a row as one line for a terminal.
 std::string to_line(const Row& row);
 
 }  // namespace macadam::stability

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rigid_turn.cpp  A specimen turned once about an oblique axis: led on exact circles, and by its own spin.
+// rigid_turn.cpp  Turns a specimen once about an oblique axis: moved on exact circles, and rotating freely.
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
@@ -20,9 +20,10 @@ test::TestScene free_assembly() {
   return test::make_scene(test::random_specimen(41, 3, 3, 3), spec, elastic_laws());
 }
 
+/// The axis of the turn.
 const Vec3d oblique = (1 / std::sqrt(14.0)) * Vec3d{1, -2, 3};
 
-Vec3d turned(const Vec3d& v, double by, const Vec3d& axis = oblique) {  // Rodrigues
+Vec3d turned(const Vec3d& v, double by, const Vec3d& axis = oblique) {  // rotation by Rodrigues' formula
   return std::cos(by) * v + std::sin(by) * cross(axis, v) + (1 - std::cos(by)) * dot(axis, v) * axis;
 }
 
@@ -36,7 +37,7 @@ Vec3d centre_of_mass(const test::TestScene& scene) {
   return (1 / mass) * sum;
 }
 
-/// Axis of the largest moment of inertia. About any other a free body does not keep turning.
+/// Returns the axis of the largest moment of inertia, about which a free body rotates steadily.
 Vec3d principal_axis(const test::TestScene& scene, const Vec3d& centre) {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < scene.specimen.size(); ++i) {
@@ -48,15 +49,16 @@ Vec3d principal_axis(const test::TestScene& scene, const Vec3d& centre) {
   return {axis.x(), axis.y(), axis.z()};
 }
 
-/// Extent of the assembly over the smallest distance of a contact: how much larger than a contact's own displacements
-/// the velocities are whose differences they are.
+/// Returns half the box's diagonal over the smallest distance of a contact. The velocities are larger than the relative
+/// velocities at a contact by this factor, and so is their rounding error.
 double extent(const test::TestScene& scene) {
   double least = INFINITY;
   for (const Contact& c : scene.network.contacts) least = std::min(least, c.distance);
   return norm(scene.specimen.box.size) / 2 / least;
 }
 
-/// Masses so large that the moves given step by step are kept whatever the forces.
+/// Moves the particles on exact circles for a full turn. Their masses are so large that the given velocities do not
+/// change.
 void led(Rows& rows, const Setting& setting, ContactForm form, std::int64_t steps) {
   test::TestScene scene = free_assembly();
   scene.inertia.mass.assign(scene.specimen.size(), 1e30);
@@ -83,8 +85,9 @@ void led(Rows& rows, const Setting& setting, ContactForm form, std::int64_t step
   }
   double area = 0;
   for (const Contact& c : scene.network.contacts) area = std::max(area, c.area);
-  // The chord 2·sin(θ/2)·d against the arc θ·d slips by d·θ³/24 a step. Velocities round by ε of the assembly's extent:
-  // a walk in double and mixed; in single the displacements, and with them the normals, round as well.
+  // A step moves a particle along the chord 2·sin(θ/2)·d but rotates it by the arc θ·d, which causes a slip of d·θ³/24.
+  // Velocities round by ε times the assembly's extent: a random walk in double and mixed. In single precision
+  // displacements, and therefore normals, round too.
   const double slip = full_turn * angle * angle / 24;
   const double walk = setting.rounding() * extent(scene) * std::sqrt(static_cast<double>(steps)) *
                       (setting.precision == Precision::single ? full_turn : 10 * angle);
@@ -94,7 +97,7 @@ void led(Rows& rows, const Setting& setting, ContactForm form, std::int64_t step
                   force / (3e10 * area)});
 }
 
-/// A free assembly that spins once by itself; it stretches by ρω²R²/E and swings about that.
+/// Lets a free assembly rotate once. It stretches by ρω²R²/E and oscillates about that.
 void spun(Rows& rows, const Setting& setting, std::int64_t steps) {
   const test::TestScene scene = free_assembly();
   StepperOptions options;
@@ -104,7 +107,7 @@ void spun(Rows& rows, const Setting& setting, std::int64_t steps) {
   const Vec3d centre = centre_of_mass(scene), axis = principal_axis(scene, centre);
   const std::size_t n = scene.specimen.size();
   std::vector<Vec3d> velocity(n);
-  // The chord that starts at the first place; the mean of the velocities half a step before and after.
+  // the velocity is the chord from the initial position to the position after one step
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3d x = scene.specimen.centre[i] - centre;
     velocity[i] = (1 / options.dt) * (turned(x, rate * options.dt, axis) - x);
@@ -116,7 +119,7 @@ void spun(Rows& rows, const Setting& setting, std::int64_t steps) {
   const ParticleState after = stepper->particles();
 
   const double radius = norm(scene.specimen.box.size) / 2;
-  const double strain = 2630 * rate * rate * radius * radius / 3e10;  // centrifugal, of the farthest point
+  const double strain = 2630 * rate * rate * radius * radius / 3e10;  // centrifugal strain at the farthest point
   const double angle = full_turn / static_cast<double>(steps);
   const double walk = setting.rounding() * extent(scene) * std::sqrt(static_cast<double>(steps));
   const double rounding = setting.precision == Precision::single ? full_turn * walk : 10 * walk;
@@ -128,7 +131,8 @@ void spun(Rows& rows, const Setting& setting, std::int64_t steps) {
   rows.push_back({name, setting.name(), "kinetic energy / that of the start − 1", -4 * strain - rounding,
                   4 * strain + rounding, "what stretches it is taken from the motion: of the order of the strain",
                   kinetic_energy(scene, after) / energy - 1});
-  // The angular momentum of the half step belongs to the middle of its chord; taken at its end both are off alike.
+  // The half-step angular momentum belongs to the middle of the step's chord. Both values are taken at its end, so both
+  // have the same error.
   const Momenta first = momenta(scene, before), last = momenta(scene, after, true);
   rows.push_back({name, setting.name(), "angular momentum gained, relative", 0,
                   2 * setting.rounding() * std::sqrt(static_cast<double>(steps * static_cast<std::int64_t>(n))),

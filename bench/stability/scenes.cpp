@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scenes.cpp  Scenes and measures that the cases share.
+// scenes.cpp  Scenes and measurements that several cases use.
 #include <cmath>
 #include <complex>
 #include <mutex>
@@ -31,7 +31,7 @@ laws::GeneralisedKelvin quick_law(double dt) { return {1e10, 1e10 * 300 * dt, {2
 
 Specimen generated_specimen(std::uint64_t seed, int particles) {
   SpecimenSpec spec;
-  const double edge = 1.7e-3 * std::cbrt(particles);  // a mastic sphere of 0.75–1.00 mm takes about 1.7³ mm³
+  const double edge = 1.7e-3 * std::cbrt(particles);  // each mastic sphere of 0.75–1.00 mm takes about 1.7³ mm³
   spec.box.size = {edge, edge, edge};
   spec.seed = seed;
   AggregateClass aggregate;
@@ -114,7 +114,8 @@ double energy_over_bound(const Setting& setting, const test::TestScene& scene, c
   const double share = options.dt / limit;
   const double bound = kinetic_energy(scene, stepper->particles()) / (1 - share * share);
   double largest = 0;
-  const std::int64_t stride = std::max<std::int64_t>(1, steps / 400) | 1;  // odd: in step with no mode at the limit
+  // odd, so that samples do not coincide with the period of a mode at the limit
+  const std::int64_t stride = std::max<std::int64_t>(1, steps / 400) | 1;
   for (std::int64_t done = 0; done < steps; done += stride) {
     stepper->advance(stride);
     const double energy = kinetic_energy(scene, stepper->particles());

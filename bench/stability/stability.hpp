@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stability.hpp  Stability under stress: cases that state what must come out, measure it and judge themselves.
+/// \file stability.hpp  Stability of the stepping under extreme conditions. Each case states the expected result,
+/// measures it and gives a verdict.
 ///
-/// A case is a function from an effort to rows. The program stability_bench runs them all and writes the table;
-/// tests/stability_test.cpp runs the same functions with little effort.
+/// A case is a function that takes an effort and returns rows. The program stability_bench runs all cases and writes
+/// the table; tests/stability_test.cpp runs the same functions with little effort.
 #pragma once
 
 #include <functional>
@@ -14,37 +15,37 @@
 
 namespace macadam::stability {
 
-/// How long a case may take: seconds in all (`test`), below a minute (`quick`), a quarter of an hour (`full`).
+/// How long the cases may take together: seconds (`test`), less than a minute (`quick`), a quarter of an hour (`full`).
 enum class Effort { test, quick, full };
 
-/// The entry of three that belongs to an effort.
+/// Returns the one of three values that belongs to an effort.
 template <class T>
 T by_effort(Effort effort, T test, T quick, T full) {
   return effort == Effort::test ? test : effort == Effort::quick ? quick : full;
 }
 
-/// Who computes, and how precisely.
+/// Backend and precision of a run.
 struct Setting {
   Backend backend = Backend::cpu;
   Precision precision = Precision::double_;
-  /// e.g. `"cpu, double"`
+  /// Returns for example `"cpu, double"`.
   std::string name() const;
-  /// Unit roundoff of what contacts see: 2⁻⁵³, or 2⁻²⁴ where geometry is in single precision.
+  /// Unit roundoff of the contact geometry: 2⁻⁵³, or 2⁻²⁴ where it is in single precision.
   double rounding() const { return precision == Precision::double_ ? 0x1p-53 : 0x1p-24; }
 };
 
-/// cpu in every precision, then cuda where a device answers.
+/// Returns cpu in every precision, then cuda in every precision if a device is available.
 std::vector<Setting> settings();
 
-/// One line of the table. It passes where low ≤ measured ≤ high (never for NaN).
+/// One line of the table. It passes if low ≤ measured ≤ high (never for NaN).
 struct Row {
-  std::string what;          ///< which variant of the case
-  std::string setting;       ///< Setting::name(), or what computed it
-  std::string quantity;      ///< what is measured, with its unit
-  double low = 0, high = 0;  ///< what is expected
-  std::string reason;        ///< why
+  std::string what;          ///< variant of the case
+  std::string setting;       ///< Setting::name(), or the name of another solver
+  std::string quantity;      ///< name of the measured quantity, with its unit
+  double low = 0, high = 0;  ///< expected range
+  std::string reason;        ///< reason for the expected range
   double measured = 0;
-  bool detail = false;  ///< in the CSV only, not on the page that scripts/documents makes of it
+  bool detail = false;  ///< only in the CSV, not on the page that scripts/documents makes from it
   bool pass() const { return low <= measured && measured <= high; }
 };
 using Rows = std::vector<Row>;
@@ -59,64 +60,69 @@ struct Case {
 /// All cases, in the order of the table.
 const std::vector<Case>& cases();
 
-Rows step_sweep(Effort);         ///< 0.5 … 1.1 of 2/ω_max
-Rows step_bound(Effort);         ///< critical_step() against 2/ω_max on 20 specimens
-Rows stiffness_ratios(Effort);   ///< 1 … 1e6 between the phases
-Rows size_ratios(Effort);        ///< 1:1 … 1:50
-Rows slivers(Effort);            ///< facets down to 1e-8 of the mean
-Rows relaxation_times(Effort);   ///< 1e-6 … 1e6 steps
+Rows step_sweep(Effort);         ///< time steps of 0.5 … 1.1 of 2/ω_max
+Rows step_bound(Effort);         ///< critical_step() compared with 2/ω_max on 20 specimens
+Rows stiffness_ratios(Effort);   ///< stiffness ratios of 1 … 1e6 between the phases
+Rows size_ratios(Effort);        ///< radius ratios of 1:1 … 1:50
+Rows slivers(Effort);            ///< facets down to 1e-8 of the mean area
+Rows relaxation_times(Effort);   ///< relaxation times of 1e-6 … 1e6 steps
 Rows long_free(Effort);          ///< 1e8 steps of two particles, 1e7 of a hundred: energy and momenta
-Rows long_driven(Effort);        ///< likewise: E*
-Rows strain_amplitudes(Effort);  ///< 1e-6 … 1e-2, both geometries
-Rows recovery(Effort);           ///< load, hold, reversal, release
-Rows rigid_turn(Effort);         ///< a full turn
+Rows long_driven(Effort);        ///< the same numbers of steps under load: E*
+Rows strain_amplitudes(Effort);  ///< strains of 1e-6 … 1e-2, with both geometries
+Rows recovery(Effort);           ///< displacement after load, hold, reversal and release
+Rows rigid_turn(Effort);         ///< a full turn of a free specimen
 
-// ---- scenes and measures that cases share (scenes.cpp)
+// ---- scenes and measurements that several cases use (scenes.cpp)
 
-/// Elastic contacts everywhere, 30 GPa and α = 0.3: nothing takes energy.
+/// Returns elastic contacts of 30 GPa and α = 0.3 everywhere, which dissipate no energy.
 test::Laws elastic_laws();
 
-/// A chain that settles within a few hundred steps of `dt` and still dissipates: a steady state is soon reached.
+/// Returns a law that reaches a steady state within a few hundred steps of `dt` and still dissipates energy.
 laws::GeneralisedKelvin quick_law(double dt);
 
-/// About `particles` spheres by the generator: some aggregates in mastic.
+/// Returns about `particles` generated spheres: some aggregates in mastic.
 Specimen generated_specimen(std::uint64_t seed, int particles);
 
-/// The same contacts with four points each that have the six area moments of `Contact::moments`, so that the reference,
-/// which sums over points, sees the network's own quadrature: with the covariance C = L·Lᵀ of the facet, points at the
-/// centroid ± √2·L's columns and a quarter of the area each have Σ A_J·x·xᵀ = A·C.
+/// Returns the same contacts with four points each, which have the six area moments of `Contact::moments`. The
+/// reference sums over points, so it then uses the quadrature of the network. The points are at the centroid ± √2 times
+/// the columns of L, where C = L·Lᵀ is the covariance of the facet, with a quarter of the area each; then Σ A_J·x·xᵀ =
+/// A·C.
 ContactNetwork with_points_of_moments(const ContactNetwork& network);
 
-/// 2/ω_max by the reference's dense spectrum, moments of the network's own quadrature.
+/// Returns 2/ω_max from the dense eigenvalues of the reference implementation, with the moments of the network's
+/// quadrature.
 double true_limit(const test::TestScene& scene);
 
-/// The harmonic solution of a scene, one at a time: cases run side by side, the solver's libraries may share state.
+/// Returns the frequency-domain solution of a scene. Only one is computed at a time, because cases run in parallel and
+/// the solver's libraries may share state.
 HarmonicResult harmonic_solution(const test::TestScene& scene, double frequency, double density_scaling = 0,
                                  double residual = 1e-11);
 
-/// Random half-step velocities and spins up to `speed` (of centres, and of points on the surface).
+/// Sets random half-step velocities and spins up to `speed` (of the centres, and of points on the surface).
 void shake(Stepper& stepper, const test::TestScene& scene, double speed);
 
-/// ½·m·v² + ½·I·ω² at the half step [J].
+/// Returns ½·m·v² + ½·I·ω² at the half step [J].
 double kinetic_energy(const test::TestScene& scene, const ParticleState& state);
 
-/// Stepper of a setting.
+/// Returns a stepper with a setting.
 std::unique_ptr<Stepper> make(const Setting& setting, const test::TestScene& scene, StepperOptions options);
 
-/// Largest kinetic energy over what leapfrog allows, from a shaken start with nothing stretched. Leapfrog keeps
-/// H = ½·v(k−½)·M·v(k+½) + ½·q·K·q ≥ (1 − (Δt/limit)²)·kinetic, and at the start H is the kinetic energy: at most 1.
+/// Returns the largest kinetic energy of a run over the bound for leapfrog. The run starts from random velocities
+/// without deformation. Leapfrog keeps H = ½·v(k−½)·M·v(k+½) + ½·q·K·q ≥ (1 − (Δt/limit)²)·kinetic energy, and
+/// initially H is the kinetic energy, so the result must be at most 1.
 double energy_over_bound(const Setting& setting, const test::TestScene& scene, const StepperOptions& options,
                          double limit, std::int64_t steps, double speed = 1e-3);
 
-/// Steps `cycles` cycles of a loaded stepper and returns 100 samples of the last, and the first of the next.
-/// \throws RunError where it diverges.
+/// Steps a loaded stepper through `cycles` cycles. Returns 100 samples of the last cycle, and the first sample of the
+/// next. \throws RunError if it diverges.
 std::vector<ResponseSample> last_cycle(Stepper& stepper, const Specimen& specimen, const drives::Cyclic& loading,
                                        std::int64_t cycles);
 
-/// E* of the fundamental of one cycle, by its Fourier sum: harmonics do not leak into it, a drift does.
+/// Returns E* of the fundamental frequency of one cycle, as a Fourier sum. Higher harmonics do not affect it; a drift
+/// does.
 Stiffness fundamental(const std::vector<ResponseSample>& samples);
 
-/// |E₁·e^{iφ₁} − E₂·e^{iφ₂}| / |E₂|
+/// Returns |E₁·e^{iφ₁} − E₂·e^{iφ₂}| / |E₂|.
 double stiffness_difference(const Stiffness& found, const Stiffness& expected);
 
 }  // namespace macadam::stability

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stability_bench.cpp  Runs the cases and writes the table. Exit code 1 where a line fails.
+// stability_bench.cpp  Runs the cases and writes the table. The exit code is 1 if a line fails.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using namespace macadam::stability;
 
-/// The processor's name as the system says it.
+/// Returns the processor's name from /proc/cpuinfo.
 std::string processor() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);) {
@@ -26,6 +26,7 @@ std::string processor() {
   return "unknown processor";
 }
 
+/// Prints the verdict of a case and its main rows; details only if they fail.
 void print(const Outcome& outcome) {
   std::string text = fmt::format("{}: {} lines, {} failed, {:.1f} s\n", outcome.of.name, outcome.rows.size(),
                                  outcome.failed(), outcome.seconds);
@@ -37,6 +38,7 @@ void print(const Outcome& outcome) {
   std::fflush(stdout);
 }
 
+/// Runs a case and measures its time; an exception becomes its error.
 void run_case(Outcome& out, Effort effort) {
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -45,7 +47,7 @@ void run_case(Outcome& out, Effort effort) {
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Two cases side by side, the longest first; each steps on one thread.
+/// Runs `jobs` cases in parallel, the longest first; each steps on one thread.
 void run_all(std::vector<Outcome>& outcomes, Effort effort, int jobs) {
   std::vector<Outcome*> order;
   for (Outcome& outcome : outcomes) order.push_back(&outcome);

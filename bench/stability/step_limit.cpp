@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step_limit.cpp  Steps around the true limit 2/ω_max, and the computed step against it.
+// step_limit.cpp  Time steps around the true limit 2/ω_max, and critical_step() compared with that limit.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,6 +11,7 @@
 namespace macadam::stability {
 namespace {
 
+/// A combination of law, quadrature, form and geometry.
 struct Variant {
   const char* name;
   bool am1;
@@ -27,9 +28,11 @@ constexpr Variant variants[] = {
     {"AM1, lumped, condensed", true, Quadrature::lumped, ContactForm::condensed, Geometry::fixed},
 };
 
+/// Relative resolution of the bisection in onset().
 constexpr double onset_resolution = 1e-3;
 
-/// Largest change of H, of its start, over a run of a shaken elastic network with fixed geometry.
+/// Returns the largest relative change of H over a run of an elastic network with fixed geometry, from random
+/// velocities.
 double energy_drift(const Setting& setting, const test::TestScene& scene, const Modes& modes,
                     const StepperOptions& options, std::int64_t steps) {
   const auto stepper = make(setting, scene, options);
@@ -44,7 +47,7 @@ double energy_drift(const Setting& setting, const test::TestScene& scene, const 
   return drift;
 }
 
-/// Growth of the amplitude a step, as a logarithm, far into the growth.
+/// Returns the logarithm of the amplitude's growth per step, measured when the motion has grown a lot.
 double growth(const Setting& setting, const test::TestScene& scene, const StepperOptions& options, double expected) {
   const auto stepper = make(setting, scene, options);
   shake(*stepper, scene, 1e-3);
@@ -56,8 +59,8 @@ double growth(const Setting& setting, const test::TestScene& scene, const Steppe
   return 0.5 * std::log(after / before) / static_cast<double>(second);
 }
 
-/// The largest share of the limit without growth, by bisection between 0.9 and 1.1 of `expected`: a run has blown up
-/// once its energy is a thousandfold.
+/// Returns the largest time step without growth, as a fraction of the limit, by bisection between 0.9 and 1.1 of
+/// `expected`. A run counts as unstable if its kinetic energy has grown a thousandfold.
 double onset(const Setting& setting, const test::TestScene& scene, StepperOptions options, double limit,
              double expected, std::int64_t steps) {
   double stable = 0.9 * expected, unstable = 1.1 * expected;
@@ -99,7 +102,7 @@ Rows step_sweep(Effort effort) {
                         1 + 1e-3, "", found, true});
         worst = std::max(worst, found);
         if (!linear) continue;
-        // Near the limit H is a small difference of what a step adds and takes.
+        // near the limit H is the small difference of two large terms, so its relative change is weighted
         const double drift = energy_drift(setting, scene, *modes, options, steps) * (1 - share * share);
         worst_drift = drift > worst_drift || std::isnan(drift) ? drift : worst_drift;
       }
@@ -114,7 +117,7 @@ Rows step_sweep(Effort effort) {
                         "linear and without loss: H is kept exactly, a random walk of ten roundings a step",
                         worst_drift});
       }
-      if (v.geometry == Geometry::updated) continue;  // a growing motion leaves the linear range that the rate is of
+      if (v.geometry == Geometry::updated) continue;  // growing motion leaves the linear range in which the rate holds
       for (const double share : {1.01, 1.02, 1.05, 1.1}) {
         options.dt = share * limit;
         const double expected = 2 * std::acosh(share);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// strain_amplitudes.cpp  Strains of 1e-6 … 1e-2: where does the geometry of the start stop being good enough?
+// strain_amplitudes.cpp  Strains of 1e-6 … 1e-2: up to which strain is fixed geometry accurate enough?
 #include <cmath>
 #include <numbers>
 
@@ -14,8 +14,8 @@ constexpr double strains[] = {1e-6, 1e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2};
 constexpr const char* crossing_modulus = "strain at which E* of `fixed` is off by 1e-5";
 constexpr const char* crossing_stress = "strain at which stresses of `fixed` are off by 1e-3 of the amplitude (rms)";
 
-/// Where a curve of differences over strains first reaches `level`, by logarithmic interpolation; infinite
-/// where it never does.
+/// Returns the strain at which a curve of differences first reaches `level`, by logarithmic interpolation; infinity if
+/// it never does.
 double first_reaching(const std::vector<double>& difference, double level) {
   for (std::size_t i = 1; i < difference.size(); ++i) {
     if (difference[i] < level) continue;
@@ -42,10 +42,10 @@ Rows strain_amplitudes(Effort effort) {
 
   for (const Setting& setting : settings()) {
     if (effort != Effort::full && setting.precision != Precision::double_) continue;
-    // a walk of some ten roundings a step on what the contacts see
+    // a random walk of about ten roundings per step of the contact geometry
     const double rounding = 10 * setting.rounding() * std::sqrt(4.0 * static_cast<double>(loading.steps_per_period));
     std::vector<double> of_modulus, of_stress;
-    Stiffness smallest, largest;  // of `fixed`
+    Stiffness smallest, largest;  // E* with fixed geometry
     for (const double strain : strains) {
       StepperOptions options;
       loading.amplitude = strain * scene.specimen.box.size.z;

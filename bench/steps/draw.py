@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figure of the lattices in a table of bench/steps/table: bench/steps/draw.py TABLE.csv writes TABLE.png and TABLE.svg."""
+"""Draws a figure of the lattices in a table of bench/steps/table: `bench/steps/draw.py TABLE.csv` writes TABLE.png
+and TABLE.svg."""
 import csv
 import sys
 from pathlib import Path
@@ -15,7 +16,7 @@ MARKER = {"tiles on the chip": "o", "tiles streamed": "^", "two kernels a step":
 
 
 def lattices(path):
-    """(precision, way, contacts, µs a step)"""
+    """Yields (precision, kernels, contacts, µs per step) for each lattice."""
     for row in csv.DictReader(line for line in open(path, encoding="utf-8") if not line.startswith("#")):
         words = row["row"].split("/")
         if len(words) == 6 and words[1].startswith("lattice:"):

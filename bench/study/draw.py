@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""bench/results/study-map.png: the map of the study's report, from bench/results/study.csv."""
+"""Draws bench/results/study-map.png, the map of the study's report, from bench/results/study.csv."""
 from pathlib import Path
 
 import pandas as pd

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs examples/study and writes what it finds and takes: measure.py WORKERS DIR"""
+"""Runs examples/study and writes its results and its cost. Usage: measure.py WORKERS DIR"""
 import csv
 import json
 import sys
@@ -11,7 +11,7 @@ from macadam.study.job import machine
 
 RESULTS = Path(__file__).resolve().parents[1] / "results"
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "study" / "study.toml"
-# of the committed file, and of the study's table with a factor
+# column of the committed file: column of the study's table, and a factor
 COLUMNS = {"air_voids_percent": ("specimen.recipe.air_voids_percent", 1), "binder_percent": ("specimen.recipe.binder_percent", 1),
            "seed": ("specimen.seed", 1), "e_star_mpa": ("e_star_pa", 1e-6), "phase_deg": ("phase_deg", 1),
            "particles": ("particles", 1)}

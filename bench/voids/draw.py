@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""draw.py FILE.csv: |E*| and phase angle over the air voids, FILE.png and FILE.svg."""
+"""Draws |E*| and phase angle against the air voids: `draw.py FILE.csv` writes FILE.png and FILE.svg."""
 import csv
 import sys
 from pathlib import Path

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""measure.py PROGRAM SEEDS FILE.csv: specimens of bench/voids/scene.toml with more and more voids, a row a frequency."""
+"""Computes |E*| of specimens of bench/voids/scene.toml with increasing void fractions: `measure.py PROGRAM SEEDS
+FILE.csv`. Writes one row per specimen and frequency."""
 import csv
 import json
 import subprocess
@@ -10,7 +11,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 FRACTIONS = [0, 0.02, 0.04, 0.06, 0.08, 0.10]
-RADII = [("0.5", "0.75"), ("0.75", "1.0"), ("1.0", "1.5")]  # mm; larger ones find no room between the aggregates
+RADII = [("0.5", "0.75"), ("0.75", "1.0"), ("1.0", "1.5")]  # [mm]; larger voids do not fit between the aggregates
 COLUMNS = ["radius_min_mm", "radius_max_mm", "fraction", "seed", "voids", "particles", "void_cells", "mastic",
            "frequency_hz", "e_star_pa", "phase_deg"]
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cases.cpp  Texts of the command line as specimens.
+// cases.cpp  Turns texts of the command line into specimens.
 #include "host/bench/cases.hpp"
 
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cases.hpp  What is timed: specimens of scenes, and lattices of any size.
+/// \file cases.hpp  Specimens for `macadam bench`: specimens of scenes, and lattices of any size.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace macadam::bench {
 
-/// A specimen with all that a step needs.
+/// A specimen with everything that a step needs.
 struct BenchCase {
   std::string name;
   Specimen specimen;
@@ -17,19 +17,20 @@ struct BenchCase {
   Inertia inertia;
 };
 
-/// About `particles` spheres of 1 mm in a jittered face-centred cubic lattice; pair types in the proportions of the
-/// specimen SS of [1], laws AM1. Condensed form only: the facets have no points. Walls: the lowest and the highest
-/// layer touch a wall.
+/// Returns about `particles` spheres of 1 mm diameter in a jittered face-centred cubic lattice. The pair types have the
+/// proportions of specimen SS of [1], the laws are those of binder AM1. For the condensed form only, because the facets
+/// have no points. With `walls`, the lowest and the highest layer touch a wall.
 BenchCase lattice(std::size_t particles, bool walls);
 
-/// "lattice:1e5", or the file of a scene: its specimen is made, or read, with its contacts; or a specimen.csv, with the
-/// box, the laws and the contacts of a scene: "scene.toml=specimen.csv". \throws InputError
+/// Returns the specimen that a text names: "lattice:1e5"; the file of a scene, whose specimen is generated or read,
+/// with its contacts; or "scene.toml=specimen.csv", a specimen file with the box, laws and contact rules of the scene.
+/// \throws InputError
 BenchCase case_of(const std::string& text);
 
-/// Every law as the spring that it is at once.
+/// Returns elastic laws with the instantaneous stiffness of the given ones.
 LawTable elastic(LawTable laws);
-/// The same laws with so many Kelvin units, each with the compliances of the first over their number; what is elastic
-/// stays so.
+/// Returns the laws with `units` Kelvin units each. Every unit has the stiffness and viscosity of the first unit times
+/// `units`, so that the total compliance of the chain does not depend on their number. Elastic laws do not change.
 LawTable with_units(LawTable laws, int units);
 
 }  // namespace macadam::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// json.cpp  Google Benchmark's format: a context, and an entry for every repetition of every row.
+// json.cpp  Google Benchmark's format: a context, and one entry per repetition of each row.
 #include "host/bench/json.hpp"
 
 #include <fmt/chrono.h>
@@ -28,10 +28,12 @@ std::string processor() {
   return "unknown";
 }
 
+/// Returns the seconds of a unit of time of Google Benchmark.
 double factor_of(const std::string& unit) {
   return unit == "ns" ? 1e-9 : unit == "us" ? 1e-6 : unit == "ms" ? 1e-3 : 1;
 }
 
+/// Returns the mean and the standard deviation (n − 1); 0 for a single value.
 std::pair<double, double> mean_and_deviation(const std::vector<double>& list) {
   const double n = static_cast<double>(list.size()), mean = std::accumulate(list.begin(), list.end(), 0.0) / n;
   double squares = 0;
@@ -49,7 +51,7 @@ Json context_of(const MachineSpeed& machine, Backend backend) {
   out["host_name"] = host;
   out["executable"] = "macadam bench";
   out["num_cpus"] = std::thread::hardware_concurrency();
-  out["mhz_per_cpu"] = 0;  // not asked: it changes as it runs
+  out["mhz_per_cpu"] = 0;  // not determined, because the frequency changes during the run
   out["cpu_scaling_enabled"] = false;
   out["caches"] = Json::array();
   out["load_avg"] = Json::array();
@@ -113,7 +115,7 @@ Json json_of(const Json& context, const std::vector<BenchRow>& rows) {
     aggregate("mean", "time", mean);
     aggregate("median", "time", median(row.seconds));
     aggregate("stddev", "time", deviation);
-    aggregate("cv", "percentage", 1e-6 * deviation / mean);  // a share, in place of microseconds
+    aggregate("cv", "percentage", 1e-6 * deviation / mean);  // a ratio: 1e-6 cancels the conversion to microseconds
   }
   return out;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file json.hpp  Rows as Google Benchmark writes them, so that its compare.py reads them.
+/// \file json.hpp  Writes and reads rows in Google Benchmark's JSON format, so that its compare.py can read them.
 #pragma once
 
 #include <filesystem>
@@ -9,24 +9,27 @@
 
 namespace macadam::bench {
 
-/// Machine, versions, date: what a reader of the times must know.
+/// Returns the context that a reader needs to judge the times: machine, versions, date.
 nlohmann::ordered_json context_of(const MachineSpeed& machine, Backend backend);
 
-/// Every repetition, and mean, median, standard deviation and coefficient of variation where there are several.
+/// Returns an entry for every repetition. Rows with several repetitions also get entries for mean, median, standard
+/// deviation and coefficient of variation.
 nlohmann::ordered_json json_of(const nlohmann::ordered_json& context, const std::vector<BenchRow>& rows);
 
-/// Names and repetitions of a file of this kind, of Macadam's or of any program's. \throws InputError
+/// Reads names and repetitions from a file in this format, written by Macadam or by any other program. \throws
+/// InputError
 std::vector<BenchRow> read_rows(const std::filesystem::path& file);
 
-/// A row of both files, compared.
+/// Comparison of a row that both files contain.
 struct Comparison {
   std::string name;
   double before, now;   ///< medians [s]
-  bool slower, faster;  ///< beyond noise
+  bool slower, faster;  ///< whether the difference is larger than noise
 };
 
-/// Rows of the same names. Slower beyond noise: by more than 2 % in the median, and every repetition slower than every
-/// one before, which seven and seven of the same thing are once in 3,432 times.
+/// Compares the rows with equal names. A row counts as slower if its median is more than 2 % larger and every
+/// repetition is slower than every repetition before. With seven repetitions each of the same program that happens by
+/// chance once in 3,432 comparisons.
 std::vector<Comparison> compare(const std::vector<BenchRow>& before, const std::vector<BenchRow>& now);
 
 }  // namespace macadam::bench

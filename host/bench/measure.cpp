@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// measure.cpp  Repetitions of many steps, everything in motion; of whole solutions, and of what comes before a step.
+// measure.cpp  Times repetitions of many steps with all particles moving, of whole frequency-domain solutions, and of
+// the preparation before the first step.
 #include "host/bench/measure.hpp"
 
 #include <fmt/format.h>
@@ -20,13 +21,15 @@ namespace macadam::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+/// Returns the wall time of a call [s].
 double seconds_of(const std::function<void()>& f) {
   const auto start = Clock::now();
   f();
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The best of nine copies of 256 MiB by so many threads: a copy has no better use for the memory.
+/// Returns the copy rate of nine copies of 256 MiB by `threads` threads [byte/s]. The best of them counts, because any
+/// disturbance only makes a copy slower.
 double processor_copy(int threads) {
   constexpr std::size_t size = std::size_t{256} << 20;
   std::vector<char> from(size, 1), to(size, 2);
@@ -45,7 +48,7 @@ double processor_copy(int threads) {
   return best;
 }
 
-/// What one combination is called; what says nothing is left out.
+/// Returns the name of a combination; values equal to the default are left out.
 std::string name_of(const std::string& what, const BenchCase& timed, const StepperOptions& o, Backend backend,
                     int units) {
   std::string out = fmt::format("{}/{}/{}/{}/{}/{}", what, timed.name, to_string(backend), to_string(o.form),
@@ -58,6 +61,7 @@ std::string name_of(const std::string& what, const BenchCase& timed, const Stepp
   return out;
 }
 
+/// Measures one specimen; each method adds one row.
 class Measured {
  public:
   Measured(const BenchCase& timed, const BenchAxes& axes, const std::function<void(const BenchRow&)>& told)
@@ -65,10 +69,12 @@ class Measured {
     if (backend_ == Backend::cuda) devices_ = device_numbers(axes.devices);
   }
 
+  /// Times steps. The number of steps per repetition is doubled until a repetition takes BenchAxes::seconds. Then the
+  /// parts of a step are timed separately. \throws RunError if the particles diverge.
   void steps(StepperOptions options, int units) {
     const LawTable laws = axes_.elastic ? elastic(case_.laws) : units < 0 ? case_.laws : with_units(case_.laws, units);
     const bool without_points = case_.network.point_area.empty();
-    if (options.form == ContactForm::points && without_points) return;  // a lattice has none
+    if (options.form == ContactForm::points && without_points) return;  // a lattice has no points
     drive(options, critical_step(case_.network, laws, case_.inertia, options).dt);
     const auto stepper = make_stepper(backend_, case_.specimen, case_.network, laws, case_.inertia, options);
     set_in_motion(*stepper);
@@ -83,7 +89,8 @@ class Measured {
       row.seconds.push_back(seconds_of([&] { stepper->advance(row.iterations); }) /
                             static_cast<double>(row.iterations));
     }
-    std::map<std::string, std::vector<double>> parts;  // of repetitions: one may be beside something else
+    // times of each repetition, whose median is used, because one repetition may be disturbed
+    std::map<std::string, std::vector<double>> parts;
     for (int k = 0; k < axes_.repetitions; ++k) {
       for (const PartTime& part : stepper->advance_timed(std::min<std::int64_t>(row.iterations, 2000)))
         parts[part.name].push_back(part.seconds);
@@ -93,6 +100,7 @@ class Measured {
     told_(row);
   }
 
+  /// Times iterative solutions of `loads` frequencies at the same time: 20 Hz and its halves.
   void harmonic(int loads, int threads) {
     BenchRow row = row_of(fmt::format("harmonic/{}/{}/loads:{}", case_.name, to_string(backend_), loads), threads);
     if (devices_.size() > 1) row.name += fmt::format("/devices:{}", devices_.size());
@@ -124,7 +132,8 @@ class Measured {
     told_(row);
   }
 
-  /// From particles to the first step: cells, contacts, the critical step, and arrays where they are stepped.
+  /// Times the preparation from particles to the first step: tessellation, contact network, critical time step, and the
+  /// arrays of the stepper with one step.
   void preparation(StepperOptions options) {
     BenchRow row = row_of(name_of("preparation", case_, options, backend_, -1), options.threads);
     if (options.threads > 0) omp_set_num_threads(options.threads);
@@ -161,7 +170,7 @@ class Measured {
   Backend backend() const { return backend_; }
 
  private:
-  static constexpr double long_enough = 30;  ///< seconds of all repetitions of a preparation
+  static constexpr double long_enough = 30;  ///< no further repetitions of a preparation after this total time [s]
 
   BenchRow row_of(std::string name, int threads) const {
     BenchRow out;
@@ -171,7 +180,7 @@ class Measured {
     return out;
   }
 
-  /// Steps of 20 Hz.
+  /// Sets up cyclic loading at 20 Hz with 0.8 of the critical time step.
   void drive(StepperOptions& options, double critical) const {
     drives::Cyclic loading{1e-4 * case_.specimen.box.size.z, 20, 1, 0};
     loading.steps_per_period = std::llround(std::ceil(1 / (loading.frequency * 0.8 * critical)));
@@ -181,6 +190,7 @@ class Measured {
     options.ranks = ranks();
   }
 
+  /// Gives all particles random velocities and runs some steps, so that no state is zero.
   void set_in_motion(Stepper& stepper) const {
     std::mt19937 random(2);
     const auto draw = [&](double most) { return most * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
@@ -193,6 +203,7 @@ class Measured {
     stepper.advance(backend_ == Backend::cuda ? 256 : 8);
   }
 
+  /// Adds the counters of a row: sizes, rates, bytes moved, parts of a step, and resources of the kernels.
   void count(BenchRow& row, const Stepper& stepper, const std::map<std::string, std::vector<double>>& parts) const {
     const auto contacts = static_cast<double>(case_.network.contacts.size());
     const double step = median(row.seconds);
@@ -246,7 +257,7 @@ MachineSpeed measure_machine(Backend backend, const DeviceList& devices, int thr
     out.devices.push_back(measure_device(device));
     out.copy += out.devices.back().copy;
   }
-  if (const Ranks* team = ranks()) {  // all have such a device
+  if (const Ranks* team = ranks()) {  // all ranks are taken to have the same device
     out.devices.resize(static_cast<std::size_t>(team->count()), out.devices.front());
     out.copy *= team->count();
   }

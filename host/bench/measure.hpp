@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file measure.hpp  Times of steps, of iterations and of preparations, repeated, with what explains them.
+/// \file measure.hpp  Measures times of steps, of frequency-domain solutions and of preparations, with repetitions and
+/// with counters that explain the times.
 #pragma once
 
 #include <functional>
@@ -11,44 +12,46 @@
 
 namespace macadam::bench {
 
-/// What to time of each case: a row for every combination.
+/// What to measure for each specimen: one row per combination of these values.
 struct BenchAxes {
   Backend backend = Backend::automatic;
   DeviceList devices;
-  std::vector<int> threads{0};  ///< of the CPU; 0: all
+  std::vector<int> threads{0};  ///< CPU threads; 0: all
   std::vector<ContactForm> forms{ContactForm::condensed};
   std::vector<Precision> precisions{Precision::single, Precision::mixed, Precision::double_};
   std::vector<Geometry> geometries{Geometry::fixed, Geometry::updated};
   std::vector<double> blocks{StepperOptions{}.blocks};  ///< as in StepperOptions
-  std::vector<int> units{-1};                           ///< Kelvin units; −1: those of the laws
-  bool elastic = false;                                 ///< every law as a spring
+  std::vector<int> units{-1};                           ///< number of Kelvin units; −1: as in the laws
+  bool elastic = false;                                 ///< replaces every law by a spring
   std::vector<int> multiprocessors{0};                  ///< as in StepperOptions
-  std::vector<int> loads{1, 4};                         ///< frequencies that are solved side by side
+  std::vector<int> loads{1, 4};                         ///< numbers of frequencies solved at the same time
   bool steps = true, harmonic = true, preparation = false;
   int repetitions = 7;
-  double seconds = 0.05;  ///< of a repetition, at the least
+  double seconds = 0.05;  ///< shortest duration of a repetition [s]
 };
 
-/// One thing that was timed.
+/// The result of one measurement.
 struct BenchRow {
   std::string name, label;      ///< label: what ran, in words
-  std::vector<double> seconds;  ///< of each repetition, a step, a solution or a preparation
-  std::int64_t iterations = 1;  ///< of these, in a repetition
+  std::vector<double> seconds;  ///< time per step, solution or preparation, one value per repetition [s]
+  std::int64_t iterations = 1;  ///< steps per repetition
   int threads = 1;
   std::vector<std::pair<std::string, double>> counters;
-  double of(const std::string& counter) const;  ///< 0 for none
+  double of(const std::string& counter) const;  ///< value of a counter; 0 if the row does not have it
 };
 
-/// Bandwidths to compare with, measured before the rows.
+/// Bandwidths for comparison, measured before the rows.
 struct MachineSpeed {
-  double copy = 0;                   ///< of the memory that the backend uses, bytes read and written [byte/s]
-  std::vector<DeviceSpeed> devices;  ///< backend cuda
+  double copy = 0;                   ///< copy rate of the memory that the backend uses, bytes read plus bytes written
+                                     ///< [byte/s]
+  std::vector<DeviceSpeed> devices;  ///< one per GPU; backend cuda only
 };
+/// Measures the bandwidths; `threads` of the CPU, 0: all.
 MachineSpeed measure_machine(Backend backend, const DeviceList& devices, int threads);
 
 double median(std::vector<double> list);
 
-/// Times a case; `told` is called with each row.
+/// Runs all measurements of a specimen and passes each row to `told`.
 void time_case(const BenchCase& timed, const BenchAxes& axes, const std::function<void(const BenchRow&)>& told);
 
 }  // namespace macadam::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// coarse_scan.cpp  Block means, a layer of blocks after the other.
+// coarse_scan.cpp  Computes block means one layer of blocks after the other.
 #include "host/ct/coarse_scan.hpp"
 
 #include "kernels/parallel.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// correction.cpp  Slices, rings and beam hardening, by the levels of the phases.
+// correction.cpp  Corrects slices, rings and beam hardening by the grey levels of the phases.
 #include "host/ct/correction.hpp"
 
 #include <Eigen/Dense>
@@ -11,7 +11,7 @@ namespace {
 
 using Grid = std::array<std::int64_t, 3>;
 
-/// Middle of the region, as voxel numbers.
+/// Returns the centroid of the region in the middle slice, in voxel indices.
 std::array<double, 2> middle_of(const Image<std::uint8_t>& region) {
   double x = 0, y = 0, n = 0;
   for (std::int64_t j = 0; j < region.size[1]; ++j) {
@@ -25,12 +25,13 @@ std::array<double, 2> middle_of(const Image<std::uint8_t>& region) {
              : std::array{0.5 * static_cast<double>(region.size[0] - 1), 0.5 * static_cast<double>(region.size[1] - 1)};
 }
 
-/// Levels of the whole and of parts of a scan; `part(i, j, k)` numbers them.
+/// Grey levels of the whole scan, and the brightness of each of its parts relative to them.
 struct Parts {
   GreyLevels whole;
   std::vector<PartLevel> each;
 };
 
+/// Computes the brightness of each part; `part(i, j, k)` returns the part to which a voxel belongs.
 template <class Part>
 Parts levels_of_parts(const Image<float>& scan, const Image<std::uint8_t>& region, std::size_t parts, Part&& part) {
   Parts out;
@@ -50,7 +51,8 @@ Parts levels_of_parts(const Image<float>& scan, const Image<std::uint8_t>& regio
   return out;
 }
 
-/// Takes what is brighter out of every voxel; `brighter(i, j, k)` says by how much. \returns the same for any place.
+/// Removes the extra brightness `brighter(i, j, k)` from every voxel (see PartLevel). \returns the correction as a
+/// function of position.
 template <class Brighter>
 CorrectionStep take_out(Image<float>& scan, const GreyLevels& whole, const Brighter& brighter) {
   for_each_in_parallel(static_cast<std::size_t>(scan.size[2]), [&](std::size_t slice) {
@@ -74,7 +76,7 @@ CorrectionStep take_out(Image<float>& scan, const GreyLevels& whole, const Brigh
   return step;
 }
 
-/// A value between those of whole numbers, that of the nearest beyond them.
+/// Returns the linear interpolation of `values` at index `at`; beyond the ends the nearest value.
 double between(const std::vector<double>& values, double at) {
   const double in = std::clamp(at, 0.0, static_cast<double>(values.size() - 1));
   const auto low = static_cast<std::size_t>(in);
@@ -82,13 +84,14 @@ double between(const std::vector<double>& values, double at) {
   return share > 0 ? (1 - share) * values[low] + share * values[low + 1] : values[low];
 }
 
-/// What brightness does to the aggregate's level, in shares of the contrast.
+/// Converts a brightness to the change of the aggregate's level, as a fraction of the contrast.
 double in_contrasts(double brighter, const GreyLevels& whole) {
   return whole.has_air ? brighter * (whole.aggregate - whole.air) / whole.contrast() : brighter;
 }
 
 }  // namespace
 
+// Blocks at the far ends that are not complete are left out.
 std::pair<Image<float>, Image<std::uint8_t>> means_of_blocks(const Image<float>& scan,
                                                              const Image<std::uint8_t>& region, Grid block) {
   Grid size;
@@ -125,6 +128,7 @@ std::pair<Image<float>, Image<std::uint8_t>> means_of_blocks(const Image<float>&
   return {std::move(means), std::move(inside)};
 }
 
+// Block means of 3 × 3 voxels within a slice reduce the noise before the levels are fitted.
 double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [means, inside] = means_of_blocks(scan, region, {3, 3, 1});
   const auto slices = static_cast<std::size_t>(scan.size[2]);
@@ -139,6 +143,8 @@ double correct_slices(Image<float>& scan, const Image<std::uint8_t>& region, Cor
   return in_contrasts(std::sqrt(squares / static_cast<double>(slices)), parts.whole);
 }
 
+// The brightness of each ring (one voxel of radius wide) is compared with the median of the rings up to 8 voxels away.
+// The median follows smooth changes, which belong to beam hardening; the difference is the ring's offset.
 double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [cx, cy] = middle_of(region);
   const auto [means, inside] = means_of_blocks(scan, region, {1, 1, 3});
@@ -148,7 +154,7 @@ double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, Corr
   const std::size_t rings = 1 + std::max({ring(0, 0, 0), ring(scan.size[0] - 1, 0, 0), ring(0, scan.size[1] - 1, 0),
                                           ring(scan.size[0] - 1, scan.size[1] - 1, 0)});
   const Parts parts = levels_of_parts(means, inside, rings, ring);
-  constexpr std::size_t reach = 8;  // voxels of radius: what is wider is hardening
+  constexpr std::size_t reach = 8;  // [voxels of radius]; wider changes are attributed to beam hardening
   std::vector<double> offset(rings);
   double squares = 0;
   for (std::size_t r = 0; r < rings; ++r) {
@@ -159,7 +165,7 @@ double correct_rings(Image<float>& scan, const Image<std::uint8_t>& region, Corr
     }
     const auto middle = near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2);
     std::nth_element(near.begin(), middle, near.end());
-    // rings add: a detector's pixel is off by the same whatever the scan shows
+    // rings are subtracted, not divided: a faulty detector pixel is off by the same amount whatever the scan shows
     offset[r] = in_contrasts(parts.each[r].brighter - *middle, parts.whole) * parts.whole.contrast();
     squares += offset[r] * offset[r];
   }
@@ -201,7 +207,7 @@ double ring_share(const Image<float>& scan, const Image<std::uint8_t>& region) {
   double voxels = 0, sum = 0, squares = 0, explained = 0;
   for (std::size_t r = 0; r < rings.size(); ++r) {
     voxels += rings[r].voxels, sum += rings[r].sum, squares += rings[r].squares;
-    // half of the square of the step to the next ring: what is smooth over radius makes none
+    // half the squared step to the next ring; smooth changes over the radius give almost no steps
     const double step = rings[r].mean() - rings[r > 0 ? r - 1 : std::min(r + 1, rings.size() - 1)].mean();
     explained += rings[r].voxels * 0.5 * step * step;
   }
@@ -209,6 +215,8 @@ double ring_share(const Image<float>& scan, const Image<std::uint8_t>& region) {
   return variance > 0 ? explained / variance : 0;
 }
 
+// Divides the specimen into 12 ranges of ρ (squared radius) and 6 of height, finds the brightness of each cell, and
+// fits the polynomial 1, ρ, ρ², ζ, ζ², ρζ to them by least squares, weighted with the numbers of voxels.
 double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region, CorrectionSteps* steps) {
   const auto [cx, cy] = middle_of(region);
   const std::int64_t edge = std::clamp<std::int64_t>(scan.size[0] / 100, 1, 4);
@@ -216,7 +224,7 @@ double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region, 
   const double half = 0.5 * std::hypot(static_cast<double>(scan.size[0]), static_cast<double>(scan.size[1]));
   const auto height = static_cast<double>(scan.size[2]);
   constexpr int radii = 12, heights = 6;
-  // ρ = (r/half)², ζ = height from −1 to 1
+  // ρ = (r/half)², ζ: height from −1 to 1
   const auto radius2 = [half, cx = cx, cy = cy](double i, double j) {
     return ((i - cx) * (i - cx) + (j - cy) * (j - cy)) / (half * half);
   };
@@ -244,7 +252,7 @@ double correct_hardening(Image<float>& scan, const Image<std::uint8_t>& region, 
     }
   }
   if (!(weights > 0)) return 0;
-  matrix.diagonal().array() += 1e-6 * weights;  // terms that the cells do not determine stay at nothing
+  matrix.diagonal().array() += 1e-6 * weights;  // a small diagonal keeps terms that the cells do not determine at zero
   const Terms fit = matrix.ldlt().solve(right);
   double low = 0, high = 0;
   for (int r = 0; r < radii; ++r) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file distance.hpp  Distances within a mask.
+/// \file distance.hpp  Distances of voxels from the surface of a mask.
 #pragma once
 
 #include "macadam/ct.hpp"
 
 namespace macadam::ct {
 
-/// Distance of the voxels of a mask (not 0) from its surface [m]; elsewhere −1. By ITK (Maurer). The end of
-/// the image is no surface.
+/// Returns for each voxel of the mask (not 0) its distance from the mask's surface [m], and −1 for other voxels.
+/// Computed by ITK (Maurer). The end of the image does not count as surface.
 Image<float> distance_inside(Image<std::uint8_t>& mask);
 
 }  // namespace macadam::ct

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// filters.cpp  What ITK's filters do: median, distance to the nearest voxel outside.
+// filters.cpp  Calls ITK's filters: median, and distance to the nearest voxel outside.
 #include <itkMedianImageFilter.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 #include <omp.h>
@@ -28,7 +28,7 @@ Image<float> distance_inside(Image<std::uint8_t>& mask) {
   filter->SetUseImageSpacing(true);
   filter->Update();
   Image<float> distance = Image<float>::like(mask);
-  // the filter measures from the outermost voxels inside, half a voxel below the surface
+  // ITK measures from the centres of the outermost voxels inside, half a voxel below the surface
   const auto half = static_cast<float>(0.5 * std::cbrt(mask.voxel_volume()));
   const float* found = filter->GetOutput()->GetBufferPointer();
   for (std::size_t i = 0; i < mask.count(); ++i) distance.voxels[i] = mask.voxels[i] ? found[i] + half : -1;

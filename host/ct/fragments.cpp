@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fragments.cpp  The flood, and what it meets.
+// fragments.cpp  The watershed, and the faces between its fragments.
 #include "host/ct/fragments.hpp"
 
 #include <unordered_map>
@@ -9,7 +9,7 @@
 namespace macadam::ct {
 namespace {
 
-/// Basins that were joined: of each the one that it is part of.
+/// Union-find of basins: for each basin the one into which it was merged, and its largest distance (peak).
 class Joined {
  public:
   std::uint32_t add(float peak) {
@@ -21,7 +21,8 @@ class Joined {
     while (parent_[n] != n) n = parent_[n] = parent_[parent_[n]];
     return n;
   }
-  void join(std::uint32_t a, std::uint32_t b) {  // roots; the higher one stays, the first of equals
+  // a and b must be roots; the one with the higher peak stays, or the lower number if the peaks are equal
+  void join(std::uint32_t a, std::uint32_t b) {
     if (peak_[a] < peak_[b] || (peak_[a] == peak_[b] && b < a)) std::swap(a, b);
     parent_[b] = a;
   }
@@ -33,7 +34,8 @@ class Joined {
   std::vector<float> peak_;
 };
 
-/// Voxels inside, from the largest distance down; equal ones by number. Sorted by counting.
+/// Returns the voxels inside from the largest distance to the smallest, in order of their index where they fall in the
+/// same bin of width `step`. Counting sort.
 std::vector<std::uint32_t> from_inside_out(const Image<float>& distance, double step) {
   float top = 0;
   for (const float d : distance.voxels) top = std::max(top, d);
@@ -51,6 +53,7 @@ std::vector<std::uint32_t> from_inside_out(const Image<float>& distance, double 
   return order;
 }
 
+/// Returns the faces between all pairs of adjacent fragments, sorted by their numbers.
 std::vector<Face> faces_of(const Image<std::uint32_t>& labels, const Image<float>& distance, const Image<float>& grey) {
   std::unordered_map<std::uint64_t, std::size_t> known;
   std::vector<Face> faces;
@@ -94,7 +97,7 @@ Fragments flood(const Image<float>& distance, const Image<float>& grey, double r
   out.labels = Image<std::uint32_t>::like(distance);
   std::vector<std::uint32_t>& label = out.labels.voxels;
   Joined basins;
-  basins.add(0);  // number 0 is no basin
+  basins.add(0);  // number 0 is reserved for voxels without a basin
   for (const std::uint32_t at : from_inside_out(distance, voxel / 64)) {
     const std::int64_t i = at % nx, j = at / nx % ny, k = at / (nx * ny);
     const float d = distance.voxels[at];

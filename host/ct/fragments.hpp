@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fragments.hpp  A watershed of the distance inside the aggregate: fragments, each around a place that is
-/// farther from the surface than its surroundings, and the faces between them.
+/// \file fragments.hpp  Splits the aggregate into fragments by a watershed of the distance from its surface. A fragment
+/// surrounds a local maximum of the distance. Later steps decide which fragments form one grain.
 #pragma once
 
 #include "macadam/ct.hpp"
 
 namespace macadam::ct {
 
-/// A face between two fragments.
+/// A face between two fragments, as a sum over the pairs of adjacent voxels on both sides.
 struct Face {
-  std::uint32_t a = 0, b = 0;  ///< a < b, numbers from 1
-  double neck = 0;             ///< largest distance on it [m]
-  double grey = 0;             ///< Σ of the smaller grey of its voxels' pairs
-  double area = 0;             ///< pairs of voxels
-  Vec3d middle{};              ///< Σ of places [m]
+  std::uint32_t a = 0, b = 0;  ///< numbers of the fragments, from 1; a < b
+  double neck = 0;             ///< largest distance from the surface on the face [m]
+  double grey = 0;             ///< sum over the pairs of the smaller grey value
+  double area = 0;             ///< number of pairs
+  Vec3d middle{};              ///< sum of the positions of the pairs [m]
 };
 
+/// The fragments of a scan and the faces between them.
 struct Fragments {
-  Image<std::uint32_t> labels;  ///< 0: none
-  std::vector<double> radius;   ///< of the largest inscribed sphere [m], by number; that of 0 has no meaning
+  Image<std::uint32_t> labels;  ///< number of the fragment; 0: none
+  std::vector<double> radius;   ///< radius of the largest inscribed sphere of each fragment [m]; entry 0 is unused
   std::vector<Face> faces;
 };
 
-/// Floods from the highest distances down. Two basins that meet are one where the distance there is above `ratio` of
-/// the smaller one's highest, or within half a voxel of it: relative, because an absolute depth decides how many grains
-/// a scan has.
+/// Adds voxels in the order of falling distance. A voxel without a labelled neighbour starts a basin, others join the
+/// basin of their highest neighbour. Two basins that meet are merged if the distance there is above `ratio` times the
+/// smaller one's maximum, or within half a voxel of it. The criterion is relative because with an absolute depth the
+/// number of grains would depend on the depth chosen.
 Fragments flood(const Image<float>& distance, const Image<float>& grey, double ratio);
 
 }  // namespace macadam::ct

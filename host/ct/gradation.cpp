@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gradation.cpp  Shares that pass sieves, of grains and of a laboratory's sample.
+// gradation.cpp  Fractions that pass sieves, of scanned grains and of a laboratory's sample.
 #include "host/ct/gradation.hpp"
 
 #include <charconv>
@@ -12,6 +12,7 @@
 namespace macadam::ct {
 namespace {
 
+/// Returns the number in a text. \throws InputError if it is not a finite number.
 double number(const std::string& text, const std::string& file, int line) {
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -20,6 +21,7 @@ double number(const std::string& text, const std::string& file, int line) {
   return value;
 }
 
+/// Returns the fraction of the grains' volume with a sieve size below `size` [m].
 double share_below(double size, const std::vector<ScannedGrain>& grains, double ScannedGrain::*sieve) {
   double below = 0, all = 0;
   for (const ScannedGrain& g : grains) {
@@ -89,7 +91,7 @@ double passing_at(const std::vector<SievePassing>& gradation, double size, doubl
 
 std::string gradation_csv(const std::vector<ScannedGrain>& grains, const std::vector<SievePassing>& laboratory,
                           double smallest) {
-  std::vector<ScannedGrain> by_side(grains.size());  // without their surfaces
+  std::vector<ScannedGrain> by_side(grains.size());  // copies without surfaces; `sieve` holds D^I
   for (std::size_t i = 0; i < grains.size(); ++i) {
     by_side[i].measure.volume = grains[i].measure.volume;
     by_side[i].sieve = grains[i].measure.d_intermediate;
@@ -127,7 +129,7 @@ double trust_in_sizes(const std::vector<ScannedGrain>& grains, const std::vector
     const double middle = 0.5 * (low + high);
     (passing_at(laboratory, middle, 0.5 * smallest) < 0.5 ? low : high) = middle;
   }
-  // The size at which half of the grains' volume is reached
+  // the size below which half of the grains' volume lies
   std::vector<const ScannedGrain*> by_size;
   double volume = 0, below = 0, middle = 0;
   for (const ScannedGrain& g : grains) by_size.push_back(&g), volume += g.measure.volume;
@@ -137,7 +139,7 @@ double trust_in_sizes(const std::vector<ScannedGrain>& grains, const std::vector
     below += g->measure.volume;
   }
   const double largest = by_size.back()->sieve;
-  // Of some dozens of grains the median is off by a fifth by chance; and a sieve lets through what is a little larger
+  // With a few dozen grains the median differs by a fifth by chance. A sieve also lets through grains somewhat larger
   // than its mesh: long grains, worn wires.
   if (middle > 0.7 * high && middle < 1.4 * high && largest < 1.25 * laboratory.back().size) return 1;
   warnings.push_back(fmt::format(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file gradation.hpp  The grains' gradation, and the laboratory's beside it.
+/// \file gradation.hpp  Compares the grains' gradation with the laboratory's.
 #pragma once
 
 #include <filesystem>
@@ -9,21 +9,23 @@
 
 namespace macadam::ct {
 
-/// Reads `sieve_m,passing` (shares) or `sieve_mm,passing_percent`, in any order of the sieves. \throws InputError
-/// naming file and line.
+/// Reads a gradation with the header `sieve_m,passing` (fractions) or `sieve_mm,passing_percent`; the sieves may be in
+/// any order. \throws InputError that names file and line.
 std::vector<SievePassing> read_gradation(const std::filesystem::path& file);
 
-/// Share of a laboratory's gradation below a size [m], straight between its sieves over the logarithm of the size; or
-/// of what of it is above `from` [m].
+/// Returns the fraction of a laboratory's gradation below `size` [m], interpolated linearly over the logarithm of the
+/// size between its sieves; below the smallest sieve it is proportional to the size. With `from` [m], returns the
+/// fraction of the part that is larger than `from`.
 double passing_at(const std::vector<SievePassing>& gradation, double size, double from = 0);
 
-/// Share passing of all grains' volume, by D^I and by the square sieve; beside them the laboratory's, whole and of what
-/// a scan can show, which is above half of `smallest` [m].
+/// Returns a table of the fraction of the grains' volume that passes each sieve, by D^I and by the square mesh. If a
+/// laboratory's gradation is given, the table also has that gradation, in full and for the part that a scan can show,
+/// which is above half of `smallest` [m].
 std::string gradation_csv(const std::vector<ScannedGrain>& grains, const std::vector<SievePassing>& laboratory = {},
                           double smallest = 0);
 
-/// Whether the grains are as large as the laboratory's: 1, or `doubtful`, with a warning. An image knows no lengths: a
-/// wrong edge of its voxels shows here alone.
+/// Checks that the grains are as large as the laboratory's. Returns 1, or `doubtful` with a warning. An image contains
+/// no lengths, so a wrong edge of the voxels is found only here.
 double trust_in_sizes(const std::vector<ScannedGrain>& grains, const std::vector<SievePassing>& laboratory,
                       double smallest, std::vector<std::string>& warnings);
 

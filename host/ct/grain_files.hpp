@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file grain_files.hpp  The surfaces of a scan's grains, a file each.
+/// \file grain_files.hpp  Names of the files with the surfaces of a scan's grains, one file per grain.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,10 +9,11 @@
 
 namespace macadam::ct {
 
-/// Folders of those that are whole, and of those that the end of the specimen cuts.
+/// Folders of the grains that are complete, and of those that the end of the specimen or scan cuts.
 inline constexpr const char *whole_grains = "library", *cut_grains = "border";
 
-/// File of the grain with a number in labels.mha, its surface in metres in the scan's coordinates.
+/// Returns the file name of the grain with number `id` in labels.mha. The file holds its surface in metres, in the
+/// scan's coordinates.
 inline std::string surface_file(std::uint32_t id) { return fmt::format("grain_{:04}.off", id); }
 
 }  // namespace macadam::ct

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// grain_gaps.cpp  Distances between the points of one grain and the surface of another.
+// grain_gaps.cpp  Computes distances between the points of one grain and the surface of another.
 #include "host/ct/grain_gaps.hpp"
 
 #include <limits>
@@ -10,18 +10,20 @@
 namespace macadam::ct {
 namespace {
 
-/// Distance of two boxes along an axis; negative where they overlap.
+/// Returns the distance of two boxes along an axis; negative if they overlap.
 double apart(double low_a, double high_a, double low_b, double high_b) {
   return std::max(low_a - high_b, low_b - high_a);
 }
 
+/// Whether the bounding boxes of two surfaces are at most `widest` apart along each axis.
 bool near(const SurfaceDistance& a, const SurfaceDistance& b, double widest) {
   const Vec3d &p = a.low(), &q = a.high(), &r = b.low(), &s = b.high();
   return apart(p.x, q.x, r.x, s.x) <= widest && apart(p.y, q.y, r.y, s.y) <= widest &&
          apart(p.z, q.z, r.z, s.z) <= widest;
 }
 
-/// Least distance of the points of a surface from another surface; 0 where one lies within.
+/// Returns the smallest distance of the points of a surface from another surface; 0 if a point is inside it, infinity
+/// if all are farther than `widest`.
 double gap_of(const Surface& points, const SurfaceDistance& from, double widest) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vec3d& p : points.points) {

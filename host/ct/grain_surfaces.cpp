@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// grain_surfaces.cpp  A field that is positive within a grain: grey values where it ends at mastic, labels where it was
-// cut from a neighbour.
+// grain_surfaces.cpp  Builds a field that is positive within a grain and makes its isosurface. The surface follows the
+// grey values next to mastic, and the labels at a cut from a neighbour.
 #include "host/ct/grain_surfaces.hpp"
 
 #include <mutex>
@@ -13,8 +13,9 @@
 namespace macadam::ct {
 namespace {
 
-/// Share of grey from mastic to aggregate, less the threshold's, averaged over blocks of `edge` voxels; and not more
-/// than what labels say of whose the place is. Surfaces of [1] know labels alone.
+/// Returns the field of one grain, averaged over blocks of `edge` voxels: the smaller of (grey − threshold)/contrast
+/// and a field that is positive where the labels do not belong to another grain. With `paper`, it depends on the labels
+/// alone, as in [1].
 Image<float> field_of(const Segmentation& scan, const Thresholds& thresholds, std::uint32_t id, const GrainBox& box,
                       std::int64_t edge, bool paper) {
   std::array<std::int64_t, 3> size, first;
@@ -38,7 +39,7 @@ Image<float> field_of(const Segmentation& scan, const Thresholds& thresholds, st
               const std::int64_t x = first[0] + edge * i + a, y = first[1] + edge * j + b, z = first[2] + edge * k + c;
               const bool there = x >= 0 && y >= 0 && z >= 0 && x < scan.labels.size[0] && y < scan.labels.size[1] &&
                                  z < scan.labels.size[2];
-              // a grain that the scan or the specimen cuts ends there
+              // a grain that the end of the scan or of the specimen cuts is closed there
               if (!there || scan.phases.at(x, y, z) == outside) {
                 sum -= 0.5f, mine += 1;
                 continue;
@@ -46,7 +47,8 @@ Image<float> field_of(const Segmentation& scan, const Thresholds& thresholds, st
               const std::uint32_t label = scan.labels.at(x, y, z);
               const bool foreign = label != id && scan.phases.at(x, y, z) == aggregate;
               const float above = (scan.grey.at(x, y, z) - static_cast<float>(thresholds.aggregate)) * scale;
-              // a single voxel's label is a step, which `own` evens out; over a block of voxels there is none
+              // labels of single voxels form steps, which even_out(own) smooths below; with blocks of voxels the
+              // average smooths it
               if (paper || (foreign && edge > 1)) {
                 sum += label == id ? 0.5f : -0.5f;
               } else {
@@ -67,8 +69,8 @@ Image<float> field_of(const Segmentation& scan, const Thresholds& thresholds, st
   return grey;
 }
 
-/// As in [1], section 3.2.1: a surface of voxels, of which the Delaunay triangulation of its points is taken anew. The
-/// outside of that is the convex hull.
+/// Does what [1], section 3.2.1, does to a surface of voxels: the Delaunay triangulation of its points, whose boundary
+/// is the convex hull.
 Surface rebuilt(const Surface& surface) {
   Surface hull{surface.name, {}, convex_hull(surface.points)};
   std::vector<std::int32_t> number(surface.points.size(), -1);
@@ -126,7 +128,8 @@ Simplified fit_surface(const Surface& fine, const SegmentOptions& options, doubl
     out = simplified(fine, facets, std::max(facets, most), error);
     if (check_surface(out.surface).good()) return out;
   }
-  out.surface = repair_surface(out.surface, nullptr, {}, true);  // a grain with a new skin is better than none
+  // may wrap the grain in a new surface, which is better than losing the grain
+  out.surface = repair_surface(out.surface, nullptr, {}, true);
   return out;
 }
 
@@ -149,7 +152,8 @@ std::vector<GrainBox> boxes_of(const Image<std::uint32_t>& labels, const Image<s
         }
         ++box.voxels;
         box.confidence += confidence.voxels[at] / 255.0;
-        // at the specimen's end a voxel that is partly air may look like mastic
+        // at the specimen's end a voxel that is partly air may look like mastic, so voxels up to two steps away are
+        // checked
         for (std::size_t a = 0; a < 3 && !box.border; ++a) {
           for (const std::int64_t step : {-2, -1, 1, 2}) {
             std::array<std::int64_t, 3> there = here;
@@ -181,7 +185,7 @@ std::vector<ScannedGrain> surfaces_of(const Segmentation& scan, const Thresholds
       const Surface fine = isosurface(field_of(scan, thresholds, static_cast<std::uint32_t>(id), box, edge, paper));
       if (fine.facets.empty()) throw RunError("its grey values enclose nothing");
       ScannedGrain grain;
-      // half a voxel of the nodes that the surface was drawn through
+      // largest error: half a node of the field from which the surface is made
       Simplified fewer = fit_surface(fine, options, 0.5 * voxel * static_cast<double>(edge));
       grain.surface = paper ? rebuilt(fewer.surface) : std::move(fewer.surface);
       grain.surface.name = fmt::format("grain_{:04}", id);

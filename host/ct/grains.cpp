@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// grains.cpp  Neck, solidity and valley of two pieces that touch, and the joining of pieces.
+// grains.cpp  Measures neck, solidity and grey value between two touching pieces, and joins pieces.
 #include "host/ct/grains.hpp"
 
 #include "kernels/parallel.hpp"
@@ -10,7 +10,7 @@
 namespace macadam::ct {
 namespace {
 
-/// Keeps the corners of the hull of a piece, and its volume.
+/// Sets the hull of a piece to the convex hull of the points, and computes its volume.
 void take_hull(Piece& piece, const std::vector<Vec3d>& points) {
   const auto facets = convex_hull(points);
   std::vector<std::int32_t> corners;
@@ -27,14 +27,15 @@ void take_hull(Piece& piece, const std::vector<Vec3d>& points) {
   piece.hull = std::move(kept);
 }
 
-/// Ends of a piece's rows of voxels along x, in one slice: row j from low[j − first] to high[j − first].
+/// The first and last voxel of a piece in each row along x of one slice: row j extends from low[j − first] to high[j −
+/// first].
 struct Rows {
   std::int64_t first = 0;
-  std::vector<std::int32_t> low, high;  ///< low > high: none
+  std::vector<std::int32_t> low, high;  ///< low > high: no voxel in this row
 };
 
-/// Corners of the voxels at the ends of rows; rows within the straight line between their neighbours' ends are left
-/// out, for they are no corners of a hull.
+/// Appends the corners of the voxels at the ends of the rows. Ends that do not lie outside the straight line between
+/// the ends of the two neighbouring rows are skipped, because they cannot be corners of the convex hull.
 void add_corners(const Rows& rows, std::int64_t k, const Image<std::uint32_t>& grid, std::vector<Vec3d>& points) {
   const auto n = static_cast<std::int64_t>(rows.low.size());
   const auto there = [&](std::int64_t r) {
@@ -62,6 +63,7 @@ void add_corners(const Rows& rows, std::int64_t k, const Image<std::uint32_t>& g
   }
 }
 
+/// Returns volume, radius and convex hull of each fragment.
 std::vector<Piece> pieces_of(const Fragments& fragments) {
   const Image<std::uint32_t>& labels = fragments.labels;
   std::vector<Piece> pieces(fragments.radius.size());
@@ -97,6 +99,7 @@ std::vector<Piece> pieces_of(const Fragments& fragments) {
   return pieces;
 }
 
+/// Returns the geometry of two pieces together.
 Piece joined(const Piece& a, const Piece& b) {
   Piece both{a.volume + b.volume, std::max(a.radius, b.radius), {}, 0};
   std::vector<Vec3d> points = a.hull;
@@ -105,6 +108,7 @@ Piece joined(const Piece& a, const Piece& b) {
   return both;
 }
 
+/// Measures a face between two pieces and decides whether it is a cut.
 GrainCut judged(const Face& face, const Piece& a, const Piece& b) {
   GrainCut cut{face.a, face.b, (1 / face.area) * face.middle};
   cut.neck = face.neck / std::min(a.radius, b.radius);
@@ -116,7 +120,7 @@ GrainCut judged(const Face& face, const Piece& a, const Piece& b) {
   return cut;
 }
 
-/// Numbers of the sets of fragments, from 1 in the order of their first fragments.
+/// Union-find of fragments that form one grain.
 class Groups {
  public:
   explicit Groups(std::size_t fragments) : parent_(fragments) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -128,6 +132,7 @@ class Groups {
     const std::uint32_t x = root(a), y = root(b);
     parent_[std::max(x, y)] = std::min(x, y);
   }
+  /// Returns the number of each fragment's grain, from 1 in the order of the grains' first fragments.
   std::vector<std::uint32_t> numbers() const {
     std::vector<std::uint32_t> out(parent_.size());
     std::uint32_t next = 1;
@@ -136,20 +141,22 @@ class Groups {
   }
 
  private:
-  std::vector<std::uint32_t> parent_;  ///< never larger than the fragment itself
+  std::vector<std::uint32_t> parent_;  ///< never larger than the index of the fragment itself
 };
 
 }  // namespace
 
+// Each measure counts relative to a value (0.8, 0.93, 0.85) at which it favours neither a cut nor a join.
 double margin_of(double neck, double solidity, double valley) {
   const double score = 4 * (0.8 - neck) + 20 * (0.93 - solidity) + 6 * (0.85 - valley);
   return std::tanh(0.5 * score);
 }
 
+// Greedy joining, the most certain pair first. After each joining only the faces of the new piece are measured again.
 Decision decide(const Fragments& fragments) {
   std::vector<Piece> pieces = pieces_of(fragments);
   Groups groups(pieces.size());
-  // Faces between what the pieces have become; several of them may join the same two.
+  // faces between the pieces as they are after joining; several original faces may lie between the same two pieces
   std::vector<Face> faces = fragments.faces;
   std::vector<GrainCut> judgement(faces.size());
   for_each_in_parallel(faces.size(),
@@ -166,7 +173,7 @@ Decision decide(const Fragments& fragments) {
     pieces[a] = joined(pieces[a], pieces[b]);
     pieces[b] = {};
     groups.join(a, b);
-    // what touched b touches a
+    // the faces of b become faces of a; faces to the same neighbour are merged
     std::map<std::uint32_t, std::size_t> to;
     std::vector<std::size_t> left, changed;
     for (const std::size_t f : alive) {
@@ -192,7 +199,7 @@ Decision decide(const Fragments& fragments) {
       judgement[changed[c]] = judged(face, pieces[face.a], pieces[face.b]);
     });
   }
-  // What is said of a face is what was seen when its two sides were last looked at.
+  // Each original face reports the measures from the last time its two sides were compared.
   std::map<std::pair<std::uint32_t, std::uint32_t>, GrainCut> last;
   for (const std::size_t f : alive) {
     last[std::minmax(groups.root(faces[f].a), groups.root(faces[f].b))] = judgement[f];

@@ -1,37 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file grains.hpp  Which fragments of the watershed are one grain.
+/// \file grains.hpp  Decides which fragments of the watershed form one grain.
 #pragma once
 
 #include "host/ct/fragments.hpp"
 
 namespace macadam::ct {
 
-/// A part of a scan, and what is asked of two that touch.
+/// Geometry of a fragment or of several joined fragments.
 struct Piece {
   double volume = 0;        ///< [m³]
-  double radius = 0;        ///< of the largest inscribed sphere [m]
+  double radius = 0;        ///< radius of the largest inscribed sphere [m]
   std::vector<Vec3d> hull;  ///< corners of the convex hull [m]
   double hull_volume = 0;   ///< [m³]
 };
 
-/// Above 0 where a face rather parts two grains, below where it lies within one; from −1 to 1.
+/// Returns a score from −1 to 1 from the measures of a face (see GrainCut): above 0 the face probably separates two
+/// grains, below 0 it probably lies within one.
 double margin_of(double neck, double solidity, double valley);
 
-/// Which fragments are one grain: of each the grain's number, from 1 (0 for fragment 0), and the faces with what was
-/// decided. Pairs are joined from the surest down, and seen anew as what they have become.
+/// The grain of each fragment, and the decision about each face. Grains are numbered from 1.
 struct Decision {
-  std::vector<std::uint32_t> grain;  ///< by fragment
+  std::vector<std::uint32_t> grain;  ///< by fragment; 0 for fragment 0
   std::vector<GrainCut> cuts;
 };
+/// Joins the pair of pieces with the lowest margin, measures the faces of the new piece again, and repeats until no
+/// margin is below 0.
 Decision decide(const Fragments& fragments);
 
-/// The same from decisions that were made before and maybe changed by a person. \throws InputError naming the pair
-/// where they are those of another scan, or contradict each other.
+/// Takes the decisions from `cuts`, which were made before and may have been changed by a person. \throws InputError
+/// that names the pair if they belong to another scan or contradict each other.
 Decision decide(const Fragments& fragments, const std::vector<GrainCut>& cuts);
 
-/// How sure the cuts of each grain are, by the numbers of `decision`, of the grains that `number` keeps (0: dropped):
-/// the least of (1 + |margin|)/2 of its faces, which is what the margin's logistic curve says of being right. A cut
-/// that contradicts its margin is a person's, and sure.
+/// Returns for each grain how certain its cuts are. `number` gives the new number of each grain of `decision` (0:
+/// dropped). The certainty is the minimum of (1 + |margin|)/2 over the faces of the grain, which is the probability
+/// from the margin's logistic curve. A decision that contradicts its margin was made by a person and counts as certain.
 std::vector<double> certainty(const Decision& decision, const std::vector<std::uint32_t>& number);
 
 }  // namespace macadam::ct

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// grey_levels.cpp  Mixtures by expectation and maximisation on histograms.
+// grey_levels.cpp  Fits mixtures to histograms by expectation maximisation.
 #include "host/ct/grey_levels.hpp"
 
 #include "kernels/parallel.hpp"
@@ -10,28 +10,31 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+/// Density of a normal distribution at x.
 double normal(double x, double mean, double deviation) {
   const double t = (x - mean) / deviation;
   return std::exp(-0.5 * t * t) / (deviation * std::sqrt(2 * pi));
 }
 
+/// Fraction of a normal distribution below x.
 double below(double x, double mean, double deviation) {
   return 0.5 * std::erfc((mean - x) / (deviation * std::sqrt(2.0)));
 }
 
-/// Density of voxels that hold two phases in shares that are evenly spread from 0 to 1.
+/// Density of voxels that hold two phases in fractions evenly distributed between 0 and 1, with noise.
 double partial(double x, double low, double high, double deviation) {
   return (below(x, low, deviation) - below(x, high, deviation)) / (high - low);
 }
 
-/// Pure phases and, behind them, what lies between neighbours.
+/// Mixture of n pure phases, and of n − 1 kinds of partly filled voxels between neighbouring phases. `weights` has the
+/// pure phases first.
 struct Mixture {
   std::vector<double> means, weights;
   double deviation = 0;
   std::size_t phases() const { return means.size(); }
 };
 
-/// One round. \returns by how much the means moved at most.
+/// Does one iteration of expectation maximisation. \returns the largest change of a mean.
 double improve(Mixture& mixture, const Histogram& h) {
   const std::size_t n = mixture.phases(), all = 2 * n - 1;
   std::vector<double> share(all), density(all), sum(n), square(n);
@@ -68,7 +71,7 @@ double improve(Mixture& mixture, const Histogram& h) {
   return moved;
 }
 
-/// Starts from means, in rising order.
+/// Fits a mixture, starting from the given means, which must rise. Stops if the means are no longer in rising order.
 Mixture fitted(const Histogram& h, std::vector<double> means) {
   Mixture mixture;
   const std::size_t n = means.size();
@@ -82,7 +85,7 @@ Mixture fitted(const Histogram& h, std::vector<double> means) {
   return mixture;
 }
 
-/// Mean of bins [from, to), the middle of the range where they are empty.
+/// Returns the mean grey value of bins [from, to); the middle of the range if the bins are empty.
 double mean_of(const Histogram& h, std::size_t from, std::size_t to) {
   double sum = 0, count = 0;
   for (std::size_t b = from; b < to; ++b) {
@@ -92,7 +95,8 @@ double mean_of(const Histogram& h, std::size_t from, std::size_t to) {
   return count > 0 ? sum / count : h.low + 0.5 * h.width * static_cast<double>(from + to);
 }
 
-/// The two thresholds that part a histogram into three classes with the least variance within them.
+/// Returns the two thresholds (bins) that split a histogram into three classes with the smallest variance within the
+/// classes.
 std::array<std::size_t, 2> otsu3(const Histogram& h) {
   const std::size_t n = h.counts.size(), step = std::max<std::size_t>(1, n / 128);
   std::vector<double> count(n + 1), sum(n + 1);
@@ -120,7 +124,7 @@ std::array<std::size_t, 2> otsu3(const Histogram& h) {
 std::int64_t Histogram::total() const { return std::accumulate(counts.begin(), counts.end(), std::int64_t{0}); }
 
 Histogram bins_of(const Image<float>& image, const Image<std::uint8_t>& region, std::size_t bins) {
-  std::vector<float> some;  // of many voxels a million tell as much
+  std::vector<float> some;  // a sample of a million voxels is enough
   const std::size_t step = image.count() / 1'000'000 + 1;
   for (std::size_t i = 0; i < image.count(); i += step) {
     if (region.voxels[i]) some.push_back(image.voxels[i]);
@@ -174,12 +178,14 @@ double otsu(const Histogram& h, std::size_t from, std::size_t to) {
   return at;
 }
 
+// Starts a mixture of three phases from Otsu's two thresholds. If its levels are not plausible as air, mastic and
+// aggregate, fits two phases instead.
 GreyLevels fit_levels(const Histogram& h) {
   const auto [i, j] = otsu3(h);
   const Mixture three = fitted(h, {mean_of(h, 0, i), mean_of(h, i, j), mean_of(h, j, h.counts.size())});
   const bool ordered = std::is_sorted(three.means.begin(), three.means.end());
-  // Air is farther from mastic than mastic from aggregate, by density: three levels of which the lowest is nearer are
-  // two phases, one of which was split.
+  // The densities make air differ more from mastic than mastic from aggregate. If the lowest of three levels is too
+  // near to the middle one (0.6 of the contrast), the scan has two phases, one of which was split.
   const double gap = three.means[1] - three.means[0], contrast = three.means[2] - three.means[1];
   GreyLevels levels;
   const GreyLevels all{three.means[0], three.means[1], three.means[2], three.deviation, true};
@@ -195,11 +201,13 @@ GreyLevels fit_levels(const Histogram& h) {
   return levels;
 }
 
+// Repeats two steps: one iteration of expectation maximisation, whose means move freely; then the means are replaced by
+// the whole scan's levels, shifted by the one brightness that fits them best (least squares).
 PartLevel level_of_part(const Histogram& h, const GreyLevels& whole) {
   const auto total = static_cast<double>(h.total());
   if (total < 200) return {};
   Mixture mixture;
-  std::vector<double> levels, change;  // of the phases, and how brightness changes them
+  std::vector<double> levels, change;  // grey levels of the phases, and their change per unit of brightness
   if (whole.has_air) levels.push_back(whole.air), change.push_back(0);
   for (const double level : {whole.mastic, whole.aggregate}) {
     levels.push_back(level);
@@ -210,9 +218,9 @@ PartLevel level_of_part(const Histogram& h, const GreyLevels& whole) {
   mixture.weights.assign(2 * n - 1, 1.0 / static_cast<double>(2 * n - 1));
   double brighter = 0, known = 0;
   for (int round = 0; round < 100; ++round) {
-    // wide at first, so that a part much brighter than the whole is not taken for what lies between two phases
+    // wide at first, so that a pure phase of a much brighter part is not taken for partly filled voxels
     mixture.deviation = std::max(whole.deviation, 0.3 * whole.contrast() * std::pow(0.85, round));
-    const bool narrow = mixture.deviation == whole.deviation;  // noise is the same everywhere
+    const bool narrow = mixture.deviation == whole.deviation;  // the noise is the same everywhere
     improve(mixture, h);
     double sum = 0, norm = 0;
     known = 0;
@@ -227,13 +235,14 @@ PartLevel level_of_part(const Histogram& h, const GreyLevels& whole) {
     for (std::size_t k = 0; k < n; ++k) mixture.means[k] = levels[k] + brighter * change[k];
     if (narrow && std::abs(brighter - before) < 1e-5) break;
   }
-  // an eighth of pure voxels is enough to know where their level is; half the contrast is not brightness any more
+  // An eighth of the voxels must be pure to know their level. A shift of more than 0.8 of the contrast cannot be
+  // brightness.
   if (known < 0.125 || std::abs(brighter) * change.back() > 0.8 * whole.contrast()) return {};
   return {brighter, known * total};
 }
 
 bool has_valley(const Histogram& h, const GreyLevels& levels) {
-  const auto density = [&](double grey) {  // over a twelfth of the contrast
+  const auto density = [&](double grey) {  // mean count over a twelfth of the contrast
     const std::size_t from = h.bin(grey - levels.contrast() / 24), to = h.bin(grey + levels.contrast() / 24);
     double sum = 0;
     for (std::size_t b = from; b <= to; ++b) sum += static_cast<double>(h.counts[b]);

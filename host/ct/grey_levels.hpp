@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file grey_levels.hpp  The grey values of the phases, from histograms: mixtures of normal distributions and of what
-/// lies between them where a voxel holds two phases.
+/// \file grey_levels.hpp  Finds the grey values of the phases from histograms. A histogram is modelled as a mixture: a
+/// normal distribution for each phase, and a distribution for voxels that hold two neighbouring phases in part.
 #pragma once
 
 #include <cstdint>
@@ -23,29 +23,32 @@ struct Histogram {
   std::int64_t total() const;
 };
 
-/// Bins for the grey values of an image's region, without the rarest 1e-4 at both ends.
+/// Returns empty bins for the grey values in an image's region. The range leaves out the lowest and the highest 1e-4 of
+/// the values; these count in the first and last bin. \throws InputError for an empty region or a constant grey value.
 Histogram bins_of(const Image<float>& image, const Image<std::uint8_t>& region, std::size_t bins);
 
-/// The same bins, filled.
+/// Returns the histogram of the region on the bins of bins_of().
 Histogram histogram_of(const Image<float>& image, const Image<std::uint8_t>& region, std::size_t bins = 512);
 
-/// The grey value that parts a histogram's range [from, to) of bins into two classes with the least variance within
-/// them (Otsu).
+/// Returns the threshold that splits bins [from, to) into two classes with the smallest variance within the classes
+/// (Otsu).
 double otsu(const Histogram& histogram, std::size_t from, std::size_t to);
 
-/// The levels of air, mastic and aggregate. \throws InputError naming what is missing: contrast, a phase.
+/// Returns the grey levels of air, mastic and aggregate. `has_air` is false if the histogram shows two phases only.
 GreyLevels fit_levels(const Histogram& histogram);
 
-/// By how much a part of the scan is brighter than the whole: levels are air + (1 + brighter)·(level − air) there, or,
-/// where a scan has no air, level + brighter·contrast. One number, because a part may hold little of one phase; the
-/// shares of the phases are free, so that composition does not matter.
+/// By how much a part of the scan is brighter than the whole scan. A level of the whole scan becomes air + (1 +
+/// brighter)·(level − air) in the part, or level + brighter·contrast if the scan has no air. It is a single number
+/// because a part may hold little of one phase. The fractions of the phases are fitted too, so the composition of the
+/// part does not affect the result.
 struct PartLevel {
   double brighter = 0;
-  double weight = 0;  ///< grey values that it rests on, 0: too few
+  double weight = 0;  ///< number of voxels on which the value is based; 0: too few
 };
+/// Fits the brightness of a part of the scan, given its histogram and the levels of the whole scan.
 PartLevel level_of_part(const Histogram& histogram, const GreyLevels& whole);
 
-/// Whether a histogram has a valley between mastic and aggregate. Without one nothing tells them from each other.
+/// Whether a histogram has a valley between mastic and aggregate. Without one the two cannot be distinguished.
 bool has_valley(const Histogram& histogram, const GreyLevels& levels);
 
 }  // namespace macadam::ct

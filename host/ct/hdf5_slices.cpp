@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// hdf5_slices.cpp  A dataset of three dimensions in an HDF5 file.
+// hdf5_slices.cpp  Reads a three-dimensional dataset of an HDF5 file.
 #include <fmt/format.h>
 
 #include "host/ct/image_slices.hpp"
@@ -11,6 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Returns HDF5's type for a voxel type.
 const H5::PredType& native(VoxelType type) {
   using H5::PredType;
   static const PredType* const types[] = {&PredType::NATIVE_UINT8,  &PredType::NATIVE_INT8,   &PredType::NATIVE_UINT16,
@@ -20,6 +21,7 @@ const H5::PredType& native(VoxelType type) {
   return *types[static_cast<std::size_t>(type)];
 }
 
+/// Returns the voxel type of a dataset. \throws InputError if its values are not numbers.
 VoxelType type_of(const H5::DataSet& set, const std::string& file) {
   const std::size_t bytes = set.getDataType().getSize();
   if (set.getTypeClass() == H5T_FLOAT) return bytes > 4 ? VoxelType::f64 : VoxelType::f32;
@@ -30,7 +32,7 @@ VoxelType type_of(const H5::DataSet& set, const std::string& file) {
   return static_cast<VoxelType>(2 * power + sign);
 }
 
-/// Names of the datasets of three dimensions.
+/// Returns the names of the three-dimensional datasets.
 std::vector<std::string> volumes_in(const H5::H5File& file) {
   std::vector<std::string> names, volumes;
   const auto visit = [](hid_t, const char* name, const H5O_info_t* info, void* to) -> herr_t {
@@ -44,6 +46,8 @@ std::vector<std::string> volumes_in(const H5::H5File& file) {
   return volumes;
 }
 
+/// Returns the name of the dataset to read: `asked`, or the only three-dimensional dataset if none was asked for.
+/// \throws InputError.
 std::string name_of(const H5::H5File& file, const std::string& asked, const std::string& path) {
   if (!asked.empty() && file.nameExists(asked) && file.childObjType(asked) == H5O_TYPE_DATASET) return asked;
   const std::vector<std::string> volumes = volumes_in(file);
@@ -56,8 +60,8 @@ std::string name_of(const H5::H5File& file, const std::string& asked, const std:
   throw InputError(path, 0, "dataset", "none of the name \"" + asked + "\"", "one of " + names);
 }
 
-/// Edges of a voxel [m] by the attribute of ImageJ's and ilastik's files: micrometres along z, y, x. Nothing without
-/// it.
+/// Returns the edges of a voxel [m] from the attribute that ImageJ and ilastik write, in micrometres along z, y, x.
+/// Returns 0 if the attribute is missing or invalid.
 Vec3d spacing_of(const H5::DataSet& set) {
   constexpr const char* name = "element_size_um";
   constexpr double um = 1e-6;
@@ -71,14 +75,15 @@ Vec3d spacing_of(const H5::DataSet& set) {
   return {um * edges[2], um * edges[1], um * edges[0]};
 }
 
-/// Voxels that the file does not hold would be filled in: \throws InputError where there are any, for a forged count
-/// has no other end.
+/// Checks that the file stores all voxels that the header counts. HDF5 fills in missing voxels, so a forged count would
+/// be limited by nothing else. \throws InputError if voxels are missing or stored in other files.
 void check_storage(const H5::DataSet& set, const ImageHeader& header, const std::string& file) {
   const H5::DSetCreatPropList how = set.getCreatePlist();
   double bytes = header.bits / 8.0;
   for (const std::int64_t n : header.size) bytes *= static_cast<double>(n);
   const auto there = static_cast<double>(set.getStorageSize());
-  const double packed = how.getNfilters() > 0 ? 1 / 4000.0 : 1;  // no filter makes a byte of more than these
+  // 4000 is above the largest compression ratio of any filter
+  const double packed = how.getNfilters() > 0 ? 1 / 4000.0 : 1;
   if (how.getLayout() != H5D_VIRTUAL && there < packed * bytes) {
     throw InputError(file, 0, "bytes of the dataset", fmt::format("{:.0f}", there),
                      fmt::format("those of {} x {} x {} voxels of {} bits", header.size[0], header.size[1],
@@ -88,6 +93,7 @@ void check_storage(const H5::DataSet& set, const ImageHeader& header, const std:
     throw InputError(file, 0, "dataset", "one whose voxels are in other files", "voxels in this file");
 }
 
+/// A dataset of an open HDF5 file.
 class Hdf5Slices : public ImageSlices {
  public:
   Hdf5Slices(const fs::path& path, const std::string& dataset) {
@@ -116,7 +122,7 @@ class Hdf5Slices : public ImageSlices {
   bool apart() const override { return true; }
 
  private:
-  /// What HDF5 finds wrong is the input's fault.
+  /// Runs `work` and turns errors of HDF5 into InputError, because they are faults of the file.
   template <class Work>
   void attempt(Work&& work) {
     const QuietHdf5 quiet;
@@ -128,7 +134,8 @@ class Hdf5Slices : public ImageSlices {
     }
   }
 
-  /// Chunks are unpacked whole: a layer of them stays in memory, so that its slices unpack it once.
+  /// Gives HDF5 a cache for one layer of chunks. HDF5 decompresses a chunk as a whole; with the cache each chunk is
+  /// decompressed once for all its slices.
   void keep_chunks(const std::string& name) {
     const H5::DSetCreatPropList how = set_.getCreatePlist();
     if (how.getLayout() != H5D_CHUNKED) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// header_lines.cpp  Lines of a header, one at a time, however long the file is.
+// header_lines.cpp  Reads header lines one at a time, so that a large file is never held in memory.
 #include "host/ct/header_lines.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 namespace macadam::ct {
 namespace {
 
-constexpr std::size_t longest = 65536;  // bytes of a line with its end
+constexpr std::size_t longest = 65536;  // limit for one line including its end [bytes]
 
 }  // namespace
 
@@ -55,7 +55,7 @@ void HeaderLines::refuse(std::string_view key, std::string_view value, const std
 
 std::filesystem::path HeaderLines::beside(std::string_view key, std::string_view value) const {
   const std::filesystem::path path = file_.parent_path() / value;
-  std::error_code fault;  // a name that is too long, say
+  std::error_code fault;  // set for example if the name is too long; such a file counts as missing
   if (value.empty() || !std::filesystem::is_regular_file(path, fault)) refuse_voxels(key, value);
   return path;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// image_io.cpp  Whole images from files and into them.
+// image_io.cpp  Reads and writes images that fit in memory.
 #include <fmt/format.h>
 
 #include "host/ct/image_slices.hpp"
@@ -13,6 +13,7 @@ using namespace ct;
 
 namespace {
 
+/// ITK's name of the voxel type T.
 template <class T>
 constexpr itk::IOComponentEnum component() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return itk::IOComponentEnum::UCHAR;
@@ -38,7 +39,7 @@ Image<T> read_image(const std::filesystem::path& path, const std::string& datase
                      fmt::format("at most the {:.3g} GB of memory that are free", 1e-9 * there));
   }
   Image<T> image(header.size, header.spacing, header.origin);
-  const std::int64_t some = std::max<std::int64_t>(1, (std::int64_t{1} << 25) / (nx * ny));  // slices at a time
+  const std::int64_t some = std::max<std::int64_t>(1, (std::int64_t{1} << 25) / (nx * ny));  // slices per read
   for (std::int64_t k = 0; k < nz; k += some) file->read(k, std::min(some, nz - k), &image.at(0, 0, k));
   return image;
 }
@@ -65,7 +66,7 @@ void write_image(const std::filesystem::path& path, const Image<T>& image, bool 
   io->SetPixelType(itk::IOPixelEnum::SCALAR);
   io->SetComponentType(component<T>());
   io->SetUseCompression(compressed);
-  io->SetCompressionLevel(1);  // labels shrink to a hundredth at any
+  io->SetCompressionLevel(1);  // every level shrinks labels to about a hundredth
   try {
     io->Write(image.voxels.data());
   } catch (const itk::ExceptionObject& error) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// image_slices.cpp  Which reader a file gets, what its header may not say, and voxels of any type as those asked for.
+// image_slices.cpp  Chooses the reader for a file, checks that the file can hold the voxels its header counts, and
+// converts voxels to the requested type.
 #include "host/ct/image_slices.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Converts `count` voxels to type T. `before` is the number of voxels of the file before the first one, for messages.
+/// \throws InputError for a voxel that T cannot hold or that is not finite.
 template <class From, class T>
 void convert(const std::string& file, const From* from, std::size_t count, std::size_t before, T* to) {
   for (std::size_t i = 0; i < count; ++i) {
@@ -34,14 +37,14 @@ void convert(const std::string& file, const From* from, std::size_t count, std::
   }
 }
 
-/// \throws InputError where a header counts what the file of its voxels cannot hold.
+/// \throws InputError if the header counts more voxels than the file of the voxels can hold.
 void check_counts(const ImageHeader& header, const fs::path& path, const fs::path& voxels) {
   double bytes = header.bits / 8.0;
   for (const std::int64_t n : header.size) bytes *= n > 0 ? static_cast<double>(n) : 0;
   const std::string found =
       fmt::format("{} x {} x {} of {} bits", header.size[0], header.size[1], header.size[2], header.bits);
   if (!(bytes > 0 && bytes < 0x1p46)) throw InputError(path.string(), 0, "voxels", found, "at least one, and a scan");
-  // a byte of deflate stands for 1032 at most, one of LZW for 2730
+  // largest compression ratios: 1032 for deflate, 2730 for LZW; 4000 is above both
   const double there =
       fs::is_directory(voxels) ? std::numeric_limits<double>::infinity() : static_cast<double>(fs::file_size(voxels));
   if (bytes > 4000 * there)
@@ -79,7 +82,7 @@ void ImageSlices::read(std::int64_t first, std::int64_t count, T* to) {
   const std::size_t voxels = slice * static_cast<std::size_t>(count);
   bytes_.resize(voxels * static_cast<std::size_t>(bytes_of(type_)));
   read_bytes(first, count, bytes_.data());
-  if (inverts_)  // the complement of all bits: 255 - v of a byte, -1 - v of a number with a sign
+  if (inverts_)  // complement of all bits: 255 - v of an unsigned byte, -1 - v of a signed number
     for (char& byte : bytes_) byte = static_cast<char>(~byte);
   const auto as = [&](auto kind) {
     convert(file_, reinterpret_cast<const decltype(kind)*>(bytes_.data()), voxels,

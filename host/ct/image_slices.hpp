@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file image_slices.hpp  The voxels of an image file, a few slices at a time.
+/// \file image_slices.hpp  Reads the voxels of an image file a few slices at a time. One class per file format
+/// implements it.
 #pragma once
 
 #include <memory>
@@ -9,32 +10,32 @@
 
 namespace macadam::ct {
 
-/// What a voxel is in a file.
+/// Type of a voxel in a file.
 enum class VoxelType : std::uint8_t { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
 
-/// Bytes of a voxel.
+/// Returns the bytes per voxel.
 int bytes_of(VoxelType type);
 
-/// An image file that is open.
+/// An open image file.
 class ImageSlices {
  public:
   virtual ~ImageSlices() = default;
   const ImageHeader& header() const { return header_; }
-  /// The file that holds the voxels; empty: that which was opened, or those of a folder.
+  /// The file that holds the voxels. Empty if it is the opened file itself, or if a folder was opened.
   const std::filesystem::path& voxel_file() const { return voxels_; }
-  /// Whether some slices can be read without the others. Where not, all are held once one was read.
+  /// Whether some slices can be read without the others. If not, all voxels stay in memory after the first read.
   virtual bool apart() const = 0;
-  /// Slices [first, first + count) as T. \throws InputError naming the first voxel that T cannot hold or that is not
-  /// finite.
+  /// Reads slices [first, first + count) and converts them to T. \throws InputError that names the first voxel that T
+  /// cannot hold or that is not finite.
   template <class T>
   void read(std::int64_t first, std::int64_t count, T* to);
 
  protected:
-  /// The same as bytes of the file's type.
+  /// Reads slices [first, first + count) as bytes of the file's voxel type, in the machine's byte order.
   virtual void read_bytes(std::int64_t first, std::int64_t count, char* to) = 0;
-  /// Inverts all grey values that are read, whole numbers, and notes it in the header.
+  /// Makes read() invert all grey values, which must be whole numbers, and adds a message to the header.
   void invert_grey();
-  std::string file_;  ///< for messages
+  std::string file_;  ///< path for error messages
   std::filesystem::path voxels_;
   ImageHeader header_;
   VoxelType type_{};
@@ -44,16 +45,16 @@ class ImageSlices {
   std::vector<char> bytes_;
 };
 
-/// Opens a file, or a folder of TIFF files; `dataset` is asked of HDF5 only. \throws InputError where it is none, or
-/// has more voxels than its bytes can hold.
+/// Opens a file, or a folder of TIFF files. `dataset` names a dataset of an HDF5 file and must be empty for other
+/// formats. \throws InputError if it is not a readable image, or has more voxels than its bytes can hold.
 std::unique_ptr<ImageSlices> open_image(const std::filesystem::path& path, const std::string& dataset);
 
-/// The ending in small letters.
+/// Returns the ending of the file name in lower case, with its dot.
 std::string lower_ending(const std::filesystem::path& path);
 
 bool is_tiff(const std::filesystem::path& path);
 
-/// The two kinds of them. \throws InputError.
+/// Open a file with ITK (MetaImage, NRRD, TIFF, folder of TIFFs) or with HDF5. \throws InputError.
 std::unique_ptr<ImageSlices> open_itk(const std::filesystem::path& path);
 std::unique_ptr<ImageSlices> open_hdf5(const std::filesystem::path& path, const std::string& dataset);
 

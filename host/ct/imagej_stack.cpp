@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// imagej_stack.cpp  Slices that follow one another behind the only directory of a TIFF file.
+// imagej_stack.cpp  Reads the slices that follow the only directory of a TIFF file.
 #include "host/ct/imagej_stack.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +13,7 @@
 namespace macadam::ct {
 namespace {
 
+/// Slices that follow one another from a given offset in a file.
 class ImagejStack : public ImageSlices {
  public:
   ImagejStack(const std::filesystem::path& file, const TiffPages& pages)
@@ -43,7 +44,8 @@ class ImagejStack : public ImageSlices {
   }
 
   std::ifstream in_;
-  std::uint64_t begin_;  // of the first slice [bytes]
+  std::uint64_t begin_;  // offset of the first slice [bytes]
+  // whether the byte order of the file differs from the byte order of the machine
   bool swaps_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// isosurface.cpp  Marching cubes, the loops found side by side of each cube in place of a table.
+// isosurface.cpp  Marching cubes. Instead of a table of cases, the loops of each cube are traced along its six sides.
 #include "host/ct/isosurface.hpp"
 
 #include "host/shapes/surface_numbers.hpp"
@@ -9,14 +9,16 @@ namespace {
 
 using Grid = std::array<std::int64_t, 3>;
 
-/// Corners of a cube by their number: bit a is the step along axis a.
+/// Returns the offset of a corner of a cube: bit a of its number is the step along axis a.
 constexpr Grid corner(int number) { return {number & 1, number >> 1 & 1, number >> 2 & 1}; }
 
-/// The corners of a cube's six sides, counter-clockwise seen from outside.
+/// The corners of a cube's six sides, counter-clockwise as seen from outside.
 constexpr int sides[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 
-/// Lines on the sides of a cube join the points of its edges to closed loops. On a side with two corners inside that
-/// lie across from each other these are parted, whichever cube asks: cubes that share the side agree.
+/// Traces the surface cube by cube. On each side of a cube, lines join the points where the field changes sign on the
+/// edges; the lines of all sides form closed loops, which are split into triangles. If only two opposite corners of a
+/// side are positive, the lines separate these corners. The rule depends on the side alone, so both cubes of a side
+/// draw the same lines and the surface is closed.
 class March {
  public:
   explicit March(const Image<float>& field) : field_(field), on_edge_(3 * field.count(), -1) {}
@@ -30,6 +32,7 @@ class March {
     return std::move(surface_);
   }
 
+  /// Adds the facets within one cube, whose first corner is the node `at`.
  private:
   void cube(const Grid& at) {
     float values[8];
@@ -40,8 +43,8 @@ class March {
       inside += values[c] > 0;
     }
     if (inside == 0 || inside == 8) return;
-    // Around a side, a line leads from the point where inside begins to the one where it ends: loops of such lines are
-    // counter-clockwise seen from outside the surface.
+    // Going around a side, a line leads from the point where the positive range begins to the point where it ends.
+    // Loops of such lines are counter-clockwise as seen from outside the surface.
     std::int32_t from[12], to[12];
     int lines = 0;
     for (const auto& side : sides) {
@@ -67,16 +70,17 @@ class March {
     }
   }
 
-  /// Number of the point on the edge between two corners of the cube at a node.
+  /// Returns the number of the point on the edge between corners a and b of the cube at a node; adds the point if it is
+  /// new.
   std::int32_t point_on(const Grid& at, int a, int b, const float (&values)[8]) {
-    const int low = a & b, axis = (a ^ b) >> 1;  // the edge is along one axis: 1, 2, 4 become 0, 1, 2
+    const int low = a & b, axis = (a ^ b) >> 1;  // a and b differ in one bit: 1, 2, 4 become axis 0, 1, 2
     const Grid from = corner(low);
     const Grid start{at[0] + from[0], at[1] + from[1], at[2] + from[2]};
     std::int32_t& number = on_edge_[3 * field_.index(start[0], start[1], start[2]) + static_cast<std::size_t>(axis)];
     if (number < 0) {
       number = static_cast<std::int32_t>(surface_.points.size());
       const float p = values[low], q = values[a | b];
-      // not quite at a node: facets without area would follow
+      // not too near to a node, which would give facets without area
       const double share = std::clamp(static_cast<double>(p / (p - q)), 0.02, 0.98);
       Vec3d point = field_.centre(start[0], start[1], start[2]);
       const Vec3d& spacing = field_.spacing;
@@ -91,11 +95,11 @@ class March {
   }
 
   const Image<float>& field_;
-  std::vector<std::int32_t> on_edge_;  ///< by node and axis; −1: none yet
+  std::vector<std::int32_t> on_edge_;  ///< number of the point by node and axis; −1: none yet
   Surface surface_;
 };
 
-/// The part of a closed surface that holds the largest volume.
+/// Returns the connected part of a closed surface that encloses the largest volume.
 Surface largest_part(const Surface& all) {
   std::vector<std::int32_t> parent(all.points.size());
   std::iota(parent.begin(), parent.end(), 0);

@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file isosurface.hpp  Surfaces of grey values.
+/// \file isosurface.hpp  Makes triangle surfaces from fields of grey values, and simplifies them.
 #pragma once
 
 #include "macadam/ct.hpp"
 
 namespace macadam::ct {
 
-/// The closed surface where a field is 0, between its positive and its other values: the largest of its parts. Nodes
-/// are the voxels' centres; values at the end of the field must not be positive. Every cube of eight nodes is taken as
-/// six tetrahedra, whose surface is closed and without pinched points by construction. Empty where nothing is positive.
+/// Returns the closed surface between the positive and the other values of a field, where the interpolated field is 0.
+/// If it has several parts, returns the one with the largest volume. The nodes of the field are the voxels' centres;
+/// values at the ends of the field must not be positive. Marching cubes; the surface is closed and has no pinched
+/// points by construction. Empty if no value is positive.
 Surface isosurface(const Image<float>& field);
 
-/// A surface of fewer facets.
+/// A surface with fewer facets.
 struct Simplified {
   Surface surface;
-  double error = 0;  ///< largest distance of the other's points from it [m]
+  double error = 0;  ///< largest distance of the original surface's points from it [m]
 };
 
-/// A surface of about `facets` facets (CGAL, Lindstrom and Turk, who keep the volume), or of `most` where the points of
-/// the other are farther away than `error` [m]. It may cut itself: check_surface() tells.
+/// Returns a surface of about `facets` facets. If points of the original surface are farther than `error` [m] from it,
+/// returns one of about `most` facets. Uses CGAL's edge collapse by Lindstrom and Turk, which keeps the volume. The
+/// result may intersect itself; check_surface() reports that.
 Simplified simplified(const Surface& surface, int facets, int most, double error);
 
 }  // namespace macadam::ct

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file itk_image.hpp  An image as ITK sees it, on the same memory. For the few files that call ITK's filters.
+/// \file itk_image.hpp  Passes an Image to ITK's filters without copying its voxels. Only the few files that call ITK
+/// filters include this header.
 #pragma once
 
 #include <itkImage.h>
@@ -8,7 +9,8 @@
 
 namespace macadam::ct {
 
-/// On the memory of `image`, which must live longer. Spacing in metres.
+/// Returns an ITK image that uses the voxels of `image` without a copy; `image` must outlive it. The spacing is in
+/// metres, the origin stays 0.
 template <class T>
 typename itk::Image<T, 3>::Pointer as_itk(Image<T>& image) {
   const auto out = itk::Image<T, 3>::New();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file itk_io.hpp  ITK's readers and writers of image files. For the few files that call them.
+/// \file itk_io.hpp  Choice of ITK's reader or writer for an image file. It includes ITK headers, so only the few files
+/// that call ITK include it.
 #pragma once
 
 #include <itkImageIOBase.h>
@@ -8,9 +9,10 @@
 
 namespace macadam::ct {
 
-inline constexpr double mm = 1e-3;  ///< what lengths in image files are in [m]
+inline constexpr double mm = 1e-3;  ///< unit of lengths in image files that name no unit [m]
 
-/// The one that the ending of a file asks for. \throws InputError.
+/// Returns the ITK reader/writer for the format that the file name's ending names. \throws InputError for an unknown
+/// ending.
 itk::ImageIOBase::Pointer io_of(const std::filesystem::path& path);
 
 }  // namespace macadam::ct

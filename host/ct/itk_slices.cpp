@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// itk_slices.cpp  MetaImage, NRRD and TIFF files, and folders of TIFF files, by ITK's readers.
+// itk_slices.cpp  Reads MetaImage, NRRD and TIFF files, and folders of TIFF files, with ITK's readers.
 #include <fmt/format.h>
 
 #include <itkMetaImageIO.h>
@@ -37,7 +37,7 @@ itk::ImageIOBase::Pointer io_of(const fs::path& path) {
 
 namespace {
 
-/// MetaIO says on the standard streams what is wrong, and goes on: while one of these lives, they lead into a text.
+/// Redirects std::cout and std::cerr into a text while it exists. MetaIO only prints its errors there and continues.
 class Overheard {
  public:
   Overheard() : out_(std::cout.rdbuf(text_.rdbuf())), error_(std::cerr.rdbuf(text_.rdbuf())) {}
@@ -47,7 +47,7 @@ class Overheard {
   }
   Overheard(const Overheard&) = delete;
   Overheard& operator=(const Overheard&) = delete;
-  /// In one line.
+  /// Returns the captured output in one line.
   std::string text() const {
     std::string all = text_.str();
     while (!all.empty() && all.back() == '\n') all.pop_back();
@@ -60,7 +60,7 @@ class Overheard {
   std::streambuf *out_, *error_;
 };
 
-/// Without the warnings that ITK has for tags of a TIFF which it keeps no copy of, such as colour profiles.
+/// Reads the header. For TIFF it suppresses ITK's warnings about tags that ITK does not keep, such as colour profiles.
 void read_information(itk::ImageIOBase& io) {
   const bool warns = itk::Object::GetGlobalWarningDisplay();
   itk::Object::SetGlobalWarningDisplay(warns && !is_tiff(io.GetFileName()));
@@ -73,7 +73,7 @@ void read_information(itk::ImageIOBase& io) {
   itk::Object::SetGlobalWarningDisplay(warns);
 }
 
-/// Does `read`. \throws InputError where it throws, or says anything.
+/// Runs `read`. \throws InputError if it throws or prints anything.
 template <class Read>
 void attempt(const std::string& file, const char* what, const std::string& expected, Read&& read) {
   std::string fault;
@@ -89,8 +89,8 @@ void attempt(const std::string& file, const char* what, const std::string& expec
   if (!fault.empty()) throw InputError(file, 0, what, "one that ITK cannot read (" + fault + ")", expected);
 }
 
-/// Looks at a file before ITK does. Returns the facts in its header that ITK does not report. \throws InputError for
-/// what ITK cannot bear.
+/// Checks a file before ITK reads it. Returns the facts in its header that ITK does not report. \throws InputError for
+/// a file that would crash or mislead ITK.
 HeaderFacts check_file(const itk::ImageIOBase& io) {
   const std::string file = io.GetFileName();
   if (!fs::is_regular_file(file)) throw InputError(file, 0, "image", "no such file", "a file that can be read");
@@ -105,7 +105,8 @@ HeaderFacts check_file(const itk::ImageIOBase& io) {
   return facts;
 }
 
-/// Adds a note if the voxels' axes differ from the axes of the space in which a scanner or viewer placed the image.
+/// Adds a message if the axes of the voxels differ from the axes of the space in which a scanner or viewer placed the
+/// image.
 void note_directions(const itk::ImageIOBase& io, std::vector<std::string>& notes) {
   if (io.GetNumberOfDimensions() != 3) return;
   double d[3][3];  // columns are the axes of the voxels
@@ -129,13 +130,13 @@ void note_directions(const itk::ImageIOBase& io, std::vector<std::string>& notes
       determinant < 0 ? "mirror images of" : "turned against"));
 }
 
-/// The header of one file. \throws InputError.
+/// Returns the header of one file. \throws InputError.
 ImageHeader header_of(itk::ImageIOBase& io, const HeaderFacts& facts) {
   const std::string file = io.GetFileName();
-  std::size_t bytes = 0;  // of a voxel
+  std::size_t bytes = 0;  // bytes per voxel
   attempt(file, "image", "a whole image file", [&] {
     read_information(io);
-    bytes = io.GetComponentSize();  // which throws where the type is not known
+    bytes = io.GetComponentSize();  // throws if the type is not known
   });
   if (io.GetNumberOfComponents() != 1 || io.GetNumberOfDimensions() < 2 || io.GetNumberOfDimensions() > 3) {
     throw InputError(
@@ -144,7 +145,7 @@ ImageHeader header_of(itk::ImageIOBase& io, const HeaderFacts& facts) {
         "one grey value a voxel, in two or three dimensions");
   }
   ImageHeader header;
-  bool known = false;  // a spacing of 1 on all axes is what formats say that know nothing
+  bool known = false;  // formats without a spacing report 1 on all axes
   double spacing[3] = {1, 1, 1}, origin[3] = {};
   for (unsigned axis = 0; axis < 3; ++axis) {
     const bool there = axis < io.GetNumberOfDimensions();
@@ -154,7 +155,7 @@ ImageHeader header_of(itk::ImageIOBase& io, const HeaderFacts& facts) {
     origin[axis] = io.GetOrigin(axis);
     known = known || spacing[axis] != 1;
   }
-  known = known && !is_tiff(file);  // its resolution is meant for paper, and knows two axes
+  known = known && !is_tiff(file);  // TIFF has a resolution for printing, of two axes only
   header.notes = facts.notes;
   note_directions(io, header.notes);
   const double unit = facts.unit.value_or(0);
@@ -166,6 +167,7 @@ ImageHeader header_of(itk::ImageIOBase& io, const HeaderFacts& facts) {
   return header;
 }
 
+/// Returns the voxel type that ITK found. \throws InputError if it is not known.
 VoxelType type_of(const itk::ImageIOBase& io) {
   using Type = itk::IOComponentEnum;
   switch (io.GetComponentType()) {
@@ -195,7 +197,7 @@ VoxelType type_of(const itk::ImageIOBase& io) {
   }
 }
 
-/// Slices [first, first + count) of one file.
+/// Reads slices [first, first + count) of one file.
 void read_region(itk::ImageIOBase& io, std::int64_t first, std::int64_t count, char* to) {
   itk::ImageIORegion region(io.GetNumberOfDimensions());
   for (unsigned axis = 0; axis < io.GetNumberOfDimensions(); ++axis) region.SetSize(axis, io.GetDimensions(axis));
@@ -205,6 +207,7 @@ void read_region(itk::ImageIOBase& io, std::int64_t first, std::int64_t count, c
           fmt::format("{} x {} x {} of them", io.GetDimensions(0), io.GetDimensions(1), count), [&] { io.Read(to); });
 }
 
+/// One MetaImage, NRRD or TIFF file.
 class FileSlices : public ImageSlices {
  public:
   explicit FileSlices(const fs::path& path) : io_(io_of(path)) {
@@ -230,9 +233,11 @@ class FileSlices : public ImageSlices {
     std::copy_n(whole_.data() + slice * static_cast<std::size_t>(first), slice * static_cast<std::size_t>(count), to);
   }
   itk::ImageIOBase::Pointer io_;
+  // all voxels, if the file can only be read as a whole
   std::vector<char> whole_;
 };
 
+/// A folder of TIFF files, one slice each. All files must have the size and type of the first one.
 class FolderSlices : public ImageSlices {
  public:
   explicit FolderSlices(const fs::path& path) : slices_(slices_in(path)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// labels.cpp  Labels from the grid on which grains were parted to that of the scan.
+// labels.cpp  Transfers labels from the grid on which grains were separated to the grid of the scan.
 #include "host/ct/labels.hpp"
 
 #include "kernels/parallel.hpp"

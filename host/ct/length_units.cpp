@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// length_units.cpp  Names of units, of one or of many, in American and British spelling.
+// length_units.cpp  Accepts singular and plural names, in American and British spelling.
 #include "host/ct/length_units.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ std::optional<double> metres_of_unit(std::string_view name) {
     std::string_view name;
     double metres;
   };
-  // µ as the micro sign, as the Greek letter, and as the byte of Latin-1 that older programs write
+  // µ occurs as the micro sign, as the Greek letter, and as the single Latin-1 byte that older programs write
   constexpr Unit units[] = {{"m", 1},         {"cm", 1e-2},         {"mm", 1e-3},         {"um", 1e-6},
                             {"nm", 1e-9},     {"\u00b5m", 1e-6},    {"\u03bcm", 1e-6},    {"\xb5m", 1e-6},
                             {"meter", 1},     {"centimeter", 1e-2}, {"millimeter", 1e-3}, {"micrometer", 1e-6},

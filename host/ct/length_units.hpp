@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file length_units.hpp  Units of length as headers of images name them.
+/// \file length_units.hpp  Converts the names of length units in image headers to metres.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace macadam::ct {
 
-/// Returns metres per unit for "mm", "um", "microns", "micrometre" and the like, in capitals or small letters. Empty
-/// for any other name.
+/// Returns metres per unit for "mm", "um", "microns", "micrometre" and similar names, in upper or lower case. Empty for
+/// an unknown name.
 std::optional<double> metres_of_unit(std::string_view name);
 
 }  // namespace macadam::ct

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// memory.cpp  What Linux says of memory: of the machine, of this process and of its group.
+// memory.cpp  Reads from Linux how much memory is available: on the machine, to this process, and to its control group.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -15,13 +15,14 @@ namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The number in the first line of a small file; `without` where there is none.
+/// Returns the number in the first line of a small file, or `without` if there is none.
 double number_in(const char* file, double without) {
   std::ifstream in(file);
   double value = 0;
   return in >> value ? value : without;
 }
 
+/// Returns the free memory of the machine [bytes].
 double free_of_machine() {
   std::ifstream in("/proc/meminfo");
   std::string name;
@@ -31,6 +32,7 @@ double free_of_machine() {
   return unlimited;
 }
 
+/// Returns how much this process may still allocate under its limit of address space (ulimit -v) [bytes].
 double left_of_address_space() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
@@ -42,7 +44,7 @@ double left_of_address_space() {
 
 double memory_available() {
   const double group = number_in("/sys/fs/cgroup/memory.max", unlimited) -
-                       number_in("/sys/fs/cgroup/memory.current", 0);  // of a container
+                       number_in("/sys/fs/cgroup/memory.current", 0);  // limit of a container
   return std::min({free_of_machine(), left_of_address_space(), std::max(0.0, group)});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// meta_header.cpp  Lines `KEY = VALUE` or `KEY: VALUE`, of which ElementDataFile is the last.
+// meta_header.cpp  Parses lines `KEY = VALUE` or `KEY: VALUE`. The line ElementDataFile ends the header.
 #include "host/ct/meta_header.hpp"
 
 #include <fmt/format.h>
@@ -17,27 +17,33 @@
 namespace macadam::ct {
 namespace {
 
-constexpr std::size_t copied = 254;  // bytes: ITK copies keys, and the values of some, into 255
+// longest text [bytes]: ITK copies keys, and the values of some keys, into 255 bytes
+constexpr std::size_t copied = 254;
 
+/// Whether ITK copies the value of this key into 255 bytes.
 bool is_copied(std::string_view key) {
   return key == "Comment" || key == "ObjectType" || key == "ObjectSubType" || key == "Name" || key == "AcquisitionDate";
 }
 
+/// Whether the value of ElementDataFile means that the voxels follow the header in the same file.
 bool is_local(std::string_view value) { return value == "LOCAL" || value == "Local" || value == "local"; }
 
+/// Whether the whole text is a number, which is stored in `number`.
 bool is_number(std::string_view text, std::uintmax_t& number) {
   const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
   return fault == std::errc{} && end == text.data() + text.size();
 }
 
+/// Checks one line. \throws InputError for a text too long for ITK, another number of dimensions than 2 or 3, and
+/// voxels written as text.
 void check(const HeaderLines& lines, std::string_view key, std::string_view value) {
   if (key.size() > copied)
     lines.refuse(fmt::format("a key of {} bytes", key.size()), fmt::format("{} at the most", copied));
   if (is_copied(key) && value.size() > copied)
     lines.refuse(fmt::format("{} of {} bytes", key, value.size()), fmt::format("{} at the most", copied));
-  // to ITK 3e9 is a number too, and too large for its arrays
+  // compared as text: ITK would accept 3e9 as a number, which is too large for its arrays
   if (key == "NDims" && value != "2" && value != "3") lines.refuse(key, value, "two or three dimensions");
-  // of text ITK reads as many numbers as there are bytes of the voxels, where it reads a part of them
+  // from text voxels ITK reads as many numbers as the binary voxels would have bytes, if it reads only some slices
   if (key == "BinaryData" && !value.starts_with('T') && !value.starts_with('t') && !value.starts_with('1'))
     lines.refuse(key, value, "True: voxels that are text are not read");
 }
@@ -46,7 +52,7 @@ void check(const HeaderLines& lines, std::string_view key, std::string_view valu
 
 HeaderFacts check_meta_header(const std::filesystem::path& file) {
   HeaderLines lines(file, "header of a MetaImage");
-  bool copies_next = false;  // some versions of ITK take the next line for a value where there is none
+  bool copies_next = false;  // if a value is empty, some versions of ITK take the next line as the value
   std::uintmax_t packed = 0;
   HeaderFacts facts;
   while (const std::optional<std::string> line = lines.next()) {
@@ -63,11 +69,12 @@ HeaderFacts check_meta_header(const std::filesystem::path& file) {
     if (key == "DistanceUnits" && value != "?") facts.take_unit(value);
     if (key == "CompressedDataSize" && !is_number(value, packed)) lines.refuse(key, value, "a whole number of bytes");
     if (key != "ElementDataFile") continue;
-    // ITK counts the files of a list, and fills in a pattern as printf does, whatever they are
+    // refused: ITK would count the files of a LIST, and expand a file name pattern with printf, without checking that
+    // they exist
     if (value.starts_with("LIST") || value.find('%') != std::string_view::npos) lines.refuse_voxels(key, value);
     facts.voxels = is_local(value) ? file : lines.beside(key, value);
     if (const std::uintmax_t there = std::filesystem::file_size(facts.voxels);
-        packed > there)  // ITK takes memory for them
+        packed > there)  // because ITK allocates that many bytes
       throw InputError(file.string(), 0, "CompressedDataSize", fmt::format("{}", packed),
                        fmt::format("at most the {} bytes of {}", there, facts.voxels.filename().string()));
     return facts;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// nrrd_header.cpp  Lines `FIELD: VALUE` up to an empty one.
+// nrrd_header.cpp  Parses lines `FIELD: VALUE` up to the first empty line.
 #include "host/ct/nrrd_header.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace macadam::ct {
 namespace {
 
-/// Whole numbers that ITK keeps whole.
+/// Whether all words are whole numbers from 1 to 2³¹ − 1, which ITK stores without loss.
 bool are_sizes(std::string_view text) {
   constexpr std::int64_t most = 2147483647;
   std::istringstream in{std::string(text)};
@@ -27,7 +27,7 @@ bool are_sizes(std::string_view text) {
   return true;
 }
 
-/// `%`, digits, `d`: a number of a file to ITK.
+/// Whether the text contains `%`, digits, `d`, which ITK replaces by the number of a file.
 bool is_pattern(std::string_view text) {
   for (std::size_t at = text.find('%'); at < text.size(); at = text.find('%', at + 1)) {
     const std::size_t behind = text.find_first_not_of("0123456789", at + 1);
@@ -36,7 +36,7 @@ bool is_pattern(std::string_view text) {
   return false;
 }
 
-/// As ITK compares them: in any letters, and some with a blank or without.
+/// Returns the field name in the form in which ITK compares it: lower case, without blanks.
 std::string name_of(std::string_view field) {
   std::string out(field);
   std::erase(out, ' ');
@@ -44,7 +44,8 @@ std::string name_of(std::string_view field) {
   return out;
 }
 
-/// The unit in a list such as `"um" "um" "um"`; nothing if the list names none. Axes of different units have no unit.
+/// Returns the unit in a list such as `"um" "um" "um"`; nothing if the list names none. If the axes have different
+/// units, returns both names, which is not a known unit.
 std::optional<std::string> unit_in(std::string_view list) {
   std::optional<std::string> unit;
   for (;;) {
@@ -80,7 +81,7 @@ HeaderFacts check_nrrd_header(const std::filesystem::path& file) {
     if (value.starts_with("LIST") || is_pattern(value)) lines.refuse_voxels(field, value);
     facts.voxels = lines.beside(field, value);
   }
-  if (skips_to_end && !raw)  // ITK unpacks all there is, to find its end
+  if (skips_to_end && !raw)  // ITK would decompress everything to find the end
     throw InputError(file.string(), 0, "byte skip", "below 0 beside an encoding that is not raw", "encoding: raw");
   return facts;
 }

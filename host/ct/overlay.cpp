@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// overlay.cpp  Planes and a view of a segmentation.
+// overlay.cpp  Draws the three planes and the oblique view.
 #include "host/ct/overlay.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,8 @@
 namespace macadam::ct {
 namespace {
 
-/// Colours of neighbouring numbers differ much: hues by the golden ratio.
+/// Returns the colour of a grain. Hues advance by the golden ratio, so that neighbouring numbers have very different
+/// colours.
 Colour colour_of(std::uint32_t label) {
   const double hue = 6 * std::fmod(label * 0.6180339887, 1.0);
   const auto part = [&](double shift) {
@@ -23,13 +24,14 @@ Colour colour_of(std::uint32_t label) {
   return {part(0), part(4), part(2)};
 }
 
+/// Returns a + share·(b − a).
 Colour mixed(const Colour& a, const Colour& b, double share) {
   Colour out;
   for (std::size_t c = 0; c < 3; ++c) out[c] = static_cast<std::uint8_t>((1 - share) * a[c] + share * b[c]);
   return out;
 }
 
-/// The colour of a voxel: its grey value, tinted by grain, void or outside.
+/// Returns the colour of a voxel: its grey value, tinted if it belongs to a grain, a void or the outside.
 Colour colour_of_voxel(const Segmentation& s, std::size_t at) {
   const double low = s.levels.has_air ? s.levels.air : s.levels.mastic - s.levels.contrast();
   const double high = s.levels.aggregate + 0.3 * s.levels.contrast();
@@ -42,7 +44,7 @@ Colour colour_of_voxel(const Segmentation& s, std::size_t at) {
                                       : plain;
 }
 
-/// A plane of a picture: two axes of the scan, to the right and upwards.
+/// A plane of the picture: the axes of the scan that point right and up.
 struct Plane {
   const char* name;
   std::size_t right, up;
@@ -54,12 +56,12 @@ constexpr Plane planes[] = {{"xy", 0, 1}, {"xz", 0, 2}, {"yz", 1, 2}};
 double pixel_of(const Image<std::uint32_t>& image, const double (&edges)[3]) {
   constexpr double wanted = 1200;
   const double smallest = *std::min_element(edges, edges + 3);
-  double width = 0;  // of the three planes
+  double width = 0;  // total width of the three planes
   for (const Plane& plane : planes) width += edges[plane.right] * static_cast<double>(image.size[plane.right]);
   return smallest / std::clamp(std::ceil(wanted * smallest / width - 1e-9), 1.0, 8.0);
 }
 
-/// The length of 1, 2 or 5 times a power of ten that is next below `longest`.
+/// Returns the largest length not above `longest` that is 1, 2 or 5 times a power of ten.
 double round_length(double longest) {
   const double power = std::pow(10, std::floor(std::log10(longest)));
   return power * (longest >= 5 * power ? 5 : longest >= 2 * power ? 2 : 1);
@@ -67,8 +69,9 @@ double round_length(double longest) {
 
 }  // namespace
 
+// Nearest voxel for each pixel, so that voxels with different edges keep their proportions.
 void write_overlay(const std::filesystem::path& file, const Segmentation& s) {
-  constexpr std::size_t gap = 16;  // between planes, and around what stands below them [pixels]
+  constexpr std::size_t gap = 16;  // between planes, and around the labels below them [pixels]
   const double edges[3] = {s.labels.spacing.x, s.labels.spacing.y, s.labels.spacing.z};
   const double pixel = pixel_of(s.labels, edges);
   std::size_t pixels[3];
@@ -96,7 +99,7 @@ void write_overlay(const std::filesystem::path& file, const Segmentation& s) {
     if (pixels[right] >= label_width(name)) write_label(picture, left, high + gap, name);
     left += pixels[right] + gap;
   }
-  // the scale stands below the first plane, right of its name
+  // the scale bar is below the first plane, right of its name
   const double bar = round_length(0.4 * edges[0] * static_cast<double>(s.labels.size[0]));
   const auto wide = static_cast<std::size_t>(std::round(bar / pixel));
   const std::string text = fmt::format("{:.6g} mm", 1e3 * bar);
@@ -107,11 +110,13 @@ void write_overlay(const std::filesystem::path& file, const Segmentation& s) {
   write_png(file, picture);
 }
 
+// Draws the facets into a depth buffer: each pixel keeps the facet nearest to the viewer. The brightness of a facet
+// follows from the angle between its normal and the light.
 void write_view(const std::filesystem::path& file, const Segmentation& s) {
   constexpr std::size_t edge = 900;
   Picture picture(edge, edge);
   std::vector<double> depth(edge * edge, -std::numeric_limits<double>::infinity());
-  // right, up and towards the eye: from the front left, above
+  // directions on the picture, for a view from the front left, above; `towards` points to the viewer
   const Vec3d right{0.8660254, -0.5, 0}, towards{-0.4330127, -0.75, 0.5}, up = cross(towards, right);
   const Vec3d size{s.labels.spacing.x * static_cast<double>(s.labels.size[0]),
                    s.labels.spacing.y * static_cast<double>(s.labels.size[1]),
@@ -120,7 +125,7 @@ void write_view(const std::filesystem::path& file, const Segmentation& s) {
   const double scale = 0.95 * edge / norm(size);
   for (const ScannedGrain& grain : s.grains) {
     for (const auto& facet : grain.surface.facets) {
-      Vec3d p[3];  // pixels right and down, and nearness
+      Vec3d p[3];  // x and y: pixels right and down; z: distance towards the viewer
       for (std::size_t c = 0; c < 3; ++c) {
         const Vec3d x = grain.surface.points[static_cast<std::size_t>(facet[c])] - middle;
         p[c] = {0.5 * edge + scale * dot(x, right), 0.5 * edge - scale * dot(x, up), dot(x, towards)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file overlay.hpp  Pictures in which a person sees at a glance whether a segmentation can be right.
+/// \file overlay.hpp  Writes pictures in which a person can check a segmentation.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,13 @@
 
 namespace macadam::ct {
 
-/// Writes the three middle planes of the scan side by side (xy, xz, yz), the corrected grey values with the grains'
-/// colours over them, and a scale below: a PNG, of at least 1200 pixels' width where a voxel then has at most eight.
-/// Voxels whose edges differ are drawn with these edges. \throws RunError.
+/// Writes a PNG with the three middle planes of the scan side by side (xy, xz, yz): the corrected grey values, tinted
+/// with the grains' colours, and a scale bar below. The picture is at least 1200 pixels wide, unless a voxel would need
+/// more than eight pixels. Voxels with different edges are drawn in proportion. \throws RunError.
 void write_overlay(const std::filesystem::path& file, const Segmentation& segmentation);
 
-/// The grains seen obliquely from above, each in its colour of the planes, shaded by their surfaces: a PNG. \throws
-/// RunError.
+/// Writes a PNG of the grains seen obliquely from above, each in its colour of the planes, with shaded surfaces.
+/// \throws RunError.
 void write_view(const std::filesystem::path& file, const Segmentation& segmentation);
 
 }  // namespace macadam::ct

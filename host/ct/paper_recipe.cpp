@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// paper_recipe.cpp  Means of slices and rings, global Otsu, erosion and watershed, surfaces of voxels.
+// paper_recipe.cpp  Equalises slices and rings, then global Otsu threshold, erosion and watershed, surfaces of voxels.
 #include "host/ct/paper_recipe.hpp"
 
 #include "host/ct/distance.hpp"
@@ -14,7 +14,8 @@
 namespace macadam::ct {
 namespace {
 
-/// Shifts the voxels of every part by `to` less the part's mean; `part(at)` numbers a voxel's.
+/// Shifts the voxels of every part to one mean grey value: that of part `to`, or of the whole scan if `to` is empty.
+/// `part(at)` returns the part of a voxel.
 template <class Part>
 void shift_to(Image<float>& scan, const Image<std::uint8_t>& region, std::size_t parts, std::optional<std::size_t> to,
               Part&& part) {
@@ -32,7 +33,7 @@ void shift_to(Image<float>& scan, const Image<std::uint8_t>& region, std::size_t
   }
 }
 
-/// What of the outside no path from the end of the image reaches becomes inside.
+/// Fills holes: adds the outside voxels that no path from the end of the image reaches.
 void fill_holes(Image<std::uint8_t>& mask) {
   Image<std::uint8_t> seen = mask;
   std::vector<std::size_t> open;
@@ -116,10 +117,11 @@ Segmentation segment_as_paper(Image<float> scan, const Image<std::uint8_t>& regi
   }
   Image<float> distance = distance_inside(mask);
   const double voxel = std::cbrt(scan.voxel_volume());
-  for (std::size_t at = 0; at < scan.count(); ++at) mask.voxels[at] = distance.voxels[at] > voxel;  // eroded
+  // erosion by one voxel
+  for (std::size_t at = 0; at < scan.count(); ++at) mask.voxels[at] = distance.voxels[at] > voxel;
   distance = distance_inside(mask);
   const Fragments fragments = flood(distance, scan, 1);
-  out.labels = spread(out.phases, fragments.labels, 1);  // dilated
+  out.labels = spread(out.phases, fragments.labels, 1);  // dilation
   drop_small(out.labels, least_volume(options));
   out.confidence = Image<std::uint8_t>::like(scan, 255);
   out.levels = levels;

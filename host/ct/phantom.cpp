@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// phantom.cpp  A specimen with the surfaces of its aggregates, sawn, voxel by voxel, and what is known of it.
+// phantom.cpp  Makes a phantom: generates a specimen with the surfaces of its aggregates, saws it, converts it to
+// voxels, and adds the faults of a scanner. The truth is kept with it.
 #include "macadam/phantom.hpp"
 
 #include <fmt/format.h>
@@ -21,12 +22,15 @@ using ct::Body;
 using ct::Coverage;
 using ct::SawnCore;
 
+/// Largest number of voxels of a phantom.
 constexpr double most_voxels = 2e9;
 
+/// \throws InputError if `wrong` is true.
 void refuse(bool wrong, const char* what, double found, const char* expected) {
   if (wrong) throw InputError("phantom", 0, what, fmt::format("{}", found), expected);
 }
 
+/// \throws InputError for impossible values of the specification.
 void check(const PhantomSpec& spec, const Box& box) {
   refuse(!(std::isfinite(spec.voxel) && spec.voxel > 0), "voxel", spec.voxel, "a positive length");
   refuse(!(spec.air >= 0 && std::isfinite(spec.air)), "air", spec.air, "a length of 0 or more");
@@ -47,7 +51,8 @@ void check(const PhantomSpec& spec, const Box& box) {
   refuse(voxels > most_voxels, "number of voxels", voxels, "at most 2e9; ask for larger ones");
 }
 
-/// The specimen of a file, where every aggregate is a sphere.
+/// Returns the specimen of a file. Each aggregate must be one sphere, because a file does not contain the surfaces of
+/// clusters. \throws InputError.
 GeneratedSpecimen from_file(const Scene& scene) {
   GeneratedSpecimen out;
   out.specimen = read_specimen_csv(*scene.specimen.file, scene.specimen.box);
@@ -72,7 +77,8 @@ GeneratedSpecimen from_file(const Scene& scene) {
   return out;
 }
 
-/// What remains of the specimen when so much is taken off every side: the spheres whose centres do.
+/// Returns what remains of the specimen if a layer of thickness `off` is cut off each side: the spheres and voids whose
+/// centres remain.
 Specimen sawn(const Specimen& whole, double off) {
   Specimen out;
   const Vec3d corner{off, off, off};
@@ -94,7 +100,7 @@ Specimen sawn(const Specimen& whole, double off) {
   return out;
 }
 
-/// The aggregates in the frame of the sawn specimen, with all that is known of them before they are voxels.
+/// Returns the aggregates in the frame of the sawn specimen, with all values that do not depend on voxels.
 std::vector<PhantomGrain> grains_of(const GeneratedSpecimen& made, const PhantomSpec& spec) {
   std::vector<ShapeMeasure> measure(made.surfaces.size());
   std::vector<double> sieve(made.surfaces.size());
@@ -103,6 +109,7 @@ std::vector<PhantomGrain> grains_of(const GeneratedSpecimen& made, const Phantom
     sieve[k] = square_sieve(made.surfaces[k]);
   });
   Surface unit = geodesic_sphere(3);
+  // a sphere's polyhedron gets the volume of the sphere
   const double grown = std::cbrt(4 * std::numbers::pi / 3 / measure_shape(unit).volume);
   const Vec3d corner{spec.sawn, spec.sawn, spec.sawn};
   std::vector<PhantomGrain> out;
@@ -133,26 +140,28 @@ std::vector<PhantomGrain> grains_of(const GeneratedSpecimen& made, const Phantom
   return out;
 }
 
+/// Whether the sides of the core cut a grain.
 bool cut_by(const SawnCore& core, const PhantomGrain& g) {
-  // of a sphere the surface may come out of it by as much as its facets lie within
+  // the polyhedron of a sphere has the volume of the sphere, so its points lie slightly outside the sphere
   const double margin = 1e-3 * g.sphere_radius;
   return std::any_of(g.surface.points.begin(), g.surface.points.end(), [&](const Vec3d& p) {
     return p.z < core.low.z - margin || p.z > core.high.z + margin || !core.holds(p.x, p.y);
   });
 }
 
-/// Shares of all voxels.
+/// Filled fractions of all voxels.
 struct Shares {
   Image<float> aggregate, voids, specimen;
 };
 
+/// Adds the filled fractions of a body.
 void add(const Coverage& c, Image<float>& to) {
   for (std::int64_t k = c.begin[2]; k < c.end[2]; ++k)
     for (std::int64_t j = c.begin[1]; j < c.end[1]; ++j)
       for (std::int64_t i = c.begin[0]; i < c.end[0]; ++i) to.at(i, j, k) += c.share[c.index(i, j, k)];
 }
 
-/// Labels the voxels of which a grain fills more than those before it.
+/// Labels the voxels of which the grain fills more than any grain before it.
 void label(const Coverage& c, std::uint32_t id, Image<float>& largest, Image<std::uint32_t>& labels) {
   for (std::int64_t k = c.begin[2]; k < c.end[2]; ++k) {
     for (std::int64_t j = c.begin[1]; j < c.end[1]; ++j) {
@@ -166,10 +175,10 @@ void label(const Coverage& c, std::uint32_t id, Image<float>& largest, Image<std
   }
 }
 
-/// Numbers the grains that something is left of, and finds their voxels.
+/// Numbers the grains of which some volume remains, and finds their voxels.
 void voxelise(const SawnCore& core, const PhantomSpec& spec, Phantom& out, Image<float>& share,
               const std::function<void(const char* stage, double share)>& report) {
-  constexpr std::size_t at_once = 32;  // whose voxels are in memory
+  constexpr std::size_t at_once = 32;  // number of grains whose voxels are in memory at the same time
   auto largest = Image<float>::like(share);
   std::vector<PhantomGrain> kept;
   const std::size_t n = out.grains.size();
@@ -194,7 +203,8 @@ void voxelise(const SawnCore& core, const PhantomSpec& spec, Phantom& out, Image
   out.grains = std::move(kept);
 }
 
-/// Phases by what fills most of a voxel, grey values by shares.
+/// Sets the phase of each voxel to what fills most of it, and its grey value to the mean of the phases weighted by
+/// their fractions. Sets the volume fractions.
 void settle(const PhantomSpec& spec, const Shares& shares, Phantom& out, Image<float>& grey) {
   const auto n = static_cast<std::int64_t>(grey.count());
   double specimen = 0, aggregate = 0, voids = 0;
@@ -223,6 +233,8 @@ void settle(const PhantomSpec& spec, const Shares& shares, Phantom& out, Image<f
 
 }  // namespace
 
+// Steps: generate the specimen; fractions of aggregate, voids and specimen in each voxel; phases and grey values from
+// them; faults of a scanner; gaps between grains.
 Phantom make_phantom(const Scene& scene, const PhantomSpec& spec,
                      const std::function<void(const std::string& stage, double share)>& progress) {
   check(spec, scene.specimen.box);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// phantom_files.cpp  The folder of a phantom: the scan, how it was made, and the truth.
+// phantom_files.cpp  Writes the folder of a phantom: the scan, its parameters, and the truth.
 #include <fmt/format.h>
 
 #include <iterator>
@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+/// Returns phantom.json: how the phantom was made, and its volume fractions.
 std::string parameters(const Phantom& p, const Scene& scene, const PhantomSpec& spec) {
   const Vec3d& box = p.specimen.box.size;
   const Json out = {
@@ -43,6 +44,7 @@ std::string parameters(const Phantom& p, const Scene& scene, const PhantomSpec& 
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+/// Returns the table of gaps between grains. Grains closer than a voxel count as in contact.
 std::string contacts_csv(const Phantom& p, double voxel) {
   fmt::memory_buffer text;
   auto to = std::back_inserter(text);
@@ -51,6 +53,7 @@ std::string contacts_csv(const Phantom& p, double voxel) {
   return fmt::to_string(text);
 }
 
+/// Returns the table of the grains. Values are in SI units.
 std::string grains_csv(const Phantom& p) {
   fmt::memory_buffer text;
   auto to = std::back_inserter(text);
@@ -70,7 +73,7 @@ void write_phantom(const fs::path& out, const Phantom& phantom, const Scene& sce
   const fs::path truth = out / "truth";
   for (const char* folder : {ct::whole_grains, ct::cut_grains}) {
     std::error_code error;
-    fs::remove_all(truth / folder, error);  // those of another phantom
+    fs::remove_all(truth / folder, error);  // removes surfaces of an earlier phantom
     fs::create_directories(truth / folder, error);
     if (error) throw RunError((truth / folder).string() + ": the folder cannot be made: " + error.message());
   }

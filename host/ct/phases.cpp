@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// phases.cpp  Thresholds, and the Markov field that evens out what noise does to them.
+// phases.cpp  Thresholds, and the Markov random field that removes the effect of noise on the phases.
 #include "host/ct/phases.hpp"
 
 #include "kernels/parallel.hpp"
@@ -8,7 +8,7 @@
 namespace macadam::ct {
 namespace {
 
-/// The grey value below which this share of a histogram lies.
+/// Returns the grey value below which the fraction `share` of a histogram lies.
 double quantile(const Histogram& h, double share) {
   double left = share * static_cast<double>(h.total());
   for (std::size_t b = 0; b < h.counts.size(); ++b) {
@@ -19,7 +19,8 @@ double quantile(const Histogram& h, double share) {
   return h.low + h.width * static_cast<double>(h.counts.size());
 }
 
-/// `wanted` where it lies between a quarter and three quarters of the way from `low` to `high`.
+/// Returns `wanted`, limited to the range from a quarter to three quarters of the way from `low` to `high`. Warns if it
+/// was outside.
 double within(double wanted, double low, double high, const char* what, std::vector<std::string>& warnings) {
   const double from = low + 0.25 * (high - low), to = low + 0.75 * (high - low);
   if (wanted >= from && wanted <= to) return wanted;
@@ -57,9 +58,9 @@ Phases classify(const Image<float>& grey, const Image<std::uint8_t>& region, con
     for (std::size_t i = k * out.phase.count() / slices; i < (k + 1) * out.phase.count() / slices; ++i)
       out.phase.voxels[i] = across(i);
   });
-  // Neighbours weigh little: more would eat the small voids, whose surfaces bend.
-  // Energies of a pair of phases differ by (grey − threshold)·contrast/σ²; σ stands for noise and blur both, so that a
-  // neighbour weighs as much as a fifth of the contrast.
+  // The weight of the neighbours is small: a larger one would remove small voids, because their surfaces are curved.
+  // The energies of two phases differ by (grey − threshold)·contrast/σ², with contrast²/σ² = 10; σ covers noise and
+  // blur. Six neighbours of one phase then outweigh a grey value difference of up to about a fifth of the contrast.
   const double gap = levels.has_air ? levels.mastic - levels.air : 1;
   const auto energy = [&](float value) {
     const double x_air = 10 * (value - thresholds.air) / gap,
@@ -70,7 +71,8 @@ Phases classify(const Image<float>& grey, const Image<std::uint8_t>& region, con
   const auto offset_y = nx, offset_z = nx * ny;
   constexpr int rounds = 3;
   for (int half = 0; half < 2 * rounds; ++half) {
-    // voxels of one colour of a chessboard have their neighbours in the other: the answer does not depend on the order
+    // voxels are updated like the fields of a chessboard: all neighbours of a voxel have the other colour, so the
+    // result does not depend on the order within a colour
     for_each_in_parallel(slices, [&, nx = nx, ny = ny, nz = nz](std::size_t slice) {
       const auto k = static_cast<std::int64_t>(slice);
       for (std::int64_t j = 0; j < ny; ++j) {

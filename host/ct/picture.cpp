@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// picture.cpp  Letters of five by seven dots, and PNG by ITK.
+// picture.cpp  Draws letters of five by seven dots, and writes PNG with ITK.
 #include "host/ct/picture.hpp"
 
 #include <itkPNGImageIO.h>
@@ -15,9 +15,10 @@ constexpr std::size_t dot_size = 2, glyph_columns = 5, glyph_rows = 7;  // pixel
 constexpr std::size_t advance = dot_size * (glyph_columns + 1);         // from letter to letter [pixels]
 static_assert(dot_size * glyph_rows == label_height);
 
+/// A letter as rows of dots.
 struct Glyph {
   char letter;
-  std::array<std::uint8_t, glyph_rows> dots;  ///< of each row, the leftmost is the highest of five bits
+  std::array<std::uint8_t, glyph_rows> dots;  ///< five bits per row; the leftmost dot is the highest bit
 };
 
 constexpr Glyph glyphs[] = {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// refine.cpp  A slab of the file after the other is added to the nodes of the grains that it cuts.
+// refine.cpp  Reads the file slab by slab and adds each slab to the nodes of the grains that it intersects. A grain is
+// finished when its last slab has been read.
 #include "host/ct/refine.hpp"
 
 #include "host/ct/smoothing.hpp"
@@ -9,25 +10,29 @@
 namespace macadam::ct {
 namespace {
 
-/// A grain's nodes, each the mean of a block of `edge` voxels of the file.
+/// The nodes of a grain's surface field. Each node is the mean of a cube of `edge` voxels of the file.
 struct Nodes {
-  std::size_t grain = 0;  ///< its place in the list of grains
-  GrainBox box;           ///< in blocks of the coarser grid
+  std::size_t grain = 0;  ///< index in the list of grains
+  GrainBox box;           ///< bounding box in blocks of the coarse grid
   std::int64_t edge = 1;
-  std::array<std::int64_t, 3> first{}, size{};  ///< first voxel, number of nodes
-  Image<float> sum;                             ///< nothing until the first slab, and after the last
+  std::array<std::int64_t, 3> first{}, size{};  ///< first voxel, and number of nodes, along each axis
+  Image<float> sum;                             ///< sum of the voxels of each node; empty before the first slab and
+                                                ///< after the last
   std::int64_t end() const { return first[2] + edge * size[2]; }
 };
 
+/// Returns the nodes for a grain: so fine that about `across` of them lie along its intermediate side, with a margin
+/// around it.
 Nodes nodes_of(std::size_t grain, const GrainBox& box, const FineScan& scan) {
   Nodes nodes{grain, box, std::max<std::int64_t>(1, scan.block * box.middle_side() / across), {}, {}, {}};
-  for (std::size_t a = 0; a < 3; ++a) {  // a surface may lie up to a block outside the labels
+  for (std::size_t a = 0; a < 3; ++a) {  // a surface may lie up to one block outside the labels
     nodes.first[a] = scan.block * (box.low[a] - 1) - margin * nodes.edge;
     nodes.size[a] = (scan.block * (box.high[a] + 2) + margin * nodes.edge - nodes.first[a]) / nodes.edge + 1;
   }
   return nodes;
 }
 
+/// Adds the voxels of slices [from, to) to the sums of a grain's nodes.
 void add(Nodes& nodes, const std::vector<float>& slab, std::int64_t from, std::int64_t to, const ImageHeader& header) {
   if (nodes.sum.count() == 0) nodes.sum = Image<float>(nodes.size, {1, 1, 1});
   const auto [nx, ny, nz] = header.size;
@@ -45,13 +50,14 @@ void add(Nodes& nodes, const std::vector<float>& slab, std::int64_t from, std::i
   }
 }
 
-/// Fields of the coarser grid around a grain, positive where a place is not another grain's, and where it is of the
-/// specimen.
+/// Two fields on the coarse grid around a grain: `own` is positive except in aggregate that does not belong to the
+/// grain, `inside` is positive within the specimen. The grain's surface must stay where both are positive.
 struct Around {
   Image<float> own, inside;
   std::array<std::int64_t, 3> first{};
 };
 
+/// Computes the two fields for grain `id`, smoothed.
 Around around(const Segmentation& out, std::uint32_t id, const GrainBox& box) {
   constexpr std::int64_t ring = 3;
   Around a;
@@ -62,10 +68,11 @@ Around around(const Segmentation& out, std::uint32_t id, const GrainBox& box) {
     for (std::int64_t j = 0; j < size[1]; ++j) {
       for (std::int64_t i = 0; i < size[0]; ++i) {
         const std::array<std::int64_t, 3> place{a.first[0] + i, a.first[1] + j, a.first[2] + k};
-        auto near = place;  // in the scan
+        auto near = place;  // the nearest place inside the scan
         for (std::size_t c = 0; c < 3; ++c) near[c] = std::clamp<std::int64_t>(place[c], 0, out.labels.size[c] - 1);
         const auto phase = static_cast<VoxelPhase>(out.phases.at(near[0], near[1], near[2]));
-        // Where the scan ends, its grey values end the grain, at the end itself. A cut goes on beyond.
+        // `inside` stays positive beyond the end of the scan, because the grey values already end the grain exactly
+        // there. Labels are continued beyond the end, so a cut between two grains continues too.
         if (phase != VoxelPhase::outside || near != place) a.inside.at(i, j, k) = 0.5f;
         if (phase == VoxelPhase::aggregate && out.labels.at(near[0], near[1], near[2]) != id) a.own.at(i, j, k) = -0.5f;
       }
@@ -75,7 +82,7 @@ Around around(const Segmentation& out, std::uint32_t id, const GrainBox& box) {
   return a;
 }
 
-/// Between the values of a field.
+/// Returns the trilinear interpolation of a field at (i, j, k).
 float between(const Image<float>& field, double i, double j, double k) {
   std::int64_t low[3];
   double share[3];
@@ -94,6 +101,7 @@ float between(const Image<float>& field, double i, double j, double k) {
   return static_cast<float>(sum);
 }
 
+/// Makes the new surface of a grain from the sums of its nodes.
 struct Refiner {
   const FineScan& scan;
   const Segmentation& out;
@@ -102,19 +110,20 @@ struct Refiner {
   double noise;
   const SegmentOptions& options;
 
-  /// The field of a grain, from the sums of its nodes.
+  /// Returns the field whose zero level is the grain's surface, from the sums of its nodes. Clears the sums.
   Image<float> field_of(Nodes& nodes) const {
     const auto e = static_cast<double>(nodes.edge);
     const ImageHeader& header = scan.file.header();
     Image<float> field = std::move(nodes.sum);
     nodes.sum = {};
     field.spacing = e * scan.spacing;
-    const auto middle = [&](std::size_t axis, std::int64_t node) {  // in voxels
+    const auto middle = [&](std::size_t axis, std::int64_t node) {  // middle of a node [voxels]
       return static_cast<double>(nodes.first[axis] + nodes.edge * node) + 0.5 * (e - 1);
     };
     field.origin = header.origin +
                    Vec3d{scan.spacing.x * middle(0, 0), scan.spacing.y * middle(1, 0), scan.spacing.z * middle(2, 0)};
-    const auto voxels = [&](std::size_t axis, std::int64_t node) {  // of the scan, in a node
+    // number of voxels of the scan in a node along an axis
+    const auto voxels = [&](std::size_t axis, std::int64_t node) {
       const std::int64_t low = nodes.first[axis] + nodes.edge * node;
       return std::max<std::int64_t>(0, std::min(header.size[axis], low + nodes.edge) - std::max<std::int64_t>(0, low));
     };
@@ -137,7 +146,7 @@ struct Refiner {
         }
       }
     }
-    // as the whole scan, whose nodes are voxels: more noise, more rounds
+    // as in segment_scan(), where the nodes are voxels: the more noise, the more diffusion steps
     const int rounds = std::clamp(static_cast<int>(std::lround(40 * noise / std::pow(e, 1.5))), 0, 8);
     if (options.denoising != Denoising::none) diffuse(field, 0.3, rounds);
     for (std::size_t n = 0; n < field.count(); ++n)
@@ -146,7 +155,7 @@ struct Refiner {
     return field;
   }
 
-  /// The grain with its new surface; nothing where that cannot be made.
+  /// Returns the grain with its new surface; nothing if the surface cannot be made.
   std::optional<ScannedGrain> refined(Nodes& nodes) const {
     try {
       const Image<float> field = field_of(nodes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// region.cpp  The specimen's outline, from columns and slices that hold material.
+// region.cpp  Finds the specimen's outline from the columns and slices that contain material.
 #include "host/ct/region.hpp"
 
 #include "host/ct/grey_levels.hpp"
@@ -9,12 +9,14 @@
 namespace macadam::ct {
 namespace {
 
+/// The outline of the specimen: columns of voxels, and a range of slices.
 struct Outline {
-  std::vector<std::uint8_t> columns;  ///< 1: of the specimen
+  std::vector<std::uint8_t> columns;  ///< one per column of voxels; 1: within the specimen
   std::int64_t bottom = 0, top = 0;   ///< slices [bottom, top)
 };
 
-/// The longest run of slices that hold at least half of what the fullest one holds.
+/// Sets the ends of the specimen: the longest sequence of slices that each contain at least half as much material as
+/// the fullest slice.
 void find_ends(const std::vector<double>& share, Outline& outline) {
   const double half = 0.5 * *std::max_element(share.begin(), share.end());
   const auto n = static_cast<std::int64_t>(share.size());
@@ -26,7 +28,8 @@ void find_ends(const std::vector<double>& share, Outline& outline) {
   }
 }
 
-/// Rows and columns from the first to the last voxel that has material: what air lies between is the specimen's own.
+/// Keeps the columns that lie between the first and the last column with material, along x and along y: air between
+/// them is inside the specimen.
 void close_gaps(std::vector<std::uint8_t>& columns, std::int64_t nx, std::int64_t ny) {
   std::vector<std::uint8_t> along_x(columns.size()), along_y(columns.size());
   const auto fill = [&](std::int64_t first, std::int64_t step, std::int64_t n, std::vector<std::uint8_t>& out) {
@@ -58,7 +61,8 @@ Image<std::uint8_t> find_region(const Image<float>& scan, ScanRegion kind) {
         ++in_column[static_cast<std::size_t>(c)], ++in_slice[static_cast<std::size_t>(k)];
     }
   }
-  // air voids and mastic darker than Otsu's value leave a column of a specimen some share; around it there is none
+  // voxels brighter than Otsu's threshold are material; each column of a specimen has some (0.15 of the fullest
+  // column), although voids and dark mastic are below the threshold, and the surroundings have almost none
   find_ends(in_slice, outline);
   const double fullest = static_cast<double>(*std::max_element(in_column.begin(), in_column.end()));
   if (fullest <= 0) throw InputError("the scan", 0, "specimen", "none", "a region brighter than its surroundings");
@@ -80,7 +84,7 @@ Image<std::uint8_t> find_region(const Image<float>& scan, ScanRegion kind) {
   x /= n, y /= n;
   const double filled = n / static_cast<double>((high_x - low_x + 1) * (high_y - low_y + 1));
   if (kind == ScanRegion::found) {
-    // π/4 = 0.785 of the box around it: a cylinder
+    // a circle fills π/4 = 0.785 of its bounding box
     kind = filled > 0.95                     ? ScanRegion::prism
            : std::abs(filled - 0.785) < 0.03 ? ScanRegion::cylinder
                                              : ScanRegion::found;

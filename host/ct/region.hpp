@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file region.hpp  What of a scan is the specimen.
+/// \file region.hpp  Finds the part of a scan that is the specimen.
 #pragma once
 
 #include "macadam/ct.hpp"
 
 namespace macadam::ct {
 
-/// 1 within the specimen, 0 outside. A specimen stands upright in the scan: its outline is looked for in the share of
-/// material of every column of voxels, its ends in that of every slice. \throws InputError where there is none.
+/// Returns a mask: 1 within the specimen, 0 outside. The specimen must stand upright in the scan. Its outline follows
+/// from the fraction of material in each column of voxels, its ends from the fraction in each slice. \throws InputError
+/// if nothing is brighter than the surroundings.
 Image<std::uint8_t> find_region(const Image<float>& scan, ScanRegion kind);
 
-/// The voxels whose centres lie within the region that was given. \throws InputError where there is none.
+/// Returns the mask of the voxels whose centres lie within the given region. \throws InputError if there is none.
 Image<std::uint8_t> take_region(const Image<float>& scan, const GivenRegion& given);
 
 }  // namespace macadam::ct

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scan_checks.cpp  Clipping, ends, rings, levels and axes of a scan.
+// scan_checks.cpp  Checks for clipping, ends, rings, levels and axes of a scan.
 #include "host/ct/scan_checks.hpp"
 
 #include "host/ct/correction.hpp"
@@ -9,7 +9,8 @@
 namespace macadam::ct {
 namespace {
 
-/// The middle grey value of what lies around the specimen, where that is at least a hundredth of the scan.
+/// Returns the median grey value around the specimen; nothing if the surroundings are less than a hundredth of the
+/// scan.
 std::optional<double> level_around(const Image<float>& scan, const Image<std::uint8_t>& region) {
   std::vector<float> around;
   const std::size_t step = scan.count() / 1'000'000 + 1;
@@ -87,7 +88,7 @@ void check_ends(const Image<std::uint8_t>& region, std::vector<std::string>& war
 }
 
 void check_rings(const Image<float>& scan, const Image<std::uint8_t>& region) {
-  // The grains of a specimen explain some hundredths: a ring of a few voxels' width crosses many of them
+  // The grains of a specimen explain a few per cent, because a ring of a few voxels' width crosses many of them.
   constexpr double most = 0.15;
   if (const double share = ring_share(scan, region); share > most) {
     throw InputError("the scan", 0, "rings",
@@ -109,7 +110,7 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
             "their own in the histogram, give --air-voids 0: they are then taken for mastic",
             100 * *options.air_voids));
   }
-  // what lies around a region by coordinates may be the same specimen
+  // around a region given by coordinates there may be more of the specimen
   const std::optional<double> around = options.given ? std::nullopt : level_around(scan, region);
   if (around && std::abs(*around - levels.mastic) < 0.25 * levels.contrast()) {
     throw InputError(
@@ -120,7 +121,7 @@ double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& regi
         "alone, give --air-voids 0: the air is then taken for mastic)");
   }
   warnings.push_back("the scan has two grey levels: they were taken for mastic and aggregate, without air voids");
-  if (around) return 1;  // air is something else
+  if (around) return 1;  // the air around the specimen has another level, so neither phase is air
   warnings.push_back(
       "nothing in it tells which two phases they are, so that no grain is more than half sure: give --air-voids 0 "
       "where there are none");
@@ -145,7 +146,8 @@ double trust_in_axes(const Image<std::uint8_t>& phases, std::vector<std::string>
   double chord[3];
   for (std::size_t a = 0; a < 3; ++a) chord[a] = ends[a] > 0 ? edges[a] * voxels / ends[a] : 0;
   const auto [shortest, longest] = std::minmax_element(chord, chord + 3);
-  // Compaction lays flat grains down: chords of a core may differ by a quarter. A voxel of twice the height makes it 2.
+  // Compaction turns flat grains horizontal: chord lengths in a core may differ by a quarter. A factor of two in the
+  // voxel height gives a ratio of 2.
   if (!(*longest > 1.5 * *shortest)) return 1;
   warnings.push_back(fmt::format(
       "chords through the aggregate are {:.3g}, {:.3g} and {:.3g} mm long along x, y and z: are the edges of a voxel "
@@ -163,7 +165,7 @@ double trust_in_grains(const Image<std::uint32_t>& labels, const Image<std::uint
     if (labels.voxels[i] >= voxels.size()) voxels.resize(labels.voxels[i] + 1);
     ++voxels[labels.voxels[i]];
   }
-  voxels[0] = 0;  // no grain
+  voxels[0] = 0;  // label 0 is no grain
   const double share = *std::max_element(voxels.begin(), voxels.end()) / specimen;
   if (share < 0.5) return 1;
   warnings.push_back(fmt::format(
@@ -191,7 +193,7 @@ void measure_unassigned(Segmentation& out, const SegmentOptions& options) {
     in_none += out.labels.voxels[i] == 0;
   }
   out.in_no_grain = all > 0 ? static_cast<double>(in_none) / static_cast<double>(all) : 0;
-  // some aggregate is always below what a scan resolves
+  // some aggregate is always smaller than a scan can resolve
   constexpr double many = 0.1;
   if (!(out.in_no_grain > many)) return;
   const double finest = 4 * std::cbrt(out.phases.voxel_volume());

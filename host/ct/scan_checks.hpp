@@ -1,47 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scan_checks.hpp  What makes a scan, or what was found in it, doubtful: errors where nothing can be told,
-/// warnings and less confidence where a person has to look.
+/// \file scan_checks.hpp  Checks whether a scan and its segmentation are plausible. Throws if nothing can be
+/// determined; warns and lowers the confidence if a person should look at it.
 #pragma once
 
 #include "host/ct/grey_levels.hpp"
 
 namespace macadam::ct {
 
-/// By how much a doubt about the whole scan lowers the confidence of all its grains.
+/// Factor for the confidence of all grains if there is a doubt about the whole scan.
 constexpr double doubtful = 0.5;
 
-/// \throws InputError where a scan has no voxels, a voxel that is no number, or one grey value everywhere.
+/// \throws InputError if a scan has no voxels, a voxel that is not a finite number, or one grey value everywhere.
 void check_voxels(const Image<float>& scan);
 
-/// \throws InputError where a scan has fewer than four voxels along an axis: one slice, say.
+/// \throws InputError if a scan has fewer than four voxels along an axis, for example a single slice.
 void check_thickness(const Image<float>& scan);
 
-/// Measures which part of the aggregate's volume is in no grain (Segmentation::in_no_grain), from phases and labels.
+/// Sets Segmentation::in_no_grain, the fraction of the aggregate's volume that is in no grain, from phases and labels.
 /// Warns above a tenth.
 void measure_unassigned(Segmentation& out, const SegmentOptions& options);
 
-/// The specimen's voxels of the least or the largest grey value, by number, where they are more than 1 %: what those
-/// would have been is not known. Empty where there are none. Warns.
+/// Finds voxels of the specimen that are clipped: they have the smallest or the largest grey value, and more than 1 %
+/// of the specimen's voxels share that value. Returns one flag per voxel, or an empty vector if there are none. Warns
+/// if there are some.
 std::vector<bool> clipped_voxels(const Image<float>& scan, const Image<std::uint8_t>& region,
                                  std::vector<std::string>& warnings);
 
-/// Warns where the specimen ends in air at one end of an axis, and with the scan at the other.
+/// Warns if the specimen ends in air at one end of an axis, but touches the end of the scan at the other.
 void check_ends(const Image<std::uint8_t>& region, std::vector<std::string>& warnings);
 
-/// \throws InputError where grey values follow the distance from the axis more than the specimen.
+/// \throws InputError if rings explain more than 15 % of the variance of the grey values (see ring_share()).
 void check_rings(const Image<float>& scan, const Image<std::uint8_t>& region);
 
-/// Whether the levels are those of the phases: 1, or `doubtful`, with a warning, where two levels may be any two
-/// phases. \throws InputError where they are not.
+/// Checks that the levels belong to the phases. Returns 1, or `doubtful` with a warning if the scan has two levels that
+/// may be any two phases. \throws InputError if they cannot be mastic and aggregate.
 double trust_in_levels(const Image<float>& scan, const Image<std::uint8_t>& region, const GreyLevels& levels,
                        const SegmentOptions& options, std::vector<std::string>& warnings);
 
-/// Whether grains are as long along each axis as along the others: 1, or `doubtful`, with a warning. They lie in all
-/// directions, more or less: a voxel that is not as high as it was said to be makes all of them flat or tall.
+/// Checks that the aggregate has similar chord lengths along all axes. Returns 1, or `doubtful` with a warning. Grains
+/// lie in all directions, more or less; if the height of the voxels is wrong, all grains look flat or tall.
 double trust_in_axes(const Image<std::uint8_t>& phases, std::vector<std::string>& warnings);
 
-/// Whether aggregate came apart into grains: 1, or `doubtful`, with a warning, where one of them is most of the
-/// specimen.
+/// Checks that the aggregate was separated into grains. Returns 1, or `doubtful` with a warning if one grain fills at
+/// least half of the specimen.
 double trust_in_grains(const Image<std::uint32_t>& labels, const Image<std::uint8_t>& phases,
                        std::vector<std::string>& warnings);
 

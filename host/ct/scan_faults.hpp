@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scan_faults.hpp  What a scanner does to the grey values of a specimen.
+/// \file scan_faults.hpp  Adds the faults of a scanner to the grey values of a phantom.
 #pragma once
 
 #include "macadam/phantom.hpp"
 
 namespace macadam::ct {
 
-/// Blur, cupping and rings about the upright axis through the middle, drift of the slices, noise. `radius`: of the
-/// specimen [m].
+/// Adds blur, cupping and rings about the vertical axis through the middle, drift of the slices, and noise. `radius` is
+/// the radius of the specimen [m].
 void add_faults(Image<float>& grey, const PhantomSpec& spec, double radius);
 
 }  // namespace macadam::ct

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// segment.cpp  From a scan to phases and grains, step by step.
+// segment.cpp  Segments a scan into phases and grains, step by step.
 #include "host/ct/correction.hpp"
 #include "host/ct/distance.hpp"
 #include "host/ct/gradation.hpp"
@@ -21,11 +21,12 @@ namespace {
 
 using namespace ct;
 
+/// Reports a stage and its progress, if the caller wants it.
 void say(const SegmentOptions& options, const char* stage, double share = 0) {
   if (options.progress) options.progress(stage, share);
 }
 
-/// \throws InputError where the levels cannot be those of mastic and aggregate.
+/// \throws InputError if mastic and aggregate cannot be distinguished by their levels.
 void check_levels(const Histogram& histogram, const GreyLevels& levels) {
   if (levels.contrast() < 2 * levels.deviation || !has_valley(histogram, levels)) {
     throw InputError("the scan", 0, "contrast between mastic and aggregate",
@@ -69,7 +70,8 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   const GreyLevels noisy = fit_levels(histogram_of(scan, region));
   if (!(noisy.contrast() > 0)) check_levels(histogram_of(scan, region), noisy);
   if (options.denoising == Denoising::median) median(scan);
-  // more noise, more rounds; each takes something off what is small and round as well
+  // The more noise, the more diffusion steps. Not more steps than needed, because each also shrinks small round
+  // features.
   const int rounds = std::clamp(static_cast<int>(std::lround(40 * noisy.deviation / noisy.contrast())), 1, 8);
   if (options.denoising == Denoising::diffusion) diffuse(scan, 0.3 * noisy.contrast(), rounds);
   say(options, "phases");
@@ -99,14 +101,14 @@ Segmentation ct::segment_steps(Image<float> scan, const SegmentOptions& options,
   auto [solid, inside] = means_of_blocks(out.grey, region, {edge, edge, edge});
   const auto mastic = static_cast<float>(out.levels.mastic), scale = static_cast<float>(1 / out.levels.contrast());
   for (float& grey : solid.voxels) grey = (grey - mastic) * scale;
-  // higher than half-way: mastic in a gap thinner than a voxel still makes a valley
+  // higher than half-way (0.5), because mastic in a gap thinner than a voxel lowers the grey value only a little
   for (std::size_t i = 0; i < solid.count(); ++i) inside.voxels[i] = inside.voxels[i] && solid.voxels[i] > 0.7f;
   if (std::find(inside.voxels.begin(), inside.voxels.end(), 1) == inside.voxels.end())
     throw InputError("the scan", 0, "aggregate", "none", "grains of at least a few voxels");
   const Image<float> distance = distance_inside(inside);
   const Fragments fragments = flood(distance, solid, 0.95);
   Decision decision = options.cuts ? decide(fragments, *options.cuts) : decide(fragments);
-  // on block means alone, what is thinner than a block is no valley: cuts stay where the watershed put them
+  // block means do not show gaps thinner than a block; with them the cuts stay where the watershed put them
   const double depth = refine ? 0 : options.smallest / 4;
   const Image<std::uint32_t> parted = cut_along_valleys(fragments, decision.grain, solid, depth);
   out.labels = spread(out.phases, parted, edge);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// segment_file.cpp  A scan whole in memory, or on two levels.
+// segment_file.cpp  Segments a scan in a file: entirely in memory if it fits, otherwise on two levels (blocks, then
+// finer surfaces from the file).
 #include "host/ct/coarse_scan.hpp"
 #include "host/ct/refine.hpp"
 #include "host/ct/segment_steps.hpp"
@@ -10,10 +11,10 @@ namespace {
 
 using namespace ct;
 
-constexpr double scan_bytes = 12;    ///< of a voxel, at most at a time
-constexpr double parted_bytes = 14;  ///< of a voxel of the grid on which grains are parted
-constexpr double block_bytes = 32;   ///< of a block: both, and the voxel in its middle
-constexpr double fixed_bytes = 1e8;  ///< of the program and its libraries
+constexpr double scan_bytes = 12;    ///< peak memory per voxel of the scan [bytes]
+constexpr double parted_bytes = 14;  ///< peak memory per voxel of the grid on which grains are separated [bytes]
+constexpr double block_bytes = 32;   ///< peak memory per block [bytes]: both values above, and the voxel in its middle
+constexpr double fixed_bytes = 1e8;  ///< memory of the program and its libraries [bytes]
 
 double gigabytes(double bytes) { return 1e-9 * bytes; }
 
@@ -22,14 +23,14 @@ double voxels_of(const ImageHeader& header) {
          static_cast<double>(header.size[2]);
 }
 
-/// What a scan takes that is held whole [bytes].
+/// Returns the memory needed to segment the scan entirely in memory [bytes].
 double bytes_whole(const FineScan& scan, const SegmentOptions& options) {
   const double voxel = std::cbrt(scan.spacing.x * scan.spacing.y * scan.spacing.z);
   const double parted = std::max(1.0, std::floor(options.smallest / 20 / voxel));
   return fixed_bytes + voxels_of(scan.file.header()) * (scan_bytes + parted_bytes / std::pow(parted, 3));
 }
 
-/// What a scan in blocks takes [bytes].
+/// Returns the memory needed to segment the scan in blocks of edge `block` [bytes].
 double bytes_in_blocks(FineScan scan, std::int64_t block) {
   scan.block = block;
   const ImageHeader& header = scan.file.header();
@@ -39,7 +40,8 @@ double bytes_in_blocks(FineScan scan, std::int64_t block) {
   return fixed_bytes + voxels_of(header) / (edge * edge * edge) * block_bytes + slab * (4 + header.bits / 8.0) + held;
 }
 
-/// Edge of the blocks: a twentieth of the smallest grain, up to a tenth where that alone fits. \throws InputError.
+/// Returns the edge of the blocks [voxels]: a twentieth of the smallest grain, or up to a tenth if smaller blocks do
+/// not fit in memory. \throws InputError if none fits.
 std::int64_t block_of(const FineScan& scan, const std::string& file, const SegmentOptions& options, double memory) {
   const double voxel = std::cbrt(scan.spacing.x * scan.spacing.y * scan.spacing.z);
   const auto least = std::max<std::int64_t>(2, static_cast<std::int64_t>(options.smallest / 20 / voxel));
@@ -54,7 +56,7 @@ std::int64_t block_of(const FineScan& scan, const std::string& file, const Segme
                                gigabytes(bytes_in_blocks(scan, most)), most));
 }
 
-/// Noise of the voxels in contrasts, and what their grey values say of the scan.
+/// Returns the noise of the voxels as a fraction of the contrast, and warns if the scan is clipped.
 double noise_of(const Image<float>& middles, Segmentation& out, const CorrectionSteps& steps) {
   const float high = *std::max_element(middles.voxels.begin(), middles.voxels.end());
   const double clipped = static_cast<double>(std::count(middles.voxels.begin(), middles.voxels.end(), high)) /
@@ -81,8 +83,8 @@ double noise_of(const Image<float>& middles, Segmentation& out, const Correction
   return fit_levels(histogram_of(corrected, region)).deviation / out.levels.contrast();
 }
 
-/// Returns the edges of a voxel, as given or else from the file. Warns if both are known and differ by more than 1 %.
-/// \throws InputError if neither is known.
+/// Returns the edges of a voxel: the given ones, otherwise those in the file. Adds a warning if both are known and
+/// differ by more than 1 %. \throws InputError if neither is known.
 Vec3d spacing_of(const ScanFile& file, const ImageHeader& header, std::vector<std::string>& warnings) {
   const Vec3d own = header.spacing, given = file.spacing;
   if (!(given.x > 0)) {
@@ -103,7 +105,7 @@ Vec3d spacing_of(const ScanFile& file, const ImageHeader& header, std::vector<st
   return given;
 }
 
-/// segment_file() of a file that is open.
+/// Does the work of segment_file() for an open file.
 Segmentation segment_open(ImageSlices& image, const Vec3d& spacing, const ScanFile& file, const SegmentOptions& options,
                           double memory) {
   FineScan fine{image, spacing};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// segment_files.cpp  Tables of grains, sizes and cuts.
+// segment_files.cpp  Writes surfaces, images and tables of grains, sizes and cuts.
 #include "host/ct/segment_files.hpp"
 
 #include <charconv>
@@ -17,10 +17,10 @@ namespace {
 
 constexpr const char* cuts_header = "a,b,x,y,z,neck,solidity,valley,margin,cut";
 
-/// The unit quaternion (w, x, y, z) that turns x, y, z into three directions at right angles.
+/// Returns the unit quaternion (w, x, y, z) that rotates x, y, z to the three perpendicular axes of a grain.
 std::array<double, 4> turn_of(const ShapeMeasure& m) {
   const Vec3d x = m.axis_long, y = m.axis_intermediate, z = cross(x, y);
-  // Of four formulas the one without cancellation (Shepperd 1978)
+  // uses the one of four equivalent formulas that has no cancellation (Shepperd 1978)
   const double t[4] = {1 + x.x + y.y + z.z, 1 + x.x - y.y - z.z, 1 - x.x + y.y - z.z, 1 - x.x - y.y + z.z};
   const auto n = std::max_element(t, t + 4) - t;
   const double s = 2 * std::sqrt(t[n]);
@@ -38,6 +38,7 @@ std::array<double, 4> turn_of(const ShapeMeasure& m) {
   }
 }
 
+/// Returns the number in a text. \throws InputError if it is not a finite number.
 double number(std::string_view text, const std::string& file, int line) {
   double value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -112,6 +113,7 @@ std::vector<GrainCut> read_cuts(const std::filesystem::path& file) {
   return cuts;
 }
 
+// Folders of surfaces are emptied first, so that no surface of an earlier segmentation remains.
 void write_segmentation(const std::filesystem::path& folder, const Segmentation& out, const SegmentOptions& options) {
   namespace fs = std::filesystem;
   const ResultFolder held(folder);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file segment_files.hpp  What a segmentation leaves in its folder.
+/// \file segment_files.hpp  Writes the results of a segmentation into its folder, and reads back the table of cuts.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,17 @@
 
 namespace macadam::ct {
 
-/// `id,x,y,z,volume_m3,…`, SI units; the axes of D^L, D^I and D^S as a turn of x, y and z.
+/// Returns the table `id,x,y,z,volume_m3,…` in SI units. The axes of D^L, D^I and D^S are given as a rotation of x, y
+/// and z (unit quaternion).
 std::string grains_csv(const std::vector<ScannedGrain>& grains);
 
+/// Returns the table of cuts: one row per face between two fragments.
 std::string cuts_csv(const std::vector<GrainCut>& cuts);
-/// \throws InputError naming file and line.
+/// Reads a table that cuts_csv() wrote. \throws InputError that names file and line.
 std::vector<GrainCut> read_cuts(const std::filesystem::path& file);
 
-/// Everything that `macadam ct segment` leaves in its folder. \throws InputError where another command writes into it,
-/// RunError.
+/// Writes all results of `macadam ct segment` into its folder. \throws InputError if another command is writing into
+/// it, RunError if writing fails.
 void write_segmentation(const std::filesystem::path& folder, const Segmentation& out, const SegmentOptions& options);
 
 }  // namespace macadam::ct

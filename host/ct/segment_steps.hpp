@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file segment_steps.hpp  The steps of a segmentation, with a place for surfaces that are drawn from finer data.
+/// \file segment_steps.hpp  The steps of a segmentation, with an optional last step that makes finer surfaces from
+/// finer data.
 #pragma once
 
 #include "host/ct/correction.hpp"
@@ -7,11 +8,12 @@
 
 namespace macadam::ct {
 
-/// Draws surfaces anew, from data that the scan is the block means of. `steps`: what was taken out of the scan.
+/// Makes finer surfaces from the data of which the scan holds the block means. `steps` are the corrections that were
+/// applied to the scan.
 using Refine = std::function<void(Segmentation& out, const Thresholds& thresholds, const std::vector<GrainBox>& boxes,
                                   const CorrectionSteps& steps)>;
 
-/// segment_scan(); at the end `refine`, where there is one.
+/// Does the work of segment_scan(), and then calls `refine` if it is not empty.
 Segmentation segment_steps(Image<float> scan, const SegmentOptions& options, const Refine& refine);
 
 }  // namespace macadam::ct

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// segment_texts.cpp  The name of a region, or its coordinates; an amount of memory.
+// segment_texts.cpp  Parses a region given by name or by coordinates, and an amount of memory.
 #include "host/ct/segment_texts.hpp"
 
 #include <limits>
@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* option = "--region";
 
+/// Returns the lengths [m] in a list separated by commas. \throws InputError.
 std::vector<double> lengths_in(std::string_view list) {
   std::vector<double> out;
   for (;;) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// simplify.cpp  Fewer facets for the same shape, by CGAL.
+// simplify.cpp  Reduces the number of facets with CGAL.
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
@@ -17,6 +17,7 @@ namespace sms = CGAL::Surface_mesh_simplification;
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
+/// Converts a surface to CGAL's mesh.
 Mesh mesh_of(const Surface& surface) {
   Mesh mesh;
   for (const Vec3d& p : surface.points) mesh.add_vertex({p.x, p.y, p.z});
@@ -28,6 +29,7 @@ Mesh mesh_of(const Surface& surface) {
   return mesh;
 }
 
+/// Converts a mesh to a surface, leaving out removed vertices.
 Surface surface_of(const Mesh& mesh) {
   Surface surface;
   std::vector<std::int32_t> number(mesh.num_vertices() + mesh.number_of_removed_vertices(), -1);
@@ -44,18 +46,19 @@ Surface surface_of(const Mesh& mesh) {
   return surface;
 }
 
+/// Collapses edges until the mesh has about `facets` facets.
 void reduce(Mesh& mesh, int facets) {
-  // versions 5 and 6 of CGAL have no name in common for this
+  // own stop predicate, because CGAL's has different names in versions 5 and 6; a closed mesh has 3/2 edges per facet
   const std::size_t most = static_cast<std::size_t>(facets) * 3 / 2;
   const auto stop = [most](const auto& /*cost*/, const auto& /*edge*/, std::size_t /*first*/, std::size_t edges) {
     return edges < most;
   };
-  // a facet that turns over would cut its neighbours
+  // refuses collapses that turn a facet over, because it would intersect its neighbours
   const sms::Bounded_normal_change_placement<sms::LindstromTurk_placement<Mesh>> placement;
   sms::edge_collapse(mesh, stop, CGAL::parameters::get_cost(sms::LindstromTurk_cost<Mesh>()).get_placement(placement));
 }
 
-/// Largest distance of the points from a surface, of some two thousand of them.
+/// Returns the largest distance of the points from a surface, measured at a sample of about two thousand points.
 double distance(const std::vector<Vec3d>& points, const Mesh& mesh) {
   FacetTree<Kernel, Mesh> tree(faces(mesh).first, faces(mesh).second, mesh);
   tree.accelerate_distance_queries();

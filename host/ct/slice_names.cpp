@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// slice_names.cpp  Names that are not of the sequence, numbers that are there twice, and gaps.
+// slice_names.cpp  Finds names outside the sequence, duplicate numbers, and gaps.
 #include "host/ct/slice_names.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace macadam::ct {
 namespace {
 
-/// Compares texts by letters, and by value where both have digits: slice_2 comes before slice_10.
+/// Compares texts letter by letter, but digits as numbers: slice_2 comes before slice_10.
 bool natural_less(const std::string& a, const std::string& b) {
   const auto digit = [](char c) { return c >= '0' && c <= '9'; };
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
@@ -36,12 +36,13 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a.size() != b.size() ? a.size() < b.size() : a < b;
 }
 
-/// A file's name without its ending.
+/// The parts of a file's name, without its ending.
 struct Name {
-  std::string prefix;                 ///< text before the last number, with # for the numbers in it
-  std::vector<std::int64_t> numbers;  ///< all numbers; empty also where one is too large
+  std::string prefix;                 ///< text before the last number, with # in place of each number in it
+  std::vector<std::int64_t> numbers;  ///< all numbers; empty also if one is too large
 };
 
+/// Splits a file name at its numbers. Returns an empty Name if a number has more than 18 digits.
 Name name_of(const std::filesystem::path& file) {
   constexpr const char* digits = "0123456789";
   const std::string text = file.stem().string();
@@ -59,8 +60,8 @@ Name name_of(const std::filesystem::path& file) {
   }
 }
 
-/// \throws InputError where some files have no number, or other text before it than most: they are not slices of this
-/// stack.
+/// Checks that all names have the same text before their number. \throws InputError if some files have no number or
+/// another text before it than most files: they are not slices of this stack.
 void check_sequence(const std::vector<std::filesystem::path>& slices, const std::vector<Name>& names) {
   const auto key_of = [](const Name& name) { return name.numbers.empty() ? "no number" : name.prefix; };
   std::map<std::string, std::size_t> count;
@@ -78,7 +79,8 @@ void check_sequence(const std::vector<std::filesystem::path>& slices, const std:
                    "the slices of one stack, numbered in one sequence; move other images to another folder");
 }
 
-/// The number that counts the slices, of each name: the only one in which the names differ, or else the last one.
+/// Returns for each name the number that counts the slices: the only number in which the names differ. If several
+/// differ, it is the last number.
 std::vector<std::int64_t> counted(const std::vector<Name>& names) {
   const std::vector<std::int64_t>& first = names.front().numbers;
   std::optional<std::size_t> column;
@@ -96,7 +98,7 @@ std::vector<std::int64_t> counted(const std::vector<Name>& names) {
   return out;
 }
 
-/// Checks that the files, in the order of their slices, make one whole stack.
+/// Checks that the files, given in the order of their slices, form one complete stack. \throws InputError.
 void check_slice_numbers(const std::vector<std::filesystem::path>& slices) {
   std::vector<Name> names;
   for (const std::filesystem::path& slice : slices) names.push_back(name_of(slice));

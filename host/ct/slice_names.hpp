@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file slice_names.hpp  Names of files that are slices.
+/// \file slice_names.hpp  Orders the TIFF files of a folder as slices of one stack.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,10 @@
 
 namespace macadam::ct {
 
-/// Returns the TIFF files of a folder in the order of the numbers in their names. They have to make one whole
-/// stack. Gaps are not looked for if no name has a number, or if several numbers count the slices. \throws InputError
-/// naming the folder if it has no TIFF file, a file without a number or with another text before it than most files
-/// have, two files of the same number, and the first two files between which a slice is missing.
+/// Returns the TIFF files of a folder in the order of the numbers in their names. They have to form one complete stack.
+/// Gaps are not searched for if no name has a number, or if several numbers count the slices. \throws InputError that
+/// names the folder if it has no TIFF file, if a file has no number or other text before it than most files have, if
+/// two files have the same number, and for the first two files between which a slice is missing.
 std::vector<std::filesystem::path> slices_in(const std::filesystem::path& folder);
 
 }  // namespace macadam::ct

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// smoothing.cpp  Edge-preserving diffusion.
+// smoothing.cpp  Edge-preserving diffusion with explicit steps.
 #include "host/ct/smoothing.hpp"
 
 #include "kernels/parallel.hpp"
 
 namespace macadam::ct {
 
+// Each round adds to a voxel a fraction of the differences d to its six neighbours, weighted with 1/(1 + (d/edge)²), so
+// that large differences count little.
 void diffuse(Image<float>& image, double edge, int rounds) {
   const auto [nx, ny, nz] = image.size;
   const float scale = static_cast<float>(1 / (edge * edge));
-  constexpr float step = 1.0f / 7;  // stable below a sixth
+  constexpr float step = 1.0f / 7;  // explicit steps are stable below 1/6
   Image<float> next = Image<float>::like(image);
   for (int round = 0; round < rounds; ++round) {
     for_each_in_parallel(static_cast<std::size_t>(nz), [&, nx = nx, ny = ny, nz = nz](std::size_t slice) {
       const auto k = static_cast<std::int64_t>(slice);
       for (std::int64_t j = 0; j < ny; ++j) {
         const float* here = &image.at(0, j, k);
-        // the end of the image is a mirror
+        // at the ends of the image the values are mirrored
         const float* const rows[4] = {
             &image.at(0, std::max<std::int64_t>(j - 1, 0), k), &image.at(0, std::min(j + 1, ny - 1), k),
             &image.at(0, j, std::max<std::int64_t>(k - 1, 0)), &image.at(0, j, std::min(k + 1, nz - 1))};

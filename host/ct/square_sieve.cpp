@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// square_sieve.cpp  The smallest square opening that lets a grain pass, turned as it may be.
+// square_sieve.cpp  Computes the smallest square mesh through which a grain passes in its best orientation.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/convex_hull_2.h>
 
@@ -16,13 +16,15 @@
 namespace macadam {
 namespace {
 
+/// A point of a projected outline.
 struct Flat {
   double x, y;
 };
 
-/// Side of the smallest square around a flat convex outline. Between two angles at which an edge lies flush the width
-/// of an outline is a sine, whose least value is at an end: the least of the larger of two widths is there or where
-/// both are equal, which 90 angles find to a thousandth.
+/// Returns the side of the smallest square around a convex outline in a plane. It compares 90 orientations, one degree
+/// apart. Between two orientations at which an edge of the outline touches the square flush, the width is a sine of the
+/// angle and has its minimum at an end. The larger of the two widths is therefore smallest at such an orientation or
+/// where both widths are equal; the steps of one degree find it to a thousandth.
 double square_around(const std::vector<Flat>& outline) {
   static const std::vector<Flat> turns = [] {
     std::vector<Flat> out;
@@ -43,7 +45,7 @@ double square_around(const std::vector<Flat>& outline) {
   return best;
 }
 
-/// The opening that lets points pass along a direction.
+/// Returns the side of the smallest square opening through which the points pass along direction `way` (a unit vector).
 double opening(const std::vector<Vec3d>& points, const Vec3d& way) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const Vec3d other = std::abs(way.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
@@ -68,7 +70,7 @@ double square_sieve(const Surface& surface) {
   const Vec3d middle = middle_of(surface.points);
   std::vector<Vec3d> points;
   for (const std::int32_t c : corners) points.push_back(surface.points[static_cast<std::size_t>(c)] - middle);
-  // directions evenly over half a sphere (a spiral), then ever smaller steps from the best
+  // tries directions distributed evenly over half a sphere (a spiral), then ever smaller steps around the best one
   constexpr int ways = 150;
   double best = std::numeric_limits<double>::infinity();
   Vec3d way{};

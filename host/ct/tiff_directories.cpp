@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tiff_directories.cpp  Both kinds of TIFF, with numbers of 4 and of 8 bytes for places, in either order of bytes.
+// tiff_directories.cpp  Reads both kinds of TIFF, classic (file offsets of 4 bytes) and BigTIFF (8 bytes), in either
+// byte order.
 #include "host/ct/tiff_directories.hpp"
 
 #include <fmt/format.h>
@@ -18,10 +19,10 @@
 namespace macadam::ct {
 namespace {
 
-/// Of a value, by the number of its type; 0: no type.
+/// Bytes per value, indexed by the TIFF type number; 0 for numbers that are not a type.
 constexpr std::uint64_t bytes_of_type[] = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
 
-/// Whole numbers in a file, wherever they stand.
+/// Reads whole numbers and texts at any byte of a file, in the file's byte order.
 class Numbers {
  public:
   explicit Numbers(const std::filesystem::path& file) : in_(file, std::ios::binary) {
@@ -30,7 +31,8 @@ class Numbers {
     big_endian_ = order[0] == 'M';
   }
 
-  /// Of so many bytes from `place` on; good() is false where the file has none there.
+  /// Returns the number stored in the `bytes` bytes at `place`. Afterwards good() is false if the file ends before
+  /// them.
   std::uint64_t at(std::uint64_t place, int bytes) {
     unsigned char raw[8] = {};
     in_.seekg(static_cast<std::streamoff>(place));
@@ -39,7 +41,7 @@ class Numbers {
     for (int k = 0; k < bytes; ++k) out = out << 8 | raw[big_endian_ ? k : bytes - 1 - k];
     return out;
   }
-  /// Returns the text of `bytes` bytes from `place` on, cut at 4096 bytes.
+  /// Returns the text in the `bytes` bytes at `place`, cut at 4096 bytes.
   std::string text(std::uint64_t place, std::uint64_t bytes) {
     std::string out(static_cast<std::size_t>(std::min<std::uint64_t>(bytes, 4096)), '\0');
     in_.seekg(static_cast<std::streamoff>(place));
@@ -54,7 +56,7 @@ class Numbers {
   bool big_endian_ = false;
 };
 
-/// Texts whose end libtiff sees to: names of the document, the maker, the program and the like (TIFF 6.0).
+/// Text tags that libtiff itself terminates: names of the document, the maker, the program and so on (TIFF 6.0).
 constexpr std::uint64_t known_texts[] = {269, 270, 271, 272, 285, 305, 306, 315, 316, 333, 337, 33432};
 
 namespace tags {
@@ -62,13 +64,13 @@ constexpr std::uint64_t kind = 254, width = 256, height = 257, bits = 258, compr
                         bit_order = 266, description = 270, strips = 273, orientation = 274, values = 277,
                         first_of_tiles = 322, last_of_tiles = 325, format = 339;
 }
-/// Tags that ITK reads of the first page and takes to hold for all pages.
+/// Tags that ITK reads from the first page and applies to all pages.
 constexpr std::uint64_t of_page[] = {tags::kind,    tags::width,  tags::height, tags::bits,
                                      tags::meaning, tags::values, tags::format};
-/// Tags that tell whether the voxels are stored without change and contiguously.
+/// Tags that determine whether the voxels are stored unchanged and contiguously.
 constexpr std::uint64_t of_storage[] = {tags::compression, tags::bit_order, tags::strips, tags::orientation};
 
-/// A directory's tags of the two lists above that are one whole number, and its description.
+/// The tags of one directory that are in the two lists above and hold a single whole number, and its description.
 struct Page {
   std::map<std::uint64_t, std::uint64_t> numbers;
   std::string description;
@@ -78,15 +80,17 @@ struct Page {
   std::uint64_t at(std::uint64_t tag, std::uint64_t otherwise) const { return contains(tag) ? at(tag) : otherwise; }
 };
 
-/// A directory of a file.
+/// One directory of a file, with the checks of its tags.
 struct Directory {
   const std::filesystem::path& file;
   Numbers& numbers;
-  std::uint64_t size;  ///< of the file [bytes]
+  std::uint64_t size;  ///< size of the file [bytes]
+  /// whether it is a BigTIFF
   bool wide;
-  static constexpr std::uint64_t white_is_zero = 0;  ///< a PhotometricInterpretation
+  static constexpr std::uint64_t white_is_zero = 0;  ///< value of the tag PhotometricInterpretation
 
-  /// The tag whose entry begins at `entry`.
+  /// Checks the tag whose entry begins at byte `entry`, and stores it in `page` if later checks need it. \throws
+  /// InputError.
   void check_tag(std::uint64_t entry, Page& page) const {
     const int place_bytes = wide ? 8 : 4;
     const std::uint64_t tag = numbers.at(entry, 2), type = numbers.at(entry + 2, 2);
@@ -98,7 +102,7 @@ struct Directory {
              fmt::format("as many as the {} bytes of the file hold", size));
     if (tag >= tags::first_of_tiles && tag <= tags::last_of_tiles)
       refuse(tag, "tiles", "rows of voxels (strips), as ImageJ and ITK write them");
-    // libtiff writes both of its numbers where ITK has room for a pointer to them
+    // libtiff writes both numbers of tag 336 (DotRange) to a place where ITK reserves memory for one pointer
     if (tag == 336) refuse(tag, "a range of dots", "none, as in a scan");
     if (std::ranges::count(of_page, tag) > 0) {
       if (tag == tags::bits && values > 1)
@@ -108,13 +112,14 @@ struct Directory {
       if (!page.numbers.emplace(tag, numbers.at(inside, static_cast<int>(bytes))).second)
         refuse(tag, "two of it", "one");
     }
+    // a tag of storage with several values gets the value 0, which raw_voxels() treats as not contiguous
     if (std::ranges::count(of_storage, tag) > 0)
       page.numbers.emplace(tag, values == 1 && is_whole(type) ? numbers.at(inside, static_cast<int>(bytes)) : 0);
     check_text(tag, type, values, inside);
     if (tag == tags::description && values > 0) page.description = text_of(values, inside);
   }
 
-  /// All tags of a page together. \throws InputError for voxels that ITK reads as others, or not at all.
+  /// Checks the combination of all tags of a page. \throws InputError for voxels that ITK would misread or cannot read.
   void check_voxels(const Page& page) const {
     if (page.at(tags::values, 1) != 1)
       refuse(tags::values, fmt::format("{} values a voxel", page.at(tags::values)),
@@ -125,7 +130,7 @@ struct Directory {
              std::string("grey values, 0 or 1") + to_grey);
     const char* known = "8 or 16 as a whole number, or 32 as a float";
     if (!page.contains(tags::bits)) refuse(tags::bits, "no bits of a voxel", known);
-    // 2: with a sign; 4: not said, which is a whole number too (TIFF 6.0)
+    // sample format 2: signed; 4: undefined, which is read as a whole number too (TIFF 6.0)
     constexpr std::uint64_t whole = 1, floating = 3;
     const std::uint64_t n = page.at(tags::bits), as = page.at(tags::format, whole);
     const bool is_known = as == floating ? n == 32 : (as == whole || as == 2 || as == 4) && (n == 8 || n == 16);
@@ -143,6 +148,7 @@ struct Directory {
  private:
   static constexpr const char* to_grey = ": colours are not read; save the scan as grey values of 8 or 16 bits";
 
+  /// Whether a TIFF type is an unsigned whole number.
   bool is_whole(std::uint64_t type) const { return type == 1 || type == 3 || type == 4 || (type == 16 && wide); }
 
   /// Returns the text of a tag; empty if the file is too short for it.
@@ -151,6 +157,7 @@ struct Directory {
     return begin < size && values <= size - begin ? numbers.text(begin, values) : "";
   }
 
+  /// Checks a text tag. \throws InputError if a known text tag is not a text, or another text lacks its final 0.
   void check_text(std::uint64_t tag, std::uint64_t type, std::uint64_t values, std::uint64_t inside) const {
     constexpr std::uint64_t text = 2;
     const bool known = std::ranges::count(known_texts, tag) > 0;
@@ -162,8 +169,9 @@ struct Directory {
   }
 };
 
-/// Pages of one volume, of which ITK asks the first alone, and leaves out those of another kind where it counts them,
-/// but not where it reads them.
+/// Checks that a page has the same size and type as the first one and is not a thumbnail or mask. All pages must form
+/// one volume, but ITK looks at the first page only; it skips thumbnails and masks when it counts pages, but not when
+/// it reads them. \throws InputError.
 void check_alike(const Directory& directory, const Page& first, const Page& page, int number) {
   for (const std::uint64_t tag : of_page) {
     const auto value_of = [&](const Page& p) { return p.contains(tag) ? fmt::format("{}", p.at(tag)) : "none"; };
@@ -176,7 +184,7 @@ void check_alike(const Directory& directory, const Page& first, const Page& page
     directory.refuse(tags::kind, fmt::format("a reduced image or a mask in page {}", number), "slices alone");
 }
 
-/// Returns the number behind `key=` in a description that ImageJ wrote, line by line; 0 if the key is not there.
+/// Returns the number after `key=` in a description that ImageJ wrote, one key per line; 0 if the key is missing.
 std::int64_t number_in(const std::string& description, const std::string& key) {
   if (!description.starts_with("ImageJ=")) return 0;
   const std::size_t begin = description.find('\n' + key + '=');
@@ -187,13 +195,15 @@ std::int64_t number_in(const std::string& description, const std::string& key) {
   return error == std::errc{} && number > 0 ? number : 0;
 }
 
-/// Returns the place of the first page's voxels if they are contiguous and neither compressed nor turned.
+/// Returns the offset of the first page's voxels if they are contiguous, uncompressed and not rotated; otherwise
+/// nothing.
 std::optional<std::uint64_t> raw_voxels(const Page& page) {
   for (const std::uint64_t tag : {tags::compression, tags::bit_order, tags::orientation})
     if (page.at(tag, 1) != 1) return {};
   return page.at(tags::strips, 0) > 0 ? std::optional(page.at(tags::strips)) : std::nullopt;
 }
 
+/// Returns the voxel type of a page that check_voxels() accepted.
 VoxelType type_of(const Page& page) {
   const std::uint64_t format = page.at(tags::format, 1);
   if (page.at(tags::bits) == 32) return VoxelType::f32;
@@ -201,7 +211,8 @@ VoxelType type_of(const Page& page) {
   return format == 2 ? VoxelType::i8 : VoxelType::u8;
 }
 
-/// Returns the facts that the first page and the number of pages tell of a file.
+/// Returns the facts that follow from the first page and the number of pages. \throws InputError for several channels
+/// or times.
 TiffPages pages_of(const Page& first, std::size_t number, bool big_endian, const std::filesystem::path& file) {
   TiffPages out;
   out.pages = static_cast<std::int64_t>(number);

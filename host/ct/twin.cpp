@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// twin.cpp  Grains and voids of a scan as spheres at their places, and mastic around them.
+// twin.cpp  Makes a specimen from a scan: grains and voids become spheres at their positions, mastic is packed around
+// them.
 #include "macadam/twin.hpp"
 
 #include <fmt/format.h>
@@ -23,17 +24,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t placement_stream = 2;  // as that of generate.cpp
-constexpr double most_outside = 0.01;          // of the voxels of a box: what partly filled ones at its sides come to
+constexpr std::uint64_t placement_stream = 2;  // same number as in generate.cpp
+// Largest fraction of the voxels of a box that may be outside the specimen. Partly filled voxels at its sides may count
+// as outside.
+constexpr double most_outside = 0.01;
 
 double radius_of(double volume) { return std::cbrt(volume * 3 / (4 * std::numbers::pi)); }
 
-/// First voxel and end, along each axis.
+/// A range of voxels: first one, and one past the last, along each axis.
 struct Range {
   std::array<std::int64_t, 3> begin{}, end{};
 };
 
-/// The voxels that are not outside of the specimen.
+/// Returns the bounding range of the voxels that are not outside the specimen. \throws InputError if there are none.
 Range extent_of(const Image<std::uint8_t>& phases, const fs::path& folder) {
   Range out{phases.size, {0, 0, 0}};
   const auto outside = static_cast<std::uint8_t>(VoxelPhase::outside);
@@ -51,7 +54,7 @@ Range extent_of(const Image<std::uint8_t>& phases, const fs::path& folder) {
   return out;
 }
 
-/// The voxels whose centres are in a box.
+/// Returns the range of the voxels whose centres are in a box. \throws InputError if it is empty or exceeds the image.
 Range voxels_in(const std::array<Vec3d, 2>& box, const Image<std::uint8_t>& phases) {
   const Vec3d a = box[0] - phases.origin, b = box[1] - phases.origin;
   const auto first = [](double at, double edge) { return static_cast<std::int64_t>(std::ceil(at / edge - 1e-9)); };
@@ -76,12 +79,13 @@ Image<T> cropped(const Image<T>& image, const Range& r) {
   return out;
 }
 
-/// What the box holds of a grain.
+/// The part of a grain that is within the box.
 struct Part {
   double volume = 0;  ///< [m³]
   Vec3d centroid{};   ///< [m]
 };
 
+/// Returns the part of each grain, by its label.
 std::map<std::uint32_t, Part> parts_of(const Image<std::uint32_t>& labels) {
   std::map<std::uint32_t, Part> out;
   for (std::int64_t k = 0; k < labels.size[2]; ++k) {
@@ -98,14 +102,17 @@ std::map<std::uint32_t, Part> parts_of(const Image<std::uint32_t>& labels) {
   return out;
 }
 
-/// The scan within the box, and the box.
+/// The box, and the part of the scan within it.
 struct Cut {
   Image<std::uint8_t> phases;
   Image<std::uint32_t> labels;
+  /// Lower corner of the box in the scan's coordinates [m].
   Vec3d corner{};
   Box box;
 };
 
+/// Reads the scan of a folder and cuts out the box. \throws InputError if more than 1 % of its voxels are outside the
+/// specimen.
 Cut cut_out(const fs::path& folder, const TwinSpec& spec) {
   Cut out;
   out.phases = read_image<std::uint8_t>(folder / "phases.mha");
@@ -131,8 +138,9 @@ Cut cut_out(const fs::path& folder, const TwinSpec& spec) {
   return out;
 }
 
-/// The spheres of a grain in the box's frame: those of its surface's filling that have their centres in the box, away
-/// from its sides; without a surface, or where the scene has no shapes, one of the volume in the box.
+/// Returns the spheres of a grain in the frame of the box. They fill its surface; spheres whose centres are outside the
+/// box or closer to its sides than a tenth of their radius are left out. A grain without a surface file, or in a scene
+/// without shapes, becomes one sphere of its volume in the box.
 MultiSphere spheres_of(std::uint32_t id, const Part& part, const Cut& cut, const fs::path& folder,
                        const SpecimenSpec& how, std::uint64_t seed) {
   fs::path file = folder / ct::whole_grains / ct::surface_file(id);
@@ -151,7 +159,7 @@ MultiSphere spheres_of(std::uint32_t id, const Part& part, const Cut& cut, const
   return out;
 }
 
-/// What is taken: grains and voids, by the voxel that a point is in.
+/// Returns a function that tells whether a point is in a voxel of a grain or a void; mastic may not be placed there.
 std::function<bool(const Vec3d&)> taken_in(const Cut& cut) {
   return [&cut](const Vec3d& point) {
     const Vec3d& s = cut.labels.spacing;
@@ -165,11 +173,13 @@ std::function<bool(const Vec3d&)> taken_in(const Cut& cut) {
   };
 }
 
-/// Takes out what contacts do not join to both walls, such as mastic that voids enclose: it carries nothing, and would
-/// hang on nothing. Its place falls to the voids around it. Numbers of particles that were mastic, and of others.
+/// Removes particles that contacts do not connect to both the bottom and the top wall, such as mastic enclosed by
+/// voids: they carry no load, and their motion would be undetermined. Their space goes to the voids and cells around
+/// them. Returns the numbers of removed particles of mastic and of other phases.
 std::array<std::int64_t, 2> remove_hanging(Specimen& s, const NetworkSpec& spec) {
   std::array<std::int64_t, 2> out{};
-  for (int round = 0; round < 5; ++round) {  // a cell that grows into what was taken out may lose another contact
+  // repeats, because a cell that grows into the freed space may lose another contact
+  for (int round = 0; round < 5; ++round) {
     std::vector<bool> gone(s.size());
     bool any = false;
     const std::vector<Cluster> clusters = find_clusters(build_network(s, tessellate(s), spec), s.size());
@@ -196,6 +206,9 @@ std::array<std::int64_t, 2> remove_hanging(Specimen& s, const NetworkSpec& spec)
 
 }  // namespace
 
+// Steps: cut out the box; fill each grain with spheres; replace the voids by spheres; pack mastic into the rest; remove
+// what is not connected to both walls. Voids are placed as aggregates first, so that mastic avoids them, and become
+// voids at the end.
 Twin make_twin(const fs::path& folder, const Scene& scene, const TwinSpec& spec,
                const std::function<void(const std::string& stage, double share)>& progress) {
   const auto report = [&](const char* stage, double share) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// twin_files.cpp  The folder of a twin: a scene that runs.
+// twin_files.cpp  Writes the folder of a twin: a scene that can be run, the specimen, and its numbers.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -14,7 +14,7 @@
 namespace macadam {
 namespace {
 
-/// The scene with `[specimen]` from a file, and with the densities that a recipe gave it.
+/// Returns the scene with its `[specimen]` replaced by the file, and with the densities that a recipe gave it.
 std::string scene_with_file(const Twin& twin, const Scene& scene) {
   toml::table text = toml::parse(scene.text);
   const Vec3d& size = twin.specimen.box.size;
@@ -32,6 +32,7 @@ std::string scene_with_file(const Twin& twin, const Scene& scene) {
   return out.str();
 }
 
+/// Returns twin.json.
 std::string numbers(const Twin& twin) {
   const Vec3d& c = twin.corner;
   const nlohmann::ordered_json out = {{"macadam", version()},

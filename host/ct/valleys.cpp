@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// valleys.cpp  Shortest ways from the middles of grains, mastic being long.
+// valleys.cpp  Shortest paths from the middles of grains (Dijkstra), on which mastic is long.
 #include "host/ct/valleys.hpp"
 
 #include <queue>
@@ -10,11 +10,13 @@
 namespace macadam::ct {
 namespace {
 
-/// A voxel on the way from a grain.
+/// A voxel that a path from a grain has reached.
 struct Reached {
+  /// length of the path
   float way = 0;
   std::uint32_t voxel = 0, grain = 0;
-  /// The nearest first, of equally near ones the first by number: the answer does not depend on the order of arrival.
+  /// Orders the queue: the shortest path first, then by voxel and grain number, so that the result does not depend on
+  /// the order of arrival.
   bool operator<(const Reached& o) const { return std::tie(way, voxel, grain) > std::tie(o.way, o.voxel, o.grain); }
 };
 
@@ -33,8 +35,8 @@ void around(const Image<T>& image, std::size_t at, See&& see) {
   if (k + 1 < nz) see(at + slice);
 }
 
-/// Puts back what changed hands as a thin layer along a cut: that is its roughness. An edge of a grain on the wrong
-/// side reaches at least `thick` voxels into it.
+/// Restores voxels that changed their grain if they form only a thin layer along a cut: that is roughness of the cut. A
+/// real edge of a grain on the wrong side reaches more than `thick` voxels beyond the cut.
 void keep_cuts_smooth(const Image<std::uint32_t>& before, Image<std::uint32_t>& labels, int thick) {
   Image<std::uint8_t> seen = Image<std::uint8_t>::like(labels);
   for (std::size_t start = 0; start < labels.count(); ++start) {
@@ -50,7 +52,7 @@ void keep_cuts_smooth(const Image<std::uint32_t>& before, Image<std::uint32_t>& 
         part.push_back(near);
       });
     }
-    // layer by layer away from the grain that it went to
+    // removes layer by layer, starting next to the grain to which the voxels went
     std::vector<std::size_t> left = part;
     int layers = 0;
     while (!left.empty() && layers < thick) {
@@ -63,7 +65,7 @@ void keep_cuts_smooth(const Image<std::uint32_t>& before, Image<std::uint32_t>& 
         });
         (outer ? layer : inner).push_back(at);
       }
-      if (layer.empty()) break;  // reached from nowhere
+      if (layer.empty()) break;  // the remaining voxels do not touch that grain
       for (const std::size_t at : layer) seen.voxels[at] = 2;
       left = std::move(inner);
       ++layers;
@@ -76,13 +78,16 @@ void keep_cuts_smooth(const Image<std::uint32_t>& before, Image<std::uint32_t>& 
 
 }  // namespace
 
+// The shortest paths start from the cores of all grains, the voxels deep inside them, at the same time. A step through
+// a voxel is longer the darker the voxel is, so that paths go around mastic. Each voxel outside the cores gets the
+// grain whose path reaches it first.
 Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::vector<std::uint32_t>& grain,
                                        const Image<float>& grey, double depth) {
   Image<std::uint32_t> labels = fragments.labels;
   for (std::uint32_t& label : labels.voxels) label = grain[label];
   if (!(depth > 0)) return labels;
   const Image<std::uint32_t> watershed = labels;
-  Image<std::uint8_t> within = Image<std::uint8_t>::like(labels);  // not beside a cut
+  Image<std::uint8_t> within = Image<std::uint8_t>::like(labels);  // 1: not next to a voxel of another grain
   for (std::size_t at = 0; at < labels.count(); ++at) {
     const std::uint32_t own = labels.voxels[at];
     if (own == 0) continue;
@@ -98,12 +103,16 @@ Image<std::uint32_t> cut_along_valleys(const Fragments& fragments, const std::ve
     float& d = deepest[labels.voxels[at]];
     d = std::max(d, below.voxels[at]);
   }
+  // voxels deep within a grain, which keep their label
   const auto core = [&](std::size_t at) {
-    const float most = deepest[labels.voxels[at]];  // 0 of a grain that is a voxel or two thin: it stays as it is
+    // 0 if the grain is one or two voxels thin: all its voxels keep their label
+    const float most = deepest[labels.voxels[at]];
     return labels.voxels[at] != 0 &&
            (most <= 0 || below.voxels[at] >= std::min(static_cast<float>(depth), 0.5f * most));
   };
-  // Noise leaves some hundredths of the contrast within a grain; mastic thinner than a voxel takes a tenth and more
+  // Noise changes the grey value within a grain by a few per cent of the contrast; mastic thinner than a voxel by a
+  // tenth or more.
+  // length of a path through a voxel
   const auto step = [&](std::size_t at) {
     const float valley = std::max(0.0f, 0.94f - grey.voxels[at]) / 0.04f;
     return 0.05f + valley * valley;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// void_spheres.cpp  Connected voids, their distance maps, and inscribed spheres.
+// void_spheres.cpp  Finds connected voids, their distance maps, and inscribed spheres.
 #include "host/ct/void_spheres.hpp"
 
 #include <algorithm>
@@ -13,14 +13,15 @@ namespace {
 
 using Voxel = std::array<std::int64_t, 3>;
 
-/// Reach over radius up to which a void is one sphere: an ellipsoid of 1.4 to 1 has it, two spheres that touch
-/// have 1.6.
+/// Largest ratio of reach to radius at which a void becomes one sphere. The reach is the largest distance of a voxel
+/// from the centroid; the radius is the radius of a sphere with the void's volume. An ellipsoid with axes of 1.4 to 1
+/// has this ratio; two touching spheres have 1.6.
 constexpr double nearly_round = 1.25;
 
 double volume_of(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 double radius_of(double volume) { return std::cbrt(volume * 3 / (4 * std::numbers::pi)); }
 
-/// Voxels of a connected void, from one of them.
+/// Returns the voxels of the void that contains `from`, and marks them in `met`.
 std::vector<Voxel> flood(const Image<std::uint8_t>& mask, const Voxel& from, std::vector<std::uint8_t>& met) {
   std::vector<Voxel> out{from};
   met[mask.index(from[0], from[1], from[2])] = 1;
@@ -38,21 +39,21 @@ std::vector<Voxel> flood(const Image<std::uint8_t>& mask, const Voxel& from, std
   return out;
 }
 
-/// The sphere of a void's volume about its centroid.
+/// Returns the sphere of the void's volume about its centroid.
 VoidSphere sphere_of(const Image<std::uint8_t>& phases, const std::vector<Voxel>& voxels, double volume) {
   Vec3d sum{};
   for (const Voxel& p : voxels) sum += phases.centre(p[0], p[1], p[2]);
   return {(1 / static_cast<double>(voxels.size())) * sum, radius_of(volume)};
 }
 
-/// Distance of the farthest voxel of a void from a point [m].
+/// Returns the distance of the farthest voxel of a void from a point [m].
 double reach_of(const Image<std::uint8_t>& phases, const std::vector<Voxel>& voxels, const Vec3d& from) {
   double out = 0;
   for (const Voxel& p : voxels) out = std::max(out, norm(phases.centre(p[0], p[1], p[2]) - from));
   return out;
 }
 
-/// Whether the voxel around a point is one of the mask.
+/// Whether the voxel that contains a point belongs to the mask.
 bool holds(const Image<std::uint8_t>& mask, const Vec3d& point) {
   const Vec3d from = point - mask.origin;
   const auto voxel = [](double at, double edge, std::int64_t n) {
@@ -62,7 +63,7 @@ bool holds(const Image<std::uint8_t>& mask, const Vec3d& point) {
                  voxel(from.z, mask.spacing.z, mask.size[2])) != 0;
 }
 
-/// Inscribed spheres of a void, the largest first, down to half of it; none has its centre in another.
+/// Returns inscribed spheres of a void, from the largest down to half its radius; none has its centre in another.
 std::vector<VoidSphere> inscribed(const Image<float>& depth, const std::vector<Voxel>& voxels) {
   std::vector<VoidSphere> all, out;
   for (const Voxel& p : voxels) all.push_back({depth.centre(p[0], p[1], p[2]), depth.at(p[0], p[1], p[2])});
@@ -85,7 +86,7 @@ VoidSpheres void_spheres(const Image<std::uint8_t>& phases, double least) {
   for (std::size_t v = 0; v < phases.count(); ++v)
     mask.voxels[v] = phases.voxels[v] == static_cast<std::uint8_t>(VoxelPhase::air_void);
   Image<float> depth = distance_inside(mask);
-  // Its zero is at the outermost voxels' centres: the surface is half a voxel further out.
+  // adds half a voxel, beyond the half voxel that distance_inside() adds
   for (float& d : depth.voxels) d += static_cast<float>(0.5 * std::cbrt(phases.voxel_volume()));
   std::vector<std::uint8_t> met(phases.count());
   for (std::int64_t k = 0; k < phases.size[2]; ++k) {
@@ -100,7 +101,7 @@ VoidSpheres void_spheres(const Image<std::uint8_t>& phases, double least) {
         }
         out.volume += volume;
         std::vector<VoidSphere> spheres{sphere_of(phases, voxels, volume)};
-        // of a shell the middle is not in the void
+        // the centroid of a shell-shaped void is not inside the void
         if (!holds(mask, spheres.front().centre) ||
             reach_of(phases, voxels, spheres.front().centre) > nearly_round * spheres.front().radius)
           spheres = inscribed(depth, voxels);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file voxel_phases.hpp  The phases of voxels, as images hold them.
+/// \file voxel_phases.hpp  Values of the phases in images of bytes.
 #pragma once
 
 #include <cstdint>

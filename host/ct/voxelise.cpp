@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// voxelise.cpp  Bodies are crossed by columns along z, as columns.hpp has it, and the columns parted at the voxels.
+// voxelise.cpp  Intersects a body with vertical columns (see columns.hpp) and distributes the lengths to the voxels.
 #include "host/ct/voxelise.hpp"
 
 #include <limits>
@@ -9,7 +9,7 @@
 namespace macadam::ct {
 namespace {
 
-/// Corners of the box around a body within the core.
+/// Returns the bounding box of the body within the core.
 std::array<Vec3d, 2> extent(const Body& body, const SawnCore& core) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   Vec3d low{-infinite, -infinite, -infinite}, high{infinite, infinite, infinite};
@@ -27,6 +27,7 @@ std::array<Vec3d, 2> extent(const Body& body, const SawnCore& core) {
           Vec3d{std::min(high.x, core.high.x), std::min(high.y, core.high.y), std::min(high.z, core.high.z)}};
 }
 
+/// Intersects the body with a row of columns.
 void cross(const Body& body, const SawnCore& core, ColumnRow& row) {
   if (body.surface) {
     cross_facets(*body.surface, row);
@@ -37,9 +38,10 @@ void cross(const Body& body, const SawnCore& core, ColumnRow& row) {
   }
 }
 
+/// Returns the lower corner of the first voxel.
 Vec3d corner_of(const Image<float>& grid) { return grid.origin - 0.5 * grid.spacing; }
 
-/// The voxels that a box meets, nothing in them yet.
+/// Returns an empty Coverage for the voxels that intersect a box.
 Coverage voxels_between(const Vec3d& low, const Vec3d& high, const Image<float>& grid) {
   const Vec3d corner = corner_of(grid);
   const std::array<double, 3> from{low.x - corner.x, low.y - corner.y, low.z - corner.z},
@@ -58,7 +60,7 @@ Coverage voxels_between(const Vec3d& low, const Vec3d& high, const Image<float>&
   return out;
 }
 
-/// Adds a column's way through a body from one height to another to the voxels (i, j, …).
+/// Adds the part of a column from one height to another to the filled fractions of the voxels (i, j, …).
 void fill(Coverage& out, std::int64_t i, std::int64_t j, double from, double to, const Image<float>& grid,
           int samples) {
   const double first = corner_of(grid).z, edge = grid.spacing.z;
@@ -89,7 +91,7 @@ Coverage cover(const Body& body, const SawnCore& core, const Image<float>& grid,
   const Vec3d corner = corner_of(grid);
   const double dx = grid.spacing.x / samples, dy = grid.spacing.y / samples;
   Vec3d moment{};
-  double length = 0;  // of all columns within the body
+  double length = 0;  // total length of the columns within the body
   ColumnRow row{0, corner.x + grid.spacing.x * static_cast<double>(out.begin[0]) + 0.5 * dx, dx, {}};
   for (std::int64_t sub = 0; sub < (out.end[1] - out.begin[1]) * samples; ++sub) {
     const std::int64_t j = out.begin[1] + sub / samples;

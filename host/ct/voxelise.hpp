@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file voxelise.hpp  How much of each voxel a body fills.
+/// \file voxelise.hpp  Computes which fraction of each voxel a body fills.
 #pragma once
 
 #include "macadam/ct.hpp"
@@ -7,20 +7,21 @@
 
 namespace macadam::ct {
 
-/// What is left of a specimen after sawing: a box, or the upright cylinder in it.
+/// The part of a specimen that remains after sawing: a box, or the upright cylinder inscribed in it.
 struct SawnCore {
   Vec3d low{}, high{};  ///< corners of the box [m]
   bool cylinder = false;
 
+  /// Whether the vertical line through (x, y) passes through the core.
   bool holds(double x, double y) const;
 };
 
-/// Shares of voxels that something fills: those of a part of a grid.
+/// Filled fractions of the voxels in a part of a grid.
 struct Coverage {
-  std::array<std::int64_t, 3> begin{}, end{};  ///< voxels of the grid
-  std::vector<float> share;                    ///< x runs fastest, 0…1
-  double volume = 0;                           ///< of all [m³]
-  Vec3d centroid{};                            ///< [m]
+  std::array<std::int64_t, 3> begin{}, end{};  ///< range of voxels of the grid
+  std::vector<float> share;                    ///< filled fraction, 0 to 1; x runs fastest
+  double volume = 0;                           ///< filled volume of all voxels [m³]
+  Vec3d centroid{};                            ///< centroid of the filled volume [m]
 
   std::size_t index(std::int64_t i, std::int64_t j, std::int64_t k) const {
     return static_cast<std::size_t>(i - begin[0] +
@@ -28,14 +29,15 @@ struct Coverage {
   }
 };
 
-/// A body: a closed surface, a sphere, or, of no points and no sphere, everything.
+/// A body: a closed surface, a sphere, or, with neither, all of the space.
 struct Body {
   const Surface* surface = nullptr;
-  Vec3d centre{};     ///< of a sphere
-  double radius = 0;  ///< of a sphere [m]
+  Vec3d centre{};     ///< centre of the sphere [m]
+  double radius = 0;  ///< radius of the sphere [m]
 };
 
-/// What a body fills of the voxels of a grid, within the core: exactly along z, by `samples`² columns a voxel across.
+/// Computes which fraction of each voxel of `grid` the body fills within the core. Each voxel is crossed by `samples`²
+/// vertical columns; along the columns the lengths are exact.
 Coverage cover(const Body& body, const SawnCore& core, const Image<float>& grid, int samples);
 
 }  // namespace macadam::ct
