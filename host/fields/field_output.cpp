@@ -114,8 +114,7 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
   if (spec.particles || geometry == Geometry::updated) state = stepper.particles();
   std::vector<FieldArray> of_particles = particle_arrays(state);
   if (geometry == Geometry::fixed) state.displacement.clear();
-  const bool told =
-      scene_.solver.backend != Backend::reference;  // the reference backend does not report the states of its contacts
+  const bool told = scene_.solver.backend != Backend::reference;  // the reference backend does not report the states of its contacts
   ContactState carried;
   if (spec.contacts || told) carried = stepper.contacts(prepared_.network);
   if (!writes_) return;  // this rank's data have been sent to the first rank above
@@ -124,8 +123,7 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
     particles_->add(time, of_particles);
   }
   if (!contacts_) return;
-  if (form == ContactForm::points)
-    carried.chain_begin.clear();  // these chains belong to contact points, not to the facet
+  if (form == ContactForm::points) carried.chain_begin.clear();  // these chains belong to contact points, not to the facet
   contacts_->add(time, contact_arrays(prepared_.specimen, prepared_.network, carried, state.displacement));
 }
 
