@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_scenes.cpp  Several scenes of one command: names of their folders, and what is said of them.
+// run_scenes.cpp  Names of the scenes' folders, and what is printed about each scene.
 #include "host/cli/run_scenes.hpp"
 
 #include <map>

@@ -47,7 +47,8 @@ double solve_seconds(const RunResult& result) {
       of_found(result.found, 0.0, []<class Result>(const Result& f) { return ResultOf<Result>::seconds(f); });
   const bool stepped = of_found(
       result.found, false, []<class Result>(const Result&) { return std::is_base_of_v<experiments::Stepped, Result>; });
-  return found + (stepped ? 0 : result.phases.preconditioner);  // the planning of a stepped result includes the preconditioner
+  // the planning of a stepped result includes the preconditioner
+  return found + (stepped ? 0 : result.phases.preconditioner);
 }
 
 std::string results_table(const RunResult& result) {

@@ -114,7 +114,8 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
   if (spec.particles || geometry == Geometry::updated) state = stepper.particles();
   std::vector<FieldArray> of_particles = particle_arrays(state);
   if (geometry == Geometry::fixed) state.displacement.clear();
-  const bool told = scene_.solver.backend != Backend::reference;  // the reference backend does not report the states of its contacts
+  // the reference backend does not report the states of its contacts
+  const bool told = scene_.solver.backend != Backend::reference;
   ContactState carried;
   if (spec.contacts || told) carried = stepper.contacts(prepared_.network);
   if (!writes_) return;  // this rank's data have been sent to the first rank above
@@ -123,7 +124,8 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
     particles_->add(time, of_particles);
   }
   if (!contacts_) return;
-  if (form == ContactForm::points) carried.chain_begin.clear();  // these chains belong to contact points, not to the facet
+  // these chains belong to contact points, not to the facet
+  if (form == ContactForm::points) carried.chain_begin.clear();
   contacts_->add(time, contact_arrays(prepared_.specimen, prepared_.network, carried, state.displacement));
 }
 

@@ -65,7 +65,8 @@ class Cutter {
     std::sort(sides.begin(), sides.end(), [this](const Side& p, const Side& q) { return tilt(p) > tilt(q); });
     for (const Side& side : sides) {
       if (contains_polygon(side)) {
-        if (side.sign * side.normal.*plane_.coordinate > 0) polygon_.clear();  // a facet in the section plane is given to the cell above it
+        // a facet in the section plane is given to the cell above it
+        if (side.sign * side.normal.*plane_.coordinate > 0) polygon_.clear();
       } else {
         clip(
             polygon_, scratch_, rounding_, [&](const Vec3d& p) { return side.height(p); },
@@ -113,7 +114,8 @@ std::vector<std::pair<std::int32_t, const Facet*>> facets_at(const WallPlane& pl
       }
     }
   }
-  const double margin = 1e-9 * norm(specimen.box.size);  // vertices are accurate to 1e-11; cells that only come near the plane are examined too
+  // vertices are accurate to 1e-11; cells that only come near the plane are examined too
+  const double margin = 1e-9 * norm(specimen.box.size);
   std::vector<std::pair<std::int32_t, const Facet*>> out;
   for (const Facet& f : tessellation.facets)
     for (const std::int32_t cell : {f.a, f.b})

@@ -33,9 +33,9 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile() { close(); }
   bool write(std::string_view bytes) const;
-  bool sync() const;  ///< waits until the data are on the disk
+  bool sync() const;             ///< waits until the data are on the disk
   bool cut(off_t length) const;  ///< shortens the file to this many bytes; the next write continues there
-  bool close();  ///< some file systems report only here that a write has failed
+  bool close();                  ///< some file systems report only here that a write has failed
 
  private:
   int file_;

@@ -16,8 +16,8 @@ struct KnownKey {
   std::string name;
   Need need = Need::optional;
   Words words;
-  std::string text, usual;  ///< as in struct Key
-  std::string chooser;      ///< the key of the section, such as "kind", that decides whether this key is allowed; empty: none
+  std::string text, usual;          ///< as in struct Key
+  std::string chooser;              ///< the key, such as "kind", that decides whether this key is allowed; empty: none
   std::vector<std::string> chosen;  ///< values of the chooser with which this key is allowed
   bool operator==(const KnownKey&) const = default;
 };
@@ -46,7 +46,7 @@ class Collector {
   struct Choice {
     std::string named;
     std::vector<std::string> among;  ///< its possible values
-    std::size_t taken = 0;  ///< index of the value in the present pass
+    std::size_t taken = 0;           ///< index of the value in the present pass
   };
   std::vector<KnownKey> keys_;
   Choice choice_;  ///< of the section that is being read

@@ -12,7 +12,8 @@ void apply(const Overrides& asked, Scene& scene) {
   if (asked.seed && scene.specimen.file) throw InputError("--seed: the scene takes its specimen from a file");
   if (asked.seed) {
     scene.specimen.seed = *asked.seed;
-    scene.text += fmt::format("\n# --seed {}\n", *asked.seed);  // a checkpoint is valid for one text only, so the seed must be in it
+    // a checkpoint is valid for one text only, so the seed must be in it
+    scene.text += fmt::format("\n# --seed {}\n", *asked.seed);
   }
   SolverSpec& solver = scene.solver;
   if (asked.method) solver.method = *asked.method;

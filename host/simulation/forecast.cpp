@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast.cpp  Sizes follow from the recipe; what they cost was measured: bench/forecast.
+// forecast.cpp  Sizes follow from the recipe. What they cost was measured: bench/forecast.
 #include "host/simulation/forecast.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace macadam {
 namespace {
 
-/// Of a contact's step on the scene's backend.
+/// Returns the cost of the step of one contact on the scene's backend.
 StepCost step_cost(const Scene& scene, const Forecast& f) {
   constexpr int no_chain = -1;
   const auto of_law = [&](const auto& law) {
@@ -38,7 +38,8 @@ std::vector<std::string> skips_of(const Scene& scene, bool stepped, Geometry geo
   return out;
 }
 
-/// Solutions of systems so far apart in stiffness, or so large, end by factors: the iteration does not get there.
+/// Whether solutions end with the direct solver, because the iteration does not converge for so large a contrast of
+/// stiffness or so many particles.
 bool is_factored(const Scene& scene, const Forecast& f, double contrast) {
   const auto n = f.census.particles();
   if (scene.solver.linear != LinearMethod::automatic) return scene.solver.linear == LinearMethod::direct;
@@ -47,7 +48,7 @@ bool is_factored(const Scene& scene, const Forecast& f, double contrast) {
 
 double factor_bytes(double particles, const Cost& cost) { return cost.factors * std::pow(particles, 4.0 / 3); }
 
-/// Seconds of the solutions in the frequency domain.
+/// Returns the time of all solutions in the frequency domain [s].
 double solution_seconds(const Scene& scene, const Forecast& f, const std::vector<double>& contrasts, const Cost& cost) {
   const double n = static_cast<double>(f.census.particles());
   const bool device = f.backend == Backend::cuda;
@@ -66,7 +67,7 @@ double solution_seconds(const Scene& scene, const Forecast& f, const std::vector
 void add_memory(const Scene& scene, Forecast& f, const std::vector<double>& contrasts, const Cost& cost) {
   const bool device = f.backend == Backend::cuda;
   const StepCost step = f.stepped ? step_cost(scene, f) : StepCost{};
-  // what solutions take is given back before the steps
+  // the memory of the solutions is freed before the steps
   const double solved = f.solutions == 0 ? 0 : device ? cost.a_solved_contact_beside_device : cost.a_solved_contact;
   const bool cyclic = f.stepped && std::holds_alternative<experiments::Cyclic>(scene.experiment);
   const bool steady = cyclic && cyclic_start(scene, f.geometry) == Start::steady;
@@ -122,7 +123,7 @@ Forecast forecast(const Scene& scene) {
   out.form = form_of(scene);
   const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
   out.geometry = cyclic ? cyclic_geometry(scene) : scene.solver.geometry.value_or(Geometry::updated);
-  // a tolerance lets the program take the least precision, where that costs little
+  // with a tolerance a run takes the lowest precision whose error is small; the forecast assumes single precision
   const bool chosen = out.stepped && scene.solver.tolerance.has_value();
   out.precision = scene.solver.precision.value_or(chosen ? Precision::single : Precision::double_);
   if (out.stepped) out.steps = forecast_steps(scene, out.census);

@@ -52,7 +52,8 @@ class Pieces {
   void timed(F&& f) {
     const auto start = Clock::now();
     const std::int64_t steps = f();
-    const double seconds = of_first_rank(seconds_since(start));  // the first rank's time, so that all ranks take the same pieces
+    // the first rank's time, so that all ranks take the same pieces
+    const double seconds = of_first_rank(seconds_since(start));
     if (2 * steps > piece_ && seconds < 0.1) piece_ *= 2;
     if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);
   }
@@ -110,7 +111,8 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
   };
   // Returns how many of the samples after sample k need no more than an observation and have the same distance as k.
   const auto alike = [&](std::int64_t k) {
-    const std::int64_t most = every > 0 || course.looks_at_stepper ? 0 : 64;  // no stepper takes more than 64 samples in one call
+    // no stepper takes more than 64 samples in one call
+    const std::int64_t most = every > 0 || course.looks_at_stepper ? 0 : 64;
     const std::int64_t distance = course.step_of(k) - step;
     std::int64_t n = 0;
     while (n < most && k + n < course.last && !fields_.wants(k + n) && course.taken(k + n + 1) &&

@@ -37,7 +37,7 @@ struct Course {
   std::function<void(const Observation& now)> between = {};
   std::int64_t between_every = 0;
   std::function<std::string(std::int64_t step, double steps_a_second)> shown;  ///< describes the progress, for people
-  Content content;                                                             ///< of a checkpoint, without the stepper's state
+  Content content;  ///< of a checkpoint, without the stepper's state
   /// Called after the first seconds with the predicted remaining time [s]. May be empty.
   std::function<void(double seconds)> foretold = {};
 };
