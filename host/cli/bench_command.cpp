@@ -111,7 +111,8 @@ void time_scenes(BenchArguments arguments) {
     throw RunError("slower than " + arguments.against + " beyond noise");
 }
 
-/// Of several processes, each times steps, and only steps, on a device of its own; the first writes the results.
+/// Times the scenes. With --ranks, each process times only steps, on a device of its own, and the first writes the
+/// results.
 void bench_command(BenchArguments arguments) {
   Ranks* const team = arguments.ranks ? join_ranks() : nullptr;
   if (!team) return time_scenes(std::move(arguments));

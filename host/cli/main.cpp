@@ -47,6 +47,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("found \"{}\", expected {}", word, known.empty() ? "nothing more" : expected_one_of(word, known));
 }
 
+/// Prints what is wrong with a command line, or the help or version that it asks for. Returns the exit code.
 int refuse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);  // help, version
   say_error("macadam: {}\n", fault_of(app, error));

@@ -12,6 +12,7 @@
 
 namespace macadam {
 
+/// The line on standard error. The destructor erases it.
 class ProgressLine {
  public:
   ~ProgressLine() { clear(); }

@@ -27,6 +27,8 @@ fs::path package_folder() {
   return {};
 }
 
+/// Replaces this process by the Python command. \throws InputError if Python does not find the package; RunError if
+/// Python cannot be run.
 [[noreturn]] void run_python(const std::string& command, const std::vector<std::string>& arguments) {
   const std::string python = python_interpreter();
   if (const fs::path folder = package_folder(); !folder.empty()) {

@@ -39,7 +39,7 @@ struct ExperimentOf {
 /// Functions of an experiment. `Result` is the type of its result.
 template <class Result>
 struct ResultOf {
-  /// Adds the result to `results` of summary.json, and what it reports about the solver to `solver`.
+  /// Adds the result to `results` of summary.json, and its settings of the solver to `solver`.
   static void summarise(const Result& found, const Scene& scene, const RunResult& run, nlohmann::ordered_json& out);
 
   /// Returns the wall time until the result was found [s], of all processes of a resumed run.

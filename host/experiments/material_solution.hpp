@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file material_solution.hpp  The common part of relaxation and creep: the specimen's relaxation spectrum, solved
-/// once.
+/// \file material_solution.hpp  The common part of relaxation, creep and constant rates without steps: the specimen's
+/// relaxation spectrum, solved once.
 #pragma once
 
 #include <functional>
@@ -39,7 +39,7 @@ std::unique_ptr<Solution> plan_material(const Scene& scene, const Preparation& p
                                         RunResult& result, const History& history, double poisson_ratio,
                                         Responds responds);
 
-/// Returns the entries with which `results` of both experiments begins in summary.json.
+/// Returns the entries with which `results` of these experiments begins in summary.json.
 nlohmann::ordered_json material_json(const char* kind, const experiments::Material& material);
 
 /// Returns the last lines that the command prints.

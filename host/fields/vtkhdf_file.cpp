@@ -157,6 +157,7 @@ void make_steps(H5::H5File& file, const FieldMesh& mesh, const std::vector<Field
   }
 }
 
+/// A series in one VTKHDF file. The mesh is written once; every frame appends rows to the arrays that change.
 class VtkHdfSeries : public FieldSeries {
  public:
   VtkHdfSeries(const std::filesystem::path& file, FieldMesh mesh, std::optional<double> until)
@@ -204,6 +205,7 @@ class VtkHdfSeries : public FieldSeries {
     steps_ = number;
   }
 
+  /// Appends the rows of a frame to all arrays that change.
   void put_frame(H5::H5File& file, const std::vector<FieldArray>& arrays) {
     const H5::Group steps = file.openGroup(path_of_steps);
     const auto add_row = [&](const H5::Group& group, const std::string& name, const auto& row) {

@@ -106,6 +106,7 @@ struct Listed {
 constexpr std::string_view before_time = "<DataSet timestep=\"", before_file = "\" part=\"0\" file=\"",
                            after_file = "\"/>";
 
+/// A series of one XML file per frame, and the list of the frames (.pvd).
 class VtpSeries : public FieldSeries {
  public:
   VtpSeries(const std::filesystem::path& stem, FieldMesh mesh, std::optional<double> until)

@@ -13,7 +13,7 @@
 
 namespace macadam {
 
-/// Contents of a checkpoint file. What the names mean is up to the caller.
+/// Contents of a checkpoint file. The caller decides what the names mean.
 struct Checkpoint {
   std::map<std::string, std::string> texts;
   std::vector<StateArray> arrays;  ///< names are unique and contain no '/'; a file does not keep their order

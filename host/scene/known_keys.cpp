@@ -48,6 +48,7 @@ std::size_t Collector::choose(const std::string& named, const std::vector<std::s
 std::vector<KnownKey> Collector::keys() const {
   std::vector<KnownKey> out = keys_;
   for (KnownKey& key : out) {
+    // a key that occurs with every choice does not depend on the chooser
     const bool always = std::any_of(keys_.begin(), keys_.end(), [&](const KnownKey& chooser) {
       return chooser.section == key.section && chooser.name == key.chooser && chooser.chosen == key.chosen;
     });

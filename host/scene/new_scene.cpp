@@ -19,7 +19,7 @@ struct Given {
   std::string key, value;
 };
 
-/// A section and those of its keys that have values.
+/// A section, and the keys in it that have values.
 struct Part {
   std::string title;
   std::vector<Given> given;

@@ -203,7 +203,8 @@ void Checkpoints::keep_previous() const {
     fs::remove(previous, ignored);  // it belongs to another run
     return;
   }
-  if (fs::equivalent(file_, previous, ignored)) return;  // the checkpoint after this one could not be written
+  // the link exists already: the attempt before this one could not write its checkpoint
+  if (fs::equivalent(file_, previous, ignored)) return;
   fs::remove(aside, ignored);
   std::error_code error;
   fs::create_hard_link(file_, aside, error);

@@ -15,9 +15,9 @@ class DeviceShares {
  public:
   explicit DeviceShares(std::size_t scenes) : to_come_(scenes) {}
 
-  /// Returns the device for a new scene. Of the devices that it may take, that is an idle one, or the one that has been
-  /// given the fewest scenes so far, unless it runs two scenes more than another. Most scenes are alike, so all devices
-  /// end at about the same time. Returns nothing if each device runs `most` scenes.
+  /// Returns the device for a new scene, one of those that it may take: an idle one, or else the one that has been
+  /// given the fewest scenes so far, but not one that runs two scenes more than another. Most scenes are alike, so all
+  /// devices end at about the same time. Returns nothing if each device runs `most` scenes.
   std::optional<int> choose(const DeviceList& may, int most) const;
   /// Records that a scene runs on `device`, and later perhaps on another one that it may take.
   void put(std::size_t scene, int device, DeviceList may);
@@ -35,6 +35,7 @@ class DeviceShares {
     DeviceList may;
     std::optional<double> left;  ///< remaining work, once it is known
   };
+  /// Returns the number of scenes that run on a device.
   int running(int device) const;
 
   std::size_t to_come_;  ///< number of scenes that have had no device yet

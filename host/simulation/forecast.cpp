@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast.cpp  Sizes follow from the recipe. What they cost was measured: bench/forecast.
+// forecast.cpp  Sizes follow from the recipe. Their costs were measured: bench/forecast.
 #include "host/simulation/forecast.hpp"
 
 #include <fmt/format.h>
@@ -29,6 +29,7 @@ StepCost step_cost(const Scene& scene, const Forecast& f) {
   return step_cost(f.backend == Backend::cuda, f.form, f.precision, f.geometry, units.value_or(0));
 }
 
+/// Returns the names of the things that the run leaves out.
 std::vector<std::string> skips_of(const Scene& scene, bool stepped, Geometry geometry) {
   std::vector<std::string> out;
   if (stepped && geometry == Geometry::fixed) out.push_back("geometry update");
@@ -46,6 +47,7 @@ bool is_factored(const Scene& scene, const Forecast& f, double contrast) {
   return contrast * static_cast<double>(n) > Cost{}.iterable && n <= static_cast<std::int64_t>(largest_direct);
 }
 
+/// Returns the bytes that the direct solver takes.
 double factor_bytes(double particles, const Cost& cost) { return cost.factors * std::pow(particles, 4.0 / 3); }
 
 /// Returns the time of all solutions in the frequency domain [s].
@@ -64,6 +66,7 @@ double solution_seconds(const Scene& scene, const Forecast& f, const std::vector
   return out;
 }
 
+/// Adds the memory of host and device to the forecast.
 void add_memory(const Scene& scene, Forecast& f, const std::vector<double>& contrasts, const Cost& cost) {
   const bool device = f.backend == Backend::cuda;
   const StepCost step = f.stepped ? step_cost(scene, f) : StepCost{};
@@ -83,6 +86,7 @@ void add_memory(const Scene& scene, Forecast& f, const std::vector<double>& cont
         cost.device + std::max(step.bytes, f.solutions > 0 ? cost.a_solved_contact_on_device : 0) * f.contacts;
 }
 
+/// Adds the times to the forecast.
 void add_time(const Scene& scene, Forecast& f, const std::vector<double>& contrasts, const Cost& cost) {
   const double n = static_cast<double>(f.census.particles()), threads = f.threads;
   const bool device = f.backend == Backend::cuda;

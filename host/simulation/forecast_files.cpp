@@ -25,6 +25,7 @@ struct FieldSize {
   double entries = 0;  ///< number of particles or contacts
 };
 
+/// Adds names and sizes of all files to a forecast.
 class FileForecast {
  public:
   FileForecast(const Scene& scene, Forecast& forecast) : scene_(scene), f_(forecast) {}

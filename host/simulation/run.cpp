@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run.cpp  The main job: prepares a scene, runs its experiment, and leaves complete files whatever happens.
+// run.cpp  The main job: prepares a scene, runs its experiment, and leaves complete files whatever happens. The result
+// folder is locked first. Older results in it are replaced only after the specimen is made and the experiment is
+// planned.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,6 +32,7 @@
 namespace macadam {
 namespace {
 
+/// \throws InputError if runs of this scene keep no checkpoints.
 void require_resumable(const Scene& scene) {
   std::string why_not;
   if (!keeps_checkpoints(scene, scene.solver.backend, &why_not))
@@ -59,6 +62,7 @@ void remove_own_checkpoint(const std::filesystem::path& out, const Scene& scene,
   }
 }
 
+/// Returns the status for summary.json after an error.
 std::string status_of(const std::exception& error) {
   if (dynamic_cast<const InterruptedError*>(&error)) return "interrupted";
   if (dynamic_cast<const std::bad_alloc*>(&error)) return "failed: out of memory";
@@ -68,8 +72,8 @@ std::string status_of(const std::exception& error) {
 /// The backend that runs the scene. Devices are counted and start up while the specimen is made.
 class FoundBackend {
  public:
-  /// Waits at most for `wait`. \throws as select_backend(), if it fails within that time. What an existing device
-  /// refuses is known later.
+  /// Waits at most for `wait`. \throws as select_backend(), if it fails within that time. A refusal by an existing
+  /// device may become known later.
   FoundBackend(const SolverSpec& solver, std::chrono::milliseconds wait) : asked_(solver.backend) {
     const auto select = [solver] { return select_backend(solver.backend, nullptr, solver.devices); };
     if (asked_ == Backend::cuda || asked_ == Backend::automatic) {

@@ -27,9 +27,9 @@ namespace {
 /// Number of scenes that run on a device at a time.
 constexpr int at_once_on_a_device = 4;
 /// Number of specimens that all cores make for a device while it steps one. With more at a time, all of them would be
-/// ready late; one after the other they can take longer than their steps (bench/results/many.csv). Of several devices,
-/// each gets its first two specimens one after the other, by the cores that two others share; otherwise it would wait
-/// for the second. Until the devices are counted, one is assumed.
+/// ready late; one after the other they can take longer than their steps (bench/results/many.csv). With several
+/// devices, each gets its first two specimens one after the other, made by the cores that two others share; otherwise a
+/// device would wait for its second specimen. Until the devices are counted, one is assumed.
 constexpr int prepared_for_a_device = 2;
 
 /// Returns those devices that answer. A device that does not would fail one scene after the other.
@@ -44,6 +44,7 @@ DeviceList usable(const DeviceList& devices) {
   return out;
 }
 
+/// \throws InputError if two scenes have the same folder.
 void require_folders_differ(const std::vector<SceneJob>& jobs) {
   std::set<std::filesystem::path> folders;
   for (const SceneJob& job : jobs) {
@@ -110,6 +111,7 @@ class Pool {
     employ(number, devices == 0 ? number : prepared_for_a_device * devices, cores_ - spared);
   }
 
+  /// Returns the number of workers, limited by the option and by the number of scenes; at least one.
   int at_most(int workers) const {
     const int asked = options_.at_once > 0 ? std::min(workers, options_.at_once) : workers;
     return std::clamp(asked, 1, static_cast<int>(jobs_.size()));
@@ -134,6 +136,7 @@ class Pool {
     }
   }
 
+  /// Runs one scene after the other until none is left. Each worker thread does this.
   void work() {
     for (;;) {
       std::size_t job = 0;
@@ -245,11 +248,14 @@ class Pool {
     if (waits) cores.emplace(*this, false, solver.threads);
   }
 
+  /// Returns the device on which a scene continues that has this much work left.
   DeviceList go_on(std::size_t job, double work) {
     const std::lock_guard lock(mutex_);
     return {devices_taken_.go_on(job, work, beside_)};
   }
 
+  /// Returns a watcher that passes the progress and the warnings of a scene to the options' functions, one thread at a
+  /// time.
   Watcher watcher_of(std::size_t job) {
     Watcher out;
     out.stop = options_.stop;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file error_model.hpp  Estimates of what settings cost in |E*| (relative) and φ [rad]. They lie above everything
-/// that bench/accuracy measured.
+/// \file error_model.hpp  Estimates of what settings cost in |E*| (relative) and φ [rad]. Those that rest on
+/// measurements lie above everything that bench/accuracy measured.
 #pragma once
 
 #include <cstddef>

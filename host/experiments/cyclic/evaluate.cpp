@@ -15,6 +15,7 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
+/// The fundamental of a signal, and what its fit leaves.
 struct Fundamental {
   std::complex<double> value;  ///< c in Re(c·exp(iωt))
   double rms = 0;              ///< rms of the fit's residual

@@ -16,10 +16,10 @@ namespace macadam {
 double stiffest_contact(const Scene& scene, const ContactNetwork& network, double frequency_hz);
 
 /// Stores in `fault` what cannot be right, and adds a warning for everything that a reader of this result must know: a
-/// phase angle that no purely dissipative specimen has, a modulus above that of the `stiffest` contact, a fit that
-/// leaves more than half of the amplitude, walls that disagree, a tolerance that was not kept or that nothing could
-/// verify. Without a harmonic solution, `kept` is set to false if there is a fault, or if the last cycle differs from
-/// the one before by more than the tolerance. Without a `stiffest`, that is if a law is not linear, the result is not
+/// phase angle that a passive specimen cannot have, a modulus above that of the `stiffest` contact, a fit that leaves
+/// more than half of the amplitude, walls that disagree, a tolerance that was not kept or that nothing could verify.
+/// Without a harmonic solution, `kept` becomes false if there is a fault, or if the last cycle differs from the one
+/// before it by more than the tolerance. Without a `stiffest`, that is if a law is not linear, the result is not
 /// compared with what linear specimens do. \throws RunError for a modulus that is not a positive finite number.
 void judge(experiments::SteppedFrequency& result, std::optional<double> stiffest, std::optional<double> tolerance,
            std::vector<std::string>& warnings);

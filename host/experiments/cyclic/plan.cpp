@@ -50,6 +50,7 @@ class Planner {
   }
 
  private:
+  /// Adds a sentence to the decisions.
   template <class... Args>
   void decide(fmt::format_string<Args...> text, Args&&... args) {
     plan_.decisions.push_back(fmt::format(text, std::forward<Args>(args)...));
@@ -62,6 +63,7 @@ class Planner {
     return automatic() ? std::clamp(1e-5 * tolerance(), HarmonicOptions{}.tolerance, 1e-8)
                        : HarmonicOptions{}.tolerance;
   }
+  /// Returns β of viscous damping [1/s]; 0 with other damping.
   double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
 
   /// Refuses settings that a law excludes because it is not linear or has no complex stiffness. \throws InputError
@@ -162,6 +164,7 @@ class Planner {
     return out;
   }
 
+  /// Solves one load. A load without a solution is reported among the decisions.
   std::optional<HarmonicResult> solution(const HarmonicLoad& load) {
     try {
       return harmonic_->solve(std::vector{load}).front();
@@ -195,6 +198,8 @@ class Planner {
     }
   }
 
+  /// Returns the density scaling of frequency i: the given one, or the largest one that the tolerance allows by the
+  /// derivative of E* or, without a solution, by an estimate.
   double scaling_of(std::size_t i, const std::optional<HarmonicResult>& known) const {
     if (const auto given = given_scaling(scene_, i, plan_.critical.dt)) return *given;
     const double frequency = scene_.cyclic().frequencies[i];
@@ -225,6 +230,7 @@ class Planner {
     }
   }
 
+  /// Completes the plan of a frequency with its start, cycles, loading and predicted error.
   void finish(FrequencyPlan f, double frequency, std::optional<HarmonicResult> scaled) {
     f.start = scaled ? start_ : Start::rest;
     const CycleCount count = count_cycles(scene_, f.start);
@@ -232,13 +238,14 @@ class Planner {
     f.cycles = count.cycles, f.fit_cycles = count.fitted;
     f.loading = make_loading(f, frequency, ramp);
     if (scaled && f.known) f.predicted = difference(scaled->top, *f.known);
-    // the linear solution is no measure of the error at such strains
+    // the linear solution does not measure the error at such strains
     if (automatic() && nonlinear_ > tolerance()) f.known.reset(), f.predicted.reset();
     if (f.start == Start::steady) f.motion = std::move(scaled->motion);
     say(f, frequency, ramp);
     plan_.frequencies.push_back(std::move(f));
   }
 
+  /// Reports the settings of a frequency among the decisions.
   void say(const FrequencyPlan& f, double frequency, double ramp) {
     if (automatic()) {
       std::string error;

@@ -294,7 +294,7 @@ class Steps : public Solution {
   const Watcher& watcher_;
   Inertia inertia_;
   RunState at_;
-  DeviceList devices_;                ///< those of the stepper
+  DeviceList devices_;                ///< devices of the stepper
   bool may_move_ = true;              ///< whether the run may move to other devices
   std::unique_ptr<Stepper> stepper_;  ///< of the running frequency, or of the first to run
   bool used_ = false;                 ///< whether the stepper has run a frequency

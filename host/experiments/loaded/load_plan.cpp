@@ -36,6 +36,7 @@ class LoadPlanner {
   }
 
  private:
+  /// Adds a sentence to the decisions.
   template <class... Args>
   void decide(fmt::format_string<Args...> text, Args&&... args) {
     plan_.decisions.push_back(fmt::format(text, std::forward<Args>(args)...));

@@ -19,8 +19,8 @@ double ramp_of(const LoadTest& test, double slowest);
 struct LoadDamping {
   Damping kind = Damping::none;
   double value = 0;       ///< χ, or β [1/s]
-  bool chosen = false;    ///< by these rules; it is viscous then
-  bool critical = false;  ///< for the slowest wave, because the first points come before waves have died out
+  bool chosen = false;    ///< chosen by these rules, and viscous then
+  bool critical = false;  ///< critical for the slowest wave, because the first points come before waves have died out
   double pause = 0;       ///< the shortest time from a change of the load's rate to a point [s]
 };
 

@@ -35,10 +35,10 @@ struct LoadTest {
 
   bool by_stress = false;             ///< the load is a stress; else a strain
   LoadTimes when;                     ///< as the scene gives them
-  bool grows = false;                 ///< during the whole test, which then is the ramp
+  bool grows = false;                 ///< the load grows during the whole test, which then is the ramp
   std::optional<double> platen_mass;  ///< of a wall under a stress [kg]
   std::optional<double> strain;       ///< the largest strain, if it is known beforehand
-  double held_stress = 0;             ///< the stress, if the load is one [Pa]
+  double held_stress = 0;             ///< held stress, if the load is a stress [Pa]
   /// Returns the load in steps, [m] or [N]. `unit`: the load at a strain or a stress of 1. `dt` and `ramp` are the
   /// run's.
   std::function<std::shared_ptr<const Drive>(double unit, double dt, double ramp)> drive;
@@ -59,8 +59,8 @@ struct LoadWords {
   const char* comment;              ///< in the file of a run without steps
   bool stress_first;                ///< whether the load's column comes before the response's
   const char* shown;                ///< the ratio's name for people, with its unit
-  const char* shown_stepped;  ///< the same in a stepped run, where it is the ratio of the strain and stress of its row
-  double unit;                ///< of the ratio, for people
+  const char* shown_stepped;        ///< the same in a stepped run, for the ratio of strain and stress of a row
+  double unit;                      ///< of the ratio, for people
 };
 /// Returns the names of a kind's numbers; those of "relaxation" for an unknown kind.
 const LoadWords& words_of(const std::string& kind);

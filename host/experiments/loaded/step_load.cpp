@@ -46,6 +46,7 @@ double kinetic_energy(const ParticleState& p, const Inertia& inertia) {
   return out;
 }
 
+/// A stepped test of a load, from its planning to its results.
 class SteppedLoad : public Solution {
  public:
   SteppedLoad(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
@@ -187,6 +188,7 @@ class SteppedLoad : public Solution {
 
   /// Whether the largest stress is recorded: in a strength test, not under a held load.
   bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress; }
+  /// Keeps the largest stress so far, with its time and strain.
   void follow_peak(const Observation& now) {
     const Vec3d& box = prepared_.specimen.box.size;
     const double strain = now.top_displacement() / box.z, stress = -now.top_force() / (box.x * box.y);
@@ -242,6 +244,7 @@ class SteppedLoad : public Solution {
     return course;
   }
 
+  /// Returns the point at the stepper's present step.
   SteppedPoint point(const Observation& now) const {
     const Vec3d& box = prepared_.specimen.box.size;
     const double area = box.x * box.y, load = drive_->value(now.step) / area + 0.0;  // + 0.0 turns −0 into 0
@@ -275,6 +278,7 @@ class SteppedLoad : public Solution {
     return work > 0 ? kinetic / work : 0;
   }
 
+  /// Returns advice for a run with too many steps.
   static std::string fewer_steps() {
     return "density_scaling takes fewer, method = \"harmonic\" none at all where all laws are linear";
   }

@@ -55,8 +55,8 @@ class Courses {
 
   /// Steps from where the stepper is to the last sample. If the course ends early, a frame of its last sample is
   /// written. Between steps it checks whether a checkpoint is due or the run must stop, before it takes the sample of
-  /// the step that was reached. Where a run is interrupted does not change a bit of the result. \throws DivergenceError
-  /// naming the particle that first left the plausible range; InterruptedError; RunError.
+  /// the step that was reached. The point at which a run is interrupted does not change a bit of the result. \throws
+  /// DivergenceError naming the particle that first left the plausible range; InterruptedError; RunError.
   void run(Stepper& stepper, const Course& course, ContactForm form, Geometry geometry);
 
   /// Whether the checkpoint in the folder, if there is one, belongs to this run.
