@@ -12,7 +12,8 @@ namespace {
 
 using experiments::Material;
 
-/// Factor on the moduli's fractions of a fluid. Its fractions add up to 1, which finite-element programs refuse.
+/// Factor on the fractions of a fluid, which has no long-term modulus. Without the factor its fractions add up to 1,
+/// which finite-element programs refuse.
 constexpr double of_a_fluid = 1 - 1e-8;
 
 /// Returns the comment lines at the top of every table, each after `mark`.

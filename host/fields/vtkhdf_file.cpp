@@ -13,7 +13,7 @@
 namespace macadam {
 namespace {
 
-using Row = std::vector<hsize_t>;  ///< shape of a row of an array: empty for one number, otherwise how many numbers
+using Row = std::vector<hsize_t>;  ///< shape of a row of an array: {} if it is one number, otherwise {how many numbers}
 
 /// Makes an array without rows that can grow. `piece` rows are stored together in the file. `packed`: compressed.
 H5::DataSet make_growing(const H5::Group& group, const std::string& name, const H5::DataType& type, const Row& row,

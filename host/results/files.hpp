@@ -46,8 +46,8 @@ class LineWriter {
  public:
   /// Starts a new file with `head`, its first lines. \throws RunError if the file cannot be opened.
   LineWriter(const std::filesystem::path& file, std::string_view head);
-  /// Appends a line, which is given without its line end. If the disk does not take the whole line, none of it stays in
-  /// the file. \throws RunError.
+  /// Appends a line, which is given without its line end. If the disk does not take the whole line, the part that was
+  /// written is removed from the file. \throws RunError.
   void add(std::string_view line);
   /// Closes the file after the last line. \throws RunError.
   void close();

@@ -161,7 +161,7 @@ inline std::string written(const std::vector<double>&) { return ""; }
 /// @}
 
 /// Return readers for the keys of a section. Each reader stores the checked value in `target`, which must outlive
-/// Section::read and holds the default before.
+/// Section::read and holds the default until then.
 /// @{
 inline Reader into(double& target, const Quantity& quantity, const Rule& rule) {
   return {[&target, &quantity, rule](const Value& value) { target = value.number(quantity, rule); },

@@ -28,7 +28,7 @@ std::vector<StepForecast> forecast_steps(const Scene& scene, const Census& censu
 /// Returns the contrast (stiffest over softest contact) of each solution in the frequency domain.
 std::vector<double> forecast_contrasts(const Scene& scene, bool stepped);
 
-/// Adds names and sizes of the files that a run leaves. Everything in the forecast except the times must be there.
+/// Adds names and sizes of the files that a run leaves. Everything in the forecast except memory and times must be set.
 void forecast_files(const Scene& scene, Forecast& forecast);
 
 }  // namespace macadam

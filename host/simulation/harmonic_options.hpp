@@ -14,8 +14,8 @@ namespace macadam {
 HarmonicOptions harmonic_options(const Scene& scene, Backend backend, const std::function<bool()>& stop,
                                  double residual = HarmonicOptions{}.tolerance);
 
-/// Returns the geometric mean. A solver that is prepared for the mean of several frequencies serves all of them best;
-/// for a relaxation spectrum the mean is the middle of its range.
+/// Returns the geometric mean. A preconditioner that is made for the mean of several frequencies serves all of them
+/// best; for a relaxation spectrum the mean is the middle of its range.
 double geometric_mean(const std::vector<double>& values);
 
 /// Returns the density scaling that the scene gives for a frequency; 1 if it gives none.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file run_scene.hpp  run(), with those parts exchangeable that run_many() does in its own way.
+/// \file run_scene.hpp  run(), with two parts that run_many() replaces: the preparation and the choice of devices.
 #pragma once
 
 #include "macadam/simulation.hpp"

@@ -32,7 +32,7 @@ constexpr double wall_difference = 1e-6;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// Returns what is found in the result but impossible for a passive specimen.
+/// Returns the properties of a result that no passive specimen can have.
 std::vector<std::string> faults_of(const Frequency& f, double stiffest) {
   std::vector<std::string> faults;
   const double phase = f.stiffness.phase_deg;

@@ -57,8 +57,9 @@ class Planner {
   }
   bool automatic() const { return scene_.solver.tolerance.has_value(); }
   double tolerance() const { return *scene_.solver.tolerance; }
-  /// Returns the residual to which solutions are computed. E* depends on the residual squared; the motion of the start
-  /// on the residual itself, times the condition of K, which is about 1e5 at most.
+  /// Returns the residual to which solutions are computed. The error of E* is of the order of the residual squared. The
+  /// error of the motion in a steady start is the residual itself, times the condition of K, which is about 1e5 at
+  /// most.
   double planning_residual() const {
     return automatic() ? std::clamp(1e-5 * tolerance(), HarmonicOptions{}.tolerance, 1e-8)
                        : HarmonicOptions{}.tolerance;

@@ -60,7 +60,7 @@ struct LoadWords {
   bool stress_first;                ///< whether the load's column comes before the response's
   const char* shown;                ///< the ratio's name for people, with its unit
   const char* shown_stepped;        ///< the same in a stepped run, for the ratio of strain and stress of a row
-  double unit;                      ///< of the ratio, for people
+  double unit;                      ///< unit in which people see the ratio
 };
 /// Returns the names of a kind's numbers; those of "relaxation" for an unknown kind.
 const LoadWords& words_of(const std::string& kind);

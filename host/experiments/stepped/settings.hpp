@@ -26,7 +26,7 @@ std::unique_ptr<Stepper> stepper_from(const std::vector<StateArray>& state, Back
                                       const Preparation& prepared, const Inertia& inertia,
                                       const StepperOptions& options, std::unique_ptr<Stepper> used = nullptr);
 
-/// \throws RunError for 1e12 steps or more; `what` describes, in words, what takes them.
+/// \throws RunError for 1e12 steps or more. `what` describes, in the message, what would take them.
 void require_possible(double steps, double dt, const std::string& what);
 
 /// Adds to `solver` of summary.json how a test was stepped.
