@@ -9,7 +9,7 @@
 namespace macadam {
 namespace {
 
-/// Escapes text so that troff prints it as it is.
+/// Escapes the characters of a text that troff would interpret.
 std::string plain(const std::string& text) {
   std::string out;
   for (const char c : text) {

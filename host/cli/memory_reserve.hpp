@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file memory_reserve.hpp  Keeps memory in reserve for the moment when there is none left.
+/// \file memory_reserve.hpp  Keeps memory in reserve for the moment when memory runs out.
 #pragma once
 
 namespace macadam {

@@ -16,8 +16,8 @@ std::filesystem::path own_program();
 /// it runs nothing that happens to be at such a path.
 std::filesystem::path source_tree();
 
-/// Returns the Python that runs scripts and the package: MACADAM_PYTHON of the environment, that of the source tree
-/// (scripts/python), or python3 of the search path.
+/// Returns the Python that runs scripts and the package: MACADAM_PYTHON of the environment, the Python of the
+/// source tree (scripts/python), or python3 of the search path.
 std::string python_interpreter();
 
 /// Runs a program, given by its path or found in the search path, and discards its output. Returns whether its exit

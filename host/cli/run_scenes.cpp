@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_scenes.cpp  Names of the scenes' folders, and what is printed about each scene.
+// run_scenes.cpp  Names the scenes' folders and prints the result of each scene.
 #include "host/cli/run_scenes.hpp"
 
 #include <map>

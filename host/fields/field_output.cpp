@@ -34,7 +34,7 @@ bool is_field_file(const fs::path& file) {
          (name.starts_with(particles) || name.starts_with(contacts) || name.starts_with(cells));
 }
 
-/// Returns the strain amplitude of steady states: that of a cyclic test. A sweep has none and gets the cyclic default.
+/// Returns the strain amplitude of steady states. A sweep gives no amplitude and gets the default of a cyclic test.
 double strain_amplitude(const Scene& scene) {
   const auto* cyclic = std::get_if<experiments::Cyclic>(&scene.experiment);
   return cyclic ? cyclic->strain_amplitude : experiments::Cyclic{}.strain_amplitude;

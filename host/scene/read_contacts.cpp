@@ -16,7 +16,7 @@ namespace {
 using laws::ValueKind;
 using laws::ValueNeed;
 
-/// Returns the explanation of a value of a law; empty if there is none here.
+/// Returns the explanation of a value of a law; empty if it is not listed here.
 std::string text_of(const std::string& law, const std::string& key) {
   static const std::map<std::string, std::string> kelvin{{"E_m", "spring of the Maxwell unit"},
                                                          {"C_m", "dashpot of the Maxwell unit; inf: no dashpot"},

@@ -13,8 +13,8 @@ toml::table read_toml(const std::filesystem::path& file, const std::string& what
 /// Returns the tables of `text`, which is used in place of the content of `file`. \throws InputError
 toml::table parse_toml(const std::string& text, const std::filesystem::path& file, const std::string& what);
 
-/// Reads `[specimen]`: a file, or what the generator needs. Mixtures that cannot be made are refused. `recipe` receives
-/// the mix design, if there is one. Relative paths start from `folder`. \throws InputError
+/// Reads `[specimen]`: a file, or the values for the generator. Mixtures that cannot be made are refused. `recipe`
+/// receives the mix design, if there is one. Relative paths start from `folder`. \throws InputError
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
                            std::optional<MixDesign>& recipe);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file table.hpp  Checked access to TOML tables. Each section is read through one list of its keys, so that the known
-/// keys and the keys that are read cannot differ. Every error names the file, the line, the key, what was found and
-/// what was expected.
+/// keys and the keys that are read cannot differ. Every error names the file, the line, the key, the value found and
+/// the values expected.
 #pragma once
 
 #include <fmt/format.h>
@@ -112,8 +112,8 @@ struct Key {
   std::string name;
   Need need;
   Reader read;
-  std::string text = {};   ///< what the key means, for people
-  std::string usual = {};  ///< what applies without the key, in words, if there is no fixed default
+  std::string text = {};   ///< meaning of the key, for people
+  std::string usual = {};  ///< effect of leaving the key out, in words, if the default is not a fixed value
 };
 
 /// A TOML table in which every key must be known.
@@ -153,7 +153,7 @@ class Section {
   Collector* collector_;
 };
 
-/// Return a default as a scene would write it; empty if there is none.
+/// Return a default as a scene would write it; an empty text for values without a default.
 /// @{
 inline std::string written(double value) { return fmt::format("{}", value); }
 inline std::string written(const std::optional<double>&) { return ""; }
@@ -175,8 +175,8 @@ inline Reader into(std::vector<double>& target, const Quantity& quantity, const 
   return {[&target, &quantity, rule](const Value& value) { target = value.numbers(quantity, rule); },
           {"list of numbers", &quantity, rule.words}};
 }
-/// Returns a reader of a positive number whose unit is easily forgotten. A number with a unit is taken as it is; one
-/// without must satisfy `bare`, which tells values in SI units from others.
+/// Returns a reader of a positive number whose unit is easily forgotten. A number with a unit only has to be positive;
+/// one without must satisfy `bare`, which tells values in SI units from others.
 inline Reader positive_into(double& target, const Quantity& quantity, const Rule& bare) {
   return {[&target, &quantity, bare](const Value& value) {
             target = value.number(quantity, value.is_text() ? positive : bare);

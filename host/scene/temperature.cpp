@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// temperature.cpp  Shifts the laws of a scene to its temperature, or to those of its loading.
+// temperature.cpp  Shifts the laws of a scene to its temperature, or to the temperatures of its loading.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -37,7 +37,7 @@ std::string fingerprint(const Preparation& prepared) {
                      n.contacts.size(), n.point_area.size(), checksum(prepared));
 }
 
-/// Returns the first line in which two texts differ, as it is in each of them.
+/// Returns the first line in which two texts differ, first from `found`, then from `expected`.
 std::pair<std::string, std::string> first_difference(const std::string& found, const std::string& expected) {
   std::istringstream a(found), b(expected);
   for (int line = 1;; ++line) {
@@ -56,7 +56,7 @@ std::pair<std::string, std::string> first_difference(const std::string& found, c
   throw InputError(file.string(), 0, "checkpoint of another " + what, found, expected + ", as in this run");
 }
 
-/// \throws InputError if the texts of a checkpoint are not those of a run.
+/// \throws InputError if the texts of a checkpoint differ from those of a run.
 void require_same_run(const std::filesystem::path& file, const Checkpoint& checkpoint, const Scene& scene,
                       Backend backend) {
   for (const auto& [what, expected] : identity(scene, backend)) {

@@ -16,24 +16,24 @@ namespace macadam {
 
 /// The file name of the checkpoint in the folder of the results.
 inline constexpr const char* checkpoint_name = "checkpoint.h5";
-/// The checkpoint before it, of the same run. It is used if the newest file is damaged.
+/// The file name of the previous checkpoint of the same run. It is used if the newest file is damaged.
 inline constexpr const char* previous_checkpoint_name = "checkpoint-previous.h5";
 
 /// Whether runs of this scene keep checkpoints. `why_not` (optional) receives the reason if they do not.
 bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not = nullptr);
 
-/// Whether a results folder has a checkpoint, or the one before it.
+/// Whether a results folder has a checkpoint, the newest or the previous one.
 bool has_checkpoint(const std::filesystem::path& folder);
 
 /// A checkpoint from which a run can continue.
 struct FoundCheckpoint {
   std::filesystem::path file;
   Checkpoint checkpoint;
-  std::string damage;  ///< what is wrong with the newest checkpoint, if this is the one before it; otherwise empty
+  std::string damage;  ///< the fault of the newest checkpoint, if this is the previous one; otherwise empty
 };
 
 /// Reads the checkpoint of this scene on this backend from a results folder. If the newest one is missing or damaged,
-/// reads the one before it, if that is intact.
+/// reads the previous one, if that is intact.
 /// \throws InputError as read_checkpoint() does for the newest; also if the checkpoint belongs to another run, naming
 /// what differs: scene (with the first different line), version, backend, precision, form or geometry.
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const Scene& scene, Backend backend);
@@ -54,7 +54,7 @@ std::vector<StateArray> take_state(Checkpoint& from);
 using Content = std::function<void(Checkpoint& to)>;
 
 /// Writes the checkpoints of one run when they are due. If one cannot be written (a full disk), that is a warning: the
-/// one before it stays, and the run continues.
+/// previous one stays, and the run continues.
 class Checkpoints {
  public:
   Checkpoints(const std::filesystem::path& file, const Scene& scene, const Preparation& prepared, Backend backend,

@@ -7,7 +7,7 @@
 namespace macadam {
 
 /// Checks a scene whose keys are each valid; the command line may have changed some since it was read.
-/// \throws InputError naming the scene, what does not go together, and what would.
+/// \throws InputError naming the scene, the settings that exclude each other, and settings that are possible.
 void require_combination(const Scene& scene);
 
 }  // namespace macadam

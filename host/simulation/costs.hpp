@@ -25,10 +25,10 @@ struct Cost {
   double placing = 1.6e-5, joining = 3e-6;
   // seconds of one thread per solution and particle^(4/3): the number of iterations grows with the specimen's edge
   double solving = 1.1e-6, solving_on_device = 2e-8;
-  // Contrast is the stiffness of the stiffest contact over that of the softest. A solution takes by_contrast·∛contrast
-  // times as long as one of small contrast. If contrast·particles exceeds `iterable`, the iteration fails and the
-  // direct solver follows: its bytes per particle^(4/3), seconds per particle^1.5, iterations, and seconds per
-  // iteration and byte (measured with 600 to 4,805 particles and contrasts of 20 to 1e7).
+  // Contrast is the stiffness of the stiffest contact over the stiffness of the softest. A solution takes
+  // by_contrast·∛contrast times as long as one of small contrast. If contrast·particles exceeds `iterable`, the
+  // iteration fails and the direct solver follows: its bytes per particle^(4/3), seconds per particle^1.5, iterations,
+  // and seconds per iteration and byte (measured with 600 to 4,805 particles and contrasts of 20 to 1e7).
   double by_contrast = 0.4, iterable = 2e8, factors = 2.9e3, factoring = 2e-6, factored_iterations = 500,
          with_factors = 5e-11;
   // seconds per byte of a file, and in addition per frame of fields

@@ -39,8 +39,8 @@ std::vector<std::string> skips_of(const Scene& scene, bool stepped, Geometry geo
   return out;
 }
 
-/// Whether solutions end with the direct solver, because the iteration does not converge for so large a contrast of
-/// stiffness or so many particles.
+/// Whether solutions end with the direct solver, because the iteration does not converge if the contrast of
+/// stiffness or the number of particles is too large.
 bool is_factored(const Scene& scene, const Forecast& f, double contrast) {
   const auto n = f.census.particles();
   if (scene.solver.linear != LinearMethod::automatic) return scene.solver.linear == LinearMethod::direct;

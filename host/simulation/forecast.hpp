@@ -34,7 +34,7 @@ struct Forecast {
   double specimen_s = 0, network_s = 0, harmonic_s = 0, stepping_s = 0;
   double writing_s = 0;  ///< of all files
   double seconds() const { return specimen_s + network_s + harmonic_s + stepping_s + writing_s; }
-  std::vector<std::string> skips;  ///< what the run leaves out because the scene does not need it
+  std::vector<std::string> skips;  ///< parts that the run leaves out because the scene does not need them
   std::vector<std::string> files;  ///< names of the files that the run leaves; `*` stands for the numbers of frames
   std::vector<double> file_bytes;  ///< of each file, on disk
   double field_frames = 0;         ///< number of frames of all series of fields

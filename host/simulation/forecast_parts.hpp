@@ -10,7 +10,8 @@
 
 namespace macadam {
 
-/// Returns the mean of f(law) over the pair types that have most of the contacts: those of the mastic, if there is any.
+/// Returns the mean of f(law) over the pair types that have most of the contacts: the pairs of the mastic, if the scene
+/// has any.
 template <class F>
 std::optional<double> mean_of_usual(const Scene& scene, F&& f) {
   double sum = 0;

@@ -34,7 +34,7 @@ double modulus_at(const Scene& scene, double hz) {
   return logarithm ? std::exp(*logarithm) : 1e9;
 }
 
-/// Returns the critical step at true mass [s]: that of a small sphere among the stiffest contacts that it can have.
+/// Returns the critical step at true mass [s]: the step of a small sphere among the stiffest contacts that it can have.
 double critical_step(const Scene& scene, const Census& census) {
   constexpr double mastic_part = 0.377, cluster_part = 0.58;  // of radius·√(density/modulus), measured
   const auto step = [&](double part, double radius, double density, std::initializer_list<PairType> pairs) {

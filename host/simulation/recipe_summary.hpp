@@ -8,8 +8,8 @@
 
 namespace macadam {
 
-/// Returns what follows from a mix design, and what a generated specimen reached of it. `composition`: one row per
-/// class, then the mastic.
+/// Returns the volumes and densities that follow from a mix design, and those that a generated specimen reached.
+/// `composition`: one row per class, then the mastic.
 nlohmann::ordered_json recipe_json(const MixDesign& design, const std::vector<CompositionRow>& composition);
 
 }  // namespace macadam

@@ -222,13 +222,13 @@ class Pool {
     cores.emplace(*this, true, scene.solver.threads);
     if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
     return prepare(scene, [&](const std::string& stage, double share) {
-      if (stage == network_stage) cores->share();  // most of what follows is done by one thread, or by the device
+      if (stage == network_stage) cores->share();  // one thread, or the device, does most of the work that follows
       progress(stage, share);
     });
   }
 
-  /// Chooses one of the devices that the scene may use and that answer. Waits while each of them runs as many scenes as
-  /// it may; other scenes have the cores meanwhile.
+  /// Chooses one of the devices that the scene may use and that answer. Waits while each of them runs its largest
+  /// number of scenes; other scenes have the cores meanwhile.
   void take_device(std::size_t job, SolverSpec& solver, std::optional<Cores>& cores) {
     DeviceList meant = solver.devices.empty() ? usable_.get() : usable(device_numbers(solver.devices));
     if (meant.empty()) meant = device_numbers(solver.devices);  // making the stepper reports why these cannot run

@@ -30,7 +30,7 @@ Scene scene_of_rank(const Ranks& team, Scene scene);
 /// \throws RunError if the ranks have read different scenes.
 void require_same_scene(Ranks& team, const Scene& scene);
 
-/// Copies those of the files `names` that are in the first rank's folder to the folders of all ranks. The run continues
+/// Copies the files `names`, if they exist in the first rank's folder, to the folders of all ranks. The run continues
 /// from these files.
 /// \throws RunError
 void hand_out(Ranks& team, const std::filesystem::path& folder, const std::vector<std::string>& names);

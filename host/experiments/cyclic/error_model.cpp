@@ -68,17 +68,18 @@ RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, do
           stiffest / softest, density_scaling * inertia_estimate(scene, prepared, frequency)};
 }
 
-// A block takes 1/N of the shortest time. Within it, what a contact neglects is a saw-tooth of height (2π/N)²/8 that
-// returns to zero at the block's end; the fundamental keeps a part of it. Measured: at most (2π/N)²/38, for N = 30 to
-// 4,000, both binders, 2 to 20 Hz, one to three cycles (bench/block_lengths.cpp, bench/results/block-lengths.csv).
+// A block takes 1/N of the shortest time. The error of a contact within a block is a saw-tooth of height (2π/N)²/8
+// that returns to zero at the end of the block; the fundamental keeps a part of it. Measured: at most (2π/N)²/38, for N
+// = 30 to 4,000, both binders, 2 to 20 Hz, one to three cycles (bench/block_lengths.cpp,
+// bench/results/block-lengths.csv).
 double block_error(double blocks) {
   const double turn = 2 * std::numbers::pi / blocks;
   return turn * turn / 20;
 }
 double blocks_within(double error) { return std::min(4000.0, 2 * std::numbers::pi / std::sqrt(20 * error)); }
 
-// The velocities that contacts gather have a relative error of u = 2⁻²⁴, and they are as many times larger than the
-// relative velocities of two layers as there are layers. Normals, arms and moments have a relative error of u. In
+// The velocities that contacts gather have a relative error of u = 2⁻²⁴, and their ratio to the relative velocities of
+// two layers is the number of layers. Normals, arms and moments have a relative error of u. In
 // `mixed`, states, master velocities and sums are double. But a device that steps in blocks stores the change of a
 // force within a block in single precision: where stiff walls carry inertia, a part of it is lost, as a part of a
 // velocity is in `single`. θ = u·N/2π.
@@ -89,8 +90,9 @@ double mixed_precision_error(const RoundingScale& s) {
 // `single` has further errors. A chain's f and x_l change in one step by 2π/N of their amplitude, times the cosine of
 // the phase. About their peaks, where that is less than half of the last bit, they do not change: over θ = u·N/2π on
 // either side, where they should have moved by θ²/2. Noise of other roundings hides most of this error in long runs,
-// but not all of it; hence 4·θ². A run of many cycles loses less than one cycle of as many steps. Likewise, a velocity
-// changes only if the force moves it by half of its last bit in a step: up to θ/2 of the inertia is lost.
+// but not all of it; hence 4·θ². A run of many cycles loses less than one cycle with the same number of steps.
+// Likewise, a velocity changes only if the force moves it by half of its last bit in a step: up to θ/2 of the inertia
+// is lost.
 double single_precision_error(const RoundingScale& s) {
   const double theta = angle_lost(s);
   return mixed_precision_error(s) + 4 * theta * theta;

@@ -24,7 +24,7 @@ constexpr double phase_margin_deg = 1;
 /// Largest residual of the fit, rms over the amplitude. With a residual of half the amplitude the stress is plainly not
 /// a sine. The residual does not measure accuracy.
 constexpr double largest_residual = 0.5;
-/// Factor on the modulus bound. The bound is that of a static specimen; waves of the start exceed it a little.
+/// Factor on the modulus bound. The bound holds for a static specimen; waves of the start exceed it a little.
 constexpr double bound_margin = 1.05;
 /// Largest relative difference of the two walls' forces, which are equal without inertia. Solutions agree to 1e-9 or
 /// better.

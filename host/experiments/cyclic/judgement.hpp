@@ -10,9 +10,9 @@
 
 namespace macadam {
 
-/// Returns the largest modulus that the network can have at a frequency [Pa]: that of its stiffest contact. The cells
-/// fill the box, so ΣA·d·n_z² is its volume, and the affine motion gives no less energy than the true one: the bound of
-/// Voigt.
+/// Returns the largest modulus that the network can have at a frequency [Pa], which is the modulus of its stiffest
+/// contact. The cells fill the box, so ΣA·d·n_z² is its volume, and the affine motion gives no less energy than the
+/// true one: the bound of Voigt.
 double stiffest_contact(const Scene& scene, const ContactNetwork& network, double frequency_hz);
 
 /// Stores in `fault` what cannot be right, and adds a warning for everything that a reader of this result must know: a

@@ -95,7 +95,7 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
       told = true;
       course.foretold(static_cast<double>(end - now) / speed(now));
     }
-    const InPhase writing(result_.phases, &PhaseSeconds::writing);  // takes nearly no time unless a checkpoint is due
+    const InPhase writing(result_.phases, &PhaseSeconds::writing);  // takes time only if a checkpoint is due
     checkpoints_.look(course.content, stepper, course.name);
   };
   bool ended = false;

@@ -17,7 +17,7 @@ namespace macadam {
 /// facet has one point, which then has three chains instead of six.
 ContactForm form_of(const Scene& scene);
 
-/// Returns the options that all steppers of a run have in common, from `[solver]` and from what was chosen for the run.
+/// Returns the options that all steppers of a run have in common, from `[solver]` and the choices made for the run.
 StepperOptions stepper_options(const SolverSpec& solver, ContactForm form, Geometry geometry, Precision precision);
 
 /// Returns a stepper that continues from a checkpoint's state, unless that is empty. `used`: as for make_stepper().
@@ -26,7 +26,7 @@ std::unique_ptr<Stepper> stepper_from(const std::vector<StateArray>& state, Back
                                       const Preparation& prepared, const Inertia& inertia,
                                       const StepperOptions& options, std::unique_ptr<Stepper> used = nullptr);
 
-/// \throws RunError for 1e12 steps or more. `what` describes, in the message, what would take them.
+/// \throws RunError for 1e12 steps or more. `what` names the part of the run that takes them.
 void require_possible(double steps, double dt, const std::string& what);
 
 /// Adds to `solver` of summary.json how a test was stepped.
