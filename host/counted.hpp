@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file counted.hpp  Counts that are kept in 32 bits.
+/// \file counted.hpp  Conversion of counts to narrower integer types.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace macadam {
 
-/// The count in T. \throws RunError where it does not fit, naming what was counted.
+/// Returns the count as a T. \throws RunError, naming what was counted, if the count is larger than T can hold.
 template <class T>
 T counted(std::size_t found, const char* what) {
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<T>::max());

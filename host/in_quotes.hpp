@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file in_quotes.hpp  Text of a file in a message.
+/// \file in_quotes.hpp  Quotes text of a file in a message.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace macadam {
 
-/// In quotes, fit for one line of a message: control characters are shown as `?`, and what is long is cut, not within a
-/// character of UTF-8.
+/// Returns the text in quotes, fit for one line of a message. Control characters become `?`. Text longer than 60 bytes
+/// is cut, never within a UTF-8 character.
 inline std::string in_quotes(std::string_view text) {
   std::size_t longest = 60;
   while (longest > 0 && text.size() > longest && (static_cast<unsigned char>(text[longest]) & 0xC0) == 0x80) --longest;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// nearest.cpp  Distance between words in edits, letters compared without case.
+// nearest.cpp  Distance between words in edits; letters are compared without case.
 #include "host/nearest.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,8 @@
 namespace macadam {
 namespace {
 
-/// Letters of a word that count: a line of a damaged file may have very many, and edits() takes time with their square.
+/// Number of letters of a word that are compared. A line of a damaged file may be very long, and the time of edits()
+/// grows with the square of the length.
 constexpr std::size_t longest = 64;
 
 bool same_letter(char a, char b) {
@@ -38,13 +39,13 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return last.back();
 }
 
-/// Removes the hyphens of an option.
+/// Returns the word without its leading hyphens.
 std::string_view bare(std::string_view word) {
   word.remove_prefix(std::min(word.find_first_not_of('-'), word.size()));
   return word;
 }
 
-/// Returns the only known word that begins with `word`, hyphens of options aside.
+/// Returns the known word that begins with `word`, ignoring the hyphens of options, if there is exactly one.
 std::optional<std::string> only_with_beginning(std::string_view word, const std::vector<std::string>& known) {
   const auto begins = [word = bare(word)](const std::string& k) { return !word.empty() && bare(k).starts_with(word); };
   if (std::count_if(known.begin(), known.end(), begins) != 1) return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file nearest.hpp  Which known word was meant: for messages about unknown keys, commands and options.
+/// \file nearest.hpp  Finds the known word that an unknown key, command or option probably meant, for error messages.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ namespace macadam {
 /// Returns the known word (there is at least one) with the fewest edits from `word`; the first of several.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
-/// Returns the edits between two words: letters inserted, removed or replaced, and neighbours exchanged. Upper and
-/// lower case are alike; the first 64 letters of each word count.
+/// Returns the number of edits between two words: letters inserted, removed or replaced, and neighbours exchanged.
+/// Upper and lower case count as equal. Only the first 64 letters of each word are compared.
 std::size_t letters_between(std::string_view a, std::string_view b);
 
 /// Returns what a message expects in place of an unknown word: "seed (the nearest of box, seed)" if one of the known

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file quiet_hdf5.hpp  HDF5 without its own messages, and for one thread at a time.
+/// \file quiet_hdf5.hpp  Use of HDF5 without its error output, by one thread at a time.
 #pragma once
 
 #include <H5Cpp.h>
@@ -13,9 +13,10 @@
 
 namespace macadam {
 
-/// HDF5 prints its errors unless told not to: while one of these lives it is silent, and its first error is remembered.
-/// Runs side by side write files, and HDF5 is not for several threads, nor are two files in memory of one name: whoever
-/// makes one waits for the others.
+/// While an object of this class exists, HDF5 prints no errors; the first error is kept for why(). The object also
+/// holds a lock: runs of one process write files at the same time, but HDF5 is not safe for several threads and cannot
+/// hold two in-memory files of the same name. Another thread that constructs a QuietHdf5 waits until this one is
+/// destroyed.
 class QuietHdf5 {
  public:
   QuietHdf5() {
@@ -25,13 +26,14 @@ class QuietHdf5 {
   QuietHdf5(const QuietHdf5&) = delete;
   QuietHdf5& operator=(const QuietHdf5&) = delete;
   ~QuietHdf5() {
-    H5garbage_collect();  // it would keep megabytes for files to come
+    H5garbage_collect();  // otherwise HDF5 keeps megabytes for later files
     H5::Exception::setAutoPrint(print_, data_);
   }
 
-  /// Whether anything went wrong: destructors of HDF5's classes, which may write, throw nothing.
+  /// Returns whether a call of HDF5 failed. Destructors of HDF5's classes may write, but they throw nothing.
   bool failed() const { return why_[0] != '\0'; }
-  /// Of the first error, where it arose; of one of the system, the system's words.
+  /// Returns the text of the first error, from the function in which it arose. For an error of the operating system
+  /// this is the system's message.
   std::string why() const {
     std::string text = why_.data();
     const std::string of_the_system = "error message = '";
@@ -42,12 +44,14 @@ class QuietHdf5 {
   }
 
  private:
+  /// HDF5's error handler. `to` is the QuietHdf5 object.
   static herr_t note(hid_t stack, void* to) { return H5Ewalk2(stack, H5E_WALK_UPWARD, note_innermost, to); }
+  /// Keeps the text of the innermost error (depth 0), unless an error was kept before.
   static herr_t note_innermost(unsigned depth, const H5E_error2_t* error, void* to) {
     auto& why = static_cast<QuietHdf5*>(to)->why_;
     if (depth != 0 || why[0] != '\0') return 0;
     const char* text = error->desc ? error->desc : "unknown";
-    // where HDF5 cannot allocate, some of its words say only what for
+    // when HDF5 cannot allocate memory, some of its messages say only what the memory was for
     const bool hides_memory = error->maj_num == H5E_RESOURCE &&
                               (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC) &&
                               !std::strstr(text, "memory");
@@ -64,8 +68,8 @@ class QuietHdf5 {
   std::array<char, 512> why_{};
 };
 
-/// Where HDF5 gets no memory it may crash or end the program: there must be some before it begins. `bytes`: of what it
-/// shall hold. \throws std::bad_alloc.
+/// Checks that memory for `bytes`, the data that HDF5 will hold, and 8 MiB for HDF5 itself can be allocated. If an
+/// allocation fails within HDF5, it may crash or end the program. \throws std::bad_alloc.
 inline void require_memory_for_hdf5(std::size_t bytes) {
   constexpr std::size_t its_own = 8 << 20;
   ::operator delete(::operator new(bytes + its_own));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file thread_limit.hpp  How many threads a job may use, whatever parts it has.
+/// \file thread_limit.hpp  Limits the number of threads of a job.
 #pragma once
 
 #include <omp.h>
@@ -8,12 +8,11 @@
 
 namespace macadam {
 
-/// Sets the number of OpenMP threads of the calling thread's parallel regions for as long as it lives, and then
-/// restores the earlier number. Every part of a job reads that number: specimen, cells, contacts, solutions and their
-/// BLAS, steps.
+/// Sets the number of OpenMP threads for parallel regions of the calling thread. The destructor restores the earlier
+/// number. Every part of a job uses this number: specimen, cells, contacts, solutions and their BLAS, steps.
 class ThreadLimit {
  public:
-  /// `threads`: 0 or nothing changes nothing.
+  /// `threads`: 0 or no value changes nothing.
   explicit ThreadLimit(std::optional<int> threads) : before_(omp_get_max_threads()) {
     if (threads.value_or(0) > 0) omp_set_num_threads(*threads);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// as_rank.cpp  Who speaks, and how all end.
+// as_rank.cpp  Which process prints, and how all of them end.
 #include "host/cli/as_rank.hpp"
 
 #include <omp.h>
@@ -17,7 +17,8 @@
 namespace macadam {
 namespace {
 
-/// An error that all have is told by the first alone, which writes what there is to write and ends the others.
+/// Ends all processes after an error. The others wait before they report it, so that an error that all have is reported
+/// by the first alone, which writes what there is to write and ends the others.
 [[noreturn]] void end_all(Ranks& team, const char* why, int code) {
   const bool first = team.number() == 0;
   if (!first) std::this_thread::sleep_for(std::chrono::seconds(10));
@@ -39,7 +40,7 @@ void as_rank(Ranks& team, const std::function<void(bool&)>& f) {
     team.leave();
   } catch (const InterruptedError& error) {
     if (!together) end_all(team, error.what(), 1);
-    team.leave();  // the first has written the checkpoint by then
+    team.leave();  // by then the first has written the checkpoint
     if (first) throw;
   } catch (const std::bad_alloc&) { end_all(team, "out of memory", 1); } catch (const std::exception& error) {
     end_all(team, error.what(), dynamic_cast<const InputError*>(&error) ? 2 : 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file as_rank.hpp  A command that several processes run together.
+/// \file as_rank.hpp  Runs a command in several processes together.
 #pragma once
 
 #include <functional>
@@ -8,9 +8,9 @@
 
 namespace macadam {
 
-/// Runs f() as one of several processes, of which the first alone writes to standard output. An error of any ends all,
-/// as the others would wait for it for ever. `interrupted_together`: set by f() where from then on all of them are
-/// interrupted at the same step. \throws InterruptedError then, on the first.
+/// Runs f() as one of several processes, of which only the first writes to standard output. An error in one process
+/// ends all of them, because the others would wait for it forever. f() sets `interrupted_together` once an
+/// interruption stops all processes at the same step. \throws InterruptedError in that case, in the first process.
 void as_rank(Ranks& team, const std::function<void(bool& interrupted_together)>& f);
 
 }  // namespace macadam

@@ -24,7 +24,7 @@ struct BenchArguments {
   bool ranks = false;
 };
 
-/// A row as a line: time, spread, and what share of what the machine can do.
+/// Prints a row as a line: time, spread, and fractions of the bandwidths that the machine can reach.
 void say_row(const bench::BenchRow& row, const bench::MachineSpeed& machine) {
   const double step = bench::median(row.seconds);
   const auto [least, most] = std::minmax_element(row.seconds.begin(), row.seconds.end());
@@ -60,7 +60,7 @@ void say_machine(const bench::MachineSpeed& machine) {
   say("{:64} {:>12} {:>7} {:>10} {}\n", "median", "us", "spread", "contacts/s", "share of bandwidth");
 }
 
-/// Says what changed. Whether anything became slower.
+/// Prints what changed. Returns whether anything became slower.
 bool say_changes(const std::vector<bench::BenchRow>& before, const std::vector<bench::BenchRow>& rows,
                  const std::string& file) {
   bool slower = false;
@@ -80,7 +80,7 @@ bool say_changes(const std::vector<bench::BenchRow>& before, const std::vector<b
 void time_scenes(BenchArguments arguments) {
   std::vector<bench::BenchRow> before;
   if (!arguments.against.empty())
-    before = bench::read_rows(arguments.against);  // before the work, in case it is not there
+    before = bench::read_rows(arguments.against);  // first, so that a missing file is reported before the work
   if (!arguments.only.empty()) {
     arguments.axes.steps = arguments.only == "step";
     arguments.axes.harmonic = arguments.only == "harmonic";
@@ -101,7 +101,8 @@ void time_scenes(BenchArguments arguments) {
       say_row(row, machine);
       rows.push_back(row);
       if (arguments.json.empty()) return;
-      std::ofstream out(arguments.json);  // whole after every row: whoever stops it has what was measured
+      // written after every row, so that an interrupted run leaves what was measured
+      std::ofstream out(arguments.json);
       if (!(out << bench::json_of(context, rows).dump(1) << '\n').flush())
         throw RunError(arguments.json + ": cannot be written");
     });
@@ -110,7 +111,8 @@ void time_scenes(BenchArguments arguments) {
     throw RunError("slower than " + arguments.against + " beyond noise");
 }
 
-/// Of several processes, steps alone are timed, each on a device of its own; the first writes.
+/// Times the scenes. With --ranks, each process times only steps, on a device of its own, and the first writes the
+/// results.
 void bench_command(BenchArguments arguments) {
   Ranks* const team = arguments.ranks ? join_ranks() : nullptr;
   if (!team) return time_scenes(std::move(arguments));
@@ -125,7 +127,7 @@ void bench_command(BenchArguments arguments) {
   });
 }
 
-/// Several of the names, with commas.
+/// Adds an option that takes several of the names, separated by commas.
 template <class T>
 void add_choices(CLI::App& command, const std::string& name, std::vector<T>& target, const std::string& description,
                  const std::vector<std::pair<std::string, T>>& choices) {
@@ -141,7 +143,7 @@ void add_choices(CLI::App& command, const std::string& name, std::vector<T>& tar
   })->type_name("LIST");
 }
 
-/// Several numbers, with commas.
+/// Adds an option that takes several numbers, separated by commas.
 template <class T>
 void add_list(CLI::App& command, const std::string& name, std::vector<T>& target, const std::string& description, T low,
               T high) {

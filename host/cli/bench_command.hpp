@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file bench_command.hpp  macadam bench: how fast are steps and iterations here?
+/// \file bench_command.hpp  macadam bench: measures how fast steps and iterations are on this machine.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -33,7 +33,7 @@ struct CalibrateArguments {
   CalibrationOptions options;
 };
 
-/// "NAME=A:B" as a free parameter's name and two numbers.
+/// A free parameter and two numbers, from the text "NAME=A:B".
 struct Pair {
   FreeParameter* parameter;
   double first, second;

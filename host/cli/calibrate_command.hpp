@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file calibrate_command.hpp  macadam calibrate: parameters of a scene from measured moduli of the mixture.
+/// \file calibrate_command.hpp  macadam calibrate: finds parameters of a scene from measured moduli of the mixture.
 #pragma once
 
 #include <CLI/CLI.hpp>

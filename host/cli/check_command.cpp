@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// check_command.cpp  macadam check SCENE: what a run would make and take, without running.
+// check_command.cpp  macadam check SCENE: predicts what a run would make and take, without running.
 #include "host/cli/check_command.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ struct CheckArguments {
   bool json = false;
 };
 
-/// Two digits: what is foretold has no more.
+/// Returns a number with two digits, because a prediction is not more accurate.
 std::string about(double value) {
   if (!(value > 0)) return "0";
   const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
@@ -41,7 +41,7 @@ std::string time_in_words(double seconds) {
   return seconds < 6000 ? fmt::format("{:.0f} min", seconds / 60) : fmt::format("{:.1f} h", seconds / 3600);
 }
 
-/// All names, those of more than a megabyte with their size, and the sum.
+/// Returns the names of all files, the sizes of those above a megabyte, and the total size.
 std::string files_in_words(const Forecast& f) {
   std::string out;
   for (std::size_t i = 0; i < f.files.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// commands.cpp  The commands, a line each.
+// commands.cpp  The commands, one per line.
 #include "host/cli/commands.hpp"
 
 #include "host/cli/bench_command.hpp"
@@ -22,7 +22,7 @@ namespace macadam {
 void make_command_line(CLI::App& app) {
   app.description("Macadam: discrete elements for bituminous mixtures and other bonded granular solids");
   app.name("macadam");
-  app.formatter(std::make_shared<HelpFormatter>());  // commands take it when they are added
+  app.formatter(std::make_shared<HelpFormatter>());  // commands that are added later take it over
   app.require_subcommand(1);
   app.set_help_flag("-h,--help", "print this and end; behind a command, what that takes");
   app.set_version_flag("--version", version(), "print the version and end");

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file commands.hpp  The whole command line: all commands with their options, examples and what they do.
+/// \file commands.hpp  The whole command line: all commands with their options, examples and actions.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace macadam {
 
-/// Makes an empty one into that of the program.
+/// Adds all commands of the program to an empty command line.
 void make_command_line(CLI::App& app);
 
 }  // namespace macadam

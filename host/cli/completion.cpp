@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// completion.cpp  The command line as scripts for shells.
+// completion.cpp  Makes completion scripts for shells from the command line.
 #include <fmt/format.h>
 
 #include <functional>
@@ -20,7 +20,7 @@ void for_each_command(const CLI::App& command, const std::string& path, const Vi
 
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
-/// "--help" and "-h" of "-h,--help".
+/// Returns "--help" and "-h" for "-h,--help".
 std::vector<std::string> names_of(const CLI::Option& option) {
   std::vector<std::string> out;
   for (const std::string& name : option.get_lnames()) out.push_back("--" + name);
@@ -41,13 +41,14 @@ std::vector<std::string> commands_of(const CLI::App& command) {
   return out;
 }
 
-/// "cpu" and "cuda" of "cpu|cuda"; none of what takes no choice.
+/// Returns "cpu" and "cuda" for "cpu|cuda"; nothing for an option without choices.
 std::vector<std::string> choices_of(const CLI::Option& option) {
   const std::string value = value_of(option);
   return value.find('|') == std::string::npos ? std::vector<std::string>{} : CLI::detail::split(value, '|');
 }
 
-/// What bash offers for the value of an option or of a positional argument.
+/// Returns the bash code that completes the value of an option or of a positional argument; empty if nothing can be
+/// offered.
 std::string bash_values(const CLI::Option& option) {
   if (const auto choices = choices_of(option); !choices.empty())
     return fmt::format("COMPREPLY=($(compgen -W \"{}\" -- \"$cur\"))", joined(choices));
@@ -119,7 +120,7 @@ std::string fish_completion(const CLI::App& app) {
   };
   std::string out = "# fish completion for macadam; made by macadam completion fish\n";
   for_each_command(app, "macadam", [&](const CLI::App& command, const std::string& path) {
-    // in this command, and in none below it
+    // the condition that this command was typed, and none below it
     std::string when;
     for (const std::string& word : CLI::detail::split(path, ' '))
       if (word != "macadam") when += (when.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ct_command.cpp  macadam ct segment | …: what the program can do with images of computed tomography, if it has ITK.
+// ct_command.cpp  macadam ct segment | …: works with images of computed tomography, if the program was built with ITK.
 #include "host/cli/ct_command.hpp"
 
 #include "host/cli/help.hpp"
@@ -19,7 +19,7 @@ void add_ct_command(CLI::App& app) {
                     "macadam ct twin results/segmented --scene examples/ct/scene.toml --out results/twin"});
 #ifdef MACADAM_CT
   ct.require_subcommand(1);
-  // Commands with files of their own add themselves here, a line each.
+  // Each of these commands is in a file of its own, which adds it here.
   add_ct_segment(ct);
   add_ct_phantom(ct);
   add_ct_twin(ct);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_command.hpp  macadam ct: images of computed tomography.
+/// \file ct_command.hpp  macadam ct: works with images of computed tomography.
 #pragma once
 
 #include <CLI/CLI.hpp>

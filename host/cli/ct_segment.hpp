@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_segment.hpp  macadam ct segment: grains and phases from a scan.
+/// \file ct_segment.hpp  macadam ct segment: finds grains and phases in a scan.
 #pragma once
 
 #include <CLI/CLI.hpp>

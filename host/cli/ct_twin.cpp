@@ -23,7 +23,7 @@ struct CtTwinArguments {
   TwinSpec spec;
 };
 
-/// Six lengths: the lower and the upper corner.
+/// Returns the lower and the upper corner from six lengths.
 std::array<Vec3d, 2> box_of(const std::vector<std::string>& texts) {
   std::vector<double> at;
   for (const std::string& text : texts) at.push_back(length_of(text, "--box"));

@@ -11,7 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside an installed program, or where it was built from; empty where it is in neither place.
+/// Returns the script beside the installed program, or in the source tree of the build; empty if it is in neither
+/// place.
 fs::path find(const std::string& script) {
   std::error_code error;
   const fs::path program = own_program();
@@ -28,7 +29,7 @@ std::string draw_results(const std::string& script, const fs::path& folder, cons
   const fs::path file = find(script);
   if (file.empty()) return fmt::format("no pictures: share/macadam/{} is not installed beside the program\n", script);
   const std::string python = python_interpreter();
-  // a Python of the user's may lack matplotlib although Debian's has it
+  // the user's own Python may lack matplotlib although Debian's has it
   for (const std::string& one : {python, std::string("/usr/bin/python3")})
     if (runs({one, "-B", file.string(), folder.string()})) return fmt::format("pictures: {}\n", pictures);
   return fmt::format(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file draw_results.hpp  Pictures of results, drawn by a script that comes with the program.
+/// \file draw_results.hpp  Draws pictures of results with a script that comes with the program.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,8 @@
 
 namespace macadam {
 
-/// Has a script draw its pictures into the folder of the results, with python_interpreter() or Debian's python3.
-/// Returns a line for the user: `pictures`, their names, or how to draw them where no Python has matplotlib.
+/// Runs a script that draws its pictures into the folder of the results, with python_interpreter() or Debian's python3.
+/// Returns a line for the user: `pictures`, their names, or how to draw them if no Python has matplotlib.
 std::string draw_results(const std::string& script, const std::filesystem::path& folder, const std::string& pictures);
 
 }  // namespace macadam

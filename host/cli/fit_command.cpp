@@ -26,7 +26,7 @@ struct FitArguments {
   FitOptions fit;
 };
 
-/// Nobody is to believe that an option did something where what else is given leaves it nothing to do.
+/// \throws InputError for an option that has no effect beside the other options, so that nobody believes it had one.
 void require_uses(const CLI::App& command, const FitArguments& arguments) {
   const auto refuse = [&](const std::string& found, const char* expected, std::initializer_list<const char*> names) {
     for (const char* name : names)
@@ -51,7 +51,7 @@ void require_uses(const CLI::App& command, const FitArguments& arguments) {
   }
 }
 
-/// No data: a model that somebody else has fitted becomes a chain.
+/// Without data: converts a model that was fitted elsewhere into a Kelvin chain.
 void convert(const FitArguments& arguments) {
   const ShiftedAnalogue analogue = read_analogue(arguments.parameters);
   const auto range = chain_range(arguments.from, arguments.to, {});

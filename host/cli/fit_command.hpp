@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fit_command.hpp  macadam fit: contact laws from measured moduli.
+/// \file fit_command.hpp  macadam fit: finds contact laws from measured moduli.
 #pragma once
 
 #include <CLI/CLI.hpp>

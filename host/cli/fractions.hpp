@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fractions.hpp  Options that are a fraction, as a number or in per cent.
+/// \file fractions.hpp  Options that take a fraction, as a number or in per cent.
 #pragma once
 
 #include "host/cli/options.hpp"
@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// Adds an option that is a fraction in [low, high]: a decimal number (0.04), or text in per cent ("4 %").
+/// Adds an option that takes a fraction in [low, high]: a decimal number (0.04), or text in per cent ("4 %").
 template <class T>
 CLI::Option* add_fraction(CLI::App& app, const std::string& name, T& target, const std::string& description, double low,
                           double high) {

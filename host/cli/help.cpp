@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// help.cpp  Lines of help.
+// help.cpp  Formats the lines of help.
 #include "host/cli/help.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t width = 100, column = 32;
 const std::string examples_title = "Examples:";
 
-/// What stands on the left, then the text from the column on, in lines of the width.
+/// Returns `left`, then the text from the column on, wrapped to the width.
 std::string entry(const std::string& left, const std::string& text) {
   std::string out = "  " + left;
   if (out.size() + 2 > column)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file help.hpp  What `--help` prints: lines of a terminal's width, choices and defaults as people write them,
-/// examples.
+/// \file help.hpp  The text that `--help` prints: lines of a terminal's width, choices and defaults in readable form,
+/// and examples.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// CLI11's help, wrapped: each option with its values, what it is, and in brackets its default.
+/// CLI11's help with wrapped lines: each option with its values, its description and, in brackets, its default.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool positional) const override;
@@ -19,15 +19,15 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_usage(const CLI::App* command, std::string name) const override;
 };
 
-/// Lines for a shell, from the top of the source tree, that show what a command is for.
+/// Adds example lines for a shell, to be run from the top of the source tree.
 void add_examples(CLI::App& command, const std::vector<std::string>& lines);
 
-/// The lines again. Text that is no example is not among them.
+/// Returns the example lines of a command, without other text below its help.
 std::vector<std::string> examples_of(const CLI::App& command);
 
-/// What an option takes: "FILE", "FOLDER", "INT", "auto|cuda|cpu"; empty: it is a flag.
+/// Returns what an option takes: "FILE", "FOLDER", "INT", "auto|cuda|cpu"; empty for a flag.
 std::string value_of(const CLI::Option& option);
-/// What it is, with its default and what it cannot stand beside.
+/// Returns the description of an option, with its default and the options that it excludes.
 std::string words_of(const CLI::Option& option);
 
 }  // namespace macadam

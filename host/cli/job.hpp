@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file job.hpp  What the commands `run` and `specimen` share: the scene as the command line changes it, and what is
-/// said of a specimen.
+/// \file job.hpp  The common part of the commands `run` and `specimen`: reads the scene, applies the options of the
+/// command line to it, and prints the specimen.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,27 +14,27 @@
 
 namespace macadam {
 
-/// What both were asked on the command line.
+/// Options that both commands have.
 struct Job {
   std::string scene, out;
   std::optional<std::uint64_t> seed;
 };
 
-/// Options that stand for keys of the scene, in the help.
+/// Title in the help for options that replace keys of the scene.
 inline constexpr const char* instead_of_scene = "Instead of the scene's own";
 
-/// "0", "0,1", "all".
+/// Reads a list of devices: "0", "0,1" or "all".
 DeviceList devices_of(const std::string& text);
 
-/// SCENE, --out and --seed.
+/// Adds SCENE, --out and --seed.
 void add_job_options(CLI::App& command, Job& job);
-/// --out and --seed alone.
+/// Adds --out and --seed only.
 void add_out_and_seed(CLI::App& command, Job& job);
 
-/// --backend, --precision, --method, --linear, --threads and --device.
+/// Adds --backend, --precision, --method, --linear, --threads and --device.
 void add_overrides(CLI::App& command, Overrides& instead);
 
-/// --device alone: "0", "0,1" or "all".
+/// Adds --device only: "0", "0,1" or "all".
 template <class Target>  // DeviceList, or an optional one
 CLI::Option* add_devices(CLI::App& command, Target& target) {
   return options::add(command, "--device,--devices",
@@ -43,22 +43,22 @@ CLI::Option* add_devices(CLI::App& command, Target& target) {
       ->type_name("LIST");
 }
 
-/// --ranks
+/// Adds --ranks.
 inline void add_ranks(CLI::App& command, bool& ranks) {
   command.add_flag("--ranks", ranks,
                    "step one specimen by all the processes that mpirun began, each with a CUDA device");
 }
 
-/// Reads the scene. \throws InputError.
+/// Reads the scene and replaces its seed if the command line gives one. \throws InputError.
 Scene scene_of(const Job& job);
 
-/// What follows from a recipe by mass, and what the specimen reached of its curve; nothing where there is none.
+/// Prints what follows from a recipe by mass, and the gradation that the specimen reached; nothing without a recipe.
 void say_recipe(const Scene& scene, const Preparation& prepared);
 
-/// Composition, contacts and times of a specimen, on standard output.
+/// Prints composition, contacts and times of a specimen on standard output.
 void say_preparation(const Preparation& prepared);
 
-/// Shows how far the work is. \throws InterruptedError where a signal asked to stop: nothing is written yet.
+/// Shows how far the work is. \throws InterruptedError if a signal asked to stop; nothing is written by then.
 void show_or_stop(ProgressLine& line, const std::string& stage, double share);
 
 }  // namespace macadam

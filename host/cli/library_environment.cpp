@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// library_environment.cpp  exec() of the program itself.
+// library_environment.cpp  Restarts the program by exec() of its own file.
 #include "host/cli/library_environment.hpp"
 
 #include <sys/resource.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// main.cpp  The command line: macadam run | specimen | shapes | fit | calibrate | ct | info | report | study. Exit code
-// 0 done, 1 the run failed, 2 the input is wrong.
+// main.cpp  The program: macadam run | specimen | shapes | fit | calibrate | ct | info | new | check | bench | report |
+// study | completion | man. Exit code 0: done; 1: the run failed; 2: the input is wrong.
 #include <CLI/CLI.hpp>
 #include <new>
 
@@ -14,13 +14,13 @@
 namespace macadam {
 namespace {
 
-/// The command that was reached: `app` or one below it.
+/// Returns the innermost command on the command line: `app` or one below it.
 const CLI::App& reached(const CLI::App& app) {
   const auto below = app.get_subcommands();
   return below.empty() ? app : reached(*below.front());
 }
 
-/// The names of the commands below a command, or of its options.
+/// Returns the names of the commands below a command, or of its options.
 std::vector<std::string> known_words(const CLI::App& command, bool options) {
   std::vector<std::string> known;
   if (options) {
@@ -33,7 +33,7 @@ std::vector<std::string> known_words(const CLI::App& command, bool options) {
   return known;
 }
 
-/// What is wrong with a command line. CLI11 itself says what is missing before it says what it does not know.
+/// Describes what is wrong with a command line. CLI11 itself reports a missing word before an unknown one.
 std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   const CLI::App& command = reached(app);
   const std::vector<std::string> unknown = app.remaining(true), commands = known_words(command, false);
@@ -47,6 +47,7 @@ std::string fault_of(const CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("found \"{}\", expected {}", word, known.empty() ? "nothing more" : expected_one_of(word, known));
 }
 
+/// Prints what is wrong with a command line, or the help or version that it asks for. Returns the exit code.
 int refuse(const CLI::App& app, const CLI::ParseError& error) {
   if (error.get_exit_code() == 0) return app.exit(error);  // help, version
   say_error("macadam: {}\n", fault_of(app, error));
@@ -56,7 +57,7 @@ int refuse(const CLI::App& app, const CLI::ParseError& error) {
 
 struct End {
   int code;
-  bool ran;  ///< a command, in place of saying how it is used
+  bool ran;  ///< whether a command ran; otherwise help, the version or an error of usage was printed
 };
 
 End run_program(CLI::App& app, int argc, char** argv) {
@@ -76,14 +77,15 @@ int say_and_run(int argc, char** argv) {
   CLI::App app;
   make_command_line(app);
   const auto [code, ran] = run_program(app, argc, argv);
-  // what a run or a specimen says is in its files as well
+  // the output of a run or a specimen is in its files as well, so it may be lost
   const bool in_files = ran && (app.got_subcommand("run") || app.got_subcommand("specimen"));
   if (flush_output() || code != 0 || in_files) return code;
   say_error("macadam: standard output: cannot be written (disk full, or nobody reads it)\n");
   return 1;
 }
 
-/// Memory may end while the command line is made, and while an error is put into words.
+/// Catches the lack of memory here, because memory may also run out while the command line is made or an error is
+/// described.
 int main_function(int argc, char** argv) {
   restart_with_library_environment(argc, argv);
   hold_standard_streams();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// manual.cpp  The command line as a manual page, in the macros of man(7).
+// manual.cpp  Makes a manual page from the command line, in the macros of man(7).
 #include <fmt/format.h>
 
 #include "host/cli/help.hpp"
@@ -9,7 +9,7 @@
 namespace macadam {
 namespace {
 
-/// Text that troff prints as it is.
+/// Escapes the characters of a text that troff would interpret.
 std::string plain(const std::string& text) {
   std::string out;
   for (const char c : text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// memory_reserve.cpp  A new-handler, and GMP's functions for memory.
+// memory_reserve.cpp  Installs a new-handler and GMP's functions for memory.
 #include "host/cli/memory_reserve.hpp"
 
 #include <gmp.h>
@@ -12,7 +12,7 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t bytes_in_reserve = 4 << 20;  ///< never touched: takes addresses, not memory
+constexpr std::size_t bytes_in_reserve = 4 << 20;  ///< never written to: takes addresses, not memory
 std::atomic<void*> reserve{nullptr};
 
 void give_back_reserve() {

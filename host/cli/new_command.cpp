@@ -24,7 +24,7 @@ struct NewArguments {
   scene::NewKind kind = scene::NewKind::recipe;
 };
 
-/// Writes a file that is not there yet; whoever made one meanwhile keeps it.
+/// Writes a new file. \throws InputError if a file of this name exists, even if it was made a moment ago.
 void write_new(const std::string& file, const std::string& text) {
   const int out = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (out < 0 && errno == EEXIST) throw InputError(file, 0, "scene", "a file that is there", "a name that is free");

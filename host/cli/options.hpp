@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file options.hpp  Options whose whole text must be a number or one of several names. CLI11's own conversions take
-/// -1 for 2⁶⁴ − 1, 010 for eight, an empty text for nothing and the position of a name for the name.
+/// \file options.hpp  Options whose whole text must be a number or one of several names. CLI11's own conversions accept
+/// too much: they take -1 for 2⁶⁴ − 1, 010 for eight, an empty text for nothing and the position of a name for the
+/// name.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,15 +27,16 @@ template <class T>
 struct Value<std::optional<T>> {
   using type = T;
 };
-/// What an option holds, an optional or a plain value.
+/// The type of an option's value, whether its target is optional or not.
 template <class T>
 using value_t = typename Value<T>::type;
 
+/// \throws CLI::ValidationError, which ends the program with exit code 2.
 [[noreturn]] inline void refuse(const std::string& name, const std::string& found, const std::string& expected) {
   throw CLI::ValidationError(name, fmt::format("found \"{}\", expected {}", found, expected));
 }
 
-/// An option that hands its text to `read`, an empty text too.
+/// Adds an option that passes its text to `read`, also if the text is empty.
 template <class Read>
 CLI::Option* add(CLI::App& app, const std::string& name, const std::string& description, Read&& read) {
   return app.add_option(
@@ -48,7 +50,7 @@ CLI::Option* add(CLI::App& app, const std::string& name, const std::string& desc
 
 }  // namespace options
 
-/// A decimal number in [low, high]. `target` holds the default, an optional may have none.
+/// Adds an option that takes a decimal number in [low, high]. `target` holds the default; an optional may have none.
 template <class T>
 CLI::Option* add_number(CLI::App& app, const std::string& name, T& target, const std::string& description,
                         options::value_t<T> low, options::value_t<T> high) {
@@ -69,7 +71,7 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, T& target, const
   return option;
 }
 
-/// One of several names.
+/// Adds an option that takes one of several names.
 template <class T>
 CLI::Option* add_choice(CLI::App& app, const std::string& name, T& target, const std::string& description,
                         const std::vector<std::pair<std::string, options::value_t<T>>>& choices) {
@@ -91,7 +93,8 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, T& target, const
   return option;
 }
 
-/// Text that is not empty: `value` says what it is, FILE and FOLDER to completion in a shell too.
+/// Adds an option that takes text that is not empty. `value` says in the help what the text is; with FILE and FOLDER
+/// shells also complete paths.
 inline CLI::Option* add_text(CLI::App& app, const std::string& name, std::string& target,
                              const std::string& description, const std::string& value = "FILE") {
   const auto read = [&target, name](const std::string& text) {
@@ -101,12 +104,12 @@ inline CLI::Option* add_text(CLI::App& app, const std::string& name, std::string
   return options::add(app, name, description, read)->type_name(value);
 }
 
-/// The folder of what a command writes.
+/// Adds --out, the folder into which a command writes.
 inline CLI::Option* add_out(CLI::App& app, std::string& target, const std::string& what = "of the results") {
   return add_text(app, "--out", target, "folder " + what + "; made if it is not there", "FOLDER")->required();
 }
 
-/// Metres a unit of surface files.
+/// Adds --scale, the length of one unit of surface files [m].
 inline CLI::Option* add_scale(CLI::App& app, double& scale) {
   return add_number(app, "--scale", scale, "metres a unit of the files: 1e-3 for millimetres", 1e-12, 1e12);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file programs.hpp  Other programs that this one starts.
+/// \file programs.hpp  Starts other programs.
 #pragma once
 
 #include <filesystem>
@@ -8,22 +8,23 @@
 
 namespace macadam {
 
-/// This program's own file; empty where the system does not say it.
+/// Returns the path of this program's file; empty if the system does not report it.
 std::filesystem::path own_program();
 
-/// The source tree, where this program lies in the folder that it was built in; empty: it was installed. No folder of
-/// the machine that built it is in its bytes: they depend on the sources alone, and nobody runs what lies there on
-/// theirs.
+/// Returns the source tree, if this program is in the folder in which it was built; empty if it was installed. The
+/// program contains no path of the machine that built it: its bytes depend on the sources alone, and on other machines
+/// it runs nothing that happens to be at such a path.
 std::filesystem::path source_tree();
 
-/// The Python that scripts and the package run with: MACADAM_PYTHON of the environment, that of the source tree
-/// (scripts/python), or python3 of the search path.
+/// Returns the Python that runs scripts and the package: MACADAM_PYTHON of the environment, the Python of the
+/// source tree (scripts/python), or python3 of the search path.
 std::string python_interpreter();
 
-/// Runs a program of the search path, or of a path, with its output thrown away. Whether it ended with 0.
+/// Runs a program, given by its path or found in the search path, and discards its output. Returns whether its exit
+/// code was 0.
 bool runs(std::vector<std::string> words);
 
-/// Becomes a program. Returns only where that could not be: why not.
+/// Replaces this process by a program. Returns only if that fails, with the reason.
 std::string become(std::vector<std::string> words);
 
 }  // namespace macadam

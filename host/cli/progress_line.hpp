@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file progress_line.hpp  One line on a terminal: stage, share done, time left. Silent where output is not a
-/// terminal, and from the moment on when the terminal is gone.
+/// \file progress_line.hpp  One line on a terminal: stage, fraction done, time left. Silent if standard error is not a
+/// terminal, and as soon as the terminal is gone.
 #pragma once
 
 #include <unistd.h>
@@ -12,11 +12,13 @@
 
 namespace macadam {
 
+/// The line on standard error. The destructor erases it.
 class ProgressLine {
  public:
   ~ProgressLine() { clear(); }
 
-  /// Redraws at most ten times a second. A share that falls begins a new stage, from which time left is counted.
+  /// Redraws at most ten times per second. A fraction that falls begins a new stage, from which the time left is
+  /// counted.
   void show(const std::string& stage, double share) {
     if (!terminal_) return;
     const auto now = Clock::now();
@@ -30,7 +32,7 @@ class ProgressLine {
     terminal_ = say_error("\r\033[K{} {:.0f} %{}", stage, 100 * share, left);
   }
 
-  /// Wipes the line, so that other output may follow.
+  /// Erases the line, so that other output may follow.
   void clear() {
     if (drawn_ && terminal_) terminal_ = say_error_text("\r\033[K");
     drawn_ = false;

@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder with the package: of the build that this program is of, of the package that it came with, of the
-/// installation, or of the source tree; empty: none, and Python is to know it.
+/// Returns the folder of the Python package: in the build of this program, in the Python package that this program came
+/// with, in the installation, or in the source tree. The result is empty if the package is in
+/// no such folder; Python must then find it by itself.
 fs::path package_folder() {
   const fs::path program = own_program(), build = program.parent_path();
   std::error_code error;
@@ -26,13 +27,15 @@ fs::path package_folder() {
   return {};
 }
 
+/// Replaces this process by the Python command. \throws InputError if Python does not find the package; RunError if
+/// Python cannot be run.
 [[noreturn]] void run_python(const std::string& command, const std::vector<std::string>& arguments) {
   const std::string python = python_interpreter();
   if (const fs::path folder = package_folder(); !folder.empty()) {
     const char* const before = std::getenv("PYTHONPATH");
     setenv("PYTHONPATH", (folder.string() + (before && *before ? ":" + std::string(before) : "")).c_str(), 1);
   }
-  setenv("MACADAM_PROGRAM", own_program().c_str(), 0);  // studies run this program, unless another one is named
+  setenv("MACADAM_PROGRAM", own_program().c_str(), 0);  // studies run this program, unless the user names another one
   const std::string look =
       fmt::format("import sys, importlib.util as u; sys.exit(u.find_spec('macadam.{}') is None)", command);
   if (!runs({python, "-c", look})) {
@@ -52,7 +55,7 @@ void add_python_commands(CLI::App& app) {
   const auto add = [&](const std::string& name, const char* description, const std::vector<std::string>& examples) {
     CLI::App* command = app.add_subcommand(name, description);
     command->prefix_command();
-    command->set_help_flag();  // its own
+    command->set_help_flag();  // the Python command prints its own help
     add_examples(*command, examples);
     command->callback([command, name] { run_python(name, command->remaining()); });
   };

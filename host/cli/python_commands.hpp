@@ -6,7 +6,8 @@
 
 namespace macadam {
 
-/// Adds them to the program; they become `python3 -m macadam …` when the command line is parsed.
+/// Adds both commands to the program. They replace the process by `python3 -m macadam …` when the command line is
+/// parsed.
 void add_python_commands(CLI::App& app);
 
 }  // namespace macadam

@@ -24,7 +24,7 @@ struct RunArguments {
   int at_once = 0;
 };
 
-/// `stepping`: set when the first step comes.
+/// `stepping`: set to true when planning is done and the steps begin.
 void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
   Scene scene = scene_of(arguments.job);
   apply(arguments.instead, scene);
@@ -33,7 +33,7 @@ void run_one(const RunArguments& arguments, bool* stepping = nullptr) {
   bool started = false;
   const bool speaks = is_first_rank();
   watcher.progress = [&](const std::string& stage, double share) {
-    if (started || !speaks) {  // of several processes, the first looks for signals until all do
+    if (started || !speaks) {  // of several processes, only the first looks for signals until all of them step
       line.show(stage, share);
     } else {
       show_or_stop(line, stage, share);

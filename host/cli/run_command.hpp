@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file run_command.hpp  `macadam run`.
+/// \file run_command.hpp  `macadam run`: runs scenes and writes their results.
 #pragma once
 
 #include <CLI/CLI.hpp>

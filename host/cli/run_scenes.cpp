@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_scenes.cpp  Several scenes of one command: names of their folders, and what is said of them.
+// run_scenes.cpp  Names the scenes' folders and prints the result of each scene.
 #include "host/cli/run_scenes.hpp"
 
 #include <map>
@@ -11,6 +11,7 @@
 namespace macadam {
 namespace {
 
+/// Returns the name of a scene's folder.
 std::string name_of(const std::filesystem::path& scene) {
   const std::filesystem::path whole = std::filesystem::absolute(scene).lexically_normal();
   return (whole.stem() == "scene" ? whole.parent_path().filename() : whole.stem()).string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file run_scenes.hpp  Several scenes of one command.
+/// \file run_scenes.hpp  Runs several scenes by one command.
 #pragma once
 
 #include <string>
@@ -9,9 +9,10 @@
 
 namespace macadam {
 
-/// Runs the scenes side by side, each into a folder of its own in that of the job: named as the scene's file, or, where
-/// that is scene.toml, as the folder that it is in. Says what each came to as it is done. \throws InputError before
-/// any begins, where a scene is wrong or two have one name; RunError at the end, where some failed.
+/// Runs the scenes side by side, each into its own folder within the job's folder. That folder has the name of the
+/// scene's file or, for a file scene.toml, the name of the folder that holds it. Prints the result of each scene when
+/// it is done. \throws InputError before any scene begins, if a scene is wrong or two have the same name; RunError at
+/// the end, if some failed.
 void run_scenes(const std::vector<std::string>& scenes, const Job& job, const Overrides& instead, int at_once,
                 bool resume);
 

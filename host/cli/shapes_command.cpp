@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shapes_command.cpp  macadam shapes measure | check | repair: surfaces in, verdicts and tables out.
+// shapes_command.cpp  macadam shapes measure | check | repair: reads surfaces, prints verdicts and writes tables.
 #include "host/cli/shapes_command.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +33,7 @@ struct ShapesArguments {
   bool repair = false, wrap = false;
 };
 
-/// Files as they are named, and of a folder those with a surface's ending, by name.
+/// Returns the files that are named, and for a named folder its surface files, sorted by name.
 std::vector<fs::path> files_of(const std::vector<std::string>& paths) {
   std::vector<fs::path> files;
   for (const fs::path path : paths) {
@@ -47,7 +47,7 @@ std::vector<fs::path> files_of(const std::vector<std::string>& paths) {
   return files;
 }
 
-/// What became of one file: a value, or why not.
+/// The outcome for one file: a value or an error.
 template <class T>
 struct Outcome {
   T value{};
@@ -60,7 +60,7 @@ std::string reading_note(const Surface& surface) {
   return surface.reading.empty() ? "" : "on reading: " + surface.reading;
 }
 
-/// Does `work` for each file, on all cores; what is wrong with one does not stop the others.
+/// Calls `work` for each file, on all cores. An error in one file does not stop the others.
 template <class T, class Work>
 std::vector<Outcome<T>> for_each_file(const std::vector<fs::path>& files, Work&& work) {
   std::vector<Outcome<T>> outcomes(files.size());
@@ -72,7 +72,7 @@ std::vector<Outcome<T>> for_each_file(const std::vector<fs::path>& files, Work&&
   return outcomes;
 }
 
-/// Throws what the files' errors were, all of them in one message: what cannot be repaired is the input's fault too.
+/// Throws the errors of all files in one message. A surface that cannot be repaired counts as wrong input.
 template <class T>
 void throw_errors(const std::vector<Outcome<T>>& outcomes) {
   std::string messages;
@@ -94,7 +94,7 @@ void measure(const ShapesArguments& arguments) {
   const std::vector<fs::path> files = files_of(arguments.paths);
   const auto outcomes = for_each_file<ShapeMeasure>(files, [&](const fs::path& file, Outcome<ShapeMeasure>& outcome) {
     Surface surface = read_surface(file, arguments.scale);
-    surface.name = file.string();  // in messages
+    surface.name = file.string();  // shown in messages
     outcome.note = reading_note(surface);
     if (arguments.repair && !check_surface(surface).good()) {
       SurfaceRepair repair;
@@ -148,7 +148,7 @@ void check(const ShapesArguments& arguments) {
 void repair(const ShapesArguments& arguments) {
   const fs::path file = arguments.paths.front();
   Surface surface = read_surface(file);
-  surface.name = file.string();  // in messages
+  surface.name = file.string();  // shown in messages
   if (!surface.reading.empty()) say("{}: {}\n", file.string(), reading_note(surface));
   SurfaceRepair repair;
   surface = repair_surface(surface, &repair, arguments.out, arguments.wrap);
@@ -200,7 +200,7 @@ void add_shapes_command(CLI::App& app) {
                {"macadam shapes check examples/shapes", "macadam shapes check examples/icosahedron/icosahedron.off"});
   add_examples(repair_app, {"macadam shapes repair examples/shapes/aggregate_01.off --out aggregate_01.stl"});
 
-  // Commands with files of their own add themselves here, a line each.
+  // Each of these commands is in a file of its own, which adds it here.
   add_shapes_fill(shapes);
   add_shapes_generate(shapes);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shapes_command.hpp  `macadam shapes …`
+/// \file shapes_command.hpp  `macadam shapes …`: works with surfaces of aggregates.
 #pragma once
 
 #include <CLI/CLI.hpp>

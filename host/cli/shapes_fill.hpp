@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shapes_fill.hpp  `macadam shapes fill`: one shape filled with spheres.
+/// \file shapes_fill.hpp  `macadam shapes fill`: fills one shape with spheres.
 #pragma once
 
 #include <CLI/CLI.hpp>

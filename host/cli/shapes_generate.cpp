@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shapes_generate.cpp  macadam shapes generate: the shape library, made anew and written as OFF files.
+// shapes_generate.cpp  macadam shapes generate: generates the shape library and writes it as OFF files.
 #include "host/cli/shapes_generate.hpp"
 
 #include <fmt/format.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shapes_generate.hpp  `macadam shapes generate`.
+/// \file shapes_generate.hpp  `macadam shapes generate`: generates a library of shapes.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace macadam {
 
-/// Adds the command; it runs by its callback. \throws InputError, RunError from there.
+/// Adds `generate` to the command `shapes`; it runs when the command line is parsed. \throws InputError, RunError then.
 void add_shapes_generate(CLI::App& shapes);
 
 }  // namespace macadam

@@ -18,7 +18,7 @@ struct SpecimenArguments {
   std::vector<std::string> sections;
 };
 
-/// How much of what a plane cuts is aggregate.
+/// Prints which part of the area that a plane cuts is aggregate.
 void say_section(const Preparation& prepared, const SectionPlane& plane) {
   const CrossSection section = cut(prepared.specimen, prepared.tessellation, plane);
   double all = 0, aggregate = 0;
@@ -32,7 +32,7 @@ void say_section(const Preparation& prepared, const SectionPlane& plane) {
 
 void specimen_command(const SpecimenArguments& arguments) {
   const Scene scene = scene_of(arguments.job);
-  std::vector<SectionPlane> planes;  // a wrong one is refused before the work
+  std::vector<SectionPlane> planes;  // read first, so that a wrong one is refused before the work
   for (const std::string& text : arguments.sections) planes.push_back(read_section_plane(text, scene.specimen.box));
   ProgressLine line;
   listen_to_stop_signals();
@@ -60,7 +60,7 @@ void add_specimen_command(CLI::App& app) {
   command
       .add_option("--section", arguments->sections,
                   "cut the cells by a plane, as x=0.025 or \"z=40 mm\"; may be given several times")
-      ->allow_extra_args(false)  // what follows is the scene
+      ->allow_extra_args(false)  // the argument that follows is the scene
       ->type_name("PLANE");
   add_examples(command, {"macadam specimen examples/ac14_recipe/scene.toml --out results/specimen",
                          "macadam specimen examples/demo/scene.toml --out results/cut --section \"z=15 mm\""});

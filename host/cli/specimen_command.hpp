@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen_command.hpp  `macadam specimen`.
+/// \file specimen_command.hpp  `macadam specimen`: makes a specimen and its contact network.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stop_signals.cpp  The handler calls nothing that POSIX does not allow in one.
+// stop_signals.cpp  The handler calls only functions that POSIX allows in a signal handler.
 #include "host/cli/stop_signals.hpp"
 
 #include <atomic>
@@ -13,8 +13,7 @@ namespace {
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
 constexpr std::int64_t echo_ns = 2'000'000'000;
 
-/// When the first came, by the clock that only goes forward; 0: none yet. Several threads may be in the handler at
-/// once.
+/// When the first signal came, by the monotonic clock [ns]; 0: none yet. Several threads may be in the handler at once.
 std::atomic<std::int64_t> asked_at{0};
 static_assert(std::atomic<std::int64_t>::is_always_lock_free, "a handler may wait for nothing");
 
@@ -25,7 +24,7 @@ extern "C" void ask_to_stop(int number) {
   std::int64_t first = 0;
   if (asked_at.compare_exchange_strong(first, now) || now - first <= echo_ns) return;
   std::signal(number, SIG_DFL);
-  std::raise(number);  // blocked until this handler returns
+  std::raise(number);  // takes effect when this handler returns
 }
 
 }  // namespace
@@ -33,7 +32,7 @@ extern "C" void ask_to_stop(int number) {
 void listen_to_stop_signals() {
   struct sigaction action {};
   action.sa_handler = ask_to_stop;
-  action.sa_flags = SA_RESTART;  // a write that is under way goes on
+  action.sa_flags = SA_RESTART;  // a write that is under way continues
   for (const int number : signals) sigaddset(&action.sa_mask, number);
   for (const int number : signals) {
     struct sigaction before {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// streams.cpp  Printing that survives whatever standard output and error are.
+// streams.cpp  Printing that survives any condition of standard output and error.
 #include "host/cli/streams.hpp"
 
 #include <fcntl.h>
@@ -14,7 +14,8 @@ namespace macadam {
 void hold_standard_streams() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(number, F_GETFD) >= 0) continue;
-    // the lowest free number is this one; the wrong direction, so that writing to a closed stream stays an error
+    // The lowest free number is this one. It is opened in the wrong direction, so that writing to a closed stream stays
+    // an error.
     if (::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) != number) break;
   }
   std::signal(SIGPIPE, SIG_IGN);
@@ -33,7 +34,7 @@ void silence_output() {
 }
 
 bool flush_output() {
-  std::cout.flush();  // help is written there
+  std::cout.flush();  // CLI11 writes help there
   const bool flushed = std::fflush(stdout) == 0;
   return flushed && std::ferror(stdout) == 0 && std::cout.good();
 }

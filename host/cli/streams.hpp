@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file streams.hpp  Standard input, output and error as they come: closed, full, a pipe that nobody reads, a terminal
-/// that is gone. Nothing here throws; what could not be written is remembered.
+/// \file streams.hpp  Standard input, output and error in any condition: closed, full, a pipe that nobody reads, a
+/// terminal that is gone. Nothing here throws; a failed write is remembered.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,14 +10,14 @@
 
 namespace macadam {
 
-/// To be called before anything is opened. Closed standard streams are opened on nothing, or a result file would get
-/// their number and with it what is printed. A pipe without a reader and a file beyond its size limit become errors of
-/// the write, as a full disk is, in place of signals that end the program.
+/// Must be called before anything is opened. Opens closed standard streams on /dev/null; otherwise a result file would
+/// get the number of one, and with it what is printed. A pipe without a reader and a file beyond its size limit become
+/// errors of the write, as a full disk is, instead of signals that end the program.
 void hold_standard_streams();
 
 /// Writes to standard output.
 void say_text(const std::string& text);
-/// Writes to standard error, without asking for memory. Whether it got there.
+/// Writes to standard error without allocating memory. Returns whether everything was written.
 bool say_error_text(std::string_view text);
 
 template <class... Args>
@@ -29,10 +29,10 @@ bool say_error(fmt::format_string<Args...> text, Args&&... args) {
   return say_error_text(fmt::format(text, std::forward<Args>(args)...));
 }
 
-/// From now on standard output goes nowhere.
+/// Discards standard output from now on.
 void silence_output();
 
-/// Empties the buffer of standard output. Whether all that was ever said got out.
+/// Empties the buffer of standard output. Returns whether everything that was ever printed was written.
 bool flush_output();
 
 }  // namespace macadam

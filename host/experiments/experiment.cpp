@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// experiment.cpp  What a scene asks for, and what can be asked of any test, by the one list of them.
+// experiment.cpp  Reads a scene's experiment and answers questions about it, through the one list of experiments.
 #include "host/experiments/experiment.hpp"
 
 #include "host/scene/sections.hpp"
@@ -8,7 +8,7 @@
 namespace macadam {
 namespace {
 
-/// f(an empty one) of every kind in the list.
+/// Calls f with an empty experiment of every kind in the list.
 template <class F>
 void for_each_kind(F&& f) {
   [&]<std::size_t... kind>(std::index_sequence<kind...>) { (f(Experiment(std::in_place_index<kind>)), ...); }
@@ -24,7 +24,7 @@ Experiment scene::read_experiment(const Section& section) {
     kinds.push_back(experiment);
     names.emplace_back(kind_of(experiment));
   });
-  const auto kind = section.find("kind");  // without it, the first says that it is missing
+  const auto kind = section.find("kind");  // if it is missing, the reader of the first experiment says so
   return std::visit([&]<class Spec>(const Spec&) -> Experiment { return ExperimentOf<Spec>::read(section); },
                     kinds[kind ? kind->choice(names) : 0]);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file experiment.hpp  What a test of the list in macadam/experiments/all.hpp gives to all that tests have in common.
-/// Each test defines its own in host/experiments/<kind>/, as specialisations of these.
+/// \file experiment.hpp  What each experiment in the list of macadam/experiments/all.hpp defines, and functions that
+/// call it for the experiment of a scene. Each experiment specialises the two templates in host/experiments/<kind>/.
 #pragma once
 
 #include <memory>
@@ -15,54 +15,56 @@
 
 namespace macadam {
 
-/// A checkpoint of the same scene and specimen, from which a stepped run goes on, and where it was found.
+/// A checkpoint of the same scene and specimen, from which a stepped run continues, and its file.
 struct Resumed {
   Checkpoint checkpoint;
   std::filesystem::path file;
 };
 
-/// Of what a scene asks for.
+/// Functions of an experiment. `Spec` describes it in a scene.
 template <class Spec>
 struct ExperimentOf {
   /// Reads `[loading]`. \throws InputError
   static Spec read(const scene::Section& loading);
 
-  /// Makes ready what finds the answer by the scene's method. What refuses the scene does so here, before a file is
-  /// touched. Scene, preparation and watcher must outlive it. \throws InputError, RunError
+  /// Prepares the solution by the scene's method. Every reason to refuse the scene is found here, before a file is
+  /// touched. Scene, preparation and watcher must outlive the solution. \throws InputError, RunError
   static std::unique_ptr<Solution> plan(const Spec& spec, const Scene& scene, const Preparation& prepared,
                                         const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result);
 
-  /// Returns the files of results that a run of the scene leaves by its method and output, besides those of every run.
+  /// Returns the names of the result files that a run of the scene writes, besides those of every run.
   static std::vector<std::string> files(const Spec& spec, const Scene& scene);
 };
 
-/// Of what was found.
+/// Functions of an experiment. `Result` is the type of its result.
 template <class Result>
 struct ResultOf {
-  /// Adds its entries to `results` of summary.json, and to `solver` what it has to say of that.
+  /// Adds the result to `results` of summary.json, and its settings of the solver to `solver`.
   static void summarise(const Result& found, const Scene& scene, const RunResult& run, nlohmann::ordered_json& out);
 
-  /// Wall time until it was found, of all processes of a resumed run [s].
+  /// Returns the wall time until the result was found [s], of all processes of a resumed run.
   static double seconds(const Result& found);
 
-  /// What the command says at its end: lines for people.
+  /// Returns the lines for people that the command prints at its end.
   static std::string table(const Result& found);
 };
 
-/// By the scene's test.
+/// Calls `plan` of the scene's experiment.
 std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                           std::optional<Resumed> resumed, RunResult& result);
 
-/// By the scene's test.
+/// Calls `files` of the scene's experiment.
 std::vector<std::string> files_written(const Scene& scene);
 
-/// By the result's test. A run that has found nothing says what a stepped one would.
+/// Calls `summarise` of the result's experiment. A stepped run without a result writes what an empty result would.
 void summarise(const Scene& scene, const RunResult& result, nlohmann::ordered_json& out);
 
-/// `solve` of `timing_s` in summary.json: what was found, with what prepares the solutions.
+/// Returns `solve` of `timing_s` in summary.json [s]: the time until the result was found, including the
+/// preconditioner.
 double solve_seconds(const RunResult& result);
 
-/// Files of results that a run of any test may leave in its folder, summary.json and contacts.csv too.
+/// Returns the names of all result files that a run of any experiment may leave, including summary.json and
+/// contacts.csv.
 std::vector<std::string> result_files();
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// material_files.cpp  The same few units four times, each with its units and assumptions beside it.
+// material_files.cpp  The same few units in four formats. Each file states units of measurement and assumptions.
 #include "host/experiments/material_files.hpp"
 
 #include <fmt/format.h>
@@ -12,10 +12,11 @@ namespace {
 
 using experiments::Material;
 
-/// Finite-element programs refuse shares that add up to 1, which those of a fluid do.
+/// Factor on the fractions of a fluid, which has no long-term modulus. Without the factor its fractions add up to 1,
+/// which finite-element programs refuse.
 constexpr double of_a_fluid = 1 - 1e-8;
 
-/// Every comment line after `mark`.
+/// Returns the comment lines at the top of every table, each after `mark`.
 std::string comments(const Material& m, const char* mark) {
   return fmt::format(
       "{0} Relaxation of a specimen, {1}; units Pa and s.\n"
@@ -52,6 +53,7 @@ std::string kelvin_csv(const Material& m) {
   return out;
 }
 
+/// Returns a unit's fraction of the instantaneous modulus.
 double share(const Material& m, const PronySeries::Unit& unit) {
   return unit.modulus / m.relaxation.instantaneous() * (m.relaxation.long_term > 0 ? 1 : of_a_fluid);
 }
@@ -70,7 +72,7 @@ std::string ansys(const Material& m, double poisson_ratio) {
   std::string out = comments(m, "!") + isotropy(poisson_ratio, "!");
   out += fmt::format("MP,EX,1,{:.9e}\nMP,PRXY,1,{:g}\n", m.relaxation.instantaneous(), poisson_ratio);
   if (m.relaxation.units.empty()) return out;
-  constexpr std::size_t pairs_a_line = 3;  // TBDATA takes six numbers
+  constexpr std::size_t pairs_a_line = 3;  // TBDATA takes six numbers, two per unit
   for (const char* of : {"SHEAR", "BULK"}) {
     out += fmt::format("TB,PRONY,1,1,{},{}\n", m.relaxation.units.size(), of);
     for (std::size_t i = 0; i < m.relaxation.units.size(); ++i) {

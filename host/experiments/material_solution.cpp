@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// material_solution.cpp  Checks first, then the spectrum, then few units of it for the tables.
+// material_solution.cpp  Checks the scene, computes the spectrum, and reduces it to few units for the tables.
 #include "host/experiments/material_solution.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ namespace {
 
 using experiments::Material;
 
-/// Of E(t), where [solver] has no tolerance.
+/// Tolerance of E(t) if [solver] has none.
 constexpr double usual_tolerance = 1e-5;
 
 class MaterialSolution : public Solution {
@@ -39,7 +39,8 @@ class MaterialSolution : public Solution {
                        std::string("true beside kind \"") + kind_of(scene.experiment) + "\"",
                        "false: relaxation times are those of a specimen without inertia");
     }
-    // as in the frequency domain: the reference writes the time step again, not this; factors are the CPU's
+    // As in the frequency domain, the CPU replaces the reference backend, which implements time steps only, and solves
+    // for method "direct", which no device can do.
     if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
     result.solver = std::string("relaxation spectrum, without inertia, ") + to_string(result.backend);
     std::tie(options_.shortest, options_.longest) = history.range();
@@ -86,7 +87,7 @@ class MaterialSolution : public Solution {
   }
 
  private:
-  /// Whatever the solver refuses of this network, it refuses now.
+  /// Builds the solver once, so that everything that it refuses about laws and network is refused now.
   void require_solvable(RunResult& result) const {
     if (watcher_.progress) watcher_.progress("spectrum: preconditioner", 0);
     const InPhase in(result.phases, &PhaseSeconds::preconditioner);
@@ -121,7 +122,7 @@ std::pair<double, double> History::range() const {
       const double since = t - r.begin;
       if (!(since > 0)) continue;
       longest = std::max(longest, since);
-      // what a ramp has done short times ago is a small part of it
+      // the part of a ramp that lies only a short time back has little effect
       const double grown = std::min(since, r.duration);
       shortest = std::min(shortest, std::max(since - grown, 0.1 * grown));
     }

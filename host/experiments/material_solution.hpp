@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file material_solution.hpp  What relaxation and creep have in common: the specimen's spectrum, solved once.
+/// \file material_solution.hpp  The common part of relaxation, creep and constant rates without steps: the specimen's
+/// relaxation spectrum, solved once.
 #pragma once
 
 #include <functional>
@@ -11,35 +12,37 @@
 
 namespace macadam {
 
-/// What the moduli of a specimen are.
+/// Returns what kind of modulus is computed, in words: confined or uniaxial.
 const char* modulus_words(bool confined);
 
-/// When the load changes and when the answer is asked for [s].
+/// When the load changes, and when the response is asked for [s].
 struct History {
   std::vector<double> times;
+  /// A change of the load.
   struct Ramp {
     double begin, duration;
   };
   std::vector<Ramp> ramps;
 
-  /// From the shortest to the longest time after a change that the answers rest on.
+  /// Returns the shortest and the longest time after a change of the load on which the response depends [s].
   std::pair<double, double> range() const;
 };
 
-/// What a test makes of the material: it writes its file and puts its result into `result`.
+/// Computes the response of an experiment from the material: writes its file and stores its result in `result`.
 using Responds =
     std::function<void(const std::filesystem::path& out, experiments::Material material, RunResult& result)>;
 
-/// Solves the spectrum for what a history asks for, writes the tables of the material, and asks for the response.
-/// \throws InputError for inertia, which has no relaxation times, and as Harmonic does.
+/// Returns a solution that computes the spectrum for the times of a history, writes the tables of the material and
+/// calls `responds`.
+/// \throws InputError for inertia, with which there are no relaxation times, and as Harmonic does.
 std::unique_ptr<Solution> plan_material(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                         RunResult& result, const History& history, double poisson_ratio,
                                         Responds responds);
 
-/// What all entries of `results` in summary.json begin with.
+/// Returns the entries with which `results` of these experiments begins in summary.json.
 nlohmann::ordered_json material_json(const char* kind, const experiments::Material& material);
 
-/// The last lines of what the command says.
+/// Returns the last lines that the command prints.
 std::string material_lines(const experiments::Material& material);
 
 }  // namespace macadam

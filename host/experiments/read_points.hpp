@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_points.hpp  Keys of several tests in `[loading]`: lists of times, frequencies and temperatures.
+/// \file read_points.hpp  Keys of `[loading]` that several experiments have: lists of times, frequencies and
+/// temperatures.
 #pragma once
 
 #include <optional>
@@ -10,26 +11,26 @@
 
 namespace macadam::scene {
 
-/// Skips `kind`, which is known when a test reads its section.
+/// Returns a key that skips `kind`, which is already known when an experiment reads its section.
 inline Key kind_key() {
   return {"kind", Need::required, {[](const Value&) {}, {"one of"}}, "the test; it decides which keys follow"};
 }
 
-/// `poisson_ratio` in `[loading]`.
+/// Sets the target to its default and returns the key `poisson_ratio` of `[loading]`.
 Key poisson_key(double& target);
 
-/// \throws InputError where a key that is there has no entry, or the same one twice.
+/// \throws InputError if the key is there without entries, or has the same entry twice.
 void require_once(const Section& section, const std::string& key, std::vector<double> entries, const char* unit,
                   const char* what);
 
-/// Times or frequencies: each one, or the two ends of a range beside `points_per_decade` or `points`.
+/// Times or frequencies: a list, or the two ends of a range together with `points_per_decade` or `points`.
 struct Points {
   std::vector<double> given;
   std::optional<int> per_decade, evenly;
 
-  /// The keys of all.
+  /// Returns the keys `key`, `points_per_decade` and `points`.
   std::vector<Key> keys(const std::string& key, const Quantity& quantity, Need need = Need::required);
-  /// Rising. \throws InputError
+  /// Returns all points in rising order. \throws InputError
   std::vector<double> all(const Section& section, const std::string& key, const char* unit, const char* what) const;
 };
 

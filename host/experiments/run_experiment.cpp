@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_experiment.cpp  Running any test, and what is said of its results, by the one list of them.
+// run_experiment.cpp  Runs any experiment and reports its result, through the one list of experiments.
 #include "host/experiments/experiment.hpp"
 
 namespace macadam {
@@ -15,7 +15,7 @@ std::unique_ptr<Solution> plan_experiment(const Scene& scene, const Preparation&
 
 namespace {
 
-/// f of what was found; `nothing` where nothing is.
+/// Returns f(result), or `nothing` if there is no result.
 template <class T, class F>
 T of_found(const ExperimentResult& found, T nothing, F&& f) {
   return std::visit(
@@ -47,7 +47,8 @@ double solve_seconds(const RunResult& result) {
       of_found(result.found, 0.0, []<class Result>(const Result& f) { return ResultOf<Result>::seconds(f); });
   const bool stepped = of_found(
       result.found, false, []<class Result>(const Result&) { return std::is_base_of_v<experiments::Stepped, Result>; });
-  return found + (stepped ? 0 : result.phases.preconditioner);  // a stepped one has it in its planning
+  // the planning of a stepped result includes the preconditioner
+  return found + (stepped ? 0 : result.phases.preconditioner);
 }
 
 std::string results_table(const RunResult& result) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// field_files.cpp  The two formats behind one interface.
+// field_files.cpp  Chooses between the two formats of field files.
 #include <algorithm>
 #include <iterator>
 

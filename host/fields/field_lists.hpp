@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file field_lists.hpp  Lists of double precision as arrays of a field file, which are single.
+/// \file field_lists.hpp  Converts lists in double precision to arrays of a field file, which are in single precision.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@
 
 namespace macadam {
 
-/// One number each.
+/// Returns an array with one number per entry.
 inline FieldArray scalars(std::string name, std::string unit, const std::vector<double>& list) {
   return {std::move(name), std::move(unit), 1, std::vector<float>(list.begin(), list.end())};
 }
 
-/// `components` numbers each: those that of(entry, component) gives.
+/// Returns an array with `components` numbers per entry; of(entry, component) returns each number.
 template <class F>
 FieldArray tuples(std::string name, std::string unit, std::size_t entries, int components, F&& of) {
   std::vector<float> values(entries * static_cast<std::size_t>(components));
@@ -26,7 +26,7 @@ FieldArray tuples(std::string name, std::string unit, std::size_t entries, int c
   return {std::move(name), std::move(unit), components, std::move(values)};
 }
 
-/// Three numbers each.
+/// Returns an array with three numbers per entry.
 inline FieldArray vectors(std::string name, std::string unit, const std::vector<Vec3d>& list) {
   return tuples(std::move(name), std::move(unit), list.size(), 3, [&](std::size_t i, int k) {
     const Vec3d& v = list[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// field_meshes.cpp  Vertices, lines and polygons of a specimen, with what does not change.
+// field_meshes.cpp  Makes the meshes of a specimen (vertices, lines or polygons) with those arrays that do not change.
 #include <numeric>
 
 #include "host/fields/field_lists.hpp"
@@ -14,7 +14,7 @@ void add_point(std::vector<float>& points, const Vec3d& p) {
   points.insert(points.end(), {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
 }
 
-/// Size class of each body, −1 where it is not known.
+/// Size class of each body; −1 if it is not known.
 class SizeClasses {
  public:
   explicit SizeClasses(const std::vector<Aggregate>& aggregates) {
@@ -34,7 +34,7 @@ class SizeClasses {
   std::vector<std::int32_t> of_body_;
 };
 
-/// Phase, body and, where it is known, size class of what `cells` numbers.
+/// Adds phase, body and, if it is known, size class of each particle or void in `cells`.
 void add_materials(const Specimen& specimen, const std::vector<Aggregate>& aggregates,
                    const std::vector<std::int32_t>& cells, std::vector<FieldArray>& arrays) {
   const SizeClasses classes(aggregates);
@@ -76,7 +76,7 @@ FieldMesh contact_mesh(const Specimen& specimen, const ContactNetwork& network) 
   std::vector<Vec3d> normal;
   for (const Contact& c : network.contacts) {
     out.connectivity.push_back(c.a);
-    if (c.b < 0) {  // the foot on the wall is a point of its own
+    if (c.b < 0) {  // a contact at a wall ends at a point of its own, the foot of its normal on the wall
       out.connectivity.push_back(static_cast<std::int64_t>(out.point_count()));
       add_point(out.points, specimen.centre[static_cast<std::size_t>(c.a)] + c.distance * c.n);
     } else {

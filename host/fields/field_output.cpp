@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// field_output.cpp  Names of field files, and when they are written.
+// field_output.cpp  Names of the field files, and when they are written.
 #include "host/fields/field_output.hpp"
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ bool is_field_file(const fs::path& file) {
          (name.starts_with(particles) || name.starts_with(contacts) || name.starts_with(cells));
 }
 
-/// Of steady states: that of a cyclic test; a sweep has none.
+/// Returns the strain amplitude of steady states. A sweep gives no amplitude and gets the default of a cyclic test.
 double strain_amplitude(const Scene& scene) {
   const auto* cyclic = std::get_if<experiments::Cyclic>(&scene.experiment);
   return cyclic ? cyclic->strain_amplitude : experiments::Cyclic{}.strain_amplitude;
@@ -56,7 +56,7 @@ void remove_fields(const fs::path& out) {
       throw RunError(entry.path().string() + ": cannot be replaced: " + error.message());
     }
   }
-  fs::remove(folder, error);  // where nothing of the user's is in it
+  fs::remove(folder, error);  // fails, as it should, if the user has put other files into it
 }
 
 void write_specimen_fields(const Scene& scene, const Preparation& prepared, const fs::path& out) {
@@ -114,16 +114,18 @@ void FieldOutput::add(const Stepper& stepper, ContactForm form, Geometry geometr
   if (spec.particles || geometry == Geometry::updated) state = stepper.particles();
   std::vector<FieldArray> of_particles = particle_arrays(state);
   if (geometry == Geometry::fixed) state.displacement.clear();
-  const bool told = scene_.solver.backend != Backend::reference;  // which does not tell of its contacts
+  // the reference backend does not report the states of its contacts
+  const bool told = scene_.solver.backend != Backend::reference;
   ContactState carried;
   if (spec.contacts || told) carried = stepper.contacts(prepared_.network);
-  if (!writes_) return;  // its part is with the first rank now
+  if (!writes_) return;  // this rank's data have been sent to the first rank above
   if (particles_) {
     if (told) of_particles.push_back(stress_array(prepared_.tessellation, prepared_.network, carried));
     particles_->add(time, of_particles);
   }
   if (!contacts_) return;
-  if (form == ContactForm::points) carried.chain_begin.clear();  // chains of points, not of the facet
+  // these chains belong to contact points, not to the facet
+  if (form == ContactForm::points) carried.chain_begin.clear();
   contacts_->add(time, contact_arrays(prepared_.specimen, prepared_.network, carried, state.displacement));
 }
 

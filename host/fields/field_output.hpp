@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file field_output.hpp  The field files of a run or a specimen, in the folder `fields` of its results.
+/// \file field_output.hpp  Writes the field files of a run or a specimen into the folder `fields` of its results.
 #pragma once
 
 #include <filesystem>
@@ -14,21 +14,22 @@
 
 namespace macadam {
 
-/// Removes what an older run or specimen left there.
+/// Removes the field files of an older run or specimen.
 void remove_fields(const std::filesystem::path& out);
 
-/// What the scene asks for of a specimen that nothing has happened to. \throws RunError.
+/// Writes the fields that the scene asks for, of a specimen that has not been loaded. \throws RunError.
 void write_specimen_fields(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 
-/// What a run writes as it goes: nothing where the scene asks for nothing. Scene and preparation must outlive it.
+/// Writes the fields of a run while it advances; nothing if the scene asks for none. Scene and preparation must outlive
+/// it.
 class FieldOutput {
  public:
-  /// Writes the cells, if they are asked for: they do not change. \throws RunError.
+  /// Writes the cells, which do not change, if they are asked for. \throws RunError.
   FieldOutput(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out);
 
-  /// Begins the series `of` what is stepped ("20Hz"), or goes on with those that are there where the stepper starts at
-  /// a time other than 0. A period, or the whole test, has so many samples. Returns a sentence about each series that
-  /// should have been there and was not. \throws InputError for a file that is no series of this run.
+  /// Begins the series of fields of a stepped run, `of` ("20Hz"). If the stepper starts at a `time` other than 0, the
+  /// existing series are continued. `samples`: samples per period, or of the whole test. Returns a sentence about each
+  /// series that should have existed but did not. \throws InputError for a file that is not a series of this run.
   std::vector<std::string> begin(const std::string& of, int samples, double time);
   /// Whether the scene asks for a series.
   bool begun() const { return begun_; }
@@ -36,10 +37,11 @@ class FieldOutput {
   bool wants(std::int64_t sample) const;
   /// Adds a frame. \throws RunError.
   void add(const Stepper& stepper, ContactForm form, Geometry geometry, double time);
-  /// After the last frame of what is stepped. \throws RunError.
+  /// Closes the series after the last frame. \throws RunError.
   void end();
 
-  /// Writes a steady state; laws are those that it was solved with. `temperature` [°C]: where there are several.
+  /// Writes a steady state. `laws` are the laws that it was solved with. `temperature` [°C] becomes a part of the file
+  /// name if there are several temperatures.
   /// \throws RunError.
   void write(const HarmonicResult& solved, const LawTable& laws, std::optional<double> temperature);
 
@@ -52,8 +54,8 @@ class FieldOutput {
   const Preparation& prepared_;
   std::filesystem::path folder_;
   std::unique_ptr<FieldSeries> particles_, contacts_;
-  bool writes_;         ///< this process does
-  bool begun_ = false;  ///< a series is wanted
+  bool writes_;         ///< whether this process writes: only the first rank does
+  bool begun_ = false;  ///< whether the scene asks for a series
   int stride_ = 1;      ///< samples from one frame to the next
 };
 

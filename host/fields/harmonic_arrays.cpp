@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// harmonic_arrays.cpp  A steady state as arrays: real and imaginary parts, amplitudes, phases.
+// harmonic_arrays.cpp  A steady state as arrays: real and imaginary parts, amplitudes and phases.
 #include <algorithm>
 #include <numbers>
 
@@ -15,7 +15,7 @@ using harmonic::Complex;
 
 double degrees(const Complex& z) { return std::arg(z) * 180 / std::numbers::pi; }
 
-/// Real and imaginary parts of what of(entry, component) gives.
+/// Adds two arrays: the real and the imaginary parts of of(entry, component).
 template <class F>
 void add_parts(const std::string& name, const char* unit, std::size_t entries, int components, F&& of,
                std::vector<FieldArray>& out) {
@@ -25,13 +25,14 @@ void add_parts(const std::string& name, const char* unit, std::size_t entries, i
       tuples(name + "_imag", unit, entries, components, [&](std::size_t i, int k) { return of(i, k).imag(); }));
 }
 
-/// Component of a vector whose parts along (n, s, t) are these.
+/// Returns component k (0 to 2: x, y, z) of a vector whose parts along the contact's n, s and t are these.
 Complex component(const Contact& c, const Complex& n, const Complex& s, const Complex& t, int k) {
   double Vec3d::*const axis = k == 0 ? &Vec3d::x : k == 1 ? &Vec3d::y : &Vec3d::z;
   return n * (c.n.*axis) + s * (c.s.*axis) + t * (c.t.*axis);
 }
 
-/// For each pair, x_l per unit of relative displacement: f = k*·x, x_l = f/(k_l + iω·η_l).
+/// Returns, for each pair type, the stretch x_l of each Kelvin unit l per unit of relative displacement: f = k*·x, x_l
+/// = f/(k_l + iω·η_l).
 std::array<std::vector<Complex>, pair_types> stretches(const std::array<std::optional<Law>, pair_types>& laws,
                                                        Complex s) {
   std::array<std::vector<Complex>, pair_types> out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// open_hdf5.cpp  Room on the disk first, then HDF5.
+// open_hdf5.cpp  Reserves disk space first and lets HDF5 write then.
 #include "host/fields/open_hdf5.hpp"
 
 #include <fcntl.h>
@@ -26,7 +26,7 @@ H5::FileAccPropList access() {
   H5AC_cache_config_t cache{};
   cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
   H5Pget_mdc_config(out.getId(), &cache);
-  cache.evictions_enabled = false;  // nothing leaves the memory but in a flush
+  cache.evictions_enabled = false;  // metadata leave the memory only in a flush
   cache.incr_mode = H5C_incr__off;
   cache.flash_incr_mode = H5C_flash_incr__off;
   cache.decr_mode = H5C_decr__off;
@@ -34,8 +34,9 @@ H5::FileAccPropList access() {
   return out;
 }
 
-/// The tree that finds the pieces of an array moves its nodes where one is full, and a kill within the flush that does
-/// so would lose frames. With so many pieces a node, that is one flush in some hundred.
+/// Returns creation properties with large tree nodes. The tree that finds the pieces of an array moves its nodes when
+/// one is full, and a kill during a flush that does so would lose frames. With this many pieces per node, that concerns
+/// about one flush in a few hundred.
 H5::FileCreatPropList creation() {
   constexpr unsigned half_of_pieces = 128;
   H5::FileCreatPropList out;
@@ -68,7 +69,7 @@ OpenHdf5::OpenHdf5(const std::filesystem::path& file, Begin begin) : file_(file)
     with_hdf5(file, [&] {
       require_memory_for_hdf5(0);
       hdf5_ = std::make_unique<H5::H5File>(name.string(), anew ? H5F_ACC_TRUNC : H5F_ACC_RDWR, creation(), access());
-      // Where the file ends is what a flush writes last: after a kill within it, arrays may lie beyond that.
+      // A flush writes the recorded end of the file last. After a kill during a flush, arrays may lie beyond it.
       if (!anew && H5Fincrement_filesize(hdf5_->getId(), 0) < 0) throw H5::FileIException("H5Fincrement_filesize");
     });
   } catch (...) {
@@ -79,7 +80,8 @@ OpenHdf5::OpenHdf5(const std::filesystem::path& file, Begin begin) : file_(file)
 
 OpenHdf5::~OpenHdf5() { close(); }
 
-/// HDF5 crashes where a file is closed again after that has failed, which the destructor of its class would do.
+/// Deletes the HDF5 object only if closing the file succeeds: its destructor closes the file again, and HDF5 crashes if
+/// the first attempt has failed.
 void OpenHdf5::close_hdf5() {
   H5::H5File* const file = hdf5_.release();
   with_hdf5(file_, [&] { file->close(); });
@@ -89,7 +91,7 @@ void OpenHdf5::close_hdf5() {
 void OpenHdf5::close() {
   try {
     if (hdf5_) close_hdf5();
-  } catch (const RunError&) {  // end() was not asked for: an error is on its way already
+  } catch (const RunError&) {  // end() was not called, so another error is already being handled
   }
   if (descriptor_ >= 0) ::close(descriptor_);
   std::error_code ignored;
@@ -97,7 +99,7 @@ void OpenHdf5::close() {
 }
 
 void OpenHdf5::write(std::size_t bytes, const std::function<void(H5::H5File&)>& change) {
-  constexpr std::size_t bookkeeping = 1 << 21;  // nodes of trees and headers of so many arrays, generously
+  constexpr std::size_t bookkeeping = 1 << 21;  // bound for tree nodes and headers of the arrays, on the safe side
   const off_t end = ::lseek(descriptor_, 0, SEEK_END);
   if (end < 0) refuse(file_, errno);
   if (const int error = ::posix_fallocate(descriptor_, end, static_cast<off_t>(bytes + bookkeeping)); error != 0) {
@@ -106,10 +108,10 @@ void OpenHdf5::write(std::size_t bytes, const std::function<void(H5::H5File&)>& 
   }
   off_t size = 0;
   with_hdf5(file_, [&] {
-    require_memory_for_hdf5(2 * bytes);  // what it converts, and its pieces
+    require_memory_for_hdf5(2 * bytes);  // for the values that HDF5 converts, and for its pieces
     change(*hdf5_);
     hdf5_->flush(H5F_SCOPE_GLOBAL);
-    size = static_cast<off_t>(hdf5_->getFileSize());  // what was taken too much is given back
+    size = static_cast<off_t>(hdf5_->getFileSize());  // reserved space beyond this size is given back
   });
   if (::ftruncate(descriptor_, size) != 0) refuse(file_, errno);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file open_hdf5.hpp  An HDF5 file on the disk that is whole after each flush, and never meets a full disk.
+/// \file open_hdf5.hpp  An HDF5 file on the disk that is complete after each flush, and in which HDF5 never meets a
+/// full disk.
 #pragma once
 
 #include <H5Cpp.h>
@@ -11,9 +12,10 @@
 
 namespace macadam {
 
-/// A file open for writing. HDF5 does not survive errors of the disk, so room is taken before it writes; and what it
-/// knows of the file stays in memory until a flush, so that a kill in between leaves what the flush before it left.
-/// Others may read it meanwhile: it is not locked. A new one has another name until keep(), and is removed without it.
+/// A file that is open for writing. HDF5 does not survive errors of the disk, so disk space is reserved before it
+/// writes. Its metadata of the file stay in memory until a flush, so that after a kill the file is as the last flush
+/// left it. The file is not locked: others may read it meanwhile. A new file has a temporary name until keep(), and is
+/// removed if keep() is never called.
 class OpenHdf5 {
  public:
   enum class Begin : std::uint8_t { anew, as_it_is };
@@ -23,12 +25,12 @@ class OpenHdf5 {
   OpenHdf5(const OpenHdf5&) = delete;
   OpenHdf5& operator=(const OpenHdf5&) = delete;
 
-  /// Lets `change` change the file by at most about so many bytes of arrays, and flushes.
-  /// \throws RunError naming the file: no room for it on the disk, or what HDF5 says.
+  /// Calls `change`, which may add at most about `bytes` bytes of arrays to the file, and flushes.
+  /// \throws RunError, naming the file, if the disk has no space for it or if HDF5 fails.
   void write(std::size_t bytes, const std::function<void(H5::H5File&)>& change);
-  /// Gives a new file its name, in place of an older one. \throws RunError.
+  /// Gives a new file its final name and replaces an older file. \throws RunError.
   void keep();
-  /// After the last change. \throws RunError naming the file, where closing it fails.
+  /// Closes the file after the last change. \throws RunError, naming the file, if that fails.
   void end();
   H5::H5File& hdf5() { return *hdf5_; }
 
@@ -36,12 +38,12 @@ class OpenHdf5 {
   void close();
   void close_hdf5();
 
-  std::filesystem::path file_, part_;  ///< the latter: of a new file that is not kept yet; else empty
-  int descriptor_ = -1;                ///< of the same file, to take and give back room
+  std::filesystem::path file_, part_;  ///< part_: temporary name of a new file until keep(); otherwise empty
+  int descriptor_ = -1;                ///< of the same file, to reserve disk space and give it back
   std::unique_ptr<H5::H5File> hdf5_;
 };
 
-/// f(), in which HDF5 prints no errors and throws them as an exception alone. \throws RunError naming the file.
+/// Calls f(). HDF5 prints no errors meanwhile. \throws RunError, naming the file, if HDF5 fails or memory runs out.
 void with_hdf5(const std::filesystem::path& file, const std::function<void()>& f);
 
 }  // namespace macadam

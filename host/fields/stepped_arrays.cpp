@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_arrays.cpp  What a stepper gives back, as arrays of a frame.
+// stepped_arrays.cpp  The state of a stepper as the arrays of a frame.
 #include <algorithm>
 
 #include "host/fields/field_lists.hpp"
@@ -8,7 +8,8 @@
 namespace macadam {
 namespace {
 
-/// Numbers of Kelvin units of each contact: a chain holds f and one number a unit, and there are six; 0 without chains.
+/// Returns the number of Kelvin units of each contact; 0 without chains. A contact has six chains, each with f and one
+/// number per unit.
 std::vector<int> units_of(const ContactState& state) {
   std::vector<int> out(state.force.size(), 0);
   for (std::size_t c = 0; c + 1 < state.chain_begin.size(); ++c) {
@@ -18,7 +19,8 @@ std::vector<int> units_of(const ContactState& state) {
   return out;
 }
 
-/// Unit normal of a contact whose particles have moved. That of a wall does not turn.
+/// Returns the unit normal of a contact whose particles have moved; the initial one without displacements. The normal
+/// at a wall does not turn.
 Vec3d turned_normal(const Specimen& specimen, const Contact& c, const std::vector<Vec3d>& displacement) {
   if (c.b < 0 || displacement.empty()) return c.n;
   const auto at = [&](std::int32_t i) {
@@ -42,7 +44,9 @@ std::vector<FieldArray> particle_arrays(const ParticleState& state) {
   return out;
 }
 
-// What A and B get at the facet's centroid, x_0 + (S_s·ŝ + S_t·t̂)/A: arms from either centre, and opposite forces.
+// Sums arm times force over the contacts of each particle, model (8.3). The forces on A and B are opposite and act at
+// the facet's centroid, x_0 + (S_s·ŝ + S_t·t̂)/A. For B both the arm and the force change sign, so their product does
+// not.
 FieldArray stress_array(const Tessellation& tessellation, const ContactNetwork& network, const ContactState& state) {
   const std::size_t particles = network.row_begin.size() - 1;
   std::vector<std::array<double, 6>> sum(particles);

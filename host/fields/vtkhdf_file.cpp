@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// vtkhdf_file.cpp  Groups and arrays as VTK's documentation of VTKHDF 2.0 names them.
+// vtkhdf_file.cpp  Writes VTKHDF 2.0. Groups and arrays have the names in VTK's documentation of the format.
 #include "host/fields/vtkhdf_file.hpp"
 
 #include <fmt/format.h>
@@ -13,9 +13,9 @@
 namespace macadam {
 namespace {
 
-using Row = std::vector<hsize_t>;  ///< of an array: empty for one number, else how many
+using Row = std::vector<hsize_t>;  ///< shape of a row of an array: {} if it is one number, otherwise {how many numbers}
 
-/// Makes an array without rows that can grow; `piece` rows stand together in the file. `packed`: compressed.
+/// Makes an array without rows that can grow. `piece` rows are stored together in the file. `packed`: compressed.
 H5::DataSet make_growing(const H5::Group& group, const std::string& name, const H5::DataType& type, const Row& row,
                          hsize_t piece, bool packed = false) {
   std::vector<hsize_t> size{0}, most{H5S_UNLIMITED}, chunk{std::max<hsize_t>(1, piece)};
@@ -27,7 +27,7 @@ H5::DataSet make_growing(const H5::Group& group, const std::string& name, const 
                              properties);
 }
 
-/// Replaces what an array holds from a row on by `rows` others.
+/// Replaces the rows of an array from row `from` on by `rows` other rows.
 template <class T>
 void put_rows(H5::DataSet& set, hsize_t from, hsize_t rows, const T* values) {
   const int rank = set.getSpace().getSimpleExtentNdims();
@@ -42,7 +42,8 @@ void put_rows(H5::DataSet& set, hsize_t from, hsize_t rows, const T* values) {
   set.write(values, type_of(T()), H5::DataSpace(rank, size.data()), place);
 }
 
-/// An array that does not change. Whole numbers are compressed to a fraction, others hardly.
+/// Writes an array that does not change. Whole numbers are compressed to a fraction of their size; other numbers hardly
+/// shrink and are not compressed.
 template <class T>
 void put(const H5::Group& group, const std::string& name, const std::vector<T>& values, const Row& row = {}) {
   const hsize_t rows = values.size() / (row.empty() ? 1 : row.front());
@@ -87,12 +88,12 @@ const char* data_of(const FieldMesh& mesh) {
   return mesh.shape == FieldMesh::Shape::vertices ? "PointData" : "CellData";
 }
 
-/// Rows of each array.
+/// Returns the number of rows of each array of the mesh.
 std::size_t rows_of(const FieldMesh& mesh) {
   return mesh.shape == FieldMesh::Shape::vertices ? mesh.point_count() : mesh.cell_count();
 }
 
-/// Everything of a file but time.
+/// Writes everything of a file except the times.
 void put_mesh(H5::H5File& file, const FieldMesh& mesh) {
   const H5::Group root = file.createGroup("VTKHDF");
   const hsize_t two = 2;
@@ -124,7 +125,8 @@ void put_mesh(H5::H5File& file, const FieldMesh& mesh) {
 constexpr const char* path_of_steps = "VTKHDF/Steps";
 constexpr hsize_t steps_a_piece = 256;
 
-/// Where every step finds the mesh: all read the same one. Four: vertices, lines, polygons, strips.
+/// Arrays that say where a step finds its mesh. All steps use the same mesh, so all entries are 0. The four columns are
+/// vertices, lines, polygons and strips.
 const std::vector<std::pair<std::string, Row>> mesh_offsets{
     {"PartOffsets", {}}, {"PointOffsets", {}}, {"CellOffsets", {4}}, {"ConnectivityIdOffsets", {4}}};
 
@@ -135,7 +137,7 @@ void set_number_of_steps(H5::Group& steps, std::size_t number) {
   a.write(type_of(n), &n);
 }
 
-/// The group of times, yet without any.
+/// Makes the group of steps, without any step, and the arrays that change.
 void make_steps(H5::H5File& file, const FieldMesh& mesh, const std::vector<FieldArray>& arrays) {
   H5::Group steps = file.createGroup(path_of_steps);
   set_number_of_steps(steps, 0);
@@ -155,6 +157,7 @@ void make_steps(H5::H5File& file, const FieldMesh& mesh, const std::vector<Field
   }
 }
 
+/// A series in one VTKHDF file. The mesh is written once; every frame appends rows to the arrays that change.
 class VtkHdfSeries : public FieldSeries {
  public:
   VtkHdfSeries(const std::filesystem::path& file, FieldMesh mesh, std::optional<double> until)
@@ -175,10 +178,10 @@ class VtkHdfSeries : public FieldSeries {
         });
       }
       open_->write(bytes_of(arrays), [&](H5::H5File& file) { put_frame(file, arrays); });
-      set_steps(steps_ + 1, &time);  // last: a reader, or a kill, finds a step with all that it has
+      set_steps(steps_ + 1, &time);  // last, so that a reader, also after a kill, finds only complete steps
       if (first) open_->keep();
     } catch (const RunError&) {
-      open_.reset();  // what is not yet a file with a frame is removed
+      open_.reset();  // a file that has no frame yet is removed
       throw;
     }
   }
@@ -189,7 +192,8 @@ class VtkHdfSeries : public FieldSeries {
   }
 
  private:
-  /// Both at once: VTK takes as many times as there are, into as much memory as the number of steps needs.
+  /// Sets the number of steps and the list of times in one write: VTK reads all times in the list into memory that it
+  /// has allocated for the number of steps.
   void set_steps(std::size_t number, const double* last_time) {
     open_->write(0, [&](H5::H5File& file) {
       H5::Group steps = file.openGroup(path_of_steps);
@@ -201,6 +205,7 @@ class VtkHdfSeries : public FieldSeries {
     steps_ = number;
   }
 
+  /// Appends the rows of a frame to all arrays that change.
   void put_frame(H5::H5File& file, const std::vector<FieldArray>& arrays) {
     const H5::Group steps = file.openGroup(path_of_steps);
     const auto add_row = [&](const H5::Group& group, const std::string& name, const auto& row) {
@@ -224,7 +229,7 @@ class VtkHdfSeries : public FieldSeries {
     }
   }
 
-  /// Opens the file and drops what is from `until` on. What is left of it is overwritten by the frames that follow.
+  /// Opens an existing file and removes the frames from time `until` on.
   void go_on(double until) {
     const auto refuse = [&](const std::string& found) {
       throw InputError(name_.string(), 0, "fields to go on with", found,
@@ -250,14 +255,14 @@ class VtkHdfSeries : public FieldSeries {
     }
     const auto kept = std::lower_bound(times.begin(), times.end(), until) - times.begin();
     if (kept == 0) {
-      open_.reset();  // nothing of it is left: a new one replaces it
+      open_.reset();  // no frame is left: a new file replaces this one
     } else {
       set_steps(static_cast<std::size_t>(kept), nullptr);
       open_->write(0, [&](H5::H5File& file) { cut(file); });
     }
   }
 
-  /// Takes away what arrays have beyond the last step.
+  /// Shortens all arrays to the last step.
   void cut(H5::H5File& file) const {
     const H5::Group steps = file.openGroup(path_of_steps);
     const auto shorten = [&](const H5::Group& group, const std::string& name, hsize_t rows) {

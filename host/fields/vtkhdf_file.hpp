@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file vtkhdf_file.hpp  VTKHDF 2.0 of type PolyData.
+/// \file vtkhdf_file.hpp  Field files in VTK's format VTKHDF 2.0, type PolyData.
 #pragma once
 
 #include "macadam/fields.hpp"
 
 namespace macadam {
 
-/// begin_fields() and write_fields() of format vtkhdf; `file` with its ending.
+/// begin_fields() and write_fields() for the format vtkhdf. `file` includes the ending.
 /// @{
 std::unique_ptr<FieldSeries> begin_vtkhdf(const std::filesystem::path& file, FieldMesh mesh,
                                           std::optional<double> until);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// vtp_file.cpp  XML whose arrays stand behind it as they are in memory ("appended", "raw").
+// vtp_file.cpp  Writes XML that is followed by the arrays as they are in memory ("appended", "raw").
 #include "host/fields/vtp_file.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ const char* type_of(float) { return "Float32"; }
 const char* type_of(std::int32_t) { return "Int32"; }
 const char* type_of(std::int64_t) { return "Int64"; }
 
-/// The text of a file and the arrays behind it.
+/// The text of a file and the arrays that follow it.
 class VtpText {
  public:
   template <class... Arguments>
@@ -92,12 +92,12 @@ std::string text_of(const FieldMesh& mesh, const std::vector<FieldArray>& arrays
   const char* cells = mesh.shape == Shape::vertices ? "Verts" : mesh.shape == Shape::lines ? "Lines" : "Polys";
   out.line("<{}>", cells);
   out.array("connectivity", "", 1, mesh.connectivity);
-  out.array("offsets", "", 1, std::vector(mesh.offsets.begin() + 1, mesh.offsets.end()));  // where each cell ends
+  out.array("offsets", "", 1, std::vector(mesh.offsets.begin() + 1, mesh.offsets.end()));  // the end of each cell
   out.line("</{}>\n</Piece>\n</PolyData>", cells);
   return out.whole();
 }
 
-/// A frame that the list names.
+/// A frame in the list of frames.
 struct Listed {
   double time;
   std::string file;
@@ -106,6 +106,7 @@ struct Listed {
 constexpr std::string_view before_time = "<DataSet timestep=\"", before_file = "\" part=\"0\" file=\"",
                            after_file = "\"/>";
 
+/// A series of one XML file per frame, and the list of the frames (.pvd).
 class VtpSeries : public FieldSeries {
  public:
   VtpSeries(const std::filesystem::path& stem, FieldMesh mesh, std::optional<double> until)
@@ -140,9 +141,10 @@ class VtpSeries : public FieldSeries {
     write_whole(list(), text + "</Collection>\n</VTKFile>\n");
   }
 
+  /// Reads the list of an existing series and removes the frames from time `until` on.
   void go_on(double until) {
     std::ifstream in(list(), std::ios::binary);
-    in.exceptions(std::ios::badbit);  // want of memory is no damage
+    in.exceptions(std::ios::badbit);  // lack of memory must not be taken for a damaged file
     const auto refuse = [&](const std::string& found) {
       throw InputError(list().string(), 0, "fields to go on with", found,
                        "those of this run; without the file the run goes on, and begins a new one");
@@ -158,7 +160,7 @@ class VtpSeries : public FieldSeries {
       if (time < until) frames_.push_back({time, line.substr(name, end - name)});
     }
     if (!ended) refuse("a list without its end");
-    write_list();  // frames behind it are overwritten by those that follow
+    write_list();  // the files of removed frames are overwritten by the frames that follow
   }
 
   std::filesystem::path stem_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file vtp_file.hpp  VTK's XML of type PolyData, a file a frame, and the list of frames.
+/// \file vtp_file.hpp  Field files in VTK's XML format, type PolyData: one file per frame, and a list of the frames.
 #pragma once
 
 #include "macadam/fields.hpp"
 
 namespace macadam {
 
-/// begin_fields() and write_fields() of format vtp; `stem` without ending.
+/// begin_fields() and write_fields() for the format vtp. `stem` has no ending.
 /// @{
 std::unique_ptr<FieldSeries> begin_vtp(const std::filesystem::path& stem, FieldMesh mesh, std::optional<double> until);
 void write_vtp(const std::filesystem::path& file, const FieldMesh& mesh);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoint.cpp  A checkpoint through the C++ interface of HDF5.
+// checkpoint.cpp  Checkpoint files through the C++ interface of HDF5.
 #include "host/results/checkpoint.hpp"
 
 #include <H5Cpp.h>
@@ -22,8 +22,8 @@
 namespace macadam {
 namespace {
 
-constexpr std::size_t user_block = 512;  ///< HDF5's smallest
-constexpr std::size_t growth = 1 << 24;  ///< bytes by which a file in memory grows
+constexpr std::size_t user_block = 512;  ///< the smallest size that HDF5 allows
+constexpr std::size_t growth = 1 << 24;  ///< bytes by which HDF5 enlarges a file in memory
 
 template <class T>
 StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
@@ -34,20 +34,21 @@ StateArray::Values values_of(const H5::DataSet& set, hsize_t count) {
 
 H5::StrType text_type(std::size_t length) { return {H5::PredType::C_S1, length + 1}; }
 
-/// HDF5's "core" driver keeps a file in memory: it never meets a full disk, whose errors it does not survive.
+/// Returns settings for HDF5's "core" driver, which keeps a file in memory. HDF5 then never meets a full disk, an error
+/// that it does not survive.
 H5::FileAccPropList in_memory() {
   H5::FileAccPropList access;
   access.setCore(growth, false);
   return access;
 }
 
-/// The bytes of a checkpoint, its user block still empty.
+/// Returns the bytes of a checkpoint file, with an empty user block.
 std::string file_of(const Checkpoint& checkpoint) {
   std::size_t bytes_of_state = 0;
   for (const StateArray& array : checkpoint.arrays) {
     bytes_of_state += std::visit([](const auto& values) { return values.size() * sizeof(values[0]); }, array.values);
   }
-  require_memory_for_hdf5(3 * bytes_of_state + growth);  // the file, how it grows, and its copy
+  require_memory_for_hdf5(3 * bytes_of_state + growth);  // the file, the room for its growth, and its copy
   H5::H5File out("in memory", H5F_ACC_TRUNC, H5::FileCreatPropList::DEFAULT, in_memory());
   const H5::Group texts = out.createGroup("texts"), arrays = out.createGroup("arrays");
   for (const auto& [name, text] : checkpoint.texts) {
@@ -76,13 +77,14 @@ std::string file_of(const Checkpoint& checkpoint) {
   return all;
 }
 
-/// Counts what an image says that it holds: it cannot be more than the image.
+/// Counts the bytes that the datasets of an image claim to hold, which cannot be more than the image has. A damaged
+/// file is refused before memory is allocated for it.
 class Room {
  public:
   explicit Room(std::size_t bytes) : left_(static_cast<double>(bytes)) {}
 
-  /// \throws H5::Exception where there is none for so many values of a type, whose kind is another or which have no
-  /// end.
+  /// Subtracts the bytes of a dataset or an attribute. \throws H5::Exception if its type is not one of `kinds`, if its
+  /// texts have variable length, if it has several dimensions, or if it is larger than the bytes that are left.
   void take(const std::string& name, const H5::AbstractDs& values, std::initializer_list<H5T_class_t> kinds) {
     const H5::DataSpace space = values.getSpace();
     const bool known = std::find(kinds.begin(), kinds.end(), values.getTypeClass()) != kinds.end();
@@ -100,7 +102,7 @@ class Room {
   double left_;
 };
 
-/// A text with nothing behind it.
+/// Reads a single text and removes the zeros at its end.
 template <class Values>
 std::string text_in(const std::string& name, const Values& values, Room& room) {
   room.take(name, values, {H5T_STRING});
@@ -110,11 +112,11 @@ std::string text_in(const std::string& name, const Values& values, Room& room) {
     values.read(values.getStrType(), out);
   else
     values.read(out, values.getStrType());
-  out.resize(std::min(out.size(), out.find('\0')));  // HDF5 1.14 leaves the zeros of a text's end
+  out.resize(std::min(out.size(), out.find('\0')));  // HDF5 1.14 does not remove the zeros at the end of a text
   return out;
 }
 
-/// Names of the datasets in a group. Links lead to other files, or to no end.
+/// Returns the names of the datasets in a group. Links are refused, because they may lead to other files or in circles.
 std::vector<std::string> names_in(const H5::Group& group) {
   std::vector<std::string> out;
   for (hsize_t i = 0; i < group.getNumObjs(); ++i) {
@@ -127,6 +129,7 @@ std::vector<std::string> names_in(const H5::Group& group) {
   return out;
 }
 
+/// Reads a checkpoint from the bytes of an HDF5 file.
 Checkpoint read_image(std::string image) {
   H5::FileAccPropList access = in_memory();
   if (H5Pset_file_image(access.getId(), image.data(), image.size()) < 0) {
@@ -134,7 +137,7 @@ Checkpoint read_image(std::string image) {
   }
   const H5::H5File in("in memory", H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, access);
   Room room(image.size());
-  image = {};  // HDF5 has a copy
+  image = {};  // HDF5 has made its own copy
   const H5::Group texts = in.openGroup("texts"), arrays = in.openGroup("arrays");
   Checkpoint out;
   for (const std::string& name : names_in(texts)) out.texts[name] = text_in(name, texts.openDataSet(name), room);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file checkpoint.hpp  A checkpoint as a file: texts and arrays by name in HDF5, whole or not there.
+/// \file checkpoint.hpp  Reads and writes checkpoint files: named texts and arrays in HDF5. A checkpoint file is either
+/// complete or absent.
 #pragma once
 
 #include <filesystem>
@@ -12,21 +13,23 @@
 
 namespace macadam {
 
-/// What is written and read; it knows nothing of what the names mean.
+/// Contents of a checkpoint file. The caller decides what the names mean.
 struct Checkpoint {
   std::map<std::string, std::string> texts;
-  std::vector<StateArray> arrays;  ///< names without '/', each once; order is not kept
+  std::vector<StateArray> arrays;  ///< names are unique and contain no '/'; a file does not keep their order
 };
 
-/// Replaces a checkpoint by a rename, once the new one is on the disk: a kill at any moment leaves the old one or the
-/// new one, and so does a full disk. HDF5's user block, the first 512 bytes, holds the length and a checksum, as text.
-/// It is made in memory first, which takes twice its size. \throws RunError.
+/// Writes a checkpoint. It replaces an older one by a rename after the new one is on the disk, so that a kill at any
+/// moment, or a full disk, leaves either the old or the new one complete. HDF5's user block, the first 512 bytes of the
+/// file, holds the length and a checksum as text. The file is made in memory first, which takes twice its size. \throws
+/// RunError.
 void write_checkpoint(const std::filesystem::path& file, const Checkpoint& checkpoint);
 
-/// The user block before an image of HDF5: that itself may fail on a damaged file, so that none is given to it.
+/// Returns the user block for the bytes of an HDF5 file. The reader checks it before it passes the bytes to HDF5,
+/// because HDF5 itself may fail on a damaged file.
 std::string user_block_of(std::string_view image);
 
-/// \throws InputError naming the file: not there, no checkpoint, cut off, damaged.
+/// Reads a checkpoint. \throws InputError, naming the file, if it is missing, not a checkpoint, cut off or damaged.
 Checkpoint read_checkpoint(const std::filesystem::path& file);
 
 }  // namespace macadam

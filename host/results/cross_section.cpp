@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cross_section.cpp  The plane's rectangle clipped, cell by cell, by the planes of equal power.
+// cross_section.cpp  Clips the rectangle of the section plane, cell by cell, by the planes of equal power between
+// neighbouring cells.
 #include "macadam/cross_section.hpp"
 
 #include <fmt/format.h>
@@ -20,7 +21,8 @@
 namespace macadam {
 namespace {
 
-/// The box's wall on the plus side of the axis, moved to the plane.
+/// Returns the box's wall on the plus side of the plane's axis, moved to the plane's position. \throws InputError if
+/// the axis is not x, y or z, or if the plane is outside of the box.
 WallPlane plane_in_box(const SectionPlane& plane, const Box& box) {
   if (plane.axis < 'x' || plane.axis > 'z')
     throw InputError("section", 0, "axis", fmt::format("'{}'", plane.axis), "x, y or z");
@@ -32,35 +34,39 @@ WallPlane plane_in_box(const SectionPlane& plane, const Box& box) {
   return out;
 }
 
-/// A plane of equal power with its side: the same bits of `height` for both of its cells, but for the sign.
+/// A plane of equal power as a side of one of its two cells. `height` has the same bits for both cells, except for the
+/// sign.
 struct Side {
-  Vec3d from, normal;  ///< a centre, and the unit normal from it
-  double arm;          ///< from the centre to the plane [m]
-  double sign;         ///< −1: the cell lies beyond the plane
-  double distance;     ///< of the centres [m]
+  Vec3d from, normal;  ///< a centre, and the unit normal that points away from it
+  double arm;          ///< from that centre to the plane [m]
+  double sign;         ///< −1 if the cell lies beyond the plane, seen from that centre; otherwise 1
+  double distance;     ///< between the two centres [m]
 
   Side(const Specimen& specimen, const Facet& f, bool of_a) : from(specimen.centre[f.a]), sign(of_a ? 1 : -1) {
     const Bisector bisector(specimen, f.a, f.b);
     normal = bisector.normal, arm = bisector.arm, distance = bisector.distance;
   }
 
+  /// Signed height of a point above the side [m]; positive outside of the cell.
   double height(const Vec3d& p) const { return sign * (dot(p - from, normal) - arm); }
 };
 
-/// Cuts cell after cell, with buffers of its own.
+/// Cuts one cell after the other and uses the same buffers for all.
 class Cutter {
  public:
   Cutter(const Vec3d& box, const WallPlane& plane) : box_(box), plane_(plane), rounding_(rounding_bound(box)) {}
 
-  /// The cell between these sides, as a polygon; empty where the plane does not meet it in an area.
+  /// Returns the polygon in which the section plane cuts the cell between these sides. It is empty if they do not meet
+  /// in an area. Sorts the sides.
   const Polygon& cut(std::vector<Side>& sides) {
     plane_.rectangle(box_, polygon_);
-    // Steep ones first: when one comes that is parallel to the plane but for rounding, the polygon is down to the
-    // facet's size, and the facet's tilt lifts none of its vertices above the tolerance.
+    // Steep sides come first. When a side follows that is parallel to the section plane except for rounding, the
+    // polygon is already as small as the facet, and the facet's tilt lifts none of its vertices above the tolerance.
     std::sort(sides.begin(), sides.end(), [this](const Side& p, const Side& q) { return tilt(p) > tilt(q); });
     for (const Side& side : sides) {
       if (contains_polygon(side)) {
-        if (side.sign * side.normal.*plane_.coordinate > 0) polygon_.clear();  // the plane belongs to the cell above
+        // a facet in the section plane is given to the cell above it
+        if (side.sign * side.normal.*plane_.coordinate > 0) polygon_.clear();
       } else {
         clip(
             polygon_, scratch_, rounding_, [&](const Vec3d& p) { return side.height(p); },
@@ -74,14 +80,14 @@ class Cutter {
     return polygon_;
   }
 
-  /// Of the polygon cut last, where it is not empty [m²].
+  /// Area of the polygon that was cut last, if it is not empty [m²].
   double area() const { return measure_.area; }
 
  private:
-  /// Sine of the angle to the section's plane.
+  /// Sine of the angle between a side and the section plane.
   double tilt(const Side& side) const { return std::hypot(side.normal.*plane_.u, side.normal.*plane_.v); }
 
-  /// Whether the side is the section's plane as far as the polygon goes, within the tolerance of facets (facets.cpp).
+  /// Whether the side lies in the section plane over the whole polygon, within the tolerance of facets (facets.cpp).
   bool contains_polygon(const Side& side) const {
     const double tolerance = 1e-10 * side.distance + rounding_;
     return tilt(side) < 1e-6 && std::all_of(polygon_.begin(), polygon_.end(),
@@ -95,7 +101,7 @@ class Cutter {
   PolygonMeasure measure_;
 };
 
-/// Facets of the cells that reach the plane, each with its cell, cell by cell.
+/// Returns the facets of all cells that reach the plane, each with its cell, sorted by cell.
 std::vector<std::pair<std::int32_t, const Facet*>> facets_at(const WallPlane& plane, const Specimen& specimen,
                                                              const Tessellation& tessellation) {
   std::vector<double> low(specimen.size(), std::numeric_limits<double>::infinity()), high(specimen.size(), 0);
@@ -108,7 +114,8 @@ std::vector<std::pair<std::int32_t, const Facet*>> facets_at(const WallPlane& pl
       }
     }
   }
-  const double margin = 1e-9 * norm(specimen.box.size);  // vertices are good to 1e-11; who is near is looked at
+  // vertices are accurate to 1e-11; cells that only come near the plane are examined too
+  const double margin = 1e-9 * norm(specimen.box.size);
   std::vector<std::pair<std::int32_t, const Facet*>> out;
   for (const Facet& f : tessellation.facets)
     for (const std::int32_t cell : {f.a, f.b})

@@ -22,8 +22,8 @@ namespace {
 
 std::string reason(int error = errno) { return std::generic_category().message(error); }
 
-/// Waits until a folder's entries are on the disk. Some file systems cannot, which is no fault of the file; a disk that
-/// fails is.
+/// Waits until the entries of a folder are on the disk. Returns false if the disk fails or is full. Some file systems
+/// cannot do this for folders, which is not an error of the file.
 bool sync_folder(const std::filesystem::path& folder) {
   const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return true;
@@ -70,7 +70,7 @@ void write_whole(const std::filesystem::path& file, std::string_view bytes, bool
   if (written) std::filesystem::rename(part, file, error);
   if (!written || error) {
     std::error_code ignored;
-    std::filesystem::remove(part, ignored);  // half a file on a full disk would keep it full
+    std::filesystem::remove(part, ignored);  // part of a file on a full disk would keep the disk full
     throw RunError(file.string() + ": cannot be written: " + (written ? error.message() : why));
   }
   if (to_disk && !sync_folder(file.parent_path())) {
@@ -117,7 +117,7 @@ void LineWriter::fail() const {
 
 FilesTogether::FilesTogether(const std::filesystem::path& folder) : folder_(folder), place_(folder / ".part") {
   std::error_code ignored;
-  std::filesystem::remove_all(place_, ignored);  // of a kill
+  std::filesystem::remove_all(place_, ignored);  // left behind by a run that was killed
   if (::mkdir(place_.c_str(), 0777) != 0) throw RunError(place_.string() + ": cannot be made: " + reason());
 }
 

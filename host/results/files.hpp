@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file files.hpp  Result files that survive a failed run.
+/// \file files.hpp  Writes result files so that they stay intact if a run fails.
 #pragma once
 
 #include <sys/types.h>
@@ -13,19 +13,19 @@
 
 namespace macadam {
 
-/// Replaces a file by a rename, so that a reader finds the old bytes or the new; what could not be written whole is
-/// removed. `to_disk`: waits until it is there, so that a power failure leaves one of the two as well. \throws
-/// RunError.
+/// Writes a file under another name and renames it, so that a reader finds either the old bytes or the new ones. A file
+/// that could not be written completely is removed. `to_disk`: waits until the file is on the disk, so that a power
+/// failure, too, leaves either the old or the new file. \throws RunError.
 void write_whole(const std::filesystem::path& file, std::string_view bytes, bool to_disk = false);
 
-/// All bytes of a file. \throws RunError where it cannot be read, std::bad_alloc where memory is the reason.
+/// Returns all bytes of a file. \throws RunError if it cannot be read, std::bad_alloc if memory is the reason.
 std::string read_whole(const std::filesystem::path& file);
 
-/// A name as a field of a CSV file: quoted where it has to be (RFC 4180).
+/// Returns a name as a field of a CSV file: quoted where RFC 4180 requires it.
 std::string csv_field(const std::string& name);
 
-/// A file that is open for writing, in the system's own calls: a stream would not say why it fails, nor whether all is
-/// on the disk. What a function cannot do it says by `false`, and why in errno.
+/// A file that is open for writing, through system calls: a stream reports neither why a write fails nor whether the
+/// data are on the disk. A function that fails returns `false`, with the reason in errno.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& file);
@@ -33,22 +33,23 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
   ~OutputFile() { close(); }
   bool write(std::string_view bytes) const;
-  bool sync() const;
-  bool cut(off_t length) const;
-  bool close();  ///< some file systems say only here that they could not write
+  bool sync() const;             ///< waits until the data are on the disk
+  bool cut(off_t length) const;  ///< shortens the file to this many bytes; the next write continues there
+  bool close();                  ///< some file systems report only here that a write has failed
 
  private:
   int file_;
 };
 
-/// A table that grows as a run goes on: every line is written as it is measured.
+/// A table that grows during a run. Every line is written as soon as it is measured.
 class LineWriter {
  public:
-  /// Begins anew; `head`: its first lines. \throws RunError when the file cannot be opened.
+  /// Starts a new file with `head`, its first lines. \throws RunError if the file cannot be opened.
   LineWriter(const std::filesystem::path& file, std::string_view head);
-  /// A line without its end. What the disk does not take whole is not in the file. \throws RunError.
+  /// Appends a line, which is given without its line end. If the disk does not take the whole line, the part that was
+  /// written is removed from the file. \throws RunError.
   void add(std::string_view line);
-  /// After the last line. \throws RunError.
+  /// Closes the file after the last line. \throws RunError.
   void close();
 
  private:
@@ -59,17 +60,19 @@ class LineWriter {
   off_t length_ = 0;
 };
 
-/// Files of a folder that take their names together: until all of them are written, what has these names stays as it
-/// is.
+/// Files of one folder that get their names together. Older files of these names stay as they are until all new files
+/// are written.
 class FilesTogether {
  public:
+  /// Makes the subfolder `.part` for the new files. \throws RunError.
   explicit FilesTogether(const std::filesystem::path& folder);
   FilesTogether(const FilesTogether&) = delete;
   FilesTogether& operator=(const FilesTogether&) = delete;
+  /// Removes the files that did not get their names.
   ~FilesTogether();
-  /// Where to write the file that shall have this name. \throws RunError.
+  /// Returns the path to which the file of this name must be written. \throws RunError.
   std::filesystem::path place_of(const std::string& name);
-  /// In the order in which they were asked for. \throws RunError.
+  /// Renames the files in the order in which their paths were asked for. \throws RunError.
   void give_names();
 
  private:
@@ -77,7 +80,8 @@ class FilesTogether {
   std::vector<std::string> names_;
 };
 
-/// contacts.csv: `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. \throws RunError.
+/// Writes contacts.csv with the columns `a,b,pair,area,distance,nx,ny,nz,points`, in the network's order. \throws
+/// RunError.
 void write_contacts_csv(const std::filesystem::path& file, const ContactNetwork& network);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// result_folder.cpp  flock() on a directory.
+// result_folder.cpp  The lock is flock() on the directory.
 #include "host/results/result_folder.hpp"
 
 #include <fcntl.h>
@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Removes folders as far as they are empty.
+/// Removes the folders one after the other, up to the first that is not empty.
 void remove_empty(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     if (::rmdir(folder.c_str()) != 0) return;
   }
 }
 
-/// Whether an open folder is still the one that the path names.
+/// Whether an open folder is still the one at this path.
 bool is_same(int file, const fs::path& path) {
   struct stat open {
   }, named{};
@@ -37,8 +37,8 @@ bool is_same(int file, const fs::path& path) {
 ResultFolder::ResultFolder(const fs::path& folder) {
   std::error_code error;
   fs::path whole = fs::absolute(folder).lexically_normal();
-  if (!whole.has_filename()) whole = whole.parent_path();  // a slash at its end
-  constexpr int attempts = 100;  // another command that is refused may remove the folder that it made, at any moment
+  if (!whole.has_filename()) whole = whole.parent_path();  // the path ends with a slash
+  constexpr int attempts = 100;  // another command that is refused may at any moment remove the folder that it made
   for (int k = 0; k < attempts; ++k) {
     made_.clear();
     for (fs::path f = whole; !f.empty() && !fs::exists(f, error); f = f.parent_path()) made_.push_back(f);
@@ -67,7 +67,7 @@ ResultFolder::ResultFolder(const fs::path& folder) {
 }
 
 ResultFolder::~ResultFolder() {
-  remove_empty(made_);  // before the lock ends: nobody else has found them yet
+  remove_empty(made_);  // while the lock still keeps other commands out
   ::close(file_);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shape_files.cpp  What `macadam shapes fill` and `macadam shapes generate` leave.
+// shape_files.cpp  The files of `macadam shapes fill` and `macadam shapes generate`.
 #include "host/results/shape_files.hpp"
 
 #include <fmt/format.h>
@@ -24,6 +24,7 @@ std::string spheres_csv(const MultiSphere& cluster) {
   return text;
 }
 
+/// Returns all spheres as one surface of subdivided icosahedra.
 Surface drawn(const MultiSphere& cluster) {
   Surface all{"spheres", {}, {}};
   for (std::size_t i = 0; i < cluster.size(); ++i) {
@@ -35,6 +36,7 @@ Surface drawn(const MultiSphere& cluster) {
   return all;
 }
 
+/// \throws InputError if the folder holds a surface file that is not one of these shapes.
 void refuse_others(const std::filesystem::path& folder, const std::vector<Surface>& shapes) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const std::string file = entry.path().filename().string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_files.hpp  Files of a shape and its spheres, and of a library of shapes.
+/// \file shape_files.hpp  Files of one shape and its filling spheres, and of a library of shapes.
 #pragma once
 
 #include <filesystem>
@@ -9,16 +9,16 @@
 
 namespace macadam {
 
-/// The shape made as large as a sphere of this radius [m] is by its intermediate dimension.
-/// \throws InputError for a radius that is not above 0.
+/// Returns the shape, scaled so that its intermediate dimension is the diameter of a sphere of this radius [m].
+/// \throws InputError if the radius is not above 0.
 Surface scaled_to(Surface surface, double circumscribed);
 
-/// spheres.csv, spheres.obj (each sphere as a subdivided icosahedron: any viewer of meshes shows it) and shape.obj, in
-/// metres. \throws RunError; InputError where another command is writing into the folder.
+/// Writes spheres.csv, spheres.obj and shape.obj, in metres. In spheres.obj every sphere is a subdivided icosahedron,
+/// so that any viewer of meshes shows it. \throws RunError; InputError if another command is writing into the folder.
 void write_filling(const std::filesystem::path& out, const Surface& surface, const MultiSphere& cluster);
 
-/// Each shape as an OFF file. \throws InputError where the folder holds a shape that is none of them: a folder is a
-/// library; RunError.
+/// Writes each shape as an OFF file. \throws RunError; InputError if the folder holds a shape that is not one of them,
+/// because all shapes in a folder make one library.
 void write_shape_library(const std::filesystem::path& out, const std::vector<Surface>& shapes);
 
 }  // namespace macadam

@@ -16,13 +16,13 @@ using json = nlohmann::ordered_json;
 
 bool is_section(const KnownKey& key) { return key.words.type.starts_with("section"); }
 
-/// "[specimen.mastic]" of the key mastic of [specimen].
+/// Returns "[specimen.mastic]" for the key mastic of [specimen].
 std::string title_of(const KnownKey& key) {
   const std::string outer = key.section.empty() ? "" : key.section.substr(1, key.section.size() - 2) + ".";
   return key.words.type == "sections" ? "[[" + outer + key.name + "]]" : "[" + outer + key.name + "]";
 }
 
-/// The unit of a bare number; empty: it has none.
+/// Returns the unit of a bare number; empty if it has none.
 std::string unit_of(const KnownKey& key) {
   if (!key.words.quantity || key.words.quantity == &ratio) return "";
   return std::string(key.words.quantity->units.front().name);
@@ -30,7 +30,7 @@ std::string unit_of(const KnownKey& key) {
 
 std::string code(const std::string& text) { return "`" + text + "`"; }
 
-/// In a cell of a table a bar is the cell's end.
+/// Escapes characters that Markdown would read as markup; a bar would end the cell of a table.
 std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
   for (std::size_t at = 0; (at = text.find('*', at)) != std::string::npos; at += 2) text.insert(at, "\\");
@@ -48,12 +48,14 @@ std::string kind_of_value(const KnownKey& key) {
   return key.words.type == "list" ? "list of " + choices : choices;
 }
 
+/// Returns the text of the column "without it".
 std::string usual_of(const KnownKey& key) {
   if (key.need == Need::required) return "**required**";
   if (!key.usual.empty()) return cell(key.usual);
   return key.words.usual.empty() ? "" : code(key.words.usual);
 }
 
+/// Returns a key's row in the table of its section.
 std::string row(const KnownKey& key) {
   std::string text = key.text;
   if (!key.chosen.empty()) text += fmt::format(" ({} {})", key.chooser, fmt::join(key.chosen, ", "));

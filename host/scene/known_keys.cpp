@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// known_keys.cpp  The reader, collecting.
+// known_keys.cpp  Collects keys while the scene reader runs.
 #include "host/scene/known_keys.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace macadam::scene {
 namespace {
 
-/// "kind" of "[loading] kind".
+/// Returns "kind" for "[loading] kind".
 std::string last_word(const std::string& named) { return named.substr(named.rfind(' ') + 1); }
 
 }  // namespace
@@ -48,12 +48,13 @@ std::size_t Collector::choose(const std::string& named, const std::vector<std::s
 std::vector<KnownKey> Collector::keys() const {
   std::vector<KnownKey> out = keys_;
   for (KnownKey& key : out) {
+    // a key that occurs with every choice does not depend on the chooser
     const bool always = std::any_of(keys_.begin(), keys_.end(), [&](const KnownKey& chooser) {
       return chooser.section == key.section && chooser.name == key.chooser && chooser.chosen == key.chosen;
     });
     if (always) key.chooser.clear(), key.chosen.clear();
   }
-  // sections one after the other, in place of a section within its parent's keys
+  // group the keys by section: a section inside another one is read between the keys of the outer one
   std::vector<std::string> sections;
   for (const KnownKey& key : out)
     if (std::find(sections.begin(), sections.end(), key.section) == sections.end()) sections.push_back(key.section);

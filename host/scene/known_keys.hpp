@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file known_keys.hpp  Every key that the reader of scenes knows, as the reader itself has it: it is run over
-/// sections without values, and what it would read is collected in place of reading it.
+/// \file known_keys.hpp  Lists every key that the scene reader knows. The list is made by the reader itself: it runs
+/// over sections without values, and each key that it would read is collected instead.
 #pragma once
 
 #include <string>
@@ -10,40 +10,43 @@
 
 namespace macadam::scene {
 
-/// A key, or a section, of a scene.
+/// A key or a section of a scene.
 struct KnownKey {
-  std::string section;  ///< "[solver]", "[[contacts]]"; empty: of the whole file
+  std::string section;  ///< "[solver]", "[[contacts]]"; empty for a key outside of all sections
   std::string name;
   Need need = Need::optional;
   Words words;
-  std::string text, usual;  ///< as in Key
-  std::string chooser;      ///< the key of the section that decides whether it may be there: "kind"; empty: none
-  std::vector<std::string> chosen;  ///< its values with which it may be
+  std::string text, usual;          ///< as in struct Key
+  std::string chooser;              ///< the key, such as "kind", that decides whether this key is allowed; empty: none
+  std::vector<std::string> chosen;  ///< values of the chooser with which this key is allowed
   bool operator==(const KnownKey&) const = default;
 };
 
-/// All of them, a section after the other, as they are read.
+/// Returns all keys, section by section, in the order in which they are read.
 std::vector<KnownKey> known_keys();
 
-/// What Section::read does with its keys while they are collected.
+/// Collects keys: while it is in use, Section::read passes its keys to it instead of reading their values.
 class Collector {
  public:
-  /// Leaves the reader of a section once its keys are known, before it looks at their values.
+  /// Thrown to leave the reader of a section once its keys are known, before it looks at their values.
   struct Done {};
 
-  /// `enter` reads the key's value: what is in it where it is a section, once for every choice that is made in there.
+  /// Adds a key. If it is a section, calls `enter`, which reads what is in the section, once for every choice made
+  /// there.
   void add(const std::string& section, const std::string& named, const Key& key, const std::function<void()>& enter);
-  /// A text that decides what else its section takes: one of them after the other.
+  /// Called for a text whose value decides which other keys its section has. Returns the index of the choice for the
+  /// present pass through the section; add() makes one pass for each.
   std::size_t choose(const std::string& named, const std::vector<std::string>& among);
 
-  /// What was collected; what several choices have in common stands once.
+  /// Returns the collected keys. A key that several choices have in common appears once.
   std::vector<KnownKey> keys() const;
 
  private:
+  /// A text that decides which keys its section has.
   struct Choice {
     std::string named;
-    std::vector<std::string> among;
-    std::size_t taken = 0;
+    std::vector<std::string> among;  ///< its possible values
+    std::size_t taken = 0;           ///< index of the value in the present pass
   };
   std::vector<KnownKey> keys_;
   Choice choice_;  ///< of the section that is being read

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// lengths.cpp  Texts of the command line into metres.
+// lengths.cpp  Converts texts of the command line into metres.
 #include "host/scene/lengths.hpp"
 
 #include <charconv>

@@ -9,11 +9,11 @@
 
 namespace macadam {
 
-/// The length [m]. \throws InputError naming the option.
+/// Returns a length [m]. \throws InputError, naming the option, if the text is not a length.
 double length_of(const std::string& text, const std::string& option);
 
-/// One length for all axes, or three: edges of voxels, sides of boxes [m]. \throws InputError naming the option, also
-/// where one is not positive.
+/// Returns one length for all axes, or three [m]: edges of voxels or sides of boxes. \throws InputError, naming the
+/// option, also if a length is not positive.
 Vec3d lengths_of(const std::vector<std::string>& texts, const std::string& option);
 
 }  // namespace macadam

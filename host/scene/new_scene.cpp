@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_scene.cpp  Values of a scene to begin with, and the comments around them.
+// new_scene.cpp  The values of a new scene, and the comments around them.
 #include "host/scene/new_scene.hpp"
 
 #include <fmt/format.h>
@@ -14,20 +14,21 @@ namespace {
 
 constexpr std::size_t width = 118, comment_column = 36;
 
-/// A key with its value.
+/// A key and its value.
 struct Given {
   std::string key, value;
 };
 
-/// A section with the values that it is given.
+/// A section, and the keys in it that have values.
 struct Part {
   std::string title;
   std::vector<Given> given;
-  std::string remark = {};                  ///< above it
-  bool others = true;                       ///< the keys that are left follow as comments …
-  std::vector<std::string> not_these = {};  ///< … but for these
+  std::string remark = {};                  ///< comment above the section
+  bool others = true;                       ///< whether the remaining keys follow as comments
+  std::vector<std::string> not_these = {};  ///< remaining keys that are left out
 };
 
+/// Breaks a text into lines of at most `width` characters that begin with `before`.
 std::string wrapped(const std::string& text, const std::string& before) {
   std::string out, line = before;
   std::istringstream words(text);
@@ -38,13 +39,14 @@ std::string wrapped(const std::string& text, const std::string& before) {
   return out + line + '\n';
 }
 
-/// A line of the scene, with its comment behind it where both fit into the width.
+/// Returns a line of the scene with its comment: behind it if both fit into the width, otherwise above it.
 std::string line_of(const std::string& line, const std::string& comment) {
   const std::size_t column = std::max(comment_column, line.size() + 2);
   if (column + 2 + comment.size() > width) return wrapped(comment, "# ") + line + '\n';
   return fmt::format("{:<{}}# {}\n", line, column, comment);
 }
 
+/// Returns the explanation of a key with its choices and unit; `with_usual`: also what happens without the key.
 std::string comment_of(const KnownKey& key, bool with_usual) {
   std::string text = key.text;
   if (!key.words.choices.empty()) {
@@ -58,6 +60,7 @@ std::string comment_of(const KnownKey& key, bool with_usual) {
   return text;
 }
 
+/// Returns the text of a section.
 std::string written(const std::vector<KnownKey>& keys, const Part& part) {
   std::string chosen;
   for (const Given& given : part.given)
@@ -182,7 +185,7 @@ Part loading_of(const std::string& test) {
   if (test == "relaxation") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("strain", "1e-4");
   if (test == "creep") give("times", R"([1e-3, 1e3])"), give("points_per_decade", "4"), give("stress", R"("100 kPa")");
   if (test == "monotonic") give("rate", "1e-4"), give("strain", "1e-3"), give("points", "100");
-  // what cannot stand beside these, and what only method "explicit" takes
+  // keys that exclude those above, and keys that only method "explicit" has
   out.not_these = {"temperatures", "points", "platen_mass"};
   if (test == "monotonic") out.not_these = {"times", "points_per_decade"};
   return out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// overrides.cpp  Options in place of a scene's own values.
+// overrides.cpp  Replaces values of a scene by options.
 #include "host/scene/overrides.hpp"
 
 #include <fmt/format.h>
@@ -12,14 +12,15 @@ void apply(const Overrides& asked, Scene& scene) {
   if (asked.seed && scene.specimen.file) throw InputError("--seed: the scene takes its specimen from a file");
   if (asked.seed) {
     scene.specimen.seed = *asked.seed;
-    scene.text += fmt::format("\n# --seed {}\n", *asked.seed);  // a checkpoint belongs to the text
+    // a checkpoint is valid for one text only, so the seed must be in it
+    scene.text += fmt::format("\n# --seed {}\n", *asked.seed);
   }
   SolverSpec& solver = scene.solver;
   if (asked.method) solver.method = *asked.method;
   if (asked.backend) {
     solver.backend = *asked.backend;
     const bool may = solver.backend == Backend::cuda || solver.backend == Backend::automatic;
-    if (!may) solver.devices.clear();  // the scene's: it belongs to the backend that is replaced
+    if (!may) solver.devices.clear();  // the scene's devices belong to the backend that is replaced
   }
   if (asked.devices) solver.devices = *asked.devices;
   if (asked.precision) solver.precision = asked.precision;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file overrides.hpp  What whoever runs a scene asks for instead of the scene's own.
+/// \file overrides.hpp  Values given by the user of a scene that replace the values in the scene.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// Options of commands, and of Python; none: as the scene has it.
+/// Options of commands and of Python. An empty option leaves the scene's value.
 struct Overrides {
   std::optional<std::uint64_t> seed;
   std::optional<Backend> backend;
@@ -20,7 +20,7 @@ struct Overrides {
   std::optional<DeviceList> devices;
 };
 
-/// Changes the scene. \throws InputError for a seed of a scene that takes its specimen from a file.
+/// Replaces values of the scene. \throws InputError if a seed is given but the scene takes its specimen from a file.
 void apply(const Overrides& asked, Scene& scene);
 
 }  // namespace macadam

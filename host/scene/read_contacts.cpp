@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_contacts.cpp  `[[contacts]]`: one law for each pair type.
+/// \file read_contacts.cpp  Reads `[[contacts]]`: one law for each pair type.
 #include <cmath>
 #include <limits>
 #include <map>
@@ -16,7 +16,7 @@ namespace {
 using laws::ValueKind;
 using laws::ValueNeed;
 
-/// What a value of a law is; of a law that is not here, nothing.
+/// Returns the explanation of a value of a law; empty if it is not listed here.
 std::string text_of(const std::string& law, const std::string& key) {
   static const std::map<std::string, std::string> kelvin{{"E_m", "spring of the Maxwell unit"},
                                                          {"C_m", "dashpot of the Maxwell unit; inf: no dashpot"},
@@ -31,12 +31,12 @@ std::string text_of(const std::string& law, const std::string& key) {
   return found == texts.end() ? "" : found->second;
 }
 
-/// A modulus without a unit is in Pa. No solid is softer than this: such a number was meant in GPa or MPa. It does not
-/// hold for the springs of Kelvin units, which may be soft.
+/// A modulus without a unit is in Pa. No solid is softer than 1000 Pa, so a smaller number was probably meant in GPa or
+/// MPa. The springs of Kelvin units may be softer, so this rule is not for them.
 constexpr Rule in_pascals{[](double v) { return v >= 1000; },
                           "1000 Pa or more; a modulus in another unit is text with the unit"};
 
-/// The keys of one law, besides `pair`, `law`, `alpha` and `delta`, which all have.
+/// Returns the keys of one law, except for `pair`, `law`, `alpha` and `delta`, which all laws have.
 template <class L>
 std::vector<Key> keys_of(L& law) {
   std::vector<Key> out;
@@ -61,7 +61,7 @@ std::vector<Key> keys_of(L& law) {
   return out;
 }
 
-/// \throws InputError where the values of a law, each good by itself, do not fit together.
+/// \throws InputError if the values of a law, each valid by itself, do not fit together.
 template <class L>
 void check(const L& law, const Section& section) {
   if constexpr (requires { law.fault(); }) {
@@ -69,6 +69,7 @@ void check(const L& law, const Section& section) {
   }
 }
 
+/// Appends the name and an empty value of every kind of law.
 template <std::size_t I = 0>
 void list_laws(std::vector<std::string>& names, std::vector<Law>& laws) {
   if constexpr (I < std::variant_size_v<Law>) {
@@ -79,7 +80,7 @@ void list_laws(std::vector<std::string>& names, std::vector<Law>& laws) {
   }
 }
 
-/// An empty law of the kind that the section names.
+/// Returns an empty law of the kind that the section names.
 Law law_named_in(const Section& section) {
   std::vector<std::string> names;
   std::vector<Law> laws;
@@ -91,8 +92,9 @@ Law law_named_in(const Section& section) {
 
 }  // namespace
 
+/// Returns the keys that decide which facets between two particles become contacts.
 std::vector<Key> keys_of(FacetLimits& limits) {
-  // d − R_a − R_b over the mean radius is d/mean − 2.
+  // The gap d − R_a − R_b in units of the mean radius is d/mean − 2.
   constexpr Rule gap{[](double v) { return v > -2; }, "a gap above -2 mean radii, where centres coincide"};
   return {
       {"gap_max", Need::optional, into(limits.gap_max, ratio, gap),

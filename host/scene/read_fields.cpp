@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_fields.cpp  The keys of `[output]` that ask for fields.
+/// \file read_fields.cpp  Reads the keys of `[output]` that ask for fields.
 #include <array>
 
 #include <fmt/format.h>

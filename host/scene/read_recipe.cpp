@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_recipe.cpp  `[specimen.recipe]`: a mix design by mass. Types and units are checked here, all else where
-/// the design's volumes are worked out.
+/// \file read_recipe.cpp  Reads `[specimen.recipe]`: a mix design by mass. Types and units are checked here; everything
+/// else is checked where the volumes of the design are computed (host/recipe/).
 #include <cmath>
 
 #include <fmt/format.h>
@@ -10,11 +10,12 @@
 namespace macadam::scene {
 namespace {
 
-// Where `any` number may stand, the design's own checks say what it must be, beside the sum that it spoils.
+// Values with the rule `any` are checked together with the design, whose error shows the sum that a wrong value spoils.
 constexpr Rule share{[](double v) { return v >= 0 && v <= 1; },
                      "a share from 0 to 1, or text from \"0 %\" to \"100 %\""};
 
-/// The entries of a row: a size and shares of the aggregate's mass, so many in all.
+/// Returns the entries of a row: a size, then fractions of the aggregate's mass. \throws InputError if the row does not
+/// have `count` entries.
 std::vector<Value> row_of(const Value& row, std::size_t count, const std::string& expected) {
   std::vector<Value> out = row.entries(expected);
   if (out.size() != count) row.refuse(fmt::format("{} entries", out.size()), expected);
@@ -83,7 +84,8 @@ MixDesign read_recipe(const Section& section) {
 }
 
 void take_densities(const MixDesign& recipe, const Section& root, Materials& materials) {
-  // Densities are given with three digits or more: half a unit of the third is this share of 1.00, less of others.
+  // Densities are given with at least three digits. Half a unit of the third digit is this fraction of 1.00, and less
+  // of any other number.
   constexpr double rounding = 5e-3;
   const MixVolumes volumes = volumes_of(recipe);
   const auto take = [&](const std::string& phase, double& given, double derived, const std::string& sum) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_shapes.cpp  `[specimen.shapes]`: aggregates of real shape, filled with spheres.
+/// \file read_shapes.cpp  Reads `[specimen.shapes]`: aggregates of real shape, filled with spheres.
 #include <map>
 
 #include "host/scene/sections.hpp"

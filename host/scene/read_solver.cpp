@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_solver.cpp  `[solver]`: how the scene is stepped or solved.
+/// \file read_solver.cpp  Reads `[solver]`: how the scene is stepped or solved.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 namespace macadam::scene {
 namespace {
 
-/// Damping is a coefficient of the kind that stands beside it; a coefficient alone means local damping.
+/// Reads the damping. `damping` is the coefficient of the kind in `damping_kind`; without a kind it is local damping.
 void read_damping(const Section& section, SolverSpec& spec) {
   constexpr Rule chi{[](double v) { return v >= 0 && v < 1; }, "a local damping from 0 to below 1"};
   const auto value = section.find("damping");
@@ -27,7 +27,7 @@ void read_damping(const Section& section, SolverSpec& spec) {
   if (spec.damping == 0) spec.damping_kind = Damping::none;
 }
 
-/// A number for all frequencies, or an array of one for each.
+/// Returns one number for all frequencies, or an array with one number per frequency.
 std::vector<double> read_density_scaling(const Value& value, std::size_t frequencies) {
   if (!value.is_array()) return {value.number(ratio, positive)};
   std::vector<double> scaling = value.numbers(ratio, positive);
@@ -38,7 +38,7 @@ std::vector<double> read_density_scaling(const Value& value, std::size_t frequen
   return scaling;
 }
 
-/// A number, different numbers, or "all".
+/// Returns one device number, an array of different numbers, or every device for "all".
 DeviceList read_devices(const Value& value, int most) {
   const auto number = [&](const Value& v) { return static_cast<int>(v.integer(0, most)); };
   if (value.shown() == "\"all\"") return {every_device};
@@ -63,7 +63,7 @@ SolverSpec usual_solver(const Experiment& experiment) {
 SolverSpec read_solver(const Section& section, const Experiment& experiment) {
   const std::vector<double> frequencies = frequencies_of(experiment);
   constexpr Rule share{[](double v) { return v > 0 && v <= 1; }, "a share of the critical step, above 0 and at most 1"};
-  // below 1e-7 the harmonic solution that everything is measured against has too few digits itself
+  // errors are measured against the harmonic solution, which itself is not accurate enough for errors below 1e-7
   constexpr Rule error{[](double v) { return v >= 1e-7 && v <= 0.1; }, "an error from 1e-7 to 0.1"};
   constexpr std::int64_t most_threads = 65'536, most_devices = 1023;
   SolverSpec spec = usual_solver(experiment);
@@ -92,7 +92,7 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
         "which damping", "\"local\" beside damping, else none"},
        {"damping",
         Need::optional,
-        {[](const Value&) {}, {"number", &rate}},  // read when the kind is known
+        {[](const Value&) {}, {"number", &rate}},  // read_damping() reads it, once the kind is known
         "chi of local damping (a number below 1), or beta of viscous damping [1/s]",
         "0; a stepped relaxation, creep or constant rate chooses"},
        {"form", Need::optional,
@@ -140,8 +140,8 @@ SolverSpec read_solver(const Section& section, const Experiment& experiment) {
   if (!spec.devices.empty() && (spec.backend == Backend::cpu || spec.backend == Backend::reference)) {
     section.refuse("device", to_string(spec.devices), "none beside a backend other than \"cuda\" or \"auto\"");
   }
-  // A fit of the fundamental with offset and trend is meaningless with fewer than eight samples a cycle, and a sample
-  // takes a step.
+  // The fit of the fundamental with offset and trend needs at least eight samples per cycle, and a sample takes at
+  // least one step.
   constexpr double fewest_steps = 8;
   const double fastest = frequencies.empty() ? 0 : *std::max_element(frequencies.begin(), frequencies.end());
   if (spec.time_step && *spec.time_step * fastest * fewest_steps > 1) {

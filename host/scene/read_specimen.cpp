@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file read_specimen.cpp  `[specimen]`: a file, or a mixture by volume or by mass. Mixtures that no generator could
-/// follow are refused here.
+/// \file read_specimen.cpp  Reads `[specimen]`: a file, or a mixture by volume or by mass. Mixtures that no generator
+/// could make are refused here.
 #include <algorithm>
 #include <cmath>
 
@@ -27,7 +27,7 @@ Reader box_into(Box& box) {
   return {read, {"list of three numbers", &length, positive.words}};
 }
 
-/// Refuses a section in which both keys stand, or neither.
+/// Refuses a section that has both keys, or neither.
 void need_one_of(const Section& section, const std::string& a, const std::string& b) {
   const bool both = section.has(a) && section.has(b);
   if (both || (!section.has(a) && !section.has(b))) {
@@ -35,6 +35,7 @@ void need_one_of(const Section& section, const std::string& a, const std::string
   }
 }
 
+/// Refuses a diameter [m] that is not smaller than every edge of the box.
 void need_to_fit(const Section& section, const std::string& key, double diameter, const Box& box) {
   const double edge = std::min({box.size.x, box.size.y, box.size.z});
   if (diameter >= edge) {
@@ -91,10 +92,10 @@ VoidSpec read_voids(const Section& section, const Box& box, bool by_mass) {
   return out;
 }
 
-/// Refuses recipes that cannot be met whichever sizes are drawn. The bounds take the smallest aggregates where volume
-/// counts and the largest particles where number counts.
+/// Refuses mixtures that cannot be made, whichever sizes are sampled. The bounds assume the smallest aggregates for
+/// volumes and the largest particles for numbers of particles.
 void need_possible(const Section& section, const SpecimenSpec& spec) {
-  double fractions = 0, counted = 0, counted_most = 0;  // counted: volume of the classes that are given by count
+  double fractions = 0, counted = 0, counted_most = 0;  // least and greatest volume of the classes given by count
   std::int64_t count = 0;
   for (const AggregateClass& c : spec.aggregate) {
     fractions += c.volume_fraction.value_or(0);
@@ -102,7 +103,7 @@ void need_possible(const Section& section, const SpecimenSpec& spec) {
     counted += static_cast<double>(c.count.value_or(0)) * sphere_volume(c.sieve_min);
     counted_most += static_cast<double>(c.count.value_or(0)) * sphere_volume(c.sieve_max);
   }
-  double box = spec.box.volume();  // without the voids
+  double box = spec.box.volume();  // volume without the voids
   if (spec.voids)
     box -= spec.voids->count ? static_cast<double>(*spec.voids->count) * sphere_volume(2 * spec.voids->radius_min)
                              : *spec.voids->fraction * box;
@@ -115,7 +116,8 @@ void need_possible(const Section& section, const SpecimenSpec& spec) {
     section.refuse("aggregate", fmt::format("volume fractions with the sum {}", fractions),
                    "a sum below 1, as the mastic takes the rest of the solid volume");
   }
-  // With a count of mastic the solid volume follows from its share, 1 − Σ fractions; its least value is taken.
+  // If the mastic is given by count, the solid volume follows from the mastic's fraction of it, 1 − Σ fractions. The
+  // bound uses the smallest mastic spheres.
   double solid = counted;
   double number = static_cast<double>(count);
   if (spec.mastic && spec.mastic->porosity) {
@@ -149,7 +151,7 @@ void need_possible(const Section& section, const SpecimenSpec& spec) {
   }
 }
 
-/// Classes and porosity of the recipe, which stands in a section of its own.
+/// Takes aggregate classes and porosity from the recipe. `section` is `[specimen]`.
 void follow_recipe(const Section& section, const MixDesign& recipe, SpecimenSpec& spec) {
   if (section.has("aggregate"))
     section.refuse("aggregate", "classes of aggregate beside [specimen.recipe]", "one of the two");

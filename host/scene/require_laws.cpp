@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file require_laws.cpp  What a scene must give is known once its specimen and contact network are.
+/// \file require_laws.cpp  Checks, once specimen and contact network are known, that the scene has a density for every
+/// phase and a law for every pair that occurs.
 #include <algorithm>
 
 #include <fmt/format.h>

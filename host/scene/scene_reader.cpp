@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene_reader.cpp  read_scene: the file, its sections, and what holds between sections.
+/// \file scene_reader.cpp  read_scene: reads the file and its sections, and checks conditions between sections.
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
@@ -17,11 +17,13 @@ namespace macadam {
 namespace scene {
 namespace {
 
-/// A scene is written by hand; anything longer is another kind of file.
+/// Largest size of a scene file [bytes]. A scene is written by hand; a larger file is not a scene.
 constexpr std::uintmax_t longest_file = 1u << 20;
-/// A dotted key `a.a.a.…` nests a table a dot, and nested tables are destroyed by recursion: a line's length bounds it.
+/// Longest line [bytes]. A dotted key `a.a.a.…` nests one table per dot, and nested tables are destroyed recursively,
+/// so the length of a line limits the depth of the recursion.
 constexpr std::size_t longest_line = 2000;
 
+/// Returns the text of a file. `what` is the kind of file in messages. \throws InputError
 std::string read_text(const std::filesystem::path& file, const std::string& what) {
   std::error_code error;
   const auto refuse = [&](const std::string& found, const std::string& expected) {
@@ -56,11 +58,12 @@ void check_line_lengths(const std::string& text, const std::string& file, const 
   }
 }
 
-/// A density without a unit is in kg/m³. No solid is lighter than the lower limit: such a number was meant in g/cm³.
+/// Limits of a density, whose unit is kg/m³ if none is written. No solid is lighter than the lower limit, so a smaller
+/// number was probably meant in g/cm³.
 constexpr Rule in_kg_m3{[](double v) { return v >= 10 && v <= 30000; },
                         "10 to 30000 kg/m3; a density in another unit is text with the unit"};
 
-/// Densities may be left out where they follow from a recipe.
+/// Reads `[materials]`. `need`: whether densities are required. They may be left out if they follow from a recipe.
 Materials read_materials(const Section& section, Need need) {
   Materials materials;
   const auto phase = [need](double& target) {
@@ -100,7 +103,7 @@ void read_output(const Section& section, OutputSpec& spec) {
   check_fields(section, spec.fields);
 }
 
-/// What can only be said of two sections together.
+/// Checks conditions between two sections. \throws InputError
 void check_together(const Scene& scene, const Section& root) {
   if (scene.network.quadrature == Quadrature::exact && scene.solver.backend == Backend::reference &&
       scene.solver.method == SolverMethod::explicit_) {
@@ -155,10 +158,11 @@ toml::table parse_toml(const std::string& text, const std::filesystem::path& fil
 
 namespace {
 
+/// Returns a copy without line numbers, so that messages about it name no line.
 toml::table without_lines(const toml::table& table);
 toml::array without_lines(const toml::array& array);
 
-/// f(a copy of what stands in a node); the copy does not know where it stood.
+/// Calls f with a copy of the content of a node. The copy has no line numbers.
 template <class F>
 void copied(const toml::node& node, F&& f) {
   node.visit([&](const auto& one) {
@@ -181,7 +185,7 @@ toml::table without_lines(const toml::table& table) {
   return out;
 }
 
-/// `densities`: whether the scene must have those of its materials.
+/// Reads all sections. `densities`: whether the scene must give the densities of its materials.
 Scene read_root(const std::filesystem::path& file, const Section& root, Need densities) {
   Scene out;
   out.file = file;

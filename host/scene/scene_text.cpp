@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scene_text.cpp  Where a value stands in the text is what the TOML parser says; it is asked anew for every change.
+// scene_text.cpp  The TOML parser reports where a value is in the text. The text is parsed again for every change.
 #include "host/scene/scene_text.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 namespace macadam::scene {
 namespace {
 
-/// Byte of a place in the text; the parser's columns count characters of UTF-8.
+/// Returns the byte index of a place in the text. The parser's columns count characters of UTF-8.
 std::size_t offset_of(const std::string& text, const toml::source_position& place) {
   std::size_t at = 0;
   for (toml::source_index line = 1; line < place.line; ++line) at = text.find('\n', at) + 1;
@@ -22,13 +22,13 @@ std::size_t offset_of(const std::string& text, const toml::source_position& plac
   return at;
 }
 
-/// A TOML number that is read as the same double.
+/// Returns a TOML number that is read back as the same double.
 std::string real(double v) {
   const std::string text = fmt::format("{}", v);
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-/// In TOML's basic quotes.
+/// Returns the text in TOML's basic quotes.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -38,6 +38,7 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
+/// Bytes of a text and their replacement.
 struct Change {
   std::size_t begin, end;  ///< bytes that are replaced
   std::string by;
@@ -47,7 +48,8 @@ Change replaced(const std::string& text, const toml::node& node, std::string by)
   return {offset_of(text, node.source().begin), offset_of(text, node.source().end), std::move(by)};
 }
 
-/// A key, set where it is there, else added before the first one of the table.
+/// Returns the change that sets a key: its value is replaced if the key is there, otherwise the key is added before the
+/// first key of the table.
 Change set(const std::string& text, const toml::table& table, const std::string& key, std::string value) {
   if (const toml::node* node = table.get(key)) return replaced(text, *node, std::move(value));
   toml::source_position first{~toml::source_index{0}, 0};
@@ -84,7 +86,7 @@ void SceneText::set_seed(std::uint64_t seed) {
 
 void SceneText::move(const std::filesystem::path& from, const std::filesystem::path& to) {
   namespace fs = std::filesystem;
-  // each parse serves one change, after which places in the text are others
+  // the text is parsed for each change, because a change moves the text behind it
   for (const bool shapes : {false, true}) {
     const toml::table root = toml::parse(text_);
     const auto view = shapes ? root["specimen"]["shapes"]["library"] : root["specimen"]["file"];
@@ -93,7 +95,7 @@ void SceneText::move(const std::filesystem::path& from, const std::filesystem::p
       continue;
     const fs::path moved =
         fs::weakly_canonical(fs::absolute(from) / *name).lexically_relative(fs::weakly_canonical(fs::absolute(to)));
-    // "./" keeps a folder named as a built-in library a folder
+    // "./" marks the name as a folder, even if a built-in library has the same name
     const Change change = replaced(text_, *view.node(), quoted((shapes ? "./" : "") + moved.string()));
     replace(change.begin, change.end, change.by);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene_text.hpp  Changes of single values in the text of a scene; comments, order and all else stay.
+/// \file scene_text.hpp  Changes single values in the text of a scene. Comments, order and everything else stay.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,17 @@
 
 namespace macadam::scene {
 
-/// A scene that was read, as text.
+/// The text of a scene that has been read without errors.
 class SceneText {
  public:
   explicit SceneText(std::string text) : text_(std::move(text)) {}
 
-  /// A key of a pair's `[[contacts]]`: `delta`, `alpha`, a modulus or a viscosity; `E_2` is the second entry of `E`.
+  /// Sets a value in the `[[contacts]]` of a pair. `name`: `delta`, `alpha`, a modulus or a viscosity; `E_2` is the
+  /// second entry of `E`.
   void set_contact(PairType pair, const std::string& name, double value);
   void set_seed(std::uint64_t seed);
-  /// Paths are relative to a scene's folder; these are those of the folder `to`.
+  /// Changes the paths in the text, which are relative to the folder `from`, so that they are relative to the folder
+  /// `to`.
   void move(const std::filesystem::path& from, const std::filesystem::path& to);
 
   const std::string& text() const { return text_; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sections.hpp  The sections of a scene that have a file of their own.
+/// \file sections.hpp  Readers of those sections of a scene that have a file of their own.
 #pragma once
 
 #include "host/scene/table.hpp"
@@ -7,13 +7,14 @@
 
 namespace macadam::scene {
 
-/// The text of a TOML file and its tables; `what` it is in messages. \throws InputError
+/// Reads a TOML file: returns its tables and stores its text in `text`. `what` is the kind of file in messages. \throws
+/// InputError
 toml::table read_toml(const std::filesystem::path& file, const std::string& what, std::string& text);
-/// The tables of a text that stands for the file's. \throws InputError
+/// Returns the tables of `text`, which is used in place of the content of `file`. \throws InputError
 toml::table parse_toml(const std::string& text, const std::filesystem::path& file, const std::string& what);
 
-/// Reads `[specimen]`: a file or what the generator needs, whichever it is, that is not impossible; `recipe` is what
-/// its classes follow from, where there is one. Paths are taken from `folder`. \throws InputError
+/// Reads `[specimen]`: a file, or the values for the generator. Mixtures that cannot be made are refused. `recipe`
+/// receives the mix design, if there is one. Relative paths start from `folder`. \throws InputError
 SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& folder,
                            std::optional<MixDesign>& recipe);
 
@@ -21,44 +22,44 @@ SpecimenSpec read_specimen(const Section& section, const std::filesystem::path& 
 /// \throws InputError
 MixDesign read_recipe(const Section& section);
 
-/// Gives the materials the densities that follow from the recipe. `root` is the whole scene.
-/// \throws InputError where the scene gives others.
+/// Sets the densities of the materials to those that follow from the recipe. `root` is the whole scene.
+/// \throws InputError if the scene gives other densities.
 void take_densities(const MixDesign& recipe, const Section& root, Materials& materials);
 
-/// Reads `[specimen.shapes]`; paths are taken from `folder`.
+/// Reads `[specimen.shapes]`. Relative paths start from `folder`.
 /// \throws InputError
 ShapeSpec read_shapes(const Section& section, const std::filesystem::path& folder);
 
-/// A reader of `[min, max]` [m] with 0 < min ≤ max.
+/// Returns a reader of `[min, max]` [m] with 0 < min ≤ max.
 Reader range_into(double& low, double& high);
 
-/// The keys of limits on facets, in `[network]` or of one pair.
+/// Returns the keys of the limits on facets, in `[network]` or of one pair.
 std::vector<Key> keys_of(FacetLimits& limits);
 
-/// Reads every `[[contacts]]`; laws are at their reference temperatures, how they shift goes into `shifts`, what was
-/// multiplied into them into `deltas`, limits on
-/// a pair's facets into `network`.
+/// Reads every `[[contacts]]` and returns the laws at their reference temperatures. Stores how the laws shift in
+/// `shifts`, the factors that were multiplied into them in `deltas`, and limits on a pair's facets in `network`.
 /// \throws InputError
 LawTable read_contacts(const std::vector<Section>& sections, ShiftLaws& shifts, Deltas& deltas, NetworkSpec& network);
 
-/// The keys of fields, in `[output]`, and what holds between them. \throws InputError
+/// The keys of fields in `[output]`, and the check that they fit together. \throws InputError
 /// @{
 std::vector<Key> keys_of(FieldSpec& spec);
 void check_fields(const Section& section, const FieldSpec& spec);
 /// @}
 
-/// Brings the laws to the scene's temperature, and checks that each temperature that it names means something.
+/// Brings the laws to the scene's temperature. Checks for every temperature in the scene that it changes a law and that
+/// all shifts have a value there.
 /// \throws InputError
 void apply_temperature(Scene& scene, const Section& root);
 
-/// Reads `[loading]` as its `kind` has it.
+/// Reads `[loading]`, whose `kind` decides the other keys.
 /// \throws InputError
 Experiment read_experiment(const Section& section);
 
-/// How a test is run that says nothing of it.
+/// Returns the solver settings of a scene without `[solver]`.
 SolverSpec usual_solver(const Experiment& experiment);
 
-/// Reads `[solver]`; density scaling and time step are checked against the test's frequencies.
+/// Reads `[solver]`. Density scaling and time step are checked against the experiment's frequencies.
 /// \throws InputError
 SolverSpec read_solver(const Section& section, const Experiment& experiment);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shift_keys.hpp  The keys of a shift law beside those of a contact law or a model: `shift` and what it takes.
+/// \file shift_keys.hpp  The keys of a shift law, `shift` and its constants, which stand among the keys of a contact
+/// law or a model.
 #pragma once
 
 #include "host/scene/table.hpp"
@@ -7,18 +8,21 @@
 
 namespace macadam::scene {
 
-/// A temperature in °C. No test is as warm as the upper limit; one that is given in kelvins mostly is above it.
+/// Condition on a temperature in °C. No test is as warm as the upper limit; a temperature in kelvins is mostly above
+/// it.
 inline constexpr Rule celsius{[](double v) { return v > -laws::zero_celsius && v < 250; },
                               "a temperature above -273.15 and below 250 degrees C, not in kelvins"};
 
-/// The temperatures at which a shift has a value, for messages.
+/// Describes, for messages, the temperatures at which a shift has a value.
 std::string range_of(const laws::Shift& shift);
 
-/// Keys to be read with others; they store here, so this must outlive Section::read. Then shift() is what they make.
+/// The keys of a shift law. keys() are read together with other keys of a section; they store their values in this
+/// object, which must outlive Section::read. Then shift() returns the law.
 class ShiftKeys {
  public:
   std::vector<Key> keys();
-  /// \throws InputError for a key that is missing, or there without the shift that takes it.
+  /// Returns the shift law. \throws InputError for a key that is missing, or that belongs to another shift than the
+  /// given one.
   laws::Shift shift(const Section& section) const;
 
  private:

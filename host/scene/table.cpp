@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file table.cpp  Types, ranges and unknown keys of TOML tables.
+/// \file table.cpp  Checks types, ranges and unknown keys of TOML tables.
 #include "host/scene/table.hpp"
 
 #include <algorithm>
@@ -81,7 +81,7 @@ std::int64_t Value::integer(std::int64_t min, std::int64_t max) const {
   const std::string expected = max == std::numeric_limits<std::int64_t>::max()
                                    ? fmt::format("an integer of at least {}", min)
                                    : fmt::format("an integer from {} to {}", min, max);
-  constexpr double exact = 9007199254740992.0;  // 2^53: above it a double does not tell whole numbers apart
+  constexpr double exact = 9007199254740992.0;  // 2^53: above it a double cannot represent every whole number
   std::optional<std::int64_t> value;
   if (const auto* integer = node_->as_integer()) {
     value = integer->get();

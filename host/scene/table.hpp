@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file table.hpp  Checked access to TOML tables: each section is read through one list of its keys, so the keys that
-/// are known and the keys that are read cannot differ. Every error names file, line, key, what was found and expected.
+/// \file table.hpp  Checked access to TOML tables. Each section is read through one list of its keys, so that the known
+/// keys and the keys that are read cannot differ. Every error names the file, the line, the key, the value found and
+/// the values expected.
 #pragma once
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@
 
 namespace macadam::scene {
 
-/// What a number must satisfy besides being finite, and the words for it.
+/// A condition on a number, besides being finite, and its description.
 struct Rule {
   bool (*holds)(double);
   const char* words;
@@ -32,10 +33,10 @@ inline constexpr Rule non_negative{[](double v) { return v >= 0; }, "a number th
 class Section;
 class Collector;
 
-/// One value of a scene and where it stands.
+/// One value of a scene, with its file, line and name for messages.
 class Value {
  public:
-  /// A node of `file`, called `name` in messages; `path` is its dotted key.
+  /// `node` is the value in `file`, `name` is what messages call it, and `path` is its dotted key.
   Value(std::string file, int line, std::string name, std::string path, const toml::node& node,
         Collector* collector = nullptr)
       : file_(std::move(file)),
@@ -45,33 +46,31 @@ class Value {
         node_(&node),
         collector_(collector) {}
 
-  /// A finite number that satisfies the rule, in SI units; text must carry a unit of the quantity.
+  /// Returns a finite number that satisfies the rule, in SI units. Text must have a unit of the quantity.
   double number(const Quantity& quantity, const Rule& rule) const;
-  /// An array of such numbers.
+  /// Returns an array of such numbers.
   std::vector<double> numbers(const Quantity& quantity, const Rule& rule) const;
-  /// A whole number in [min, max]; 2e6 counts as whole, 5.5 does not.
+  /// Returns a whole number in [min, max]; 2e6 counts as whole, 5.5 does not.
   std::int64_t integer(std::int64_t min, std::int64_t max) const;
-  /// true or false.
   bool boolean() const;
-  /// Text that is not empty.
+  /// Returns the text, which must not be empty.
   std::string text() const;
-  /// The position in `names` of this text.
+  /// Returns the index of this text in `names`.
   std::size_t choice(const std::vector<std::string>& names) const;
-  /// The entries of an array.
+  /// Returns the entries of an array.
   std::vector<Value> entries(const std::string& expected) const;
-  /// The value as a section `[path]`.
+  /// Returns the value as a section `[path]`.
   Section section() const;
-  /// The value as sections `[[path]]`, at least one.
+  /// Returns the value as sections `[[path]]`, at least one.
   std::vector<Section> sections() const;
 
   int line() const { return line_; }
-  /// Whether the value is an array.
   bool is_array() const { return node_->is_array(); }
   /// Whether the value is text, as numbers with a unit are.
   bool is_text() const { return node_->is_string(); }
   /// Whether the value is written `inf`.
   bool is_infinite() const;
-  /// The value as messages show it.
+  /// Returns the value as messages show it.
   std::string shown() const;
   /// \throws InputError for this value.
   [[noreturn]] void refuse(const std::string& found, const std::string& expected) const;
@@ -88,17 +87,17 @@ class Value {
 
 enum class Need : std::uint8_t { optional, required };
 
-/// What a value is, for people; what is empty is not so.
+/// Description of a value, for people. A member that does not apply is empty.
 struct Words {
   std::string type = {};                  ///< "number", "list of numbers", "text", "section", …
-  const Quantity* quantity = nullptr;     ///< of a number
-  std::string rule = {};                  ///< what it must satisfy
-  std::string usual = {};                 ///< where the scene gives none, as a scene would write it
-  std::vector<std::string> choices = {};  ///< texts that it may be
+  const Quantity* quantity = nullptr;     ///< of a number: its units
+  std::string rule = {};                  ///< condition that it must satisfy
+  std::string usual = {};                 ///< default, as a scene would write it
+  std::vector<std::string> choices = {};  ///< allowed texts
   bool operator==(const Words&) const = default;
 };
 
-/// What reads the value of a key, and the words for it.
+/// The function that reads the value of a key, and the description of the value.
 struct Reader {
   template <class F>
   requires std::is_invocable_v<F, const Value&> Reader(F f, Words in_words = {})
@@ -108,19 +107,20 @@ struct Reader {
   Words words;
 };
 
-/// A key of a section, and what to do with its value.
+/// A key of a section and the reader of its value.
 struct Key {
   std::string name;
   Need need;
   Reader read;
-  std::string text = {};   ///< what it is, for people
-  std::string usual = {};  ///< what holds without it, in words, where that is no fixed value
+  std::string text = {};   ///< meaning of the key, for people
+  std::string usual = {};  ///< effect of leaving the key out, in words, if the default is not a fixed value
 };
 
-/// A TOML table of which every key has to be known.
+/// A TOML table in which every key must be known.
 class Section {
  public:
-  /// The table `title` (as messages show it; empty for the whole file), its dotted key and its line (0: none).
+  /// `title` is what messages call the table (empty for the whole file), `path` is its dotted key, and `line` is 0 if
+  /// it has none.
   Section(std::string file, int line, std::string title, std::string path, const toml::table& table,
           Collector* collector = nullptr)
       : file_(std::move(file)),
@@ -130,18 +130,17 @@ class Section {
         table_(&table),
         collector_(collector) {}
 
-  /// Refuses unknown keys (naming the nearest known one), then reads the given keys in this order. Where keys are
-  /// collected, in place of it: hands the keys over, and those of the sections among them, and leaves the reader.
+  /// Refuses unknown keys, naming the nearest known one, then reads the given keys in this order. With a collector it
+  /// reads no values: it passes the collector these keys and those of their sections, and throws Collector::Done.
   /// \throws InputError for an unknown, missing or wrong key.
   void read(const std::vector<Key>& keys) const;
 
-  /// The value of a key, if it is there.
+  /// Returns the value of a key, if the key is there.
   std::optional<Value> find(const std::string& key) const;
   const std::string& file() const { return file_; }
   int line() const { return line_; }
-  /// Whether the key is there.
   bool has(const std::string& key) const { return table_->contains(key); }
-  /// \throws InputError at the key's line, or at the section's where the key is absent.
+  /// \throws InputError at the line of the key, or at the line of the section if the key is absent.
   [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected) const;
 
  private:
@@ -154,15 +153,15 @@ class Section {
   Collector* collector_;
 };
 
-/// A default as a scene would write it.
+/// Return a default as a scene would write it; an empty text for values without a default.
 /// @{
 inline std::string written(double value) { return fmt::format("{}", value); }
 inline std::string written(const std::optional<double>&) { return ""; }
 inline std::string written(const std::vector<double>&) { return ""; }
 /// @}
 
-/// Readers for the keys of a section: each stores the checked value in `target`, which must outlive Section::read and
-/// holds the default.
+/// Return readers for the keys of a section. Each reader stores the checked value in `target`, which must outlive
+/// Section::read and holds the default until then.
 /// @{
 inline Reader into(double& target, const Quantity& quantity, const Rule& rule) {
   return {[&target, &quantity, rule](const Value& value) { target = value.number(quantity, rule); },
@@ -176,15 +175,15 @@ inline Reader into(std::vector<double>& target, const Quantity& quantity, const 
   return {[&target, &quantity, rule](const Value& value) { target = value.numbers(quantity, rule); },
           {"list of numbers", &quantity, rule.words}};
 }
-/// A positive number whose unit is easily forgotten: with its unit it is taken as it is, without one it must satisfy
-/// `bare`, which tells SI units from others.
+/// Returns a reader of a positive number whose unit is easily forgotten. A number with a unit only has to be positive;
+/// one without must satisfy `bare`, which tells values in SI units from others.
 inline Reader positive_into(double& target, const Quantity& quantity, const Rule& bare) {
   return {[&target, &quantity, bare](const Value& value) {
             target = value.number(quantity, value.is_text() ? positive : bare);
           },
           {"number", &quantity, bare.words, written(target)}};
 }
-/// The words for whole numbers of a range.
+/// Returns the description of whole numbers in a range.
 inline Words whole(std::int64_t min, std::int64_t max, std::string usual = "") {
   return {"whole number", nullptr,
           max == std::numeric_limits<std::int64_t>::max() ? fmt::format("at least {}", min)
@@ -228,7 +227,7 @@ Reader into(std::optional<Enum>& target, std::vector<std::pair<std::string, Enum
           },
           words};
 }
-/// A section of its own, or several.
+/// Return a reader of one section, or of several sections with the same name.
 template <class F>
 Reader section_by(F read) {
   return {std::move(read), {"section"}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// temperature.cpp  The laws of a scene at its temperature, or at those of its loading.
+// temperature.cpp  Shifts the laws of a scene to its temperature, or to the temperatures of its loading.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace {
 
 bool shifts(const laws::Shift& shift) { return !std::holds_alternative<laws::NoShift>(shift); }
 
-/// 0 where the scene's laws are at their own reference temperatures.
+/// Returns log10 of the shift factor that the scene's laws already contain: 0 if they are at their reference
+/// temperatures.
 double present(const Scene& scene, const laws::Shift& shift) {
   return scene.materials.temperature ? laws::log10_shift(shift, *scene.materials.temperature) : 0;
 }
@@ -71,7 +72,8 @@ void apply_temperature(Scene& scene, const Section& root) {
     for (const double temperature : several) check("loading", "temperatures", temperature);
   }
   if (const std::optional<double> temperature = scene.materials.temperature) {
-    scene.materials.temperature.reset();  // the laws are at their reference temperatures until here
+    // laws_at() takes the scene's laws to be at this temperature, but they are still at their reference temperatures
+    scene.materials.temperature.reset();
     scene.laws = check("materials", "temperature", *temperature);
     scene.materials.temperature = temperature;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file units.cpp  The table of units, and the one place that applies it.
+/// \file units.cpp  The table of units, and the only functions that use it.
 #include "host/scene/units.hpp"
 
 #include <charconv>
@@ -32,7 +32,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
 }
 
-/// The double nearest to the decimal number `digits`·10^shift.
+/// Returns the double nearest to the decimal number `digits`·10^shift.
 std::optional<double> scaled(std::string_view digits, int shift) {
   const auto mark = digits.find_first_of("eE");
   int exponent = 0;
@@ -74,7 +74,7 @@ std::string accepted(const Quantity& quantity) {
 std::optional<double> parse(std::string_view text, const Quantity& quantity) {
   text = trimmed(text);
   if (text.starts_with('+')) text.remove_prefix(1);
-  double number = 0;  // found here only to see where the digits end; `scaled` makes the value
+  double number = 0;  // only needed to see where the digits end; `scaled` computes the value
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc()) return {};
   const auto count = static_cast<std::size_t>(end - text.data());

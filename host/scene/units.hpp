@@ -9,13 +9,13 @@
 
 namespace macadam::scene {
 
-/// A unit as a power of ten of the SI unit, times a whole number.
+/// A unit: `factor` times 10^`exponent` of the SI unit.
 struct Unit {
   std::string_view name;
   int exponent, factor = 1;
 };
 
-/// A physical dimension: what it is called and which units it may come in, the SI unit first.
+/// A physical dimension: its name, and the units in which it may be given, the SI unit first.
 struct Quantity {
   const char* name;
   std::span<const Unit> units;
@@ -32,13 +32,14 @@ extern const Quantity rate;                    ///< [1/s]
 extern const Quantity temperature;             ///< [°C]
 extern const Quantity temperature_difference;  ///< [K]
 extern const Quantity molar_energy;            ///< [J/mol]
-extern const Quantity ratio;                   ///< [1]; as text a percentage
+extern const Quantity ratio;                   ///< [1]; a text is a percentage
 
-/// How a value of this quantity may be written, for messages: `a number in Pa, or text with one of: Pa, kPa, …`.
+/// Describes, for messages, how a value of this quantity may be written: `a number in Pa, or text with one of: Pa, kPa,
+/// …`.
 std::string accepted(const Quantity& quantity);
 
-/// The SI value of `text`, a decimal number followed by a unit of the quantity; empty when it is anything else. The
-/// power of ten is applied to the decimal text, so "9.5 mm" is the same double as 0.0095.
+/// Returns the SI value of `text`, a decimal number followed by a unit of the quantity; empty if it is anything else.
+/// The power of ten is applied to the decimal text, so that "9.5 mm" is the same double as 0.0095.
 std::optional<double> parse(std::string_view text, const Quantity& quantity);
 
 }  // namespace macadam::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoints.cpp  When a run is written down, and that a checkpoint of any other run is refused.
+// checkpoints.cpp  Decides when a checkpoint is written, and refuses the checkpoints of other runs.
 #include "host/simulation/checkpoints.hpp"
 
 #include <fmt/format.h>
@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char *specimen_text = "specimen", *state_prefix = "state ";
 
-/// What a checkpoint must have in common with the run that goes on from it, besides the specimen. Precision, form and
-/// geometry as asked for: where nothing is, the plan holds what was chosen.
+/// Returns what a checkpoint and the run that continues from it must have in common, besides the specimen. Precision,
+/// form and geometry are compared as the scene gives them; if it does not, the checkpoint's plan holds what was chosen.
 std::map<std::string, std::string> identity(const Scene& scene, Backend backend) {
   const auto asked = [](const auto& choice) { return std::string(choice ? to_string(*choice) : "not given"); };
   return {{"scene", scene.text},
@@ -30,14 +30,14 @@ std::map<std::string, std::string> identity(const Scene& scene, Backend backend)
           {"geometry", asked(scene.solver.geometry)}};
 }
 
-/// Particles and contacts with a checksum of all that the steps take from them.
+/// Describes particles and contacts, with a checksum of those data that the steps use.
 std::string fingerprint(const Preparation& prepared) {
   const ContactNetwork& n = prepared.network;
   return fmt::format("{} particles, {} contacts, {} contact points, CRC-32 {:08x}", prepared.specimen.size(),
                      n.contacts.size(), n.point_area.size(), checksum(prepared));
 }
 
-/// The first line that two texts do not share, in words.
+/// Returns the first line in which two texts differ, first from `found`, then from `expected`.
 std::pair<std::string, std::string> first_difference(const std::string& found, const std::string& expected) {
   std::istringstream a(found), b(expected);
   for (int line = 1;; ++line) {
@@ -56,7 +56,7 @@ std::pair<std::string, std::string> first_difference(const std::string& found, c
   throw InputError(file.string(), 0, "checkpoint of another " + what, found, expected + ", as in this run");
 }
 
-/// Texts of a checkpoint and of a run, the same or refused.
+/// \throws InputError if the texts of a checkpoint differ from those of a run.
 void require_same_run(const std::filesystem::path& file, const Checkpoint& checkpoint, const Scene& scene,
                       Backend backend) {
   for (const auto& [what, expected] : identity(scene, backend)) {
@@ -86,7 +86,7 @@ std::uint32_t checksum(const Preparation& prepared) {
     sum = crc32_z(sum, reinterpret_cast<const Bytef*>(list.data()), list.size() * sizeof(list[0]));
   };
   const Specimen& s = prepared.specimen;
-  add(s.centre), add(s.radius), add(s.phase), add(s.body);  // voids show in the contacts
+  add(s.centre), add(s.radius), add(s.phase), add(s.body);  // voids are not added, because they show in the contacts
   const ContactNetwork& n = prepared.network;
   add(n.point_s), add(n.point_t), add(n.point_area);
   return static_cast<std::uint32_t>(sum);
@@ -179,7 +179,7 @@ void Checkpoints::look(const Content& content, const Stepper& stepper, const std
 }
 
 void Checkpoints::write(const Content& content, const Stepper& stepper) const {
-  std::vector<StateArray> state = stepper.state();  // first, as several processes gather it
+  std::vector<StateArray> state = stepper.state();  // first, because all ranks take part in gathering it
   if (!is_first_rank()) return;
   Checkpoint out;
   out.texts = identity(scene_, backend_);
@@ -193,17 +193,18 @@ void Checkpoints::write(const Content& content, const Stepper& stepper) const {
   write_checkpoint(file_, out);
 }
 
-/// A second name for what the next one replaces, made aside: at no moment is there none. A file system without such
-/// names keeps one checkpoint only.
+/// Gives the checkpoint that is about to be replaced a second name. The second name is made aside and then renamed, so
+/// that there is one at every moment. A file system without such names (hard links) keeps one checkpoint only.
 void Checkpoints::keep_previous() const {
   namespace fs = std::filesystem;
   const fs::path previous = file_.parent_path() / previous_checkpoint_name, aside = previous.string() + ".part";
   std::error_code ignored;
   if (!own_) {
-    fs::remove(previous, ignored);  // of another run
+    fs::remove(previous, ignored);  // it belongs to another run
     return;
   }
-  if (fs::equivalent(file_, previous, ignored)) return;  // the last one could not be written
+  // the link exists already: the attempt before this one could not write its checkpoint
+  if (fs::equivalent(file_, previous, ignored)) return;
   fs::remove(aside, ignored);
   std::error_code error;
   fs::create_hard_link(file_, aside, error);

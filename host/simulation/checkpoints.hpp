@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file checkpoints.hpp  Where a stepped run stands, when it is written down, and to which run that belongs.
+/// \file checkpoints.hpp  Checkpoints of a stepped run: when they are written, and to which run they belong.
 #pragma once
 
 #include <chrono>
@@ -14,57 +14,57 @@
 
 namespace macadam {
 
-/// The checkpoint's name in the folder of the results.
+/// The file name of the checkpoint in the folder of the results.
 inline constexpr const char* checkpoint_name = "checkpoint.h5";
-/// The one before it, of the same run, for where the newest is damaged on the disk.
+/// The file name of the previous checkpoint of the same run. It is used if the newest file is damaged.
 inline constexpr const char* previous_checkpoint_name = "checkpoint-previous.h5";
 
-/// Whether runs of this scene keep checkpoints; `why_not` (optional) says why they do not.
+/// Whether runs of this scene keep checkpoints. `why_not` (optional) receives the reason if they do not.
 bool keeps_checkpoints(const Scene& scene, Backend backend, std::string* why_not = nullptr);
 
-/// Whether a folder of results has a checkpoint, or the one before.
+/// Whether a results folder has a checkpoint, the newest or the previous one.
 bool has_checkpoint(const std::filesystem::path& folder);
 
-/// What a run can go on from.
+/// A checkpoint from which a run can continue.
 struct FoundCheckpoint {
   std::filesystem::path file;
   Checkpoint checkpoint;
-  std::string damage;  ///< what is wrong with the newest, where this is the one before; else empty
+  std::string damage;  ///< the fault of the newest checkpoint, if this is the previous one; otherwise empty
 };
 
-/// Reads the checkpoint of this scene on this backend, which belongs to one of its tests, from a folder of results:
-/// where the newest is missing or damaged, the one before, if that is whole.
-/// \throws InputError as read_checkpoint() of the newest, and naming what differs: scene (with the first line that
-/// does), version, backend, precision, form or geometry.
+/// Reads the checkpoint of this scene on this backend from a results folder. If the newest one is missing or damaged,
+/// reads the previous one, if that is intact.
+/// \throws InputError as read_checkpoint() does for the newest; also if the checkpoint belongs to another run, naming
+/// what differs: scene (with the first different line), version, backend, precision, form or geometry.
 FoundCheckpoint find_checkpoint(const std::filesystem::path& folder, const Scene& scene, Backend backend);
 
-/// Whether a file is a whole checkpoint of this scene on this backend.
+/// Whether a file is an intact checkpoint of this scene on this backend.
 bool is_checkpoint_of(const std::filesystem::path& file, const Scene& scene, Backend backend);
 
-/// CRC-32 of all that the steps take from particles and contacts.
+/// Returns the CRC-32 of those data of particles and contacts that the steps use.
 std::uint32_t checksum(const Preparation& prepared);
 
-/// \throws InputError when the checkpoint's particles and contacts were others (its specimen file was changed).
+/// \throws InputError if the checkpoint was written for other particles or contacts (its specimen file was changed).
 void require_same_specimen(const std::filesystem::path& file, const Checkpoint& found, const Preparation& prepared);
 
-/// Stepper::state() out of a checkpoint, whose other arrays stay.
+/// Takes Stepper::state() out of a checkpoint and returns it. The other arrays stay.
 std::vector<StateArray> take_state(Checkpoint& from);
 
-/// A test's own part of a checkpoint: adds its texts and arrays.
+/// Adds an experiment's own texts and arrays to a checkpoint.
 using Content = std::function<void(Checkpoint& to)>;
 
-/// Writes checkpoints of one run where they are due. One that cannot be written (a full disk) is a warning: the one
-/// before it stays, and the run goes on.
+/// Writes the checkpoints of one run when they are due. If one cannot be written (a full disk), that is a warning: the
+/// previous one stays, and the run continues.
 class Checkpoints {
  public:
   Checkpoints(const std::filesystem::path& file, const Scene& scene, const Preparation& prepared, Backend backend,
               std::function<bool()> stop, std::function<void(const std::string&)> warn, bool resumed);
 
-  /// Looks whether it is time or the run is to stop; `where` is for the message.
-  /// \throws InterruptedError when it was to stop, with the checkpoint written, or why it could not be.
+  /// Writes a checkpoint if one is due or the run must stop. `where` is for messages.
+  /// \throws InterruptedError if the run must stop; it says that the checkpoint was written, or why it could not be.
   void look(const Content& content, const Stepper& stepper, const std::string& where);
 
-  /// Whether the file, if it is there, is this run's: it was written, or the run goes on from it.
+  /// Whether the file, if it exists, belongs to this run: the run has written it or continues from it.
   bool own() const { return own_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// combination.cpp  Refuses what a scene and the command line ask for together.
+// combination.cpp  Refuses settings of a scene and of the command line that do not go together.
 #include "host/simulation/combination.hpp"
 
 #include <fmt/format.h>

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file combination.hpp  Whether method, backend, test and output of a scene go together.
+/// \file combination.hpp  Checks whether method, backend, experiment and output of a scene go together.
 #pragma once
 
 #include "macadam/scene.hpp"
 
 namespace macadam {
 
-/// Of a scene whose keys are each possible; the command line may have changed some since it was read.
-/// \throws InputError naming the scene, what does not go with what, and what would.
+/// Checks a scene whose keys are each valid; the command line may have changed some since it was read.
+/// \throws InputError naming the scene, the settings that exclude each other, and settings that are possible.
 void require_combination(const Scene& scene);
 
 }  // namespace macadam

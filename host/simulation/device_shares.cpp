@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// device_shares.cpp  Chooses devices by the number of their scenes and by the work that is left.
 #include "host/simulation/device_shares.hpp"
 
 #include <algorithm>
@@ -8,7 +9,8 @@
 namespace macadam {
 namespace {
 
-/// Of a scene's work: what has to be gained. Making a stepper takes some hundredths of the steps of a frequency.
+/// Least gain for which a scene moves, as a fraction of its work. Making a stepper takes some hundredths of the time
+/// that the steps of a frequency take.
 constexpr double worth_a_move = 0.125;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file device_shares.hpp  Which device a scene takes, where several scenes are spread over several devices.
+/// \file device_shares.hpp  Assigns devices to scenes when several scenes are spread over several devices.
 #pragma once
 
 #include <cstddef>
@@ -10,36 +10,38 @@
 
 namespace macadam {
 
-/// Keeps account of some scenes, by number, and of the devices that they are on.
+/// Keeps account of some scenes, by number, and of the devices on which they run.
 class DeviceShares {
  public:
   explicit DeviceShares(std::size_t scenes) : to_come_(scenes) {}
 
-  /// Of the devices that a scene may take, one that is idle, or the one that got the fewest so far, unless it runs two
-  /// more than another: most scenes are alike, and so all devices end at about the same time. None where each runs
-  /// `most` scenes.
+  /// Returns the device for a new scene, one of those that it may take: an idle one, or else the one that has been
+  /// given the fewest scenes so far, but not one that runs two scenes more than another. Most scenes are alike, so all
+  /// devices end at about the same time. Returns nothing if each device runs `most` scenes.
   std::optional<int> choose(const DeviceList& may, int most) const;
-  /// A scene has its place: on `device`, and later on any that it may take.
+  /// Records that a scene runs on `device`, and later perhaps on another one that it may take.
   void put(std::size_t scene, int device, DeviceList may);
-  /// So much work is left of a scene that is on a device: the device that it goes to. Once no scene is to come, that is
-  /// the one where the others leave the least to do, if this is worth a stepper of its own. So the devices end
-  /// together though scenes differ, and are all used by fewer scenes than a multiple of theirs.
+  /// Returns the device on which a scene continues that has this much work left. Once every scene has had a device,
+  /// that is the device whose other scenes have the least work left, if the gain is worth making a new stepper. So the
+  /// devices end together although scenes differ, and all are used although the number of scenes is not a multiple of
+  /// theirs.
   int go_on(std::size_t scene, double work, int most);
-  /// A scene is done, or has failed, whether or not it had a place.
+  /// Records that a scene is done or has failed, whether or not it had a device.
   void end(std::size_t scene);
 
  private:
   struct Placed {
     int device;
     DeviceList may;
-    std::optional<double> left;  ///< work, once it is known
+    std::optional<double> left;  ///< remaining work, once it is known
   };
+  /// Returns the number of scenes that run on a device.
   int running(int device) const;
 
-  std::size_t to_come_;  ///< scenes that have no place yet
+  std::size_t to_come_;  ///< number of scenes that have had no device yet
   std::map<std::size_t, Placed> placed_;
-  std::map<int, int> got_;  ///< scenes that a device was chosen for
-  double largest_ = 0;      ///< work that was left of any: taken for what is not known yet
+  std::map<int, int> got_;  ///< number of scenes that were given to each device
+  double largest_ = 0;  ///< largest remaining work of any scene so far; assumed for scenes whose work is not known yet
 };
 
 }  // namespace macadam

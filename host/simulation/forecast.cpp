@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast.cpp  Sizes follow from the recipe; what they cost was measured: bench/forecast.
+// forecast.cpp  Sizes follow from the recipe. Their costs were measured: bench/forecast.
 #include "host/simulation/forecast.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@
 namespace macadam {
 namespace {
 
-/// Of a contact's step on the scene's backend.
+/// Returns the cost of the step of one contact on the scene's backend.
 StepCost step_cost(const Scene& scene, const Forecast& f) {
   constexpr int no_chain = -1;
   const auto of_law = [&](const auto& law) {
@@ -29,6 +29,7 @@ StepCost step_cost(const Scene& scene, const Forecast& f) {
   return step_cost(f.backend == Backend::cuda, f.form, f.precision, f.geometry, units.value_or(0));
 }
 
+/// Returns the names of the things that the run leaves out.
 std::vector<std::string> skips_of(const Scene& scene, bool stepped, Geometry geometry) {
   std::vector<std::string> out;
   if (stepped && geometry == Geometry::fixed) out.push_back("geometry update");
@@ -38,16 +39,18 @@ std::vector<std::string> skips_of(const Scene& scene, bool stepped, Geometry geo
   return out;
 }
 
-/// Solutions of systems so far apart in stiffness, or so large, end by factors: the iteration does not get there.
+/// Whether solutions end with the direct solver, because the iteration does not converge if the contrast of
+/// stiffness or the number of particles is too large.
 bool is_factored(const Scene& scene, const Forecast& f, double contrast) {
   const auto n = f.census.particles();
   if (scene.solver.linear != LinearMethod::automatic) return scene.solver.linear == LinearMethod::direct;
   return contrast * static_cast<double>(n) > Cost{}.iterable && n <= static_cast<std::int64_t>(largest_direct);
 }
 
+/// Returns the bytes that the direct solver takes.
 double factor_bytes(double particles, const Cost& cost) { return cost.factors * std::pow(particles, 4.0 / 3); }
 
-/// Seconds of the solutions in the frequency domain.
+/// Returns the time of all solutions in the frequency domain [s].
 double solution_seconds(const Scene& scene, const Forecast& f, const std::vector<double>& contrasts, const Cost& cost) {
   const double n = static_cast<double>(f.census.particles());
   const bool device = f.backend == Backend::cuda;
@@ -63,10 +66,11 @@ double solution_seconds(const Scene& scene, const Forecast& f, const std::vector
   return out;
 }
 
+/// Adds the memory of host and device to the forecast.
 void add_memory(const Scene& scene, Forecast& f, const std::vector<double>& contrasts, const Cost& cost) {
   const bool device = f.backend == Backend::cuda;
   const StepCost step = f.stepped ? step_cost(scene, f) : StepCost{};
-  // what solutions take is given back before the steps
+  // the memory of the solutions is freed before the steps
   const double solved = f.solutions == 0 ? 0 : device ? cost.a_solved_contact_beside_device : cost.a_solved_contact;
   const bool cyclic = f.stepped && std::holds_alternative<experiments::Cyclic>(scene.experiment);
   const bool steady = cyclic && cyclic_start(scene, f.geometry) == Start::steady;
@@ -82,6 +86,7 @@ void add_memory(const Scene& scene, Forecast& f, const std::vector<double>& cont
         cost.device + std::max(step.bytes, f.solutions > 0 ? cost.a_solved_contact_on_device : 0) * f.contacts;
 }
 
+/// Adds the times to the forecast.
 void add_time(const Scene& scene, Forecast& f, const std::vector<double>& contrasts, const Cost& cost) {
   const double n = static_cast<double>(f.census.particles()), threads = f.threads;
   const bool device = f.backend == Backend::cuda;
@@ -122,7 +127,7 @@ Forecast forecast(const Scene& scene) {
   out.form = form_of(scene);
   const bool cyclic = std::holds_alternative<experiments::Cyclic>(scene.experiment);
   out.geometry = cyclic ? cyclic_geometry(scene) : scene.solver.geometry.value_or(Geometry::updated);
-  // a tolerance lets the program take the least precision, where that costs little
+  // with a tolerance a run takes the lowest precision whose error is small; the forecast assumes single precision
   const bool chosen = out.stepped && scene.solver.tolerance.has_value();
   out.precision = scene.solver.precision.value_or(chosen ? Precision::single : Precision::double_);
   if (out.stepped) out.steps = forecast_steps(scene, out.census);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_files.cpp  Names of the files that a run leaves, and their bytes.
+// forecast_files.cpp  Names and sizes of the files that a run leaves.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,19 +12,20 @@
 namespace macadam {
 namespace {
 
-/// Bytes of a line of a table, or of an entry, as measured.
+/// Measured bytes per line of a table, or per entry.
 constexpr double particle_line = 97, aggregate_line = 75, contact_line = 175, gradation_line = 90, sample_line = 62,
                  load_line = 110, sweep_line = 150, material_file = 2500, summary_base = 5500, summary_point = 260,
                  summary_frequency = 1200;
 
-/// Arrays of one series of fields, in bytes per particle or contact.
+/// Sizes of one series of fields, in bytes per particle or contact.
 struct FieldSize {
-  double mesh = 0;     ///< in a file of VTK's XML, uncompressed
-  double packed = 0;   ///< the same in a VTKHDF file, whose whole numbers are compressed
-  double frame = 0;    ///< of one frame
-  double entries = 0;  ///< particles or contacts
+  double mesh = 0;     ///< of the mesh in a file of VTK's XML, uncompressed
+  double packed = 0;   ///< of the mesh in a VTKHDF file, whose whole numbers are compressed
+  double frame = 0;    ///< of the arrays of one frame
+  double entries = 0;  ///< number of particles or contacts
 };
 
+/// Adds names and sizes of all files to a forecast.
 class FileForecast {
  public:
   FileForecast(const Scene& scene, Forecast& forecast) : scene_(scene), f_(forecast) {}
@@ -57,7 +58,8 @@ class FileForecast {
     return name == words_of(load_test_of(scene_).kind).file ? 200 + load_line * points : material_file;
   }
 
-  /// Most Kelvin units of a contact: an array each. Contact points keep chains of their own, which are not written.
+  /// Returns the largest number of Kelvin units of a contact; each unit is an array. The chains of contact points are
+  /// not written.
   int units() const {
     int out = 0;
     if (f_.stepped && f_.form == ContactForm::points) return out;
@@ -68,7 +70,7 @@ class FileForecast {
 
   void add_fields() {
     const FieldSpec& spec = scene_.output.fields;
-    const bool made = !scene_.specimen.file && f_.census.aggregates > 0;  // then size classes are known
+    const bool made = !scene_.specimen.file && f_.census.aggregates > 0;  // size classes are known then
     const double particles = static_cast<double>(f_.census.particles()), per_unit = f_.stepped ? 24 : 48;
     const double stress = scene_.solver.backend == Backend::reference ? 0 : 24;
     const FieldSize of_particles{48.0 + (made ? 4 : 0), 24.0 + (made ? 2 : 0), f_.stepped ? 72 + stress : 72,
@@ -109,7 +111,7 @@ class FileForecast {
     return vtp ? head + size.mesh * size.entries : hdf5_head + size.packed * size.entries;
   }
 
-  /// `frames`: 0 for a steady state, which is one file without times.
+  /// `frames`: number of frames; 0 for a steady state, which is one file without times.
   void add_series(const std::string& stem, const FieldSize& size, double frames) {
     const bool vtp = scene_.output.fields.format == FieldFormat::vtp;
     const double of_frame = size.frame * size.entries;

@@ -10,7 +10,8 @@
 
 namespace macadam {
 
-/// The mean of f(law) over the pairs of most contacts: the pairs of the mastic, if there is any.
+/// Returns the mean of f(law) over the pair types that have most of the contacts: the pairs of the mastic, if the scene
+/// has any.
 template <class F>
 std::optional<double> mean_of_usual(const Scene& scene, F&& f) {
   double sum = 0;
@@ -22,13 +23,13 @@ std::optional<double> mean_of_usual(const Scene& scene, F&& f) {
   return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
-/// Steps of each frequency, or of the load.
+/// Returns the steps of each frequency, or of the load.
 std::vector<StepForecast> forecast_steps(const Scene& scene, const Census& census);
 
-/// For each solution in the frequency domain, stiffest over softest contact.
+/// Returns the contrast (stiffest over softest contact) of each solution in the frequency domain.
 std::vector<double> forecast_contrasts(const Scene& scene, bool stepped);
 
-/// Names and sizes of the files that a run leaves. Needs all but the times of the forecast.
+/// Adds names and sizes of the files that a run leaves. Everything in the forecast except memory and times must be set.
 void forecast_files(const Scene& scene, Forecast& forecast);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_steps.cpp  Steps and solutions of a run by the rules of its plan, from numbers that need no specimen.
+// forecast_steps.cpp  Steps and solutions of a run by the rules of its plan, from numbers that do not need a specimen.
 #include "host/simulation/forecast_parts.hpp"
 
 #include <algorithm>
@@ -26,14 +26,15 @@ double instantaneous(const Law& law) {
   return std::visit([](const auto& l) { return l.instantaneous(); }, law);
 }
 
-/// Order of the specimen's |E*| at a frequency: the mean in the logarithm.
+/// Returns the order of magnitude of the specimen's |E*| at a frequency [Pa]: the geometric mean over the usual
+/// contacts.
 double modulus_at(const Scene& scene, double hz) {
   const double omega = 2 * std::numbers::pi * hz;
   const auto logarithm = mean_of_usual(scene, [&](const Law& law) { return std::log(stiffness_at(law, omega)); });
   return logarithm ? std::exp(*logarithm) : 1e9;
 }
 
-/// The critical step at true mass: that of a small sphere among the stiffest contacts it can have [s].
+/// Returns the critical step at true mass [s]: the step of a small sphere among the stiffest contacts that it can have.
 double critical_step(const Scene& scene, const Census& census) {
   constexpr double mastic_part = 0.377, cluster_part = 0.58;  // of radius·√(density/modulus), measured
   const auto step = [&](double part, double radius, double density, std::initializer_list<PairType> pairs) {
@@ -64,7 +65,7 @@ StepForecast cyclic_steps(const Scene& scene, std::size_t k, double critical) {
   out.frequency_hz = test.frequencies[k];
   if (const auto given = given_scaling(scene, k, critical)) {
     out.density_scaling = *given;
-  } else {  // the plan solves for what inertia costs: about this part of ρω²H²/|E*|
+  } else {  // the plan computes the effect of inertia, which is about this part of ρω²H²/|E*|
     constexpr double inertia_error = 0.3;
     const double density = std::max(scene.materials.mastic, scene.materials.aggregate);
     const double turn = 2 * std::numbers::pi * out.frequency_hz * scene.specimen.box.size.z;
@@ -80,8 +81,8 @@ StepForecast cyclic_steps(const Scene& scene, std::size_t k, double critical) {
   return out;
 }
 
-/// Modulus at once if all contacts strain alike [Pa]. Contacts point in all directions, and the sum of their areas
-/// times distances is three times the volume of the box.
+/// Returns the instantaneous modulus if all contacts strain alike [Pa]. Contacts point in all directions, and the sum
+/// of their areas times distances is three times the volume of the box.
 double affine_modulus(const Scene& scene) {
   const auto mean = mean_of_usual(scene, [](const Law& law) {
     return std::visit([](const auto& l) { return l.instantaneous() * (0.6 + 0.4 * l.alpha); }, law);
@@ -102,7 +103,7 @@ StepForecast load_steps(const Scene& scene, double critical) {
   return out;
 }
 
-/// Stiffest over softest |k*(s)|: iterations grow with its cube root.
+/// Returns stiffest over softest |k*(s)|. The number of iterations grows with its cube root.
 double contrast_at(const Scene& scene, std::complex<double> s) {
   double softest = INFINITY, stiffest = 0;
   for (const auto& law : scene.laws) {
@@ -142,7 +143,8 @@ std::vector<double> forecast_contrasts(const Scene& scene, bool stepped) {
       out.insert(out.end(), temperatures, contrast_at(scene, {0, 2 * std::numbers::pi * f}));
     return out;
   }
-  constexpr int of_spectrum = 24;  // at real s, of each time a decade to either side
+  // number of solutions for a spectrum, at real s from a decade below to a decade above the inverse times
+  constexpr int of_spectrum = 24;
   const std::vector<double> times = load_test_of(scene).history.times;
   const double low = std::log(0.1 / times.back()), high = std::log(10 / times.front());
   for (int i = 0; i < of_spectrum; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file harmonic_options.hpp  How the linear systems of any test are solved.
+/// \file harmonic_options.hpp  How the linear systems of any experiment are solved.
 #pragma once
 
 #include <functional>
@@ -10,14 +10,15 @@
 
 namespace macadam {
 
-/// How a scene's linear systems are solved; beside backend reference, on the CPU.
+/// Returns the options for a scene's linear systems. With backend reference they are solved on the CPU.
 HarmonicOptions harmonic_options(const Scene& scene, Backend backend, const std::function<bool()>& stop,
                                  double residual = HarmonicOptions{}.tolerance);
 
-/// The frequency at which factors serve all of these best: halfway for a relaxation spectrum.
+/// Returns the geometric mean. A preconditioner that is made for the mean of several frequencies serves all of them
+/// best; for a relaxation spectrum the mean is the middle of its range.
 double geometric_mean(const std::vector<double>& values);
 
-/// Density scaling that the scene gives for a frequency; 1 where it gives none.
+/// Returns the density scaling that the scene gives for a frequency; 1 if it gives none.
 double density_scaling_of(const SolverSpec& solver, std::size_t frequency);
 
 }  // namespace macadam

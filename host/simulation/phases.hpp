@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file phases.hpp  Wall time into the phases of a run: each moment into one of them.
+/// \file phases.hpp  Assigns the wall time of a run to its phases. Every moment counts for one phase.
 #pragma once
 
 #include <chrono>
@@ -8,7 +8,7 @@
 
 namespace macadam {
 
-/// While it lives, time goes into a phase; what goes into phases begun meanwhile is theirs alone.
+/// Adds the time for which it exists to a phase. The time of phases that begin meanwhile counts for these only.
 class InPhase {
  public:
   InPhase(PhaseSeconds& all, double PhaseSeconds::*phase) : all_(all), phase_(phase), before_(all.sum()) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file preparation_files.hpp  What is written of a prepared scene before there are results.
+/// \file preparation_files.hpp  Writes the files of a prepared scene before there are results.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,11 @@
 
 namespace macadam {
 
-/// specimen.csv, aggregates.csv, gradation.csv (of a recipe by mass), contacts.csv (where the scene asks) and
-/// summary.json without results, into a folder that is there. Files of another specimen that these do not replace are
-/// removed: aggregates, gradation, contacts, sections. An older result stays whole until all of these files are on the
-/// disk; then its summary goes first, `remove_results()` removes what else the caller writes anew, and the new summary
-/// comes last: whoever finds one finds the files that it is about.
+/// Writes specimen.csv, aggregates.csv, gradation.csv (for a recipe by mass), contacts.csv (if the scene asks for it)
+/// and summary.json without results into an existing folder. Files of another specimen that these do not replace are
+/// removed: aggregates, gradation, contacts, sections. An older result stays complete until all of the new files are on
+/// the disk. Then its summary is removed first, `remove_results()` removes the other files that the caller will write
+/// again, and the new summary gets its name last. So whoever finds a summary finds the files that it describes.
 /// \throws RunError.
 void write_preparation(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
                        const std::function<void()>& remove_results);

@@ -24,14 +24,14 @@ bool is_in(const std::filesystem::path& file, const std::filesystem::path& folde
   return std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(), folder, error);
 }
 
-/// Takes a file of an older result away, as a new one will have its name.
+/// Removes a file of an older result, whose name a new file will have.
 void replace(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::remove(file, error);
   if (error) throw RunError(file.string() + ": cannot be replaced: " + error.message());
 }
 
-/// A file of an older specimen.
+/// Removes a file of an older specimen, if it is there.
 void remove_older(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_regular_file(file, error)) std::filesystem::remove(file, error);
@@ -42,7 +42,8 @@ void make_cells(const Progress& progress, Preparation& out) {
   out.seconds_tessellation = seconds_of([&] { out.tessellation = tessellate(out.specimen); });
 }
 
-/// Contacts of particles whose cells are there.
+/// Makes the contacts between particles whose cells exist. \throws InputError if no path of contacts joins bottom and
+/// top wall.
 void make_contacts(const Scene& scene, const Progress& progress, Preparation& out) {
   if (progress) progress(network_stage, 0);
   out.seconds_network = seconds_of([&] {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// recipe_summary.cpp  Densities, voids, classes, mastic and curve of a mix design as JSON; shares are 0…1.
+// recipe_summary.cpp  Densities, voids, classes, mastic and gradation of a mix design as JSON. Fractions are 0 to 1.
 #include "host/simulation/recipe_summary.hpp"
 
 namespace macadam {
@@ -32,7 +32,7 @@ nlohmann::ordered_json recipe_json(const MixDesign& design, const std::vector<Co
                               {"volume", c.volume},
                               {"density", c.density}});
   }
-  // as classes and mastic came out, by the volumes of shapes, single spheres and mastic spheres
+  // of the classes and the mastic in the specimen, by the volumes of shapes, single spheres and mastic spheres
   double volume = composition.at(v.classes.size()).fraction, mass = volume * v.mastic_density;
   for (std::size_t k = 0; k < v.classes.size(); ++k) {
     volume += composition[k].fraction;

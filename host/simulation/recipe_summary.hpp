@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file recipe_summary.hpp  The `recipe` of summary.json.
+/// \file recipe_summary.hpp  The entry `recipe` of summary.json.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,7 +8,8 @@
 
 namespace macadam {
 
-/// What follows from a mix design, and what a generated specimen (a row a class, then the mastic) reached of it.
+/// Returns the volumes and densities that follow from a mix design, and those that a generated specimen reached.
+/// `composition`: one row per class, then the mastic.
 nlohmann::ordered_json recipe_json(const MixDesign& design, const std::vector<CompositionRow>& composition);
 
 }  // namespace macadam

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run.cpp  The main job: prepares a scene, solves its frequencies, and leaves whole files whatever happens.
+// run.cpp  The main job: prepares a scene, runs its experiment, and leaves complete files whatever happens. The result
+// folder is locked first. Older results in it are replaced only after the specimen is made and the experiment is
+// planned.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,13 +32,14 @@
 namespace macadam {
 namespace {
 
+/// \throws InputError if runs of this scene keep no checkpoints.
 void require_resumable(const Scene& scene) {
   std::string why_not;
   if (!keeps_checkpoints(scene, scene.solver.backend, &why_not))
     throw InputError(scene.file.string() + ": cannot be resumed: " + why_not);
 }
 
-/// None of an older run may stay beside ours. A checkpoint may: it is no result.
+/// Removes the result files of an older run. Its checkpoint may stay, because it is not a result.
 void remove_results(const std::filesystem::path& out) {
   for (const std::string& name : result_files()) {
     std::error_code error;
@@ -47,44 +50,45 @@ void remove_results(const std::filesystem::path& out) {
   }
 }
 
-/// This run's checkpoint, and that of an earlier run of the same scene: what they would lead to is there. One that
-/// cannot be removed costs disk space only.
+/// Removes this run's checkpoint, and that of an earlier run of the same scene: the results to which they would lead
+/// are there. A checkpoint that cannot be removed costs only disk space.
 void remove_own_checkpoint(const std::filesystem::path& out, const Scene& scene, Backend backend, bool own) {
   std::error_code ignored;
   for (const char* name : {checkpoint_name, previous_checkpoint_name}) {
     const std::filesystem::path file = out / name;
     if (!own && !is_checkpoint_of(file, scene, backend)) continue;
     std::filesystem::remove(file, ignored);
-    std::filesystem::remove(file.string() + ".part", ignored);  // of a kill while one was written
+    std::filesystem::remove(file.string() + ".part", ignored);  // left by a kill while a checkpoint was written
   }
 }
 
+/// Returns the status for summary.json after an error.
 std::string status_of(const std::exception& error) {
   if (dynamic_cast<const InterruptedError*>(&error)) return "interrupted";
   if (dynamic_cast<const std::bad_alloc*>(&error)) return "failed: out of memory";
   return std::string("failed: ") + error.what();
 }
 
-/// The backend that runs. Devices are counted and wake while the specimen is made.
+/// The backend that runs the scene. Devices are counted and start up while the specimen is made.
 class FoundBackend {
  public:
-  /// \throws as select_backend(), where that is known within `wait`. What a device that is there refuses is known
-  /// later.
+  /// Waits at most for `wait`. \throws as select_backend(), if it fails within that time. A refusal by an existing
+  /// device may become known later.
   FoundBackend(const SolverSpec& solver, std::chrono::milliseconds wait) : asked_(solver.backend) {
     const auto select = [solver] { return select_backend(solver.backend, nullptr, solver.devices); };
     if (asked_ == Backend::cuda || asked_ == Backend::automatic) {
-      waking_ = std::async(select);  // by this thread where there can be no other
+      waking_ = std::async(select);  // runs in this thread if no other thread can be started
       waking_.wait_for(wait);
       look();
     } else {
       asked_ = select();
     }
   }
-  /// \throws as select_backend(), if that is known by now: what cannot run is not prepared to its end.
+  /// \throws as select_backend(), if it has failed by now, so that a scene that cannot run is not prepared to the end.
   void look() {
     if (waking_.valid() && waking_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) get();
   }
-  /// \throws as select_backend().
+  /// Waits for the backend and returns it. \throws as select_backend().
   Backend get() { return waking_.valid() ? asked_ = waking_.get() : asked_; }
 
  private:
@@ -160,7 +164,8 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
     throw InterruptedError("interrupted while planning; nothing was written, what the folder held is as it was");
   } catch (const RunError&) {
     if (std::filesystem::exists(out / "summary.json")) throw;
-    unsolvable = std::current_exception();  // whoever has nothing yet wants to look at the specimen
+    // without older results, the specimen is written all the same, so that the user can look at it
+    unsolvable = std::current_exception();
   }
   if (!devices_decision.empty()) result.decisions.push_back(devices_decision);
   if (!damage.empty()) result.warnings.push_back(damage);
@@ -169,7 +174,8 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
     result.warnings.emplace_back(
         "the sides are held: moduli are those of a confined specimen, not |E*| or E(t) of a free one");
   }
-  if (watcher.progress) watcher.progress("writing the specimen", 0);  // the last to be interrupted without a trace
+  // the last point at which an interruption leaves no trace
+  if (watcher.progress) watcher.progress("writing the specimen", 0);
   {
     const InPhase writing(result.phases, &PhaseSeconds::writing);
     write_preparation(scene, prepared, out, [&] {
@@ -184,7 +190,7 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
   } catch (const std::exception& error) {
     try {
       save(status_of(error));
-    } catch (const std::exception&) {  // a full disk may be why we are here: the first error is the one to tell
+    } catch (const std::exception&) {  // a full disk may be the reason for the first error, which is the one to report
     }
     throw;
   }
@@ -195,7 +201,7 @@ RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher
 
 namespace {
 
-/// As run_scene(), of this process alone or of one of several.
+/// Does the same as run_scene(), in this process alone or as one of several ranks.
 RunResult run_alone_or_together(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher,
                                 bool resume, const Preparation* given) {
   Ranks* const team = ranks();
@@ -212,7 +218,7 @@ RunResult run_alone_or_together(const Scene& scene, const std::filesystem::path&
     if (watcher.prepared) watcher.prepared(prepared);
   };
   RunResult result = run_scene(own, folder, watching, resume, {}, given);
-  team->any(false);  // the first has written all by then: whoever ends may end the others
+  team->any(false);  // by then the first rank has written everything: a rank that ends may end the others
   return result;
 }
 

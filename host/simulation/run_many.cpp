@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_many.cpp  Scenes handed to threads as these become free, and devices to scenes as they begin.
+// run_many.cpp  Hands scenes to threads as these become free, and devices to scenes as they begin.
 #include "macadam/run_many.hpp"
 
 #include <omp.h>
@@ -24,14 +24,15 @@
 namespace macadam {
 namespace {
 
+/// Number of scenes that run on a device at a time.
 constexpr int at_once_on_a_device = 4;
-/// While a device steps one specimen, so many are made, by all cores. More at a time would all be there late; one after
-/// the other they can take longer than their steps (bench/results/many.csv). Of several devices,
-/// each gets its first two one after the other, by the cores that two others share: it would wait for the second
-/// otherwise. Before devices are counted, one is taken to be there.
+/// Number of specimens that all cores make for a device while it steps one. With more at a time, all of them would be
+/// ready late; one after the other they can take longer than their steps (bench/results/many.csv). With several
+/// devices, each gets its first two specimens one after the other, made by the cores that two others share; otherwise a
+/// device would wait for its second specimen. Until the devices are counted, one is assumed.
 constexpr int prepared_for_a_device = 2;
 
-/// Of devices, those that answer: one that does not would fail a scene after the other.
+/// Returns those devices that answer. A device that does not would fail one scene after the other.
 DeviceList usable(const DeviceList& devices) {
   DeviceList out;
   for (const int d : devices) {
@@ -43,6 +44,7 @@ DeviceList usable(const DeviceList& devices) {
   return out;
 }
 
+/// \throws InputError if two scenes have the same folder.
 void require_folders_differ(const std::vector<SceneJob>& jobs) {
   std::set<std::filesystem::path> folders;
   for (const SceneJob& job : jobs) {
@@ -51,7 +53,8 @@ void require_folders_differ(const std::vector<SceneJob>& jobs) {
   }
 }
 
-/// Those that some scene may be stepped on. Where there are any, it takes some tenths of a second.
+/// Returns the devices on which some scene may be stepped. If a scene may be, counting the devices takes some tenths of
+/// a second.
 DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
   const auto may = [](const SceneJob& job) {
     return job.scene.solver.backend == Backend::cuda || job.scene.solver.backend == Backend::automatic;
@@ -69,6 +72,8 @@ DeviceList meant_devices(const std::vector<SceneJob>& jobs) {
   return out;
 }
 
+/// Runs the scenes on worker threads. A scene waits for a part of the cores, is prepared, and then takes a device if it
+/// runs on one. It holds its cores until a device takes its steps, or to its end.
 class Pool {
  public:
   Pool(const std::vector<SceneJob>& jobs, const ManyOptions& options)
@@ -91,10 +96,11 @@ class Pool {
   }
 
  private:
+  /// Divides cores and scenes among the devices, once these are counted; without devices, the cores among the scenes.
   void share_out(int devices) {
     const int usual = devices == 0 ? cores_ : std::min(at_once_on_a_device * devices, cores_);
     const int number = at_most(options_.at_once > 0 ? options_.at_once : usual);
-    // the threads that wait for a device must not wait for a core
+    // one core per device stays free for the threads that wait for devices, so that these do not wait for a core
     const int spared = 8 * devices <= cores_ ? devices : 0;
     {
       const std::lock_guard lock(mutex_);
@@ -105,29 +111,32 @@ class Pool {
     employ(number, devices == 0 ? number : prepared_for_a_device * devices, cores_ - spared);
   }
 
+  /// Returns the number of workers, limited by the option and by the number of scenes; at least one.
   int at_most(int workers) const {
     const int asked = options_.at_once > 0 ? std::min(workers, options_.at_once) : workers;
     return std::clamp(asked, 1, static_cast<int>(jobs_.size()));
   }
 
-  /// So many threads from now on, not fewer than before. Of these cores, so many scenes have a share at a time.
+  /// Raises the number of worker threads to `number`; it never falls. `shares` scenes at a time have an equal part of
+  /// `cores`.
   void employ(int number, int shares, int cores) {
     number = at_most(number), shares = std::min(number, shares);
     {
       const std::lock_guard lock(mutex_);
       share_ = std::max(1, cores / shares);
-      cores = std::max(cores, shares);  // more scenes than cores, if somebody wants that
+      cores = std::max(cores, shares);  // more scenes than cores, if the user asks for that
       free_ += cores - std::exchange(all_, cores);
       turns_ += shares - std::exchange(all_turns_, shares);
       changed_.notify_all();
     }
-    try {  // not this one, whose number of threads stays as it is
+    try {  // other threads, because the number of OpenMP threads of this one must not change
       while (std::ssize(workers_) < number) workers_.emplace_back([this] { work(); });
     } catch (const std::system_error&) {
-      if (workers_.empty()) throw;  // else fewer do it
+      if (workers_.empty()) throw;  // otherwise fewer threads do the work
     }
   }
 
+  /// Runs one scene after the other until none is left. Each worker thread does this.
   void work() {
     for (;;) {
       std::size_t job = 0;
@@ -166,14 +175,14 @@ class Pool {
     }
   }
 
-  /// A share of the cores, which a scene has until a device takes its steps, or to its end.
+  /// A part of the cores, which a scene holds until a device takes its steps, or to its end.
   class Cores {
    public:
     /// `most`: the largest number of threads that the scene may use; 0: its number of cores.
     Cores(Pool& pool, bool first_of_scene, int most) : pool_(pool), most_(most) {
       std::unique_lock lock(pool_.mutex_);
       ++pool_.waiting_;
-      // half a share is what another scene gives
+      // half a part is enough to begin, as that is what another scene gives
       pool_.changed_.wait(lock, [&] { return pool_.turns_ > 0 && pool_.free_ >= (pool_.share_ + 1) / 2; });
       --pool_.waiting_;
       number_ = std::min(pool_.share_, pool_.free_);
@@ -187,7 +196,7 @@ class Pool {
       give_back(number_);
     }
 
-    /// Where others wait for cores, they get half of these, and the turn.
+    /// Gives half of the cores, and the turn, to other scenes if any of them wait for cores.
     void share() {
       const std::lock_guard lock(pool_.mutex_);
       if (!has_turn_ || pool_.waiting_ == 0) return;
@@ -196,7 +205,7 @@ class Pool {
     }
 
    private:
-    /// Sets the number of threads for the calling thread, which does the scene.
+    /// Sets the number of OpenMP threads of the calling thread, which runs the scene.
     void set_threads() const { omp_set_num_threads(most_ > 0 ? std::min(number_, most_) : number_); }
     void give_back(int cores) {
       if (std::exchange(has_turn_, false)) ++pool_.turns_;
@@ -213,15 +222,16 @@ class Pool {
     cores.emplace(*this, true, scene.solver.threads);
     if (options_.stop && options_.stop()) throw InterruptedError("interrupted before it began");
     return prepare(scene, [&](const std::string& stage, double share) {
-      if (stage == network_stage) cores->share();  // most of what follows is done by one thread, or by the device
+      if (stage == network_stage) cores->share();  // one thread, or the device, does most of the work that follows
       progress(stage, share);
     });
   }
 
-  /// One of those that are meant and answer. Waits where all run as many as they may; others have the cores meanwhile.
+  /// Chooses one of the devices that the scene may use and that answer. Waits while each of them runs its largest
+  /// number of scenes; other scenes have the cores meanwhile.
   void take_device(std::size_t job, SolverSpec& solver, std::optional<Cores>& cores) {
     DeviceList meant = solver.devices.empty() ? usable_.get() : usable(device_numbers(solver.devices));
-    if (meant.empty()) meant = device_numbers(solver.devices);  // making the stepper says why it cannot
+    if (meant.empty()) meant = device_numbers(solver.devices);  // making the stepper reports why these cannot run
     std::optional<int> device;
     const auto has_room = [&] { return (device = devices_taken_.choose(meant, beside_)).has_value(); };
     std::unique_lock lock(mutex_);
@@ -238,11 +248,14 @@ class Pool {
     if (waits) cores.emplace(*this, false, solver.threads);
   }
 
+  /// Returns the device on which a scene continues that has this much work left.
   DeviceList go_on(std::size_t job, double work) {
     const std::lock_guard lock(mutex_);
     return {devices_taken_.go_on(job, work, beside_)};
   }
 
+  /// Returns a watcher that passes the progress and the warnings of a scene to the options' functions, one thread at a
+  /// time.
   Watcher watcher_of(std::size_t job) {
     Watcher out;
     out.stop = options_.stop;
@@ -265,18 +278,19 @@ class Pool {
   const ManyOptions& options_;
   const int cores_ = omp_get_max_threads();
   std::vector<std::thread> workers_;
-  std::mutex mutex_;  // of what follows, and of the options' functions
+  std::mutex mutex_;  // guards the members below and the functions in the options
   std::condition_variable changed_;
-  int all_ = 0, free_ = 0, share_ = 1;  // cores
-  int all_turns_ = 0, turns_ = 0;       // scenes that may have a whole share
-  int waiting_ = 0;                     // scenes that have none yet
-  int urgent_ = 0, for_urgent_ = 0;     // scenes to come that devices would wait for, and cores for each
-  int beside_ = 0;                      // scenes on a device at a time, once devices are counted
+  int all_ = 0, free_ = 0, share_ = 1;  // cores: of all scenes, free ones, and those for one scene
+  // turns: all and free ones; a scene needs one to begin with its part of the cores
+  int all_turns_ = 0, turns_ = 0;
+  int waiting_ = 0;                  // scenes that wait for cores
+  int urgent_ = 0, for_urgent_ = 0;  // scenes to come for which devices would wait, and the cores for each of them
+  int beside_ = 0;                   // scenes on a device at a time, once the devices are counted
   std::size_t next_ = 0;
   DeviceShares devices_taken_;
-  std::exception_ptr thrown_;  // by an option's function
+  std::exception_ptr thrown_;  // by a function of the options, or while devices were counted
   std::vector<JobOutcome> outcomes_;
-  // known once they are counted, and once they are awake, while the first specimens are made
+  // the devices that are counted, and those that answer; both become known while the first specimens are made
   std::shared_future<DeviceList> devices_ = std::async([this] { return meant_devices(jobs_); });
   std::shared_future<DeviceList> usable_ = std::async([all = devices_] { return usable(all.get()); });
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file run_ranks.hpp  One stepped run by several processes.
+/// \file run_ranks.hpp  One stepped run by several processes, the ranks.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace macadam {
 
-/// A folder that goes with this object.
+/// A temporary folder that is removed with this object.
 class ScratchFolder {
  public:
   /// \throws RunError
@@ -23,18 +23,19 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-/// The scene as this process runs it: on the device that is its own. \throws InputError for one that is not stepped on
+/// Returns the scene as this rank runs it: on its own device. \throws InputError for a scene that is not stepped on
 /// devices.
 Scene scene_of_rank(const Ranks& team, Scene scene);
 
-/// \throws RunError where the ranks have read different scenes.
+/// \throws RunError if the ranks have read different scenes.
 void require_same_scene(Ranks& team, const Scene& scene);
 
-/// Gives all ranks the files of the first rank's folder that a run goes on from: those of `names` that are there.
+/// Copies the files `names`, if they exist in the first rank's folder, to the folders of all ranks. The run continues
+/// from these files.
 /// \throws RunError
 void hand_out(Ranks& team, const std::filesystem::path& folder, const std::vector<std::string>& names);
 
-/// \throws RunError where the ranks have made different specimens.
+/// \throws RunError if the ranks have made different specimens.
 void require_same_specimen(Ranks& team, const Preparation& prepared);
 
 }  // namespace macadam

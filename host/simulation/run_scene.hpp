@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file run_scene.hpp  run(), with parts that run_many() does in its own way.
+/// \file run_scene.hpp  run(), with two parts that run_many() replaces: the preparation and the choice of devices.
 #pragma once
 
 #include "macadam/simulation.hpp"
 
 namespace macadam {
 
-/// The stage of prepare() that follows on the cells.
+/// The stage of prepare() that follows after the cells.
 inline constexpr const char* network_stage = "contact network";
 
+/// Parts of run_scene() that the caller may replace.
 struct RunParts {
-  /// Makes particles and contacts; prepare() where there is none.
+  /// Makes particles and contacts. If it is empty, prepare() does.
   std::function<Preparation(const Scene& scene, const Progress& progress)> prepare;
-  /// Names the devices, where the backend is cuda and all is prepared; where there is none, choose_devices() does, for
-  /// steps.
+  /// Chooses the devices, if the backend is cuda, when the scene is prepared. If it is empty, choose_devices() does so
+  /// for stepped runs.
   std::function<void(SolverSpec& solver)> place;
 };
 
-/// As run().
+/// Runs a scene as run() does. `given`: the scene's preparation, if it exists already.
 RunResult run_scene(Scene scene, const std::filesystem::path& out, const Watcher& watcher, bool resume,
                     const RunParts& parts, const Preparation* given = nullptr);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file solution.hpp  A test that is planned: whatever refuses a scene has done so before a file of the folder is
-/// touched.
+/// \file solution.hpp  A planned experiment. Every reason to refuse a scene has been found by then, before a file of
+/// the folder is touched.
 #pragma once
 
 #include <filesystem>
@@ -12,19 +12,19 @@
 
 namespace macadam {
 
-/// Writes summary.json with a status.
+/// Writes summary.json with this status.
 using Saving = std::function<void(const std::string& status)>;
 
-/// A planned test; scene, preparation and watcher must outlive it.
+/// A planned experiment. Scene, preparation and watcher must outlive it.
 class Solution {
  public:
   virtual ~Solution() = default;
 
-  /// Finds the answer: what is found goes into `result` and is saved as soon as it is there. \throws DivergenceError
-  /// naming the particle that left the range of sense first; InterruptedError; RunError as Harmonic does.
+  /// Runs the experiment. Results are stored in `result` and saved as soon as they are known. \throws DivergenceError
+  /// naming the particle that first left the plausible range; InterruptedError; RunError as Harmonic does.
   virtual void solve(const std::filesystem::path& out, const Saving& save, RunResult& result) = 0;
 
-  /// Whether a checkpoint in the folder is this run's own.
+  /// Whether a checkpoint in the folder belongs to this run.
   virtual bool owns_checkpoint() const { return false; }
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sparing_save.hpp  summary.json while a run goes on.
+/// \file sparing_save.hpp  Saves summary.json during a run.
 #pragma once
 
 #include <chrono>
@@ -11,11 +11,11 @@
 
 namespace macadam {
 
-/// Saves as often as costs a tenth of the time at most: the text grows with the frequencies.
+/// Saves only so often that saving takes at most a tenth of the time. The text grows with the number of frequencies.
 class SparingSave {
  public:
   using Clock = std::chrono::steady_clock;
-  /// \param now  what tells the time; tests have a clock of their own
+  /// \param now  the clock; tests have one of their own
   explicit SparingSave(Saving save, std::function<Clock::time_point()> now = Clock::now)
       : save_(std::move(save)), now_(std::move(now)) {}
   void operator()(const std::string& status) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// summary.cpp  The run as JSON; keys of the first level are fixed for readers of older runs.
+// summary.cpp  The run as JSON. The keys of the first level are fixed, because programs read the files of older runs.
 #include "host/simulation/summary.hpp"
 
 #include <cmath>
@@ -34,7 +34,8 @@ Json volume_fractions(const Specimen& specimen, const Tessellation& tessellation
 
 const char* to_string(SolverMethod method) { return method == SolverMethod::harmonic ? "harmonic" : "explicit"; }
 
-/// Settings of the solution; a test adds what it has to say of it. The keys of the time stepping are null otherwise.
+/// Returns the settings of the solution, to which an experiment adds its own. The keys of time stepping stay null in
+/// other runs.
 Json solver_json(const Scene& scene, const RunResult& result) {
   Json out = {{"method", to_string(scene.solver.method)},
               {"dt_s", Json()},
@@ -94,7 +95,7 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
       {"specimen", prepared.seconds_specimen},
       {"tessellation", prepared.seconds_tessellation},
       {"network", prepared.seconds_network},
-      {"solve", solve_seconds(result)},  // of all processes of a resumed run; the phases below are of this one
+      {"solve", solve_seconds(result)},  // of all processes of a resumed run; the phases below are of this process only
       {"start", phases.start},
       {"planning", phases.planning},
       {"preconditioner", phases.preconditioner},
@@ -102,7 +103,8 @@ std::string summary_json(const Scene& scene, const Preparation& prepared, const 
       {"stepper", phases.stepper},
       {"stepping", phases.stepping},
       {"writing", phases.writing}};
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // a path need not be UTF-8
+  // replaces invalid bytes, because a path need not be UTF-8
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 void require_no_run(const std::filesystem::path& out) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// choose_precision.cpp  The least precision whose rounding is a small share of the tolerance, where that was measured.
+// choose_precision.cpp  The lowest precision whose rounding is a small part of the tolerance, within the range of
+// measurements.
 #include "host/experiments/cyclic/choose_precision.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 namespace macadam {
 namespace {
 
-constexpr double precision_share = 0.05;  ///< of the tolerance
+constexpr double precision_share = 0.05;  ///< the part of the tolerance that rounding may take
 
 }  // namespace
 

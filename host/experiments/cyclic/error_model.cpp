@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// error_model.cpp  Figures measured on specimens of asphalt (docs/accuracy.md) with a factor of safety.
+// error_model.cpp  Estimates from measurements on specimens of asphalt (docs/accuracy.md), with a factor of safety.
 #include "host/experiments/cyclic/error_model.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ double stiffness_at(const Law& any, double omega) {
 
 namespace {
 
-/// Least and largest |k*(ω)| of the pair types that are there.
+/// Returns the least and the largest |k*(ω)| of the pair types that occur.
 std::pair<double, double> stiffness_range(const Scene& scene, const Preparation& prepared, double omega) {
   double least = std::numeric_limits<double>::infinity(), largest = 0;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -42,11 +42,11 @@ std::pair<double, double> stiffness_range(const Scene& scene, const Preparation&
   return {least, largest};
 }
 
-/// Largest relative rounding of a float.
+/// Largest relative rounding error of a float.
 constexpr double roundoff = 0x1p-24;
 
-/// θ: about a peak, over so much on either side a number that turns by 2π/N of itself changes by less than half of its
-/// last bit in a step.
+/// Returns θ = u·N/2π. A number that oscillates with N steps per period changes by less than half of its last bit per
+/// step within the angle θ on either side of its peaks.
 double angle_lost(const RoundingScale& s) { return roundoff * static_cast<double>(s.steps) / (2 * std::numbers::pi); }
 
 }  // namespace
@@ -55,7 +55,7 @@ double inertia_estimate(const Scene& scene, const Preparation& prepared, double 
   const double omega = 2 * std::numbers::pi * frequency;
   const double height = prepared.specimen.box.size.z;
   const double density = std::max(scene.materials.aggregate, scene.materials.mastic);
-  // 3 · E = softest
+  // E is a third of the softest stiffness, so 3·E in the denominator is the softest stiffness
   return omega * omega * height * height * density / stiffness_range(scene, prepared, omega).first;
 }
 
@@ -68,35 +68,38 @@ RoundingScale rounding_scale(const Scene& scene, const Preparation& prepared, do
           stiffest / softest, density_scaling * inertia_estimate(scene, prepared, frequency)};
 }
 
-// What a contact misses within a block of the share 1/N of the shortest time is a saw-tooth of (2π/N)²/8, which returns
-// to nothing at the block's end; the fundamental keeps a part of it. Measured: at most (2π/N)²/38, of N = 30 to 4,000,
-// both binders, 2 to 20 Hz, one to three cycles (bench/block_lengths.cpp, bench/results/block-lengths.csv).
+// A block takes 1/N of the shortest time. The error of a contact within a block is a saw-tooth of height (2π/N)²/8
+// that returns to zero at the end of the block; the fundamental keeps a part of it. Measured: at most (2π/N)²/38, for N
+// = 30 to 4,000, both binders, 2 to 20 Hz, one to three cycles (bench/block_lengths.cpp,
+// bench/results/block-lengths.csv).
 double block_error(double blocks) {
   const double turn = 2 * std::numbers::pi / blocks;
   return turn * turn / 20;
 }
 double blocks_within(double error) { return std::min(4000.0, 2 * std::numbers::pi / std::sqrt(20 * error)); }
 
-// Velocities that contacts gather are known to u = 2⁻²⁴ of themselves, and are as many times the relative velocities of
-// two layers as there are layers; normals, arms and moments are known to u. States, master velocities and sums are
-// double in `mixed`. But a device that steps in blocks has what a force changes by within a block in single precision:
-// where stiff walls carry inertia, a share of it is lost as a velocity's in `single` is. θ = u·N/2π.
+// The velocities that contacts gather have a relative error of u = 2⁻²⁴, and their ratio to the relative velocities of
+// two layers is the number of layers. Normals, arms and moments have a relative error of u. In
+// `mixed`, states, master velocities and sums are double. But a device that steps in blocks stores the change of a
+// force within a block in single precision: where stiff walls carry inertia, a part of it is lost, as a part of a
+// velocity is in `single`. θ = u·N/2π.
 double mixed_precision_error(const RoundingScale& s) {
   return roundoff * (10 + s.layers) + 2 * angle_lost(s) * s.inertia;
 }
 
-// Besides, in `single`: a chain's f and x_l change by 2π/N of their amplitude in a step, times the cosine of the phase.
-// About their peaks, where that is less than half of the last bit, they stay: over θ = u·N/2π on either side, where
-// they should have moved by θ²/2. Noise of other roundings hides most of it in long runs, but not in all; hence 4·θ². A
-// run of many cycles loses less than one cycle of as many steps. A velocity, likewise, changes only where the force
-// moves it by half of its last bit in a step: a share of up to θ/2 of inertia is lost.
+// `single` has further errors. A chain's f and x_l change in one step by 2π/N of their amplitude, times the cosine of
+// the phase. About their peaks, where that is less than half of the last bit, they do not change: over θ = u·N/2π on
+// either side, where they should have moved by θ²/2. Noise of other roundings hides most of this error in long runs,
+// but not all of it; hence 4·θ². A run of many cycles loses less than one cycle with the same number of steps.
+// Likewise, a velocity changes only if the force moves it by half of its last bit in a step: up to θ/2 of the inertia
+// is lost.
 double single_precision_error(const RoundingScale& s) {
   const double theta = angle_lost(s);
   return mixed_precision_error(s) + 4 * theta * theta;
 }
 
 std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured) {
-  const RoundingScale& up_to = measured.up_to;  // what is not a number lies beyond it too
+  const RoundingScale& up_to = measured.up_to;  // written so that a NaN counts as beyond
   if (!(scale.steps <= up_to.steps)) return fmt::format("{} steps, measured up to {}", scale.steps, up_to.steps);
   if (!(scale.layers <= up_to.layers)) {
     return fmt::format("{:.0f} layers of particles, measured up to {:.0f}", scale.layers, up_to.layers);
@@ -110,14 +113,15 @@ std::string beyond(const RoundingScale& scale, const RoundingMeasured& measured)
   return {};
 }
 
-// About twice what bench/accuracy measured (bench/results/accuracy.csv), of |E*| and φ in radians.
+// The next two functions return about twice what bench/accuracy measured (bench/results/accuracy.csv), for |E*| and φ
+// in radians.
 
-// t8: 1.2·ε² at strains of 1e-3, 3e-3 and 1e-2.
+// Measured for t8: 1.2·ε² at strains of 1e-3, 3e-3 and 1e-2.
 double fixed_geometry_error(double strain) { return 3 * strain * strain; }
 
-// With a ramp of one cycle: 4 cycles come within 4e-5, 6 within 1.3e-5, 12 within 2.3e-6 (t8 and demo, 2 and 20 Hz):
-// as n^−2.6. It may be a fortieth of the tolerance. Without a ramp nothing damps the waves of the start, which leave
-// 1e-5 to 1e-3 at random, however many cycles.
+// With a ramp of one cycle, 4 cycles come within 4e-5 of the steady state, 6 within 1.3e-5 and 12 within 2.3e-6 (t8 and
+// demo, 2 and 20 Hz): the difference falls as n^−2.6. It may take a fortieth of the tolerance. Without a ramp nothing
+// damps the waves of the start, which leave 1e-5 to 1e-3 at random, however many cycles there are.
 int cycles_from_rest(double tolerance) {
   return std::max(4, static_cast<int>(std::ceil(4 * std::pow(4e-5 / (tolerance / 40), 1 / 2.6))));
 }

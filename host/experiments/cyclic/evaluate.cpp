@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// evaluate.cpp  |E*| and φ from the samples of a cyclic test: fit of the fundamental, and Eq. 24–25.
+// evaluate.cpp  Computes |E*| and φ from the samples of a cyclic test: fit of the fundamental, and Eq. 24–25.
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -15,14 +15,16 @@ namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
 
+/// The fundamental of a signal, and what its fit leaves.
 struct Fundamental {
-  std::complex<double> value;  ///< c of Re(c·exp(iωt))
-  double rms = 0;              ///< of what the fit leaves
+  std::complex<double> value;  ///< c in Re(c·exp(iωt))
+  double rms = 0;              ///< rms of the fit's residual
 };
 
-/// Least squares of offset + trend·t + fundamental + second harmonic, so that drift and start-up offsets do not leak
-/// into the phasor. The second harmonic is there because it is not orthogonal to the trend: unfitted, h of it over one
-/// cycle would make −0.78·h of fundamental. Few samples do without it.
+/// Fits offset + trend·t + fundamental + second harmonic by least squares, so that drift and start-up offsets do not
+/// leak into the phasor. The second harmonic is fitted because it is not orthogonal to the trend: if it were not, a
+/// second harmonic of amplitude h over one cycle would add −0.78·h to the fundamental. Fits of fewer than 16 samples
+/// leave it out.
 template <class Value>
 Fundamental fit(std::span<const ResponseSample> samples, double frequency, Value value) {
   const auto n = static_cast<Eigen::Index>(samples.size());
@@ -47,8 +49,8 @@ Stiffness from_phasors(std::complex<double> strain, std::complex<double> stress)
   return {std::abs(modulus), std::arg(modulus) * 180 / std::numbers::pi};
 }
 
-/// Extreme value of one cycle and its time, by a parabola through the largest sample (sign = +1) or smallest (−1) and
-/// its neighbours. The cycle is taken as periodic, so that a peak at its end has both.
+/// Returns the extreme value of one cycle and its time, by a parabola through the largest sample (sign = +1) or the
+/// smallest (−1) and its neighbours. The cycle is taken as periodic, so that a peak at its end has two neighbours.
 template <class Value>
 std::pair<double, double> peak(std::span<const ResponseSample> cycle, double sign, Value value) {
   const std::size_t n = cycle.size();
@@ -72,7 +74,8 @@ CyclicResult evaluate_cyclic(std::span<const ResponseSample> samples, double fre
   }
   const double period = 1 / frequency, end = samples.back().time_s;
   const double spacing = samples[1].time_s - samples[0].time_s;
-  // samples of the last `cycles` cycles, ending `skip` cycles before the end; half open, so that no phase counts twice
+  // Returns the samples of the last `cycles` cycles, ending `skip` cycles before the end. The window is half open, so
+  // that no phase counts twice.
   auto window = [&](int cycles, int skip) {
     const double from = end - (cycles + skip) * period + 0.5 * spacing, to = end - skip * period + 0.5 * spacing;
     auto at = [&](double t) {

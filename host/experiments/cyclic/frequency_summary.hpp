@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file frequency_summary.hpp  A frequency in summary.json and in the command's table.
+/// \file frequency_summary.hpp  The result of a frequency in summary.json and in the command's table.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,13 +10,13 @@
 
 namespace macadam {
 
-/// The entry of a steady state in `results`.
+/// Returns the entry of a steady state in `results`.
 nlohmann::ordered_json frequency_json(const experiments::HarmonicFrequency& f, const Scene& scene);
 
-/// A line a steady state, below a line of what they are.
+/// Returns a line of titles and one line per steady state.
 std::string frequency_table(const std::vector<experiments::HarmonicFrequency>& frequencies);
 
-/// Wall time of all.
+/// Returns the wall time of all frequencies [s].
 template <class F>
 double seconds_of(const std::vector<F>& frequencies) {
   double out = 0;

@@ -19,18 +19,20 @@ using experiments::SteppedFrequency;
 
 namespace {
 
-/// Springs and dashpots turn the phase by 0 to 90 degrees; start-up waves turn it a little further.
+/// Springs and dashpots give a phase angle of 0 to 90 degrees; start-up waves take it a little further.
 constexpr double phase_margin_deg = 1;
-/// What the fit may leave, rms over the amplitude. What leaves half is plainly no sine; it is no measure of accuracy.
+/// Largest residual of the fit, rms over the amplitude. With a residual of half the amplitude the stress is plainly not
+/// a sine. The residual does not measure accuracy.
 constexpr double largest_residual = 0.5;
-/// The bound is that of a static specimen; waves of the start pass it by little.
+/// Factor on the modulus bound. The bound holds for a static specimen; waves of the start exceed it a little.
 constexpr double bound_margin = 1.05;
-/// Top and bottom carry the same force where nothing has inertia. Solutions agree to 1e-9 or better.
+/// Largest relative difference of the two walls' forces, which are equal without inertia. Solutions agree to 1e-9 or
+/// better.
 constexpr double wall_difference = 1e-6;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// What no passive specimen has.
+/// Returns the properties of a result that no passive specimen can have.
 std::vector<std::string> faults_of(const Frequency& f, double stiffest) {
   std::vector<std::string> faults;
   const double phase = f.stiffness.phase_deg;

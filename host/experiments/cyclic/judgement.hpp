@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file judgement.hpp  Whether a frequency's result can be right, as far as the result itself tells.
+/// \file judgement.hpp  Checks whether a frequency's result can be right, as far as the result itself shows.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,22 @@
 
 namespace macadam {
 
-/// The largest modulus that the network can have at a frequency: that of its stiffest contact. Cells fill the box, so
-/// that ΣA·d·n_z² is its volume, and no motion gives less energy than the affine one gives: the bound of Voigt [Pa].
+/// Returns the largest modulus that the network can have at a frequency [Pa], which is the modulus of its stiffest
+/// contact. The cells fill the box, so ΣA·d·n_z² is its volume, and the affine motion gives no less energy than the
+/// true one: the bound of Voigt.
 double stiffest_contact(const Scene& scene, const ContactNetwork& network, double frequency_hz);
 
-/// Says what cannot be right (`fault`) and adds a warning for everything that a reader of this result must know: a
-/// phase angle that no specimen has which only dissipates, a modulus above that of the `stiffest` contact, a fit that
-/// leaves more than it takes, walls that disagree, a tolerance that was not kept or that nothing could verify. Without
-/// a harmonic solution a tolerance is known not to be kept (`kept` is false) where there is a fault, or where the last
-/// cycle still differs from the one before by more. Without a `stiffest`, where a law is not linear, nothing is held
-/// against what linear specimens do. \throws RunError for a modulus that is no positive finite number.
+/// Stores in `fault` what cannot be right, and adds a warning for everything that a reader of this result must know: a
+/// phase angle that a passive specimen cannot have, a modulus above that of the `stiffest` contact, a fit that leaves
+/// more than half of the amplitude, walls that disagree, a tolerance that was not kept or that nothing could verify.
+/// Without a harmonic solution, `kept` becomes false if there is a fault, or if the last cycle differs from the one
+/// before it by more than the tolerance. Without a `stiffest`, that is if a law is not linear, the result is not
+/// compared with what linear specimens do. \throws RunError for a modulus that is not a positive finite number.
 void judge(experiments::SteppedFrequency& result, std::optional<double> stiffest, std::optional<double> tolerance,
            std::vector<std::string>& warnings);
 void judge(experiments::HarmonicFrequency& result, double stiffest, std::vector<std::string>& warnings);
 
-/// \throws RunError where a tolerance was asked for and a result cannot be right.
+/// \throws RunError if a tolerance was asked for and a result cannot be right.
 void require_sense(const Scene& scene, const experiments::SteppedCyclic& result);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file methods.hpp  The two ways from a prepared scene to |E*| and φ.
+/// \file methods.hpp  The two methods that lead from a prepared scene to |E*| and φ.
 #pragma once
 
 #include <filesystem>
@@ -11,18 +11,18 @@
 
 namespace macadam {
 
-/// Steps in time, from the beginning or from where a checkpoint stands; each sample goes to response.csv at once.
-/// What was decided goes into `result`. \throws InputError, also naming the `checkpoint` whose state is another
-/// machine's; RunError as make_plan() and make_stepper() do.
+/// Steps in time, from the beginning or from a checkpoint. Each sample is written to response.csv at once. Decisions
+/// are stored in `result`. \throws InputError, also naming the checkpoint if its state is from another machine;
+/// RunError as make_plan() and make_stepper() do.
 std::unique_ptr<Solution> plan_steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                      std::optional<Resumed> resumed, RunResult& result);
 
-/// What both ways say of a frequency.
+/// Returns those entries of a frequency's result that both methods have.
 experiments::Frequency frequency_of(const Scene& scene, double frequency_hz, std::optional<double> temperature_c,
                                     double density_scaling, const Stiffness& stiffness, double seconds);
 
-/// Solves the steady states of the test's frequencies and temperatures into `found`, a part of `result`. \throws as the
-/// constructor of Harmonic does.
+/// Solves the steady states of the experiment's frequencies and temperatures. Stores them in `found`, a part of
+/// `result`. \throws as the constructor of Harmonic does.
 std::unique_ptr<Solution> plan_harmonic(const Scene& scene, const Preparation& prepared, const Watcher& watcher,
                                         RunResult& result, std::vector<experiments::HarmonicFrequency>& found);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plan.cpp  Density scaling, time step, start, cycles, precision and geometry from the error that is asked for.
+// plan.cpp  Chooses density scaling, time step, start, cycles, precision and geometry from the tolerance.
 #include "host/experiments/cyclic/plan.hpp"
 
 #include <fmt/format.h>
@@ -50,20 +50,24 @@ class Planner {
   }
 
  private:
+  /// Adds a sentence to the decisions.
   template <class... Args>
   void decide(fmt::format_string<Args...> text, Args&&... args) {
     plan_.decisions.push_back(fmt::format(text, std::forward<Args>(args)...));
   }
   bool automatic() const { return scene_.solver.tolerance.has_value(); }
   double tolerance() const { return *scene_.solver.tolerance; }
-  /// Residuals enter E* squared, and the motion of the start as they are, times the condition of K, some 1e5 at most.
+  /// Returns the residual to which solutions are computed. The error of E* is of the order of the residual squared. The
+  /// error of the motion in a steady start is the residual itself, times the condition of K, which is about 1e5 at
+  /// most.
   double planning_residual() const {
     return automatic() ? std::clamp(1e-5 * tolerance(), HarmonicOptions{}.tolerance, 1e-8)
                        : HarmonicOptions{}.tolerance;
   }
+  /// Returns β of viscous damping [1/s]; 0 with other damping.
   double viscous() const { return scene_.solver.damping_kind == Damping::viscous ? scene_.solver.damping : 0; }
 
-  /// What a law that is not linear, or has no complex stiffness, takes away. \throws InputError
+  /// Refuses settings that a law excludes because it is not linear or has no complex stiffness. \throws InputError
   void require_laws_to_fit() {
     const FactsTable facts = facts_of(scene_.laws);
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -93,7 +97,7 @@ class Planner {
     const double strain = scene_.cyclic().strain_amplitude, error = fixed_geometry_error(strain);
     const bool fixed = plan_.geometry == Geometry::fixed;
     if (automatic()) {
-      // carried frames turn while the points move with them: the two forms then part by the square of the strain
+      // carried frames turn while the points move with them, so the two forms differ by the square of the strain
       decide("form {}: the other gives the same to {}", to_string(plan_.form),
              fixed ? "rounding" : fmt::format("about {:.0e}, the square of the strain", strain * strain));
       decide("geometry {}: at a strain of {:g}, that of the start changes |E*| by at most about {:.1e}",
@@ -103,7 +107,7 @@ class Planner {
     nonlinear_ = nonlinear_effect(scene_, plan_.geometry);
   }
 
-  /// `no_harmonic_` says why where there is none.
+  /// Makes the harmonic solver. If that is not possible, `no_harmonic_` says why.
   void make_harmonic() {
     if (prepared_.loose_particles > 0) {
       no_harmonic_ = fmt::format("{} particles are not joined to both walls", prepared_.loose_particles);
@@ -142,7 +146,7 @@ class Planner {
     }
   }
 
-  /// One solution for each load, side by side; those that have none are said, and left out.
+  /// Solves all loads side by side. A load without a solution has an empty result and is reported among the decisions.
   std::vector<std::optional<HarmonicResult>> solutions(const std::vector<HarmonicLoad>& loads) {
     std::vector<std::optional<HarmonicResult>> out(loads.size());
     if (!harmonic_) return out;
@@ -153,7 +157,7 @@ class Planner {
       std::move(all.begin(), all.end(), out.begin());
     } catch (const InterruptedError&) { throw; } catch (const RunError&) {
       for (std::size_t i = 0; i < loads.size(); ++i)
-        out[i] = solution(loads[i]);  // one must not cost the others theirs
+        out[i] = solution(loads[i]);  // one by one, so that a failed load does not cost the others their solutions
     }
     for (const auto& r : out) {
       if (r && !r->why_factors.empty()) decide("{} Hz: solved with factors: {}", r->frequency_hz, r->why_factors);
@@ -161,6 +165,7 @@ class Planner {
     return out;
   }
 
+  /// Solves one load. A load without a solution is reported among the decisions.
   std::optional<HarmonicResult> solution(const HarmonicLoad& load) {
     try {
       return harmonic_->solve(std::vector{load}).front();
@@ -171,11 +176,13 @@ class Planner {
     }
   }
 
-  /// All frequencies at once: what they are at true mass, then with the inertia that they will be stepped with.
+  /// Plans all frequencies at once: solves them at true mass, chooses their scaling, and solves them again with that
+  /// inertia.
   void plan_frequencies() {
     const std::vector<double>& frequencies = scene_.cyclic().frequencies;
     std::vector<HarmonicLoad> loads;
-    for (const double f : frequencies) loads.push_back({f, 1, 0});  // undamped: damping is no property of the specimen
+    // undamped, because damping is not a property of the specimen
+    for (const double f : frequencies) loads.push_back({f, 1, 0});
     const auto known = solutions(loads);
     for (std::size_t i = 0; i < frequencies.size(); ++i) {
       loads[i].density_scaling = scaling_of(i, known[i]);
@@ -192,6 +199,8 @@ class Planner {
     }
   }
 
+  /// Returns the density scaling of frequency i: the given one, or the largest one that the tolerance allows by the
+  /// derivative of E* or, without a solution, by an estimate.
   double scaling_of(std::size_t i, const std::optional<HarmonicResult>& known) const {
     if (const auto given = given_scaling(scene_, i, plan_.critical.dt)) return *given;
     const double frequency = scene_.cyclic().frequencies[i];
@@ -199,8 +208,8 @@ class Planner {
     return std::max(1.0, estimate_part * tolerance() / inertia_estimate(scene_, prepared_, frequency));
   }
 
-  /// A tolerance so large, or a resonance so near, that the change is not straight: what came out too far off is found
-  /// by more solutions.
+  /// If the tolerance is large or a resonance is near, the error does not grow in proportion to the scaling.
+  /// Frequencies whose error is too large get less scaling and are solved again.
   void correct(std::vector<HarmonicLoad>& loads, const std::vector<std::optional<HarmonicResult>>& known,
                std::vector<std::optional<HarmonicResult>>& scaled) {
     if (!automatic() || scene_.solver.density_scaling || scene_.solver.time_step) return;
@@ -222,6 +231,7 @@ class Planner {
     }
   }
 
+  /// Completes the plan of a frequency with its start, cycles, loading and predicted error.
   void finish(FrequencyPlan f, double frequency, std::optional<HarmonicResult> scaled) {
     f.start = scaled ? start_ : Start::rest;
     const CycleCount count = count_cycles(scene_, f.start);
@@ -229,12 +239,14 @@ class Planner {
     f.cycles = count.cycles, f.fit_cycles = count.fitted;
     f.loading = make_loading(f, frequency, ramp);
     if (scaled && f.known) f.predicted = difference(scaled->top, *f.known);
-    if (automatic() && nonlinear_ > tolerance()) f.known.reset(), f.predicted.reset();  // no measure of such strains
+    // the linear solution does not measure the error at such strains
+    if (automatic() && nonlinear_ > tolerance()) f.known.reset(), f.predicted.reset();
     if (f.start == Start::steady) f.motion = std::move(scaled->motion);
     say(f, frequency, ramp);
     plan_.frequencies.push_back(std::move(f));
   }
 
+  /// Reports the settings of a frequency among the decisions.
   void say(const FrequencyPlan& f, double frequency, double ramp) {
     if (automatic()) {
       std::string error;
@@ -258,7 +270,7 @@ class Planner {
     if (share > 1) decide("{} Hz: the given step is {:.2f} of the largest that is surely stable", frequency, share);
   }
 
-  /// A whole number of samples a period, a whole number of steps a sample.
+  /// Returns a loading with a whole number of samples per period and a whole number of steps per sample.
   drives::Cyclic make_loading(const FrequencyPlan& f, double frequency, double ramp) const {
     const experiments::Cyclic& spec = scene_.cyclic();
     const double step = longest_cyclic_step(scene_.solver, plan_.critical.dt, f.density_scaling);
@@ -282,7 +294,7 @@ class Planner {
   std::optional<Harmonic> harmonic_;
   std::string no_harmonic_;
   Start start_ = Start::rest;
-  double nonlinear_ = 0;  ///< what the strain changes of |E*| that the harmonic solution does not see
+  double nonlinear_ = 0;  ///< effect of the strain on |E*| that the harmonic solution does not contain
 };
 
 }  // namespace

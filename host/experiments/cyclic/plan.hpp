@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file plan.hpp  What a scene leaves open of an explicit run, decided once before the first step.
+/// \file plan.hpp  Settings that a scene leaves open for an explicit run. They are decided once, before the first step.
 #pragma once
 
 #include <optional>
@@ -17,9 +17,9 @@ struct FrequencyPlan {
   double density_scaling = 1;
   Start start = Start::rest;
   int cycles = 0, fit_cycles = 0;
-  std::optional<Stiffness> known;            ///< of the harmonic solver at true mass
-  std::optional<ErrorEstimate> predicted;    ///< with respect to it
-  std::vector<std::complex<double>> motion;  ///< of the steady start: HarmonicResult::motion with this inertia
+  std::optional<Stiffness> known;            ///< result of the harmonic solver at true mass
+  std::optional<ErrorEstimate> predicted;    ///< predicted difference of this run from `known`
+  std::vector<std::complex<double>> motion;  ///< for a steady start: HarmonicResult::motion with the run's inertia
 };
 
 /// How a scene is stepped.
@@ -27,16 +27,15 @@ struct Plan {
   ContactForm form = ContactForm::condensed;
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
-  double geometry_error = 0;  ///< of |E*|, at most about, by the geometry of the start
+  double geometry_error = 0;  ///< about the largest error of |E*| from keeping the initial geometry
   CriticalStep critical;      ///< at true mass
   std::vector<FrequencyPlan> frequencies;
-  std::vector<std::string> decisions;  ///< what was chosen and why, a sentence each
+  std::vector<std::string> decisions;  ///< what was chosen and why, one sentence each
 };
 
-/// Keeps what the scene gives; where it gives a tolerance, chooses the rest so that |E*| and φ are expected to differ
-/// by less from those of true mass, else takes fixed defaults. \throws RunError when the step would be hopelessly
-/// small.
-/// `backend`: on which it is stepped, which also solves. `phases`: what takes how long is added there.
+/// Keeps what the scene gives. With a tolerance, chooses the rest so that |E*| and φ are expected to differ by less
+/// than the tolerance from those of true mass; otherwise takes fixed defaults. `backend` takes the steps and also
+/// solves. The time of each part is added to `phases`. \throws RunError if the step would be hopelessly small.
 Plan make_plan(const Scene& scene, const Preparation& prepared, const Inertia& inertia, const Watcher& watcher,
                Backend backend, PhaseSeconds& phases);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_state.cpp  Plan, times and samples as text and arrays.
+// run_state.cpp  Plan and times are stored as text, samples and motions as arrays.
 #include "host/experiments/cyclic/run_state.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include "macadam/error.hpp"
 
-/// A value or null.
+/// Stores an optional value as the value or as null.
 template <class T>
 struct nlohmann::adl_serializer<std::optional<T>> {
   static void to_json(json& out, const std::optional<T>& value) { out = value ? json(*value) : json(); }
@@ -17,7 +17,7 @@ struct nlohmann::adl_serializer<std::optional<T>> {
 
 namespace macadam {
 
-// JSON's numbers are the shortest that give the same double again; all of these are finite.
+// JSON numbers have the fewest digits that give the same double again. All of these numbers are finite.
 namespace drives {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cyclic, amplitude, frequency, steps_per_period, ramp_steps)
 }
@@ -74,7 +74,8 @@ void add_to(Checkpoint& out, const RunState& at, double seconds_running) {
     samples.insert(samples.end(), {s.frequency_hz, s.time_s, s.strain, s.stress_pa});
   }
   out.arrays.push_back({samples_array, "Hz, s, 1, Pa", std::move(samples)});
-  for (std::size_t i = at.seconds.size() + 1; i < at.plan.frequencies.size(); ++i) {  // those still to be started
+  // frequencies that have not been started
+  for (std::size_t i = at.seconds.size() + 1; i < at.plan.frequencies.size(); ++i) {
     std::vector<double> motion;
     for (const auto& z : at.plan.frequencies[i].motion) motion.insert(motion.end(), {z.real(), z.imag()});
     if (!motion.empty()) out.arrays.push_back({motion_prefix + std::to_string(i), "m/m, rad/m", std::move(motion)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scaling.cpp  The derivative of E* by the density scaling is its inertia part: nothing is solved again.
+// scaling.cpp  The derivative of E* by the density scaling is its inertia part, so nothing is solved again.
 #include "host/experiments/cyclic/scaling.hpp"
 
 #include <cmath>
@@ -11,12 +11,13 @@ namespace macadam {
 double largest_scaling(const HarmonicResult& known, double viscous, double wanted) {
   using Complex = std::complex<double>;
   const Complex s(0, 2 * std::numbers::pi * known.frequency_hz);
-  const Complex each = known.parts.inertia / (s * s) / known.parts.modulus();  // per unit of (s² + s·β)·scaling
+  // relative change of E* per unit of (s² + s·β)·scaling
+  const Complex each = known.parts.inertia / (s * s) / known.parts.modulus();
   const auto change = [&](double scaling) {
     const Complex relative = each * (scaling * (s * s + s * viscous) - s * s);
     return largest({std::abs(1.0 + relative) - 1, std::arg(1.0 + relative)});
   };
-  if (!(change(1) < wanted)) return 1;  // by damping alone
+  if (!(change(1) < wanted)) return 1;  // the damping alone changes E* by more
   double low = 1, high = 2;
   while (change(high) < wanted && high < 1e15) low = high, high *= 2;
   for (int k = 0; k < 60; ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// solve_frequencies.cpp  Method "harmonic": the steady state of every frequency, four side by side.
+// solve_frequencies.cpp  Method "harmonic": solves the steady states of all frequencies, four side by side.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using experiments::HarmonicFrequency;
 
 namespace {
 
-/// What the scene gives that only a stepped run takes.
+/// Returns the names of the scene's settings that only a stepped run uses.
 std::string unused_settings(const Scene& scene) {
   const SolverSpec& s = scene.solver;
   const auto* cyclic = std::get_if<experiments::Cyclic>(&scene.experiment);
@@ -43,7 +43,7 @@ std::string unused_settings(const Scene& scene) {
   return out;
 }
 
-/// What the results' description says of the method.
+/// Describes the method, for the results.
 std::string described(const Scene& scene, double viscous) {
   const SolverSpec& solver = scene.solver;
   std::string out = solver.inertia ? "harmonic, with inertia" : "harmonic, without inertia";
@@ -62,7 +62,7 @@ class HarmonicSolution : public Solution {
       : scene_(scene), prepared_(prepared), watcher_(watcher), found_(found) {
     const SolverSpec& solver = scene.solver;
     viscous_ = solver.inertia && solver.damping_kind == Damping::viscous ? solver.damping : 0;
-    // the reference writes the time step again, not this; factors are the CPU's
+    // the reference backend implements time steps only; the direct solver runs on the CPU only
     if (result.backend == Backend::reference || solver.linear == LinearMethod::direct) result.backend = Backend::cpu;
     result.solver = described(scene, viscous_) + ", " + to_string(result.backend);
     if (watcher.progress) watcher.progress("harmonic: preconditioner", 0);
@@ -100,7 +100,7 @@ class HarmonicSolution : public Solution {
     const auto& frequencies = frequencies_;
     const std::optional<double>& temperature = isothermal_.materials.temperature;
     const std::string at = temperature ? fmt::format(" at {} degrees C", *temperature) : "";
-    constexpr std::size_t block = 4;  // solved side by side
+    constexpr std::size_t block = 4;  // number of frequencies that are solved side by side
     for (std::size_t i = 0; i < frequencies.size(); i += block) {
       const std::size_t end = std::min(i + block, frequencies.size());
       const std::string where = fmt::format("{} Hz{} ({} of {})", frequencies[i], at, i + 1, frequencies.size());
@@ -112,7 +112,7 @@ class HarmonicSolution : public Solution {
         const std::optional<std::vector<HarmonicResult>> solved = try_to_solve(i, end);
         if (solved) {
           take(*solved, result, save);
-        } else {  // one of them has no solution: those before it are not lost for that
+        } else {  // one of them has no solution; those before it must not be lost for that
           for (std::size_t k = i; k < end; ++k) take(solve(k, k + 1), result, save);
         }
       } catch (const InterruptedError&) {
@@ -122,6 +122,7 @@ class HarmonicSolution : public Solution {
     }
   }
 
+  /// Returns nothing if one of several frequencies has no solution. \throws RunError if a single frequency has none.
   std::optional<std::vector<HarmonicResult>> try_to_solve(std::size_t first, std::size_t end) {
     try {
       return solve(first, end);
@@ -174,7 +175,7 @@ class HarmonicSolution : public Solution {
   std::vector<double> frequencies_ = frequencies_of(scene_.experiment),
                       temperatures_ = temperatures_of(scene_.experiment);
   Backend backend_ = Backend::cpu;
-  Scene isothermal_ = scene_;  ///< the scene with the laws of the temperature at hand
+  Scene isothermal_ = scene_;  ///< the scene with the laws of the present temperature
   double viscous_ = 0;
   std::optional<Harmonic> harmonic_;
   std::optional<FieldOutput> fields_;

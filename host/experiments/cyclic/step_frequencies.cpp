@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step_frequencies.cpp  The cyclic test stepped in time, one frequency after another.
+// step_frequencies.cpp  Steps the cyclic test in time, one frequency after another.
 #include <fmt/format.h>
 #include <omp.h>
 
@@ -33,10 +33,10 @@ using experiments::SteppedFrequency;
 
 namespace {
 
-/// The share of the tolerance that steps in blocks may cost, where a device takes them so.
+/// The part of the tolerance that stepping in blocks may take.
 constexpr double block_share = 0.02;
 
-/// The samples of one frequency, which stand together, from number `first` on.
+/// Returns the samples of one frequency, which are contiguous and begin at number `first`.
 std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& samples, std::size_t first,
                                            double frequency) {
   std::size_t end = first;
@@ -44,7 +44,7 @@ std::span<const ResponseSample> samples_of(const std::vector<ResponseSample>& sa
   return std::span(samples).subspan(first, end - first);
 }
 
-/// What a finished frequency says.
+/// Returns the result of a finished frequency.
 SteppedFrequency finished(const Scene& scene, const Plan& whole, std::size_t number,
                           std::span<const ResponseSample> samples, double seconds) {
   const FrequencyPlan& plan = whole.frequencies[number];
@@ -65,14 +65,15 @@ SteppedFrequency finished(const Scene& scene, const Plan& whole, std::size_t num
   return f;
 }
 
-/// What all frequencies have in common.
+/// Returns the options that the steppers of all frequencies have in common.
 StepperOptions common_options(const Plan& plan, const SolverSpec& solver) {
   StepperOptions options = stepper_options(solver, plan.form, plan.geometry, plan.precision);
   if (solver.tolerance) options.blocks = blocks_within(block_share * *solver.tolerance);
   return options;
 }
 
-/// Says how long blocks of steps are, where a tolerance decides it, the backend may take them, and they cost anything.
+/// Reports the length of blocks among the decisions, if a tolerance decides it, the backend may step in blocks and
+/// blocks are not exact.
 void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
   const SolverSpec& solver = scene.solver;
   const bool may = backend != Backend::reference && plan.form == ContactForm::condensed &&
@@ -84,8 +85,9 @@ void decide_blocks(const Scene& scene, Backend backend, Plan& plan) {
                   std::ceil(blocks), block_error(blocks)));
 }
 
-/// The stepper of one frequency: from rest, from the steady state, or, where there is one, from a checkpoint's state.
-/// `used`: that of the frequency before.
+/// Returns the stepper of one frequency. It continues from `from`, a checkpoint's state, unless that is empty;
+/// otherwise it begins with the steady state `start` or, without one, from rest. `used`: the stepper of the frequency
+/// before.
 std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepared, const Inertia& inertia,
                                     Backend backend, const Plan& plan, const FrequencyPlan& p,
                                     const DeviceList& devices, const std::vector<StateArray>& from,
@@ -100,12 +102,12 @@ std::unique_ptr<Stepper> stepper_of(const Scene& scene, const Preparation& prepa
   return stepper_from(from, backend, scene, prepared, inertia, options, std::move(used));
 }
 
-/// The line of response.csv.
+/// Returns the line of a sample in response.csv.
 std::string line_of(const ResponseSample& s) {
   return fmt::format("{},{},{},{}", s.frequency_hz, s.time_s, s.strain, s.stress_pa);
 }
 
-/// A stepped run from its plan on.
+/// A stepped run, after its planning.
 class Steps : public Solution {
  public:
   Steps(const Scene& scene, const Preparation& prepared, const Watcher& watcher, const Inertia& inertia, RunState at,
@@ -118,7 +120,7 @@ class Steps : public Solution {
         devices_(scene.solver.devices),
         owns_checkpoint_(resumed) {}
 
-  /// Makes the first stepper: what it refuses is refused before a file is touched.
+  /// Makes the first stepper now, so that it refuses the scene before a file is touched.
   void make_first(RunResult& result, const std::filesystem::path& checkpoint) {
     if (at_.seconds.size() == at_.plan.frequencies.size()) return;
     const bool resumed = !at_.state.empty();
@@ -130,7 +132,8 @@ class Steps : public Solution {
     }
   }
 
-  /// What is known before the first step, and the frequencies that a checkpoint has finished.
+  /// Fills in the results that are known before the first step, and those of frequencies that a checkpoint has
+  /// finished.
   void begin(RunResult& result) {
     result.decisions = at_.plan.decisions;
     SteppedCyclic& found = result.found.emplace<SteppedCyclic>();
@@ -156,7 +159,7 @@ class Steps : public Solution {
     std::optional<LineWriter> writer;
     if (scene_.output.response) {
       writer.emplace(out / "response.csv", "frequency_hz,time_s,strain,stress_pa");
-      for (const ResponseSample& s : at_.samples) writer->add(line_of(s));  // none is lost or doubled
+      for (const ResponseSample& s : at_.samples) writer->add(line_of(s));  // no sample is lost or written twice
     }
     for (std::size_t i = at_.seconds.size(); i < at_.plan.frequencies.size(); ++i) {
       step(i, writer ? &*writer : nullptr, courses, save, result);
@@ -176,7 +179,8 @@ class Steps : public Solution {
     if (watcher_.warn) watcher_.warn(warning);
   }
 
-  /// From the stepper of another frequency, where there is one.
+  /// Makes the stepper of a frequency, out of the stepper of another frequency if there is one. The run may move to
+  /// other devices here.
   std::unique_ptr<Stepper> make(std::size_t i, const std::vector<StateArray>& from, RunResult& result) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
     const auto& all = at_.plan.frequencies;
@@ -195,7 +199,7 @@ class Steps : public Solution {
     std::unique_ptr<Stepper> made;
     try {
       made = on(devices_);
-    } catch (const RunError&) {  // the other device may have no memory: that is no reason to end here
+    } catch (const RunError&) {  // the new device may lack memory; then the run stays where it was
       if (devices_ == before) throw;
       devices_ = before, may_move_ = false;
       made = on(devices_);
@@ -204,14 +208,14 @@ class Steps : public Solution {
     return made;
   }
 
-  /// Makes a start while a device takes the steps of the frequency before.
+  /// Computes the steady start of a frequency while a device takes the steps of the frequency before.
   void begin_start(std::size_t i) {
     try {
       next_start_ = std::async(std::launch::async, [this, i] {
         omp_set_num_threads(1);
         return start_of(i);
       });
-    } catch (const std::system_error&) {}  // no more threads: when it is needed, then
+    } catch (const std::system_error&) {}  // no thread is available: the start is computed when it is needed
   }
   StartState start_of(std::size_t i) const {
     const FrequencyPlan& p = at_.plan.frequencies[i];
@@ -243,8 +247,8 @@ class Steps : public Solution {
     if (cracks.found().points() > 0) warn(fmt::format("{}: {}", course.name, cracks_words(cracks.found())), result);
   }
 
-  /// Every sample goes to `at_` and `writer` at once. Without a writer, only the cycles that are fitted and the one
-  /// before, which shows the change from cycle to cycle, are kept.
+  /// Returns the course of a frequency. Every sample is stored in `at_` and written at once. Without a writer, only the
+  /// fitted cycles and the one before them, which shows the change from cycle to cycle, are kept.
   Course course_of(std::size_t i, LineWriter* writer, const Content& content) {
     const FrequencyPlan& p = at_.plan.frequencies[i];
     const std::int64_t per_cycle = scene_.cyclic().samples_per_cycle, per_period = p.loading.steps_per_period;
@@ -290,13 +294,13 @@ class Steps : public Solution {
   const Watcher& watcher_;
   Inertia inertia_;
   RunState at_;
-  DeviceList devices_;                ///< of the stepper
-  bool may_move_ = true;              ///< to other devices
-  std::unique_ptr<Stepper> stepper_;  ///< of the frequency that runs, or is to run first
-  bool used_ = false;                 ///< it has run one
-  std::size_t samples_read_ = 0;      ///< of finished frequencies
+  DeviceList devices_;                ///< devices of the stepper
+  bool may_move_ = true;              ///< whether the run may move to other devices
+  std::unique_ptr<Stepper> stepper_;  ///< of the running frequency, or of the first to run
+  bool used_ = false;                 ///< whether the stepper has run a frequency
+  std::size_t samples_read_ = 0;      ///< number of samples of finished frequencies
   bool owns_checkpoint_;
-  std::future<StartState> next_start_;  ///< of the next frequency; the last member, as it works with others
+  std::future<StartState> next_start_;  ///< of the next frequency; the last member, because its thread uses the others
 };
 
 }  // namespace

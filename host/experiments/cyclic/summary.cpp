@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// summary.cpp  The cyclic test in summary.json.
+// summary.cpp  Reports the cyclic test in summary.json.
 #include <cmath>
 #include <numbers>
 
@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 Json error_json(const ErrorEstimate& error) { return {{"e_star", error.e_star}, {"phase_rad", error.phase_rad}}; }
 
-/// Derivatives by the logarithms of the parameters, and what each pair carries.
+/// Adds the derivatives by the logarithms of the parameters, and the part of the modulus that each pair carries.
 void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, Json& out) {
   out["sensitivities"] = Json::array();
   for (const Sensitivity& s : sensitivities(f.parts, laws, {0, 2 * std::numbers::pi * f.frequency_hz})) {
@@ -34,7 +34,7 @@ void add_sensitivities(const HarmonicFrequency& f, const LawTable& laws, Json& o
   }
 }
 
-/// What does not depend on the method.
+/// Returns the entries that do not depend on the method.
 Json begun(const Frequency& f, const char* method, double residual, const Scene& scene) {
   Json out = {{"frequency_hz", f.frequency_hz},
               {"e_star_pa", f.stiffness.e_star_pa},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// table.cpp  The cyclic test as the command shows it.
+// table.cpp  The table of the cyclic test that the command prints.
 #include <fmt/format.h>
 
 #include "host/experiments/cyclic/frequency_summary.hpp"
@@ -15,6 +15,7 @@ using experiments::SteppedFrequency;
 
 namespace {
 
+/// Whether the frequencies have temperatures.
 template <class F>
 bool warm(const std::vector<F>& frequencies) {
   return !frequencies.empty() && frequencies.front().temperature_c;
@@ -25,7 +26,7 @@ bool confined(const std::vector<F>& frequencies) {
   return !frequencies.empty() && frequencies.front().confined;
 }
 
-/// What |E*| is the name of: the modulus of a specimen with free sides.
+/// Returns the symbol of the modulus. |E*| is the modulus of a specimen with free sides only.
 const char* symbol(bool confined) { return confined ? "|M*|" : "|E*|"; }
 
 template <class F>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error.cpp  Differences from the answer without steps; without one, bounds by the ramp, the damping and the
+// load_error.cpp  Differences from the answer without steps; without one, bounds from the ramp, the damping and the
 // walls.
 #include "host/experiments/loaded/load_error.hpp"
 
@@ -20,14 +20,15 @@ using experiments::SteppedPoint;
 
 namespace {
 
-/// Of E(t), where errors are measured against it.
+/// Tolerance of E(t) if errors are measured against it.
 constexpr double spectrum_tolerance = 1e-5;
-/// A strain up to this changes stresses by its updated geometry by less than 1 %: some three times the strain.
+/// Up to this strain, updating the geometry changes stresses by less than 1 %: about three times the strain.
 constexpr double small_strain = 1e-3;
 /// A row with a larger error is named in a warning.
 constexpr double largest_error = 1e-2;
 
-/// The release rounded to a whole step, as in the run. A load that goes at once is still held at that step.
+/// Returns the times of a load with the release rounded to a whole step, as in the run. A load that is removed at once
+/// is still held at that step.
 LoadTimes on_steps(const LoadTimes& asked, double ramp, double dt) {
   LoadTimes out{ramp, {}};
   if (!asked.release) return out;
@@ -36,7 +37,7 @@ LoadTimes on_steps(const LoadTimes& asked, double ramp, double dt) {
   return out;
 }
 
-/// The times of the rows, as seen from both loads.
+/// Returns the range of times after a change of load that the rows need, for the load as asked and as in the run.
 std::pair<double, double> range_of(const LoadTest& test, const LoadPlan& plan) {
   std::vector<double> times;
   for (const double t : test.history.times) times.push_back(static_cast<double>(plan.step_at(t)) * plan.dt);
@@ -114,16 +115,17 @@ bool LoadErrors::is_known(const SteppedPoint& row, const std::vector<SteppedPoin
   if (!spectrum_) return false;
   double strain = std::abs(row.strain);
   for (const SteppedPoint& p : before) strain = std::max(strain, std::abs(p.strain));
-  return !updated_ || strain <= small_strain;  // a larger one turns contacts, which the spectrum does not contain
+  return !updated_ || strain <= small_strain;  // a larger strain turns contacts, which the spectrum does not contain
 }
 
+/// Returns the parts of the error that is measured against the answer without steps.
 LoadErrors::Parts LoadErrors::measured(const SteppedPoint& row) const {
   const double asked = value(test_.unstepped(*spectrum_, row.time_s, asked_)),
                run = value(test_.unstepped(*spectrum_, row.time_s, run_));
   return {std::abs(run - asked), std::abs(value(row) - run)};
 }
 
-/// Largest difference between the load, if it is a stress, and the stresses of the walls, relative.
+/// Returns the largest difference between the load, if it is a stress, and the stresses of the walls, relative.
 double LoadErrors::walls(const SteppedPoint& row) const {
   const double apart = std::abs(row.top_pa - row.bottom_pa);
   if (test_.by_stress) {
@@ -131,12 +133,14 @@ double LoadErrors::walls(const SteppedPoint& row) const {
            std::abs(test_.held_stress);
   }
   const double top = std::abs(row.top_pa), bottom = std::abs(row.bottom_pa);
-  constexpr double least = 1e-3;  // of the larger, if a wave has not reached the other wall
+  // of the larger stress; it limits the ratio when a wave has not reached the other wall
+  constexpr double least = 1e-3;
   const double smaller = std::max(std::min(top, bottom), least * std::max(top, bottom));
   return smaller > 0 ? apart / smaller : 0;
 }
 
-/// Stress over strain now; after a release, the held stress over the largest strain.
+/// Returns stress over strain at the row; after a release, the held stress over the largest strain. At most the affine
+/// modulus.
 double LoadErrors::modulus(const SteppedPoint& row, const std::vector<SteppedPoint>& before) const {
   double strain = std::abs(row.strain);
   if (is_released(row.time_s)) {
@@ -146,8 +150,8 @@ double LoadErrors::modulus(const SteppedPoint& row, const std::vector<SteppedPoi
   return std::min(stress / strain, affine_modulus_);
 }
 
-/// Largest relative rate of change [1/s] that the answer can have had over the last `window` seconds. E(t) is convex
-/// and J(t) concave: over the last part of a time they change less than on the average of all of it.
+/// Returns the largest relative rate of change [1/s] that the answer can have had over the last `window` seconds. E(t)
+/// is convex and J(t) concave: over the last part of a time they change less than on the average of all of it.
 double LoadErrors::rate(const SteppedPoint& row, const std::vector<SteppedPoint>& before, double modulus,
                         double window) const {
   if (test_.grows) return 1 / row.time_s;
@@ -161,9 +165,9 @@ double LoadErrors::rate(const SteppedPoint& row, const std::vector<SteppedPoint>
   return std::min(out, std::abs(change(earlier)) / (row.time_s - before.back().time_s));
 }
 
-// The ramp replaces a load at once. During the ramp a part of the load is missing; afterwards the load is r/2 late.
-// Viscous damping β delays the particles by β/ω², where ω is the frequency of the slowest wave, and inertia by up to
-// 1/ω.
+// The run's ramp replaces an instantaneous load. During the ramp, of duration r, a part of the load is missing;
+// afterwards the load is r/2 late. Viscous damping β delays the particles by β/ω², where ω is the frequency of the
+// slowest wave, and inertia delays them by up to 1/ω.
 LoadErrors::Parts LoadErrors::estimated(const SteppedPoint& row, const std::vector<SteppedPoint>& before) const {
   const double stiffness = modulus(row, before), omega = std::sqrt(wave_ * stiffness);
   const double drag = plan_.damping_kind == Damping::viscous ? plan_.damping / (omega * omega) : 0;
@@ -208,7 +212,7 @@ std::string LoadErrors::warning(const std::vector<SteppedPoint>& rows) const {
                      100 * worst->error, advice(known ? measured(*worst) : estimated(*worst, before)));
 }
 
-/// Names the larger part and what lessens it.
+/// Names the larger part of the error and what reduces it.
 std::string LoadErrors::advice(const Parts& parts) const {
   const std::string lighter =
       plan_.density_scaling > 1 ? fmt::format(", less density_scaling (it is {:g})", plan_.density_scaling) : "";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_error.hpp  Error of a stepped test of a load: against the answer without steps where there is one, else
-/// an estimate.
+/// \file load_error.hpp  Error of a stepped test of a load: measured against the answer without steps if there is one,
+/// otherwise estimated.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace macadam {
 
-/// The relaxation of the specimen, which gives the answer to any load without steps.
+/// The relaxation of the specimen, from which the answer to any load follows without steps.
 struct UnsteppedAnswer {
   PronySeries relaxation;  ///< of the whole specimen
   double error = 0;        ///< of E(t) and J(t), relative
@@ -22,28 +22,29 @@ struct UnsteppedAnswer {
 std::optional<UnsteppedAnswer> solve_unstepped(const LoadTest& test, const Scene& scene, const Preparation& prepared,
                                                const Watcher& watcher, Backend backend, LoadPlan& plan);
 
-/// Errors of the rows of one stepped test, relative: of the stress, or, where the load is a stress, of the strain.
+/// Errors of the rows of one stepped test, relative: of the stress, or, if the load is a stress, of the strain.
 class LoadErrors {
  public:
-  /// `heavy_density`: mean density with the density scaling [kg/m³]. The plan must outlive it.
+  /// `heavy_density`: mean density, including the density scaling [kg/m³]. The plan must outlive this object.
   LoadErrors(const LoadTest& test, const Scene& scene, const Preparation& prepared, double heavy_density,
              const LoadPlan& plan, const std::optional<UnsteppedAnswer>& unstepped);
 
-  /// The error of a row, after the rows `before`.
+  /// Returns the error of a row. `before`: the earlier rows.
   double of(const experiments::SteppedPoint& row, const std::vector<experiments::SteppedPoint>& before) const;
 
-  /// Returns in words how far the ramp of the run takes E(t) or J(t) from those after a step; empty where that is not
-  /// known or nothing.
+  /// Describes how much the ramp of the run changes E(t) or J(t) from those after a step of the load; empty if that is
+  /// not known or zero.
   std::string ramp_words() const;
 
-  /// Says in words what `error` of a table is.
+  /// Describes what `error` of a table is.
   std::string meaning() const;
 
-  /// Names the row with the largest error, its cause and what lessens it; empty where no error is above 1 %.
+  /// Returns a warning that names the row with the largest error, its cause and what reduces it; empty if no error is
+  /// above 1 %.
   std::string warning(const std::vector<experiments::SteppedPoint>& rows) const;
 
  private:
-  /// The part that the ramp of the run makes where the scene asks for a load at once, and the remainder.
+  /// The error from the ramp of the run, if the scene asks for an instantaneous load, and the remaining error.
   struct Parts {
     double ramp = 0, remainder = 0;
   };
@@ -62,11 +63,11 @@ class LoadErrors {
   const LoadTest test_;
   const LoadPlan& plan_;
   std::optional<Spectrum> spectrum_;
-  LoadTimes asked_, run_;  ///< the release rounded to a whole step
+  LoadTimes asked_, run_;  ///< as the scene asks and as in the run; the release is rounded to a whole step
   bool updated_ = true, damping_given_ = false;
-  bool remembers_ = false;     ///< some law relaxes; if not, only what happens now has an effect
-  double affine_modulus_ = 0;  ///< no modulus at once is above it [Pa]
-  double wave_ = 0;            ///< π²/(ρ·H²), of a platen a quarter: ω² of the slowest wave over the modulus
+  bool remembers_ = false;     ///< whether a law relaxes; if none does, only the present load has an effect
+  double affine_modulus_ = 0;  ///< no instantaneous modulus is above it [Pa]
+  double wave_ = 0;  ///< ω² of the slowest wave over the modulus: π²/(ρ·H²), with a platen a quarter of it
 };
 
 }  // namespace macadam

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_plan.cpp  Ramp, damping, platen and step from the slowest wave of the specimen and the times that are asked for.
+// load_plan.cpp  Chooses ramp, damping, platen and step from the slowest wave of the specimen and the times of the
+// points.
 #include "host/experiments/loaded/load_plan.hpp"
 
 #include <fmt/format.h>
@@ -35,6 +36,7 @@ class LoadPlanner {
   }
 
  private:
+  /// Adds a sentence to the decisions.
   template <class... Args>
   void decide(fmt::format_string<Args...> text, Args&&... args) {
     plan_.decisions.push_back(fmt::format(text, std::forward<Args>(args)...));
@@ -76,11 +78,11 @@ class LoadPlanner {
                              : fmt::format("waves of a change of load have died out {:.3g} s later", damping_.pause));
   }
 
-  /// As heavy as a wall may be light without a shorter step, where the scene does not say.
+  /// Chooses the lightest platen that does not shorten the step, unless the scene gives one.
   void choose_platen() {
     plan_.platen_mass = test_.platen_mass.value_or(0);
     if (plan_.platen_mass > 0) return;
-    Inertia heavy = inertia_;  // so that the wall alone sets the step
+    Inertia heavy = inertia_;  // particles so heavy that the wall alone limits the step
     for (auto* list : {&heavy.mass, &heavy.inertia}) std::fill(list->begin(), list->end(), 1e60);
     StepperOptions options;
     const double particles = critical_step(prepared_.network, scene_.laws, inertia_, options).dt;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_plan.hpp  What a scene leaves open of a stepped test of a load, decided once before the first step.
+/// \file load_plan.hpp  Settings that a scene leaves open for a stepped test of a load. They are decided once, before
+/// the first step.
 #pragma once
 
 #include <string>
@@ -19,23 +20,24 @@ struct LoadPlan {
   double density_scaling = 1;
   Damping damping_kind = Damping::none;
   double damping = 0;
-  double ramp = 0;         ///< in which the load grows [s]
-  double platen_mass = 0;  ///< [kg]; 0: the wall is moved
+  double ramp = 0;         ///< time in which the load grows [s]
+  double platen_mass = 0;  ///< [kg]; 0: the wall is displaced, not loaded
   double dt = 0;           ///< [s]
   std::vector<std::string> decisions;
 
-  std::int64_t step_at(double time) const;  ///< the nearest one, from 1 on
+  std::int64_t step_at(double time) const;  ///< the nearest step, at least 1
 };
 
-/// Keeps what the scene gives and chooses the rest: docs/relaxation.md says how. \throws InputError for what does not
-/// fit this way; RunError for a step that is hopelessly small, or a wall that touches nothing.
+/// Keeps what the scene gives and chooses the rest; docs/relaxation.md explains how. \throws InputError for settings
+/// that do not apply to stepped tests of a load; RunError if the step is hopelessly small, or if the top wall touches
+/// nothing.
 LoadPlan make_load_plan(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Inertia& inertia);
 
-/// Returns the modulus that the network has at once if all of it strains alike [Pa]: no less than its true one.
+/// Returns the instantaneous modulus of the network if all of it strained alike [Pa], which is at least its true one.
 /// `volume`: of the box [m³].
 double affine_modulus(const ContactNetwork& network, const FactsTable& laws, double volume);
 
-/// The load on the top wall.
+/// Returns the load on the top wall as a boundary condition.
 Boundary boundary_of(const LoadTest& test, const LoadPlan& plan, const Box& box);
 
 }  // namespace macadam

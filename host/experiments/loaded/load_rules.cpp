@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_rules.cpp  Ramp, damping and step from the slowest wave of the specimen and the times that are asked for.
+// load_rules.cpp  Ramp, damping and step from the slowest wave of the specimen and the times of the points.
 #include "host/experiments/loaded/load_rules.hpp"
 
 #include <fmt/format.h>
@@ -15,10 +15,10 @@
 namespace macadam {
 namespace {
 
-/// Largest wave, relative to the stress, at the time of a point.
+/// Largest wave, relative to the stress, that may be left at the time of a point.
 constexpr double largest_wave = 2e-5;
 
-/// The shortest time from a change of the load's rate to a point.
+/// Returns the shortest time from a change of the load's rate to a point [s].
 double shortest_pause(const LoadTest& test, double ramp) {
   std::vector<double> changes{0};
   if (!test.grows) changes.push_back(ramp);
@@ -46,8 +46,8 @@ double ramp_of(const LoadTest& test, double slowest) {
 }
 
 // Weak damping leaves waves, and strong damping delays the slow motion: β is the least that the points need. A ramp
-// makes waves whose part of the stress is the time of a wave through the specimen over the ramp's. Viscous damping
-// leaves e^(−β·t/2) of them.
+// causes waves; their part of the stress is the time that a wave takes through the specimen over the duration of the
+// ramp. After a time t, viscous damping leaves e^(−β·t/2) of them.
 LoadDamping damping_of(const LoadTest& test, const SolverSpec& solver, double ramp, double slowest) {
   LoadDamping out{solver.damping_kind, solver.damping};
   if (solver.damping_given) return out;
@@ -66,7 +66,8 @@ double load_step(const LoadTest& test, const SolverSpec& solver, double critical
   constexpr double usual_safety = 0.8;
   const double safe = solver.safety.value_or(usual_safety) * critical * std::sqrt(density_scaling);
   double step = solver.time_step.value_or(safe);
-  if (damping.kind == Damping::viscous && !solver.time_step) step = std::min(step, 1 / damping.value);  // the decay
+  // so that steps resolve the decay
+  if (damping.kind == Damping::viscous && !solver.time_step) step = std::min(step, 1 / damping.value);
   const double end = test.history.times.back();
   require_possible(end / step, step, fmt::format("until {:g} s", end));
   require_possible(ramp / step, step, fmt::format("in the ramp of {:g} s", ramp));

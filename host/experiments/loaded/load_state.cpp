@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_state.cpp  Plan, times and points as text and an array.
+// load_state.cpp  Plan and times are stored as text; points, cracks and the answer without steps as arrays.
 #include "host/experiments/loaded/load_state.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace macadam {
 
 using experiments::SteppedPoint;
 
-// JSON's numbers are the shortest that give the same double again; all of these are finite.
+// JSON numbers have the fewest digits that give the same double again. All of these numbers are finite.
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CriticalStep, dt, particle)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadPlan, form, geometry, precision, critical, density_scaling, damping_kind,
                                    damping, ramp, platen_mass, dt, decisions)
@@ -28,7 +28,7 @@ constexpr const char *plan_text = "plan", *points_array = "points", *cracks_arra
                      *unstepped_array = "unstepped";
 constexpr std::size_t point_words = 9, crack_words = 4;
 
-/// The error and the long-term modulus, then modulus and time of each unit.
+/// Returns the error and the long-term modulus, then modulus and time of each unit.
 std::vector<double> to_numbers(const UnsteppedAnswer& answer) {
   std::vector<double> out{answer.error, answer.relaxation.long_term};
   for (const auto& u : answer.relaxation.units) out.insert(out.end(), {u.modulus, u.time});

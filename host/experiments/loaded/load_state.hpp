@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_state.hpp  Where a stepped test of a load stands, as a part of a checkpoint.
+/// \file load_state.hpp  State of a stepped test of a load, as a part of a checkpoint.
 #pragma once
 
 #include <string>
@@ -9,22 +9,22 @@
 
 namespace macadam {
 
-/// All that a run needs to go on to the same bits.
+/// Everything that a run needs to continue with the same bits.
 struct LoadState {
   LoadPlan plan;
-  experiments::Peak peak;                         ///< until now
-  std::optional<UnsteppedAnswer> unstepped;       ///< that errors are measured against; nothing: they are estimates
-  double seconds_planning = 0, seconds = 0;       ///< wall time, the latter of the stepping until now
-  std::vector<std::string> warnings;              ///< of checkpoints that could not be written
+  experiments::Peak peak;                         ///< largest stress until now
+  std::optional<UnsteppedAnswer> unstepped;       ///< errors are measured against it; nothing: they are estimates
+  double seconds_planning = 0, seconds = 0;       ///< wall time [s]; `seconds`: of the stepping until now
+  std::vector<std::string> warnings;              ///< about checkpoints that could not be written
   std::vector<experiments::SteppedPoint> points;  ///< until now
   std::vector<experiments::CrackEvent> cracks;    ///< until the last of the points
-  std::vector<StateArray> state;                  ///< Stepper::state(); read from a checkpoint only
+  std::vector<StateArray> state;                  ///< Stepper::state(); set only when it is read from a checkpoint
 };
 
-/// What `file` held. \throws InputError naming the file where that is damaged.
+/// Returns the state in a checkpoint. \throws InputError, naming `file`, if it is damaged.
 LoadState to_load_state(Checkpoint checkpoint, const std::filesystem::path& file);
 
-/// Writes all but the stepper's state.
+/// Adds everything except the stepper's state to a checkpoint.
 void add_to(Checkpoint& checkpoint, const LoadState& at);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_test.cpp  Names and files of the tests of a load, and what they find from the specimen's spectrum.
+// load_test.cpp  Names and files of the tests of a load, and their response from the specimen's spectrum.
 #include "host/experiments/loaded/load_test.hpp"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ constexpr std::array<LoadWords, 3> all_words{{
      "secant (MPa)", 1e6},
 }};
 
-/// Nothing where the ratio has no meaning.
+/// Returns a number as text. NaN, which stands for a ratio without meaning, becomes an empty text.
 std::string number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 }  // namespace

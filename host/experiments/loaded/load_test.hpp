@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file load_test.hpp  What relaxation, creep and constant rates have in common: a load of the top wall as time goes
-/// on, and what answers it at some times.
+/// \file load_test.hpp  The common part of relaxation, creep and constant rates: a load on the top wall that varies in
+/// time, and the response at some times.
 #pragma once
 
 #include <functional>
@@ -17,51 +17,55 @@
 
 namespace macadam {
 
-/// When a load grows and goes.
+/// When a load grows and when it is removed.
 struct LoadTimes {
-  double ramp = 0;                ///< time in which the load grows, and in which it goes [s]; 0: at once
-  std::optional<double> release;  ///< when it begins to go [s]; nothing: never
+  double ramp = 0;                ///< time in which the load grows, and in which it is removed [s]; 0: at once
+  std::optional<double> release;  ///< when the removal begins [s]; nothing: never
 };
 
-/// One of these tests, as both methods read it.
+/// Description of one of these tests, which both methods use.
 struct LoadTest {
   std::string kind;
   History history;
   double poisson_ratio = 0;
-  std::vector<std::pair<const char*, std::optional<double>>> load;  ///< what was asked, as summary.json names it
-  /// Returns the answer at a time from the specimen's spectrum, to this load with these times.
+  /// what the scene asks for, under its name in summary.json
+  std::vector<std::pair<const char*, std::optional<double>>> load;
+  /// Returns the response at a time to this load, applied at the times `when`, from the specimen's spectrum.
   std::function<experiments::ResponsePoint(const Spectrum&, double time, const LoadTimes& when)> unstepped;
 
   bool by_stress = false;             ///< the load is a stress; else a strain
-  LoadTimes when;                     ///< as the scene has them
-  bool grows = false;                 ///< all the time: then the ramp is the whole test
+  LoadTimes when;                     ///< as the scene gives them
+  bool grows = false;                 ///< the load grows during the whole test, which then is the ramp
   std::optional<double> platen_mass;  ///< of a wall under a stress [kg]
-  std::optional<double> strain;       ///< the largest, where it is known beforehand
-  double held_stress = 0;             ///< of a load that is a stress [Pa]
-  /// The load [m] or [N] in steps; `unit`: that of a strain or a stress of 1. `ramp` is that of this run.
+  std::optional<double> strain;       ///< the largest strain, if it is known beforehand
+  double held_stress = 0;             ///< held stress, if the load is a stress [Pa]
+  /// Returns the load in steps, [m] or [N]. `unit`: the load at a strain or a stress of 1. `dt` and `ramp` are the
+  /// run's.
   std::function<std::shared_ptr<const Drive>(double unit, double dt, double ramp)> drive;
 };
 
-/// As a kind's own folder has it.
+/// Return the description of a test; each is defined in its own folder.
 /// @{
 LoadTest load_test(const experiments::Relaxation& spec);
 LoadTest load_test(const experiments::Creep& spec);
 LoadTest load_test(const experiments::Monotonic& spec);
 /// @}
+/// Returns the description of the scene's test; an empty one for other experiments.
 LoadTest load_test_of(const Scene& scene);
 
-/// How a kind's numbers are called.
+/// Names and units of a kind's numbers.
 struct LoadWords {
-  const char *kind, *file, *ratio;  ///< ratio: of ResponsePoint, in files
-  const char* comment;              ///< in the file, without steps
-  bool stress_first;                ///< the load's column comes before the answer's
-  const char* shown;                ///< the ratio for people, and its unit
-  const char* shown_stepped;        ///< the same, of a stepped run: of the strain and stress of its row
-  double unit;
+  const char *kind, *file, *ratio;  ///< ratio: the name of ResponsePoint::ratio in files
+  const char* comment;              ///< in the file of a run without steps
+  bool stress_first;                ///< whether the load's column comes before the response's
+  const char* shown;                ///< the ratio's name for people, with its unit
+  const char* shown_stepped;        ///< the same in a stepped run, for the ratio of strain and stress of a row
+  double unit;                      ///< unit in which people see the ratio
 };
+/// Returns the names of a kind's numbers; those of "relaxation" for an unknown kind.
 const LoadWords& words_of(const std::string& kind);
 
-/// A point in the kind's file, in summary.json and for people, with what stands above it.
+/// Return a point for the kind's file, for summary.json and for people, and the lines that stand above points.
 /// @{
 std::string csv_head(const LoadWords& words);
 std::string csv_line(const LoadWords& words, const experiments::ResponsePoint& point);
@@ -70,13 +74,14 @@ std::string shown_head(const char* ratio);
 std::string shown_line(const LoadWords& words, const char* ratio, const experiments::ResponsePoint& point);
 /// @}
 
-/// What was asked, into an entry of `results`.
+/// Adds what the scene asks for to an entry of `results`.
 void add_load(const LoadTest& test, nlohmann::ordered_json& out);
 
-/// The files of results of a kind by the scene's method: its table, and without steps the tables of the material.
+/// Returns the names of a kind's result files: its table, that of cracks if points can break, and without steps the
+/// tables of the material.
 std::vector<std::string> load_files(const std::string& kind, const Scene& scene);
 
-/// By the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
+/// Plans a test by the scene's method: from the spectrum, or in steps. \throws InputError, RunError as either does.
 std::unique_ptr<Solution> plan_load_test(const LoadTest& test, const Scene& scene, const Preparation& prepared,
                                          const Watcher& watcher, std::optional<Resumed> resumed, RunResult& result);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step_load.cpp  A load of the top wall, stepped from point to point.
+// step_load.cpp  Steps a load on the top wall from point to point.
 #include "host/experiments/loaded/step_load.hpp"
 
 #include <fmt/format.h>
@@ -25,13 +25,13 @@ using experiments::SteppedResponse;
 
 namespace {
 
-/// More steps, or more seconds, than anybody asks for unawares.
+/// The user is warned of more steps or more seconds than these.
 constexpr std::int64_t many_steps = 100'000'000;
 constexpr double many_seconds = 3600;
-/// Number of looks at the stress of a strength test, evenly over its steps.
+/// Number of times at which a strength test reads the stress, evenly spaced over its steps.
 constexpr std::int64_t peak_samples = 10'000;
 
-/// Mean density of the specimen's box with the density scaling [kg/m³].
+/// Returns the mean density of the specimen's box, including the density scaling [kg/m³].
 double heavy_density(const LoadPlan& plan, const Inertia& inertia, const Box& box) {
   double mass = 0;
   for (const double m : inertia.mass) mass += m;
@@ -46,6 +46,7 @@ double kinetic_energy(const ParticleState& p, const Inertia& inertia) {
   return out;
 }
 
+/// A stepped test of a load, from its planning to its results.
 class SteppedLoad : public Solution {
  public:
   SteppedLoad(const LoadTest& test, const Scene& scene, const Preparation& prepared, const Watcher& watcher,
@@ -61,7 +62,7 @@ class SteppedLoad : public Solution {
         cracks_(scene, prepared, at_.cracks),
         owns_checkpoint_(resumed) {}
 
-  /// Makes the stepper: what it refuses is refused before a file is touched.
+  /// Makes the stepper now, so that it refuses the scene before a file is touched.
   void make(RunResult& result, const std::filesystem::path& checkpoint) {
     const InPhase in(result.phases, &PhaseSeconds::stepper);
     const LoadPlan& p = at_.plan;
@@ -81,7 +82,7 @@ class SteppedLoad : public Solution {
     }
   }
 
-  /// What is known before the first step.
+  /// Fills in the results that are known before the first step.
   void begin(RunResult& result) {
     const LoadPlan& p = at_.plan;
     result.decisions = p.decisions;
@@ -109,7 +110,7 @@ class SteppedLoad : public Solution {
     if (cracks_.active()) found.cracks = cracks_.found();
   }
 
-  /// Says how long it will be, if that is long.
+  /// Warns of a run with very many steps.
   void foretell() const {
     const std::int64_t steps = at_.plan.step_at(test_.history.times.back());
     if (steps > many_steps && watcher_.warn) {
@@ -185,8 +186,9 @@ class SteppedLoad : public Solution {
                        cracks_.active() ? fmt::format(",{}", p.broken_points) : "");
   }
 
-  /// Whether the largest stress is wanted: of a strength test, not of a held load.
+  /// Whether the largest stress is recorded: in a strength test, not under a held load.
   bool measures_peak() const { return cracks_.active() && test_.grows && !test_.by_stress; }
+  /// Keeps the largest stress so far, with its time and strain.
   void follow_peak(const Observation& now) {
     const Vec3d& box = prepared_.specimen.box.size;
     const double strain = now.top_displacement() / box.z, stress = -now.top_force() / (box.x * box.y);
@@ -194,8 +196,8 @@ class SteppedLoad : public Solution {
     if (sign * stress > sign * at_.peak.stress_pa) at_.peak = {now.time, strain, stress};
   }
 
-  /// Counts the broken points of a sample and returns the new ones. Under tension the test ends where they leave no
-  /// path between the walls; in compression broken points still bear.
+  /// Counts the points that are broken at a sample and returns the new events. Under tension the test ends when no
+  /// intact path joins the walls; in compression broken points still bear load.
   std::vector<experiments::CrackEvent> look_for_cracks(SteppedPoint& point) {
     auto events = cracks_.look(*stepper_, point.time_s);
     at_.cracks = cracks_.found().events;
@@ -208,7 +210,7 @@ class SteppedLoad : public Solution {
     return events;
   }
 
-  /// Sample 0 is the start, for the fields; the others are the points.
+  /// Sample 0 is the initial state, which the fields show; the other samples are the points.
   Course course_of(const std::function<void(SteppedPoint)>& add, Content content) {
     const std::vector<double>& times = test_.history.times;
     Course course;
@@ -223,7 +225,7 @@ class SteppedLoad : public Solution {
     course.take = [this, add](std::int64_t k, const Observation& now) {
       if (k > 0) add(point(now));
     };
-    course.looks_at_stepper = true;  // for its kinetic energy
+    course.looks_at_stepper = true;  // point() computes the kinetic energy from it
     if (measures_peak()) {
       course.between = [this](const Observation& now) { follow_peak(now); };
       course.between_every = std::max<std::int64_t>(1, at_.plan.step_at(times.back()) / peak_samples);
@@ -242,9 +244,10 @@ class SteppedLoad : public Solution {
     return course;
   }
 
+  /// Returns the point at the stepper's present step.
   SteppedPoint point(const Observation& now) const {
     const Vec3d& box = prepared_.specimen.box.size;
-    const double area = box.x * box.y, load = drive_->value(now.step) / area + 0.0;  // no −0
+    const double area = box.x * box.y, load = drive_->value(now.step) / area + 0.0;  // + 0.0 turns −0 into 0
     SteppedPoint out{};
     out.time_s = now.time;
     out.strain = now.top_displacement() / box.z;
@@ -263,6 +266,7 @@ class SteppedLoad : public Solution {
     return out;
   }
 
+  /// Returns the largest kinetic energy over the work of the load; 0 without work.
   double kinetic_share(const SteppedResponse& found) const {
     double kinetic = 0, strain = 0, stress = 0;
     for (const SteppedPoint& p : found.points) {
@@ -274,6 +278,7 @@ class SteppedLoad : public Solution {
     return work > 0 ? kinetic / work : 0;
   }
 
+  /// Returns advice for a run with too many steps.
   static std::string fewer_steps() {
     return "density_scaling takes fewer, method = \"harmonic\" none at all where all laws are linear";
   }
@@ -283,7 +288,7 @@ class SteppedLoad : public Solution {
   void judge(const SteppedResponse& found, std::vector<std::string>& warnings) const {
     if (found.rupture && !test_.grows) return warnings.push_back(rupture_words(*found.rupture, *found.cracks));
     std::vector<SteppedPoint> whole = found.points;
-    if (found.rupture && !whole.empty()) whole.pop_back();  // the point that found the specimen in two pieces
+    if (found.rupture && !whole.empty()) whole.pop_back();  // the last point found the specimen in two pieces
     if (std::string large = errors_.warning(whole); !large.empty()) warnings.push_back(std::move(large));
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_response.cpp  A stepped test of a load in summary.json and for people.
+// stepped_response.cpp  Reports a stepped test of a load in summary.json and for people.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,8 @@ double experiments::SteppedResponse::error() const {
 
 namespace {
 
-/// Whether the peak is the strength: points broke, and the stress has fallen from it by more than 1 %.
+/// Whether the peak is the strength: the specimen broke, or points broke and the stress has fallen by more than 1 %
+/// from it.
 bool passed_peak(const SteppedResponse& found) {
   if (found.rupture) return true;
   constexpr double fallen = 0.99;
@@ -33,7 +34,7 @@ bool passed_peak(const SteppedResponse& found) {
 
 bool measures_strength(const SteppedResponse& found) { return found.peak && !found.points.empty(); }
 
-/// The strength first: a reader of such a test looks for it.
+/// Returns the line about the strength. It comes first, because readers of such a test look for it.
 std::string strength_words(const SteppedResponse& found) {
   return fmt::format("{} {:.6g} MPa at a strain of {:.6g} (t = {:.5g} s){}\n",
                      passed_peak(found) ? "strength" : "largest stress", found.peak->stress_pa / 1e6,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// read.cpp  `[loading]` of kind "relaxation".
+// read.cpp  Reads `[loading]` of kind "relaxation".
 #include <cmath>
 
 #include "host/experiments/loaded/load_test.hpp"

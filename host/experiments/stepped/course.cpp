@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// course.cpp  The loop over samples of every stepped test.
+// course.cpp  The loop over samples, for every experiment that is stepped in time. Steps are taken in pieces; after
+// each piece the run looks whether it must stop or write a checkpoint. Samples that need no more than an observation
+// are taken several at a time by one call of the stepper.
 #include "host/experiments/stepped/course.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +20,7 @@ class Pieces {
  public:
   explicit Pieces(Stepper& stepper) : stepper_(stepper) {}
 
-  /// Takes steps, and calls look() with their number after each piece.
+  /// Takes the steps up to step `to` and calls look() with the number of the step after each piece.
   void advance(std::int64_t from, std::int64_t to, const std::function<void(std::int64_t)>& look) {
     while (from < to) {
       const std::int64_t steps = std::min(piece_, to - from);
@@ -29,8 +31,8 @@ class Pieces {
       look(from += steps);
     }
   }
-  /// The same to the next sample, and maybe on to some of up to `times` that follow it at the same distance: these
-  /// samples, one at least. Nobody has looked after the last steps.
+  /// Takes the steps to the next sample and, as far as a piece allows, on to some of up to `times` samples that follow
+  /// at the same distance. Returns these samples, at least one. look() is not called after the last steps.
   std::vector<Sample> sample(std::int64_t from, std::int64_t to, std::int64_t times,
                              const std::function<void(std::int64_t)>& look) {
     const std::int64_t before = std::max(from, to - piece_);
@@ -47,12 +49,13 @@ class Pieces {
   }
 
  private:
-  /// f() takes steps and says how many.
+  /// Calls f(), which takes steps and returns their number, and adapts the size of a piece to the time that it took.
   template <class F>
   void timed(F&& f) {
     const auto start = Clock::now();
     const std::int64_t steps = f();
-    const double seconds = of_first_rank(seconds_since(start));  // all take the same pieces
+    // the first rank's time, so that all ranks take the same pieces
+    const double seconds = of_first_rank(seconds_since(start));
     if (2 * steps > piece_ && seconds < 0.1) piece_ *= 2;
     if (seconds > 0.4) piece_ = std::max<std::int64_t>(1, piece_ / 2);
   }
@@ -61,7 +64,7 @@ class Pieces {
   std::int64_t piece_ = 16;
 };
 
-/// What is foretold of a run rests on so many seconds of it.
+/// The remaining time of a run is predicted after this many seconds.
 constexpr double first_seconds = 3;
 
 }  // namespace
@@ -92,7 +95,7 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
       told = true;
       course.foretold(static_cast<double>(end - now) / speed(now));
     }
-    const InPhase writing(result_.phases, &PhaseSeconds::writing);  // nearly nothing where no checkpoint is due
+    const InPhase writing(result_.phases, &PhaseSeconds::writing);  // takes time only if a checkpoint is due
     checkpoints_.look(course.content, stepper, course.name);
   };
   bool ended = false;
@@ -108,9 +111,10 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
       watcher_.progress(course.shown(step, speed(step)), static_cast<double>(step) / static_cast<double>(end));
     }
   };
-  // Samples behind number k of which nobody wants more than an observation, at the distance that k has.
+  // Returns how many of the samples after sample k need no more than an observation and have the same distance as k.
   const auto alike = [&](std::int64_t k) {
-    const std::int64_t most = every > 0 || course.looks_at_stepper ? 0 : 64;  // no stepper takes more in one go
+    // no stepper takes more than 64 samples in one call
+    const std::int64_t most = every > 0 || course.looks_at_stepper ? 0 : 64;
     const std::int64_t distance = course.step_of(k) - step;
     std::int64_t n = 0;
     while (n < most && k + n < course.last && !fields_.wants(k + n) && course.taken(k + n + 1) &&
@@ -122,7 +126,7 @@ void Courses::run(Stepper& stepper, const Course& course, ContactForm form, Geom
   Pieces pieces(stepper);
   for (std::int64_t k = course.first; k <= course.last && !ended;) {
     const std::int64_t to = course.step_of(k);
-    while ((every > 0 || between > 0) && step < to) {  // stops on the way for the watcher and for the course
+    while ((every > 0 || between > 0) && step < to) {  // stops before the sample, for the watcher and for the course
       std::int64_t next = to;
       for (const std::int64_t n : {every, between}) next = n > 0 ? std::min(next, (step / n + 1) * n) : next;
       pieces.advance(step, next, look);

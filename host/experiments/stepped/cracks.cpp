@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cracks.cpp  Broken contact points: events, counts, and the paths of contacts that are left.
+// cracks.cpp  Broken contact points: events, counts, and the question whether intact contacts still join the walls.
 #include "host/experiments/stepped/cracks.hpp"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ using experiments::PairCracks;
 
 namespace {
 
-/// Sets of nodes that are joined.
+/// Sets of joined nodes (union-find).
 class Clusters {
  public:
   explicit Clusters(std::size_t nodes) : parent_(nodes) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
@@ -32,7 +32,7 @@ class Clusters {
   std::vector<std::size_t> parent_;
 };
 
-/// Whole numbers as people read them: 12,345.
+/// Returns a whole number with thousands separators: 12,345.
 std::string grouped(std::int64_t number) {
   std::string out = fmt::format("{}", number);
   for (std::ptrdiff_t at = std::ssize(out) - 3; at > 0; at -= 3) out.insert(static_cast<std::size_t>(at), ",");

@@ -13,17 +13,17 @@
 
 namespace macadam {
 
-/// The table of events in the folder of the results.
+/// The name of the table of events in the folder of the results.
 inline constexpr const char* cracks_file = "cracks.csv";
 
 /// Whether a run of this scene counts broken points: it is stepped, and one of its laws can break.
 bool counts_cracks(const Scene& scene);
 
-/// Reads at samples which contact points are broken. A scene without a law that can break is never read.
+/// Reads at samples which contact points are broken. For a scene without a law that can break, it reads nothing.
 class CrackWatch {
  public:
   /// `before`: the events of a run that is resumed. Scene and preparation must outlive this object. \throws InputError
-  /// for an event that is not of this specimen.
+  /// for an event that does not belong to this specimen.
   CrackWatch(const Scene& scene, const Preparation& prepared, const std::vector<experiments::CrackEvent>& before = {});
 
   /// Whether there is anything to count.
@@ -43,11 +43,12 @@ class CrackWatch {
   const ContactNetwork& network_;
   FactsTable laws_;
   bool active_, joined_at_start_;
-  std::vector<bool> broken_;  // by point
+  std::vector<bool> broken_;  // for each contact point
   experiments::Cracks found_;
 };
 
-/// First line of cracks.csv, and one line per event. x, y, z is the place of the point in the undeformed specimen.
+/// Return the first line of cracks.csv, and the line of an event. x, y, z is the point's position in the undeformed
+/// specimen.
 /// @{
 std::string crack_head();
 std::string crack_line(const Preparation& prepared, const experiments::CrackEvent& event);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// settings.cpp  From [solver] to steppers, and back to summary.json.
+// settings.cpp  Settings from [solver] for steppers, and in summary.json.
 #include "host/experiments/stepped/settings.hpp"
 
 #include <fmt/format.h>
@@ -39,7 +39,7 @@ std::unique_ptr<Stepper> stepper_from(const std::vector<StateArray>& state, Back
 
 void require_possible(double steps, double dt, const std::string& what) {
   constexpr double most = 1e12;
-  if (steps < most) return;  // what is not a number is refused too
+  if (steps < most) return;  // a NaN is refused too
   throw RunError(
       fmt::format("the time step of {:.6g} s would take {:.6g} steps {}; raise density_scaling", dt, steps, what));
 }

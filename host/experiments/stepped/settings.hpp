@@ -13,20 +13,20 @@
 
 namespace macadam {
 
-/// As asked for; else condensed, but by points where a law is not linear, or where a facet has one point: that has
-/// three chains in place of six.
+/// Returns the form that the scene asks for. Otherwise it is condensed, or points if a law is not linear or if every
+/// facet has one point, which then has three chains instead of six.
 ContactForm form_of(const Scene& scene);
 
-/// What `[solver]` and the choices made say to every stepper of a run.
+/// Returns the options that all steppers of a run have in common, from `[solver]` and the choices made for the run.
 StepperOptions stepper_options(const SolverSpec& solver, ContactForm form, Geometry geometry, Precision precision);
 
-/// A stepper that goes on from a checkpoint's state, where that is not empty. `used`: as make_stepper().
-/// \throws as make_stepper() and Stepper::set_state().
+/// Returns a stepper that continues from a checkpoint's state, unless that is empty. `used`: as for make_stepper().
+/// \throws as make_stepper() and Stepper::set_state() do.
 std::unique_ptr<Stepper> stepper_from(const std::vector<StateArray>& state, Backend backend, const Scene& scene,
                                       const Preparation& prepared, const Inertia& inertia,
                                       const StepperOptions& options, std::unique_ptr<Stepper> used = nullptr);
 
-/// \throws RunError for more steps than anybody waits for; `what` takes them, in words.
+/// \throws RunError for 1e12 steps or more. `what` names the part of the run that takes them.
 void require_possible(double steps, double dt, const std::string& what);
 
 /// Adds to `solver` of summary.json how a test was stepped.

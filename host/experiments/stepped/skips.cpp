@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  Says what is skipped; the skipping itself is where the arrays are made (kernels/contact_data.hpp).
+// skips.cpp  Lists what is skipped. The skipping itself happens where the arrays are made (kernels/contact_data.hpp).
 #include "host/experiments/stepped/skips.hpp"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 namespace macadam {
 namespace {
 
-/// Names and number of the contacts whose law fulfils a condition.
+/// Returns the names of the pair types whose law fulfils a condition, and the number of their contacts.
 template <class Condition>
 std::pair<std::string, std::int64_t> pairs_that(const Scene& scene, const Preparation& prepared, Condition&& fulfils) {
   std::string names;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sweep.cpp  Kind "sweep": the cyclic test's steady states over a range, and sweep.csv.
+// sweep.cpp  Kind "sweep": solves the cyclic test's steady states over a range of frequencies and writes sweep.csv.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -46,6 +46,7 @@ void write_sweep(const std::filesystem::path& file, const Scene& scene, const Sw
   write_whole(file, text);
 }
 
+/// Solves the steady states and writes sweep.csv whenever the summary is saved.
 class SweepSolution : public Solution {
  public:
   SweepSolution(const Scene& scene, std::unique_ptr<Solution> states) : scene_(scene), states_(std::move(states)) {}
