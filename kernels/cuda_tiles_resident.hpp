@@ -95,6 +95,7 @@ class ResidentTile {
   __device__ __forceinline__ static std::uint32_t place_in_cache(std::uint32_t j) {
     return j * warps + threadIdx.x / 32;
   }
+  /// Position of constants that are in global memory.
   static constexpr std::uint32_t in_memory = UINT32_MAX;
   /// First of a warp's packets with states in registers whose constants are in registers, too.
   static constexpr std::uint32_t first_kept = groups_in_registers * TilePlan::run - packets_with_constants(memory);
