@@ -4,7 +4,7 @@
 ///
 /// T is a scalar (one contact) or a SIMD pack (one contact per lane). A point of the facet is at x0 + s·ŝ + t·t̂. From
 /// centre A it is at arm_a·n + s·ŝ + t·t̂, from centre B at −arm_b·n + s·ŝ + t·t̂. Model (5.3):
-/// opening  u[0] + s·u[1] + t·u[2],   slip along ŝ  u[3] − t·u[5],   slip along t̂  u[4] + s·u[5].
+///   opening  u[0] + s·u[1] + t·u[2],   slip along ŝ  u[3] − t·u[5],   slip along t̂  u[4] + s·u[5].
 #pragma once
 
 #include <type_traits>

@@ -4,11 +4,11 @@
 /// There are three: ExecCpu (threads and SIMD registers), ExecCuda (two kernels per step, any law and contact form),
 /// and ExecCudaTiles (blocks of steps over tiles). An executor is made once for a network and a layout and serves many
 /// starts. For each start, StepperImpl calls, in this order:
-/// begin(start)             sets all bodies to rest; applies the options
-/// wall_table(values)       allocates the walls' table and returns its address
-/// set_bodies(…)            sets masses and body forces
-/// set_group(…)             for each group, sets its arrays (the first time) or states, and the functor that steps it
-/// prepare(motion)          ends the set-up
+///   begin(start)             sets all bodies to rest; applies the options
+///   wall_table(values)       allocates the walls' table and returns its address
+///   set_bodies(…)            sets masses and body forces
+///   set_group(…)             for each group, sets its arrays (the first time) or states, and the functor that steps it
+///   prepare(motion)          ends the set-up
 /// After that it calls, any number of times, set_wall_rows(), run() and, after the last of them, wait(). All other
 /// functions read, or set states of a checkpoint. Optional functions for samples are described in exec_cuda_tiles.hpp.
 #pragma once

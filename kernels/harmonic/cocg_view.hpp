@@ -3,11 +3,11 @@
 /// conjugate gradient method for complex symmetric matrices (COCG), preconditioned as linear_system.hpp says. Each
 /// iteration runs five kernels:
 ///
-/// turn     p = z + coarse correction − free motions + β·p
-/// apply    q = K·p;  pᵀq of every box
-/// step     α = rᵀz / pᵀq
-/// advance  x += α·p, r −= α·q, z = K_ii⁻¹·r;  rᵀz, Rᵀr and other sums of every box
-/// coarse   (RᵀKR)⁻¹·Rᵀr;  which loads are solved, and β
+///   turn     p = z + coarse correction − free motions + β·p
+///   apply    q = K·p;  pᵀq of every box
+///   step     α = rᵀz / pᵀq
+///   advance  x += α·p, r −= α·q, z = K_ii⁻¹·r;  rᵀz, Rᵀr and other sums of every box
+///   coarse   (RᵀKR)⁻¹·Rᵀr;  which loads are solved, and β
 ///
 /// A segment is a range of bodies of one box that one thread block works on; `first_segment` is the first one of a
 /// launch. A box is a group of neighbouring particles whose six rigid motions are unknowns of the coarse correction. A
