@@ -26,6 +26,7 @@ inline constexpr int settling_starts = -1;
 /// Settles the contacts of one group; one thread per contact.
 template <class P, class Block, int Units, Geometry geometry>
 struct SettleContact {
+  /// The update of one contact, as in contact_blocks.hpp.
   BlockSettling<P, Block, Units, geometry> settling;
 
   /// `place`: the one or two places of the contact in the tiles; x is UINT32_MAX for an inert slot. `now`, `before`:

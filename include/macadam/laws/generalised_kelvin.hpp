@@ -72,7 +72,8 @@ struct GeneralisedKelvin {
     return 1.0 / (E[unit] + s * C[unit]);
   }
 
-  /// k = 1/Σ c_j, so that ∂ln k/∂ln θ = −k·∂c/∂ln θ. Parameters: E_m, C_m if it is finite, E_1, C_1, E_2, …
+  /// Calls f(name, ∂ln k/∂ln θ) for each parameter θ. k = 1/Σ c_j, so that ∂ln k/∂ln θ = −k·∂c/∂ln θ. Parameters: E_m,
+  /// C_m if it is finite, E_1, C_1, E_2, …
   template <class F>
   void each_parameter(std::complex<double> s, F&& f) const {
     const std::complex<double> k = stiffness(s);
