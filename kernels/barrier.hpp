@@ -11,6 +11,7 @@
 
 namespace macadam::kernels {
 
+/// Lets a fixed number of threads wait for each other; can be used any number of times.
 class Barrier {
  public:
   /// Sets how many threads call wait(). Must be called before any of them does.

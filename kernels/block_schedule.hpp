@@ -10,6 +10,7 @@
 
 namespace macadam::kernels {
 
+/// Counts the steps of a run in blocks; the executor asks it when a block is due and how long it is.
 class BlockSchedule {
  public:
   /// Resets for a new start. `steps`: steps per block, 0: no blocks; `to_observations`: blocks end at the steps at
@@ -32,6 +33,7 @@ class BlockSchedule {
   int next(std::int64_t first) const {
     return !begun_ && to_observations_ && first < 0 ? static_cast<int>(-first) : steps_;
   }
+  /// Begins a block of `steps` steps.
   void start(int steps) {
     begun_ = true;
     length_ = steps;
@@ -41,6 +43,7 @@ class BlockSchedule {
   std::int64_t left() const { return length_ - taken_; }
   void take(std::int64_t steps) { taken_ += static_cast<int>(steps); }
 
+  /// Adds the progress of the block in progress to the states of a checkpoint.
   void add_state(StateList& states) {
     states.add<std::int64_t>(
         "block", "1", 3,

@@ -8,6 +8,7 @@
 
 namespace macadam::kernels {
 
+/// Accumulates lists of numbers into one checksum (FNV-1a).
 class Checksum {
  public:
   template <class T>

@@ -97,6 +97,7 @@ struct BlockSettling {
   }
 
  private:
+  /// Returns three words of a body's displacement, from word `first` on.
   MACADAM_HD static Vec3<double> vector(const double* u, std::int32_t body, int first) {
     const double* w = u + static_cast<std::size_t>(body) * displacement_words + first;
     return {w[0], w[1], w[2]};

@@ -40,7 +40,8 @@ struct ContactView {
   std::uint32_t packets;
   std::int32_t geometry_words;
   std::int32_t frame_words;
-  /// Of the law. Condensed: 6, 3 (no shear) or 1 (no shear, no turns); points: 3 or 1 (no shear).
+  /// Number of components that have chains. Condensed: 6, 3 (no shear) or 1 (no shear, no turns); points: 3 or 1 (no
+  /// shear).
   std::int32_t components;
   std::int32_t units;  ///< Kelvin units
   bool by_points;      ///< whether rows of chains belong to points

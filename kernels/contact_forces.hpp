@@ -101,6 +101,7 @@ struct ContactForces {
  private:
   MACADAM_HD int units() const { return Units >= 0 && Units != 5 ? Units : view.units; }
   MACADAM_HD std::size_t chain_words() const { return static_cast<std::size_t>(view.components * (1 + units())); }
+  /// Number of words between two chains of a contact.
   template <class Item>
   MACADAM_HD std::size_t chain_stride(const Item& item) const {
     return static_cast<std::size_t>(1 + units()) * item.lanes();
@@ -271,6 +272,7 @@ struct ContactForces {
     middle.t = cross(middle.n, middle.s);
   }
 
+  /// Returns v in another scalar type.
   template <class To, class Item, class T>
   MACADAM_HD static auto converted(const Item& item, const Vec3<T>& v) {
     return Vec3<typename Item::template Value<To>>{item.template convert<To>(v.x), item.template convert<To>(v.y),

@@ -49,11 +49,13 @@ class GroupReading {
  private:
   using Vector = Vec3<double>;
   std::size_t words() const { return static_cast<std::size_t>(1 + shape_.view.units); }
+  /// Returns the displacement (first = 0) or rotation (first = 4) of a body.
   Vector moved(std::int32_t body, std::size_t first) const {
     const double* u = &displacement_[static_cast<std::size_t>(body) * displacement_words + first];
     return {u[0], u[1], u[2]};
   }
 
+  /// Fills in the entries of the contact in one slot.
   void read(std::size_t slot, ContactState& out) const {
     const std::uint32_t number = group_.contact[slot];
     const Contact& c = network_.contacts[number];
@@ -107,6 +109,7 @@ class GroupReading {
     return out[0];
   }
 
+  /// Returns the load of a contact in condensed form; copies its chains to `out`.
   FacetLoad<double> condensed(std::size_t slot, const Contact& c, const double (&u)[6], double* out) const {
     double f[6] = {0, 0, 0, 0, 0, 0};
     for (int k = 0; k < shape_.view.components; ++k) {
@@ -120,6 +123,7 @@ class GroupReading {
     return condensed_load(f, alpha_, moments);
   }
 
+  /// Returns the load of a contact in points form; copies the chains of its points to `out`.
   FacetLoad<double> points(std::size_t slot, const Contact& c, const double (&u)[6], double* out) const {
     FacetLoad<double> load;
     for (std::uint32_t j = 0; j < c.point_end - c.point_begin; ++j) {

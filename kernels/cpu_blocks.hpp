@@ -13,6 +13,7 @@
 
 namespace macadam::kernels {
 
+/// The blocks of steps of all groups on the CPU.
 template <class P, std::size_t width>
 class CpuBlocks {
  public:
@@ -97,6 +98,7 @@ class CpuBlocks {
     keep(displacement);
     schedule_.start(steps);
   }
+  /// Keeps the displacements at the beginning of the block.
   void keep(const AlignedVector<double>& displacement) {
     if (!before_.empty()) before_ = displacement;
   }

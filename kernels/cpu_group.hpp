@@ -60,6 +60,7 @@ struct BlockForces {
   }
 
  private:
+  /// Advances the first N components by one step of the block.
   template <int N, class Item, class T>
   void advance(const Item& item, std::size_t slot, const T (&u)[6], T (&change)[6]) const {
     float* own = state + slot * 3 * N;
@@ -169,6 +170,7 @@ template <class Item, class R, class F>
   }
 }
 
+/// A group of contacts with the law L, stepped by the functor Forces.
 template <class P, std::size_t width, class L, class Forces>
 struct CpuGroupOf final : CpuGroup<P, width> {
   using Item = PackItem<width>;
@@ -233,6 +235,7 @@ struct CpuGroupOf final : CpuGroup<P, width> {
                  [&](std::uint32_t packet) { return block_(Item{}, packet, motion); });
   }
 
+  /// Updates the contact in one slot and adds its loads to `sums`.
   void settle(std::size_t slot, const double* now, const double* before, R* sums) {
     const OneOfPacket<width> item{slot % width};
     const auto packet = static_cast<std::uint32_t>(slot / width);

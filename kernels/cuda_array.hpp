@@ -37,6 +37,7 @@ class DeviceArray {
     data_ = static_cast<T*>(spread_.data());
     clear();
   }
+  /// Returns a device array with a copy of a host array.
   template <class Array>
   static DeviceArray of(const Array& host) {
     DeviceArray out(host.size());

@@ -60,6 +60,7 @@ struct SettleContact {
   }
 
  private:
+  /// Returns the address of the words of a contact at `place`, with `count` words per contact.
   template <class Word>
   __device__ __forceinline__ static Word* at(Word* words, std::uint32_t place, int count) {
     return words + static_cast<std::size_t>(place / 32) * count * 32 + place % 32;

@@ -19,6 +19,7 @@
 
 namespace macadam::kernels {
 
+/// Owns the arrays that both executors on devices have; P is the precision.
 template <class P>
 class CudaBodyArrays {
  public:
@@ -134,6 +135,7 @@ class CudaBodyArrays {
   }
 
  private:
+  /// Returns the walls' part of an array of bodies.
   template <class T>
   std::vector<T> of_walls(const T* bodies, std::size_t words) const {
     std::vector<T> out(walls * words);
@@ -188,6 +190,7 @@ class CudaBodyArrays {
     return views_[number] = view;
   }
 
+  /// Adds the motion of the bodies to the states of a checkpoint.
   void add_body_states() {
     const auto add = [&](const char* name, const char* unit, const auto& array) {
       add_device_state(states_, name, unit, array.data(), array.size(),
@@ -212,6 +215,7 @@ class CudaBodyArrays {
     });
   }
 
+  /// Returns the description of backend and devices; `way`: how steps are taken.
   std::string described(const std::string& way) const {
     cudaDeviceProp properties{};
     check_cuda(cudaGetDeviceProperties(&properties, team_.device(team_.first())), "device properties");
@@ -238,9 +242,11 @@ class CudaBodyArrays {
   void require_divergence_search(const std::vector<double>& radius) const {
     if (!divergence_) divergence_ = std::make_unique<DivergenceSearch<P>>(layout_, radius);
   }
+  /// Returns −1 for UINT32_MAX (no particle), else the number.
   static std::int64_t number_or_none(std::uint32_t first_divergent) {
     return first_divergent == UINT32_MAX ? -1 : static_cast<std::int64_t>(first_divergent);
   }
+  /// Converts bodies from eight words to twists.
   static std::vector<Twist<R>> twists(const std::vector<R>& words) {
     std::vector<Twist<R>> out(words.size() / velocity_words);
     for (std::size_t i = 0; i < out.size(); ++i) {

@@ -18,7 +18,8 @@ inline constexpr unsigned contact_threads = 128, contact_blocks = 4;  ///< threa
 
 inline constexpr unsigned record_words = 6;
 
-/// Where a contact stores its loads. A record is the load on one end; the records of a body are consecutive.
+/// The records in which contacts store their loads. A record is the load on one end; the records of a body are
+/// consecutive.
 template <class T>
 struct LoadRecords {
   T* words;                        ///< [record][6] force, moment [N, N·m]
@@ -28,6 +29,7 @@ struct LoadRecords {
   using Two = std::conditional_t<sizeof(T) == 8, double2, float2>;
   static constexpr unsigned parts = record_words / 2;  ///< number of parts in which a record is written
 
+  /// Writes one record.
   template <class U>
   __device__ __forceinline__ static void store(Two* to, const Vec3<U>& force, const Vec3<U>& moment) {
     to[0] = {T(force.x), T(force.y)};
@@ -37,10 +39,12 @@ struct LoadRecords {
   __device__ __forceinline__ Two* record(std::uint32_t number) const {
     return reinterpret_cast<Two*>(words) + static_cast<std::size_t>(number) * parts;
   }
+  /// Returns the numbers of a slot's two records.
   __device__ __forceinline__ uint2 places(std::uint32_t slot) const {
     return __ldg(reinterpret_cast<const uint2*>(place) + slot);
   }
 
+  /// Writes the loads of the contact in a slot to its two records; does nothing for an inert slot.
   template <class U>
   __device__ __forceinline__ void store(std::uint32_t slot, const ContactLoad<U>& load) const {
     const uint2 to = places(slot);
@@ -106,6 +110,7 @@ struct WallClock {
   R* now = nullptr;    ///< [words] the row of the current step
   unsigned words = 0;  ///< size of a row
 
+  /// Copies the row of the current step and increments the counter.
   __device__ __forceinline__ void tick() const {
     const unsigned lane = threadIdx.x;
     if (lane >= 32) return;
@@ -115,6 +120,7 @@ struct WallClock {
     if (lane == 0) *step = row + 1;
   }
 };
+/// Sets the counter to 0 and copies the first row.
 template <class R>
 __global__ void start_clock(const WallClock<R> clock) {
   if (threadIdx.x == 0) *clock.step = 0;

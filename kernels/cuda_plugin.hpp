@@ -11,6 +11,7 @@
 
 namespace macadam::kernels {
 
+/// The functions of the plugin.
 struct CudaCode {
   /// Fills in the devices and the status of the report, without creating a context on any device.
   void (*report)(BackendReport& report);

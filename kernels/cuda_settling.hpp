@@ -27,6 +27,7 @@ struct SettledArrays {
   const uint2* place;  ///< [slot of all groups] the places of its contact in the tiles
 };
 
+/// Launches the update of all groups on all devices of a team.
 template <class P, class AnyLaw>
 class Settling {
  public:

@@ -107,7 +107,7 @@ class DeviceStore {
   T* zeros(const Shares& shares, std::size_t words) {
     return own(DeviceArray<T>(shares, words));
   }
-  std::int64_t bytes() const { return bytes_; }  ///< of all arrays
+  std::int64_t bytes() const { return bytes_; }  ///< size of all arrays
 
  private:
   template <class T>

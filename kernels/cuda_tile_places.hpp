@@ -86,6 +86,7 @@ class TilePlaces {
     add_words(out, tile_tangent, 3);
     return out;
   }
+  /// Returns the words of a contact's state.
   static std::vector<std::uint64_t> words_of_states() {
     std::vector<std::uint64_t> out;
     for (const int w : {tile_change, tile_both, tile_sum}) add_words(out, w, 4);
@@ -120,6 +121,7 @@ class TilePlaces {
       }
     }
   }
+  /// Returns a host copy of the places of some slots.
   std::vector<uint2> copied(std::size_t first, std::size_t count) const {
     std::vector<uint2> out(count);
     if (count > 0) copy_now(out.data(), on_device_ + first, count * sizeof(uint2), "places");

@@ -267,6 +267,7 @@ class TileRunner {
   std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
 
  private:
+  /// Returns a float with the bit pattern x, to store integers in words of floats.
   static float bits(std::uint32_t x) {
     float out = 0;
     std::memcpy(&out, &x, sizeof out);
@@ -457,6 +458,7 @@ class TileRunner {
     plan_.contact = {};
   }
 
+  /// Returns the arrays that the update between blocks reads and writes.
   SettledArrays<P> settled() const {
     return {constant_.data(), scene_.state, scene_.motion.body.displacement, before_, records_, places_.on_device()};
   }
@@ -515,7 +517,7 @@ class TileRunner {
   std::vector<float4> constants_;
   TilePlaces places_;
   TileScene<P> scene_{};
-  std::uint32_t tag_ = 1;  ///< of the next step
+  std::uint32_t tag_ = 1;  ///< tag of the next step
   DeviceArray<float4> constant_;
   R* base_ = nullptr;              ///< [body][8] base loads, as scene_.base
   double* before_ = nullptr;       ///< [body][8] displacements at the beginning of the block

@@ -159,6 +159,7 @@ struct SixTable {
   float2* second;
 
   __host__ __device__ static constexpr std::uint32_t bytes(std::uint32_t rows) { return 24 * rows; }
+  /// Returns the table of `rows` rows that begins at `place`.
   __device__ __forceinline__ static SixTable at(unsigned char* place, std::uint32_t rows) {
     return {reinterpret_cast<float4*>(place), reinterpret_cast<float2*>(place + 16 * rows)};
   }
@@ -171,6 +172,7 @@ struct TileVelocities : SixTable {
     const float2 b = second[i];
     return {{a.x, a.y, a.z}, {a.w, b.x, b.y}};
   }
+  /// Sets velocity and spin of local number i.
   __device__ __forceinline__ void set(std::uint32_t i, const float (&y)[6]) const {
     first[i] = {y[0], y[1], y[2], y[3]};
     second[i] = {y[4], y[5]};
@@ -273,6 +275,7 @@ struct TileSlots : SixTable {
         "r"(static_cast<std::uint32_t>(__cvta_generic_to_shared(second + slot))), "f"(force.x), "f"(force.y),
         "f"(force.z), "f"(moment.x), "f"(moment.y), "f"(moment.z));
   }
+  /// Adds the load in a slot to f.
   __device__ __forceinline__ void add(std::uint32_t slot, float (&f)[6]) const {
     const float4 a = first[slot];
     const float2 b = second[slot];

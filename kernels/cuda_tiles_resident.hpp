@@ -158,6 +158,7 @@ class ResidentTile {
       move(r, force.of, tag);
     });
   }
+  /// Enters the velocity of a wall in the table of velocities.
   __device__ __forceinline__ void set_wall(int wall, const Vec3<float>& v) const {
     velocity.set(first_wall + static_cast<std::uint32_t>(wall), {v.x, v.y, v.z, 0, 0, 0});
   }
@@ -272,7 +273,7 @@ __global__ void __launch_bounds__(Threads, 1)
   const ResidentMemory<P> places(own_tile, OfTile::kept, where, s.room);
   OfTile tile(s, own_tile, shared, places);
   const auto share = tile.share();
-  // In shared memory, because registers are scarce
+  // kept in shared memory, because registers are scarce
   auto& others = reinterpret_cast<WarpPackets*>(shared + places.others)[threadIdx.x / 32];
   if (threadIdx.x % 32 == 0) others = share.others;
   tile.load();

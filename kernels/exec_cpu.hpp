@@ -310,7 +310,7 @@ class ExecCpu {
   int threads_;
   ThreadChoice choice_;
   bool timed_ = false;
-  double bodies_time_ = 0, contacts_time_ = 0;  // of the first thread, including its waits for the others [s]
+  double bodies_time_ = 0, contacts_time_ = 0;  // time of the first thread, including its waits [s]
 };
 
 }  // namespace macadam::kernels

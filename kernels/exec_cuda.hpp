@@ -13,6 +13,7 @@
 
 namespace macadam::kernels {
 
+/// Executor for CUDA devices with precision P and a list of laws; see executor.hpp for its functions.
 template <class P, class Laws>
 class ExecCuda : public CudaBodyArrays<P> {
   using Base = CudaBodyArrays<P>;
@@ -152,6 +153,7 @@ class ExecCuda : public CudaBodyArrays<P> {
     this->parts_.end_of("contacts", team.stream());
     send(loads_);
   }
+  /// Sends messages between ranks; does nothing with one process.
   void send(const RankExchange& messages) {
     if (!this->team_.ranks()) return;
     messages.queue(this->team_);

@@ -19,6 +19,7 @@
 
 namespace macadam::kernels {
 
+/// Executor of the tile path with precision P and a list of laws; see executor.hpp for its functions.
 template <class P, class Laws>
 class ExecCudaTiles : public CudaBodyArrays<P> {
   using Base = CudaBodyArrays<P>;
@@ -134,6 +135,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     return notes_;
   }
 
+  /// Ends all work after an error or before destruction: releases tiles that wait for a failed device, waits for all
+  /// devices, and gives the multiprocessors back.
   void end_steps() noexcept {
     if (std::exchange(failed_, false)) tiles_.release();
     Base::end_steps();

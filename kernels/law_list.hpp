@@ -67,6 +67,7 @@ struct AnyFunctor {
   int kind = 0;
   alignas(8) unsigned char bytes[std::max({sizeof(NoFunctor), sizeof(Functors)...})] = {};
 
+  /// Stores a functor.
   template <class F>
   void put(const F& functor) {
     static_assert((std::is_same_v<F, Functors> || ...), "a law without a kernel");

@@ -52,6 +52,7 @@ class Bisection {
     split(items.subspan(cut), first + cut, tile + left, right);
   }
 
+  /// Orders the items of a tile by further bisection, down to pairs.
   void order(std::span<Item> items) {
     if (items.size() <= 2) return;
     const int axis = longest_axis(items);
@@ -89,6 +90,7 @@ class Bisection {
     while (low < high && sum < before) sum += weight(items.subspan(low++, 1));
     return low;
   }
+  /// Returns the total weight of some items.
   double weight(std::span<const Item> items) const {
     double sum = 0;
     for (const Item& i : items) sum += weight_[static_cast<std::size_t>(i.particle)];
@@ -103,6 +105,7 @@ class Bisection {
       return std::make_pair(along(i.centre, axis), i.particle) < std::make_pair(along(j.centre, axis), j.particle);
     }
   };
+  /// Returns the axis along which the items extend farthest.
   static int longest_axis(std::span<const Item> items) {
     Vec3d low = items.front().centre, high = low;
     for (const Item& i : items) {

@@ -10,6 +10,7 @@
 
 namespace macadam::kernels {
 
+/// Whether any law of a list can be stepped in blocks.
 template <class... L>
 constexpr bool any_has_blocks(std::type_identity<std::variant<L...>>) {
   return (has_blocks<L> || ...);

@@ -19,6 +19,7 @@ template <class P>
 inline constexpr std::size_t packet_width = std::clamp<std::size_t>(stdx::native_simd<typename P::Geometry>::size(), 4,
                                                                     8);
 
+/// The Item for packets of `width` contacts.
 template <std::size_t width>
 struct PackItem {
   static_assert(width == 4 || width == 8);

@@ -71,6 +71,7 @@ struct ParticleMotion {
     if constexpr (!std::is_same_v<typename P::Geometry, R>) body.velocity[at] = static_cast<typename P::Geometry>(v);
     displace(at, v);
   }
+  /// Sets word `at` of the integrated velocities to v, and moves the displacement by Δt·v.
   MACADAM_HD void displace(std::size_t at, R v) const {
     body.master[at] = v;
     if (at % 4 != 3) body.displacement[at] = multiply_add(dt, double(v), body.displacement[at]);

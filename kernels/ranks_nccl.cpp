@@ -13,6 +13,7 @@
 namespace macadam::kernels {
 namespace {
 
+/// \throws RunError with MPI's message if `status` is an error.
 void check_mpi(int status, const char* what) {
   if (status == MPI_SUCCESS) return;
   char text[MPI_MAX_ERROR_STRING] = "";
@@ -21,6 +22,7 @@ void check_mpi(int status, const char* what) {
   throw RunError(std::string("MPI: ") + what + ": " + text);
 }
 
+/// Ranks by MPI, with device messages by NCCL.
 class NcclRanks final : public Ranks {
  public:
   NcclRanks() {
@@ -106,6 +108,7 @@ class NcclRanks final : public Ranks {
   ncclComm_t link_ = nullptr;
 };
 
+/// Joins the processes; always returns the same object.
 Ranks* join() {
   // Never deleted: a communicator must not be destroyed after the driver
   static NcclRanks* const joined = new NcclRanks;

@@ -24,9 +24,11 @@ inline Vec3d carried_to_start(const Contact& c, const StartState& start) {
 struct StartChain {
   const double* six;
   std::size_t words;
+  /// Word `word` of a chain of the facet.
   double facet(int component, std::size_t word) const {
     return six[static_cast<std::size_t>(component) * words + word];
   }
+  /// Word `word` of a chain of the point (s, t).
   double point(int component, std::size_t word, double s, double t) const {
     switch (component) {
       case 0:

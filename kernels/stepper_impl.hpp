@@ -34,6 +34,7 @@ void dispatch(decltype(First) value, F&& f) {
     f(std::integral_constant<decltype(First), Second>{});
 }
 
+/// The stepper of one executor. Its public functions are documented in macadam/stepper.hpp.
 template <Executor Exec>
 class StepperImpl final : public Stepper {
  public:

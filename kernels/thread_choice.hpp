@@ -11,6 +11,7 @@
 
 namespace macadam::kernels {
 
+/// Measures steps with all threads and with one, and chooses the faster.
 class ThreadChoice {
  public:
   /// `all`: number of threads; `fixed`: always use all of them.
@@ -21,6 +22,7 @@ class ThreadChoice {
     int threads;
     std::int64_t steps;
   };
+  /// Returns the number of threads and steps to take next: now and then a short trial of the other choice.
   Next next() const {
     if (fixed_) return {all_, INT64_MAX};
     const double step = step_[one_thread()];

@@ -48,11 +48,13 @@ struct TilePart {
   std::vector<TileContact> contact;
 };
 
+/// Makes the plan of all tiles of a layout.
 class Planner {
  public:
   Planner(const ContactNetwork& network, const Layout& layout, const std::vector<bool>& begins_share)
       : network_(network), layout_(layout), begins_share_(begins_share), tile_of_(tiles_of(layout)) {}
 
+  /// Plans all tiles in parallel, then joins their plans in order.
   TilePlan plan() {
     find_touches();
     std::vector<TilePart> parts(layout_.tiles());

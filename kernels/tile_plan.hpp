@@ -65,6 +65,7 @@ struct TileContact {
                                            ///< network; UINT32_MAX: no wall contact
 };
 
+/// The plan of all tiles.
 struct TilePlan {
   static constexpr std::uint32_t longest_short_row = 32;  ///< a row with more slots is a long row, which a warp sums
   static constexpr std::uint16_t no_slot = UINT16_MAX, more_of_run = UINT16_MAX - 1;

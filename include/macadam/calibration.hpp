@@ -32,6 +32,7 @@ const char* to_string(Misfit);
 /// Returns the columns that a table must have for a misfit.
 Measured measured_for(Misfit);
 
+/// Options of a calibration.
 struct CalibrationOptions {
   std::vector<FreeParameter> free;
   /// Number of specimens, with the scene's seed and the seeds after it; E* is their mean. More than one for generated
@@ -44,6 +45,7 @@ struct CalibrationOptions {
   bool nearest = false;
 };
 
+/// One parameter and its calibrated value.
 struct CalibratedParameter {
   std::string name, unit;
   double value = 0, start = 0;  ///< as in a scene file: moduli and viscosities without the factor δ
@@ -68,6 +70,7 @@ struct Combination {
   double deviation = 0;
 };
 
+/// Result of a calibration.
 struct Calibration {
   CalibrationOptions options;
   std::vector<CalibratedParameter> parameters;

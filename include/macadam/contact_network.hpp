@@ -70,6 +70,7 @@ struct ContactNetwork {
   std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
   double second_moment_difference = 0;           ///< Σ|lumped − exact| / Σ exact of ss + tt over all contacts
 
+  /// Returns the numbers of a particle's contacts, in rising order.
   std::span<const std::uint32_t> row(std::size_t particle) const {
     return {rows.data() + row_begin[particle], row_begin[particle + 1] - row_begin[particle]};
   }

@@ -38,6 +38,7 @@ struct CrossSection {
   /// [m], in the plane; the vertices of a cell are consecutive, counter-clockwise about the axis.
   std::vector<Vec3d> vertices;
 
+  /// Returns the vertices of a cell's polygon.
   std::span<const Vec3d> polygon(const SectionCell& c) const {
     return {vertices.data() + c.vertex_begin, c.vertex_end - c.vertex_begin};
   }

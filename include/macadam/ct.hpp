@@ -40,11 +40,13 @@ struct Image {
   }
 
   std::size_t count() const { return voxels.size(); }
+  /// Returns the index of a voxel in `voxels`.
   std::size_t index(std::int64_t i, std::int64_t j, std::int64_t k) const {
     return static_cast<std::size_t>(i + size[0] * (j + size[1] * k));
   }
   T& at(std::int64_t i, std::int64_t j, std::int64_t k) { return voxels[index(i, j, k)]; }
   const T& at(std::int64_t i, std::int64_t j, std::int64_t k) const { return voxels[index(i, j, k)]; }
+  /// Returns the position of a voxel's centre [m].
   Vec3d centre(std::int64_t i, std::int64_t j, std::int64_t k) const {
     return {origin.x + spacing.x * static_cast<double>(i), origin.y + spacing.y * static_cast<double>(j),
             origin.z + spacing.z * static_cast<double>(k)};
@@ -124,7 +126,7 @@ struct SegmentOptions {
   SegmentRecipe recipe = SegmentRecipe::own;
   std::optional<double> air_voids, aggregate;  ///< volume fractions of the specimen, if known from the laboratory
   double smallest = 4e-3;                      ///< diameter of the smallest grain that matters [m]
-  /// From the laboratory, if known: sieves in rising order; all passes the last one.
+  /// Gradation from the laboratory, if known: sieves in rising order; everything passes the last one.
   std::vector<SievePassing> gradation;
   /// Decisions of an earlier run on the same scan, possibly edited by a person.
   std::optional<std::vector<GrainCut>> cuts;

@@ -88,8 +88,10 @@ struct KelvinConversion {
 /// suffice.
 KelvinConversion to_kelvin(const AnalogueModel& model, double lowest_hz, double highest_hz, double largest_error);
 
+/// The model that is fitted.
 enum class FitModel : std::uint8_t { kelvin, two_s2p1d, huet_sayegh };
 enum class ShiftKind : std::uint8_t { none, wlf, arrhenius, free };  ///< free: one factor for each temperature
+/// Information criterion that chooses among chains: corrected Akaike, or Bayes.
 enum class Criterion : std::uint8_t { aicc, bic };
 const char* to_string(FitModel);
 const char* to_string(ShiftKind);

@@ -38,7 +38,7 @@ struct PhantomGrain {
   std::uint32_t id = 0;      ///< its number in the label image, from 1
   std::int32_t body = 0;     ///< Specimen::body of its spheres
   Surface surface;           ///< the whole surface in its place; for a single sphere, 642 points with the same volume
-  double sphere_radius = 0;  ///< of a single sphere [m]; otherwise 0
+  double sphere_radius = 0;  ///< radius if the grain is a single sphere [m]; otherwise 0
   std::string shape;         ///< name of its template, or "sphere"
   Vec3d centre{};            ///< centroid of the part within the specimen [m]; the next two also describe this part
   double volume = 0;         ///< [m³]
@@ -61,8 +61,8 @@ struct Phantom {
   Image<std::uint32_t> labels;  ///< 0: no grain
   Image<std::uint8_t> phases;   ///< VoxelPhase
   std::vector<PhantomGrain> grains;
-  std::vector<GrainGap> gaps;                   ///< of pairs up to three voxels apart
-  Specimen specimen;                            ///< of the prism after sawing
+  std::vector<GrainGap> gaps;                   ///< pairs of grains up to three voxels apart
+  Specimen specimen;                            ///< specimen of the prism after sawing
   double voids = 0, mastic = 0, aggregate = 0;  ///< volume fractions of the scanned body
 };
 

@@ -44,7 +44,7 @@ struct MixDesign {
   /// Particle densities including the pores (oven-dried, EN 1097-6) [kg/m³]: one for all, or one for every two
   /// neighbouring sieves, coarsest first.
   std::vector<double> aggregate_density;
-  /// Of the material that passes the finest sieve [kg/m³]; empty: the last of aggregate_density.
+  /// Density of the material that passes the finest sieve [kg/m³]; empty: the last of aggregate_density.
   std::optional<double> filler_density;
   double binder_density = 0;  ///< [kg/m³]
   /// Binder in the pores, fraction of the aggregate's mass, which adds no volume; or ….

@@ -25,6 +25,7 @@ struct JobOutcome {
   std::exception_ptr error;
 };
 
+/// Options and callbacks of run_many().
 struct ManyOptions {
   /// Number of scenes at a time. 0: four per device, so that some specimens are prepared while others are stepped, but
   /// not more than there are cores; without a device, one per core.

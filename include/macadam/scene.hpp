@@ -38,6 +38,7 @@ static_assert(all_one.back() == 1);
 /// The shift law of each pair, which gives the effect of temperature.
 using ShiftLaws = std::array<laws::Shift, pair_types>;
 
+/// `explicit_`: time stepping; `harmonic`: the frequency domain.
 enum class SolverMethod : std::uint8_t { explicit_, harmonic };
 
 /// `[solver]`. make_plan() decides options that are empty.

@@ -53,6 +53,7 @@ struct Specimen {
 
   std::size_t size() const { return centre.size(); }
   std::size_t cells() const { return size() + voids.size(); }
+  /// Returns the phase of a cell; cells of voids are numbered after those of particles.
   Phase phase_of(std::int32_t cell) const {
     return static_cast<std::size_t>(cell) < size() ? phase[static_cast<std::size_t>(cell)] : Phase::air_void;
   }
@@ -123,6 +124,7 @@ enum class PlacementTest : std::uint8_t {
 /// Aggregates of real shape, each a deformable cluster of spheres, in place of single spheres. The size of an
 /// aggregate, used by sieves and classes, is then its D^I.
 struct ShapeSpec {
+  /// Source of the shapes.
   enum class Library : std::uint8_t {
     aggregates,                  ///< shape_library()
     icosahedron,                 ///< subdivided_icosahedron()

@@ -79,7 +79,7 @@ struct ParticleState {
   std::vector<Vec3d> rotation;      ///< at the last whole step: the sum of the rotations of all steps [rad]
   std::vector<Vec3d> velocity;      ///< at the last half step [m/s]
   std::vector<Vec3d> spin;          ///< angular velocity at the last half step [rad/s]
-  std::vector<Vec3d> force;         ///< of contacts and body forces at the last whole step, without damping [N]
+  std::vector<Vec3d> force;         ///< sum of contact and body forces at the last whole step, without damping [N]
   std::vector<Vec3d> moment;        ///< about the centre, at the last whole step [N·m]
 };
 

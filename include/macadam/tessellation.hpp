@@ -46,6 +46,7 @@ struct Tessellation {
   /// Number of neighbours that meet only in an edge or a point (zero area); these are not facets.
   std::int64_t null_facets = 0;
 
+  /// Returns the vertices of a facet.
   std::span<const Vec3d> polygon(const Facet& f) const {
     return {vertices.data() + f.vertex_begin, f.vertex_end - f.vertex_begin};
   }

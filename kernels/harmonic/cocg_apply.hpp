@@ -35,6 +35,7 @@ struct alignas(16) StagedEnds {
 /// Iterates over the bodies of a warp that have few contacts, taking as many contacts at a time as the warp has slices
 /// (groups of W threads).
 struct WarpBodies {
+  /// Some contacts of one of the warp's bodies.
   struct Place {
     int body;
     unsigned begin, left;  ///< first contact, counted from the segment's first, and number of contacts from there on
@@ -42,14 +43,17 @@ struct WarpBodies {
   const std::size_t* row_begin;
   Segment segment;
   std::size_t first_row;
-  /// Of the body that this thread has looked up; the warp's threads look up 32 bodies at a time.
+  /// First contact and number of contacts of the body that this thread has looked up. A warp looks up 32 bodies at
+  /// once.
   unsigned begin = 0, count = 0;
 
   __device__ WarpBodies(const std::size_t* rows, const Segment& of)
       : row_begin(rows), segment(of), first_row(rows[of.first]) {}
+  /// Returns the body with this number among those of the warp.
   __device__ int body(int number) const {
     return segment.first + static_cast<int>(threadIdx.x / 32) + number * static_cast<int>(cocg_threads / 32);
   }
+  /// Returns the first body from `number` on that has few contacts.
   __device__ Place from(int number) {
     for (; body(number) < segment.end; ++number) {
       if (number % 32 == 0) look_up(body(number + static_cast<int>(threadIdx.x % 32)));
@@ -58,6 +62,7 @@ struct WarpBodies {
     }
     return {number, 0, 0};
   }
+  /// Returns the next contacts of the body or, after its last ones, of the next body.
   __device__ Place after(const Place& at, unsigned step) {
     if (at.left > step) return {at.body, at.begin + step, at.left - step};
     return from(at.body + 1);
@@ -65,6 +70,7 @@ struct WarpBodies {
   __device__ bool there(const Place& at) const { return body(at.body) < segment.end; }
 
  private:
+  /// Reads first contact and number of contacts of a body.
   __device__ void look_up(int mine) {
     if (mine >= segment.end) return;
     const std::size_t first = row_begin[mine];

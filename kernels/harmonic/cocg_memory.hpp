@@ -15,6 +15,7 @@
 
 namespace macadam::kernels {
 
+/// The arrays of a linear system on the devices of a team.
 struct SystemMemory {
   static constexpr std::size_t segments_a_multiprocessor = 16;  ///< few enough for one device, enough for two
 
@@ -27,6 +28,7 @@ struct SystemMemory {
   DeviceArray<ContactEnd> ends;
   DeviceArray<double> mass, motion, inverse;  ///< inverse: packed blocks, filled in by invert_blocks
   DeviceArray<Lever> lever;
+  /// Arrays that each member has for itself.
   struct OfMember {
     DeviceArray<Segment> segment;
     DeviceArray<std::int32_t> box_segment;
@@ -91,6 +93,7 @@ template <int F>
 struct VectorMemory {
   static constexpr std::size_t lanes = 2 * F;
   DeviceArray<double> x, r, p, q, z;
+  /// Arrays that each member has for itself.
   struct OfMember {
     DeviceArray<double> segment_products, segment_sums, products, sums, loads, fine, boxes_move, coarse_sums;
     DeviceArray<CocgScalars<F>> scalars;
@@ -116,6 +119,7 @@ struct VectorMemory {
     for (OfMember& m : members) m.all.upload(all.data());
   }
 
+  /// Returns the arguments of kernels on member m.
   CocgView<F> view(const SystemMemory& system, std::size_t m) const {
     const SystemMemory::OfMember& of_system = system.members[m];
     const OfMember& own = members[m];

@@ -19,6 +19,7 @@
 
 namespace macadam::kernels {
 
+/// Bodies of one box that one thread block works on.
 struct Segment {
   std::int32_t first, end;  ///< bodies
   std::int32_t box;
@@ -93,6 +94,7 @@ struct CocgView {
 __device__ inline double2 plain_product(const double* straight, const double* crossed, int f) {
   return {straight[2 * f] - straight[2 * f + 1], crossed[2 * f] + crossed[2 * f + 1]};
 }
+/// Product aᴴb (real) of a load, from the straight sums.
 __device__ inline double conjugate_product(const double* straight, int f) {
   return straight[2 * f] + straight[2 * f + 1];
 }

@@ -27,6 +27,7 @@ struct Vectors : VectorMemory<F> {
   }
 };
 
+/// The solver on the devices of a team; solves one load, or up to four side by side.
 class Solver : public DeviceSolver {
  public:
   Solver(const LinearSystem& system, const DeviceList& devices, std::int64_t& loose)
@@ -66,6 +67,7 @@ class Solver : public DeviceSolver {
     return found == none ? -1 : static_cast<std::int64_t>(found);
   }
 
+  /// Returns the scalars with which the iteration of some loads begins.
   template <int F>
   static CocgScalars<F> scalars_of(const std::vector<LinearLoad>& loads) {
     CocgScalars<F> out{};
@@ -130,6 +132,7 @@ class Solver : public DeviceSolver {
     return out;
   }
 
+  /// Passes the solution of a load to `take`.
   template <int F>
   void fetch(const Vectors<F>& v, std::size_t load, const TakePart& take) {
     DeviceArray<double2> staged(6 * system_.bodies);

@@ -43,8 +43,8 @@ struct Cracks {
 
 /// Why a test ended before its last point: no path of intact contacts connected the bottom and top walls.
 struct Rupture {
-  double time_s = 0, strain = 0;                ///< of the sample at which this was found
-  double time_before_s = 0, strain_before = 0;  ///< of the sample before
+  double time_s = 0, strain = 0;                ///< at the sample at which this was found
+  double time_before_s = 0, strain_before = 0;  ///< at the sample before it
 };
 
 }  // namespace macadam::experiments

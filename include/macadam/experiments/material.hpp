@@ -7,6 +7,7 @@
 
 namespace macadam::experiments {
 
+/// Viscoelastic functions of the mixture, and their accuracy.
 struct Material {
   Spectrum spectrum;                     ///< spectrum as solved
   double shortest_s = 0, longest_s = 0;  ///< range of times for which it holds

@@ -20,6 +20,7 @@ struct Sweep {
   std::vector<double> temperatures;  ///< [°C]; empty: Materials::temperature
 };
 
+/// Result of a sweep.
 struct SweepResult {
   std::vector<HarmonicFrequency> points;  ///< all frequencies of one temperature, then of the next
 };

@@ -33,6 +33,7 @@ struct BrittleBond {
   /// Returns how a contact point broke, from its six numbers (Step::advance_point).
   static Break break_of(const double* state) { return static_cast<Break>(static_cast<int>(state[3])); }
 
+  /// Coefficients of one time step, see law.hpp.
   template <class R>
   struct Step {
     static constexpr bool memoryless = false, coupled = true;

@@ -32,6 +32,7 @@ struct Elastic {
     f(std::string("E"), std::complex<double>(1));
   }
 
+  /// Coefficients of one time step, see law.hpp.
   template <class R>
   struct Step {
     static constexpr bool memoryless = true;

@@ -42,6 +42,7 @@ struct LawFacts {
 /// @{
 template <class L>
 inline constexpr bool memoryless_law = L::template Step<double>::memoryless;
+/// Whether f is a linear function of the history of x.
 template <class L>
 constexpr bool is_linear() {
   if constexpr (requires { L::linear; })
@@ -51,6 +52,7 @@ constexpr bool is_linear() {
 }
 template <class L>
 inline constexpr bool linear_law = is_linear<L>();
+/// Whether a law's Step advances the components of a point together.
 template <class Step>
 inline constexpr bool coupled_step = requires {
   requires Step::coupled;
@@ -65,6 +67,7 @@ inline constexpr bool has_stiffness = linear_law<L>&& requires(const L& law, std
   law.unit_compliance(0, s);
   law.each_parameter(s, each);
 };
+/// Whether a law can be stepped in blocks.
 template <class L>
 inline constexpr bool has_blocks = requires(const L& law) {
   law.block(1.0, 1).rate;
@@ -86,6 +89,7 @@ constexpr int units_of() {
 }
 /// @}
 
+/// Returns the properties of a law; of each law in a table.
 template <class L>
 LawFacts facts_of(const L& law) {
   return {L::name,       law.alpha,      law.instantaneous(), law.shortest_time(),

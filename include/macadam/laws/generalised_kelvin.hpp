@@ -87,6 +87,7 @@ struct GeneralisedKelvin {
     }
   }
 
+  /// Coefficients of one time step, see law.hpp; a_l, b_l, c and g as at the top of the file.
   template <class R>
   struct Step {
     static constexpr bool memoryless = false;

@@ -99,6 +99,7 @@ MACADAM_HD S select(const Condition& condition, const S& yes, S no) {
 
 /// The parts of SteppableLaw as separate concepts, so that compilers name the missing one.
 namespace contract {
+/// Stand-in for the state references that a stepper passes to a law.
 template <class R>
 struct States {
   R& operator()(int unit) const;
