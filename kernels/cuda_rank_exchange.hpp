@@ -99,7 +99,7 @@ class RankExchange {
     std::uint32_t words;
     Lists send, receive;  // [rank]; empty after make_ready()
   };
-  /// One direction: buffer and copies for what is sent, or for what is received.
+  /// Buffer and copies of one direction: sent data, or received data.
   struct Way {
     struct Moved {
       uint2* array;

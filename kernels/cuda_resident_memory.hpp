@@ -3,9 +3,9 @@
 /// registers of a multiprocessor.
 ///
 /// ResidentMemory computes the position of each array in a tile's shared memory. The host (TileRunner) uses it to
-/// decide whether tiles fit, and the kernel uses it to find the arrays. What remains of the shared memory holds
-/// constants of packets (the cache). expected_resident_bytes() estimates the need before the tiles exist, so that
-/// ExecCudaTiles can choose their size.
+/// decide whether tiles fit, and the kernel uses it to find the arrays. The remaining shared memory holds constants of
+/// packets (the cache). expected_resident_bytes() estimates the need before the tiles exist, so that ExecCudaTiles can
+/// choose their size.
 #pragma once
 
 #include <cmath>

@@ -71,7 +71,8 @@ __host__ __device__ constexpr int tile_constants_read(bool carried, bool memory)
   return memory || carried ? tile_constants(carried) : tile_drift_a;
 }
 
-/// Where a resident tile keeps the data of its particles. The velocities that contacts see are always in shared memory.
+/// The memory in which a resident tile keeps the data of its particles. The velocities that contacts see are always in
+/// shared memory.
 enum class TileRest {
   here,      ///< all in shared memory
   away,      ///< full-precision velocities in shared memory, everything else in global memory

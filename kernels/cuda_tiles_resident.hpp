@@ -23,10 +23,10 @@
 
 namespace macadam::kernels {
 
-/// One tile, and what the threads of its block do with it in a step. Everything that a body needs is read before the
-/// first of it is written, because a read after a write would have to wait for it, in case both have the same address.
-/// `memory`: some law has a memory. Without memory a contact has fewer constants and no sums, so more constants fit in
-/// shared memory.
+/// One tile, and the parts of a step that its threads compute. All data of a body is read before the first of it is
+/// written. Otherwise each read would wait for the write before it, because both might have the same address. `memory`:
+/// some law has a memory. Without memory a contact has fewer constants and no sums, so more constants fit in shared
+/// memory.
 template <class P, int Threads, bool carried, bool memory, TileRest where>
 class ResidentTile {
  public:
@@ -325,7 +325,8 @@ __global__ void __launch_bounds__(Threads, 1)
     };
     if (inner) __syncthreads();
 #pragma unroll 1
-    for (int turn = 0; turn < 2; ++turn) {  // turn 0: contacts that need no other tile, while velocities are in transit
+    for (int turn = 0; turn < 2; ++turn) {  // turn 0, while velocities are in transit: `early` packets that need no
+                                            // other tile; turn 1: all other `early` packets
       if (share.ahead == (turn == 0)) each_of(share.early, early, step);
       if (turn > 0) break;
       if (inner) tile.displace();

@@ -9,9 +9,9 @@
 
 namespace macadam {
 
-/// Where a run is computed. `automatic`: cuda if possible, else cpu.
+/// The code that computes a run. `automatic`: cuda if possible, else cpu.
 enum class Backend : std::uint8_t { automatic, cpu, cuda, reference };
-/// Which quantities are in double precision. `double_`: all; `mixed`: the states of contacts and particles, and
+/// The quantities that are in double precision. `double_`: all; `mixed`: the states of contacts and particles, and
 /// displacements; `single`: only displacements.
 enum class Precision : std::uint8_t { double_, mixed, single };
 /// The degrees of freedom of a contact. `condensed`: six generalised displacements per contact; `points`: three
@@ -38,7 +38,7 @@ struct DeviceInfo {
   int multiprocessors = 0;
 };
 
-/// What this build can run on this machine.
+/// The devices and threads that this build can use on this machine.
 struct BackendReport {
   bool cuda_compiled = false;
   std::vector<DeviceInfo> devices;               ///< usable devices

@@ -17,7 +17,7 @@
 
 namespace macadam {
 
-/// What the drive of a wall axis prescribes. A wall under a force moves like a platen with a mass.
+/// The quantity that the drive of a wall axis prescribes. A wall under a force moves like a platen with a mass.
 enum class DrivenBy : std::uint8_t { rest, displacement, force };
 
 /// One axis of a wall.

@@ -26,7 +26,7 @@ struct FreeParameter {
   double prior_deviation = 0;   ///< standard deviation of its natural logarithm
 };
 
-/// Which measured quantities are fitted. `modulus_and_phase`: ln |E*| and φ. `parts`: E' and E''.
+/// The measured quantities that are fitted. `modulus_and_phase`: ln |E*| and φ. `parts`: E' and E''.
 enum class Misfit : std::uint8_t { modulus_and_phase, modulus, phase, parts };
 const char* to_string(Misfit);
 /// Returns the columns that a table must have for a misfit.
@@ -92,8 +92,8 @@ struct Calibration {
 };
 
 /// Finds the parameters. \throws InputError for parameters, options or data that do not fit the scene or the specimen;
-/// RunError if no values within the bounds reach the targets; InterruptedError. Of the watcher, only `progress` and
-/// `stop` are used.
+/// RunError if no values within the bounds reach the targets; InterruptedError. Only `progress` and `stop`
+/// of the watcher are used.
 Calibration calibrate(const Scene& scene, const ModulusData& data, const CalibrationOptions& options,
                       const Watcher& watcher = {});
 

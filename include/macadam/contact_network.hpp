@@ -14,14 +14,14 @@
 
 namespace macadam {
 
-/// Which materials a contact joins. `inner`: two spheres of the same aggregate; W is a wall.
+/// The pair of materials that a contact joins. `inner`: two spheres of the same aggregate; W is a wall.
 enum class PairType : std::uint8_t { mm, ma, aa, inner, aw, mw };
 inline constexpr int particle_pair_types = 4;  ///< these are the first of pair_types
 /// Returns "M-M", "M-A", "A-A", "inner", "A-W" or "M-W".
 const char* to_string(PairType pair);
 
-/// How area moments are computed. `lumped`: from the contact points, as in [1]; `exact`: from the polygon (condensed
-/// form only); `one_point`: the whole area at the centroid, without resistance to bending and twist.
+/// The way in which area moments are computed. `lumped`: from the contact points, as in [1]; `exact`: from the polygon
+/// (condensed form only); `one_point`: the whole area at the centroid, without resistance to bending and twist.
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
 
@@ -31,7 +31,7 @@ struct FacetLimits {
   std::optional<double> area_min;  ///< smallest facet area, over the mean area of facets between particles
 };
 
-/// Which facets become contacts.
+/// Rules that decide which facets become contacts.
 struct NetworkSpec : FacetLimits {
   /// Limits of single pair types between particles; a limit given here replaces the limit for all pairs.
   std::array<FacetLimits, particle_pair_types> of_pair;

@@ -54,7 +54,7 @@ struct Image {
   double voxel_volume() const { return spacing.x * spacing.y * spacing.z; }  ///< [m³]
 };
 
-/// What the header of an image file says.
+/// The header of an image file.
 struct ImageHeader {
   std::array<std::int64_t, 3> size{};  ///< voxels along x, y, z
   Vec3d spacing{}, origin{};           ///< [m]; spacing 0: the file gives none

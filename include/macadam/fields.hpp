@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file fields.hpp  Writes particles, contacts and Laguerre cells to files for viewers, in VTKHDF or VTK's XML format.
 ///
-/// A mesh is what is drawn. A frame holds the numbers on a mesh at one time. docs/fields.md lists every array.
+/// A mesh holds the geometry that is drawn. A frame holds the numbers on a mesh at one time. docs/fields.md lists every
+/// array.
 #pragma once
 
 #include <algorithm>

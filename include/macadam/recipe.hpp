@@ -32,7 +32,7 @@ struct EnvelopePoint {
   int line = 0;                ///< line in MixDesign::source, for messages; 0: none
 };
 
-/// What the binder content refers to: the mass of the whole mix, or that of the aggregate (filler included).
+/// Reference of the binder content: the mass of the whole mix, or of the aggregate (filler included).
 enum class BinderOf : std::uint8_t { mix, aggregate };
 
 /// A mix design by mass. Fractions are 0…1; the mass of aggregate always includes filler.

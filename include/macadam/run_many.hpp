@@ -49,7 +49,7 @@ struct ManyOptions {
 /// Calls run() for every scene, each on one device: an idle one, or the one that got the fewest scenes so far, among
 /// those that the scene's [solver] names (if it names none, all that answer). When no more scenes are to come, a cyclic
 /// test moves to the device with less work left for its next frequency. Small specimens share a device at the same
-/// time. Of larger ones, the two that came first take turns in short pieces. The results are the same as those of
+/// time. The two larger specimens that came first take turns in short pieces. The results are the same as those of
 /// run(). An error of one scene does not end the others, unless a device fails for the whole process; scenes that are
 /// on a device together share its memory.
 ///

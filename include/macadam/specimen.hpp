@@ -15,7 +15,7 @@
 
 namespace macadam {
 
-/// What a particle is made of.
+/// The material of a particle.
 enum class Phase : std::uint8_t {
   aggregate,
   mastic,
@@ -160,8 +160,8 @@ struct SpecimenSpec {
   int line = 0;                       ///< line of its section in that file; 0: none
 };
 
-/// What was requested from the generator and what it reached. One entry per aggregate class, then one for the mastic,
-/// then one for the voids if there are any.
+/// The requested and the reached amount of one component. The generator reports one entry per aggregate class, then one
+/// for the mastic, then one for the voids if there are any.
 struct CompositionRow {
   std::string name;  ///< for example "12.5-19 mm" or "mastic"
   std::int64_t count_asked = 0, count = 0;

@@ -20,7 +20,7 @@ struct TwinSpec {
   /// Lower and upper corner in the scan's coordinates [m]; empty: the extent of the specimen's voxels.
   std::optional<std::array<Vec3d, 2>> box = {};
   std::optional<double> porosity = {};  ///< porosity of the mastic, as MasticSpec::porosity; empty: the scene's
-  /// Smallest radius of the sphere that represents a void [m], smaller voids are left out; 0: two voxels.
+  /// Smallest radius of the sphere that represents a void [m], smaller voids are left out; 0: two voxel edges.
   double least_void = 0;
   std::uint64_t seed = 1;
 };

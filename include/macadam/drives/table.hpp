@@ -17,7 +17,7 @@ namespace macadam::drives {
 /// Before the first time it has the first value, after the last time the last value.
 class Table final : public Drive {
  public:
-  /// `times` [s] must ascend; `values` [m] or [N] must be as many, at least two. \throws InputError naming the row.
+  /// `times` [s] must ascend, at least two; one of `values` [m] or [N] for each. \throws InputError naming the row.
   Table(double step, std::vector<double> times, std::vector<double> values)
       : step_(step), times_(std::move(times)), values_(std::move(values)) {
     if (times_.size() != values_.size() || times_.size() < 2) {

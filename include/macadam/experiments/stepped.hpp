@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepped.hpp  Whether an experiment is stepped in time, and what is reported about one that was.
+/// \file stepped.hpp  Whether an experiment can be stepped in time, and the report of its stepping.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace macadam::experiments {
 
-/// Whether an experiment is stepped: it cannot be; only if the scene asks for it; unless the scene asks for another
+/// Whether an experiment is stepped: never; only if the scene asks for it; unless the scene asks for another
 /// method.
 enum class Stepping : std::uint8_t { never, if_asked, usual };
 
