@@ -5,7 +5,7 @@
 /// TileRunner launches two kernels in this order. settle_contacts (through Settling in cuda_settling.hpp) takes each
 /// contact's δf and sum from the tiles' states, updates the contact's chain by model (6.9), writes the drift (and with
 /// updated geometry the frame) for the next block into the tiles' constants, and stores the loads of the current f as
-/// records. sum_base adds the records of each body to its base loads and stores its displacement as that at the
+/// records. sum_base sums the records of each body to its new base loads and stores its displacement as that at the
 /// beginning of the block. The formulas of one contact are in contact_blocks.hpp.
 ///
 /// Words: to settle is to update a contact between two blocks. A record is the load of one contact on one of its two

@@ -7,13 +7,13 @@
 /// a table in shared memory (TileVelocities); steps its contacts with step_in_block(), which stores loads into slots
 /// (TileSlots); adds the slots of each particle with sum_rows(); and moves the particles.
 ///
-/// Steps are taken in blocks of some hundred steps (see contact_blocks.hpp and model (6.8)). Within a block a contact
-/// carries only the change δf since the beginning of the block and, if some law has a memory, a sum over the steps. The
-/// loads of the f at the beginning of the block are part of the particles' `base` loads. The state of a contact is
-/// therefore in three places. The chain (ContactView::chain) holds the viscoelastic state at the beginning of the
-/// block, in full precision (there is none where f follows from the displacements); cuda_blocks.hpp updates it after
-/// the block. The words of TileState in memory hold δf and the sum; they are valid between launches. During a launch of
-/// the resident kernel, registers hold δf and the sum of most contacts.
+/// Steps are taken in blocks of up to longest_block steps (see contact_blocks.hpp and model (6.8)). Within a block a
+/// contact carries only the change δf since the beginning of the block and, if some law has a memory, a sum over the
+/// steps. The loads of the f at the beginning of the block are part of the particles' `base` loads. The state of a
+/// contact is therefore in three places. The chain (ContactView::chain) holds the viscoelastic state at the beginning
+/// of the block, in full precision (there is none where f follows from the displacements); cuda_blocks.hpp updates it
+/// after the block. The words of TileState in memory hold δf and the sum; they are valid between launches. During a
+/// launch of the resident kernel, registers hold δf and the sum of most contacts.
 #pragma once
 
 #include <type_traits>
