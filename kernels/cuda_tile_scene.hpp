@@ -153,8 +153,8 @@ struct ContactConstants {
   }
 };
 
-/// A table in shared memory with six floats per row. A row is one word of 16 and one of 8 bytes: with threads accessing
-/// rows in any order, fewer bytes per row cause fewer bank conflicts.
+/// A table in shared memory with six floats (24 bytes) per row, as one word of 16 and one of 8 bytes: with threads
+/// accessing rows in any order, fewer bytes per row cause fewer bank conflicts.
 struct SixTable {
   float4* first;
   float2* second;
