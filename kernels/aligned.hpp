@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file aligned.hpp  Vectors that start on a cache line, so that a packet's load never straddles two.
+/// \file aligned.hpp  Vectors that start on a cache line, so that the load of a packet never crosses two lines.
 #pragma once
 
 #include <sys/mman.h>
@@ -11,6 +11,7 @@
 
 namespace macadam::kernels {
 
+/// Allocates memory aligned to 64 bytes.
 template <class T>
 struct AlignedAllocator {
   using value_type = T;
@@ -26,7 +27,7 @@ struct AlignedAllocator {
   }
 };
 
-/// Leaves numbers as they are found: a large array's pages are first touched by the threads that fill it.
+/// Leaves new numbers uninitialised, so that the pages of a large array are first touched by the threads that fill it.
 template <class T>
 struct RawAllocator : AlignedAllocator<T> {
   RawAllocator() = default;
@@ -38,8 +39,9 @@ struct RawAllocator : AlignedAllocator<T> {
   }
 };
 
-/// Zero without being touched: what is large comes as pages that the system makes when they are first written, near the
-/// processor that does, and that take no memory until then. Not where the address sanitizer guards the ends of arrays.
+/// Gives zeros without writing them. Large arrays are pages from the operating system, which provides a zeroed page
+/// when it is first written, near the processor that writes it, and takes no memory before. Not used with the address
+/// sanitizer, which guards the ends of arrays.
 template <class T>
 struct ZeroAllocator : RawAllocator<T> {
   ZeroAllocator() = default;
@@ -72,7 +74,7 @@ struct ZeroAllocator : RawAllocator<T> {
 template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 
-/// All zero when it is made with a size. What is resized afterwards is not: assign a new one.
+/// All zero when made with a size. Elements added by resizing are not zero: assign a new vector instead.
 template <class T>
 using ZeroVector = std::vector<T, ZeroAllocator<T>>;
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file barrier.hpp  A barrier for steps of some ten microseconds: it spins briefly, then lets others have the core.
+/// \file barrier.hpp  A thread barrier for steps of about ten microseconds: it spins briefly, then yields the core.
 ///
-/// OpenMP's own either sleeps, which costs more than a small step, or spins for milliseconds, which on a busy machine
-/// keeps the very thread waited for off its core (measured: five times slower beside other programs).
+/// OpenMP's own barrier either sleeps, which costs more than a small step, or spins for milliseconds. On a busy machine
+/// the spinning keeps the very thread that is waited for off its core (measured: five times slower beside other
+/// programs).
 #pragma once
 
 #include <atomic>
@@ -10,9 +11,10 @@
 
 namespace macadam::kernels {
 
+/// Lets a fixed number of threads wait for each other; can be used any number of times.
 class Barrier {
  public:
-  /// How many threads call wait(); before any does.
+  /// Sets how many threads call wait(). Must be called before any of them does.
   void set_threads(unsigned threads) { threads_ = threads; }
 
   void wait() {
@@ -29,7 +31,7 @@ class Barrier {
   }
 
  private:
-  static constexpr unsigned spins = 4000;  ///< about ten microseconds: the imbalance of two tiles
+  static constexpr unsigned spins = 4000;  ///< about ten microseconds, the imbalance of two tiles
   unsigned threads_ = 1;
   alignas(64) std::atomic<unsigned> arrived_{0};
   alignas(64) std::atomic<unsigned> round_{0};

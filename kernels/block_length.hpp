@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file block_length.hpp  How many steps are taken before the laws are settled, and with which coefficients.
+/// \file block_length.hpp  Chooses the number of steps of a block, after which the viscoelastic states are updated, and
+/// computes the coefficients of a block.
 #pragma once
 
 #include <algorithm>
@@ -15,25 +16,28 @@
 
 namespace macadam::kernels {
 
-/// Sums over the steps of a block are in single precision: up to here more steps do not round worse
-/// (bench/block_precision.cpp); beyond, it was not looked at.
+/// Largest number of steps in a block. Sums over the steps of a block are in single precision; up to this length,
+/// longer blocks do not increase rounding (bench/block_precision.cpp). Longer ones were not measured.
 inline constexpr int longest_block = 1024;
 
-/// Whether a block neglects nothing: no law has a memory, and contacts keep the geometry of the start.
+/// Returns whether blocks are exact: no law has a memory, and contacts keep their initial geometry.
 inline bool blocks_are_exact(Geometry geometry, const FactsTable& laws) {
   const auto has_none = [](const auto& law) { return !law || law->memoryless; };
   return geometry == Geometry::fixed && std::all_of(laws.begin(), laws.end(), has_none);
 }
 
-/// So many blocks in the load's shortest time are then enough: the change within one, which is rounded, is a small part
-/// of the force's amplitude, and forces are made anew of the displacements when it ends.
+/// Number of exact blocks in the shortest time of the load that is then sufficient: the change of f within one block,
+/// which is rounded, is a small part of the force's amplitude, and forces are computed afresh from the displacements
+/// when it ends.
 inline constexpr double exact_blocks = 400;
 
-/// Steps of a block: at most longest_block, at most the `options.blocks`-th part of the shortest time in the load or
-/// the laws (exact ones up to ten times that), and so few that at the specimen's strain a carried normal turns by less
-/// than 1e-6 in a 4,000th of that time. Where this allows it, blocks end at the observations, which otherwise cut them.
-/// 0: blocks would be too short to pay, or nothing says how fast the load changes, a law has no blocks, or a wall
-/// follows a force, which needs the sum on it at every step. `size`: of the specimen [m].
+/// Returns the number of steps of a block, at most longest_block. A block is at most the `options.blocks`-th part of
+/// the shortest time of the load or the laws (exact blocks: up to ten times that). With updated geometry it is also so
+/// short that at the specimen's strain rate a normal turns by less than 1e-6 in a 4,000th of that time. If possible,
+/// the length divides the interval between observations or is a multiple of it; otherwise observations cut blocks
+/// short. Returns 0 if blocks would be too short to save time, no wall is driven by a displacement (so nothing tells
+/// how fast the load changes), a law has no blocks, or a wall is driven by a force, which needs the sum of its loads at
+/// every step. `size`: of the specimen [m].
 inline int block_steps(const StepperOptions& options, const FactsTable& laws, const Vec3d& size) {
   if (!options.boundary.any(DrivenBy::displacement) || options.boundary.any(DrivenBy::force)) return 0;
   constexpr double pi = std::numbers::pi;
@@ -58,14 +62,15 @@ inline int block_steps(const StepperOptions& options, const FactsTable& laws, co
   const auto most =
       static_cast<std::int64_t>(std::min<double>(longest_block, std::floor(shortest / (blocks * options.dt))));
   if (most < 4) return 0;
-  for (std::int64_t steps = most; 2 * steps >= most; --steps) {  // of less than half, more would be lost than is won
+  // Shortening a block to less than half would cost more than it saves
+  for (std::int64_t steps = most; 2 * steps >= most; --steps) {
     const std::int64_t observed = options.observed_every;
     if (observed > 0 && (observed % steps == 0 || steps % observed == 0)) return static_cast<int>(steps);
   }
   return static_cast<int>(most);
 }
 
-/// The coefficients with which a block of `steps` is begun where the one before it had `ended` steps.
+/// Returns the coefficients of a block of `steps` steps that follows a block of `ended` steps.
 template <class L>
 typename L::Block block_after(const L& law, double dt, int ended, int steps) {
   typename L::Block out = law.block(dt, steps);

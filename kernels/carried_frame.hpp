@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file carried_frame.hpp  How the frame of a facet goes with its two bodies: docs/model.md, section 9.
+/// \file carried_frame.hpp  How the frame of a facet follows its two bodies: docs/model.md, section 9.
 ///
-/// S is a scalar or a SIMD pack. Turns of a step or a block are small: what would need a root, a sine or a division is
-/// a series here, exact to rounding for what it is used for.
+/// S is a scalar or a SIMD pack. The turns of a step or a block are small, so roots, sines and divisions are replaced
+/// by series, which are exact to rounding for such turns.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,20 @@
 
 namespace macadam::kernels {
 
-/// Words of ŝ as it is stored: in single precision there is a fourth one, the angle about n that is still to be
-/// applied, because increments of 1e-10 would be lost in ŝ itself.
+/// Number of stored words of ŝ. In single precision the fourth word is the angle about n that has not been applied yet,
+/// because increments of 1e-10 would be lost in ŝ itself.
 template <class State>
 inline constexpr std::int32_t tangent_words = sizeof(State) == 8 ? 3 : 4;
 
-/// From a particle to a particle, and one over it.
+/// Distance of two particles, and its inverse.
 template <class T>
 struct Distance {
   T length{}, inverse{};
 };
 
-/// Puts normal and arms where the displaced centres are, `branch` apart; the frame has the arms of the undeformed
-/// contact. Each arm takes half the change of the distance d0; the facet with a wall stays on the wall.
+/// Sets normal and lever arms of a frame from the displaced centres, whose distance vector is `branch`. On entry the
+/// frame has the arms of the undeformed contact. Each arm takes half the change of the distance d0; a facet on a wall
+/// stays on the wall. Returns the distance; zero at a wall.
 template <class T>
 MACADAM_HD Distance<T> follow_branch(Placement<T>& frame, const Vec3<T>& n0, const T& d0, const Vec3<T>& branch,
                                      bool wall) {
@@ -41,15 +42,16 @@ MACADAM_HD Distance<T> follow_branch(Placement<T>& frame, const Vec3<T>& n0, con
   return {d, inverse};
 }
 
-/// 1/√x by its series about 1: exact to rounding for |1 − x| < 1e-3 in double, and never NaN for a finite x.
+/// Returns 1/√x by its series about 1: exact to rounding for |1 − x| < 1e-3 in double, and never NaN for a finite x.
 template <class S>
 MACADAM_HD S inverse_root_near_one(const S& x) {
   const S e = S(1) - x;
   return S(1) + e * (S(0.5f) + e * (S(0.375f) + e * (S(0.3125f) + e * S(0.2734375f))));
 }
 
-/// ŝ by the smallest rotation that takes one normal to the other, and one Newton step towards unit length. The exact
-/// divisor of (from + to) is 1 + from·to = 2 − e; 1/(2 − e) is expanded in the small e.
+/// Returns ŝ turned by the smallest rotation that takes the normal `from` to the normal `to`, followed by one Newton
+/// step towards unit length. The exact divisor of (from + to) is 1 + from·to = 2 − e; 1/(2 − e) is expanded in the
+/// small e.
 template <class S>
 MACADAM_HD Vec3<S> swung(Vec3<S> s, const Vec3<S>& from, const Vec3<S>& to) {
   const S e = S(1) - dot(from, to);
@@ -58,7 +60,7 @@ MACADAM_HD Vec3<S> swung(Vec3<S> s, const Vec3<S>& from, const Vec3<S>& to) {
   return (S(1.5f) - S(0.5f) * dot(s, s)) * s;
 }
 
-/// ŝ turned about n by a small angle; the series is exact to rounding below 1e-3.
+/// Returns ŝ turned about n by a small angle; the series is exact to rounding below 1e-3.
 template <class S>
 MACADAM_HD Vec3<S> spun(const Vec3<S>& s, const Vec3<S>& n, const S& angle) {
   const S square = angle * angle;
@@ -71,8 +73,9 @@ struct TangentTurn {
   Vec3<S> before, now;
 };
 
-/// Takes the stored ŝ from one normal to the next and about it by `spin`; Work: scalar type of the arithmetic. In
-/// single precision ŝ is rewritten only when it has moved by more than that can lose; till then its spin is added up.
+/// Turns the stored ŝ from one normal to the next, and about it by `spin`. Work: scalar type of the arithmetic. In
+/// single precision, ŝ is rewritten only if it has turned by more than single precision would lose; until then its spin
+/// is accumulated in the fourth word.
 template <class Work, class Item, class State, class S>
 MACADAM_HD TangentTurn<S> turn_tangent(const Item& item, State* stored, const Vec3<S>& n_before, const Vec3<S>& n,
                                        const S& spin) {

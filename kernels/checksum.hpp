@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file checksum.hpp  One number for lists of numbers that several processes must have alike.
+/// \file checksum.hpp  A checksum of lists of numbers that must be equal in several processes.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 namespace macadam::kernels {
 
+/// Accumulates lists of numbers into one checksum (FNV-1a).
 class Checksum {
  public:
   template <class T>
@@ -16,7 +17,7 @@ class Checksum {
     for (const T& item : list) {
       std::uint32_t word[sizeof(T) / 4];
       std::memcpy(word, &item, sizeof item);
-      for (const std::uint32_t w : word) sum_ = (sum_ ^ w) * 1099511628211u;  // FNV-1a, by words
+      for (const std::uint32_t w : word) sum_ = (sum_ ^ w) * 1099511628211u;  // FNV-1a, word by word
     }
   }
   std::int64_t value() const { return static_cast<std::int64_t>((sum_ ^ sum_ >> 32) & 0xffffffff); }

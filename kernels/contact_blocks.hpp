@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_blocks.hpp  What lies between two blocks of steps for one contact: model (6.8), (6.9). Written once
-/// for the CPU and for devices.
+/// \file contact_blocks.hpp  The update of one contact between two blocks of steps: model (6.8), (6.9). The CPU and the
+/// devices share this code.
 ///
-/// Within a block of M steps a contact carries, for each of its displacement components, the change δf of f since the
-/// block began and the sum of δf' + δf over its steps, in single precision; `drift` holds what the past still does.
-/// Loads of the f at the block's beginning are summed once a block.
+/// Within a block of M steps a contact carries, for each of its displacement components, only the change δf of f since
+/// the beginning of the block, and the sum of δf' + δf over its steps, in single precision. `drift` is the constant D
+/// of (6.8), the effect of the states at the beginning of the block. The loads of f at the beginning of the block are
+/// summed once per block. Callers are cpu_blocks.hpp and cuda_blocks.hpp.
 #pragma once
 
 #include <cmath>
@@ -14,7 +15,7 @@
 
 namespace macadam::kernels {
 
-/// A contact when a block has ended and the next begins.
+/// A contact between two blocks: frame, drift and loads for the next block.
 template <class R>
 struct SettledContact {
   Placement<double> frame;
@@ -22,7 +23,7 @@ struct SettledContact {
   ContactLoad<R> load;
 };
 
-/// Settles the contacts of one group, in full precision.
+/// Updates the contacts of one group, in full precision.
 template <class P, class Block, int Units, Geometry geometry>
 struct BlockSettling {
   using State = typename P::State;
@@ -30,8 +31,8 @@ struct BlockSettling {
   ContactView<P> view;
   Block law;
 
-  /// The contact in lane `item.lane` of a packet. `steps`: of the block that ends, 0: none, and then `change` and `sum`
-  /// are 0. `now`, `before`: displacements now and when that block began, [body][8].
+  /// Updates the contact in lane `item.lane` of a packet. `steps`: steps of the block that ends; 0: there is none, and
+  /// `change` and `sum` are 0. `now`, `before`: displacements now and at the beginning of that block, [body][8].
   template <class Item>
   MACADAM_HD SettledContact<R> operator()(const Item& item, std::uint32_t packet, const float (&change)[6],
                                           const float (&sum)[6], const double* now, const double* before,
@@ -51,7 +52,7 @@ struct BlockSettling {
     double f[6] = {0, 0, 0, 0, 0, 0}, m[6];
     for (int k = 0; k < 6; ++k) m[k] = word(moment_0 + k);
     for (float& d : out.drift) d = 0;
-    if (!view.chain) {  // f follows from the displacements of now
+    if (!view.chain) {  // f follows from the current displacements
       const std::int32_t a = view.body_a[slot], b = view.body_b[slot];
       double x[6];
       relative_rates(out.frame, Twist<double>{{0, 0, 0}, vector(now, a, 4)},
@@ -60,8 +61,8 @@ struct BlockSettling {
         if (c < view.components) f[c] = law.rate * x[c];
       }
     }
-    // Where the number of units is known, all chains are asked for before the first is stored. Loops are of numbers
-    // that are known then: a device has arrays in registers only where every index is known when compiled.
+    // If the number of units is known at compile time, all chains are loaded before the first is stored. The loops have
+    // compile-time bounds, because a device keeps an array in registers only if every index is known at compile time.
     constexpr int together = Units >= 0 ? 6 : 1, most = Units >= 0 ? Units : Block::most_units;
     for (int first = 0; view.chain && first < (Units >= 0 ? 1 : view.components); first += together) {
       State held[together][1 + most];
@@ -96,12 +97,13 @@ struct BlockSettling {
   }
 
  private:
+  /// Returns three words of a body's displacement, from word `first` on.
   MACADAM_HD static Vec3<double> vector(const double* u, std::int32_t body, int first) {
     const double* w = u + static_cast<std::size_t>(body) * displacement_words + first;
     return {w[0], w[1], w[2]};
   }
 
-  /// Eq. 5–6 over a block: as ContactForces::carry() over a step, with the motion since the last block.
+  /// Eq. 5–6 over a whole block: like ContactForces::carry() for one step, with the motion since the last block.
   template <class Item>
   MACADAM_HD Placement<double> carry(const Item& item, std::uint32_t packet, std::size_t slot, const Vec3<double>& n0,
                                      double arm_a, double arm_b, double d0, const double* now,

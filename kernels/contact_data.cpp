@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_data.cpp  Fills the arrays of a group of contacts, many slots at a time: none touches another's words.
+// contact_data.cpp  Fills the arrays of a group of contacts. Threads share the slots; each slot has words of its own.
 #include "kernels/contact_data.hpp"
 
 #include <utility>
@@ -10,8 +10,8 @@
 namespace macadam::kernels {
 namespace {
 
-/// Calls f(slot, packet, lane, whether it is real, its contact) for all slots, on all threads; an inert slot comes with
-/// the contact in lane 0 of its packet, which is always real.
+/// Calls f(slot, packet, lane, whether the slot has a contact, contact) for all slots, on all threads. For an inert
+/// slot, passes the contact in lane 0 of its packet, which always exists.
 template <class F>
 void for_each_slot(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, F&& f) {
   const auto lanes = static_cast<std::size_t>(layout.lanes);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_data.hpp  The arrays of one group of contacts, filled from the network once; states anew for every
-/// start.
+/// \file contact_data.hpp  The arrays of one group of contacts. Constant arrays are filled from the network once,
+/// states at every start.
 ///
-/// Blocked structure-of-arrays: word w of the contact in lane j of packet p is at [(p·words + w)·lanes + j]. On the CPU
-/// a packet is a SIMD register, on the device a warp: both load one word of all lanes at once.
+/// Layout: blocked structure of arrays. Word w of the contact in lane j of packet p is at [(p·words + w)·lanes + j]. A
+/// packet is a SIMD register on the CPU and a warp on the device; both load one word of all lanes at once.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,13 @@
 
 namespace macadam::kernels {
 
-/// Words of ContactView::geometry, in order. `distance` is only kept where the geometry is updated or the law coupled.
+/// Words of ContactView::geometry, in order. `distance` is only present if the geometry is updated or the law is
+/// coupled.
 enum GeometryWord { n_x, n_y, n_z, arm_a, arm_b, moment_0, distance = moment_0 + 6 };
 /// Words of one row of ContactView::points.
 enum PointWord { point_s, point_t, point_weight, point_words };
 
-/// Pointers to one group's arrays, as a kernel gets them.
+/// Pointers to the arrays of one group, as kernels receive them. A row is one contact point of each lane of a packet.
 template <class P>
 struct ContactView {
   using State = typename P::State;
@@ -33,29 +34,31 @@ struct ContactView {
   const Geometry* geometry;         ///< [packet][geometry_words][lane]; arms [m], moments over d [m] [m²] [m³]
   const Geometry* points;           ///< [row][point_words][lane]; s, t [m], A_J/d [m]; points form only
   const std::uint32_t* packet_row;  ///< [packet + 1]; points form only
-  State*
-      chain;  ///< condensed [packet], points [row]: [components][1 + units][lane]; f [Pa·m], x_l [m]; none: stateless
-  State* frame;  ///< [packet][frame_words][lane]: ŝ and, in single, the spin not yet applied to it
+  /// Condensed form [packet], points form [row]: [components][1 + units][lane]; f [Pa·m], x_l [m]; null: stateless.
+  State* chain;
+  State* frame;  ///< [packet][frame_words][lane] ŝ and, in single precision, the spin not yet applied to it
   std::uint32_t packets;
   std::int32_t geometry_words;
   std::int32_t frame_words;
-  std::int32_t components;  ///< of the law: condensed 6, 3 (no shear) or 1 (nor turns), points 3 or 1 (no shear)
-  std::int32_t units;       ///< Kelvin units
-  bool by_points;           ///< rows of chains are points
-  bool wall;                ///< body_b is a wall: its plane is the facet
+  /// Number of components that have chains. Condensed: 6, 3 (no shear) or 1 (no shear, no turns); points: 3 or 1 (no
+  /// shear).
+  std::int32_t components;
+  std::int32_t units;  ///< Kelvin units
+  bool by_points;      ///< whether rows of chains belong to points
+  bool wall;           ///< whether body_b is a wall, whose plane is the facet
   Geometry alpha;
 };
 
-/// One group's arrays on the host. The device takes copies: for_each_array() walks them all.
+/// The arrays of one group on the host. Devices receive copies.
 template <class P>
 struct ContactArrays {
   ZeroVector<std::int32_t> body_a, body_b;
   ZeroVector<typename P::Geometry> geometry, points;
   AlignedVector<std::uint32_t> packet_row;
   ZeroVector<typename P::State> chain, frame;
-  ContactView<P> shape{};  ///< the numbers of the view; pointers null
+  ContactView<P> shape{};  ///< the numbers of the view; its pointers are null
 
-  /// f(name, unit, array, pointer of the view that it feeds)
+  /// Calls f(name, unit, array, pointer of the view that addresses the array) for every array.
   template <class F>
   void for_each_array(ContactView<P>& view, F&& f) {
     f("body_a", "1", body_a, view.body_a);
@@ -68,14 +71,14 @@ struct ContactArrays {
   }
 };
 
-/// How long the arrays of a group are.
+/// Sizes of the arrays of a group.
 template <class P>
 struct GroupShape {
-  ContactView<P> view{};  ///< numbers alone
+  ContactView<P> view{};  ///< numbers only; pointers are null
   bool by_points, stateless;
-  std::size_t slots, lanes, rows;  ///< rows: of chains, one a packet or one a point
+  std::size_t slots, lanes, rows;  ///< rows: of chains, one per packet or one per point
 
-  /// `options.skip_rotations` is taken as decided.
+  /// `options.skip_rotations` has been decided before.
   GroupShape(const Layout& layout, const GroupLayout& group, const LawFacts& law, const StepperOptions& options)
       : by_points(options.form == ContactForm::points),
         stateless(options.geometry == Geometry::fixed && law.memoryless),
@@ -99,20 +102,20 @@ struct GroupShape {
   }
   std::size_t points() const { return by_points ? rows * lanes * point_words : 0; }
   std::size_t packet_row() const { return by_points ? slots / lanes + 1 : 0; }
-  /// Of all arrays of the group.
+  /// Bytes of all arrays of the group.
   std::size_t bytes() const {
     return 2 * slots * sizeof(std::int32_t) + (geometry() + points()) * sizeof(typename P::Geometry) +
            (chain() + frame()) * sizeof(typename P::State) + packet_row() * sizeof(std::uint32_t);
   }
 };
 
-/// The arrays of a group that no step changes, and its numbers. Inert slots touch `body_a` of a real contact
-/// with zero arms and moments: they add zero. `options.skip_rotations` is taken as decided.
+/// Returns the arrays of a group that no step changes, and its numbers. An inert slot reads `body_a` of a real contact
+/// and has zero arms and moments, so it adds zero. `options.skip_rotations` has been decided before.
 template <class P>
 ContactArrays<P> fill_contacts(const ContactNetwork& network, const Layout& layout, const GroupLayout& group,
                                const LawFacts& law, const StepperOptions& options);
 
-/// The arrays that a step changes, as they are at the start that the options give, or at rest.
+/// Fills the arrays that a step changes, with the start state of the options, or at rest without one.
 template <class P>
 void fill_states(const ContactNetwork& network, const Layout& layout, const GroupLayout& group, const LawFacts& law,
                  const StepperOptions& options, ContactArrays<P>& out);

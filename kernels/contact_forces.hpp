@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_forces.hpp  One step of one contact: kinematics, law, load. Written once for SIMD packs and threads.
+/// \file contact_forces.hpp  One step of one contact: kinematics, law, load. SIMD packs on the CPU and threads on the
+/// GPU share this code.
 ///
-/// An Item says how to load and store one word of a contact: `PackItem` (pack_item.hpp) handles a packet of contacts at
-/// once, `LaneItem` (cuda_lane_item.hpp) one contact of a packet. Per condensed contact with L Kelvin units a step
+/// An Item loads and stores the words of a contact: `PackItem` (pack_item.hpp) handles all contacts of a packet at
+/// once, `LaneItem` (cuda_lane_item.hpp) one contact of a packet. A step of a condensed contact with L Kelvin units
 /// reads and writes 6·(1 + L) states and reads 11 or 12 words of geometry and two bodies.
 #pragma once
 
@@ -14,7 +15,7 @@
 
 namespace macadam::kernels {
 
-/// Motion of the bodies, eight words a body so that one body is one cache line: v, –, ω, – and u, –, θ, –.
+/// Motion of the bodies, eight words per body, so that one body fills one cache line: v, –, ω, – and u, –, θ, –.
 template <class P>
 struct MotionView {
   const typename P::Geometry* velocity;  ///< [body][8] at the half step [m/s, rad/s]
@@ -23,22 +24,22 @@ struct MotionView {
 inline constexpr int velocity_words = 8;
 inline constexpr int displacement_words = 8;
 
-/// The functor of one group: what may branch (form, geometry, law, units) is decided by its type. `Units`: so many
-/// Kelvin units exactly, but 5: at most five, with room in registers for all; −1: any number.
+/// Functor that steps the contacts of one group. Everything that may branch (form, geometry, law, units) is a template
+/// argument. `Units`: exact number of Kelvin units; 5 means at most five, all in registers; −1 means any number.
 template <class P, class LawStep, int Units, ContactForm form, Geometry geometry>
 struct ContactForces {
   using Policy = P;
   static constexpr ContactForm form_of = form;
   static constexpr Geometry geometry_of = geometry;
   static constexpr int units_of = Units;
-  /// Whether f follows from the displacements of now: no state is read or written.
+  /// Whether f follows from the current displacements, so that no state is read or written.
   static constexpr bool stateless = LawStep::memoryless && geometry == Geometry::fixed;
-  /// Whether the components of a contact point are advanced together.
+  /// Whether the law advances the three components of a contact point together.
   static constexpr bool coupled = coupled_step<LawStep>;
   static_assert(!coupled || (form == ContactForm::points && Units >= 0), "a coupled law is stepped by points");
-  /// What a contact computes in. A force that follows from the displacement alone is rounded in the same way whenever
-  /// the particles come back to the same place. Such errors do not average out, and energy drifts. So this force is
-  /// computed as precisely as a state.
+  /// Precision in which a contact is computed. If the force follows from the displacement alone, it is computed in the
+  /// precision of a state. In lower precision it would be rounded in the same way whenever the particles return to the
+  /// same position; such errors do not average out, and the energy would drift.
   using Work = std::conditional_t<stateless, typename P::State, typename P::Geometry>;
   ContactView<P> view;
   LawStep law;
@@ -57,8 +58,8 @@ struct ContactForces {
     };
 
     const Vec3<T> n0{word(n_x), word(n_y), word(n_z)};
-    Placement<T> now, middle;  // where the load acts, and where the half-step velocities are seen
-    T u[6];                    // rates, or displacements where the contact is stateless
+    Placement<T> now, middle;  // where the load acts, and where the half-step velocities are evaluated
+    T u[6];                    // rates; displacements if the contact is stateless
     if constexpr (stateless) {
       now = canonical_placement(n0, item.copysign_one(n0.z), word(arm_a), word(arm_b));
       const auto* turn = motion.displacement + displacement_words / 2;
@@ -100,18 +101,19 @@ struct ContactForces {
  private:
   MACADAM_HD int units() const { return Units >= 0 && Units != 5 ? Units : view.units; }
   MACADAM_HD std::size_t chain_words() const { return static_cast<std::size_t>(view.components * (1 + units())); }
+  /// Number of words between two chains of a contact.
   template <class Item>
   MACADAM_HD std::size_t chain_stride(const Item& item) const {
     return static_cast<std::size_t>(1 + units()) * item.lanes();
   }
 
-  /// Advances the first N chains of a contact. A thread that handles one contact first loads all of them: a compiler
-  /// cannot move a load past a store that might be to the same place.
+  /// Advances the first N chains of a contact. A thread that handles one contact loads all of them before it stores the
+  /// first, because a compiler cannot move a load past a store that may have the same address.
   template <int N, class Item, class T>
   MACADAM_HD void advance_chains(const Item& item, const T (&u)[6], typename P::State* chain, T (&density)[6]) const {
     if constexpr (!stateless && Units >= 0 && requires { Item::staged; }) {
       using S = typename P::State;
-      S state[N][1 + Units];  // units that the law has not: zero displacement and coefficients
+      S state[N][1 + Units];  // units beyond those of the law have zero displacement and coefficients
       const auto place = [&](int c, int l) { return chain + (c * (1 + units()) + l) * item.lanes(); };
       for (int c = 0; c < N; ++c) {
         for (int l = 0; l <= Units; ++l) state[c][l] = l <= units() ? item.load(place(c, l)) : S(0);
@@ -132,7 +134,8 @@ struct ContactForces {
     }
   }
 
-  /// Advances one chain by one displacement component and returns its f; without a state, f of the displacement itself.
+  /// Advances one chain by one displacement component and returns its f. A stateless contact returns f of the
+  /// displacement.
   template <class Item, class T>
   MACADAM_HD T advance(const Item& item, const T& rate, typename P::State* chain) const {
     using S = typename Item::template Value<typename P::State>;
@@ -157,7 +160,7 @@ struct ContactForces {
     }
   }
 
-  /// Sums the loads of the contact points (Eq. 3, 4; model (8.1)): each has its own chains.
+  /// Returns the sum of the loads of the contact points (Eq. 3, 4; model (8.1)). Each point has its own chains.
   template <class Item, class T>
   MACADAM_HD FacetLoad<T> points_load(const Item& item, std::uint32_t packet, const T (&u)[6]) const {
     FacetLoad<T> load{T(0), T(0), T(0), T(0), T(0), T(0)};
@@ -178,7 +181,7 @@ struct ContactForces {
     return load;
   }
 
-  /// The same of a law that takes the components of a point together; `d`: the contact's distance.
+  /// The same for a law that advances the components of a point together; `d`: distance of the contact.
   template <class Item, class T>
   MACADAM_HD FacetLoad<T> coupled_points_load(const Item& item, std::uint32_t packet, const T (&u)[6],
                                               const T& d) const {
@@ -210,7 +213,7 @@ struct ContactForces {
     return load;
   }
 
-  /// Adds the forces of a point along n, ŝ and t̂.
+  /// Adds the forces n, along_s and along_t of a point (s, t) along n, ŝ and t̂, with their moments.
   template <class T>
   MACADAM_HD static void add_point(FacetLoad<T>& load, const T& s, const T& t, const T& n, const T& along_s,
                                    const T& along_t) {
@@ -222,10 +225,10 @@ struct ContactForces {
     load.moment_n += s * along_t - t * along_s;
   }
 
-  /// Eq. 5–6 every step, docs/model.md, section 9: the normal from the displaced centres, x0 with half the change of
-  /// distance, and the frame turned with the normal and spun about it with the mean spin of the pair. `middle` is the
-  /// frame half a step earlier: seen in the frame of either end, a rigid turn by θ would open the contact by (1 − cos
-  /// θ)·d every step.
+  /// Eq. 5–6 in every step, docs/model.md, section 9: computes the normal from the displaced centres, moves x0 by half
+  /// the change of distance, turns the frame with the normal and spins it about the normal with the mean spin of the
+  /// pair. `middle` is the frame half a step earlier. It is needed because, evaluated in the frame at either end of the
+  /// step, a rigid turn by θ would open the contact by (1 − cos θ)·d per step.
   template <class Item, class T>
   MACADAM_HD void carry(const Item& item, std::uint32_t packet, const MotionView<P>& motion, const std::int32_t* ia,
                         const std::int32_t* ib, const Twist<T>& a, const Twist<T>& b, const Vec3<T>& n0, const T& d0,
@@ -240,7 +243,8 @@ struct ContactForces {
     if (view.wall) {
       middle.arm_a = now.arm_a - T(0.5f) * dot(step, n0);
     } else {
-      // all lengths of a step are nearly one another's: what the root and the division of d gave serves them too
+      // all lengths within a step are nearly equal, so the inverse length of the branch serves as an approximation for
+      // the others
       const Vec3<T> branch_before = branch - step;
       n_before = d.inverse * branch_before;
       n_before = inverse_root_near_one(dot(n_before, n_before)) * n_before;
@@ -260,7 +264,7 @@ struct ContactForces {
                             S(item.template convert<State>(spin_rate) * S(dt)));
     Vec3<S> s_middle = S(0.5f) * (turned.before + turned.now);
     const Vec3<S> nm = converted<State>(item, middle.n);
-    s_middle -= dot(s_middle, nm) * nm;  // of the order of swing times spin
+    s_middle -= dot(s_middle, nm) * nm;  // removes the component along nm, which is of the order of swing times spin
     s_middle = inverse_root_near_one(dot(s_middle, s_middle)) * s_middle;
     now.s = converted<typename P::Geometry>(item, turned.now);
     now.t = cross(now.n, now.s);
@@ -268,6 +272,7 @@ struct ContactForces {
     middle.t = cross(middle.n, middle.s);
   }
 
+  /// Returns v in another scalar type.
   template <class To, class Item, class T>
   MACADAM_HD static auto converted(const Item& item, const Vec3<T>& v) {
     return Vec3<typename Item::template Value<To>>{item.template convert<To>(v.x), item.template convert<To>(v.y),

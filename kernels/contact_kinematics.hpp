@@ -2,8 +2,8 @@
 /// \file contact_kinematics.hpp  From the motion of two bodies to the six relative rates of a facet, and back to
 /// forces: docs/model.md, sections 5, 7 and 8.
 ///
-/// T is a scalar (one contact) or a SIMD pack (one contact a lane). A point of the facet lies at x0 + s·ŝ + t·t̂, at
-/// arm_a·n + s·ŝ + t·t̂ from centre A and at −arm_b·n + s·ŝ + t·t̂ from centre B. Model (5.3):
+/// T is a scalar (one contact) or a SIMD pack (one contact per lane). A point of the facet is at x0 + s·ŝ + t·t̂. From
+/// centre A it is at arm_a·n + s·ŝ + t·t̂, from centre B at −arm_b·n + s·ŝ + t·t̂. Model (5.3):
 ///   opening  u[0] + s·u[1] + t·u[2],   slip along ŝ  u[3] − t·u[5],   slip along t̂  u[4] + s·u[5].
 #pragma once
 
@@ -26,7 +26,7 @@ struct Placement {
   T arm_a, arm_b;
 };
 
-/// 1/x where 1 ≤ |x| ≤ 2: a device's division would look after the ends of the range, too.
+/// Returns 1/x for 1 ≤ |x| ≤ 2. On a device this is faster than a division, which also handles the ends of the range.
 template <class T>
 MACADAM_HD T reciprocal_near_one(const T& x) {
 #ifdef __CUDA_ARCH__
@@ -39,7 +39,7 @@ MACADAM_HD T reciprocal_near_one(const T& x) {
   return T(1) / x;
 }
 
-/// Canonical frame of a unit normal (Duff et al. 2017); `sign` is copysign(1, n.z).
+/// Returns the canonical frame of a unit normal (Duff et al. 2017); `sign` is copysign(1, n.z).
 template <class T>
 MACADAM_HD Placement<T> canonical_placement(const Vec3<T>& n, const T& sign, const T& arm_a, const T& arm_b) {
   const T a = -reciprocal_near_one(sign + n.z);
@@ -47,7 +47,7 @@ MACADAM_HD Placement<T> canonical_placement(const Vec3<T>& n, const T& sign, con
   return {n, {T(1) + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, arm_a, arm_b};
 }
 
-/// Six relative rates u[0…5] of B with respect to A, opening positive [m/s, 1/s, 1/s, m/s, m/s, 1/s].
+/// Computes the six relative rates u[0…5] of B with respect to A, opening positive [m/s, 1/s, 1/s, m/s, m/s, 1/s].
 template <class T>
 MACADAM_HD void relative_rates(const Placement<T>& f, const Twist<T>& a, const Twist<T>& b, T (&u)[6]) {
   const Vec3<T> v = b.linear - a.linear;
@@ -61,15 +61,15 @@ MACADAM_HD void relative_rates(const Placement<T>& f, const Twist<T>& a, const T
   u[5] = dot(w, f.n);
 }
 
-/// What the facet carries: force along (n, s, t) and moment about x0 along (n, s, t), both acting on A.
+/// The load that a facet transmits: force along (n, s, t) and moment about x0 along (n, s, t), both acting on A.
 template <class T>
 struct FacetLoad {
   T n{}, s{}, t{};
   T moment_n{}, moment_s{}, moment_t{};
 };
 
-/// Model (7.1), (7.2): load of a facet from the six force densities f[c] (per unit of area over distance) and the area
-/// moments over d.
+/// Returns the load of a facet by model (7.1), (7.2), from the six force densities f[c] (per unit of area over
+/// distance) and the area moments over d.
 template <class T>
 MACADAM_HD FacetLoad<T> condensed_load(const T (&f)[6], const T& alpha, const T (&m)[6]) {
   const T slip_s = alpha * f[3], slip_t = alpha * f[4], twist = alpha * f[5];
@@ -90,6 +90,7 @@ struct ContactLoad {
   Vec3<T> force_a, moment_a, moment_b;
 };
 
+/// Moves the load of a facet from x0 to the two centres, model (8.2).
 template <class T>
 MACADAM_HD ContactLoad<T> to_centres(const Placement<T>& f, const FacetLoad<T>& load) {
   const auto seen = [&f](const T& n, const T& s, const T& t) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_reading.hpp  What the contacts of a group carry now, from the states that an executor keeps: on the
-/// host, in double precision, for those who ask.
+/// \file contact_reading.hpp  Computes forces and deformation of the contacts of a group from the states of an
+/// executor, on the host and in double precision, for output.
 #pragma once
 
 #include <cmath>
@@ -10,14 +10,14 @@
 
 namespace macadam::kernels {
 
-/// Copies of what a step changes of a group.
+/// Copies of the arrays of a group that steps change.
 template <class P>
 struct GroupState {
-  std::vector<typename P::State> chain, frame;  ///< as ContactView
-  std::vector<float> change;                    ///< [slot][6] of f since the chains were settled; empty: nothing
+  std::vector<typename P::State> chain, frame;  ///< as in ContactView
+  std::vector<float> change;                    ///< [slot][6] change of f since the chains were updated; empty: none
 };
 
-/// One group of contacts, seen with the displacements of now.
+/// Reads one group of contacts, with the current displacements.
 template <class P, class L>
 class GroupReading {
  public:
@@ -33,12 +33,12 @@ class GroupReading {
         displacement_(displacement),
         state_(std::move(state)) {}
 
-  /// Numbers of the chains that contact c has in ContactState.
+  /// Returns how many numbers contact c has in ContactState::chain.
   std::size_t numbers(const Contact& c) const {
     return words() * (shape_.by_points ? 3 * (c.point_end - c.point_begin) : 6);
   }
 
-  /// Fills what belongs to the group's contacts; `out.chain_begin` is there.
+  /// Fills in the entries of the group's contacts. `out.chain_begin` must be complete.
   void read(ContactState& out) const {
 #pragma omp parallel for schedule(static)
     for (std::size_t slot = 0; slot < group_.contact.size(); ++slot) {
@@ -49,11 +49,13 @@ class GroupReading {
  private:
   using Vector = Vec3<double>;
   std::size_t words() const { return static_cast<std::size_t>(1 + shape_.view.units); }
+  /// Returns the displacement (first = 0) or rotation (first = 4) of a body.
   Vector moved(std::int32_t body, std::size_t first) const {
     const double* u = &displacement_[static_cast<std::size_t>(body) * displacement_words + first];
     return {u[0], u[1], u[2]};
   }
 
+  /// Fills in the entries of the contact in one slot.
   void read(std::size_t slot, ContactState& out) const {
     const std::uint32_t number = group_.contact[slot];
     const Contact& c = network_.contacts[number];
@@ -70,7 +72,7 @@ class GroupReading {
     out.moment[number] = load.moment_n * frame.n + load.moment_s * frame.s + load.moment_t * frame.t;
   }
 
-  /// `chain`: the numbers of the contact's points, one point after another.
+  /// Counts broken points. `chain`: the numbers of the contact's points, one point after another.
   void read_breaks(const Contact& c, const double* chain, double& fraction, std::vector<Break>& point_breaks) const {
     const std::uint32_t points = c.point_end - c.point_begin;
     std::uint32_t broken = 0;
@@ -82,7 +84,7 @@ class GroupReading {
     fraction = points == 0 ? 0 : double(broken) / double(points);
   }
 
-  /// Eq. 5–7 now. `apart`: how much further B is from A than at the start.
+  /// Returns the current frame by Eq. 5–7. `apart`: displacement of B minus displacement of A.
   Placement<double> placement(std::size_t slot, const Contact& c, const Vector& apart) const {
     Placement<double> out{c.n, c.s, c.t, c.arm_a, c.arm_b};
     if (!updated_) return out;
@@ -96,7 +98,7 @@ class GroupReading {
     return out;
   }
 
-  /// f of a chain, whose numbers go to `out` as well; of a contact without a state, that of displacement x.
+  /// Returns f of a chain and copies the chain's numbers to `out`. A stateless contact returns f of the displacement x.
   double chain(std::size_t row, int component, std::size_t lane, double x, double* out) const {
     if constexpr (memoryless_law<L>) {
       if (shape_.stateless) return *out = law_.value(x);
@@ -107,6 +109,7 @@ class GroupReading {
     return out[0];
   }
 
+  /// Returns the load of a contact in condensed form; copies its chains to `out`.
   FacetLoad<double> condensed(std::size_t slot, const Contact& c, const double (&u)[6], double* out) const {
     double f[6] = {0, 0, 0, 0, 0, 0};
     for (int k = 0; k < shape_.view.components; ++k) {
@@ -120,6 +123,7 @@ class GroupReading {
     return condensed_load(f, alpha_, moments);
   }
 
+  /// Returns the load of a contact in points form; copies the chains of its points to `out`.
   FacetLoad<double> points(std::size_t slot, const Contact& c, const double (&u)[6], double* out) const {
     FacetLoad<double> load;
     for (std::uint32_t j = 0; j < c.point_end - c.point_begin; ++j) {

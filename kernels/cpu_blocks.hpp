@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cpu_blocks.hpp  Blocks of steps on the CPU: when they end, and the loads that they begin with.
+/// \file cpu_blocks.hpp  Blocks of steps on the CPU: decides whether and when blocks begin and end, and keeps the loads
+/// at the beginning of a block. The block of one group is in cpu_group.hpp.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 namespace macadam::kernels {
 
+/// The blocks of steps of all groups on the CPU.
 template <class P, std::size_t width>
 class CpuBlocks {
  public:
@@ -21,7 +23,8 @@ class CpuBlocks {
   CpuBlocks(const Layout& layout, const TileAccumulators& accumulators)
       : layout_(layout), accumulators_(accumulators) {}
 
-  /// Whether steps are to be taken so: what it takes to settle is paid back by some ten steps.
+  /// Prepares for a start and returns whether steps are taken in blocks. Blocks shorter than 16 steps are not used: an
+  /// update of the states costs as much as some ten steps save.
   bool begin(const ExecStart& start) {
     constexpr int shortest = 16;
     const bool possible = std::is_same_v<typename P::Geometry, float> && start.options.form == ContactForm::condensed;
@@ -37,12 +40,12 @@ class CpuBlocks {
 
   void add_states(StateList& states) {
     if (!on_) return;
-    states.add("base_sums", "N, N m", base_);  // tiles are those of any CPU
+    states.add("base_sums", "N, N m", base_);  // the order needs no conversion: tiles are the same on any CPU
     states.add("displacement_at_block", "m, rad", before_, [this] { return body_order(layout_, displacement_words); });
     schedule_.add_state(states);
   }
 
-  /// Steps group `number` in blocks where it can be, and adds what it then keeps.
+  /// Makes group `number` use blocks if it can, and adds its block states to `states`.
   void use(CpuGroup<P, width>& group, std::size_t number, StateList& states) const {
     if (!group.use_blocks(on_, dt_)) return;
     const GroupLayout& of = layout_.groups[number];
@@ -54,7 +57,8 @@ class CpuBlocks {
     add("block_frame", "1, m", group.placed, placed_words);
   }
 
-  /// Before step `first`: so many of `steps` may be taken now. `displacement`: of all bodies.
+  /// Called before step `first`: begins a block if one is due. Returns how many of `steps` may be taken now.
+  /// `displacement`: of all bodies.
   std::int64_t next(std::int64_t first, std::int64_t steps, const Groups& groups,
                     const AlignedVector<double>& displacement, int threads) {
     if (!on_) return steps;
@@ -64,8 +68,8 @@ class CpuBlocks {
     return out;
   }
 
-  /// Sums first … end − 1 as contacts begin to add to them: the loads at the beginning of the block of those that then
-  /// add changes.
+  /// Initialises the sums first … end − 1 before contacts add to them: with the base loads if steps are taken in blocks
+  /// (contacts then add only changes), else with zero.
   void begin_sums(std::size_t first, std::size_t end, AlignedVector<R>& sums) const {
     if (on_)
       std::copy(base_.data() + first, base_.data() + end, sums.data() + first);
@@ -77,7 +81,7 @@ class CpuBlocks {
   std::int64_t bytes() const { return step_bytes() + static_cast<std::int64_t>(before_.size() * sizeof(double)); }
 
  private:
-  /// Ends a block, if one has begun, and begins the next, of so many steps.
+  /// Ends the block in progress, if there is one, and begins the next with `steps` steps.
   void settle(int steps, const Groups& groups, const AlignedVector<double>& displacement, int threads) {
     if (!schedule_.has_begun()) keep(displacement);
     for (const auto& group : groups) group->begin_block(schedule_.ended(), steps);
@@ -94,6 +98,7 @@ class CpuBlocks {
     keep(displacement);
     schedule_.start(steps);
   }
+  /// Keeps the displacements at the beginning of the block.
   void keep(const AlignedVector<double>& displacement) {
     if (!before_.empty()) before_ = displacement;
   }
@@ -104,7 +109,7 @@ class CpuBlocks {
   bool on_ = false;
   double dt_ = 0;
   AlignedVector<R> base_;         // [accumulator][8]
-  AlignedVector<double> before_;  // [body][8], displacements when the block began; geometry updated only
+  AlignedVector<double> before_;  // [body][8] displacements at the beginning of the block; with updated geometry only
 };
 
 }  // namespace macadam::kernels

@@ -12,16 +12,17 @@
 
 namespace macadam::kernels {
 
-/// Words of a contact's frame within a block: n, arm_a, arm_b, ŝ; geometry updated only.
+/// Words of a contact's frame within a block: n, arm_a, arm_b, ŝ. With updated geometry only.
 enum PlacedWord { placed_n, placed_arm_a = 3, placed_arm_b, placed_s, placed_words = placed_s + 3 };
 
-/// Steps packets of contacts within a block; `state` and `placed` as in CpuGroup.
+/// Steps packets of contacts within a block by model (6.8), as step_in_block() does on a device; `state` and `placed`
+/// as in CpuGroup.
 template <class P, Geometry geometry>
 struct BlockForces {
   ContactView<P> view{};
   float* state = nullptr;
   const float* placed = nullptr;
-  float rate = 0, relax = 0, follow = 0;  ///< rate·Δt
+  float rate = 0, relax = 0, follow = 0;  ///< rate is multiplied by Δt
 
   template <class Item>
   ContactLoad<typename Item::template Value<float>> operator()(const Item& item, std::uint32_t packet,
@@ -59,6 +60,7 @@ struct BlockForces {
   }
 
  private:
+  /// Advances the first N components by one step of the block.
   template <int N, class Item, class T>
   void advance(const Item& item, std::size_t slot, const T (&u)[6], T (&change)[6]) const {
     float* own = state + slot * 3 * N;
@@ -72,7 +74,7 @@ struct BlockForces {
   }
 };
 
-/// One contact of a packet, as settling takes it.
+/// One contact of a packet: the Item with which a contact is updated between two blocks.
 template <std::size_t width>
 struct OneOfPacket {
   std::size_t lane;
@@ -95,27 +97,29 @@ struct OneOfPacket {
   }
 };
 
-/// A group of contacts. Loads are added to `sums`, [accumulator][8].
+/// A group of contacts. Its loads are added to `sums`, [accumulator][8].
 template <class P, std::size_t width>
 struct CpuGroup {
   using R = typename P::Particle;
   virtual ~CpuGroup() = default;
-  /// Steps the packets first … end − 1 and adds up their loads; within a block the changes since it began.
+  /// Steps the packets first … end − 1 and adds up their loads; within a block, only the changes since it began.
   virtual void run(std::uint32_t first, std::uint32_t end, const MotionView<P>& motion, R* sums) = 0;
-  /// From now on in blocks of steps, or no longer. False: its contacts are stepped without them.
+  /// Switches blocks on or off. Returns whether the group uses blocks; if not, its contacts are stepped one step at a
+  /// time.
   virtual bool use_blocks(bool wanted, double dt) = 0;
-  /// Ends a block of `ended` steps, 0: none, and begins one of `steps`, for the packets that settle() then gets.
+  /// Ends a block of `ended` steps (0: none) and begins one of `steps`; settle() must follow for all packets.
   virtual void begin_block(int ended, int steps) = 0;
-  /// Adds up the loads of now. `now`, `before`: as BlockSettling has them.
+  /// Updates the states of packets first … end − 1 and adds up their current loads. `now`, `before`: as in
+  /// BlockSettling.
   virtual void settle(std::uint32_t first, std::uint32_t end, const double* now, const double* before, R* sums) = 0;
 
-  /// Of all arrays, and those that a step reads and writes: states twice.
+  /// Bytes of all arrays; bytes that a step reads and writes, states counted twice.
   std::int64_t bytes() const { return fixed_bytes() + chain_bytes() + block_bytes(); }
   std::int64_t step_bytes() const {
     if (!in_blocks) return fixed_bytes() + 2 * chain_bytes();
     return fixed_bytes() + block_bytes() + static_cast<std::int64_t>(2 * state.size() / 3 * sizeof(float));
   }
-  /// [slot][6] of f since the block began; empty without blocks.
+  /// Returns the change of f since the block began, [slot][6]; empty without blocks.
   std::vector<float> changes() const {
     const auto n = static_cast<std::size_t>(arrays.shape.components);
     std::vector<float> out(in_blocks ? 6 * layout->contact.size() : 0, 0);
@@ -127,7 +131,7 @@ struct CpuGroup {
 
   ContactArrays<P> arrays;
   const GroupLayout* layout = nullptr;
-  const std::uint32_t *end_a = nullptr, *end_b = nullptr;  ///< [slot] accumulators
+  const std::uint32_t *end_a = nullptr, *end_b = nullptr;  ///< [slot] accumulators of the two ends
   bool in_blocks = false;
   ZeroVector<float> state;   ///< [packet][3][components][lane] δf, Σ (δf' + δf), drift
   ZeroVector<float> placed;  ///< [packet][placed_words][lane]
@@ -144,8 +148,8 @@ struct CpuGroup {
   std::int64_t block_bytes() const { return bytes_of(state, placed); }
 };
 
-/// Calls f(packet) for its loads and adds them up, eight contacts at a time, first their ends A: the order of additions
-/// is the same for both widths.
+/// Calls f(packet) for the loads of each packet and adds them up. Eight contacts are added at a time, first on their
+/// ends A, then on B, so that the order of additions is the same for both packet widths.
 template <class Item, class R, class F>
 [[gnu::always_inline]] inline void add_up(std::uint32_t first, std::uint32_t end, const std::uint32_t* end_a,
                                           const std::uint32_t* end_b, R* sums, F&& f) {
@@ -166,11 +170,12 @@ template <class Item, class R, class F>
   }
 }
 
+/// A group of contacts with the law L, stepped by the functor Forces.
 template <class P, std::size_t width, class L, class Forces>
 struct CpuGroupOf final : CpuGroup<P, width> {
   using Item = PackItem<width>;
   using R = typename P::Particle;
-  /// Contacts that follow from the displacements alone move no states that a block could save.
+  /// Whether this law and form can use blocks. Stateless contacts cannot: they have no states that a block could save.
   static constexpr bool has_blocks_here = has_blocks<L> && Forces::form_of == ContactForm::condensed &&
                                           !Forces::stateless && std::is_same_v<typename P::Geometry, float>;
   Forces forces{};
@@ -195,7 +200,8 @@ struct CpuGroupOf final : CpuGroup<P, width> {
       block_.view = view;
       block_.state = this->state.data();
       block_.placed = this->placed.data();
-      const auto coefficients = law.block(dt, 1);  // those of a step do not depend on the length
+      // These coefficients of a step do not depend on the length of the block
+      const auto coefficients = law.block(dt, 1);
       block_.rate = static_cast<float>(coefficients.rate * dt);
       block_.relax = static_cast<float>(coefficients.relax);
       block_.follow = static_cast<float>(coefficients.follow);
@@ -229,6 +235,7 @@ struct CpuGroupOf final : CpuGroup<P, width> {
                  [&](std::uint32_t packet) { return block_(Item{}, packet, motion); });
   }
 
+  /// Updates the contact in one slot and adds its loads to `sums`.
   void settle(std::size_t slot, const double* now, const double* before, R* sums) {
     const OneOfPacket<width> item{slot % width};
     const auto packet = static_cast<std::uint32_t>(slot / width);

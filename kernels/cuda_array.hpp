@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_array.hpp  Arrays that live on a device, or on several that share them.
+/// \file cuda_array.hpp  Arrays in the memory of one device, or spread over several.
 #pragma once
 
 #include <utility>
@@ -11,8 +11,8 @@
 
 namespace macadam::kernels {
 
-/// An array on the device in use, zero at first, from its making to its end, when nothing may use it any more. Made and
-/// ended in the order of the calling thread, as a device that is shared must not stand still for it.
+/// An array on the current device, zero at first. Nothing may use it when it is destroyed. Allocation and release go
+/// through the calling thread's own stream, so that a shared device is not stopped by them.
 template <class T>
 class DeviceArray {
  public:
@@ -25,7 +25,7 @@ class DeviceArray {
     }
     clear();
   }
-  /// Of so many words an item, on the devices of the items' shares.
+  /// An array with `words` numbers per item, spread over the devices that the items' shares name.
   DeviceArray(const Shares& shares, std::size_t words) {
     if (shares.size() == 1) {
       *this = DeviceArray(shares.back().end * words);
@@ -37,6 +37,7 @@ class DeviceArray {
     data_ = static_cast<T*>(spread_.data());
     clear();
   }
+  /// Returns a device array with a copy of a host array.
   template <class Array>
   static DeviceArray of(const Array& host) {
     DeviceArray out(host.size());
@@ -82,7 +83,7 @@ class DeviceArray {
   SpreadMemory spread_;
 };
 
-/// Adds an array on the device, which must stay where it is, to what a checkpoint copies and replaces.
+/// Adds a device array to the states that a checkpoint copies and replaces. The array must keep its address.
 template <class T>
 void add_device_state(StateList& states, const std::string& name, const std::string& unit, T* data, std::size_t size,
                       StateList::Order order = {}) {

@@ -1,6 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_blocks.hpp  Between two blocks of steps: chains are settled in full precision, and the next block
-/// prepared.
+/// \file cuda_blocks.hpp  The kernels between two blocks of steps on the tile path: they update the viscoelastic states
+/// in full precision and prepare the next block.
+///
+/// TileRunner launches two kernels in this order. settle_contacts (through Settling in cuda_settling.hpp) takes each
+/// contact's δf and sum from the tiles' states, updates the contact's chain by model (6.9), writes the drift (and with
+/// updated geometry the frame) for the next block into the tiles' constants, and stores the loads of the current f as
+/// records. sum_base sums the records of each body to its new base loads and stores its displacement as that at the
+/// beginning of the block. The formulas of one contact are in contact_blocks.hpp.
+///
+/// Words: to settle is to update a contact between two blocks. A record is the load of one contact on one of its two
+/// bodies; the records of a body are consecutive (its row). Each contact is settled once, by its slot in the layout;
+/// its words are written to all its places in the tiles (one or two).
 #pragma once
 
 #include "kernels/contact_blocks.hpp"
@@ -9,16 +19,19 @@
 
 namespace macadam::kernels {
 
-/// In place of the steps of the block that ends: nothing has been stepped, and constants are to be those of the start.
+/// Passed instead of the number of steps of the block that ends: nothing has been stepped yet, and the constants become
+/// those of the undeformed contact.
 inline constexpr int settling_starts = -1;
 
-/// Settles the contacts of one group, which the tiles have in their own order.
+/// Settles the contacts of one group; one thread per contact.
 template <class P, class Block, int Units, Geometry geometry>
 struct SettleContact {
+  /// The update of one contact, as in contact_blocks.hpp.
   BlockSettling<P, Block, Units, geometry> settling;
 
-  /// `place`: where the contact is among the tiles', UINT32_MAX for none. `steps`: of the block that ends; 0: none;
-  /// settling_starts.
+  /// `place`: the one or two places of the contact in the tiles; x is UINT32_MAX for an inert slot. `now`, `before`:
+  /// displacements now and at the beginning of the block, [body][8]. `steps`: of the block that ends; 0: there is none;
+  /// settling_starts: see there. `record`: slot among all groups.
   __device__ void operator()(std::uint32_t slot, uint2 place, float4* constant, const float4* state, const double* now,
                              const double* before, int steps, const LoadRecords<typename P::Particle>& records,
                              std::uint32_t record) const {
@@ -47,12 +60,13 @@ struct SettleContact {
   }
 
  private:
+  /// Returns the address of the words of a contact at `place`, with `count` words per contact.
   template <class Word>
   __device__ __forceinline__ static Word* at(Word* words, std::uint32_t place, int count) {
     return words + static_cast<std::size_t>(place / 32) * count * 32 + place % 32;
   }
 
-  /// No drift, and the frame of the undeformed contact.
+  /// Writes constants without drift, with the frame of the undeformed contact.
   __device__ void begin(std::uint32_t slot, uint2 place, float4* constant) const {
     const ContactView<P>& view = settling.view;
     const auto* g = view.geometry + static_cast<std::size_t>(slot / 32) * view.geometry_words * 32 + slot % 32;
@@ -72,7 +86,8 @@ struct SettleContact {
   }
 };
 
-/// The settling functors of a law: one for each number of units that has code of its own; none of a law without blocks.
+/// Functor types that settle a law: one for each number of Kelvin units that has its own code; none for a law without
+/// blocks.
 template <class P, class L, Geometry geometry>
 auto settle_functors() {
   if constexpr (!has_blocks<L>)
@@ -84,21 +99,22 @@ auto settle_functors() {
                       SettleContact<P, typename L::Block, -1, geometry>>{};
 }
 
-/// The settling functors of all groups.
+/// The settling functors of all groups, passed to the kernel by value.
 template <class P, class AnyLaw, Geometry geometry>
 struct SettleGroups;
 template <class P, class... L, Geometry geometry>
 struct SettleGroups<P, std::variant<L...>, geometry> {
   using Functors = decltype(std::tuple_cat(settle_functors<P, L, geometry>()...));
   struct Group {
-    std::uint32_t first_slot = 0;  ///< of all groups
+    std::uint32_t first_slot = 0;  ///< number of the group's first slot among all groups
     typename AnyFunctorOf<Functors>::type functor;
   };
   Group group[pair_types];
-  const uint2* place;  ///< [slot of all groups] among the tiles' contacts
+  const uint2* place;  ///< [slot of all groups] the places of its contact in the tiles
 };
 
-/// The slots of the groups that one launch settles.
+/// The slots of each group that one launch settles. Thread blocks first_block, first_block + 1, … handle slots begin …
+/// end − 1.
 struct SettleRanges {
   struct Range {
     std::uint32_t first_block = UINT32_MAX, begin = 0, end = 0;
@@ -106,13 +122,14 @@ struct SettleRanges {
   Range of[pair_types];
   std::uint32_t blocks = 0;
 
-  /// Behind the groups before.
+  /// Adds a group; its thread blocks follow those of the groups added before.
   void add(int group, std::size_t begin, std::size_t end) {
     of[group] = {blocks, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
     blocks += static_cast<std::uint32_t>((end - begin + contact_threads - 1) / contact_threads);
   }
 };
 
+/// Settles the contacts of all groups. Each thread block handles contacts of one group only.
 template <class P, class AnyLaw, Geometry geometry>
 __global__ void __launch_bounds__(contact_threads)
     settle_contacts(const __grid_constant__ SettleGroups<P, AnyLaw, geometry> groups,
@@ -131,7 +148,7 @@ __global__ void __launch_bounds__(contact_threads)
   });
 }
 
-/// The body forces alone, before the first step.
+/// Sets the loads to the body forces alone, before the first step.
 template <class R>
 __global__ void begin_with_weight(const R* weight, std::uint32_t particles, R* force) {
   const std::uint32_t body = blockIdx.x * blockDim.x + threadIdx.x;
@@ -139,8 +156,8 @@ __global__ void begin_with_weight(const R* weight, std::uint32_t particles, R* f
   for (unsigned w = 0; w < 3; ++w) force[body * std::size_t{velocity_words} + w] = weight[body * std::size_t{4} + w];
 }
 
-/// Sums the base loads of the bodies first … end − 1, walls included, body forces with them, and keeps where the block
-/// begins. Long rows as in step_bodies().
+/// Sums the base loads (records and body force) of the bodies first … end − 1, walls included, and copies their
+/// displacements from `now` to `before`. The first `long_rows` thread blocks handle one body each, as in step_bodies().
 template <class P>
 __global__ void __launch_bounds__(body_threads)
     sum_base(const LoadRecords<typename P::Particle> records, const std::uint32_t* long_body, std::uint32_t long_rows,

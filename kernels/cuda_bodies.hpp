@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_bodies.hpp  Sums of loads in fixed order, and the motion of the bodies: eight threads a body, one a word.
+/// \file cuda_bodies.hpp  Kernels that sum the loads of each body in fixed order, and that move the bodies: eight
+/// threads per body, one per word.
 #pragma once
 
 #include "kernels/cuda_contacts.hpp"
@@ -8,13 +9,14 @@
 namespace macadam::kernels {
 
 inline constexpr unsigned body_threads = 256, bodies_a_block = body_threads / velocity_words;
-inline constexpr std::uint32_t long_row = 64;  ///< a longer row of records has a block of its own
+inline constexpr std::uint32_t long_row = 64;  ///< a body with more records than this has a thread block of its own
 
-/// Word w of [force, –, moment, –] of the sum of records first, first + stride, … < end, added up in R.
+/// Returns word w of [force, –, moment, –] of the sum of the records first, first + stride, … < end, added in precision
+/// R.
 template <class R, class T>
 __device__ __forceinline__ R sum_words(const LoadRecords<T>& records, std::uint32_t first, std::uint32_t end,
                                        std::uint32_t stride, unsigned w) {
-  constexpr unsigned batch = 8;  // records asked for at once: a row has twelve or so
+  constexpr unsigned batch = 8;  // records requested at the same time; a body has about twelve
   R sum = 0;
   if (w % 4 == 3) return sum;
   const T* words = records.words + (w - w / 4);
@@ -31,7 +33,8 @@ __device__ __forceinline__ R sum_words(const LoadRecords<T>& records, std::uint3
   return sum;
 }
 
-/// Word w = threadIdx.x % 8 of the load of one body, by a whole block; right in the first eight threads.
+/// Returns word w = threadIdx.x % 8 of the load of one body, summed by a whole thread block. Only the first eight
+/// threads have the result.
 template <class R, class T>
 __device__ R sum_by_block(const LoadRecords<T>& records, std::uint32_t body) {
   __shared__ R part[body_threads];
@@ -46,12 +49,13 @@ __device__ R sum_by_block(const LoadRecords<T>& records, std::uint32_t body) {
   return sum;
 }
 
-/// At least so many blocks of step_bodies() a multiprocessor: with more, threads have too few registers to ask for all
-/// records of a body at once (45.4 in place of 47.1 µs a step of the full specimen in double precision).
+/// Smallest number of thread blocks of step_bodies() per multiprocessor. With more, threads would have too few
+/// registers to request all records of a body at once (full specimen in double precision: 45.4 µs per step with 4, 47.1
+/// µs with more).
 inline constexpr unsigned body_blocks = 4;
 
-/// Moves the bodies first … end − 1; `pushed` as ParticleMotion::word(). The first `long_rows` blocks have one body
-/// each. The walls' table has the row of this step alone.
+/// Moves the bodies first … end − 1. `pushed`: as in ParticleMotion::word(). The first `long_rows` thread blocks handle
+/// one body each, from `long_body`. The walls' table holds only the row of this step.
 template <class P, bool pushed>
 __global__ void __launch_bounds__(body_threads, body_blocks)
     step_bodies(const __grid_constant__ ParticleMotion<P> motion, const LoadRecords<typename P::Geometry> records,
@@ -75,7 +79,7 @@ __global__ void __launch_bounds__(body_threads, body_blocks)
   motion.template word<pushed>(static_cast<std::int32_t>(body), w, force, 0);
 }
 
-/// Writes the summed loads of the bodies first + blockIdx.x, eight words each.
+/// Writes the sums of the loads of the bodies first + blockIdx.x, eight words each.
 template <class R, class T>
 __global__ void __launch_bounds__(body_threads) sum_loads(const LoadRecords<T> records, R* out, std::uint32_t first) {
   const R sum = sum_by_block<R>(records, first + blockIdx.x);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_body_arrays.hpp  What both executors of devices have: their team, the bodies, the walls' table, and the
-/// arrays of the groups.
+/// \file cuda_body_arrays.hpp  The base class of both executors on devices (ExecCuda, ExecCudaTiles): the team of
+/// devices, the bodies, the walls' table, and the arrays of the groups.
 #pragma once
 
 #include <memory>
@@ -19,6 +19,7 @@
 
 namespace macadam::kernels {
 
+/// Owns the arrays that both executors on devices have; P is the precision.
 template <class P>
 class CudaBodyArrays {
  public:
@@ -40,13 +41,13 @@ class CudaBodyArrays {
   }
   CudaBodyArrays(const CudaBodyArrays&) = delete;
 
-  /// What an error left behind is done; then arrays may go.
+  /// Waits until all queued kernels have ended, also after an error; arrays may then be freed.
   void end_steps() noexcept { team_.wait_for_the_last(); }
 
   void use_device() const { team_.use(); }
 
   const R* wall_table(std::size_t most_values) { return wall_rows_.prepare(most_values); }
-  /// All wait for them.
+  /// Enqueues the upload of rows of the walls' table. Every device waits for them.
   void set_wall_rows(const std::vector<R>& rows) {
     team_.meet();
     wall_rows_.put(rows, team_);
@@ -67,7 +68,7 @@ class CudaBodyArrays {
             static_cast<std::int32_t>(layout_.particles())};
   }
 
-  /// A failing kernel is reported here.
+  /// Waits for all steps. An error of a kernel is reported here.
   void wait() const { team_.wait("time steps"); }
 
   std::vector<R> velocities() const { return master_.download(); }
@@ -83,7 +84,7 @@ class CudaBodyArrays {
     }
   }
 
-  /// Makes the arrays that a step changes whole, where each of several processes has a part of them.
+  /// With several ranks, completes on every device the arrays that a step changes.
   void gather() const {
     whole_bodies(master_.data(), velocity_words);
     whole_bodies(displacement_.data(), displacement_words);
@@ -101,6 +102,7 @@ class CudaBodyArrays {
     }
   }
 
+  /// Returns the first particle that moves too far in a step (specimen order), or −1.
   std::int64_t first_divergent(const std::vector<double>& radius, double dt) const {
     require_divergence_search(radius);
     Ranks* const ranks = team_.ranks();
@@ -127,12 +129,13 @@ class CudaBodyArrays {
   void start_clock() { parts_.start(team_.stream()); }
   std::vector<PartTime> stop_clock() { return parts_.stop(); }
 
-  /// What stays on the device where a stepper does.
+  /// Device addresses of the bodies' motion, for readers that keep them on the device.
   DeviceMotion device_motion() const {
     return {team_.device(team_.first()), sizeof(R) == 8, master_.data(), displacement_.data(), layout_.particle};
   }
 
  private:
+  /// Returns the walls' part of an array of bodies.
   template <class T>
   std::vector<T> of_walls(const T* bodies, std::size_t words) const {
     std::vector<T> out(walls * words);
@@ -145,17 +148,18 @@ class CudaBodyArrays {
  protected:
   std::size_t bodies() const { return layout_.particles() + walls; }
 
-  /// Of bodies, with walls.
+  /// Completes an array of all bodies, walls included, on every rank.
   template <class T>
   void whole_bodies(T* data, std::size_t words) const {
     queue_whole(team_, data, words, [this](std::size_t m) { return cuts_.body(m); });
   }
-  /// What the last rank, which has the walls, has of `size` numbers.
+  /// Sends `size` numbers from the last rank, which owns the walls, to all ranks.
   template <class T>
   void of_last(T* data, std::size_t size) const {
     queue_whole(team_, data, size, [this](std::size_t m) { return m == team_.size() ? 1 : 0; });
   }
 
+  /// Sets all bodies to rest and forgets the list of states.
   void rest() {
     states_.clear();
     master_.clear();
@@ -163,7 +167,7 @@ class CudaBodyArrays {
     velocity_.clear();
   }
 
-  /// Takes group `number` for good, the first time, or its states alone.
+  /// Takes the arrays of group `number` (the first time) or only its states.
   ContactView<P> take_group(std::size_t number, bool first, ContactArrays<P>& arrays) {
     ContactView<P> view = first ? arrays.shape : views_[number];
     arrays.for_each_array(view, [&](auto name, auto unit, auto& array, auto& pointer) {
@@ -186,6 +190,7 @@ class CudaBodyArrays {
     return views_[number] = view;
   }
 
+  /// Adds the motion of the bodies to the states of a checkpoint.
   void add_body_states() {
     const auto add = [&](const char* name, const char* unit, const auto& array) {
       add_device_state(states_, name, unit, array.data(), array.size(),
@@ -196,6 +201,7 @@ class CudaBodyArrays {
     add("gathered_velocity", "m/s, rad/s", velocity_);
   }
 
+  /// \throws RunError if a device has fewer than its part of `needed` bytes free.
   void require_memory(std::size_t needed) const {
     if (!team_.ranks()) needed = needed / team_.size() * static_cast<std::size_t>(team_.shares_of(0));
     team_.each([&](std::size_t m) {
@@ -209,6 +215,7 @@ class CudaBodyArrays {
     });
   }
 
+  /// Returns the description of backend and devices; `way`: how steps are taken.
   std::string described(const std::string& way) const {
     cudaDeviceProp properties{};
     check_cuda(cudaGetDeviceProperties(&properties, team_.device(team_.first())), "device properties");
@@ -219,7 +226,7 @@ class CudaBodyArrays {
     return "cuda" + (devices == DeviceList{0} ? "" : named + to_string(devices)) + ", " + properties.name + ", " + way;
   }
 
-  /// Of the bodies, what a step reads and writes; and all bytes held but those of the loads.
+  /// Bytes of the bodies that a step reads and writes; and all bytes held except for the loads.
   std::int64_t body_traffic() const {
     return static_cast<std::int64_t>(2 * (master_.bytes() + displacement_.bytes() + velocity_.bytes()) +
                                      inverse_.bytes());
@@ -230,13 +237,16 @@ class CudaBodyArrays {
                                      rows_.place.bytes() + weight_.bytes() + wall_rows_.bytes());
   }
 
-  /// `radius` in specimen order [m]. \throws RunError where there is no memory for it.
+  /// Makes the search for divergent particles, if there is none. `radius` in specimen order [m]. \throws RunError if
+  /// there is too little memory.
   void require_divergence_search(const std::vector<double>& radius) const {
     if (!divergence_) divergence_ = std::make_unique<DivergenceSearch<P>>(layout_, radius);
   }
+  /// Returns −1 for UINT32_MAX (no particle), else the number.
   static std::int64_t number_or_none(std::uint32_t first_divergent) {
     return first_divergent == UINT32_MAX ? -1 : static_cast<std::int64_t>(first_divergent);
   }
+  /// Converts bodies from eight words to twists.
   static std::vector<Twist<R>> twists(const std::vector<R>& words) {
     std::vector<Twist<R>> out(words.size() / velocity_words);
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -252,7 +262,7 @@ class CudaBodyArrays {
       return velocity_.data();
   }
 
-  /// By slots, or, of points, about so.
+  /// Shares of an array of a group: by slots or, for arrays by contact points, approximately so.
   Shares array_shares(std::size_t words, const GroupLayout& group) const {
     if (words % group.contact.size() == 0) return cuts_.slots(group);
     return cuts_.of([&](std::size_t m) {
@@ -266,13 +276,13 @@ class CudaBodyArrays {
   const Layout& layout_;
   TeamCuts cuts_;
   RecordRows rows_;
-  std::optional<Crossing> crossing_;   // of several processes
-  std::vector<ContactView<P>> views_;  // of the groups
+  std::optional<Crossing> crossing_;   // with several ranks
+  std::vector<ContactView<P>> views_;  // [group]
   DeviceArray<R> master_, inverse_, weight_;
   DeviceArray<double> displacement_;
   DeviceArray<G> velocity_;
   WallRowsOnDevice<R> wall_rows_;
-  mutable std::unique_ptr<DivergenceSearch<P>> divergence_;  // made when first asked
+  mutable std::unique_ptr<DivergenceSearch<P>> divergence_;  // made when first needed
   DeviceStore store_;
   StateList states_;
   PartClock parts_;

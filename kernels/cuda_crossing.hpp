@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_crossing.hpp  Contacts whose ends are of different ranks: what crosses for them.
+/// \file cuda_crossing.hpp  Contacts between bodies of different ranks: which data must be sent for them.
 #pragma once
 
 #include <algorithm>
@@ -10,16 +10,16 @@
 
 namespace macadam::kernels {
 
-/// A contact is stepped by the rank that has its slot. It reads both bodies, and writes a record of loads for each.
+/// A contact is stepped by the rank that has its slot. That rank reads both bodies and writes a load record for each.
 struct Crossing {
-  RankItems bodies;   ///< from the body's rank to that of the contact
-  RankItems records;  ///< back
+  RankItems bodies;   ///< from the rank of the body to the rank of the contact
+  RankItems records;  ///< from the rank of the contact to the rank of the body
 
   Crossing(const DeviceTeam& team, const ContactNetwork& network, const Layout& layout, const TeamCuts& cuts,
            const RecordRows& rows)
       : bodies(team), records(team) {
     const std::vector<std::uint32_t> place = rows.place.download();
-    std::size_t slot = 0;  // of all groups
+    std::size_t slot = 0;  // number among the slots of all groups
     for (const GroupLayout& group : layout.groups) {
       for (std::size_t m = 0; m < cuts.members(); ++m) {
         for (std::size_t s = cuts.slot(group, m); s < cuts.slot(group, m + 1); ++s, ++slot) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cuda_devices.cu  What CUDA devices answer. A context is made on the one that is to run, on no other.
+// cuda_devices.cu  Finds the CUDA devices, and whether one can be used. Creates a context only on the device that is to
+// run.
 #include <cuda_runtime.h>
 
 #include <string>
@@ -9,7 +10,7 @@
 
 namespace macadam::kernels {
 
-/// Asked whether the device can be used and takes this build's code.
+/// Empty kernel; its attributes show whether the device runs code of this build.
 __global__ void probe() {}
 
 void report_cuda_devices(BackendReport& report) {

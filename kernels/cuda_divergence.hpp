@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_divergence.hpp  Finds on the device the first particle that moves beyond sense.
+/// \file cuda_divergence.hpp  Finds on the device the first particle that moves too far in one step.
 #pragma once
 
 #include "kernels/contact_forces.hpp"
@@ -9,8 +9,8 @@
 
 namespace macadam::kernels {
 
-/// The number (specimen order) of a body that moves more than its radius or turns more than one radian in a step, or
-/// not finitely; UINT32_MAX of any other.
+/// Returns the number (specimen order) of a body that in one step moves more than its radius, turns more than one
+/// radian, or has a velocity that is not finite; UINT32_MAX for any other.
 template <class P>
 struct Divergent {
   const typename P::Particle* velocity;  ///< [body][8]
@@ -26,7 +26,7 @@ struct Divergent {
   }
 };
 
-/// Among the bodies `begin` to `end` − 1; `first` is UINT32_MAX before.
+/// Searches the bodies `begin` … `end` − 1. `*first` must be UINT32_MAX before.
 template <class P>
 __global__ void find_divergent(const Divergent<P> of_body, std::int32_t begin, std::int32_t end, std::uint32_t* first) {
   const auto body = begin + static_cast<std::int32_t>(blockIdx.x * blockDim.x + threadIdx.x);
@@ -35,7 +35,7 @@ __global__ void find_divergent(const Divergent<P> of_body, std::int32_t begin, s
   if (found != UINT32_MAX) atomicMin(first, found);
 }
 
-/// Owns what the search needs.
+/// Owns the arrays of the search.
 template <class P>
 class DivergenceSearch {
  public:
@@ -47,8 +47,8 @@ class DivergenceSearch {
     radius_ = DeviceArray<double>::of(sorted);
   }
 
-  /// Queues the search among the bodies `begin` to `end` − 1, of velocities `velocity` [body][8] on the device.
-  /// `first`, on the device, is UINT32_MAX, and becomes what Stepper::first_divergent() says, if it finds any.
+  /// Enqueues the search among the bodies `begin` … `end` − 1. `velocity`: [body][8] on the device. `first`, on the
+  /// device, must be UINT32_MAX; it becomes the result of Stepper::first_divergent() if a particle is found.
   void queue(const typename P::Particle* velocity, double dt, std::size_t begin, std::size_t end, std::uint32_t* first,
              cudaStream_t stream) const {
     constexpr unsigned threads = 256;
@@ -57,7 +57,7 @@ class DivergenceSearch {
            static_cast<std::int32_t>(end), first);
   }
 
-  /// The same, now.
+  /// Searches and waits for the result.
   std::uint32_t find(const typename P::Particle* velocity, double dt, std::size_t begin, std::size_t end,
                      cudaStream_t stream) const {
     std::uint32_t out = UINT32_MAX;
@@ -71,7 +71,7 @@ class DivergenceSearch {
  private:
   DeviceArray<std::int32_t> particle_;
   DeviceArray<double> radius_;
-  DeviceArray<std::uint32_t> first_;  // of find()
+  DeviceArray<std::uint32_t> first_;  // result of find()
 };
 
 }  // namespace macadam::kernels

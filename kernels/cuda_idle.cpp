@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cuda_idle.cpp  Whether a second device may be taken unasked. No context is made on it.
+// cuda_idle.cpp  Decides whether a second device may be used without being asked for. Creates no context on it.
 #include <cuda_runtime.h>
 #include <dlfcn.h>
 
@@ -8,8 +8,8 @@
 namespace macadam::kernels {
 namespace {
 
-/// NVIDIA's library of management, which comes with the driver and has no header here. Its calls answer 0 where all is
-/// well; another answer, such as that of a machine that hides its processes, is no leave to take a device.
+/// NVML, NVIDIA's management library. It comes with the driver and has no header here. Its calls return 0 on success.
+/// Any other result, for example on a machine that hides its processes, means that the device must not be taken.
 class Management {
  public:
   Management() : library_(dlopen("libnvidia-ml.so.1", RTLD_NOW | RTLD_LOCAL)) {
@@ -23,13 +23,13 @@ class Management {
     if (library_) dlclose(library_);
   }
 
-  /// Whether no process computes on the device of this address on the bus.
+  /// Returns whether no process computes on the device with this bus address.
   bool is_idle(const char* bus_address) const {
     if (!works_) return false;
     const auto find = function<int (*)(const char*, void**)>("nvmlDeviceGetHandleByPciBusId_v2");
     const auto processes = function<int (*)(void*, unsigned*, void*)>("nvmlDeviceGetComputeRunningProcesses_v3");
     void* device = nullptr;
-    unsigned number = 0;  // with no room for any, more than none is an error
+    unsigned number = 0;  // no array is passed, so any running process is an error
     return find && processes && find(bus_address, &device) == 0 && processes(device, &number, nullptr) == 0 &&
            number == 0;
   }
@@ -43,7 +43,7 @@ class Management {
   bool works_ = false;
 };
 
-/// Whether a call succeeded; an error is not left for others to find.
+/// Returns whether a call succeeded, and clears its error.
 bool good(cudaError_t status) {
   if (status != cudaSuccess) cudaGetLastError();
   return status == cudaSuccess;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_lane_item.hpp  One contact of a packet of 32, as a thread handles it.
+/// \file cuda_lane_item.hpp  Access to one contact of a packet of 32, for a thread that steps it.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -8,7 +8,7 @@
 
 namespace macadam::kernels {
 
-/// Loads of 16 bytes; `p` is a multiple of 16 bytes.
+/// Loads three numbers by loads of 16 bytes; `p` is aligned to 16 bytes.
 __device__ __forceinline__ Vec3<float> load_vec3(const float* p) {
   const float4 v = __ldg(reinterpret_cast<const float4*>(p));
   return {v.x, v.y, v.z};
@@ -18,7 +18,7 @@ __device__ __forceinline__ Vec3<double> load_vec3(const double* p) {
   return {v.x, v.y, w.x};
 }
 
-/// One contact of a packet of 32.
+/// One contact of a packet of 32: the contact in lane `lane`. The Item of contact_forces.hpp for threads.
 struct LaneItem {
   std::uint32_t lane;
   template <class R>
@@ -26,7 +26,7 @@ struct LaneItem {
   static constexpr bool staged = true;  ///< all chains of a contact are loaded before the first is stored
 
   MACADAM_HD static constexpr std::size_t lanes() { return 32; }
-  // contacts pass by once a step: they leave the cache to the bodies and the records
+  // a contact is used once per step: streaming loads leave the cache to the bodies and the records
   template <class R>
   __device__ __forceinline__ R load(const R* p) const {
     return __ldcs(p + lane);

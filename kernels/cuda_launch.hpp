@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_launch.hpp  Errors of the CUDA runtime, and launches of kernels.
+/// \file cuda_launch.hpp  Checks errors of the CUDA runtime, and launches kernels.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -16,13 +16,13 @@
 
 namespace macadam::kernels {
 
-/// \throws RunError naming what was done and what CUDA says.
+/// \throws RunError with `what`, the action that failed, and CUDA's message.
 inline void check_cuda(cudaError_t status, const char* what) {
   if (status != cudaSuccess) throw RunError(std::string("CUDA: ") + what + ": " + cudaGetErrorString(status));
 }
 
-/// Copies to, from or within a device, or clears, and waits until that is done, but for nothing else that the device is
-/// doing: several specimens may share it. What is copied is not in use then.
+/// Copies to, from or within a device, or clears, and waits until that has finished. Does not wait for other work of
+/// the device, because several specimens may share it. The memory must not be in use.
 inline void copy_now(void* to, const void* from, std::size_t bytes, const char* what) {
   check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, cudaStreamPerThread), what);
   check_cuda(cudaStreamSynchronize(cudaStreamPerThread), what);
@@ -32,7 +32,7 @@ inline void clear_now(void* data, std::size_t bytes, const char* what) {
   check_cuda(cudaStreamSynchronize(cudaStreamPerThread), what);
 }
 
-/// A named stretch of the host's work, for profilers that read NVTX.
+/// A named range of the host's work, for profilers that read NVTX.
 class Range {
  public:
   explicit Range(const char* name) { nvtxRangePushA(name); }
@@ -40,19 +40,20 @@ class Range {
   ~Range() { nvtxRangePop(); }
 };
 
-/// Whether MACADAM_CUDA_SYNC is set: then the host waits for every kernel, and an error names the one that failed.
+/// Returns whether MACADAM_CUDA_SYNC is set: then the host waits for every kernel, so that an error names the kernel
+/// that failed.
 inline bool waits_for_launches() {
   static const bool set = std::getenv("MACADAM_CUDA_SYNC") != nullptr;
   return set;
 }
 
-/// Every launch of a kernel ends here.
+/// Checks a launch; called after every launch of a kernel.
 inline void check_launch(const char* name, cudaStream_t stream) {
   check_cuda(cudaGetLastError(), name);
   if (waits_for_launches()) check_cuda(cudaStreamSynchronize(stream), name);
 }
 
-/// Launches a kernel in a stream and checks the launch; an empty grid is no launch.
+/// Launches a kernel in a stream and checks the launch. Does nothing if `blocks` is 0.
 template <class... Parameters, class... Arguments>
 void launch(const char* name, void (*kernel)(Parameters...), std::size_t blocks, unsigned threads, std::size_t shared,
             cudaStream_t stream, Arguments&&... arguments) {
@@ -60,8 +61,8 @@ void launch(const char* name, void (*kernel)(Parameters...), std::size_t blocks,
   kernel<<<static_cast<unsigned>(blocks), threads, shared, stream>>>(std::forward<Arguments>(arguments)...);
   check_launch(name, stream);
 }
-/// The same for blocks that wait for one another, and maybe for those of another device: all are on the device at once,
-/// or the launch fails. check_launch() is the caller's, once all launches are there.
+/// Launches thread blocks that wait for one another, and possibly for those of another device: either all are on the
+/// device at the same time, or the launch fails. The caller checks errors once all launches are made.
 template <class... Parameters>
 void launch_together(const char* name, void (*kernel)(Parameters...), std::size_t blocks, unsigned threads,
                      std::size_t shared, cudaStream_t stream, Parameters... parameters) {
@@ -70,7 +71,7 @@ void launch_together(const char* name, void (*kernel)(Parameters...), std::size_
   check_cuda(cudaLaunchCooperativeKernel(kernel, static_cast<unsigned>(blocks), threads, list, shared, stream), name);
 }
 
-/// What a launch of a kernel takes of a multiprocessor. `shared`: dynamic shared memory [bytes].
+/// Returns the resources that a kernel uses on a multiprocessor. `shared`: dynamic shared memory [bytes].
 template <class... Parameters>
 KernelUse kernel_use(const char* name, void (*kernel)(Parameters...), unsigned threads, std::size_t shared) {
   cudaFuncAttributes attributes{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_part_clock.hpp  How long the parts of a step take on a device: events between them.
+/// \file cuda_part_clock.hpp  Measures how long the parts of a step take on a device, by events between them.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace macadam::kernels {
 
-/// Does nothing until it is started.
+/// Does nothing until start().
 class PartClock {
  public:
   PartClock() = default;
@@ -24,7 +24,7 @@ class PartClock {
     runs_ = true;
     end_of("", stream);
   }
-  /// What was queued since the last call was `part`.
+  /// Marks the end of `part`: it consists of everything enqueued since the last call.
   void end_of(const char* part, cudaStream_t stream) {
     if (!runs_) return;
     cudaEvent_t event = nullptr;
@@ -32,7 +32,7 @@ class PartClock {
     marks_.emplace_back(part, event);
     check_cuda(cudaEventRecord(event, stream), "event");
   }
-  /// Seconds of each part in all, once all is done.
+  /// Waits for the last event and returns the total seconds of each part.
   std::vector<PartTime> stop() {
     std::map<std::string, double> seconds;
     if (!marks_.empty()) check_cuda(cudaEventSynchronize(marks_.back().second), "event");

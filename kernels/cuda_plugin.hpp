@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_plugin.hpp  Everything that the library asks of CUDA, as a library of its own has it: libmacadam_cuda.so.
+/// \file cuda_plugin.hpp  The interface of libmacadam_cuda.so: all functions that the library needs from CUDA.
 #pragma once
 
 #include <memory>
@@ -11,33 +11,35 @@
 
 namespace macadam::kernels {
 
+/// The functions of the plugin.
 struct CudaCode {
-  /// Fills the report's devices and status, without a context on any of them.
+  /// Fills in the devices and the status of the report, without creating a context on any device.
   void (*report)(BackendReport& report);
-  /// Why this device cannot run the kernels, as the one that is to; empty where it can.
+  /// Returns why this device cannot run the kernels; empty if it can. Creates a context on it.
   std::string (*refusal)(int device);
-  /// Whether `device` could help `first` with a specimen: as cuda_idle_beside().
+  /// Returns whether `device` is idle and could share a specimen with `first`, as cuda_idle_beside().
   bool (*idle_beside)(int device, int first);
-  /// Other arguments as make_stepper(); the options' precision and device.
+  /// Makes a stepper. Arguments as for make_stepper(); precision and devices are in the options.
   std::unique_ptr<Stepper> (*make_stepper)(const Specimen& specimen, const ContactNetwork& network,
                                            const LawTable& laws, const Inertia& inertia, const StepperOptions& options,
                                            std::unique_ptr<Stepper> used);
-  /// Spreads the system over the devices, of known numbers. `loose`: set to the first body whose own stiffness is
-  /// singular, else −1. \throws RunError where a device has too little memory.
+  /// Makes a solver of the frequency domain that spreads the system over the devices. `loose`: set to the first body
+  /// whose own stiffness is singular, else −1. \throws RunError if a device has too little memory.
   std::unique_ptr<DeviceSolver> (*make_solver)(const LinearSystem& system, const DeviceList& devices,
                                                std::int64_t& loose);
+  /// Measures the bandwidths and the clock of a device.
   DeviceSpeed (*measure)(int device);
 };
 
-/// What the plugin exports, under the C name `macadam_cuda_plugin`. The first two members stay what they are, so that
-/// any library can tell whether it may use the third.
+/// The symbol that the plugin exports, with the C name `macadam_cuda_plugin`. The first two members never change, so
+/// that any library can decide whether it can use the third.
 struct CudaPlugin {
-  int interface;        ///< cuda_interface of its build
-  const char* version;  ///< of Macadam
+  int interface;        ///< cuda_interface of the plugin's build
+  const char* version;  ///< version of Macadam
   const CudaCode* code;
 };
 
-/// Counted up with every change of CudaCode, or of what it is handed.
+/// Version of the interface; increases with every change of CudaCode, or of the types in its functions.
 inline constexpr int cuda_interface = 7;
 
 }  // namespace macadam::kernels

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_rank_exchange.hpp  What devices of several processes send each other between the parts of a step.
+/// \file cuda_rank_exchange.hpp  The messages between devices of several processes (ranks) between the parts of a step.
 ///
-/// An array is whole on every device, at the same places. The rank that works on an item sends it to those that read
-/// it.
+/// An array is complete on every device, with each item at the same index. The rank that computes an item sends it to
+/// the ranks that read it. RankItems lists these items; a RankExchange sends the items of some arrays together, one
+/// message per pair of ranks.
 #pragma once
 
 #include <algorithm>
@@ -15,23 +16,23 @@
 
 namespace macadam::kernels {
 
-/// Items of an array that go from rank to rank. All ranks make the same list; what of it is another's business is left
-/// out, so that two ranks have the items that go between them in the same order.
+/// Items of an array that ranks send each other. All ranks build the same list; each keeps only the items that it sends
+/// or receives. So the two ranks of a message have its items in the same order.
 class RankItems {
  public:
   explicit RankItems(const DeviceTeam& team) : own_(team.first()), send_(team.size()), receive_(team.size()) {}
 
-  /// The rank `owner` sends an item to the rank `reader`, once however often it is added.
+  /// Adds an item that the rank `owner` sends to the rank `reader`; it is sent once even if it is added several times.
   void add(std::size_t item, std::size_t owner, std::size_t reader) {
     if (owner == reader) return;
     if (owner == own_) send_[reader].push_back(item);
     if (reader == own_) receive_[owner].push_back(item);
   }
-  /// The same to all others.
+  /// Adds an item that the rank `owner` sends to all others.
   void add_for_all(std::size_t item, std::size_t owner) {
     for (std::size_t reader = 0; reader < send_.size(); ++reader) add(item, owner, reader);
   }
-  /// [rank], in rising order.
+  /// Items sent to and received from each rank, [rank], in rising order.
   std::vector<std::vector<std::size_t>> sent() const { return sorted(send_); }
   std::vector<std::vector<std::size_t>> received() const { return sorted(receive_); }
 
@@ -48,7 +49,7 @@ class RankItems {
   Lists send_, receive_;  // [rank]
 };
 
-/// Copies items between an array and a buffer of messages, in words of eight bytes: a thread a word.
+/// Copies items between an array and a message buffer, in words of eight bytes; one thread per word.
 template <bool into_buffer>
 __global__ void move_items(uint2* array, uint2* buffer, const std::uint32_t* item, const std::uint32_t* place,
                            std::uint32_t items, std::uint32_t words) {
@@ -62,10 +63,10 @@ __global__ void move_items(uint2* array, uint2* buffer, const std::uint32_t* ite
     in_array = in_buffer;
 }
 
-/// Items of some arrays that go together, one message from a rank to another.
+/// Items of some arrays that are sent together, in one message from a rank to another.
 class RankExchange {
  public:
-  /// Items of `array`, which stays where it is: so many words that they are whole words of eight bytes.
+  /// Adds items of `array`, which must keep its address. \throws RunError if an item is not a multiple of eight bytes.
   template <class T>
   void add(T* array, std::size_t words_an_item, const RankItems& items) {
     const std::size_t bytes = words_an_item * sizeof(T);
@@ -75,15 +76,15 @@ class RankExchange {
                       items.received()});
   }
 
-  /// Nothing more is to be added: what the messages need goes to the device. \throws RunError for messages of more
-  /// than 2^32 words or items.
+  /// Builds the message buffers and uploads the indices; nothing can be added after this. \throws RunError for messages
+  /// of more than 2^32 words or items.
   void make_ready(const DeviceTeam& team) {
     make_way(team, &Part::send, sent_);
     make_way(team, &Part::receive, received_);
     parts_.clear();
   }
 
-  /// Queues the messages behind what the stream of the team has. Nothing where nothing was added.
+  /// Enqueues the messages behind the work in the team's stream. Does nothing if nothing was added.
   void queue(const DeviceTeam& team) const {
     if (sent_.messages.empty() && received_.messages.empty()) return;
     move<true>(sent_, team.stream());
@@ -96,21 +97,21 @@ class RankExchange {
   struct Part {
     uint2* array;
     std::uint32_t words;
-    Lists send, receive;  // [rank]; until they are on the device
+    Lists send, receive;  // [rank]; empty after make_ready()
   };
-  /// One direction.
+  /// Buffer and copies of one direction: sent data, or received data.
   struct Way {
     struct Moved {
       uint2* array;
       std::uint32_t words, items;
       DeviceArray<std::uint32_t> item, place;
     };
-    std::vector<Moved> moved;  // of the parts
+    std::vector<Moved> moved;  // one for each part
     DeviceArray<uint2> buffer;
     std::vector<Ranks::Message> messages;
   };
 
-  /// The buffer has what goes to a rank, or comes from it, in one piece: part by part.
+  /// Gives every item its position in the message buffer: all data of one rank are contiguous, array after array.
   void make_way(const DeviceTeam& team, Lists Part::*lists, Way& way) {
     std::vector<std::vector<std::uint32_t>> item(parts_.size()), place(parts_.size());
     std::size_t next = 0;
@@ -155,8 +156,8 @@ class RankExchange {
   Way sent_, received_;
 };
 
-/// Makes an array whole on every device: of items of `words` numbers, rank m has those from first(m) to
-/// first(m + 1) − 1. Of one process, nothing.
+/// Completes an array on every device: with items of `words` numbers, rank m has the items first(m) … first(m + 1) − 1
+/// and sends them to all others. Does nothing with one process.
 template <class T, class First>
 void queue_whole(const DeviceTeam& team, T* array, std::size_t words, First&& first) {
   if (!team.ranks() || !array) return;

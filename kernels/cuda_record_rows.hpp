@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_record_rows.hpp  Which record of loads each end of a contact has: those of a body follow one another.
+/// \file cuda_record_rows.hpp  Assigns a load record to each end of each contact. The records of a body are
+/// consecutive; they are its row.
 #pragma once
 
 #include <algorithm>
@@ -13,20 +14,22 @@
 
 namespace macadam::kernels {
 
-/// In what order the loads of a body lie and are summed: in that in which a step writes them, so that records which
-/// share a sector of memory are written at about one time, or in that of the contacts' numbers, first those whose end A
-/// the body is, which does not depend on the layout.
+/// Order in which the loads of a body lie in memory and are summed. `as_written`: the order in which a step writes
+/// them, so that records in the same memory sector are written at about the same time. `by_number`: by the contacts'
+/// numbers, first the contacts whose end A the body is; this order does not depend on the layout.
 enum class RecordOrder { as_written, by_number };
 
+/// The rows of all bodies, on the device.
 struct RecordRows {
-  DeviceArray<std::uint32_t> begin;      ///< [body + 1]
-  DeviceArray<std::uint32_t> place;      ///< [slot of all groups][2] records of the A and the B end
-  DeviceArray<std::uint32_t> long_body;  ///< those of more than long_row records, walls last
-  std::vector<std::uint32_t> long_cut;   ///< [member of the team + 1] first of its own of them
-  std::uint32_t long_particles = 0;      ///< of them, those that are no walls
+  DeviceArray<std::uint32_t> begin;  ///< [body + 1] first record of a body
+  /// [slot of all groups][2] records of the ends A and B; UINT32_MAX in an inert slot.
+  DeviceArray<std::uint32_t> place;
+  DeviceArray<std::uint32_t> long_body;  ///< bodies with more than long_row records, walls last
+  std::vector<std::uint32_t> long_cut;   ///< [member of the team + 1] first of the member's own bodies in long_body
+  std::uint32_t long_particles = 0;      ///< number of particles in long_body
   std::size_t records = 0;
   std::vector<std::size_t> cut;  ///< [member of the team + 1] first record of its bodies
-  Shares shares;                 ///< of the records
+  Shares shares;                 ///< of the records, by device
 
   RecordRows(const ContactNetwork& network, const Layout& layout, const TeamCuts& cuts, RecordOrder order) {
     const std::size_t bodies = layout.particles() + walls, contacts = network.contacts.size();
@@ -76,14 +79,14 @@ struct RecordRows {
     place = DeviceArray<std::uint32_t>::of(places, cuts.all_slots());
   }
 
-  /// Bodies of member m of the team whose rows are long, and their number; those of walls too or not.
+  /// Returns the bodies of member m in long_body, and their number, with or without the walls.
   std::pair<const std::uint32_t*, std::uint32_t> long_rows(std::size_t m, bool with_walls) const {
     const std::uint32_t most = with_walls ? static_cast<std::uint32_t>(long_body.size()) : long_particles;
     const std::uint32_t first = std::min(long_cut[m], most);
     return {long_body.data() + first, std::min(long_cut[m + 1], most) - first};
   }
 
-  /// Of an array [record][record_words]: the rows in the order of the specimen.
+  /// Returns the order in which a checkpoint stores an array [record][record_words]: rows in the order of the specimen.
   StateOrder state_order(const Layout& layout) const {
     StateOrder out{{}, strided(record_words, 1), {}};
     const std::vector<std::uint32_t> row = begin.download();

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_resident_memory.hpp  What a tile has in the shared memory of its multiprocessor, and where.
+/// \file cuda_resident_memory.hpp  How the resident kernel (cuda_tiles_resident.hpp) divides the shared memory and the
+/// registers of a multiprocessor.
+///
+/// ResidentMemory computes the position of each array in a tile's shared memory. The host (TileRunner) uses it to
+/// decide whether tiles fit, and the kernel uses it to find the arrays. The remaining shared memory holds constants of
+/// packets (the cache). expected_resident_bytes() estimates the need before the tiles exist, so that ExecCudaTiles can
+/// choose their size.
 #pragma once
 
 #include <cmath>
@@ -9,18 +15,20 @@
 
 namespace macadam::kernels {
 
-inline constexpr std::uint32_t resident_threads = 512;  ///< all registers: a contact's state takes twelve
-/// A warp keeps the states of so many groups of packets in registers: one that it steps before the velocities of other
-/// tiles are there, and one after that.
+/// Uses all registers of a multiprocessor; a contact's state takes twelve registers.
+inline constexpr std::uint32_t resident_threads = 512;
+/// Number of groups (double packets) whose states a warp keeps in registers: one that it steps before the velocities of
+/// other tiles have arrived, and one that it steps after that.
 inline constexpr std::uint32_t groups_in_registers = 2;
-/// Of a tile, whose states are in registers, at the most.
+/// Largest number of contacts of one tile whose states fit in registers.
 inline constexpr std::uint32_t contacts_in_registers = groups_in_registers * TilePlan::run * resident_threads;
 inline constexpr std::uint32_t packets_with_states = contacts_in_registers / 32;
-/// Packets of a warp whose constants stay in registers besides: the last of those with states. `memory`: some law has
-/// one, whose sums then leave no room.
+/// Number of a warp's packets whose constants stay in registers too: the last of those with states in registers.
+/// `memory`: some law has a memory; its sums then leave no registers for constants.
 __host__ __device__ constexpr std::uint32_t packets_with_constants(bool memory) { return memory ? 0 : 2; }
 
-/// Six numbers of a body, or two, as threads read and write them: neighbours in other banks of shared memory.
+/// Six or two numbers of a body, aligned so that threads with neighbouring bodies access different banks of shared
+/// memory.
 template <class R>
 struct alignas(2 * sizeof(R)) Six {
   R of[6];
@@ -30,15 +38,16 @@ struct alignas(2 * sizeof(R)) Two {
   R linear, angular;
 };
 
-/// Places in the shared memory that a tile has; `total` bytes in all, of which the last are packets of constants, as
-/// many as there is room for.
+/// Positions of the arrays in the shared memory of a tile [byte]. `total` is the size of all of them. The last array,
+/// the cache, holds as many packets of constants as fit.
 template <class P>
 struct ResidentMemory {
   using R = typename P::Particle;
   std::uint32_t velocity, slots, own, rest, halo, diagonal, row, law, others, cache, total;
-  std::uint32_t cached;  ///< packets
+  std::uint32_t cached;  ///< number of packets in the cache
 
-  /// Displacements, base loads, Δt/m and Δt/I, and then velocities in full precision: in memory where there is no room.
+  /// Returns the size of a tile's particle data: displacements, base loads, Δt/m and Δt/I and, with all_away, the
+  /// velocities in full precision. It is in global memory if it does not fit in shared memory.
   __host__ __device__ static constexpr std::uint32_t rest_bytes(std::uint32_t bodies, TileRest rest) {
     const auto numbers = rest == TileRest::all_away ? 14u : 8u;
     return bodies * static_cast<std::uint32_t>(6 * sizeof(double) + numbers * sizeof(R));
@@ -47,7 +56,8 @@ struct ResidentMemory {
     return constants * 32 * sizeof(float4);
   }
 
-  /// `room`: bytes that there are; no packets have constants here where that is less than the rest needs.
+  /// `constants`: constant words per packet. `room`: bytes of shared memory available; if they do not suffice for the
+  /// other arrays, the cache is empty.
   __host__ __device__ ResidentMemory(const Tile& tile, std::uint32_t constants, TileRest where, std::uint32_t room) {
     std::uint32_t at = 0;
     const auto take = [&](std::uint32_t bytes) {
@@ -72,17 +82,19 @@ struct ResidentMemory {
   }
 };
 
-/// Shared memory that the fullest of `tiles` equal tiles of a network is expected to need at the least.
+/// Returns the shared memory that the fullest of `tiles` equal tiles of a network will need at least [byte], estimated
+/// before the tiles are made.
 template <class P>
 std::size_t expected_resident_bytes(const ContactNetwork& network, std::size_t tiles) {
   std::vector<std::uint32_t> of_end_a(network.row_begin.size() - 1, 0);
-  std::size_t slots = 0;  // of runs, and of ends B
+  std::size_t slots = 0;  // slots of runs and of ends B
   for (const Contact& c : network.contacts) {
     slots += (of_end_a[static_cast<std::size_t>(c.a)]++ % TilePlan::run == 0) + (c.b >= 0);
   }
-  const double fullest = 1.06;  // some tiles have a few hundredths more than the mean
+  const double fullest = 1.06;  // some tiles have a few per cent more than the mean
   const double bodies = fullest * static_cast<double>(of_end_a.size()) / static_cast<double>(tiles);
-  const double halo = std::pow(std::cbrt(bodies) + 1.8, 3) - bodies;  // a layer of nine tenths of a body about a cube
+  // Particles in a layer of 0.9 particle diameters around a cube of `bodies` particles
+  const double halo = std::pow(std::cbrt(bodies) + 1.8, 3) - bodies;
   const auto whole = [](double x) { return static_cast<std::uint32_t>(x); };
   Tile tile{};
   tile.bodies = whole(bodies);

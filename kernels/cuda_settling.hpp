@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_settling.hpp  Launches what lies between two blocks of steps, for the laws and numbers of steps at hand.
+/// \file cuda_settling.hpp  Launches the kernel that updates contacts between two blocks of steps (settle_contacts in
+/// cuda_blocks.hpp).
+///
+/// TileRunner owns one Settling. set_group() stores the law of each group; run() computes the coefficients for the
+/// lengths of the block that ends and of the block that begins (only if they changed) and launches the kernel on every
+/// device.
 #pragma once
 
 #include <array>
@@ -12,16 +17,17 @@
 
 namespace macadam::kernels {
 
-/// The arrays that settling works on besides a group's own.
+/// Arrays of the tiles and bodies that settling reads and writes, in addition to the arrays of each group.
 template <class P>
 struct SettledArrays {
-  float4* constant;            ///< of the tiles' contacts
-  const float4* state;         ///< likewise
-  const double *now, *before;  ///< displacements, and those when the block began [body][8]
+  float4* constant;            ///< of the tiles' contacts, written
+  const float4* state;         ///< of the tiles' contacts
+  const double *now, *before;  ///< displacements now, and at the beginning of the block [body][8]
   LoadRecords<typename P::Particle> records;
-  const uint2* place;  ///< [slot of all groups] among the tiles' contacts
+  const uint2* place;  ///< [slot of all groups] the places of its contact in the tiles
 };
 
+/// Launches the update of all groups on all devices of a team.
 template <class P, class AnyLaw>
 class Settling {
  public:
@@ -32,7 +38,7 @@ class Settling {
     }
   }
 
-  /// Takes the law of group `number`, whose first slot of all groups is `first_slot`, for steps of `dt`.
+  /// Sets the law of group `number` for steps of `dt`. `first_slot`: number of its first slot among all groups.
   template <Geometry geometry, class L>
   void set_group(int number, std::size_t first_slot, const L& law, const ContactView<P>& view, double dt) {
     using Groups = SettleGroups<P, AnyLaw, geometry>;
@@ -45,7 +51,7 @@ class Settling {
         groups->group[number].functor.put(SettleContact<P, typename L::Block, units(), geometry>{{view, block}});
       });
     };
-    filled_ended_ = filled_steps_ = 0;  // for other laws and time steps
+    filled_ended_ = filled_steps_ = 0;  // forces run() to compute coefficients for the new law and time step
     launch_ = [this, groups](int ended, const SettledArrays<P>& a) {
       groups->place = a.place;
       team_.each([&](std::size_t m) {
@@ -55,7 +61,8 @@ class Settling {
     };
   }
 
-  /// Queues the end of a block that had `ended` steps (0: none; settling_starts) and the beginning of one of `steps`.
+  /// Enqueues the update that ends a block of `ended` steps (0: no block; settling_starts: before the first step) and
+  /// begins one of `steps` steps.
   void run(int ended, int steps, const SettledArrays<P>& arrays) {
     if (!launch_) return;
     const int known = ended > 0 ? ended : steps;
@@ -72,7 +79,8 @@ class Settling {
   const DeviceTeam& team_;
   std::vector<SettleRanges> ranges_;  // [member]
   std::shared_ptr<void> groups_;
-  std::array<std::function<void(int, int)>, pair_types> fill_;  // for steps of the blocks that end and begin
+  // [group] computes coefficients for the lengths of the block that ends and of the one that begins
+  std::array<std::function<void(int, int)>, pair_types> fill_;
   int filled_ended_ = 0, filled_steps_ = 0;
   std::function<void(int, const SettledArrays<P>&)> launch_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cuda_speed.cu  What a device can do at the most: bandwidths of its memories, and its clock under load.
+// cuda_speed.cu  Measures what a device can do at most: bandwidths of its memories, and its clock under load.
 #include <algorithm>
 #include <functional>
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr unsigned threads = 512;
 
-/// Moves `n` words from one array to another, and back again, `turns` times.
+/// Copies `n` words from one array to the other and back, `turns` times in total.
 __global__ void __launch_bounds__(threads) move_words(float4* a, float4* b, std::size_t n, int turns) {
   const std::size_t stride = std::size_t{gridDim.x} * threads;
   for (int turn = 0; turn < turns; ++turn) {
@@ -21,7 +21,8 @@ __global__ void __launch_bounds__(threads) move_words(float4* a, float4* b, std:
   }
 }
 
-/// Every thread moves a word of shared memory on by a warp, `turns` times. `ticks`: of the first block.
+/// Every thread moves one word of shared memory on by one warp, `turns` times. `ticks`: clock ticks of the first thread
+/// block.
 __global__ void __launch_bounds__(threads) turn_shared(int turns, float* out, long long* ticks) {
   __shared__ float4 words[2][threads];
   words[0][threadIdx.x] = {1, 2, 3, static_cast<float>(threadIdx.x)};
@@ -37,7 +38,7 @@ __global__ void __launch_bounds__(threads) turn_shared(int turns, float* out, lo
   out[blockIdx.x * threads + threadIdx.x] = words[turns & 1][threadIdx.x].w;
 }
 
-/// Seconds that the device takes for what f queues: the least of nine.
+/// Returns the seconds that the device takes for the work that f enqueues: the shortest of nine measurements.
 double seconds_of(const std::function<void()>& f) {
   cudaEvent_t begin = nullptr, end = nullptr;
   check_cuda(cudaEventCreate(&begin), "event");
@@ -82,7 +83,8 @@ DeviceSpeed measure_device(int device) {
   const auto blocks = static_cast<unsigned>(4 * properties.multiProcessorCount);
   {
     constexpr int turns = 20;
-    const std::size_t words = static_cast<std::size_t>(properties.l2CacheSize) / 6 / sizeof(float4);  // a third in all
+    // Both arrays together fill a third of the cache
+    const std::size_t words = static_cast<std::size_t>(properties.l2CacheSize) / 6 / sizeof(float4);
     const DeviceArray<float4> a(words), b(words);
     out.cache = 2.0 * turns * static_cast<double>(words * sizeof(float4)) / seconds_of([&] {
                   move_words<<<blocks, threads>>>(a.data(), b.data(), words, turns);
@@ -97,7 +99,7 @@ DeviceSpeed measure_device(int device) {
     check_launch("bandwidth", nullptr);
   });
   out.shared = 2.0 * turns * blocks * threads * sizeof(float4) / seconds;
-  // one block, which has the whole time; it is long beside its launch
+  // one thread block runs alone, long enough that the launch does not matter
   const double alone = seconds_of([&] {
     turn_shared<<<1, threads>>>(20 * turns, sink.data(), ticks.data());
     check_launch("bandwidth", nullptr);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_spread_memory.hpp  One range of addresses whose pages lie on several devices, and which all of them read
-/// and write.
+/// \file cuda_spread_memory.hpp  Memory with one range of addresses whose pages are on several devices; all of these
+/// devices can read and write it.
 #pragma once
 
 #include <cuda.h>
@@ -15,14 +15,14 @@
 
 namespace macadam::kernels {
 
-/// Items of an array, in order: those up to `end` are on device `device`.
+/// One device's part of an array: the items from the end of the previous share up to `end` are on device `device`.
 struct Share {
   std::size_t end;
   int device;
 };
 using Shares = std::vector<Share>;
 
-/// \throws RunError saying what the device in use has left.
+/// \throws RunError that says how much memory the current device has left.
 [[noreturn]] inline void throw_out_of_memory(std::size_t needed, const std::string& why) {
   std::size_t free = 0, total = 0;
   int device = 0;
@@ -33,7 +33,8 @@ using Shares = std::vector<Share>;
                  " MiB: " + why);
 }
 
-/// The driver's functions, asked for by name: a program that is linked to the driver would not start without one.
+/// Returns a function of the CUDA driver, looked up by name. A program linked to the driver would not start on a
+/// machine without one.
 template <class Function>
 Function driver_function(const char* name) {
   void* found = nullptr;
@@ -47,12 +48,13 @@ Function driver_function(const char* name) {
   return reinterpret_cast<Function>(found);
 }
 
-/// Memory of shares of items, each of `bytes` bytes: whole pages, each on the device that has most of it.
+/// Memory for the items of `shares`, each of `bytes` bytes. Each page is on the device that has most of it.
 class SpreadMemory {
  public:
   SpreadMemory() = default;
-  /// \throws RunError where a device has too little left.
-  SpreadMemory(const Shares& shares, std::size_t bytes) : SpreadMemory() {  // so that what is there goes with an error
+  /// \throws RunError if a device has too little memory left.
+  // Delegates, so that an exception below runs the destructor
+  SpreadMemory(const Shares& shares, std::size_t bytes) : SpreadMemory() {
     const auto reserve = driver_function<decltype(&cuMemAddressReserve)>("cuMemAddressReserve");
     const auto granularity = driver_function<decltype(&cuMemGetAllocationGranularity)>("cuMemGetAllocationGranularity");
     const auto set_access = driver_function<decltype(&cuMemSetAccess)>("cuMemSetAccess");
@@ -84,7 +86,7 @@ class SpreadMemory {
   }
   ~SpreadMemory() {
     if (size_ == 0) return;
-    try {  // found when it was made
+    try {  // these functions were found when the memory was made
       if (mapped_ > 0) driver_function<decltype(&cuMemUnmap)>("cuMemUnmap")(begin_, mapped_);
       driver_function<decltype(&cuMemAddressFree)>("cuMemAddressFree")(begin_, size_);
     } catch (const RunError&) {}
@@ -97,7 +99,7 @@ class SpreadMemory {
     if (status != CUDA_SUCCESS)
       throw RunError("CUDA: " + what + ": error " + std::to_string(status) + " of the driver");
   }
-  /// The next pages. The mapping keeps the memory alive.
+  /// Maps the next pages, on the device in `place`. The mapping keeps the memory alive.
   void map(const CUmemAllocationProp& place, std::size_t bytes) {
     CUmemGenericAllocationHandle pages{};
     const CUresult made = driver_function<decltype(&cuMemCreate)>("cuMemCreate")(&pages, bytes, &place, 0);

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_team.hpp  The devices that share a specimen.
+/// \file cuda_team.hpp  The devices that step one specimen together.
 ///
-/// Every launch of a step is cut by runs of tiles, one for each device. An array keeps one range of addresses: its
-/// pages lie on the device that works on them, and all others reach them too. So a contact across a cut is stepped by
-/// the same code from the same numbers as any other, and results do not depend on the number of devices.
+/// The tiles of the layout are cut into as many consecutive parts as there are devices (TeamCuts), and every launch of
+/// a step is made once per device for its part. With several devices of one process, an array has one range of
+/// addresses. Its pages lie on the device that works on them, and all other devices can access them. So a contact
+/// between particles of two devices is stepped by the same code, from the same numbers, as any other, and results do
+/// not depend on the number of devices.
 ///
-/// Devices of several processes are cut in the same way, a run of tiles for each rank. There an array is whole on every
-/// device, and what another rank has written of it comes by message (cuda_rank_exchange.hpp).
+/// With several processes (ranks), the tiles are cut in the same way, one part per rank. An array is then complete on
+/// every device, and changes made by other ranks arrive by message (cuda_rank_exchange.hpp).
+///
+/// Words: a member is one device of the team with its stream; its number m counts over all processes. A share is a
+/// member's part of an array (cuda_spread_memory.hpp).
 #pragma once
 
 #include <algorithm>
@@ -20,18 +25,19 @@
 
 namespace macadam::kernels {
 
-/// Where kernels of several streams are ready.
+/// Which kernels run first if kernels of several streams are ready.
 enum class KernelOrder {
   usual,
-  first,  ///< before usual ones: many short kernels would each wait for a long one
+  first,  ///< before usual ones, because each of many short kernels would otherwise wait for a long one
 };
 
-/// Streams of the devices that share a specimen. One device named twice takes two shares. Of several processes, each
-/// has one member: that of the number of its rank.
+/// Streams of the devices that step a specimen. A device that is named twice counts as two members. With several ranks
+/// each process has one member, numbered by its rank.
 class DeviceTeam {
  public:
-  /// `order`: of its kernels and those of others on the same device.
-  /// \throws RunError for two devices that cannot reach each other's memory.
+  /// `order`: priority of its kernels over other kernels on the same device.
+  /// \throws RunError if two devices cannot access each other's memory, InputError for several devices together with
+  /// ranks.
   explicit DeviceTeam(const DeviceList& devices, Ranks* ranks = nullptr, KernelOrder order = KernelOrder::usual)
       : ranks_(ranks && ranks->count() > 1 ? ranks : nullptr) {
     if (ranks_ && devices.size() > 1) {
@@ -62,30 +68,30 @@ class DeviceTeam {
     use();
   }
 
-  /// The processes of the team; null: this one alone.
+  /// The ranks of the team; null with one process.
   Ranks* ranks() const { return ranks_; }
-  /// Of all processes.
+  /// Number of members of all processes.
   std::size_t size() const { return ranks_ ? static_cast<std::size_t>(ranks_->count()) : member_.size(); }
-  /// The first member of this process.
+  /// Number of the first member of this process.
   std::size_t first() const { return ranks_ ? static_cast<std::size_t>(ranks_->number()) : 0; }
-  /// Of a member of this process.
+  /// Device and stream of member m, which must be of this process; without m, the stream of the first one.
   int device(std::size_t m) const { return here(m).device; }
   cudaStream_t stream(std::size_t m) const { return here(m).stream; }
   cudaStream_t stream() const { return member_[0].stream; }
-  /// How many members of this process are the device of member m.
+  /// Returns how many members of this process use the device of member m.
   int shares_of(std::size_t m) const {
     return static_cast<int>(
         std::count_if(member_.begin(), member_.end(), [&](const Member& other) { return other.device == device(m); }));
   }
-  /// Makes the device of member m the calling thread's; that it answers is known by then.
+  /// Makes the device of member m current for the calling thread. Errors are ignored: the device has answered before.
   void use(std::size_t m) const { cudaSetDevice(device(m)); }
   void use() const { use(first()); }
 
-  /// Calls f(m) for every member of this process, with its device in use.
+  /// Calls f(m) for every member of this process, with its device current.
   template <class F>
   void each(F&& f) const {
     if (member_.size() == 1) return f(first());
-    const struct Back {  // also after an error
+    const struct Back {  // restores the device also after an error
       const DeviceTeam& team;
       ~Back() { team.use(); }
     } back{*this};
@@ -95,7 +101,8 @@ class DeviceTeam {
     }
   }
 
-  /// What any member of this process queues from now on waits for all that its members have queued.
+  /// Joins the streams: everything that a member of this process enqueues from now on waits for everything that its
+  /// members have enqueued so far.
   void meet() const {
     if (member_.size() == 1) return;
     each([&](std::size_t m) { check_cuda(cudaEventRecord(member_[m].here, member_[m].stream), "event"); });
@@ -105,7 +112,7 @@ class DeviceTeam {
       }
     });
   }
-  /// What f() queues, as a graph for the stream of the first member.
+  /// Records everything that f() enqueues as a graph for the stream of the first member.
   template <class F>
   cudaGraphExec_t record(F&& f) const {
     check_cuda(cudaStreamBeginCapture(stream(), cudaStreamCaptureModeThreadLocal), "graph");
@@ -127,7 +134,7 @@ class DeviceTeam {
     return out;
   }
 
-  /// The same whatever fails, of every member: before what it works on goes.
+  /// Waits for the enqueued work of every member and ignores errors. Called before arrays are freed.
   void wait_for_the_last() const noexcept {
     for (const Member& m : member_) {
       cudaSetDevice(m.device);
@@ -135,19 +142,19 @@ class DeviceTeam {
     }
     use();
   }
-  /// Makes what the first member queues from now on wait for an event of another stream; meet() brings it to the
-  /// others.
+  /// Returns a function that makes the first member's later work wait for an event of another stream. meet() passes
+  /// this on to the other members.
   std::function<void(void*)> behind() const {
     return
         [this](void* event) { check_cuda(cudaStreamWaitEvent(stream(), static_cast<cudaEvent_t>(event), 0), "event"); };
   }
-  /// Until all that is queued is done. Every device is asked again and again: what one that fails should have done,
-  /// others may wait for in vain.
+  /// Waits until everything enqueued has finished. With several devices, polls all of them: if one fails, others may
+  /// wait for it forever. \throws RunError
   void wait(const char* what) const {
     if (member_.size() == 1 && !ranks_) return check_cuda(cudaStreamSynchronize(stream()), what);
     while (!at_rest(what)) std::this_thread::yield();
   }
-  /// The same until an event has come.
+  /// Waits until an event has happened, in the same way.
   void wait_for(cudaEvent_t event, const char* what) const {
     if (member_.size() == 1) return check_cuda(cudaEventSynchronize(event), what);
     for (cudaError_t status = cudaErrorNotReady; status != cudaSuccess; status = cudaEventQuery(event)) {
@@ -156,7 +163,7 @@ class DeviceTeam {
       std::this_thread::yield();
     }
   }
-  /// Whether a device that has not failed still works.
+  /// Returns whether a device that has not failed is still working.
   bool works() const noexcept {
     bool out = false;
     each([&](std::size_t m) { out = out || cudaStreamQuery(stream(m)) == cudaErrorNotReady; });
@@ -164,7 +171,7 @@ class DeviceTeam {
   }
 
  private:
-  /// Whether all that is queued is done. \throws RunError naming a device that has failed.
+  /// Returns whether everything enqueued has finished. \throws RunError naming a device that has failed.
   bool at_rest(const char* what) const {
     bool out = true;
     if (ranks_) ranks_->require_link();
@@ -184,6 +191,7 @@ class DeviceTeam {
     cudaEvent_t here;
   };
 
+  /// Lets device `from` access the memory of device `to`. \throws RunError if it cannot.
   static void reach(int from, int to) {
     if (from == to) return;
     int can = 0;
@@ -198,7 +206,7 @@ class DeviceTeam {
       cudaGetLastError();
     else
       check_cuda(status, "access to another device's memory");
-    cudaMemPool_t pool = nullptr;  // of the other's arrays
+    cudaMemPool_t pool = nullptr;  // pool of the other device's arrays
     check_cuda(cudaDeviceGetDefaultMemPool(&pool, to), "memory of another device");
     cudaMemAccessDesc reader{};
     reader.location = {cudaMemLocationTypeDevice, from};
@@ -209,10 +217,10 @@ class DeviceTeam {
   const Member& here(std::size_t m) const { return member_[m - first()]; }
 
   Ranks* ranks_;
-  std::vector<Member> member_;  // of this process
+  std::vector<Member> member_;  // members of this process
 };
 
-/// The tiles of a layout, cut into as many runs as a team has members.
+/// The parts into which the tiles of a layout are cut, one for each member of a team.
 class TeamCuts {
  public:
   TeamCuts(const DeviceTeam& team, const Layout& layout) : team_(team), layout_(layout) {
@@ -220,19 +228,19 @@ class TeamCuts {
   }
 
   std::size_t members() const { return team_.size(); }
-  /// Of member m; that of the number of members is the end.
+  /// First tile of member m. For m = number of members, the end.
   std::size_t tile(std::size_t m) const { return tile_[m]; }
-  /// Bodies; the last member has the walls.
+  /// First body of member m; the last member also has the walls.
   std::size_t body(std::size_t m) const {
     return static_cast<std::size_t>(layout_.tile_body[tile_[m]]) + (m == team_.size() ? walls : 0);
   }
-  /// The member whose body it is.
+  /// Returns the member that owns a body.
   std::size_t owner(std::size_t body) const {
     std::size_t m = 0;
     while (body >= this->body(m + 1)) ++m;
     return m;
   }
-  /// Slots of a group.
+  /// First slot of member m in a group.
   std::size_t slot(const GroupLayout& group, std::size_t m) const {
     return group.tile_packet[tile_[m]] * static_cast<std::size_t>(layout_.lanes);
   }
@@ -243,7 +251,7 @@ class TeamCuts {
   Shares slots(const GroupLayout& group) const {
     return of([&](std::size_t m) { return slot(group, m); });
   }
-  /// Of the slots of all groups, one group behind the other.
+  /// Shares of the slots of all groups, one group after the other.
   Shares all_slots() const {
     Shares out;
     for (const auto& group : layout_.groups) {
@@ -252,7 +260,7 @@ class TeamCuts {
     }
     return team_.ranks() ? Shares{out.back()} : out;
   }
-  /// Of any items, the first of member m being first(m). Of several processes, each has all.
+  /// Shares of any items; first(m) is the first item of member m. With several ranks, this device has all items.
   template <class First>
   Shares of(First&& first) const {
     if (team_.ranks()) return {{first(team_.size()), team_.device(team_.first())}};

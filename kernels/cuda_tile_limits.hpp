@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_limits.hpp  What decides between the ways to run: limits of the device, never its name.
+/// \file cuda_tile_limits.hpp  Limits of the devices, and whether a kernel over tiles fits them.
+///
+/// TileRunner decides by these limits, never by a device's name, whether tiles stay on the chip (resident) or are
+/// streamed. ExecCudaTiles chooses the size of the tiles by them before the layout is made. The file also holds
+/// DeviceStore, which owns the device arrays of the tile path, and the kernel that sums the loads on the walls.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +15,16 @@
 
 namespace macadam::kernels {
 
-/// Limits of the device in use.
+/// Limits of a device, or the smallest limits of all devices of a team.
 struct DeviceLimits {
-  int multiprocessors = 0, shared = 0;  ///< shared memory that a block may ask for [byte]
-  bool cooperative = false;             ///< blocks of a launch may wait for one another
-  bool whole_words = false;             ///< words of 16 bytes are written and read whole
+  /// Multiprocessors that may be used; shared memory that a thread block may request [byte].
+  int multiprocessors = 0, shared = 0;
+  bool cooperative = false;  ///< thread blocks of one launch may wait for one another
+  /// Words of 16 bytes are written and read by one instruction (compute capability 7.0 or later).
+  bool whole_words = false;
 
-  /// `multiprocessors`: as StepperOptions has it. `shares`: in how many equal parts the device is used.
+  /// Returns the limits of the current device. `multiprocessors`: as in StepperOptions. `shares`: number of equal parts
+  /// into which the device is divided.
   static DeviceLimits query(int multiprocessors, int shares = 1) {
     int device = 0, cooperative = 0, major = 0;
     DeviceLimits out;
@@ -32,7 +39,7 @@ struct DeviceLimits {
     out.whole_words = major >= 7;
     return out;
   }
-  /// What each member of a team has.
+  /// Returns limits that every member of the team satisfies.
   static DeviceLimits of_each(const DeviceTeam& team, int multiprocessors) {
     DeviceLimits out;
     team.each([&](std::size_t m) {
@@ -42,7 +49,7 @@ struct DeviceLimits {
                 : DeviceLimits{std::min(out.multiprocessors, own.multiprocessors), std::min(out.shared, own.shared),
                                out.cooperative && own.cooperative, out.whole_words && own.whole_words};
     });
-    if (Ranks* ranks = team.ranks()) {  // all plan the same tiles
+    if (Ranks* ranks = team.ranks()) {  // all ranks must plan the same tiles
       out.multiprocessors = static_cast<int>(ranks->least(out.multiprocessors));
       out.shared = static_cast<int>(ranks->least(out.shared));
     }
@@ -50,8 +57,8 @@ struct DeviceLimits {
   }
 };
 
-/// Lets launches of a kernel have as much shared memory as the device has for a block. The limit is one for the whole
-/// process: with that of one specimen, another that needs more could not launch.
+/// Allows launches of a kernel to use all shared memory that the device offers to a thread block. The limit applies to
+/// the whole process: if it were set to the need of one specimen, another specimen that needs more could not launch.
 template <class... Parameters>
 void allow_all_shared_memory(const DeviceLimits& limits, void (*kernel)(Parameters...)) {
   cudaFuncAttributes attributes{};
@@ -61,7 +68,7 @@ void allow_all_shared_memory(const DeviceLimits& limits, void (*kernel)(Paramete
              "shared memory");
 }
 
-/// Whether all blocks of a kernel can be on the device at once, one a multiprocessor.
+/// Returns whether all thread blocks of a kernel can run on the device at the same time, one per multiprocessor.
 template <class... Parameters>
 bool fits_resident(const DeviceLimits& limits, void (*kernel)(Parameters...), std::size_t blocks, int threads,
                    std::uint32_t shared) {
@@ -75,29 +82,32 @@ bool fits_resident(const DeviceLimits& limits, void (*kernel)(Parameters...), st
   return fitting > 0;
 }
 
-/// Device arrays of any types that live as long as this.
+/// Owns device arrays of any type; they are freed with this object.
 class DeviceStore {
  public:
-  /// A copy of a host array.
+  /// Copies a host array to the device and keeps it. Returns the device address.
   template <class Array>
   auto keep(const Array& array) {
     using T = typename Array::value_type;
     return own(DeviceArray<T>::of(array));
   }
+  /// The same for an array whose items are spread over several devices.
   template <class Array>
   auto keep(const Array& array, const Shares& shares) {
     using T = typename Array::value_type;
     return own(DeviceArray<T>::of(array, shares));
   }
+  /// Keeps an array of n zeros.
   template <class T>
   T* zeros(std::size_t n) {
     return own(DeviceArray<T>(n));
   }
+  /// The same for an array with `words` numbers per item, spread over several devices.
   template <class T>
   T* zeros(const Shares& shares, std::size_t words) {
     return own(DeviceArray<T>(shares, words));
   }
-  std::int64_t bytes() const { return bytes_; }
+  std::int64_t bytes() const { return bytes_; }  ///< size of all arrays
 
  private:
   template <class T>
@@ -111,7 +121,8 @@ class DeviceStore {
   std::int64_t bytes_ = 0;
 };
 
-/// Writes the loads on the walls, base plus the sum of `wall_load` in fixed order: a block a wall.
+/// Writes the load on each wall: its base load plus the sum of its rows of `wall_load`, added in fixed order. One
+/// thread block per wall; all arguments except `wall_load` are arrays of the walls alone.
 template <class R>
 __global__ void __launch_bounds__(body_threads)
     add_wall_loads(const float* wall_load, const std::uint32_t* wall_begin, const R* base, R* force) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_messages.hpp  What tiles of several processes send each other: velocities at every step; between two
-/// blocks of steps, what settling reads and what it leaves.
+/// \file cuda_tile_messages.hpp  The messages between tiles of several processes (ranks).
+///
+/// With ranks every device has whole arrays, and each rank computes its own tiles. TileRunner sends velocities of halo
+/// particles in every step, and between two blocks of steps the displacements, load records and constants that the next
+/// kernels read (RankExchange in cuda_rank_exchange.hpp). Within one process nothing is sent, because the devices read
+/// each other's memory.
 #pragma once
 
 #include <vector>
@@ -12,7 +16,7 @@
 
 namespace macadam::kernels {
 
-/// Which member of a team has a tile's places and packets.
+/// Finds the member of a team that owns a place or packet of the plan.
 class TileOwners {
  public:
   TileOwners(const TilePlan& plan, const TeamCuts& cuts) {
@@ -23,11 +27,11 @@ class TileOwners {
     first_place_.push_back(plan.body.size());
     first_packet_.push_back(plan.packets());
   }
-  /// The first place, or packet, of member m; that of the number of members is the end.
+  /// First place or packet of member m. For m = number of members, the end.
   std::size_t first_place(std::size_t m) const { return first_place_[m]; }
   std::size_t first_packet(std::size_t m) const { return first_packet_[m]; }
   std::size_t of_place(std::size_t place) const { return owner(first_place_, place); }
-  /// Of the contact number `contact` of the plan.
+  /// Returns the member that owns contact number `contact` of the plan.
   std::size_t of_contact(std::size_t contact) const { return owner(first_packet_, contact / 32); }
 
  private:
@@ -39,12 +43,13 @@ class TileOwners {
   std::vector<std::size_t> first_place_, first_packet_;  // [member + 1]
 };
 
+/// Six exchanges; each sends a fixed list of items whenever its function is called.
 template <class P>
 class TileMessages {
  public:
   using R = typename P::Particle;
 
-  /// Of several processes; made once, of arrays that stay where they are. `places`: before they go to the device.
+  /// Prepares the messages. Called once; the arrays must keep their addresses. `places` must still be on the host.
   void make_ready(const DeviceTeam& team, const Layout& layout, const TeamCuts& cuts, const TilePlan& plan,
                   const TileOwners& owners, const TilePlaces& places, const Crossing& crossing,
                   const TileScene<P>& scene, const SettledArrays<P>& settled, double* before, R* base, bool carried) {
@@ -83,17 +88,19 @@ class TileMessages {
     for (RankExchange* each : {&even_, &odd_, &now_, &settled_, &before_, &walls_}) each->make_ready(team);
   }
 
+  /// Sends the velocities of step k of halo particles.
   void velocities(const DeviceTeam& team, std::uint32_t k) const { (k & 1 ? odd_ : even_).queue(team); }
-  /// Displacements of now.
+  /// Sends the current displacements of bodies whose contacts another rank updates.
   void before_settling(const DeviceTeam& team) const { now_.queue(team); }
+  /// Sends the load records and the constants that the update wrote.
   void after_settling(const DeviceTeam& team) const { settled_.queue(team); }
-  /// Displacements when the block begins.
+  /// Sends the displacements at the beginning of the new block.
   void after_base(const DeviceTeam& team) const { before_.queue(team); }
-  /// The loads on the walls.
+  /// Sends the loads on the walls and their base loads to all ranks.
   void wall_loads(const DeviceTeam& team) const { walls_.queue(team); }
 
  private:
-  /// Words of a contact's constants that settling writes.
+  /// Returns the words of a contact's constants that the update between blocks writes.
   static std::vector<int> settled_constants(bool carried) {
     if (!carried) return {tile_drift_a, tile_drift_b};
     return {tile_drift_a, tile_drift_b, tile_normal, tile_moment_a, tile_tangent};

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_places.hpp  Where the contacts of the groups are among those of the tiles, where one that crosses a
-/// border is twice.
+/// \file cuda_tile_places.hpp  Maps the contacts of the layout's groups to their places in the tiles.
+///
+/// A contact has one slot in its group (layout.hpp), and one or two places in TilePlan::contact: a contact between
+/// particles of two tiles is in both. TileRunner fills the map in add_contacts() and uploads it in prepare(). The
+/// kernels between two blocks of steps use it to find the words of a slot's contact (cuda_blocks.hpp), and checkpoints
+/// use it to write the tiles' words in the order of the network.
+///
+/// Words: a slot is numbered over all groups, one group after the other; a place is packet · 32 + lane.
 #pragma once
 
 #include <utility>
@@ -11,6 +17,7 @@
 
 namespace macadam::kernels {
 
+/// The places of every slot. They are on the host until keep(), then on the device.
 class TilePlaces {
  public:
   explicit TilePlaces(const Layout& layout) : layout_(layout) {
@@ -21,36 +28,37 @@ class TilePlaces {
     places_.assign(slots_, uint2{UINT32_MAX, UINT32_MAX});
   }
 
-  /// Slots of all groups, and the first of one.
+  /// Number of slots of all groups; first slot of one group.
   std::size_t slots() const { return slots_; }
   std::size_t first_slot(std::size_t group) const { return first_slot_[group]; }
 
-  /// The contact of a slot is at `place`, too.
+  /// Records that the contact of a slot is (also) at `place`.
   void add(std::size_t group, std::size_t slot, std::uint32_t place) {
     uint2& of_slot = places_[first_slot_[group] + slot];
     (of_slot.x == UINT32_MAX ? of_slot.x : of_slot.y) = place;
   }
-  /// Calls f(member, places) for the slots of each member of a team, until places are on the device.
+  /// Calls f(member, places) for the slots of each member of the team; only before keep().
   template <class F>
   void for_each_slot(const TeamCuts& cuts, F&& f) const {
     each_slot(*this, cuts, f);
   }
-  /// Settling reads the first of a slot's places: that is to be one of the slot's member.
+  /// Orders the two places of each slot so that the first belongs to the slot's own member, because settling reads the
+  /// first one. `owner`: place → member.
   template <class Owner>
   void own_first(const TeamCuts& cuts, Owner&& owner) {
     each_slot(*this, cuts, [&](std::size_t m, uint2& place) {
       if (place.y != UINT32_MAX && owner(place.x) != m) std::swap(place.x, place.y);
     });
   }
-  /// All have been added: they go to the device for good.
+  /// Uploads the places; none can be added after this.
   void keep(DeviceStore& store, const Shares& shares) {
     on_device_ = store.keep(places_, shares);
     places_ = {};
   }
   const uint2* on_device() const { return on_device_; }
 
-  /// Words, of four numbers each, of an array [packet][count][lane] of the tiles' contacts, in the order of the
-  /// network.
+  /// Returns the order in which a checkpoint stores the words of an array [packet][count][lane] of the tiles: contacts
+  /// in the order of the network. `words`: offsets of the numbers of one contact.
   StateOrder order(int count, std::vector<std::uint64_t> words) const {
     const std::vector<uint2> places = copied(0, slots_);
     const auto at = [&](std::uint32_t place) {
@@ -67,7 +75,7 @@ class TilePlaces {
     }
     return out;
   }
-  /// Of a contact's constants, those that a block begins with.
+  /// Returns the words of a contact's constants that change between blocks.
   static std::vector<std::uint64_t> words_of_block(bool carried) {
     std::vector<std::uint64_t> out;
     add_words(out, tile_drift_a, 4);
@@ -78,13 +86,14 @@ class TilePlaces {
     add_words(out, tile_tangent, 3);
     return out;
   }
+  /// Returns the words of a contact's state.
   static std::vector<std::uint64_t> words_of_states() {
     std::vector<std::uint64_t> out;
     for (const int w : {tile_change, tile_both, tile_sum}) add_words(out, w, 4);
     return out;
   }
 
-  /// [slot][6] of a group: the changes that `state`, of `count` words, has.
+  /// Returns δf of the contacts of a group, [slot][6], from the tiles' states. `count`: size of `state`.
   std::vector<float> changes(std::size_t group, const float4* state, std::size_t count) const {
     std::vector<float4> all(count);
     copy_now(all.data(), state, count * sizeof(float4), "states");
@@ -112,12 +121,13 @@ class TilePlaces {
       }
     }
   }
+  /// Returns a host copy of the places of some slots.
   std::vector<uint2> copied(std::size_t first, std::size_t count) const {
     std::vector<uint2> out(count);
     if (count > 0) copy_now(out.data(), on_device_ + first, count * sizeof(uint2), "places");
     return out;
   }
-  /// Adds the first `count` components of word w of 16 bytes.
+  /// Adds the offsets of the first `count` components of the 16-byte word w.
   static void add_words(std::vector<std::uint64_t>& to, int w, int count) {
     for (int k = 0; k < count; ++k)
       to.push_back(static_cast<std::uint64_t>(w) * 32 * 4 + static_cast<std::uint64_t>(k));
@@ -126,7 +136,7 @@ class TilePlaces {
   const Layout& layout_;
   std::size_t slots_ = 0;
   std::vector<std::size_t> first_slot_;  // [group]
-  std::vector<uint2> places_;            // until they are on the device
+  std::vector<uint2> places_;            // empty after keep()
   const uint2* on_device_ = nullptr;
 };
 

@@ -1,5 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_runner.hpp  Runs blocks of steps over tiles: condensed contacts in mixed and single precision.
+/// \file cuda_tile_runner.hpp  The host side of the tile path: owns the plan and the device arrays of the tiles, and
+/// launches the blocks of steps. Condensed contacts in mixed and single precision.
+///
+/// ExecCudaTiles owns one TileRunner and calls it in this order. The constructor plans the tiles (tile_plan.hpp) and
+/// chooses the kernel: resident if every tile fits a multiprocessor, else streamed, else possible() is false. For each
+/// start follow begin(), add_contacts() for each group (the first time only), set_group() for each group, and
+/// prepare(), which uploads the arrays (first time) and resets the states. Then run() is called any number of times,
+/// followed by end_of_steps() and leave_room() when the host waits. release() is called only after an error of one
+/// device.
+///
+/// run() works block by block. At the end of each block, settle() updates the viscoelastic states and the constants of
+/// the contacts (cuda_blocks.hpp) and sums the base loads of the bodies; then the kernel takes the steps of the next
+/// block, in one launch (resident) or one launch per step (streamed).
+///
+/// Words: tile, packet, place, slot, row and halo are explained in tile_plan.hpp. Room is the number of multiprocessors
+/// that this specimen occupies while its steps run (device_room.hpp). A member is one device of the team
+/// (cuda_team.hpp). The tag is the number of the next step, which marks velocities exchanged between tiles.
 #pragma once
 
 #include <array>
@@ -23,7 +39,7 @@
 
 namespace macadam::kernels {
 
-/// Runs a scene in blocks of steps; made once, before the first step.
+/// Runs one specimen in blocks of steps; made once, before the first step.
 template <class P, class AnyLaw>
 class TileRunner {
  public:
@@ -47,20 +63,20 @@ class TileRunner {
     choose(options.multiprocessors);
   }
 
-  /// Whether this device can run the scene so.
+  /// Returns whether these devices can run the specimen in tiles.
   bool possible() const { return static_cast<bool>(run_); }
   std::string description() const { return resident_ ? "tiles on the chip" : "tiles streamed"; }
   std::vector<KernelUse> kernels() const { return {memory_ ? use_ : use_without_memory_}; }
 
-  /// Ends whatever ran: the steps to come are of blocks of another length. `memory`: some law has one, or the geometry
-  /// is carried.
+  /// Prepares for a new start, with blocks of `block` steps. `memory`: some law has a memory, or the geometry is
+  /// updated. `to_observations`: the run is observed at regular steps.
   void begin(int block, bool memory, bool to_observations) {
     block_ = block;
     memory_ = memory;
     schedule_.begin(block, to_observations);
   }
 
-  /// Takes the contacts of group `number`; `view` points to device arrays.
+  /// Packs the constants of the contacts of group `number` for the tiles. `view` points to device arrays.
   void add_contacts(int number, const ContactArrays<P>& arrays, const ContactView<P>& view) {
     const auto g = static_cast<std::uint32_t>(number);
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
@@ -80,7 +96,8 @@ class TileRunner {
     }
   }
 
-  /// Takes the law of group `number` for steps of `dt`.
+  /// Sets the law of group `number` for steps of `dt`. \throws InputError if begin() was told that no law has a memory,
+  /// but this one has.
   template <Geometry geometry, class L>
   void set_group(int number, const L& law, const ContactView<P>& view, double dt) {
     const auto block = law.block(dt, block_);
@@ -94,7 +111,8 @@ class TileRunner {
     settling_.template set_group<geometry>(number, places_.first_slot(static_cast<std::size_t>(number)), law, view, dt);
   }
 
-  /// Ends every set-up: everything as it is before the first step.
+  /// Ends the set-up of a start: uploads the arrays (the first time) and sets everything to its value before the first
+  /// step.
   void prepare(const ParticleMotion<P>& motion, const RecordRows& rows) {
     scene_.motion = motion;
     if (!std::exchange(prepared_, true)) keep_arrays(rows);
@@ -112,7 +130,7 @@ class TileRunner {
     }
     clear(scene_.wall_load, wall_load_count_);
     clear(before_, (bodies_ + walls) * displacement_words);
-    if (std::exchange(released_, false)) {  // else words stay as they are: tags go on
+    if (std::exchange(released_, false)) {  // otherwise the words stay as they are, because tags continue to rise
       clear(scene_.even, words_of_exchange());
       clear(scene_.odd, words_of_exchange());
       tag_ = 1;
@@ -123,7 +141,8 @@ class TileRunner {
     team_.wait("start");
   }
 
-  /// Of all that prepare() will keep on the device, but for some bytes a tile.
+  /// Returns the device memory that prepare() will allocate, except for a few bytes per tile. `records`: number of load
+  /// records.
   std::size_t bytes_to_come(std::size_t records) const {
     const std::size_t loads = 2 * velocity_words * sizeof(R) + displacement_words * sizeof(double);
     return constants_.size() * sizeof(float4) + plan_.contact.size() * tile_states * sizeof(float4) +
@@ -132,7 +151,7 @@ class TileRunner {
            (plan_.body.size() + plan_.row.size() + plan_.halo.size()) * 4 * (team_.ranks() ? 1 : team_.size());
   }
 
-  /// Makes what a block in progress keeps whole, of several processes.
+  /// With several ranks, completes on every device the arrays that a block in progress changes.
   void gather() const {
     const auto of_packets = [&](float4* data, int words) {
       queue_whole(team_, data, static_cast<std::size_t>(words) * 32,
@@ -150,7 +169,7 @@ class TileRunner {
     messages_.wall_loads(team_);
   }
 
-  /// Adds what a block in progress keeps besides the chains.
+  /// Adds to `states` what a block in progress holds in addition to the chains.
   void add_states(StateList& states) {
     const auto words = [](auto* data) { return reinterpret_cast<float*>(data); };
     const std::size_t loads = (bodies_ + walls) * velocity_words;
@@ -160,7 +179,8 @@ class TileRunner {
     add_device_state(states, "tile_states", "Pa m", words(scene_.state), 4 * state_count_,
                      [this] { return places_.order(tile_states, TilePlaces::words_of_states()); });
     add_device_state(states, "base_loads", "N, N m", base_, loads, by_body);
-    add_device_state(states, "forces", "N, N m", scene_.force, bodies_ * velocity_words,  // walls': forces() sums them
+    // The loads on walls are left out: forces() sums them
+    add_device_state(states, "forces", "N, N m", scene_.force, bodies_ * velocity_words,
                      [this] { return body_order(layout_, velocity_words, false); });
     add_device_state(states, "wall_loads", "N, N m", words(scene_.wall_load), 4 * wall_load_count_);
     if (carried_) add_device_state(states, "displacement_at_block", "m, rad", before_, loads, by_body);
@@ -172,39 +192,41 @@ class TileRunner {
     if (end_) cudaEventDestroy(end_);
   }
 
-  /// Nothing more is queued until all that was is done.
+  /// Marks the end of the enqueued steps, so that the next specimen may enqueue its steps behind them (DeviceRoom). The
+  /// caller enqueues nothing more before leave_room().
   void end_of_steps() {
     if (!has_room_ || team_.size() > 1) return;
     if (!end_) check_cuda(cudaEventCreateWithFlags(&end_, cudaEventDisableTiming), "event");
     check_cuda(cudaEventRecord(end_, team_.stream()), "event");
     DeviceRoom::is_queued(number_, end_);
   }
-  /// All steps that were queued are done.
+  /// Gives the multiprocessors back. All enqueued steps have finished.
   void leave_room() {
     if (std::exchange(has_room_, false)) DeviceRoom::give(number_);
   }
 
-  /// After an error of one device: the tiles of the others wait for those of that one no longer, and end.
+  /// After an error of one device, ends the kernels of the other devices: their tiles would wait forever for the tiles
+  /// of the failed one. Writes the release tag into all words of the exchange.
   void release() noexcept {
     if (team_.size() == 1 || !resident_ || !prepared_) return;
     released_ = true;
     try {
       const auto tag = static_cast<unsigned long long>(release_of(tag_)) << 32;
       const std::vector<ulonglong2> words(words_of_exchange(), {0, tag});
-      // Again and again: tiles that still run write words of their own.
+      // repeatedly, because tiles that still run overwrite the words with their own
       while (team_.works() && write_on_any(words)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    } catch (const std::exception&) {  // the first error is the one to tell
+    } catch (const std::exception&) {  // the first error is the one to report
     }
   }
 
-  /// Queues steps first … first + steps − 1, the first of which has this row of the walls' table.
+  /// Enqueues the steps first … first + steps − 1. `row`: row of the walls' table for the first of them.
   void run(std::int64_t first, std::int64_t steps, std::int64_t row) {
     const Range range("time steps");
     if (resident_ && !has_room_) {
       DeviceRoom::take(number_, room_, room_of_device_, team_.behind());
       has_room_ = true;
     }
-    team_.meet();  // with what the start has put into memory
+    team_.meet();  // the start may have written to memory on other streams
     scene_.motion.wall.table = wall_table_ + static_cast<std::size_t>(row) * scene_.motion.wall.row_words();
     for (std::int64_t done = 0; done < steps;) {
       if (schedule_.is_due()) settle(schedule_.next(first + done));
@@ -219,7 +241,7 @@ class TileRunner {
     }
   }
 
-  /// Loads on all bodies now, [body][8]; walls are summed first.
+  /// Returns the loads on all bodies after the last step, [body][8]. Sums the walls' loads first.
   const R* forces() const {
     messages_.wall_loads(team_);
     launch("wall loads", add_wall_loads<R>, walls, body_threads, 0, team_.stream(),
@@ -227,7 +249,8 @@ class TileRunner {
            scene_.force + bodies_ * velocity_words);
     return scene_.force;
   }
-  /// Bytes of contacts that a step moves at the least: states read and written, constants and base loads read.
+  /// Returns the bytes of contacts and particles that a step must move at least: states read and written, constants and
+  /// base loads read.
   std::int64_t traffic() const {
     const int words = tile_constants_read(carried_, memory_) + 2 * tile_states_moved(memory_);
     const auto of_packet = static_cast<std::size_t>(words) * 32 * sizeof(float4);
@@ -235,21 +258,22 @@ class TileRunner {
     for (const Tile& tile : plan_.tile) packets += tile.packets;
     return static_cast<std::int64_t>(packets * of_packet + bodies_ * velocity_words * sizeof(R));
   }
-  /// The same, with what else a step moves, by where from or to.
+  /// Returns these bytes (`all`) and the others that a step moves, divided by the memory they move through.
   Traffic traffic_by_place(std::int64_t all) const {
     return resident_ ? traffic_on_chip<P>(plan_.tile, scene_, carried_, memory_) : traffic_streamed(plan_.tile, all);
   }
-  /// [slot][6] of group `number`: what f has changed since the block began.
+  /// Returns the change of f since the beginning of the block, [slot][6] of group `number`.
   std::vector<float> changes(std::size_t number) const { return places_.changes(number, scene_.state, state_count_); }
   std::int64_t bytes() const { return store_.bytes() + static_cast<std::int64_t>(constant_.bytes()); }
 
  private:
+  /// Returns a float with the bit pattern x, to store integers in words of floats.
   static float bits(std::uint32_t x) {
     float out = 0;
     std::memcpy(&out, &x, sizeof out);
     return out;
   }
-  /// Chooses the kernel by what the device has.
+  /// Chooses the kernel by the limits of the devices.
   void choose(int multiprocessors) {
     if (!plan_.fits) return;
     limits_ = DeviceLimits::of_each(team_, multiprocessors);
@@ -258,7 +282,9 @@ class TileRunner {
     scene_.most_slots = plan_.most_slots;
     scene_.places = static_cast<std::uint32_t>(plan_.body.size());
     const auto pick = [&](auto carried) {
-      const bool on_chip = !team_.ranks() && try_resident<decltype(carried)::value>();  // chips that reach each other
+      // Resident tiles need devices that reach each
+      const bool on_chip = !team_.ranks() && try_resident<decltype(carried)::value>();
+      // other's memory, which ranks do not
       if (!on_chip) use_streamed<decltype(carried)::value>();
     };
     if (carried_)
@@ -267,6 +293,8 @@ class TileRunner {
       pick(std::false_type{});
   }
 
+  /// Sets up the resident kernel. Chooses the first of `here`, `away`, `all_away` (TileRest) whose tiles fit in shared
+  /// memory. Returns false if not all tiles can run at the same time.
   template <bool carried>
   bool try_resident() {
     constexpr int Threads = resident_threads;
@@ -319,6 +347,7 @@ class TileRunner {
     return true;
   }
 
+  /// Sets up the streamed kernel; sets nothing if a tile needs too much shared memory.
   template <bool carried>
   void use_streamed() {
     constexpr int threads = 256, per_multiprocessor = 2;
@@ -350,18 +379,18 @@ class TileRunner {
     };
   }
 
-  /// Where the tiles of a team's members begin, but for the first.
+  /// Returns [tile] whether a member's tiles begin there, except for the first member; empty with ranks or one device.
   std::vector<bool> begins_share() const {
     std::vector<bool> out;
-    if (team_.ranks()) return out;  // whose arrays are on one device each
+    if (team_.ranks()) return out;  // with ranks, each array is on one device
     for (std::size_t m = 1; m < team_.size(); ++m) {
       out.resize(cuts_.tile(team_.size()), false);
       out[cuts_.tile(m)] = true;
     }
     return out;
   }
-  /// Puts these words in the place of all of the exchange, by any device that can. Copies, as no multiprocessor is free
-  /// for a kernel.
+  /// Overwrites all words of the exchange with `words`, from the first device that still works. Returns whether one
+  /// did. Uses copies, because no multiprocessor is free for a kernel.
   bool write_on_any(const std::vector<ulonglong2>& words) {
     bool done = false;
     team_.each([&](std::size_t) {
@@ -370,31 +399,32 @@ class TileRunner {
         copy_now(scene_.even, words.data(), words.size() * sizeof words[0], "release");
         copy_now(scene_.odd, words.data(), words.size() * sizeof words[0], "release");
         done = true;
-      } catch (const RunError&) { cudaGetLastError(); }  // this device has failed
+      } catch (const RunError&) { cudaGetLastError(); }  // this device has failed; try the next one
     });
     return done;
   }
   std::size_t words_of_exchange() const { return 2 * (std::size_t{scene_.places} + walls); }
   std::size_t tiles(std::size_t m) const { return cuts_.tile(m + 1) - cuts_.tile(m); }
-  /// What the launches of member m get.
+  /// Returns the arguments of the launches on member m.
   TileScene<P> scene_of(std::size_t m) const {
     TileScene<P> out = scene_;
     const Tables& own = tables_[m];
     out.tile = own.tile, out.body = own.body, out.row = own.row, out.diagonal = own.diagonal, out.halo = own.halo;
     out.rest = own.rest;
     out.first_tile = static_cast<std::uint32_t>(cuts_.tile(m));
-    out.moves_walls = m == team_.first();  // the others of this process reach them
+    out.moves_walls = m == team_.first();  // with several devices of one process, the others read the walls' velocities
+                                           // from the first one's memory
     return out;
   }
 
-  /// Takes to the device what no start changes.
+  /// Uploads the arrays that no start changes, and allocates the others.
   void keep_arrays(const RecordRows& rows) {
     for (std::size_t i = 0; i < plan_.contact.size(); ++i) {
-      if (plan_.contact[i].group_slot != UINT32_MAX) continue;  // inert: adds nothing to nobody
+      if (plan_.contact[i].group_slot != UINT32_MAX) continue;  // inert: its loads go to no slot and no wall row
       float4* out = &constants_[i / 32 * static_cast<std::size_t>(tile_constants(carried_)) * 32 + i % 32];
       out[tile_drift_b * 32] = {0, 0, bits(UINT32_MAX), bits(GroupAndRow::of(0, GroupAndRow::no_row).word)};
     }
-    team_.each([&](std::size_t m) {  // each block of threads begins with them: every device has its own
+    team_.each([&](std::size_t m) {  // each thread block reads these first, so every device has its own copy
       tables_[m].tile = store_.keep(plan_.tile);
       tables_[m].body = store_.keep(plan_.body);
       tables_[m].row = reinterpret_cast<const uint2*>(store_.keep(plan_.row));
@@ -428,11 +458,13 @@ class TileRunner {
     plan_.contact = {};
   }
 
+  /// Returns the arrays that the update between blocks reads and writes.
   SettledArrays<P> settled() const {
     return {constant_.data(), scene_.state, scene_.motion.body.displacement, before_, records_, places_.on_device()};
   }
 
-  /// Ends a block, if one has begun, and begins the next, of so many steps.
+  /// Ends the block in progress, if there is one, and begins the next with `steps` steps: updates the contacts, then
+  /// sums the base loads.
   void settle(int steps) {
     const Range range("settling");
     if (!schedule_.has_begun()) {
@@ -461,7 +493,7 @@ class TileRunner {
     schedule_.start(steps);
   }
 
-  /// What each device has of its own.
+  /// The plan's arrays on one device.
   struct Tables {
     const Tile* tile = nullptr;
     const std::int32_t *body = nullptr, *halo = nullptr;
@@ -477,7 +509,7 @@ class TileRunner {
   TilePlan plan_;
   TileOwners owners_;
   bool carried_, memory_ = true, resident_ = false, prepared_ = false, released_ = false;
-  int block_ = 0;  // steps
+  int block_ = 0;  // steps per block
   BlockSchedule schedule_;
   const Layout& layout_;
   std::size_t bodies_, state_count_ = 0, wall_load_count_ = 0;
@@ -485,22 +517,22 @@ class TileRunner {
   std::vector<float4> constants_;
   TilePlaces places_;
   TileScene<P> scene_{};
-  std::uint32_t tag_ = 1;
+  std::uint32_t tag_ = 1;  ///< tag of the next step
   DeviceArray<float4> constant_;
-  R* base_ = nullptr;
-  double* before_ = nullptr;
-  const R* wall_table_ = nullptr;
+  R* base_ = nullptr;              ///< [body][8] base loads, as scene_.base
+  double* before_ = nullptr;       ///< [body][8] displacements at the beginning of the block
+  const R* wall_table_ = nullptr;  ///< first row of the walls' table
   const std::uint32_t* wall_begin_ = nullptr;
   const RecordRows* rows_ = nullptr;
   std::vector<Tables> tables_;  // [member]
   const std::uint64_t number_ = DeviceRoom::next_number();
-  DeviceRoom::Share room_, room_of_device_;
+  DeviceRoom::Share room_, room_of_device_;  ///< multiprocessors that the tiles occupy, and that each device has
   bool has_room_ = false;
-  cudaEvent_t end_ = nullptr;  // of the steps that are queued
+  cudaEvent_t end_ = nullptr;  // end of the enqueued steps
   LoadRecords<R> records_{};
   Settling<P, AnyLaw> settling_;
-  TileMessages<P> messages_;  // of several processes
-  std::function<void(std::uint32_t)> run_;
+  TileMessages<P> messages_;                // with several ranks
+  std::function<void(std::uint32_t)> run_;  ///< takes steps with the chosen kernel; empty if neither fits
   KernelUse use_, use_without_memory_;
   DeviceStore store_;
 };

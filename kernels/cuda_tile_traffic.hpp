@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tile_traffic.hpp  What a step over tiles moves, by where from or to: counted by packets, slots and
-/// bodies.
+/// \file cuda_tile_traffic.hpp  Counts the bytes that one step over tiles moves through shared memory, the L2 cache and
+/// global memory.
+///
+/// The counts follow from the plan (packets, slots and particles of each tile) and from where the kernels keep the
+/// data; nothing is measured. TileRunner::traffic_by_place() calls these functions for the report of a run.
 #pragma once
 
 #include <algorithm>
@@ -10,34 +13,35 @@
 
 namespace macadam::kernels {
 
-/// Packets whose states stay in registers, as ResidentTile::share() has it.
+/// Returns the number of packets whose states stay in registers; must agree with ResidentTile::share().
 inline std::int64_t packets_in_registers(const Tile& tile) {
   constexpr std::uint32_t most = groups_in_registers * resident_threads / 32, run = TilePlan::run;
   const std::uint32_t groups = std::min(tile.groups, most), ones = tile.packets - run * tile.groups;
   return run * groups + std::min(ones, run * (most - groups));
 }
 
-/// Through shared memory: velocities of both ends, once for a whole run of contacts that share an end, and the loads.
+/// Returns the bytes through shared memory: velocities of both ends (end A once per run), and the loads.
 inline std::int64_t shared_traffic(const Tile& tile) {
   constexpr std::int64_t of_velocity = SixTable::bytes(1), of_slot = 2 * SixTable::bytes(1);
   const std::int64_t contacts = 32 * std::int64_t{tile.packets};
   return of_velocity * (contacts + contacts / TilePlan::run + tile.bodies + tile.halo) + of_slot * tile.slots;
 }
 
-/// Tiles that go through memory, of which a step moves `all` bytes.
+/// Returns the traffic of streamed tiles. `all`: bytes that a step moves through global memory.
 inline Traffic traffic_streamed(const std::vector<Tile>& tiles, std::int64_t all) {
   Traffic out{all, 0, 0};
   for (const Tile& tile : tiles) out.shared += shared_traffic(tile);
   return out;
 }
 
-/// Tiles that stay on the chip: nothing goes through memory.
+/// Returns the traffic of resident tiles; nothing goes through global memory.
 template <class P>
 Traffic traffic_on_chip(const std::vector<Tile>& tiles, const TileScene<P>& scene, bool carried, bool memory) {
   constexpr std::int64_t of_packet = 32 * sizeof(float4), of_velocity = 32;
   const int words = tile_constants_read(carried, memory);
   const std::int64_t of_constants = of_packet * words, of_states = 2 * of_packet * tile_states_moved(memory);
-  // packets whose constants are in shared memory, as far as there is room; those that follow have them in registers
+  // packets before `first` have their constants in shared memory, as far as they fit; the following ones have them in
+  // registers
   const std::int64_t first = packets_with_states - packets_with_constants(memory) * resident_threads / 32;
   Traffic out;
   for (const Tile& tile : tiles) {

@@ -1,5 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tiles_resident.hpp  Many steps in one launch, where every tile has a multiprocessor of its own.
+/// \file cuda_tiles_resident.hpp  The resident kernel: many steps in one launch, with one tile per multiprocessor.
+///
+/// run_resident is launched by TileRunner with one thread block per tile; all blocks run at the same time (a
+/// cooperative launch). A block loads its tile into shared memory, takes the steps, and writes the tile back.
+/// Particles, slots of loads and velocities stay in shared memory as far as they fit; each warp keeps the states of its
+/// first packets in registers.
+///
+/// The order of one step is: sum the slots of each particle and move it; publish its velocity for other tiles
+/// (cuda_tile_exchange.hpp); step the contacts that touch no halo particle while velocities are in transit; receive the
+/// halo's velocities; step the other contacts, which store their loads into slots.
+///
+/// Words: a tile, group, packet, run, slot, row and halo are explained in tile_plan.hpp. A share is here the part of a
+/// tile's packets that one warp steps: `early` and `late` are its packets with states in registers, `others` are those
+/// with states in memory. The cache is the part of shared memory that holds constants of packets; `cached` is the
+/// number of packets in it.
 #pragma once
 
 #include <cuda_pipeline_primitives.h>
@@ -9,9 +23,10 @@
 
 namespace macadam::kernels {
 
-/// A tile in the shared memory of its block, and what the threads do with it in a step. All that a body needs is read
-/// before the first of it is written: a read would wait for a write that may be to the same place. `memory`: some law
-/// has one. Without it, a contact has fewer constants and no sums, so that more constants stay here.
+/// One tile, and the parts of a step that its threads compute. All data of a body is read before the first of it is
+/// written. Otherwise each read would wait for the write before it, because both might have the same address. `memory`:
+/// some law has a memory. Without memory a contact has fewer constants and no sums, so more constants fit in shared
+/// memory.
 template <class P, int Threads, bool carried, bool memory, TileRest where>
 class ResidentTile {
  public:
@@ -19,7 +34,7 @@ class ResidentTile {
   static constexpr unsigned warps = Threads / 32;
   using Constants = ContactConstants<carried, memory>;
   using Contact = ContactInBlock<carried, memory>;
-  /// Words of a packet's constants: in memory, and those that are kept here.
+  /// Constant words of a packet: number in memory, and number of those that a step reads and the cache holds.
   static constexpr std::uint32_t words = tile_constants(carried), kept = Constants::words;
 
   __device__ __forceinline__ ResidentTile(const TileScene<P>& scene, const Tile& own_tile, unsigned char* shared,
@@ -43,22 +58,24 @@ class ResidentTile {
         cached(m.cached),
         first_wall(tile.bodies + tile.halo) {}
 
-  /// Groups whose contacts need no other tile, and which are stepped while velocities are on their way: worth another
-  /// barrier where there is much to step.
+  /// Returns how many groups are stepped before the halo's velocities have arrived. Zero if there are few, because an
+  /// early part of the step needs one more barrier.
   __device__ __forceinline__ std::uint32_t inner() const { return 2 * tile.inner < warps ? 0 : tile.inner; }
-  /// Some packets, one after the other; in one word, as registers are scarce.
+  /// Some consecutive packets: first and count. They are packed into one word, because registers are scarce.
   struct Packets {
     std::uint32_t word;
     __device__ __forceinline__ Packets(std::uint32_t first, std::uint32_t count) : word(first << 4 | count) {}
     __device__ __forceinline__ std::uint32_t first() const { return word >> 4; }
     __device__ __forceinline__ std::uint32_t count() const { return word & 15; }
   };
-  /// What a warp steps. The states of `early` and `late` stay in registers, those of the others are in memory.
+  /// The packets that one warp steps. The states of `early` and `late` stay in registers; the states of `others` are in
+  /// memory.
   struct Share {
     Packets early, late;
-    bool ahead;  ///< `early` needs no other tile
+    bool ahead;  ///< whether `early` needs no velocities of other tiles
     WarpPackets others;
   };
+  /// Returns the packets of this thread's warp.
   __device__ __forceinline__ Share share() const {
     constexpr std::uint32_t run = TilePlan::run, room = groups_in_registers * warps;
     const std::uint32_t warp = threadIdx.x / 32, groups = min(tile.groups, room), free = room - groups;
@@ -73,19 +90,21 @@ class ResidentTile {
     return {packets(warp), packets(warps + warp), warp < ahead,
             WarpPackets::of(tile, groups, first_one + min(free * each, ones), warp, warps, ahead)};
   }
-  /// Where the constants of a warp's packet j are among those in shared memory, where it is below `cached`. The first
-  /// packets of all warps come first: no warp has many more than another whose constants are in memory.
+  /// Returns the position in the cache of the constants of a warp's packet j; the packet is cached if this is less than
+  /// `cached`. The first packets of all warps come first, so that no warp has many more uncached packets than another.
   __device__ __forceinline__ static std::uint32_t place_in_cache(std::uint32_t j) {
     return j * warps + threadIdx.x / 32;
   }
+  /// Position of constants that are in global memory.
   static constexpr std::uint32_t in_memory = UINT32_MAX;
-  /// Of a warp's packets whose states are in registers, the first whose constants are there, too.
+  /// First of a warp's packets with states in registers whose constants are in registers, too.
   static constexpr std::uint32_t first_kept = groups_in_registers * TilePlan::run - packets_with_constants(memory);
+  /// Returns the address of the state of this thread's contact in a packet.
   __device__ __forceinline__ float4* state(std::uint32_t packet) const {
     return states + std::size_t{packet} * tile_states * 32 + threadIdx.x % 32;
   }
 
-  /// From memory: all but the states of the contacts.
+  /// Loads the tile from global memory, except for the states of the contacts.
   __device__ __forceinline__ void load() const {
     for (std::uint32_t r = threadIdx.x; r < tile.bodies; r += Threads) {
       const auto i = static_cast<std::size_t>(body[r]);
@@ -119,10 +138,10 @@ class ResidentTile {
     keep(own_share.late, TilePlan::run);
     __pipeline_commit();
   }
-  /// Until all that load() has asked for is here, for the thread that asked.
+  /// Waits until the constants that load() requested for this thread have arrived.
   __device__ __forceinline__ static void wait_for_load() { __pipeline_wait_prior(0); }
 
-  /// Moves all bodies by their loads in memory, or by those that the last contacts left in shared memory.
+  /// Moves all particles of the tile by their loads in global memory (first step of a launch).
   __device__ __forceinline__ void move_by_memory(std::uint32_t tag) const {
     for (std::uint32_t r = threadIdx.x; r < tile.bodies; r += Threads) {
       R force[6];
@@ -131,6 +150,7 @@ class ResidentTile {
       move(r, force, tag);
     }
   }
+  /// Moves all particles by the loads that the contacts of the last step left in slots, plus the base loads.
   __device__ __forceinline__ void move_by_sums(std::uint32_t tag) const {
     sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
       Six<R> force = base[r];
@@ -138,18 +158,20 @@ class ResidentTile {
       move(r, force.of, tag);
     });
   }
+  /// Enters the velocity of a wall in the table of velocities.
   __device__ __forceinline__ void set_wall(int wall, const Vec3<float>& v) const {
     velocity.set(first_wall + static_cast<std::uint32_t>(wall), {v.x, v.y, v.z, 0, 0, 0});
   }
 
-  /// Waits for the velocities of the bodies of other tiles.
+  /// Receives the velocities of the halo from other tiles; waits for them.
   __device__ __forceinline__ void receive(std::uint32_t tag) const {
     const ulonglong2* from = s.exchange(tag);
     wait_for_words(
         2 * tile.halo, tag, [&](std::uint32_t h) { return from + 2 * static_cast<std::size_t>(halo[h / 2]) + h % 2; },
         [&](std::uint32_t h, const float4& numbers) { velocity.set_half(tile.bodies + h / 2, h % 2 == 1, numbers); });
   }
-  /// Displaces all bodies by their velocities of now. The last warps begin, which have least to do.
+  /// Adds Δt times the current velocity to the displacement of each particle. Starts with the last warps, which have
+  /// the least work.
   __device__ __forceinline__ void displace() const {
     for (std::uint32_t r = Threads - 1 - threadIdx.x; r < tile.bodies; r += Threads) {
       Six<double> u = displacement[r];
@@ -159,16 +181,18 @@ class ResidentTile {
     }
   }
 
-  /// `at`: place_in_cache(), or in_memory.
+  /// Returns the constants of this thread's contact in a packet. `at`: place_in_cache(), or in_memory.
   __device__ __forceinline__ Constants constants_of(std::uint32_t packet, std::uint32_t at) const {
     const unsigned lane = threadIdx.x % 32;
     Constants out;
-    if (at < cached)  // one of the two, for the sake of loads that know where they load from
+    // Two branches, so that the compiler knows for each load whether it is from shared or global memory
+    if (at < cached)
       out.load(cache + at * kept * 32 + lane);
     else
       out.load(constants + std::size_t{packet} * words * 32 + lane);
     return out;
   }
+  /// Steps one contact and stores its load into slots. `first`: a run begins here.
   template <bool first>
   __device__ __forceinline__ void step(const Constants& constant, float (&change)[6], float (&sum)[6],
                                        ContactRun& run) const {
@@ -176,14 +200,14 @@ class ResidentTile {
     const auto load = step_in_block<first>(contact, law, velocity, change, sum, run);
     slots.put(contact.slots, load, run);
   }
-  /// To memory: the loads on walls, after the last step.
+  /// Writes the loads on walls to global memory, after the last step.
   __device__ __forceinline__ void store_wall_loads(std::uint32_t packet, const float (&change)[6]) const {
     const Constants constant = constants_of(packet, in_memory);
     const Contact contact(constant);
     store_wall_load(s.wall_load, contact.of, contact.load(change, law[contact.of.group()].z));
   }
 
-  /// To memory: the bodies, with their loads of now.
+  /// Writes the particles and their current loads to global memory.
   __device__ __forceinline__ void store() const {
     sum_rows(tile, row, diagonal, slots, [&](std::uint32_t r, const float(&extra)[6]) {
       const auto i = static_cast<std::size_t>(body[r]);
@@ -196,7 +220,7 @@ class ResidentTile {
   }
 
  private:
-  // chosen when compiled: the compiler is to know what is in shared memory
+  // decided at compile time, so that the compiler knows which data is in shared memory
   __device__ __forceinline__ unsigned char* rest(unsigned char* shared, const ResidentMemory<P>& m) const {
     if constexpr (where == TileRest::here)
       return shared + m.rest;
@@ -209,6 +233,7 @@ class ResidentTile {
     else
       return reinterpret_cast<Six<R>*>(shared + m.own);
   }
+  /// Moves particle r under `force`, publishes its velocity with `tag`, and enters it in the table of velocities.
   __device__ __forceinline__ void move(std::uint32_t r, const R (&force)[6], std::uint32_t tag) const {
     const Two<R> by = inverse[r];
     Six<R> now = own[r];
@@ -238,7 +263,7 @@ class ResidentTile {
   const std::uint32_t cached, first_wall;
 };
 
-/// Takes `steps` steps from tag `first_tag` on. The states of a warp's first packets stay in registers.
+/// Takes `steps` steps; the first has the tag `first_tag`. The states of a warp's first packets stay in registers.
 template <class P, int Threads, bool carried, bool memory, TileRest where>
 __global__ void __launch_bounds__(Threads, 1)
     run_resident(const __grid_constant__ TileScene<P> s, std::uint32_t steps, std::uint32_t first_tag) {
@@ -248,13 +273,14 @@ __global__ void __launch_bounds__(Threads, 1)
   const ResidentMemory<P> places(own_tile, OfTile::kept, where, s.room);
   OfTile tile(s, own_tile, shared, places);
   const auto share = tile.share();
-  auto& others = reinterpret_cast<WarpPackets*>(shared + places.others)[threadIdx.x / 32];  // registers are scarce
+  // kept in shared memory, because registers are scarce
+  auto& others = reinterpret_cast<WarpPackets*>(shared + places.others)[threadIdx.x / 32];
   if (threadIdx.x % 32 == 0) others = share.others;
   tile.load();
   constexpr std::uint32_t run = TilePlan::run;
   float change[groups_in_registers * run][6], sum[groups_in_registers * run][6];
   static_assert(run == 2 && groups_in_registers == 2);
-  // f(number among the states, packet); numbers are known when compiled, as these are registers
+  // f(index of the state, packet); the indices are compile-time constants, so that the arrays stay in registers
   const auto each_of = [](const auto& packets, auto begin, auto&& f) {
     const auto one = [&](auto j) {
       if (j < packets.count()) f(std::integral_constant<std::uint32_t, begin() + j()>{}, packets.first() + j);
@@ -268,7 +294,7 @@ __global__ void __launch_bounds__(Threads, 1)
     each_of(share.early, early, f);
     each_of(share.late, late, f);
   };
-  typename OfTile::Constants constants[groups_in_registers * run];  // from first_kept on
+  typename OfTile::Constants constants[groups_in_registers * run];  // used from first_kept on
   each_resident([&](auto k, std::uint32_t packet) {
     state_before<memory>(s.begins_block, tile.state(packet), change[k], sum[k]);
     if constexpr (k() >= OfTile::first_kept) constants[k] = tile.constants_of(packet, OfTile::in_memory);
@@ -282,7 +308,7 @@ __global__ void __launch_bounds__(Threads, 1)
   for (std::uint32_t k = 0; k < steps; ++k) {
     const std::uint32_t tag = first_tag + k;
     Vec3<float> of_wall;
-    if (drives_wall) of_wall = wall_velocity(s, wall, k);  // asked for early: it comes while loads are summed
+    if (drives_wall) of_wall = wall_velocity(s, wall, k);  // requested early: it arrives while loads are summed
     if (k == 0)
       tile.move_by_memory(tag);
     else
@@ -299,7 +325,8 @@ __global__ void __launch_bounds__(Threads, 1)
     };
     if (inner) __syncthreads();
 #pragma unroll 1
-    for (int turn = 0; turn < 2; ++turn) {  // 0: what needs no other tile, while velocities are on their way
+    for (int turn = 0; turn < 2; ++turn) {  // turn 0, while velocities are in transit: `early` packets that need no
+                                            // other tile; turn 1: all other `early` packets
       if (share.ahead == (turn == 0)) each_of(share.early, early, step);
       if (turn > 0) break;
       if (inner) tile.displace();

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_tiles_streamed.hpp  One launch a step for any number of tiles: states stream through.
+/// \file cuda_tiles_streamed.hpp  The streamed kernel: one launch per step, for any number of tiles.
 ///
-/// A launch takes the velocities of the step, steps all contacts, sums the loads, and moves the bodies on to the next
-/// step's velocities, which go to the other one of two sets. The first step of a block is begun, and the last one
-/// ended, by flags.
+/// TileRunner uses it if the tiles do not fit on the chip, and with several ranks. Two tiles share a multiprocessor;
+/// the constants and states of contacts are read from global memory in every step. begin_streamed moves the bodies
+/// before the first step of a sequence. Then each launch of run_streamed reads the velocities of its step, steps all
+/// contacts of each tile, sums the loads, and moves the particles. The new velocities go to the other one of two arrays
+/// (even and odd steps). The last launch of a sequence writes the loads instead of moving the particles.
 #pragma once
 
 #include "kernels/cuda_tile_scene.hpp"
 
 namespace macadam::kernels {
 
-/// Where the velocities of step k of all bodies are, by place, and of the walls behind them.
+/// Returns the velocities of all bodies at step k, by place; the walls follow the last place.
 template <class P>
 __device__ __forceinline__ float4* velocities_of(const TileScene<P>& s, std::uint32_t k) {
   return reinterpret_cast<float4*>(s.exchange(k));
@@ -20,7 +22,8 @@ __device__ __forceinline__ float& wall_velocity_of(const TileScene<P>& s, std::u
   return reinterpret_cast<float*>(velocities_of(s, k) + 2 * (s.places + axis / 3))[axis % 3];
 }
 
-/// Moves body number `i`, at place `place`, under `force` at step k of the launch's block.
+/// Moves body `i`, at place `place`, under `force` into step k, and stores its velocity for the contacts. k counts from
+/// the beginning of the sequence.
 template <class P>
 __device__ __forceinline__ void move_body(const TileScene<P>& s, std::size_t i, std::size_t place,
                                           const typename P::Particle (&force)[6], std::uint32_t k) {
@@ -35,7 +38,8 @@ __device__ __forceinline__ void move_body(const TileScene<P>& s, std::size_t i, 
   to[1] = {float(x[3]), float(x[4]), float(x[5]), 0};
 }
 
-/// Begins step k with the forces of now, at places first … end − 1: the first of a launch sequence.
+/// Moves the particles at places first … end − 1 and the walls into step k, by the loads in memory: the beginning of a
+/// sequence of steps. Axes of walls at rest get velocity zero in both arrays.
 template <class P>
 __global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k, std::uint32_t first,
                                std::uint32_t end) {
@@ -56,13 +60,15 @@ __global__ void begin_streamed(const __grid_constant__ TileScene<P> s, std::uint
   move_body(s, i, place, force, k);
 }
 
+/// Layout of the shared memory of run_streamed: the table of velocities, then the slots [byte].
 struct StreamedMemory {
   std::uint32_t slots, total;
   __host__ __device__ StreamedMemory(std::uint32_t locals, std::uint32_t slot_count)
       : slots((SixTable::bytes(locals) + 15) / 16 * 16), total(slots + SixTable::bytes(slot_count)) {}
 };
 
-/// The contacts of step k, and then the motion of step k + 1, or `last`: the forces of now. `memory`: some law has one.
+/// Steps the contacts in step k. Then moves the particles into step k + 1 or, if `last`, writes the loads. `memory`:
+/// some law has a memory.
 template <class P, int Threads, int Blocks, bool carried, bool memory>
 __global__ void __launch_bounds__(Threads, Blocks)
     run_streamed(const __grid_constant__ TileScene<P> s, std::uint32_t k, bool last) {
@@ -76,7 +82,7 @@ __global__ void __launch_bounds__(Threads, Blocks)
   constexpr std::uint32_t words = tile_constants(carried);
   const Tile tile = s.tile[s.own_tile()];
   const float4* from = velocities_of(s, k);
-  // the first tile moves the walls on, with its last warp; of several processes, each moves its own
+  // the last warps of the first tile move the walls; with several ranks, the first tile of each
   const int axis = !last && s.moves_walls && blockIdx.x == 0 ? static_cast<int>(tid) - (Threads - wall_axes) : -1;
   WallAxisMotion<P> wall(s, axis, k + 1);
   for (std::uint32_t r = tid; r < 2 * tile.bodies; r += Threads)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cuda_wall_table.hpp  The rows of the walls' table on their way to the device, while it takes steps.
+/// \file cuda_wall_table.hpp  Uploads rows of the walls' table while the device takes steps.
 #pragma once
 
 #include <cstring>
@@ -9,8 +9,8 @@
 
 namespace macadam::kernels {
 
-/// One table on the device, whose address stays, and two buffers from which it is filled in turn: the host writes one
-/// while the copy from the other waits in the stream behind the steps that still read the table.
+/// One table on the device, whose address does not change, and two host buffers that fill it in turn. The host writes
+/// one buffer while the copy from the other waits in the stream behind the steps that still read the table.
 template <class R>
 class WallRowsOnDevice {
  public:
@@ -18,7 +18,7 @@ class WallRowsOnDevice {
   WallRowsOnDevice(const WallRowsOnDevice&) = delete;
   ~WallRowsOnDevice() { forget(); }
 
-  /// Makes room; the address of the table, null for none.
+  /// Allocates the table and the buffers and returns the address of the table, or null if `most_values` is 0.
   const R* prepare(std::size_t most_values) {
     if (most_values == table_.size()) return table_.data();
     forget();
@@ -31,10 +31,10 @@ class WallRowsOnDevice {
     return table_.data();
   }
 
-  /// On the device.
+  /// Size on the device.
   std::size_t bytes() const { return table_.bytes(); }
 
-  /// Queues the rows behind all that the stream of the team's first device has.
+  /// Enqueues the upload of the rows, behind all work in the stream of the team's first device.
   void put(const std::vector<R>& rows, const DeviceTeam& team) {
     if (rows.empty()) return;
     Buffer& b = buffers_[next_ ^= 1];

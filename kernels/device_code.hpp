@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file device_code.hpp  Which devices a build has code for, by the list that CMake was given.
+/// \file device_code.hpp  Which devices can run the code of a build, from the list of architectures that CMake was
+/// given.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +9,10 @@
 
 namespace macadam::kernels {
 
-/// `list`: of CMAKE_CUDA_ARCHITECTURES, parted by commas: "75-virtual,90-real", "86", "native". Machine code serves its
-/// generation from its own version on, virtual code every later device. What is no number may fit: the device then
-/// says so when it is used.
+/// Returns whether a device of compute capability major.minor can run a build. `list`: CMAKE_CUDA_ARCHITECTURES,
+/// separated by commas: "75-virtual,90-real", "86", "native". Machine code runs on devices of the same major version
+/// from its own minor version on; virtual code runs on every later device. An entry that is not a number counts as
+/// suitable: the device then reports an error when it is used.
 inline bool has_code_for(std::string_view list, int major, int minor) {
   while (!list.empty()) {
     std::string_view one = list.substr(0, list.find(','));
@@ -19,7 +21,7 @@ inline bool has_code_for(std::string_view list, int major, int minor) {
     const auto [rest, error] = std::from_chars(one.data(), one.data() + one.size(), number);
     if (error != std::errc{}) return true;
     one.remove_prefix(static_cast<std::size_t>(rest - one.data()));
-    const bool letter = !one.empty() && one.front() != '-';  // 90a, 100f: for that one alone, or its family
+    const bool letter = !one.empty() && one.front() != '-';  // 90a, 100f: only for that architecture, or its family
     const bool same = number == 10 * major + minor;
     const bool machine = one != "-virtual" && number / 10 == major && number % 10 <= minor;
     const bool later = one != "-real" && number <= 10 * major + minor;

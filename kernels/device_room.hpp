@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file device_room.hpp  Who may have the multiprocessors of a device, where several specimens share it.
+/// \file device_room.hpp  Which specimen may use the multiprocessors of a device, if several specimens share it.
 ///
-/// The blocks of a launch of tiles on the chip wait for one another, and each has a multiprocessor to itself. Where two
-/// such launches each had some of the multiprocessors that they need, neither would end. So a specimen takes as many as
-/// it has tiles before it launches, and gives them back when its steps are done. Of those that wait, the specimen that
-/// was there first goes first: so the oldest two take turns, and are done while others are still being prepared. If all
-/// took turns, all would end at the same time, and the device would stand still until the next ones are there.
+/// The thread blocks of a launch of resident tiles wait for one another, and each occupies one multiprocessor. If two
+/// such launches each had only some of the multiprocessors that they need, neither would end. So a specimen takes as
+/// many multiprocessors as it has tiles before it launches (TileRunner::run() calls take()), and gives them back when
+/// its steps have finished (give()). Room in the identifiers means these multiprocessors; a Share is the number of them
+/// on each device.
 ///
-/// A device whose multiprocessors one specimen has, all of whose steps are queued, may be taken by the next one
-/// already: its steps are queued behind an event at the end of those. So the device has no pause in which hosts wake
-/// each other.
+/// The oldest waiting specimen goes first. So the oldest two take turns and finish while others are still being
+/// prepared. If all took turns, all would finish at the same time, and the device would idle until the next specimens
+/// are ready.
 ///
-/// A solution in the frequency domain goes before all steps that need room, and has its devices to itself but for steps
-/// that need none. It is hundreds of short kernels one after the other, of which each would else wait for steps to end.
+/// If one specimen has all its steps enqueued (is_queued()), the next one may take the device already: its steps are
+/// enqueued behind an event at the end of the first one's. So the device does not pause while host threads wake each
+/// other.
+///
+/// A solution in the frequency domain goes before all steps that need room, and has its devices to itself except for
+/// steps that need no room. It consists of hundreds of short kernels in sequence; each of them would otherwise wait for
+/// steps to end.
 #pragma once
 
 #include <condition_variable>
@@ -25,28 +30,29 @@
 
 namespace macadam::kernels {
 
+/// The leases of all devices of this process. All functions may be called from any thread.
 class DeviceRoom {
  public:
-  /// Number of multiprocessors, by device.
+  /// Number of multiprocessors of each device.
   using Share = std::map<int, int>;
-  /// An event of CUDA, of which nothing but its place is looked at here.
+  /// A CUDA event. This class only stores and passes it.
   using Event = void*;
-  /// Makes what is queued from now on wait for an event.
+  /// Makes everything that the caller enqueues from now on wait for an event.
   using QueueBehind = std::function<void(Event)>;
-  /// What needs room.
+  /// Kind of work that needs room.
   enum class Work { steps, solution };
 
-  /// The number of a specimen that is to be stepped, or of a solution. Numbers of a kind rise; those of all solutions
-  /// are below those of all specimens.
+  /// Returns a number for a specimen that is to be stepped, or for a solution. Lower numbers go first. Numbers of one
+  /// kind rise; those of solutions are below those of all specimens.
   static std::uint64_t next_number(Work work = Work::steps) {
     constexpr std::uint64_t first_of_steps = std::uint64_t{1} << 63;
     DeviceRoom& room = instance();
     const std::lock_guard lock(room.mutex_);
     return room.next_++ + (work == Work::steps ? first_of_steps : 0);
   }
-  /// Waits until it is the turn of `wanted`: no lower number waits for one of these devices, and all of it is free, or
-  /// will be at an event. Then `queue_behind` is called with that event before its owner can give its room back, so
-  /// that the event still exists. `of_device`: what each device has.
+  /// Waits until `wanted` can be taken: no lower number waits for one of these devices, and all of it is free or will
+  /// be free at an event. In the latter case, calls `queue_behind` with that event while the lock prevents its owner
+  /// from destroying it. `of_device`: number of multiprocessors that each device has.
   static void take(std::uint64_t number, const Share& wanted, const Share& of_device, const QueueBehind& queue_behind) {
     DeviceRoom& room = instance();
     std::unique_lock lock(room.mutex_);
@@ -57,11 +63,11 @@ class DeviceRoom {
       return room.is_first(number) && (room.is_free(wanted, of_device) || (end = room.end_before(wanted)));
     });
     room.waiting_.erase(number);
-    room.changed_.notify_all();  // who is next may have room beside this one, or in its place
+    room.changed_.notify_all();  // the next one in the queue may fit beside this one, or behind it
     if (end) queue_behind(end);
     room.taken_[number] = {wanted, nullptr};
   }
-  /// All that a specimen does in its room is queued, and `end` behind it.
+  /// Reports that all work of a specimen is enqueued; `end` is the event behind it.
   static void is_queued(std::uint64_t number, Event end) {
     DeviceRoom& room = instance();
     {
@@ -76,6 +82,7 @@ class DeviceRoom {
     const std::lock_guard lock(room.mutex_);
     return room.waiting_.contains(number);
   }
+  /// Gives back what `number` has taken.
   static void give(std::uint64_t number) {
     DeviceRoom& room = instance();
     {
@@ -85,7 +92,7 @@ class DeviceRoom {
     room.changed_.notify_all();
   }
 
-  /// While it lives, nobody else has room on the devices of a solution.
+  /// Takes the devices of a solution for its lifetime; nobody else has room on them.
   class ForSolution {
    public:
     ForSolution(const DeviceList& devices, const QueueBehind& queue_behind) {
@@ -104,9 +111,10 @@ class DeviceRoom {
  private:
   struct Taken {
     Share share;
-    Event end = nullptr;  // behind all that is queued there; null: there is more to come
+    Event end = nullptr;  // behind everything enqueued; null: more will be enqueued
   };
 
+  /// Returns whether no lower number waits for one of the same devices.
   bool is_first(std::uint64_t mine) const {
     const Share& wanted = waiting_.at(mine);
     for (const auto& [earlier, others] : waiting_) {
@@ -117,6 +125,7 @@ class DeviceRoom {
     }
     return true;
   }
+  /// Returns whether `wanted` fits beside what others have taken. An unused device always fits.
   bool is_free(const Share& wanted, const Share& of_device) const {
     for (const auto& [device, number] : wanted) {
       int used = 0;
@@ -128,7 +137,8 @@ class DeviceRoom {
     }
     return true;
   }
-  /// Where one specimen alone has the one device that is wanted, and no other: the end of all that it has queued.
+  /// If one specimen has the one wanted device, and has no other, returns the event at the end of its enqueued work;
+  /// else null.
   Event end_before(const Share& wanted) const {
     if (wanted.size() != 1) return nullptr;
     const int device = wanted.begin()->first;
@@ -146,8 +156,8 @@ class DeviceRoom {
   }
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::map<std::uint64_t, Taken> taken_;    // by numbers
-  std::map<std::uint64_t, Share> waiting_;  // by numbers
+  std::map<std::uint64_t, Taken> taken_;    // by number
+  std::map<std::uint64_t, Share> waiting_;  // by number
   std::uint64_t next_ = 0;
 };
 

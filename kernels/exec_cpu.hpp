@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cpu.hpp  How the step runs on the CPU: packets of contacts in SIMD registers, tiles shared among threads.
+/// \file exec_cpu.hpp  The executor on the CPU: packets of contacts in SIMD registers, tiles divided among threads.
 #pragma once
 
 #include <omp.h>
@@ -17,10 +17,10 @@
 
 namespace macadam::kernels {
 
-/// Owns the arrays of a scene in precision P and runs bodies and contacts over them. `width`: contacts of a packet, 4
-/// or 8; the numbers do not depend on it. What runs in the loops over bodies and contacts is inlined whole (`flatten`):
-/// a packet wider than a register (in mixed precision without AVX-512, in double without AVX) is a tuple to gcc, whose
-/// many small functions otherwise end up as calls, up to four times slower.
+/// Owns the arrays of a specimen in precision P and runs steps over them. `width`: contacts per packet, 4 or 8; results
+/// do not depend on it. The loops over bodies and contacts are inlined completely (`flatten`). A packet wider than a
+/// register (in mixed precision without AVX-512, in double without AVX) is a tuple to gcc; its many small functions
+/// would otherwise become calls, up to four times slower.
 template <class P, class Laws, std::size_t width = packet_width<P>>
 class ExecCpu {
  public:
@@ -31,7 +31,7 @@ class ExecCpu {
   static constexpr int lanes = static_cast<int>(Item::lanes());
   static constexpr bool room_for_five = false;
 
-  /// A tile's states (200 kB) fit a core's second-level cache.
+  /// Returns tiles of 1024 contacts: their states (200 kB) fit the L2 cache of a core.
   static TileSize tile_size(const ContactNetwork&, const StepperOptions&) { return {1024}; }
 
   ExecCpu(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
@@ -52,7 +52,7 @@ class ExecCpu {
     master_.assign(bodies * velocity_words, R(0));
     displacement_.assign(bodies * displacement_words, 0.0);
     if constexpr (!std::is_same_v<typename P::Geometry, R>) velocity_.assign(bodies * velocity_words, 0);
-    states_.add("sums", "N, N m", sums_);  // tiles are those of any CPU
+    states_.add("sums", "N, N m", sums_);  // the order needs no conversion: tiles are the same on any CPU
     const auto by_body = [this] { return body_order(layout_, velocity_words); };
     states_.add("velocity", "m/s, rad/s", master_, by_body);
     states_.add("displacement", "m, rad", displacement_, by_body);
@@ -92,7 +92,7 @@ class ExecCpu {
       std::swap(group->arrays.chain, arrays.chain);
       std::swap(group->arrays.frame, arrays.frame);
     }
-    auto& all = static_cast<Group&>(*group);  // the same law in the same form and geometry
+    auto& all = static_cast<Group&>(*group);  // the law, form and geometry are of the same types as at the first start
     auto& own = all.forces;
     own = forces;
     all.law = law;
@@ -110,7 +110,7 @@ class ExecCpu {
 
   void prepare(const ParticleMotion<P>& motion) { motion_ = motion; }
 
-  /// Takes all steps, in pieces in which the number of threads is chosen.
+  /// Takes all steps, in pieces; the number of threads is chosen for each piece.
   void run(std::int64_t first, std::int64_t steps) {
     for (std::int64_t row = 0; row < steps;) {
       const ThreadChoice::Next next = choice_.next();
@@ -128,13 +128,13 @@ class ExecCpu {
   void use_device() const {}
 
  private:
-  /// What one thread does of a step.
+  /// The part of a step that one thread computes.
   struct Team {
     ExecCpu& exec;
     std::size_t thread, threads;
     Barrier& barrier;
 
-    /// Moves all bodies with the forces of the last contacts(); k: the row of the walls' table.
+    /// Moves all bodies by the loads of the last contacts(). k: row of the walls' table.
     [[gnu::flatten]] void bodies(const ParticleMotion<P>& motion, std::int64_t k) const {
       for_own_tiles([&](std::size_t tile) {
         std::uint32_t own = exec.accumulators_.tile_begin[tile];
@@ -170,7 +170,7 @@ class ExecCpu {
   };
 
  public:
-  /// Force and moment on the bodies first … first + count − 1 now.
+  /// Returns the current force and moment on the bodies first … first + count − 1.
   std::vector<Twist<R>> forces(std::int32_t first, std::size_t count) const {
     std::vector<Twist<R>> out;
     std::size_t tile = 0;
@@ -184,7 +184,7 @@ class ExecCpu {
     return out;
   }
 
-  /// Host copies of the bodies' arrays and back.
+  /// Copies of the bodies' arrays, and the reverse.
   std::vector<R> velocities() const { return {master_.begin(), master_.end()}; }
   std::vector<double> displacements() const { return {displacement_.begin(), displacement_.end()}; }
   std::vector<double> wall_displacements() const {
@@ -247,19 +247,20 @@ class ExecCpu {
   }
 
  private:
-  /// Of what the bodies have, which a step reads or writes once.
+  /// Bytes of the bodies, which a step reads or writes once.
   std::int64_t body_bytes() const {
     const std::size_t words = sums_.size() + master_.size() + inverse_.size() + weight_.size() + wall_table_.size();
     return static_cast<std::int64_t>(words * sizeof(R) + displacement_.size() * sizeof(double) +
                                      velocity_.size() * sizeof(typename P::Geometry));
   }
 
-  /// The step, for rows first … end − 1 of the walls' table: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
+  /// Takes the steps of rows first … end − 1 of the walls' table: Eq. 1–2 for every body, then Eq. 3–17 for every
+  /// contact.
   void run_rows(int threads, std::int64_t first, std::int64_t end) {
     Barrier barrier;
 #pragma omp parallel num_threads(threads)
     {
-#pragma omp single  // OpenMP may give fewer threads than asked
+#pragma omp single  // OpenMP may give fewer threads than requested
       barrier.set_threads(static_cast<unsigned>(omp_get_num_threads()));
       const SubnormalsAreZero<sizeof(typename P::Geometry) == sizeof(float)> while_stepping;
       const Team team{*this, static_cast<std::size_t>(omp_get_thread_num()),
@@ -275,8 +276,7 @@ class ExecCpu {
     }
   }
 
-  /// The array must stay where it is.
-  /// A body's own accumulator (walls have `none`) and its halo row.
+  /// Returns the load on a body: its own accumulator (`none` for walls) plus those of its halo row.
   Twist<R> sum(std::int32_t body, std::uint32_t own) const {
     const auto i = static_cast<std::size_t>(body);
     R total[velocity_words] = {};
@@ -303,14 +303,14 @@ class ExecCpu {
   CpuBlocks<P, width> blocks_;
   AlignedVector<R> sums_, master_;                // [accumulator][8], [body][8]
   AlignedVector<double> displacement_;            // [body][8]
-  AlignedVector<typename P::Geometry> velocity_;  // [body][8], where Geometry is not Particle
+  AlignedVector<typename P::Geometry> velocity_;  // [body][8], only if Geometry is not Particle
   ParticleMotion<P> motion_{};
   std::vector<R> inverse_, weight_, wall_table_;
   StateList states_;
   int threads_;
   ThreadChoice choice_;
   bool timed_ = false;
-  double bodies_time_ = 0, contacts_time_ = 0;  // of the first thread, with its waiting for the others [s]
+  double bodies_time_ = 0, contacts_time_ = 0;  // time of the first thread, including its waits [s]
 };
 
 }  // namespace macadam::kernels

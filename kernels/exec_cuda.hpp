@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cuda.hpp  Two kernels a step on CUDA devices, queued as graphs of many steps: for any form, law,
-/// precision.
+/// \file exec_cuda.hpp  The executor with two kernels per step on CUDA devices, for any contact form, law and
+/// precision. Many steps are enqueued as one graph.
 ///
-/// Every contact writes its two ends' loads to records of its own, which lie in the order of the bodies; a body sums
-/// its run of records in fixed order. No floating-point atomics anywhere, so the same device gives the same bits every
-/// run.
+/// step_bodies (cuda_bodies.hpp) sums the loads of each body and moves it; step_contacts (cuda_contacts.hpp) steps each
+/// contact. A contact writes the loads on its two bodies to records of its own. The records of a body are consecutive,
+/// and the body sums them in fixed order. There are no floating-point atomics, so the same device gives the same bits
+/// in every run.
 #pragma once
 
 #include "kernels/cuda_body_arrays.hpp"
@@ -12,6 +13,7 @@
 
 namespace macadam::kernels {
 
+/// Executor for CUDA devices with precision P and a list of laws; see executor.hpp for its functions.
 template <class P, class Laws>
 class ExecCuda : public CudaBodyArrays<P> {
   using Base = CudaBodyArrays<P>;
@@ -20,9 +22,10 @@ class ExecCuda : public CudaBodyArrays<P> {
   using AnyLaw = Laws;
   using R = typename P::Particle;
   using G = typename P::Geometry;
-  static constexpr bool room_for_five = true;  ///< Kelvin units in registers, beside exactly three
+  /// ContactForces has code for up to five Kelvin units in registers, besides exactly three.
+  static constexpr bool room_for_five = true;
 
-  /// Of any device: the order of the sums is that of the layout.
+  /// The size does not depend on the device, because the order of the sums is that of the layout.
   static TileSize tile_size(const ContactNetwork&, const StepperOptions&) { return {1024}; }
 
   ExecCuda(const ContactNetwork& network, const Layout& layout, const StepperOptions& options)
@@ -73,10 +76,10 @@ class ExecCuda : public CudaBodyArrays<P> {
                      [this] { return this->rows_.state_order(this->layout_); });
   }
 
-  /// Queues all steps.
+  /// Enqueues all steps.
   void run(std::int64_t, std::int64_t steps) {
     const Range range("time steps");
-    this->team_.meet();  // with what the start has put into memory
+    this->team_.meet();  // the start may have written to memory on other streams
     if (clock_.step) launch("walls", start_clock<R>, 1, 32, 0, this->team_.stream(), clock_);
     this->team_.meet();
     const Ranks* ranks = this->team_.ranks();
@@ -128,7 +131,7 @@ class ExecCuda : public CudaBodyArrays<P> {
  private:
   static constexpr std::int64_t steps_a_graph = 64;
 
-  /// The step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
+  /// Takes one step: Eq. 1–2 for every body, then Eq. 3–17 for every contact.
   void step() {
     const bool pushed = motion_.wall.by_force || motion_.body.weight;
     const auto& team = this->team_;
@@ -150,6 +153,7 @@ class ExecCuda : public CudaBodyArrays<P> {
     this->parts_.end_of("contacts", team.stream());
     send(loads_);
   }
+  /// Sends messages between ranks; does nothing with one process.
   void send(const RankExchange& messages) {
     if (!this->team_.ranks()) return;
     messages.queue(this->team_);
@@ -168,12 +172,12 @@ class ExecCuda : public CudaBodyArrays<P> {
   cudaGraphExec_t many_ = nullptr, one_ = nullptr;
   DeviceArray<G> records_;
   DeviceArray<std::int64_t> step_;
-  DeviceArray<R> wall_row_;  // of the step
+  DeviceArray<R> wall_row_;  // row of the current step
   WallClock<R> clock_;
   std::vector<ContactLaunches<P, AnyLaw>> contacts_;  // [member]
-  std::uint32_t slots_ = 0;                           // of the groups so far
+  std::uint32_t slots_ = 0;                           // number of slots of the groups set so far
   bool crosses_ = false;
-  RankExchange moved_, loads_;  // of several processes: after the bodies, after the contacts
+  RankExchange moved_, loads_;  // with several ranks: sent after the bodies, and after the contacts
 };
 
 }  // namespace macadam::kernels

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file exec_cuda_tiles.hpp  Blocks of steps over tiles on a CUDA device: condensed contacts, mixed and single
-/// precision, laws that have blocks, walls driven by displacements.
+/// \file exec_cuda_tiles.hpp  The executor of the tile path: takes steps in blocks over tiles on CUDA devices.
+///
+/// It applies to condensed contacts in mixed and single precision, laws that can be stepped in blocks, and walls driven
+/// by displacements; ExecCuda steps everything else. make_cuda.hpp tries this executor first. StepperImpl calls it in
+/// the order that executor.hpp describes. Bodies, walls and group arrays are in the base class CudaBodyArrays; tiles,
+/// kernels and blocks of steps are in TileRunner (cuda_tile_runner.hpp).
+///
+/// In addition to the contract in executor.hpp it takes samples on the device (most_notes(), note(), wait_for_notes();
+/// see cuda_notes.hpp). A note in the identifiers is a sample: wall forces, wall motion and divergence at one step.
 #pragma once
 
 #include <optional>
@@ -12,6 +19,7 @@
 
 namespace macadam::kernels {
 
+/// Executor of the tile path with precision P and a list of laws; see executor.hpp for its functions.
 template <class P, class Laws>
 class ExecCudaTiles : public CudaBodyArrays<P> {
   using Base = CudaBodyArrays<P>;
@@ -19,9 +27,10 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
  public:
   using AnyLaw = Laws;
   using R = typename P::Particle;
-  static constexpr bool room_for_five = true;
+  static constexpr bool room_for_five = true;  ///< ContactForces has code for up to five Kelvin units in registers
 
-  /// A tile a multiprocessor where the scene fits the chip, else tiles so small that two share one.
+  /// Returns one tile per multiprocessor if the specimen fits on the chip, else tiles so small that two share a
+  /// multiprocessor.
   static TileSize tile_size(const ContactNetwork& network, const StepperOptions& options) {
     const DeviceTeam team(options.devices, options.ranks);
     const DeviceLimits limits = DeviceLimits::of_each(team, options.multiprocessors);
@@ -29,11 +38,12 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     const auto shared = static_cast<std::size_t>(limits.shared);
     const std::size_t contacts = network.contacts.size();
     if (options.side_by_side > 1) {
-      // In a part of the chip, only where registers hold all states. Else they would be fetched at every step, and the
-      // cache would have to hold those of all that are side by side: three full specimens took 44 us a step each so
-      // (H200), and would take 20 us where they take turns.
+      // Several specimens run at the same time. Each takes part of the chip only if registers hold all its states.
+      // Otherwise every step would fetch states, and the cache would have to hold those of all specimens: three full
+      // specimens side by side took 44 µs per step each (H200); taking turns on the whole chip they take 20 µs.
       const std::size_t part = std::max<std::size_t>(1, chips / static_cast<std::size_t>(options.side_by_side));
-      constexpr double computed = 1.3;  // times, a contact: those across the faces of tiles by both sides
+      // Each contact is computed 1.3 times on average, because contacts between tiles are computed by both
+      constexpr double computed = 1.3;
       if (computed * static_cast<double>(contacts) <= static_cast<double>(part * contacts_in_registers)) chips = part;
     }
     if (team.ranks() || expected_resident_bytes<P>(network, chips) > shared)
@@ -41,10 +51,10 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     return {std::max<std::size_t>(128, contacts / (chips + 1) + 1), true};
   }
 
-  /// Thrown where the device cannot run a scene so; ExecCuda can.
+  /// Thrown if the devices cannot run the specimen in tiles; ExecCuda can run it.
   struct Impossible {};
 
-  /// Steps of a block; 0: not to be stepped so.
+  /// Returns the number of steps per block; 0 if the run cannot be stepped in blocks.
   static int block_of(const StepperOptions& options, const FactsTable& laws, const Vec3d& size) {
     return options.form == ContactForm::condensed ? block_steps(options, laws, size) : 0;
   }
@@ -86,7 +96,7 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   void set_wall_rows(const std::vector<R>& rows) {
     noticed([&] { Base::set_wall_rows(rows); });
   }
-  /// `row`: of the walls' table, that of the first step.
+  /// Enqueues steps. `row`: row of the walls' table for the first step.
   void run(std::int64_t first, std::int64_t steps, std::int64_t row = 0) {
     noticed([&] { tiles_.run(first, steps, row); });
   }
@@ -98,15 +108,16 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
     tiles_.leave_room();
   }
 
-  using Base::number_or_none, Base::twists;  // of notes
+  using Base::number_or_none, Base::twists;  // used for samples
 
-  /// So many notes can be taken before they are read; 0: none, of several devices. `radius` in specimen order [m].
+  /// Returns how many samples can be taken before the host reads them; 0 with several devices or ranks. `radius` in
+  /// specimen order [m].
   std::size_t most_notes(const std::vector<double>& radius) {
     if (this->team_.ranks() || this->team_.size() > 1) return 0;
     this->require_divergence_search(radius);
     return Notes<R>::most;
   }
-  /// Queues note number `k`, behind the steps that were queued.
+  /// Enqueues sample number `k` behind the enqueued steps.
   void note(std::size_t k) {
     noticed([&] {
       const cudaStream_t stream = this->team_.stream();
@@ -117,13 +128,15 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
                   this->displacement_.data() + walls_from * displacement_words, stream);
     });
   }
-  /// As wait(), and the first `number` of notes are read.
+  /// Waits for all steps and returns the first `number` samples.
   const Notes<R>& wait_for_notes(std::size_t number) {
     noticed([&] { notes_.read(number, this->team_.stream()); });
     wait();
     return notes_;
   }
 
+  /// Ends all work after an error or before destruction: releases tiles that wait for a failed device, waits for all
+  /// devices, and gives the multiprocessors back.
   void end_steps() noexcept {
     if (std::exchange(failed_, false)) tiles_.release();
     Base::end_steps();
@@ -159,7 +172,8 @@ class ExecCudaTiles : public CudaBodyArrays<P> {
   std::int64_t bytes() const { return this->held_bytes() + tiles_.bytes() + notes_.bytes(); }
 
  private:
-  /// f(), whose errors are those of a device.
+  /// Calls f(). If it throws, records that a device failed, so that end_steps() releases the tiles of the other
+  /// devices.
   template <class F>
   void noticed(F&& f) {
     try {

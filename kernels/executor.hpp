@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file executor.hpp  The contract of an executor: how the arrays of a scene are kept and its steps are taken.
+/// \file executor.hpp  The contract of an executor, which keeps the arrays of a specimen and takes its steps.
 ///
-/// Three keep it: ExecCpu (threads and SIMD registers), ExecCuda (two kernels a step, any law and form), ExecCudaTiles
-/// (blocks of steps over tiles). Made once of a network and a layout, an executor serves many starts. For each start,
-/// StepperImpl calls, in this order:
-///   begin(start)             all bodies at rest; what the options decide
-///   wall_table(values)       room for the walls' table
-///   set_bodies(…)            what moves the bodies
-///   set_group(…)             each group's arrays (the first time) or states, and the functor that steps its contacts
-///   prepare(motion)          nothing more is to come
-/// and then, again and again, set_wall_rows(), run() and, at the end of them, wait(). Everything else reads.
+/// There are three: ExecCpu (threads and SIMD registers), ExecCuda (two kernels per step, any law and contact form),
+/// and ExecCudaTiles (blocks of steps over tiles). An executor is made once for a network and a layout and serves many
+/// starts. For each start, StepperImpl calls, in this order:
+///   begin(start)             sets all bodies to rest; applies the options
+///   wall_table(values)       allocates the walls' table and returns its address
+///   set_bodies(…)            sets masses and body forces
+///   set_group(…)             for each group, sets its arrays (the first time) or states, and the functor that steps it
+///   prepare(motion)          ends the set-up
+/// After that it calls, any number of times, set_wall_rows(), run() and, after the last of them, wait(). All other
+/// functions read, or set states of a checkpoint. Optional functions for samples are described in exec_cuda_tiles.hpp.
 #pragma once
 
 #include <concepts>
@@ -23,13 +24,13 @@
 
 namespace macadam::kernels {
 
-/// What a start is made with.
+/// Arguments of a start.
 struct ExecStart {
   const StepperOptions& options;
   const FactsTable& laws;
   Vec3d size;               ///< of the specimen [m]
-  bool first;               ///< groups come whole; later only their states do
-  std::size_t group_bytes;  ///< of the groups to come, the first time
+  bool first;               ///< groups bring all their arrays; at later starts only their states
+  std::size_t group_bytes;  ///< size of the arrays of all groups, if `first`
 };
 
 template <class E>
@@ -39,26 +40,29 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
   typename E::AnyLaw;  // std::variant<…> of the laws that it can step
   { E::lanes + 0 } -> std::convertible_to<int>;
   { E::tile_size(network, start.options) } -> std::same_as<TileSize>;
-  { read.suits(start) } -> std::same_as<bool>;  // whether groups once taken can be stepped so
+  { read.suits(start) } -> std::same_as<bool>;  // whether a start with these options can use the groups set before
   exec.begin(start);
   { exec.wall_table(std::size_t{}) } -> std::same_as<const typename E::Policy::Particle*>;
   exec.set_bodies(words, words);
   exec.prepare(motion);
   exec.set_wall_rows(words);
-  exec.run(std::int64_t{}, std::int64_t{});  // first step, number of steps; the walls' table begins with the first
+  // First step, number of steps; the first row of the walls' table is that of the first step
+  exec.run(std::int64_t{}, std::int64_t{});
   exec.wait();
-  read.gather();     // what a step changes is whole, though several processes have taken the steps
-  exec.end_steps();  // the same after an error, which it may be in the way of others to leave as it is
+  read.gather();     // with ranks, completes on every device the arrays that steps change
+  exec.end_steps();  // waits for queued work after an error, so that other devices and runs are not blocked
   { read.forces(std::int32_t{}, std::size_t{}) } -> std::same_as<std::vector<Twist<typename E::Policy::Particle>>>;
-  { read.forces_with_weight() } -> std::same_as<bool>;  // whether these have the body forces in them
+  { read.forces_with_weight() } -> std::same_as<bool>;  // whether forces() includes the body forces
   { read.velocities() } -> std::same_as<std::vector<typename E::Policy::Particle>>;
   { read.displacements() } -> std::same_as<std::vector<double>>;
   { read.wall_displacements() } -> std::same_as<std::vector<double>>;
   { read.wall_velocities() } -> std::same_as<std::vector<typename E::Policy::Particle>>;
   exec.set_velocities(words);
   exec.set_displacements(doubles);
-  { read.first_divergent(doubles, double{}) } -> std::same_as<std::int64_t>;  // radii in specimen order, time step
-  {read.group_state(std::size_t{}, std::size_t{}, std::size_t{})};            // of group, numbers of chains, of frames
+  // Radii in specimen order [m], time step [s]
+  { read.first_divergent(doubles, double{}) } -> std::same_as<std::int64_t>;
+  // Group, numbers in its chains, numbers in its frames
+  {read.group_state(std::size_t{}, std::size_t{}, std::size_t{})};
   { read.device_motion() } -> std::same_as<DeviceMotion>;
   { read.states() } -> std::same_as<const StateList&>;
   { read.description() } -> std::same_as<std::string>;
@@ -66,9 +70,9 @@ concept Executor = requires(E exec, const E& read, const ExecStart& start, const
   { read.bytes() } -> std::same_as<std::int64_t>;
   { read.traffic() } -> std::same_as<std::int64_t>;
   { read.traffic_by_place() } -> std::same_as<Traffic>;
-  exec.start_clock();  // the parts of the steps to come are timed
+  exec.start_clock();  // from now on, measures the time of each part of a step
   { exec.stop_clock() } -> std::same_as<std::vector<PartTime>>;
-  read.use_device();  // a thread has a current device of its own, and may serve several steppers
+  read.use_device();  // makes the device current for the calling thread, which may serve several steppers
 };
 
 }  // namespace macadam::kernels

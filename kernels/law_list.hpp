@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file law_list.hpp  From a list of laws, std::variant<…>, to the functors that step them.
+/// \file law_list.hpp  From a list of laws, std::variant<…>, to the functors that step their contacts.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace macadam::kernels {
 
-/// Stops the compiler where a law is none.
+/// Stops the compilation with a message if L does not satisfy the contract of a law.
 template <class L>
 struct Steppable {
   static_assert(laws::SteppableLaw<L>,
@@ -24,7 +24,7 @@ constexpr void require_steppable(std::type_identity<std::variant<L...>>) {
   (static_cast<void>(Steppable<L>{}), ...);
 }
 
-/// Calls f(std::integral_constant) with the `Units` of ContactForces that a law is stepped with.
+/// Calls f(std::integral_constant<int, Units>) with the `Units` of ContactForces that suit the law.
 template <bool room_for_five, class L, class F>
 void dispatch_units(const L& law, F&& f) {
   if constexpr (units_of<L>() >= 0) {
@@ -39,10 +39,10 @@ void dispatch_units(const L& law, F&& f) {
   }
 }
 
-/// Stands where a law has no functor of its own in a list.
+/// Placeholder in a list for a law that has no functor there.
 struct NoFunctor {};
 
-/// The functor of a law in a launch of so many units, or none. Laws without memory go with any number.
+/// The functor type of a law in a launch for `Units` units, or NoFunctor. Laws without memory fit any number of units.
 template <class P, class L, ContactForm form, Geometry geometry, int Units>
 struct StepFunctor {
   static constexpr bool memoryless = memoryless_law<L>;
@@ -60,12 +60,14 @@ struct StepFunctor {
   using type = typename decltype(make<fits>())::type;
 };
 
-/// One of several functors by value, as kernels get it: its number in the list, and its bytes.
+/// One of several functors, stored by value so that it can be passed to a kernel: its number in the list, and its
+/// bytes.
 template <class... Functors>
 struct AnyFunctor {
   int kind = 0;
   alignas(8) unsigned char bytes[std::max({sizeof(NoFunctor), sizeof(Functors)...})] = {};
 
+  /// Stores a functor.
   template <class F>
   void put(const F& functor) {
     static_assert((std::is_same_v<F, Functors> || ...), "a law without a kernel");
@@ -73,7 +75,7 @@ struct AnyFunctor {
     ((std::is_same_v<F, Functors> ? (kind = number, true) : (++number, false)) || ...);
     std::memcpy(bytes, &functor, sizeof functor);
   }
-  /// Calls f(functor).
+  /// Calls f(functor) with the stored functor.
   template <int number = 0, class F>
   MACADAM_HD void visit(F&& f) const {
     if constexpr (number < static_cast<int>(sizeof...(Functors))) {

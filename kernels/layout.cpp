@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// layout.cpp  Recursive bisection of the particles into tiles; contacts into groups and packets.
+// layout.cpp  Orders particles into tiles by recursive bisection, and contacts into groups and packets.
 #include "kernels/layout.hpp"
 
 #include <algorithm>
@@ -15,17 +15,18 @@ namespace {
 
 double along(const Vec3d& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-/// A particle on its way to its place.
+/// A particle while it is being sorted.
 struct Item {
   Vec3d centre;
   std::int32_t particle;
 };
 
-/// Orders particles by recursive bisection along the longest extent into `tiles` runs of equal weight, then on within
-/// each. The halves are independent of each other, so that the order does not depend on who does what.
+/// Splits the particles along their longest extent into two ranges, recursively, until there are `tiles` ranges of
+/// about equal weight. Then orders the particles within each tile in the same way. The two halves are independent, so
+/// the order does not depend on which thread sorts which half.
 class Bisection {
  public:
-  /// Without weights, all count the same. `tile_body`: [tiles], is filled in.
+  /// Without weights all particles count the same. `tile_body`: [tiles], receives the first body of each tile.
   Bisection(const std::vector<double>& weight, std::vector<std::int32_t>& tile_body)
       : weight_(weight), tile_body_(tile_body) {}
 
@@ -36,7 +37,7 @@ class Bisection {
   }
 
  private:
-  /// At least one particle a tile: items.size() ≥ tiles.
+  /// Requires items.size() ≥ tiles, so that every tile receives at least one particle.
   void split(std::span<Item> items, std::size_t first, std::size_t tile, std::size_t tiles) {
     if (tiles == 1) {
       tile_body_[tile] = static_cast<std::int32_t>(first);
@@ -51,6 +52,7 @@ class Bisection {
     split(items.subspan(cut), first + cut, tile + left, right);
   }
 
+  /// Orders the items of a tile by further bisection, down to pairs.
   void order(std::span<Item> items) {
     if (items.size() <= 2) return;
     const int axis = longest_axis(items);
@@ -60,8 +62,9 @@ class Bisection {
     order(items.subspan(cut));
   }
 
-  /// Parts the items along an axis, so that `left` of `whole` shares of the weight lie before the cut. The range in
-  /// which the cut lies is halved until it is short: to sort all items would take longer.
+  /// Partitions the items along `axis` and returns the position of the cut. The items before it have left/whole of the
+  /// total weight. Halves the range that contains the cut until it is short, because sorting all items would take
+  /// longer.
   std::size_t cut_at(std::span<Item> items, int axis, std::size_t left, std::size_t whole) {
     const double share = static_cast<double>(left) / static_cast<double>(whole);
     if (weight_.empty()) {
@@ -72,7 +75,7 @@ class Bisection {
     const auto at = [&](std::size_t k) { return items.begin() + static_cast<std::ptrdiff_t>(k); };
     const double before = share * weight(items);
     double sum = 0;
-    std::size_t low = 0, high = items.size();  // the cut is between them, and what is below `low` weighs `sum`
+    std::size_t low = 0, high = items.size();  // the cut is between them; the items before `low` weigh `sum`
     constexpr std::size_t short_enough = 32;
     while (high - low > short_enough) {
       const std::size_t middle = (low + high) / 2;
@@ -87,19 +90,22 @@ class Bisection {
     while (low < high && sum < before) sum += weight(items.subspan(low++, 1));
     return low;
   }
+  /// Returns the total weight of some items.
   double weight(std::span<const Item> items) const {
     double sum = 0;
     for (const Item& i : items) sum += weight_[static_cast<std::size_t>(i.particle)];
     return sum;
   }
 
-  /// Along one axis; the particle's number breaks ties, so that the order does not depend on the sort.
+  /// Compares coordinates along one axis. The particle's number breaks ties, so that the order does not depend on the
+  /// sort algorithm.
   struct Before {
     int axis;
     bool operator()(const Item& i, const Item& j) const {
       return std::make_pair(along(i.centre, axis), i.particle) < std::make_pair(along(j.centre, axis), j.particle);
     }
   };
+  /// Returns the axis along which the items extend farthest.
   static int longest_axis(std::span<const Item> items) {
     Vec3d low = items.front().centre, high = low;
     for (const Item& i : items) {
@@ -114,12 +120,12 @@ class Bisection {
     return best;
   }
 
-  static constexpr std::size_t few = 2000;  ///< particles that are not worth a task
+  static constexpr std::size_t few = 2000;  ///< with fewer particles a task costs more than it saves
   const std::vector<double>& weight_;
   std::vector<std::int32_t>& tile_body_;
 };
 
-/// Particles and tiles of a layout.
+/// Fills in the particles and tiles of a layout.
 void order_particles(const Specimen& specimen, const std::vector<double>& weight, std::size_t tiles, Layout& layout) {
   const std::size_t n = specimen.size();
   RawVector<Item> items(n);
@@ -137,12 +143,13 @@ void order_particles(const Specimen& specimen, const std::vector<double>& weight
   }
 }
 
-/// Fills one group: sorts its contacts by (tile, points, body) and pads every tile's run to whole packets. `numbers`:
-/// its contacts in the network.
+/// Makes one group: sorts its contacts by (tile, number of points, bodies, number) and pads the contacts of every tile
+/// to whole packets. `numbers`: the group's contacts in the network.
 GroupLayout make_group(const ContactNetwork& network, const Layout& layout, const std::vector<std::int32_t>& tile_of,
                        PairType pair, const std::vector<std::uint32_t>& numbers) {
   using Key = std::tuple<std::uint32_t, std::int32_t, std::int32_t, std::uint32_t>;  // points, bodies, number
-  const auto tile_of_contact = [&](const Contact& c) {  // that of the lower body; a wall is none
+  // The tile of the lower-numbered body, which is always a particle
+  const auto tile_of_contact = [&](const Contact& c) {
     const std::int32_t low = std::min(layout.body_of(c.a), layout.body_of(c.b));
     return static_cast<std::size_t>(tile_of[static_cast<std::size_t>(low)]);
   };
@@ -183,8 +190,8 @@ GroupLayout make_group(const ContactNetwork& network, const Layout& layout, cons
   return group;
 }
 
-/// Makes the particles of tiles that have more than the mean of particles and touched contacts heavier, and those of
-/// others lighter.
+/// Multiplies each particle's weight by (particles + touched contacts of its tile) / mean over the tiles. The next
+/// bisection then makes overfull tiles smaller and others larger.
 void weigh_by_touched(const ContactNetwork& network, const Layout& layout, const std::vector<std::int32_t>& tile_of,
                       std::vector<double>& weight) {
   std::vector<std::int64_t> touched(layout.tiles());
@@ -237,7 +244,7 @@ Layout make_layout(const Specimen& specimen, const ContactNetwork& network, int 
 #pragma omp parallel for schedule(static)
   for (std::size_t i = 0; i < n; ++i) weight[i] += static_cast<double>(network.row(i).size());
   std::vector<std::int32_t> tile_of;
-  const int rounds = size.even ? 4 : 1;  // tile_plan_test shows what they give
+  const int rounds = size.even ? 4 : 1;  // tile_plan_test shows the balance that four rounds reach
   for (int round = 0; round < rounds; ++round) {
     if (round > 0) weigh_by_touched(network, layout, tile_of, weight);
     order_particles(specimen, weight, tiles, layout);

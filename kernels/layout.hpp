@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// \file layout.hpp  The private order in which a backend keeps particles and contacts.
 ///
-/// Particles are ordered by recursive bisection, so that neighbours in space are neighbours in memory; a tile is a run
-/// of particles whose contacts fit a core's cache. Contacts are grouped by pair type (one law a group), then by tile,
-/// then by number of points, and cut into packets of `lanes`; the rest of a packet is filled with inert contacts.
-/// Walls are bodies too: they follow the particles as N…N+5.
+/// Particles are ordered by recursive bisection, so that neighbours in space are neighbours in memory. A tile is a
+/// range of particles whose contacts fit the cache of one core or, on the tile path of the GPU, the memory of one
+/// multiprocessor (see tile_plan.hpp).
+///
+/// Contacts are sorted by pair type, then by tile, then by number of contact points. The contacts of one pair type are
+/// a group; all of them have the same law. A group is cut into packets of `lanes` contacts, which a SIMD register or a
+/// warp steps together. A slot is the position of a contact in its group. Slots that fill up a tile's last packet are
+/// inert: they hold no contact.
+///
+/// A body is a particle or a wall, numbered in this order. The six walls follow the N particles as bodies N…N+5.
 #pragma once
 
 #include <array>
@@ -24,14 +30,15 @@ inline constexpr std::uint32_t inert = UINT32_MAX;
 /// Contacts of one pair type in device order.
 struct GroupLayout {
   PairType pair = PairType::mm;
-  std::vector<std::uint32_t> contact;      ///< slot → network contact, or `inert`; a multiple of lanes
-  std::vector<std::uint32_t> points;       ///< [slot] of its contact; 0 where inert
+  std::vector<std::uint32_t> contact;      ///< slot → network contact, or `inert`; the size is a multiple of `lanes`
+  std::vector<std::uint32_t> points;       ///< [slot] number of contact points of the contact; 0 where inert
   std::vector<std::uint32_t> tile_packet;  ///< tile → first packet; tiles + 1 entries
-  std::vector<std::uint32_t> packet_row;   ///< packet → first row of points; packets + 1 entries
+  /// Packet → first row of contact points (one point of each lane); packets + 1 entries.
+  std::vector<std::uint32_t> packet_row;
   std::size_t packets() const { return tile_packet.back(); }
 };
 
-/// The whole order. Bodies are particles in device order, then the six walls.
+/// The order of all particles and contacts. Bodies are the particles in device order, then the six walls.
 struct Layout {
   int lanes = 1;
   std::vector<std::int32_t> particle;   ///< body → specimen particle (particles only)
@@ -41,27 +48,27 @@ struct Layout {
 
   std::size_t tiles() const { return tile_body.size() - 1; }
   std::size_t particles() const { return particle.size(); }
-  /// Body of a contact's end, which may be a Wall.
+  /// Returns the body at one end of a contact. `end` is a particle or, if negative, a wall.
   std::int32_t body_of(std::int32_t end) const {
     return end >= 0 ? body[static_cast<std::size_t>(end)] : static_cast<std::int32_t>(particles()) - 1 - end;
   }
 };
 
-/// Body → tile.
+/// Returns the tile of each particle: body → tile. Walls belong to no tile.
 std::vector<std::int32_t> tiles_of(const Layout& layout);
 
-/// The order of the particles alone, in tiles of equal numbers of them.
+/// Orders the particles only, without contacts, into `tiles` tiles with equal numbers of particles.
 Layout make_order(const Specimen& specimen, std::size_t tiles);
 
-/// What is aimed at in a tile.
+/// Target size of the tiles.
 struct TileSize {
-  std::size_t contacts;  ///< those of the network over the number of tiles, about
-  bool even;  ///< all tiles are to touch equally many contacts, as they wait for one another; takes a few rounds
+  std::size_t contacts;  ///< contacts per tile: the number of tiles is the network's contacts divided by this
+  bool even;  ///< balances the contacts that each tile touches, because tiles wait for one another; takes four rounds
 
   TileSize(std::size_t contact_count, bool evenly = false) : contacts(contact_count), even(evenly) {}
 };
 
-/// Orders a network.
+/// Orders the particles and contacts of a network. `lanes`: contacts per packet.
 Layout make_layout(const Specimen& specimen, const ContactNetwork& network, int lanes, const TileSize& size);
 
 }  // namespace macadam::kernels

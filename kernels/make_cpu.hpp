@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file make_cpu.hpp  A stepper on the CPU for a list of laws.
+/// \file make_cpu.hpp  Makes a stepper on the CPU for a list of laws.
 #pragma once
 
 #include "kernels/exec_cpu.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file make_cuda.hpp  A stepper on a CUDA device for a list of laws: in blocks of steps where that is possible.
+/// \file make_cuda.hpp  Makes a stepper on CUDA devices for a list of laws: ExecCudaTiles if the run can be stepped in
+/// blocks and fits, else ExecCuda.
 #pragma once
 
 #include "kernels/exec_cuda.hpp"
@@ -9,6 +10,7 @@
 
 namespace macadam::kernels {
 
+/// Whether any law of a list can be stepped in blocks.
 template <class... L>
 constexpr bool any_has_blocks(std::type_identity<std::variant<L...>>) {
   return (has_blocks<L> || ...);
@@ -26,7 +28,7 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
     if (Tiles::block_of(given, facts_of(laws), specimen.box.size) > 0) {
       try {
         return make_stepper_on<Tiles>(specimen, network, laws, inertia, given, std::move(used));
-      } catch (const typename Tiles::Impossible&) {}  // two kernels a step then
+      } catch (const typename Tiles::Impossible&) {}  // does not fit: ExecCuda instead
     }
   }
   return make_stepper_on<ExecCuda<P, Any>>(specimen, network, laws, inertia, given, std::move(used));
@@ -34,7 +36,7 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
 
 }  // namespace macadam::kernels
 
-/// Compiles the steppers of a list of laws, by its name, in one of the precisions of kernels/precision.hpp.
+/// Compiles the steppers for a list of laws, given by name, in one of the precisions of kernels/precision.hpp.
 #define MACADAM_CUDA_STEPPER(P, Any)                                                                   \
   template std::unique_ptr<macadam::Stepper> macadam::kernels::make_cuda_in<macadam::kernels::P, Any>( \
       const macadam::Specimen&, const macadam::ContactNetwork&,                                        \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file make_stepper.hpp  make_stepper() for laws of any list: backend, device and precision, resolved as for
-/// Macadam's.
+/// \file make_stepper.hpp  make_stepper() for any list of laws, with the same choice of backend, device and precision
+/// as for Macadam's own laws.
 #pragma once
 
 #include "kernels/precision.hpp"
@@ -9,11 +9,13 @@
 
 namespace macadam {
 
-/// As make_stepper(), for the laws of a list of one's own: `Any` is a std::variant<…>. The program compiles the kernels
-/// for them: one of its files includes kernels/make_cpu.hpp before it calls this. `on_device`: it also has them for
-/// devices, one CUDA file being `#include <kernels/make_cuda.hpp>` and MACADAM_CUDA_STEPPER(P, Any). `compiled`: the
-/// precisions that it has, which take a while to compile; all three where none is named.
-/// \throws as make_stepper(), and InputError for a precision or a backend that the program has not.
+/// Makes a stepper like make_stepper(), for the laws of the user's own list: `Any` is a std::variant<…>. The program
+/// compiles the kernels for them: one of its files includes kernels/make_cpu.hpp before it calls this. `on_device`: the
+/// program also has them for devices, in one CUDA file with `#include <kernels/make_cuda.hpp>` and
+/// MACADAM_CUDA_STEPPER(P, Any). `compiled`: the precisions that the program has, because each takes a while to
+/// compile; if none is named, all three.
+///
+/// \throws the same as make_stepper(), and InputError for a precision or a backend that the program does not have.
 template <class Any, bool on_device = false, Precision... compiled>
 std::unique_ptr<Stepper> make_stepper_of(Backend backend, const Specimen& specimen, const ContactNetwork& network,
                                          const std::array<std::optional<Any>, pair_types>& laws, const Inertia& inertia,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file pack_item.hpp  The CPU's Item: a packet of contacts in SIMD registers (std::experimental::simd).
+/// \file pack_item.hpp  Access to a packet of contacts in SIMD registers (std::experimental::simd): the Item of
+/// contact_forces.hpp for the CPU.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +13,13 @@ namespace macadam::kernels {
 
 namespace stdx = std::experimental;
 
-/// Contacts a packet of precision P: what a register holds of the words that geometry is in, which most of a step
-/// works on, and a multiple of four, which is half a body's line.
+/// Contacts per packet: the SIMD width of the geometry type, in which most of a step is computed, between 4 and 8. A
+/// multiple of four, because bodies are loaded in halves of four words.
 template <class P>
 inline constexpr std::size_t packet_width = std::clamp<std::size_t>(stdx::native_simd<typename P::Geometry>::size(), 4,
                                                                     8);
 
+/// The Item for packets of `width` contacts.
 template <std::size_t width>
 struct PackItem {
   static_assert(width == 4 || width == 8);
@@ -34,7 +36,7 @@ struct PackItem {
     x.copy_to(p, stdx::vector_aligned);
   }
 
-  /// One word of all lanes that can be read and added to.
+  /// A reference to one word of all lanes, which can be read and added to.
   template <class R>
   struct Ref {
     R* p;
@@ -60,13 +62,14 @@ struct PackItem {
     return no;
   }
 
-  /// Velocity and spin of one body a lane.
+  /// Returns velocity and spin of one body per lane.
   template <class R>
   static Twist<Value<R>> twist(const R* velocity, const std::int32_t* body) {
     return {gather<R>(velocity, body), gather<R>(velocity + velocity_words / 2, body)};
   }
 
-  /// u of one body a lane, and u_b − u_a, subtracted before it is rounded to To; `u` points to the first body's.
+  /// Returns u of one body per lane; and u_b − u_a, subtracted before it is rounded to To. `u` points to the first
+  /// body's.
   template <class To, class R>
   static Vec3<Value<To>> vector(const R* u, const std::int32_t* body) {
     return gather<To>(u, body);
@@ -76,7 +79,8 @@ struct PackItem {
     return gather<To>(u, b, a);
   }
 
-  /// Adds one vector a lane to line `line[j]` of `sums`, which points to the first line's.
+  /// Adds one vector per lane to line `line[j]` of `sums`, which points to the first line. A line is the eight words of
+  /// a body.
   template <class R, class T>
   static void scatter_add(R* sums, const std::uint32_t* line, const Vec3<T>& vector) {
     using From = typename T::value_type;
@@ -101,11 +105,12 @@ struct PackItem {
   static constexpr std::size_t line_words = 8;
   static_assert(velocity_words == line_words && displacement_words == line_words);
 
-  /// Whether a packet of R is one register. gcc 12 keeps vectors wider than that in memory: then words go one by one.
+  /// Whether a packet of R fits in one register. gcc 12 keeps wider vectors in memory, where words are moved one by
+  /// one.
   template <class R>
   static constexpr bool one_register = width * sizeof(R) <= sizeof(stdx::native_simd<R>);
 
-  /// The same words as a vector of the compiler's, and back.
+  /// Converts a packet to a vector type of the compiler, and back.
   template <class R>
   static Words<R, width> to_words(const Value<R>& x) {
     Words<R, width> words;
@@ -117,7 +122,7 @@ struct PackItem {
     return Value<R>(reinterpret_cast<const R*>(&words), stdx::vector_aligned);
   }
 
-  /// u of one body a lane, less u of the bodies `minus` where they are given.
+  /// Returns u of one body per lane, minus u of the bodies `minus` if they are given.
   template <class To, class R, class... Bodies>
   static Vec3<Value<To>> gather(const R* u, const std::int32_t* body, Bodies... minus) {
     auto line = [u](std::int32_t i) { return u + static_cast<std::size_t>(i) * line_words; };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file parallel.hpp  Independent pieces of work on all threads.
+/// \file parallel.hpp  Runs independent pieces of work on all threads.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace macadam {
 
-/// f(k) for k < n on all threads (or on this one where `threads` is false), in any order. An exception may not leave
-/// OpenMP's threads: all work is done, then the first of those thrown, by k, is thrown again.
+/// Calls f(k) for k < n on all threads (on the calling thread if `threads` is false), in any order. An exception cannot
+/// leave OpenMP's threads: all calls are made, then the exception of the lowest k is thrown again.
 template <class F>
 void for_each_in_parallel(std::size_t n, F&& f, bool threads = true) {
   std::vector<std::exception_ptr> thrown(n);
@@ -24,8 +24,8 @@ void for_each_in_parallel(std::size_t n, F&& f, bool threads = true) {
   }
 }
 
-/// Σ f(k) over k < n: sums of pieces, and then of these, in order, so that the bits do not depend on the threads.
-/// Exceptions as with for_each_in_parallel().
+/// Returns Σ f(k) over k < n. Pieces are summed first, then the sums of the pieces in order, so that the bits do not
+/// depend on the number of threads. Exceptions as with for_each_in_parallel().
 template <class T, class F>
 T sum_in_parallel(std::size_t n, F&& f) {
   constexpr std::size_t piece = 1 << 14;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file particle_motion.hpp  Eq. 1–2 of one body (docs/model.md, section 10): damping, leapfrog, displacement.
+/// \file particle_motion.hpp  The motion of one body in one step, Eq. 1–2 (docs/model.md, section 10): damping,
+/// leapfrog, displacement.
 #pragma once
 
 #include <cmath>
@@ -11,15 +12,16 @@
 
 namespace macadam::kernels {
 
-/// Arrays of the bodies; walls last. `velocity` is what contacts gather (Geometry precision), `master` what is
-/// integrated (Particle precision); the two are one array where the precisions are the same.
+/// Arrays of the bodies; the walls are last. Contacts read `velocity` (Geometry precision); `master` is integrated
+/// (Particle precision). Both are one array if the precisions are the same.
 template <class P>
 struct BodyView {
-  typename P::Geometry* velocity;       ///< [body][8] v [m/s], ω [rad/s]
-  typename P::Particle* master;         ///< [body][8] likewise
-  double* displacement;                 ///< [body][8] u [m], θ [rad]
-  const typename P::Particle* inverse;  ///< [body][2] Δt/m [s/kg], Δt/I [s/(kg·m²)]; 0 for what no force moves
-  const typename P::Particle* weight;   ///< [particle][4] body force [N]; null: none
+  typename P::Geometry* velocity;  ///< [body][8] v [m/s], ω [rad/s]
+  typename P::Particle* master;    ///< [body][8] v [m/s], ω [rad/s]
+  double* displacement;            ///< [body][8] u [m], θ [rad]
+  /// [body][2] Δt/m [s/kg], Δt/I [s/(kg·m²)]; 0 for bodies that forces do not move.
+  const typename P::Particle* inverse;
+  const typename P::Particle* weight;  ///< [particle][4] body force [N]; null: none
   std::int32_t particles;
 };
 
@@ -30,12 +32,13 @@ struct ParticleMotion {
   BodyView<P> body;
   Damping damping;
   R chi;         ///< local damping; 0: none
-  R keep, gain;  ///< of viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 + βΔt/2); 1 and 1 without
-  double dt;     ///< [s]
+  R keep, gain;  ///< factors of v and of the force in viscous damping, model (10.1): (1 − βΔt/2)/(1 + βΔt/2) and 1/(1 +
+                 ///< βΔt/2); both 1 without
+  double dt;  ///< [s]
   WallMotion<R> wall;
 
-  /// Body i: v ← v + Δt·(F + F_d)/m, u ← u + Δt·v for a particle, likewise its spin and rotation; walls do what row k
-  /// of their table says.
+  /// Moves body i: for a particle v ← v + Δt·(F + F_d)/m, u ← u + Δt·v, and likewise its spin and rotation; a wall
+  /// moves as row k of its table prescribes.
   MACADAM_HD void operator()(std::int32_t i, const Twist<R>& force, std::int64_t k) const {
     const R f[6] = {force.linear.x, force.linear.y, force.linear.z, force.angular.x, force.angular.y, force.angular.z};
     const bool particle = i < body.particles;
@@ -50,8 +53,8 @@ struct ParticleMotion {
     }
   }
 
-  /// The same for word w of [v, –, ω, –] alone, with word w of force and moment: a thread a word. `pushed`: there are
-  /// body forces, or walls under forces.
+  /// Moves only word w of [v, –, ω, –] of body i, under word w of force and moment; one thread per word. `pushed`:
+  /// there are body forces, or walls driven by forces.
   template <bool pushed>
   MACADAM_HD void word(std::int32_t i, int w, R force, std::int64_t k) const {
     const std::size_t at = place(i, w);
@@ -63,22 +66,23 @@ struct ParticleMotion {
     }
   }
 
-  /// Gives word `at` of the bodies its velocity v for a step.
+  /// Sets word `at` of the velocities to v, and moves the displacement by Δt·v.
   MACADAM_HD void set(std::size_t at, R v) const {
     if constexpr (!std::is_same_v<typename P::Geometry, R>) body.velocity[at] = static_cast<typename P::Geometry>(v);
     displace(at, v);
   }
+  /// Sets word `at` of the integrated velocities to v, and moves the displacement by Δt·v.
   MACADAM_HD void displace(std::size_t at, R v) const {
     body.master[at] = v;
     if (at % 4 != 3) body.displacement[at] = multiply_add(dt, double(v), body.displacement[at]);
   }
-  /// Of word w of body i in the arrays of velocities and of displacements.
+  /// Returns the index of word w of body i in the arrays of velocities and of displacements.
   MACADAM_HD static std::size_t place(std::int32_t i, int w) {
     static_assert(velocity_words == displacement_words);
     return static_cast<std::size_t>(i) * velocity_words + static_cast<std::size_t>(w);
   }
 
-  /// Velocity of a wall along an axis; `force`: of the particles on it.
+  /// Returns the velocity of a wall along an axis after step k. `force`: exerted by the particles on it.
   template <bool pushed>
   MACADAM_HD R of_wall(std::int32_t i, int axis, R v, R force, std::int64_t k) const {
     const int number = i - body.particles;
@@ -92,9 +96,9 @@ struct ParticleMotion {
 #else
   static constexpr bool on_device = false;
 #endif
-  /// v half a step later.
+  /// Returns the velocity half a step after the force f, from the velocity v half a step before it, with damping.
   MACADAM_HD R moved(R v, R f, R inverse) const {
-    if (on_device || damping == Damping::local) {                // on a device χ = 0 costs less than a branch
+    if (on_device || damping == Damping::local) {  // on a device, computing with χ = 0 costs less than a branch
       const R against = v == 0 ? R(0) : std::copysign(chi, -v);  // F_d = −χ·|F|·sign(v)
       f = multiply_add(against, f < 0 ? -f : f, f);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file pinned_copies.hpp  Copies from a device that goes on, by way of memory that it writes itself.
+/// \file pinned_copies.hpp  Copies from a device that continues to work, through pinned host memory that the device
+/// writes directly.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 namespace macadam::kernels {
 
-/// Two copies of up to `size` items, by turns, on the stream of a team's first member.
+/// Two buffers for copies of up to `size` items each, on the stream of a team's first member.
 template <class T>
 class PinnedCopies {
  public:
@@ -19,16 +20,18 @@ class PinnedCopies {
   }
   PinnedCopies(const PinnedCopies&) = delete;
   ~PinnedCopies() {
-    team_.wait_for_the_last();  // a copy may be under way, and kernels before it on other members
+    team_.wait_for_the_last();  // a copy may be in progress, and kernels before it on other members
     cudaFreeHost(host_);
     for (cudaEvent_t e : copied_) cudaEventDestroy(e);
   }
   std::size_t size() const { return size_; }
+  /// Enqueues a copy into buffer `slot` (0 or 1).
   void copy(const T* from, std::size_t count, int slot) const {
     check_cuda(cudaMemcpyAsync(host_ + slot * size_, from, count * sizeof(T), cudaMemcpyDeviceToHost, team_.stream()),
                "copy from the device");
     check_cuda(cudaEventRecord(copied_[slot], team_.stream()), "copy from the device");
   }
+  /// Waits for the copy into buffer `slot` and returns it.
   const T* wait(int slot) const {
     check_cuda(cudaEventSynchronize(copied_[slot]), "copy from the device");
     return host_ + slot * size_;
@@ -41,14 +44,15 @@ class PinnedCopies {
   cudaEvent_t copied_[2] = {};
 };
 
-/// A long array in parts: while one is taken, the next is copied. A copy into usual memory is the work of one thread,
-/// and takes five times as long.
+/// Copies a long array in parts: while one part is used, the next one is copied. A copy into pageable memory would keep
+/// one thread busy and take five times as long.
 template <class T>
 class PinnedParts {
  public:
   explicit PinnedParts(const DeviceTeam& team) : copies_(team, (std::size_t{8} << 20) / sizeof(T)) {}
 
-  /// take(number of the part's first item, part, count) for each part in turn; what is in `from` is there by now.
+  /// Calls take(index of the part's first item, part, count) for each part in turn. The work that fills `from` is in
+  /// the team's stream before.
   template <class Take>
   void copy(const T* from, std::size_t count, Take&& take) const {
     const std::size_t part = copies_.size(), parts = (count + part - 1) / part;

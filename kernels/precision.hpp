@@ -6,8 +6,9 @@
 
 namespace macadam::kernels {
 
-/// State: chain states and carried frames. Geometry: normals, arms, moments, gathered velocities. Particle: master
-/// velocities and force sums. Displacements are double in all: they add up small steps.
+/// State: states of chains, and carried frames. Geometry: normals, arms, moments, and velocities that contacts read.
+/// Particle: integrated velocities and sums of forces. Displacements are always double, because they add up small
+/// steps.
 struct DoublePrecision {
   using State = double;
   using Geometry = double;

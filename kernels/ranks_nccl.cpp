@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ranks_nccl.cpp  Processes begun by MPI, whose devices send each other messages by NCCL.
+// ranks_nccl.cpp  Processes started by MPI, whose devices send each other messages by NCCL.
 #include <mpi.h>
 #include <nccl.h>
 
@@ -13,6 +13,7 @@
 namespace macadam::kernels {
 namespace {
 
+/// \throws RunError with MPI's message if `status` is an error.
 void check_mpi(int status, const char* what) {
   if (status == MPI_SUCCESS) return;
   char text[MPI_MAX_ERROR_STRING] = "";
@@ -21,14 +22,16 @@ void check_mpi(int status, const char* what) {
   throw RunError(std::string("MPI: ") + what + ": " + text);
 }
 
+/// Ranks by MPI, with device messages by NCCL.
 class NcclRanks final : public Ranks {
  public:
   NcclRanks() {
     int begun = 0, given = 0;
-    MPI_Initialized(&begun);  // by mpi4py, for example, which then ends it too
+    MPI_Initialized(&begun);  // by mpi4py, for example, which then finalizes it too
     began_ = !begun;
     if (began_) check_mpi(MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &given), "start");
-    check_mpi(MPI_Comm_dup(MPI_COMM_WORLD, &all_), "ranks");  // apart from what else the program sends
+    // A communicator separate from the program's other messages
+    check_mpi(MPI_Comm_dup(MPI_COMM_WORLD, &all_), "ranks");
     MPI_Comm_set_errhandler(all_, MPI_ERRORS_RETURN);
     MPI_Comm on_host = MPI_COMM_NULL;
     check_mpi(MPI_Comm_rank(all_, &number_), "rank");
@@ -105,8 +108,10 @@ class NcclRanks final : public Ranks {
   ncclComm_t link_ = nullptr;
 };
 
+/// Joins the processes; always returns the same object.
 Ranks* join() {
-  static NcclRanks* const joined = new NcclRanks;  // stays: a communicator may not go after the driver
+  // Never deleted: a communicator must not be destroyed after the driver
+  static NcclRanks* const joined = new NcclRanks;
   return joined;
 }
 

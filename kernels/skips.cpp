@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips.cpp  What a network cannot do, so that the step need not.
+// skips.cpp  Finds motions that a network cannot make, so that the step can leave them out.
 #include <cmath>
 
 #include "macadam/stepper.hpp"

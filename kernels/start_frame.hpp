@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file start_frame.hpp  Frame and chains of a contact that starts in motion: docs/model.md, section 18.
+/// \file start_frame.hpp  Frame and chains of a contact in a start from the steady state: docs/model.md, section 18.
 #pragma once
 
 #include "macadam/stepper.hpp"
 
 namespace macadam::kernels {
 
-/// ŝ of the undeformed contact, carried to step −1: by the smallest rotation that takes one normal to the other, then
-/// about the normal by the pair's mean rotation.
+/// Returns ŝ of the undeformed contact carried to step −1: turned by the smallest rotation that takes the initial
+/// normal to the current one, then about the normal by the pair's mean rotation.
 inline Vec3d carried_to_start(const Contact& c, const StartState& start) {
   const auto a = static_cast<std::size_t>(c.a), b = static_cast<std::size_t>(c.b);
   const Vec3d branch = c.b >= 0 ? c.distance * c.n + (start.displacement[b] - start.displacement[a]) : c.n;
@@ -19,14 +19,16 @@ inline Vec3d carried_to_start(const Contact& c, const StartState& start) {
   return (1 / norm(spun)) * spun;
 }
 
-/// Chains of a contact with `words` numbers each. A point (s, t) follows the facet's rigid motion and the law is
-/// linear, so its chains are sums of the facet's six.
+/// Chains of a contact with `words` numbers each. A point (s, t) follows the rigid motion of the facet and the law is
+/// linear, so the chains of a point are linear combinations of the facet's six chains.
 struct StartChain {
   const double* six;
   std::size_t words;
+  /// Word `word` of a chain of the facet.
   double facet(int component, std::size_t word) const {
     return six[static_cast<std::size_t>(component) * words + word];
   }
+  /// Word `word` of a chain of the point (s, t).
   double point(int component, std::size_t word, double s, double t) const {
     switch (component) {
       case 0:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file state_list.hpp  The arrays that a step changes, named once: checkpoints copy and replace them through this
-/// list.
+/// \file state_list.hpp  The list of arrays that a step changes. Checkpoints copy and replace them through this list.
 #pragma once
 
 #include <algorithm>
@@ -16,13 +15,14 @@
 
 namespace macadam::kernels {
 
-/// Where an executor's arrays live (host or device) is the business of the two functions given for each.
+/// For each array, two functions copy and replace its values, so that the list does not depend on where the array lives
+/// (host or device).
 class StateList {
  public:
   using Order = std::function<StateOrder()>;
 
-  /// Takes an array of `size` numbers of type T. Empty ones are left out. `order`: made when needed; none: the array
-  /// goes into a checkpoint as it is.
+  /// Adds an array of `size` numbers of type T; an empty array is left out. `order`: order of the array in a
+  /// checkpoint, made when needed; without it the array is stored as it is.
   template <class T>
   void add(const std::string& name, const std::string& unit, std::size_t size, std::function<std::vector<T>()> copy,
            std::function<void(const std::vector<T>&)> replace, const Order& order = {}) {
@@ -44,7 +44,7 @@ class StateList {
                         }});
   }
 
-  /// Takes an array of the host's memory.
+  /// Adds an array in host memory.
   template <class T, class A>
   void add(const std::string& name, const std::string& unit, std::vector<T, A>& array, Order order = {}) {
     add<T>(
@@ -55,15 +55,15 @@ class StateList {
 
   void clear() { entries_.clear(); }
 
-  /// Host copies of all, in the order in which they were added.
+  /// Returns host copies of all arrays, in the order in which they were added.
   std::vector<StateArray> copy() const {
     std::vector<StateArray> out;
     for (const Entry& e : entries_) out.push_back({e.name, e.unit, e.copy()});
     return out;
   }
 
-  /// Replaces all by the arrays of the same names, in any order and among others, or none. \throws RunError naming the
-  /// array that does not fit.
+  /// Replaces all arrays by those of the same names, which may be in any order and among others. If one does not fit,
+  /// replaces none. \throws RunError naming the array that does not fit.
   void replace(std::span<const StateArray> arrays) const {
     std::vector<const StateArray*> found;
     for (const Entry& e : entries_) {
@@ -82,7 +82,8 @@ class StateList {
   struct Entry {
     std::string name, unit;
     std::function<StateArray::Values()> copy;
-    std::function<std::size_t(const StateArray::Values&)> missing;  // 0: it fits; else the length that does
+    // 0: the array fits; otherwise the length that it should have
+    std::function<std::size_t(const StateArray::Values&)> missing;
     std::function<void(const StateArray::Values&)> replace;
   };
   std::vector<Entry> entries_;

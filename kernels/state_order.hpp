@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file state_order.hpp  Where an executor keeps the numbers of a checkpoint, which has them in the order of the
-/// specimen and of the network.
+/// \file state_order.hpp  Where the numbers of a checkpoint, which are in the order of the specimen and the network,
+/// are in the arrays of an executor.
 #pragma once
 
 #include <algorithm>
@@ -11,21 +11,23 @@
 
 namespace macadam::kernels {
 
-/// Of an array of items with the same words each: word k of item i of a checkpoint is at first[i] + word[k] of the
-/// executor's array, and at twin[i] + word[k] too where the executor has it twice.
+/// Order of an array of items with the same words each. Word k of item i of a checkpoint is at first[i] + word[k] of
+/// the executor's array. If the executor has the item twice, the word is also at twin[i] + word[k].
 struct StateOrder {
   static constexpr std::uint64_t none = UINT64_MAX;
   std::vector<std::uint64_t> first, word;
-  std::vector<std::uint64_t> twin;  ///< empty, or one an item: `none` for no second place
+  std::vector<std::uint64_t> twin;  ///< empty, or one per item: `none` if there is no second place
 
   std::size_t size() const { return first.size() * word.size(); }
 
+  /// Returns the numbers in the order of a checkpoint, from the executor's array `own`.
   template <class T>
   std::vector<T> gathered(const std::vector<T>& own) const {
     std::vector<T> out(size());
     each([&](std::size_t i, std::size_t k, std::size_t at) { out[at] = own[first[i] + word[k]]; });
     return out;
   }
+  /// Writes numbers in the order of a checkpoint into the executor's array `own`.
   template <class T>
   void scatter(const std::vector<T>& from, std::vector<T>& own) const {
     each([&](std::size_t i, std::size_t k, std::size_t at) {
@@ -43,14 +45,14 @@ struct StateOrder {
   }
 };
 
-/// 0, stride, 2·stride, …
+/// Returns 0, stride, 2·stride, …
 inline std::vector<std::uint64_t> strided(std::size_t count, std::size_t stride) {
   std::vector<std::uint64_t> out(count);
   for (std::size_t k = 0; k < count; ++k) out[k] = k * stride;
   return out;
 }
 
-/// Arrays [body][words], or of the particles alone.
+/// Returns the order of arrays [body][words], with or without the walls.
 inline StateOrder body_order(const Layout& layout, std::size_t words, bool with_walls = true) {
   StateOrder out{{}, strided(words, 1), {}};
   const std::size_t n = layout.particles();
@@ -59,7 +61,7 @@ inline StateOrder body_order(const Layout& layout, std::size_t words, bool with_
   return out;
 }
 
-/// The slots of a group that have contacts, by the contacts' numbers.
+/// Returns the slots of a group that have contacts, in the order of the contacts' numbers.
 inline std::vector<std::uint32_t> slots_in_order(const GroupLayout& group) {
   std::vector<std::uint32_t> out;
   for (std::uint32_t slot = 0; slot < group.contact.size(); ++slot) {
@@ -69,7 +71,7 @@ inline std::vector<std::uint32_t> slots_in_order(const GroupLayout& group) {
   return out;
 }
 
-/// Arrays [packet][words][lane] of a group, or, by points, [row][words][lane].
+/// Returns the order of arrays [packet][words][lane] of a group or, with `by_points`, [row][words][lane].
 inline StateOrder contact_order(const Layout& layout, const GroupLayout& group, std::size_t words, bool by_points) {
   const auto lanes = static_cast<std::size_t>(layout.lanes);
   StateOrder out{{}, strided(words, lanes), {}};
@@ -82,7 +84,8 @@ inline StateOrder contact_order(const Layout& layout, const GroupLayout& group, 
   return out;
 }
 
-/// Of the chains of a group, or of its frames. The arrays are there as long as the view's numbers are.
+/// Returns the order of the chains of a group, or of its frames, as a function. `layout` and `group` must live as long
+/// as it.
 template <class P>
 auto state_order(const Layout& layout, const GroupLayout& group, const ContactView<P>& view, bool chains) {
   const auto words = static_cast<std::size_t>(chains ? view.components * (1 + view.units) : view.frame_words);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepper_impl.hpp  The step, for any executor. stepper_cpu_*.cpp and stepper_cuda_*.cu compile it.
+/// \file stepper_impl.hpp  The stepper, for any executor (executor.hpp): prepares inputs, passes steps on to the
+/// executor, and converts its arrays to the order of the specimen. stepper_cpu_*.cpp and stepper_cuda_*.cu compile it.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,7 @@
 
 namespace macadam::kernels {
 
-/// Calls f(std::integral_constant) for the value of an enum of two.
+/// Calls f(std::integral_constant) with the value of an enum that has two values.
 template <auto First, auto Second, class F>
 void dispatch(decltype(First) value, F&& f) {
   if (value == First)
@@ -33,6 +34,7 @@ void dispatch(decltype(First) value, F&& f) {
     f(std::integral_constant<decltype(First), Second>{});
 }
 
+/// The stepper of one executor. Its public functions are documented in macadam/stepper.hpp.
 template <Executor Exec>
 class StepperImpl final : public Stepper {
  public:
@@ -52,8 +54,8 @@ class StepperImpl final : public Stepper {
   StepperImpl(const StepperImpl&) = delete;
   ~StepperImpl() override { exec_.use_device(); }
 
-  /// Begins anew with other options, of the network that it was made of. False, with nothing changed, where what is
-  /// kept does not suit them, or laws of another kind.
+  /// Starts again with other options, for the network that the stepper was made of. Returns false and changes nothing
+  /// if the arrays it holds do not suit these options, or if the laws are of other kinds.
   bool begin_again(const ContactNetwork& network, const Laws& laws, const Inertia& inertia,
                    const StepperOptions& options) {
     const FactsTable facts = facts_of(laws);
@@ -77,7 +79,7 @@ class StepperImpl final : public Stepper {
       StepsToTake all{step_, step_ + steps};
       queue_until(all.end, all);
       exec_.wait();
-    } catch (...) {  // of a drive, or of the device
+    } catch (...) {  // thrown by a drive or by the device
       exec_.end_steps();
       throw;
     }
@@ -236,7 +238,8 @@ class StepperImpl final : public Stepper {
   }
 
  private:
-  /// Whether laws keep states of the same kinds and numbers, and act on the same components with the same shear.
+  /// Returns whether two tables of laws have states of the same kinds and sizes, and act on the same components with
+  /// the same shear.
   static bool keep_alike(const FactsTable& a, const FactsTable& b) {
     const auto kind = [](const LawFacts& f) {
       return std::tuple(std::string_view(f.name), f.alpha, f.units, f.only_units, f.memoryless, f.linear, f.blocks,
@@ -246,7 +249,7 @@ class StepperImpl final : public Stepper {
       return x && y ? kind(*x) == kind(*y) : x.has_value() == y.has_value();
     });
   }
-  /// Rotations are skipped only where nothing turns, at the start or later.
+  /// Returns the options with `skip_rotations` set only if nothing can turn, now or later.
   static StepperOptions decided(StepperOptions options, const ContactNetwork& network, const FactsTable& laws) {
     options.skip_rotations = options.skip_rotations && nothing_turns(network, laws);
     return options;
@@ -257,7 +260,8 @@ class StepperImpl final : public Stepper {
     return out;
   }
 
-  /// All that the options decide. The first time, the groups are made and kept; later only their states are.
+  /// Applies everything that the options decide. The first time, makes the groups, which are kept; later only sets
+  /// their states.
   void begin(const ContactNetwork& network, const Laws& laws, const Inertia& inertia, bool first) {
     exec_.use_device();
     const StepperOptions& options = options_;
@@ -283,7 +287,7 @@ class StepperImpl final : public Stepper {
       const auto b = static_cast<std::size_t>(layout_.body_of(i));
       inverse[2 * b] = inverse[2 * b + 1] = R(0);
     }
-    for (std::size_t w = 0; w < wall_count; ++w) {  // density scaling as the particles
+    for (std::size_t w = 0; w < wall_count; ++w) {  // with the same density scaling as the particles
       const double mass = boundary.wall[w].mass * options.density_scaling;
       if (mass > 0) inverse[2 * (layout_.particles() + w)] = static_cast<R>(options.dt / mass);
     }
@@ -319,13 +323,14 @@ class StepperImpl final : public Stepper {
     options_.start = nullptr;
   }
 
-  /// Takes the step from −1 to 0: forces of step −1 are not needed, as velocities are given half a step later.
+  /// Takes the step from −1 to 0. It needs no forces of step −1, because the given velocities are those half a step
+  /// later.
   void start_from(const StartState& start) {
     std::vector<Vec3d> velocity = start.velocity, spin = start.spin;
     for (auto* list : {&velocity, &spin}) {
-      for (Vec3d& v : *list) v = (1 / static_cast<double>(motion_.keep)) * v;  // the step damps them again
+      for (Vec3d& v : *list) v = (1 / static_cast<double>(motion_.keep)) * v;  // the step will apply damping again
     }
-    if (options_.skip_rotations) spin.assign(spin.size(), {});  // rounding of the solution
+    if (options_.skip_rotations) spin.assign(spin.size(), {});  // spins in the solution are only rounding errors
     set_velocities(velocity, spin);
     std::vector<double> u = exec_.displacements();
     for (std::size_t b = 0; b < layout_.particles(); ++b) {
@@ -346,7 +351,7 @@ class StepperImpl final : public Stepper {
     advance(1);
   }
 
-  /// \throws InputError where a law is not linear and the form rests on that.
+  /// \throws InputError if a law is not linear and the contact form requires that.
   const LawFacts& fact_of(const FactsTable& facts, PairType pair) const {
     const LawFacts& law = facts[static_cast<std::size_t>(pair)].value();
     if (law.linear || options_.form == ContactForm::points) return law;
@@ -368,11 +373,11 @@ class StepperImpl final : public Stepper {
 
   static constexpr bool takes_notes = requires(Exec & e, const std::vector<double>& radius) { e.most_notes(radius); };
 
-  /// Steps that are queued one part after the other, and the rows of the walls' table that are there for them.
+  /// Steps that are enqueued in several parts, and the rows of the walls' table that are filled in for them.
   struct StepsToTake {
     std::int64_t begin, end, row = 0, rows = 0;
   };
-  /// Queues steps up to number `to`: the end or, where notes are taken, any before it.
+  /// Enqueues steps up to number `to`, which is the end or, if samples are taken, any step before it.
   void queue_until(std::int64_t to, StepsToTake& all) {
     while (step_ < to) {
       if (all.row == all.rows) {
@@ -388,7 +393,7 @@ class StepperImpl final : public Stepper {
     }
   }
 
-  /// As advance_sampled(), of an executor that takes notes.
+  /// Does the same as advance_sampled(), for an executor that takes samples on the device (notes).
   std::vector<Sample> advance_noted(std::int64_t every, std::int64_t times) {
     StepsToTake all{step_, step_ + every * times};
     std::vector<Sample> out;
@@ -412,7 +417,7 @@ class StepperImpl final : public Stepper {
     return out;
   }
 
-  /// `moved`, `speed`: of the walls, read only where walls are under forces.
+  /// `moved`, `speed`: displacements and velocities of the walls, read only if walls are driven by forces.
   Observation observation(std::int64_t step, const std::vector<Twist<R>>& forces, const std::vector<double>& moved,
                           const std::vector<R>& speed) const {
     Observation out;
@@ -437,7 +442,7 @@ class StepperImpl final : public Stepper {
     return out;
   }
 
-  /// Calls f(law, functor) with the functor that steps its contacts, without a view.
+  /// Calls f(law, functor) with the functor that steps the law's contacts; its view is not set.
   template <class F>
   void with_functor(const typename Exec::AnyLaw& any, F&& f) const {
     using State = typename P::State;
@@ -473,10 +478,10 @@ class StepperImpl final : public Stepper {
   ParticleMotion<P> motion_{};
   WallTable<R> wall_table_;
   std::int64_t step_ = 0;
-  bool started_ = false;  // in motion: from a step before the first
+  bool started_ = false;  // whether the start was in motion, at a step before the first
 };
 
-/// A used stepper begun anew where it suits, or a new one.
+/// Returns the used stepper, started again, if it suits; otherwise makes a new one.
 template <Executor Exec>
 std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const ContactNetwork& network,
                                          const std::array<std::optional<typename Exec::AnyLaw>, pair_types>& laws,
@@ -485,7 +490,7 @@ std::unique_ptr<Stepper> make_stepper_on(const Specimen& specimen, const Contact
   require_input(specimen.size(), network, facts_of(laws), options);
   auto* again = dynamic_cast<StepperImpl<Exec>*>(used.get());
   if (again && again->begin_again(network, laws, inertia, options)) return used;
-  used.reset();  // before another takes memory
+  used.reset();  // frees its memory before the new one is made
   return std::make_unique<StepperImpl<Exec>>(specimen, network, laws, inertia, options);
 }
 

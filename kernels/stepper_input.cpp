@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_input.cpp  Laws, damping, boundary and start of a stepper, looked at before anything is made.
+// stepper_input.cpp  Checks laws, damping, boundary and start of a stepper before anything is made.
 #include "kernels/stepper_input.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ std::string shown(double x) {
   return text;
 }
 
-/// A start state must be one of this network.
+/// Checks that a start state belongs to this network, and that laws and boundary allow such a start.
 void require_start(std::size_t particles, const ContactNetwork& network, const FactsTable& laws,
                    const StepperOptions& options) {
   const StartState& start = *options.start;
@@ -56,7 +56,7 @@ void require_start(std::size_t particles, const ContactNetwork& network, const F
   }
 }
 
-/// Drives must be there, of the stepper's step, and platens must have a mass.
+/// Checks that every driven axis has a drive with the stepper's time step, and that a wall under a force has a mass.
 void require_boundary(std::size_t particles, const StepperOptions& options) {
   const Boundary& boundary = options.boundary;
   const auto refuse = [](const std::string& what, const std::string& found, const std::string& expected) {

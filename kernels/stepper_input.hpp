@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepper_input.hpp  What every stepper asks of its input, whatever the backend.
+/// \file stepper_input.hpp  The checks of a stepper's input that are the same for every backend.
 #pragma once
 
 #include "macadam/stepper.hpp"
 
 namespace macadam::kernels {
 
-/// \throws InputError naming the pair without a law, the wall, the particle or the array that does not fit.
+/// \throws InputError naming the pair without a law, or the wall, particle or array that does not fit.
 void require_input(std::size_t particles, const ContactNetwork& network, const FactsTable& laws,
                    const StepperOptions& options);
 

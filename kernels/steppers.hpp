@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file steppers.hpp  Makers of the backends' steppers in the precision that the options ask for.
+/// \file steppers.hpp  Functions that make the steppers of the backends, and that ask about CUDA devices.
 #pragma once
 
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace macadam::kernels {
 
-/// Other arguments as make_stepper(); `P` is the precision (precision.hpp), whatever the options say, `Any` the list of
-/// laws, std::variant<…>. Without a device in the options, the first one. Defined in make_cpu.hpp and make_cuda.hpp,
-/// compiled for Macadam's own laws in stepper_*.
+/// Makes a stepper in precision `P` (precision.hpp), whatever the options say. `Any`: the list of laws,
+/// std::variant<…>. Other arguments as for make_stepper(). Without a device in the options, uses the first one. Defined
+/// in make_cpu.hpp and make_cuda.hpp, and compiled for Macadam's own laws in stepper_*.
 /// @{
 template <class P, class Any>
 std::unique_ptr<Stepper> make_cpu_in(const Specimen& specimen, const ContactNetwork& network,
@@ -22,19 +22,20 @@ std::unique_ptr<Stepper> make_cuda_in(const Specimen& specimen, const ContactNet
                                       const StepperOptions& options, std::unique_ptr<Stepper> used);
 /// @}
 
-/// The backend that makes a stepper: cpu, or, where the program has kernels for devices, maybe cuda; `options.devices`
-/// are then their numbers. \throws as select_backend(), RunError for a device that the program has no kernels for,
-/// InputError for the reference, which knows Macadam's own laws alone.
+/// Returns the backend that makes a stepper: cpu or, if the program has kernels for devices (`on_device`), possibly
+/// cuda; `options.devices` then holds their numbers. \throws as select_backend(); RunError if a device is asked for but
+/// the program has no kernels for it; InputError for the reference, which only supports Macadam's own laws.
 Backend resolved(Backend asked, bool on_device, StepperOptions& options);
 
-/// Only in builds with CUDA: fills the report's devices and status, without a context on any of them.
+/// Fills in the devices and the status of the report, without creating a context on any device. Only in builds with
+/// CUDA.
 void report_cuda_devices(BackendReport& report);
-/// Only in builds with CUDA: why this device cannot run the kernels, as the one that is to; empty where it can.
+/// Returns why this device cannot run the kernels; empty if it can. Creates a context on it. Only in builds with CUDA.
 std::string cuda_refusal(int device);
-/// Only in builds with CUDA: whether `device` is like `first`, the two reach each other's memory, and no process, this
-/// one neither, computes on it. Makes no context.
+/// Returns whether `device` is of the same model as `first`, the two can access each other's memory, and no process,
+/// including this one, computes on it. Creates no context. Only in builds with CUDA.
 bool cuda_idle_beside(int device, int first);
-/// Only in builds with CUDA: as macadam::measure_device().
+/// As macadam::measure_device(). Only in builds with CUDA.
 DeviceSpeed measure_device(int device);
 
 }  // namespace macadam::kernels

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file thread_choice.hpp  All threads, or one: whichever has been faster of late.
+/// \file thread_choice.hpp  Chooses between all threads and one thread, whichever has been faster recently.
 ///
-/// Threads wait for each other twice a step. Where other programs want the same cores, one that waits for a thread
-/// without a core waits for milliseconds, and two threads become many times slower than one (measured beside a build on
-/// two cores: twenty times). Results are the same bits for any number of threads, so the choice may change at any step.
+/// Threads wait for each other twice per step. If other programs use the same cores, a thread waits milliseconds for
+/// another one that has no core, and two threads become many times slower than one (measured beside a build on two
+/// cores: twenty times). Results are the same bits for any number of threads, so the choice may change at any step.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,18 @@
 
 namespace macadam::kernels {
 
+/// Measures steps with all threads and with one, and chooses the faster.
 class ThreadChoice {
  public:
-  /// `all`: threads there are; `fixed`: whether all are always taken.
+  /// `all`: number of threads; `fixed`: always use all of them.
   ThreadChoice(int all, bool fixed) : all_(all), fixed_(fixed || all == 1) {}
 
-  /// Threads to take next, and for how many steps at the most.
+  /// Number of threads to use next, and the largest number of steps to take with them.
   struct Next {
     int threads;
     std::int64_t steps;
   };
+  /// Returns the number of threads and steps to take next: now and then a short trial of the other choice.
   Next next() const {
     if (fixed_) return {all_, INT64_MAX};
     const double step = step_[one_thread()];
@@ -29,7 +31,7 @@ class ThreadChoice {
             step > 0 ? std::max<std::int64_t>(1, static_cast<std::int64_t>(seconds / step)) : 16};
   }
 
-  /// What the steps of the last next() took.
+  /// Reports how long the steps of the last next() took.
   void took(std::int64_t steps, double seconds) {
     if (fixed_) return;
     double& step = step_[one_thread()];
@@ -38,12 +40,12 @@ class ThreadChoice {
     if (!on_trial()) {
       until_trial_ -= seconds;
       const bool changed = before > 0 && (step > 1.5 * before || before > 1.5 * step);
-      if (changed) until_trial_ = 0, pause_ = first_pause;  // somebody else has come or gone
+      if (changed) until_trial_ = 0, pause_ = first_pause;  // another program has started or ended
       return;
     }
     const bool was = one_faster_;
     one_faster_ = step_[1] > 0 && step_[1] < step_[0];
-    // a choice that stands is questioned ever more seldom, so that trials cost some hundredths at the most
+    // the longer a choice has held, the less often it is questioned, so that trials cost a few per cent at most
     pause_ = one_faster_ == was ? std::min(2 * pause_, longest_pause) : first_pause;
     until_trial_ = std::max(pause_, 20 * seconds);
   }
@@ -56,7 +58,7 @@ class ThreadChoice {
 
   int all_;
   bool fixed_, one_faster_ = false;
-  double step_[2] = {0, 0};  ///< seconds a step with all threads, and with one
+  double step_[2] = {0, 0};  ///< seconds per step with all threads, and with one
   double until_trial_ = first_pause, pause_ = first_pause;
 };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tile_accumulators.hpp  Where a tile's contacts add their loads, and which accumulators make a body's sum.
+/// \file tile_accumulators.hpp  On the CPU: which accumulator each contact adds its loads to, and which accumulators
+/// are the sum of a body.
 ///
-/// Each tile has one accumulator for each of its bodies and, after them, one for each body of elsewhere that its
-/// contacts touch (halo). A body's sum is its own accumulator and then its halo row, in tile order: fixed by the scene,
-/// not by the threads.
+/// Each tile has one accumulator for each of its bodies and, after them, one for each body of another tile that its
+/// contacts touch (halo). The load on a body is its own accumulator plus those of its halo row, in the order of the
+/// tiles. So the order of additions depends on the specimen, not on the number of threads.
 #pragma once
 
 #include <unordered_map>
@@ -13,10 +14,11 @@
 
 namespace macadam::kernels {
 
+/// The accumulators of all tiles; one is eight words of force and moment.
 struct TileAccumulators {
   std::vector<std::uint32_t> tile_begin;      ///< tile → first accumulator; tiles + 1 entries
-  std::vector<std::uint32_t> row_begin, row;  ///< body → accumulators in other tiles (walls: all of theirs)
-  /// Accumulators of the two ends of each slot, one vector a group.
+  std::vector<std::uint32_t> row_begin, row;  ///< body → its accumulators in other tiles; for walls, all of them
+  /// Accumulators of the two ends of each slot, one vector per group.
   std::vector<std::vector<std::uint32_t>> end_a, end_b;
 
   std::size_t size() const { return tile_begin.back(); }

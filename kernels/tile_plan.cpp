@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tile_plan.cpp  Contacts, halo, ranks and slots of every tile.
+// tile_plan.cpp  Computes contacts, halo, ranks and slots of every tile; tile_plan.hpp explains the words.
 #include "kernels/tile_plan.hpp"
 
 #include <algorithm>
@@ -13,16 +13,16 @@
 namespace macadam::kernels {
 namespace {
 
-/// A contact that touches a tile.
+/// A contact that touches a tile's particles.
 struct Touch {
   std::int32_t a, b;  ///< bodies
   std::uint32_t group, group_slot, wall_row;
-  bool ends_run;  ///< of contacts whose end A is the same body
+  bool ends_run;  ///< last contact of its run
 };
 
 using Run = std::vector<std::uint32_t>;
 
-/// Pairs of contacts in columns, which a thread takes from one end to the other, and runs of one.
+/// Runs of two contacts as columns (a thread steps a column from one end to the other), and runs of one contact.
 struct Columns {
   static_assert(TilePlan::run == 2);
   using Column = std::array<std::uint32_t, TilePlan::run>;
@@ -40,7 +40,7 @@ struct Columns {
   }
 };
 
-/// A tile, whose places and packets count from 0.
+/// The plan of one tile, with places and packets counted from 0.
 struct TilePart {
   Tile tile{};
   std::vector<std::int32_t> body, halo;
@@ -48,11 +48,13 @@ struct TilePart {
   std::vector<TileContact> contact;
 };
 
+/// Makes the plan of all tiles of a layout.
 class Planner {
  public:
   Planner(const ContactNetwork& network, const Layout& layout, const std::vector<bool>& begins_share)
       : network_(network), layout_(layout), begins_share_(begins_share), tile_of_(tiles_of(layout)) {}
 
+  /// Plans all tiles in parallel, then joins their plans in order.
   TilePlan plan() {
     find_touches();
     std::vector<TilePart> parts(layout_.tiles());
@@ -68,7 +70,7 @@ class Planner {
 
  private:
   static std::size_t at(std::int32_t i) { return static_cast<std::size_t>(i); }
-  /// The next multiple.
+  /// Returns n rounded up to a multiple of `of`.
   static std::size_t whole(std::size_t n, std::size_t of) { return (n + of - 1) / of * of; }
   bool is_wall(std::int32_t body) const { return at(body) >= layout_.particles(); }
   static bool is_halo(const Tile& tile, std::uint32_t local) {
@@ -76,7 +78,8 @@ class Planner {
   }
   bool owns(int tile, std::int32_t body) const { return !is_wall(body) && tile_of_[at(body)] == tile; }
 
-  /// Contacts in order of their numbers.
+  /// Fills in `touches_`: the contacts that touch each tile, in order of their numbers. Contacts between two tiles
+  /// appear in both.
   void find_touches() {
     touches_.resize(layout_.tiles());
     std::vector<std::uint32_t> next_row(walls + 1, 0);
@@ -112,6 +115,7 @@ class Planner {
     }
   }
 
+  /// Appends the plan of tile t to the plan of all tiles and shifts its places and packets.
   void add_tile(std::size_t t, const TilePart& part) {
     if (!begins_share_.empty() && begins_share_[t]) {
       out_.contact.resize(whole(out_.packets(), TilePlan::share_packets) * 32);  // inert
@@ -135,6 +139,7 @@ class Planner {
     out_.tile.push_back(tile);
   }
 
+  /// Plans one tile: halo, ranks and rows of its particles, then its contacts.
   void make_tile(int t, TilePart& part) {
     auto& touches = touches_[at(t)];
     const auto first = static_cast<std::uint32_t>(layout_.tile_body[at(t)]);
@@ -173,7 +178,7 @@ class Planner {
       }
     }
     for (std::uint32_t e = 0; e < TilePlan::longest_short_row; ++e) {
-      // short ranks r ≥ long_rows have row lengths that fall with r: slot e exists for a run of them
+      // short ranks r ≥ long_rows have row lengths that fall with r, so slot e exists for the first `run` of them
       std::uint32_t run = 0;
       for (std::uint32_t r = tile.long_rows; r < bodies && part.row[2 * r] > e; ++r) ++run;
       part.diagonal[e] = tile.slots - tile.long_rows;
@@ -183,8 +188,9 @@ class Planner {
     touches = {};
   }
 
-  /// Runs are sorted by their slot, so that the lanes of a warp touch neighbouring words of shared memory: entry e of
-  /// consecutive ranks.
+  /// Assigns slots to the contacts and sorts them into packets. Runs are sorted by entry e of their slot's row, then by
+  /// rank, so that the lanes of a warp access neighbouring words of shared memory. Runs of two that need no halo come
+  /// first, so that they can be stepped while velocities of other tiles are in transit.
   void add_contacts(int t, TilePart& part, const std::vector<Touch>& touches,
                     const std::vector<std::uint32_t>& rank) const {
     Tile& tile = part.tile;

@@ -1,13 +1,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tile_plan.hpp  Who computes what where a block of threads owns a box of particles (a tile of the layout).
+/// \file tile_plan.hpp  The plan of the tile path: which thread block computes which contact, and where it stores the
+/// loads.
 ///
-/// A tile computes every contact that touches one of its particles: a contact across a box's face is computed by both
-/// sides, from the same numbers in the same way, so only velocities cross.
+/// The tile path is the fast way to step condensed contacts on a GPU. A tile is a set of neighbouring particles (a tile
+/// of the layout) that one thread block owns. The block computes every contact that touches one of its particles. A
+/// contact between particles of two tiles is computed by both, from the same numbers in the same order of operations,
+/// so only velocities must be exchanged between tiles. TileRunner (cuda_tile_runner.hpp) calls plan_tiles() once per
+/// network, before the first step; the kernels read the plan through TileScene (cuda_tile_scene.hpp).
 ///
-/// The contacts whose end A a particle is are cut, in the order in which the network numbers them, into runs of two.
-/// One thread steps a run and adds up its loads on that particle before it stores them. The particles of a tile are
-/// ranked by the length of their rows of slots: a slot for each run, and then one for each contact whose end B they
-/// are. A particle sums its slots in this order, which is the same for any tiles.
+/// Reading order of the tile path: this file; cuda_tile_scene.hpp (one step of one contact, and the arrays);
+/// cuda_resident_memory.hpp and cuda_tiles_resident.hpp (the kernel that keeps tiles on the chip);
+/// cuda_tile_exchange.hpp (velocities between tiles); cuda_tiles_streamed.hpp (the kernel for larger scenes);
+/// cuda_blocks.hpp (updating viscoelastic states between blocks of steps); cuda_tile_runner.hpp and exec_cuda_tiles.hpp
+/// (the host side).
+///
+/// Words of the tile path, as the identifiers use them:
+/// - body: a particle or a wall, in the order of the layout.
+/// - rank: index of a particle within its tile; particles with the most slots come first.
+/// - halo: the particles of other tiles that the contacts of a tile touch.
+/// - place: of a body, first_body of its tile + rank; of a contact, its index in TilePlan::contact (packet · 32 +
+///   lane). A local number is an index in the tile's table of velocities, which holds the tile's particles by rank,
+///   then the halo, then the six walls.
+/// - packet: 32 contacts that a warp steps together. A lane is one of them, and the thread that steps it.
+/// - run: two contacts (or one) with the same end A. One thread steps them one after the other and adds up their loads
+///   on A before it stores the sum. Runs are cut in the order in which the network numbers the contacts.
+/// - group: in Tile, two packets that hold the first and the second contacts of 32 runs. In `TileContact::group` and
+///   elsewhere it is a group of the layout (contacts of one pair type); `group_slot` is a slot of that group.
+/// - slot: otherwise, six words in shared memory into which a run or a contact stores its load on one particle of the
+///   tile.
+/// - row: the slots of one particle: first one for each run whose end A it is, then one for each contact whose end B it
+///   is. The particle sums them in this order, which does not depend on how particles are divided into tiles. A wall
+///   row is the number of a contact among all wall contacts.
+/// - share: the consecutive tiles of one GPU, if several GPUs step one specimen.
 #pragma once
 
 #include <cstdint>
@@ -17,48 +41,55 @@
 
 namespace macadam::kernels {
 
-/// A tile. Its table of velocities holds its own particles by rank, then the halo, then the six walls.
+/// One tile; see the top of the file for the table of velocities.
 struct Tile {
-  std::uint32_t first_body, bodies;  ///< first place
+  std::uint32_t first_body, bodies;  ///< first place of its particles; number of particles
   std::uint32_t first_halo, halo;
   std::uint32_t first_packet, packets;
-  std::uint32_t groups;     ///< of TilePlan::run packets, which come first; in the others, every contact is a run
-  std::uint32_t inner;      ///< of the groups: the first, whose contacts touch no body of another tile
-  std::uint32_t long_rows;  ///< the first ranks: their slots follow one another; of all others, slot e of rank r is at
-                            ///< diagonal[e] + r
-  std::uint32_t slots;
+  std::uint32_t groups;  ///< number of groups of TilePlan::run packets; they come first. In the remaining packets every
+                         ///< contact is a run of its own
+  std::uint32_t inner;   ///< number of groups at the beginning whose contacts touch no particle of another tile
+  std::uint32_t long_rows;  ///< number of particles (lowest ranks) whose slots are consecutive; of the others, slot e
+                            ///< of rank r is at diagonal[e] + r
+  std::uint32_t slots;      ///< of loads, in total
 };
 
-/// One contact as a tile computes it.
+/// One contact as one tile computes it.
 struct TileContact {
-  std::uint32_t group_slot = UINT32_MAX;   ///< slot in its group; inert: UINT32_MAX
-  std::uint16_t local_a = 0, local_b = 0;  ///< places in the table of velocities
-  std::uint16_t slot_a = 0, slot_b = 0;  ///< of loads; no_slot where the body is not the tile's, more_of_run in slot_a
-                                         ///< where the run goes on
-  std::uint32_t group = 0;
-  std::uint32_t wall_row = UINT32_MAX;  ///< number among the wall contacts: wall by wall, in order of their numbers
+  std::uint32_t group_slot = UINT32_MAX;   ///< slot in its group of the layout; UINT32_MAX: inert
+  std::uint16_t local_a = 0, local_b = 0;  ///< local numbers of the two bodies
+  std::uint16_t slot_a = 0, slot_b = 0;    ///< slots for the loads; no_slot if the body does not belong to the tile;
+                                           ///< slot_a is more_of_run for all contacts of a run except the last
+  std::uint32_t group = 0;                 ///< index of the layout's group
+  std::uint32_t wall_row = UINT32_MAX;     ///< number among the wall contacts, counted wall by wall in the order of the
+                                           ///< network; UINT32_MAX: no wall contact
 };
 
+/// The plan of all tiles.
 struct TilePlan {
-  static constexpr std::uint32_t longest_short_row = 32;
+  static constexpr std::uint32_t longest_short_row = 32;  ///< a row with more slots is a long row, which a warp sums
   static constexpr std::uint16_t no_slot = UINT16_MAX, more_of_run = UINT16_MAX - 1;
-  static constexpr std::uint32_t run = 2;  ///< contacts of a run at the most, and packets of a group
-  /// Where another device's tiles begin, packets and places begin at a multiple of these: at a page of memory, 2 MiB.
+  static constexpr std::uint32_t run = 2;  ///< largest number of contacts in a run, and number of packets in a group
+  /// The first packet and the first place of a device's share are multiples of these, so that they begin at a memory
+  /// page of 2 MiB.
   static constexpr std::size_t share_packets = 4096, share_places = 65536;
   std::vector<Tile> tile;
-  std::vector<std::int32_t> body;       ///< [first_body + rank = place] body; −1 where there is none
-  std::vector<std::uint32_t> row;       ///< [first_body + rank][2] slots of the row, first slot of a long row
-  std::vector<std::uint32_t> diagonal;  ///< [tile][longest_short_row]
-  std::vector<std::int32_t> halo;       ///< [first_halo + …] first_body + rank in its own tile
-  std::vector<TileContact> contact;  ///< [packet][32]; a lane's contacts in the packets of a group follow one another
-  std::vector<std::uint32_t> wall_begin;  ///< [wall + 1] of wall rows
+  std::vector<std::int32_t> body;  ///< [place] body; −1: unused place
+  std::vector<std::uint32_t> row;  ///< [place][2] number of slots in the row; first slot of a long row
+  /// [tile][longest_short_row] slot e of rank r ≥ long_rows is at diagonal[e] + r.
+  std::vector<std::uint32_t> diagonal;
+  std::vector<std::int32_t> halo;  ///< [first_halo + …] place of the particle in its own tile
+  /// [packet][32]; the contacts of a run are in the same lane of the packets of a group.
+  std::vector<TileContact> contact;
+  std::vector<std::uint32_t> wall_begin;  ///< [wall + 1] first wall row of each wall
+  /// Maxima over the tiles: particles, entries of the table of velocities, slots.
   std::uint32_t most_bodies = 0, most_locals = 0, most_slots = 0;
   std::size_t packets() const { return contact.size() / 32; }
-  /// Whether all local numbers fit their 16 bits.
+  /// Whether all local numbers and slots fit 16 bits.
   bool fits = true;
 };
 
-/// Plans the tiles of a layout with 32 lanes. `begins_share`: [tile] true where another device's tiles begin.
+/// Plans the tiles of a layout that has 32 lanes. `begins_share`: [tile] true where the tiles of another device begin.
 TilePlan plan_tiles(const ContactNetwork& network, const Layout& layout, const std::vector<bool>& begins_share = {});
 
 }  // namespace macadam::kernels

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file transpose.hpp  Half lines of bodies turned in registers: records of four words to SIMD packets and back.
+/// \file transpose.hpp  Transposes half lines of bodies (four words each) into SIMD packets, and back.
 ///
-/// Gathering word by word costs a scalar load and an insertion a word, several times what the arithmetic of a contact
-/// does; half lines and about two shuffles a packet cost a third of it.
+/// Gathering word by word costs one scalar load and one insertion per word, several times the arithmetic of a contact.
+/// Loading half lines and transposing them with about two shuffles per packet costs a third of that.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@ template <class R, std::size_t n>
 struct WordsOf {
   typedef R type __attribute__((vector_size(n * sizeof(R))));
 };
-/// n words of R as one vector of the compiler's, four or eight.
+/// A vector of n words of R, in the compiler's own type; n is four or eight.
 template <class R, std::size_t n>
 using Words = typename WordsOf<R, n>::type;
-/// Half a body's line: v, ω, u or θ, and a word without meaning.
+/// Half of a body's line: v, ω, u or θ, and one unused word.
 template <class R>
 using HalfLine = Words<R, 4>;
 
-/// In every block of four words: i, j, k, l, where 0…3 are words of a's block and 4…7 of b's.
+/// In every block of four words, returns words i, j, k, l, where 0…3 are words of a's block and 4…7 words of b's block.
 template <int i, int j, int k, int l, class V>
 inline __attribute__((always_inline)) V pick(const V& a, const V& b) {
   if constexpr (sizeof(V) == 4 * sizeof(a[0])) {
@@ -31,7 +31,7 @@ inline __attribute__((always_inline)) V pick(const V& a, const V& b) {
   }
 }
 
-/// In every block: r[i][j] ↔ r[j][i]. Each pick is one instruction, floats and doubles being interleaved differently.
+/// Transposes every block: r[i][j] ↔ r[j][i]. Each pick is one instruction; floats and doubles need different ones.
 template <class V>
 inline __attribute__((always_inline)) void transpose(V (&r)[4]) {
   if constexpr (sizeof(r[0][0]) == 4) {
@@ -47,7 +47,7 @@ inline __attribute__((always_inline)) void transpose(V (&r)[4]) {
   }
 }
 
-/// Word w of all half lines in words[w].
+/// Puts word w of all half lines into words[w].
 template <class R, std::size_t lanes>
 inline __attribute__((always_inline)) void turn(const HalfLine<R> (&half)[lanes], Words<R, lanes> (&words)[4]) {
   for (std::size_t j = 0; j < 4; ++j) {
@@ -59,7 +59,7 @@ inline __attribute__((always_inline)) void turn(const HalfLine<R> (&half)[lanes]
   transpose(words);
 }
 
-/// The half lines of which words[w] holds word w.
+/// Makes the half lines whose word w is in words[w].
 template <class R, std::size_t lanes>
 inline __attribute__((always_inline)) void turn_back(Words<R, lanes> (&words)[4], HalfLine<R> (&half)[lanes]) {
   transpose(words);

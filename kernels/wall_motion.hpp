@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file wall_motion.hpp  What drives the walls, as every executor reads it: a table of some thousand steps.
+/// \file wall_motion.hpp  The motion prescribed for the walls: a table with one row per step, for some thousand steps,
+/// which every executor reads.
 #pragma once
 
 #include <algorithm>
@@ -14,26 +15,26 @@ namespace macadam::kernels {
 
 inline constexpr int wall_axes = 3 * walls;  ///< axis 3·wall + 0, 1 or 2
 
-/// The rows of the steps that are to come: four words a driven wall, so that a load or two brings them. R: precision of
-/// the particles. Passed to kernels by value.
+/// The rows of the steps to come. A driven wall has four words, so that one or two loads read them. R: precision of the
+/// particles. Passed to kernels by value.
 template <class R>
 struct WallMotion {
   static constexpr int words = 4;
   const R* table = nullptr;       ///< [row][driven wall][4] velocity over the step [m/s], or force at its beginning [N]
-  std::int32_t driven = 0;        ///< walls of a row
-  std::int8_t place[walls] = {};  ///< of a wall in a row; −1: at rest
-  std::uint32_t by_force = 0;     ///< bit of an axis
+  std::int32_t driven = 0;        ///< number of driven walls, in each row
+  std::int8_t place[walls] = {};  ///< index of a wall in a row; −1: at rest
+  std::uint32_t by_force = 0;     ///< one bit for each axis: driven by a force
 
   MACADAM_HD bool moves(int wall) const { return place[wall] >= 0; }
   MACADAM_HD bool loaded(int axis) const { return by_force >> axis & 1; }
   MACADAM_HD std::size_t row_words() const { return static_cast<std::size_t>(driven) * words; }
-  /// Along x, y, z of a wall that moves.
+  /// Values along x, y, z of a driven wall in a row.
   MACADAM_HD const R* row(int wall, std::int64_t row) const {
     return table + static_cast<std::size_t>(row) * row_words() + place[wall] * words;
   }
 };
 
-/// Fills the rows of a boundary's walls.
+/// Fills in the rows of a boundary's walls.
 template <class R>
 class WallTable {
  public:
@@ -53,17 +54,17 @@ class WallTable {
     }
   }
 
-  /// Without the address of a table.
+  /// The description of the table; its address is not set.
   const WallMotion<R>& motion() const { return motion_; }
-  /// Rows that are filled at once, where `done` steps were asked for before and so many are left: few at first, so that
-  /// a device does not wait for the host, and then as many as there were.
+  /// Returns how many rows to fill at once if `done` steps were requested before and `left` remain: few at first, so
+  /// that a device does not wait for the host, then as many as before.
   std::int64_t rows(std::int64_t done, std::int64_t left) const {
     return driven_.empty() ? left : std::min({left, std::max(first_rows, done), most_rows});
   }
-  /// And a row behind the last one, which is asked for and not used.
+  /// Size of the table, with one more row behind the last one, which kernels load but do not use.
   std::size_t most_values() const { return static_cast<std::size_t>(most_rows + 1) * motion_.row_words(); }
 
-  /// The rows of the steps first … first + n − 1; axes at rest are 0.
+  /// Returns the rows of the steps first … first + n − 1; axes at rest are 0.
   const std::vector<R>& fill(std::int64_t first, std::int64_t n) {
     if (driven_.empty()) return values_;
     values_.assign(static_cast<std::size_t>(n) * motion_.row_words(), R(0));
@@ -78,7 +79,7 @@ class WallTable {
  private:
   struct Driven {
     WallAxis axis;
-    std::size_t word;  // of a row
+    std::size_t word;  // index in a row
   };
   WallMotion<R> motion_;
   std::vector<Driven> driven_;

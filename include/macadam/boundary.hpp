@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file boundary.hpp  What walls and particles are made to do: driven, free under a force, or held.
+/// \file boundary.hpp  What is prescribed to walls and particles: displacements, forces, or rest.
 #pragma once
 
 #include <array>
@@ -17,34 +17,34 @@
 
 namespace macadam {
 
-/// What a wall's drive gives along an axis. A wall under a force moves as a platen with a mass.
+/// The quantity that the drive of a wall axis prescribes. A wall under a force moves like a platen with a mass.
 enum class DrivenBy : std::uint8_t { rest, displacement, force };
 
 /// One axis of a wall.
 struct WallAxis {
   DrivenBy by = DrivenBy::rest;
-  std::shared_ptr<const Drive> drive;  ///< its dt() is that of the stepper; none where the axis rests
+  std::shared_ptr<const Drive> drive;  ///< its dt() is that of the stepper; null if the axis is at rest
 };
 
-/// One wall: x, y, z, and the mass with which it follows forces [kg], density scaling not included.
+/// One wall: its axes x, y, z, and the mass with which it follows forces [kg], without density scaling.
 struct WallMotionSpec {
   std::array<WallAxis, 3> axis;
-  double mass = 0;  ///< above 0 where an axis is driven by a force
+  double mass = 0;  ///< greater than 0 if an axis is driven by a force
 };
 
-/// All that acts on a specimen from outside. Walls do not turn.
+/// Everything that acts on a specimen from outside. Walls do not rotate.
 struct Boundary {
   std::array<WallMotionSpec, wall_count> wall;  ///< by wall_index()
-  std::vector<std::int32_t> fixed;              ///< particles that do not move at all
-  std::vector<Vec3d> body_force;                ///< on each particle, specimen order [N]; empty: none
+  std::vector<std::int32_t> fixed;              ///< particles that never move
+  std::vector<Vec3d> body_force;                ///< force on each particle, specimen order [N]; empty: none
 
-  /// Drives one axis (0, 1, 2) of a wall by a displacement.
+  /// Prescribes the displacement of one axis (0, 1, 2) of a wall.
   Boundary& move(Wall which, int axis, std::shared_ptr<const Drive> drive) {
     wall[wall_index(which)].axis[static_cast<std::size_t>(axis)] = {DrivenBy::displacement, std::move(drive)};
     return *this;
   }
-  /// Loads one axis of a wall of this mass [kg] by a force. \throws InputError where another axis of it has been given
-  /// another mass: a platen has one.
+  /// Prescribes the force on one axis of a wall with this mass [kg]. \throws InputError if another axis of the wall has
+  /// been given another mass.
   Boundary& load(Wall which, int axis, std::shared_ptr<const Drive> drive, double mass) {
     const std::size_t w = wall_index(which), loaded = static_cast<std::size_t>(axis);
     for (std::size_t other = 0; other < 3; ++other) {
@@ -58,7 +58,7 @@ struct Boundary {
     wall[w].mass = mass;
     return *this;
   }
-  /// Whether any axis of any wall is driven so.
+  /// Returns whether any axis of any wall is driven in this way.
   bool any(DrivenBy by) const {
     for (const WallMotionSpec& w : wall) {
       for (const WallAxis& a : w.axis) {
@@ -69,7 +69,7 @@ struct Boundary {
   }
 };
 
-/// The top wall moved along z, all else at rest: the uniaxial test.
+/// Returns the boundary of the uniaxial test: the top wall moves along z, everything else is at rest.
 template <class D>
 Boundary moving_top(D drive) {
   return Boundary().move(wall_z_hi, 2, std::make_shared<const D>(std::move(drive)));

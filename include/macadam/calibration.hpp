@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file calibration.hpp  Parameters of a scene's contact laws such that its specimen has the measured moduli.
+/// \file calibration.hpp  Finds parameters of a scene's contact laws for which its specimen has the measured moduli.
 ///
-/// The specimen is prepared once; every trial is a solution of the frequency domain, whose derivatives by all
-/// parameters come with it (sensitivity.hpp). Levenberg-Marquardt over the natural logarithms of the parameters.
+/// The specimen is prepared once. Every iteration solves it in the frequency domain, which also gives the derivatives
+/// by all parameters (sensitivity.hpp). The method is Levenberg–Marquardt for the natural logarithms of the parameters.
 #pragma once
 
 #include <optional>
@@ -15,87 +15,93 @@
 
 namespace macadam {
 
-/// What may change, "M-A.delta", "M-M.E_1", "inner.E", "A-A.alpha"; the names are those of Sensitivity::parameter.
+/// A parameter that may change: "M-A.delta", "M-M.E_1", "inner.E", "A-A.alpha". The names are those of
+/// Sensitivity::parameter.
 struct FreeParameter {
   std::string name;
-  /// Bounds, in units of the parameter; none: four decades to either side of the scene's value, and a value that ends
-  /// there is an error.
+  /// Bounds, in units of the parameter. Without bounds: four decades to either side of the scene's value; a result at
+  /// such a default bound is an error.
   std::optional<double> low, high;
-  std::optional<double> prior;  ///< what is known of it beforehand
+  std::optional<double> prior;  ///< value that is known beforehand
   double prior_deviation = 0;   ///< standard deviation of its natural logarithm
 };
 
-/// What of a measurement counts. `modulus_and_phase`: ln |E*| and φ. `parts`: E' and E''.
+/// The measured quantities that are fitted. `modulus_and_phase`: ln |E*| and φ. `parts`: E' and E''.
 enum class Misfit : std::uint8_t { modulus_and_phase, modulus, phase, parts };
 const char* to_string(Misfit);
-/// The columns that a table must have for a misfit.
+/// Returns the columns that a table must have for a misfit.
 Measured measured_for(Misfit);
 
+/// Options of a calibration.
 struct CalibrationOptions {
   std::vector<FreeParameter> free;
-  /// Specimens of the scene's seed and those after it; E* is their mean. More than one for generated specimens only.
+  /// Number of specimens, with the scene's seed and the seeds after it; E* is their mean. More than one for generated
+  /// specimens only.
   int seeds = 1;
   Misfit misfit = Misfit::modulus_and_phase;
-  /// As FitOptions has them, where the data have none.
+  /// As in FitOptions, for data without standard deviations.
   double e_star_deviation = 0.03, phase_deviation = 1;
-  /// Gives the nearest values there are, with a warning, where the targets cannot be reached.
+  /// If the targets cannot be reached, returns the nearest values and a warning instead of an error.
   bool nearest = false;
 };
 
+/// One parameter and its calibrated value.
 struct CalibratedParameter {
   std::string name, unit;
-  double value = 0, start = 0;  ///< as a scene file has them: δ is not in moduli and viscosities
-  double deviation = 0;         ///< standard deviation, unit of the value; ∞ where nothing determines it
+  double value = 0, start = 0;  ///< as in a scene file: moduli and viscosities without the factor δ
+  double deviation = 0;         ///< standard deviation, in units of the value; ∞ if the data do not determine it
   double low = 0, high = 0;     ///< bounds
   bool at_bound = false;
 };
 
-/// A measurement and what the calibrated specimen has.
+/// A measurement, and the result of the calibrated specimen.
 struct CalibratedPoint {
   ModulusPoint measured;
-  std::optional<double> temperature_c;  ///< of the laws, where the scene or the data have one
-  double e_star_pa = 0, phase_deg = 0;  ///< of the specimen; mean of E* over the seeds
-  double e_star_scatter = 0;            ///< standard deviation between seeds of |E*|, relative
-  double phase_scatter_deg = 0;         ///< and of φ
+  std::optional<double> temperature_c;  ///< of the laws; empty if neither scene nor data have a temperature
+  double e_star_pa = 0, phase_deg = 0;  ///< of the specimen; from the mean of E* over the seeds
+  double e_star_scatter = 0;            ///< standard deviation of |E*| between seeds, relative
+  double phase_scatter_deg = 0;         ///< standard deviation of φ between seeds
 };
 
 /// A product of powers of the parameters that the measurements determine poorly or not at all.
 struct Combination {
-  std::vector<double> exponents;  ///< of the parameters, the largest 1
-  double deviation = 0;           ///< of its logarithm by the measurements alone; ∞ where they say nothing of it
+  std::vector<double> exponents;  ///< exponents of the parameters; the largest is 1
+  /// Standard deviation of its logarithm from the measurements alone; ∞ if they do not determine it.
+  double deviation = 0;
 };
 
+/// Result of a calibration.
 struct Calibration {
   CalibrationOptions options;
   std::vector<CalibratedParameter> parameters;
-  std::vector<double> covariance;   ///< of the natural logarithms, row by row; NaN where something is not determined
-  std::vector<double> correlation;  ///< row by row, likewise
+  std::vector<double> covariance;   ///< of the natural logarithms, row by row; NaN if something is not determined
+  std::vector<double> correlation;  ///< row by row; NaN as in covariance
   std::vector<Combination> combinations;
   std::vector<CalibratedPoint> points;
   FitErrors errors;
-  double misfit = 0;                              ///< Σ of squares, without priors
-  double degrees_of_freedom = 0;                  ///< numbers measured less parameters that do not lie at a bound
-  bool temperatures = false, deviations = false;  ///< whether the data have them
-  bool moduli = true, phases = true;              ///< whether they were measured; the errors of others are NaN
+  double misfit = 0;              ///< sum of squares, without priors
+  double degrees_of_freedom = 0;  ///< number of measured values minus number of parameters that are not at a bound
+  bool temperatures = false, deviations = false;  ///< whether the data have temperatures, standard deviations
+  bool moduli = true, phases = true;              ///< whether moduli, phases were measured; errors of others are NaN
   std::vector<std::uint64_t> seeds;               ///< empty for a specimen from a file
-  std::string solver;                             ///< what was solved, in words
-  int solutions = 0;                              ///< solutions of all frequencies of all specimens
+  std::string solver;                             ///< description of the solver
+  int solutions = 0;                              ///< number of solutions, over all frequencies and specimens
   double seconds_preparing = 0, seconds_solving = 0;
   std::vector<std::string> warnings;
-  LawTable laws;  ///< of the scene, calibrated
+  LawTable laws;  ///< the scene's laws with the calibrated values
 };
 
-/// Finds the parameters. \throws InputError for parameters, options or data that do not fit scene or specimen; RunError
-/// for targets that no values within the bounds reach; InterruptedError. Of the watcher, `progress` and `stop` are
-/// used.
+/// Finds the parameters. \throws InputError for parameters, options or data that do not fit the scene or the specimen;
+/// RunError if no values within the bounds reach the targets; InterruptedError. Only `progress` and `stop`
+/// of the watcher are used.
 Calibration calibrate(const Scene& scene, const ModulusData& data, const CalibrationOptions& options,
                       const Watcher& watcher = {});
 
-/// The scene's file with the calibrated values, for a folder; all else of the text stays. \throws InputError for a
-/// scene that was not read from a file.
+/// Returns the text of the scene's file with the calibrated values, for a file in `folder`; everything else in the text
+/// stays. \throws InputError if the scene was not read from a file.
 std::string calibrated_scene(const Scene& scene, const Calibration& calibration, const std::filesystem::path& folder);
 
-/// \throws RunError where a scene does not have the calibrated values.
+/// Checks a calibrated scene. \throws RunError if the scene does not have the calibrated values.
 void require_calibrated(const Scene& scene, const Calibration& calibration);
 
 }  // namespace macadam

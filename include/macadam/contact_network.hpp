@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_network.hpp  Facets turned into contacts: points, frames, lever arms, area moments.
+/// \file contact_network.hpp  The contacts of a specimen, made from the facets of its tessellation: points, frames,
+/// lever arms, area moments.
 #pragma once
 
 #include <array>
@@ -13,38 +14,39 @@
 
 namespace macadam {
 
-/// Which materials meet. `inner`: two spheres of the same aggregate; W is a wall.
+/// The pair of materials that a contact joins. `inner`: two spheres of the same aggregate; W is a wall.
 enum class PairType : std::uint8_t { mm, ma, aa, inner, aw, mw };
-inline constexpr int particle_pair_types = 4;  ///< the first of pair_types
-/// `"M-M" "M-A" "A-A" "inner" "A-W" "M-W"`.
+inline constexpr int particle_pair_types = 4;  ///< these are the first of pair_types
+/// Returns "M-M", "M-A", "A-A", "inner", "A-W" or "M-W".
 const char* to_string(PairType pair);
 
-/// `lumped`: area moments of the contact points, as in [1]; `exact`: of the polygon (condensed form only);
-/// `one_point`: the whole area at the centroid, which does not resist bending and twist.
+/// The way in which area moments are computed. `lumped`: from the contact points, as in [1]; `exact`: from the polygon
+/// (condensed form only); `one_point`: the whole area at the centroid, without resistance to bending and twist.
 enum class Quadrature : std::uint8_t { lumped, exact, one_point };
 const char* to_string(Quadrature);
 
-/// Limits within which a facet between two particles is a contact; any facet where they are not given.
+/// Limits within which a facet between two particles is a contact. Without limits, every facet is a contact.
 struct FacetLimits {
-  std::optional<double> gap_max;   ///< largest surface gap, in units of the mean of the two radii
-  std::optional<double> area_min;  ///< smallest facet, in units of the mean area of facets between particles
+  std::optional<double> gap_max;   ///< largest surface gap, over the mean of the two radii
+  std::optional<double> area_min;  ///< smallest facet area, over the mean area of facets between particles
 };
 
-/// Which facets become contacts.
+/// Rules that decide which facets become contacts.
 struct NetworkSpec : FacetLimits {
-  /// Limits of single pair types between particles; one that is given takes the place of the limit for all pairs.
+  /// Limits of single pair types between particles; a limit given here replaces the limit for all pairs.
   std::array<FacetLimits, particle_pair_types> of_pair;
   Quadrature quadrature = Quadrature::lumped;
   bool bottom_top_walls = true;  ///< facets on −z and +z are contacts
   bool lateral_walls = false;    ///< facets on ±x and ±y are contacts
 };
 
-/// Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t² over a facet, local coordinates about x0: model (3.4).
+/// Area moments of a facet: Σ A_J, Σ A_J·s, Σ A_J·t, Σ A_J·s², Σ A_J·s·t, Σ A_J·t², in local coordinates about x0:
+/// model (3.4).
 struct AreaMoments {
   double a = 0, s = 0, t = 0, ss = 0, st = 0, tt = 0;  ///< [m²] [m³] [m³] [m⁴] [m⁴] [m⁴]
 };
 
-/// One contact (docs/model.md, section 3). Lever arms are signed: x0 = x_a + arm_a·n = x_b − arm_b·n.
+/// One contact (docs/model.md, section 3). Lever arms have signs: x0 = x_a + arm_a·n = x_b − arm_b·n.
 struct Contact {
   std::int32_t a = 0, b = 0;  ///< particle numbers in specimen order; b may be a Wall
   PairType pair = PairType::mm;
@@ -52,11 +54,11 @@ struct Contact {
   double area = 0;              ///< [m²]
   Vec3d n{}, s{}, t{};          ///< unit frame, n from a to b, s × t = n (canonical_frame of n)
   double arm_a = 0, arm_b = 0;  ///< [m]; arm_b = 0 at a wall
-  AreaMoments moments;          ///< by the quadrature asked for
+  AreaMoments moments;          ///< computed with the quadrature of the network
   std::uint32_t point_begin = 0, point_end = 0;
 };
 
-/// The contacts of a specimen, in order of (a, b) as the facets are.
+/// The contacts of a specimen, in order of (a, b), as the facets.
 struct ContactNetwork {
   std::vector<Contact> contacts;
   std::vector<double> point_s, point_t;  ///< local coordinates of the contact points (vertices, then centroid) [m]
@@ -64,21 +66,23 @@ struct ContactNetwork {
   std::vector<std::uint32_t> row_begin;  ///< particle i's contacts are rows[row_begin[i] … row_begin[i+1])
   std::vector<std::uint32_t> rows;       ///< contact numbers, ascending in a row
   std::int64_t dropped_gap = 0, dropped_area = 0;
-  double dropped_share = 0;                      ///< what area_min dropped of the area of all facets between particles
-  std::array<std::int64_t, pair_types> count{};  ///< contacts by PairType
+  double dropped_share = 0;  ///< area dropped by area_min, over the area of all facets between particles
+  std::array<std::int64_t, pair_types> count{};  ///< number of contacts, by PairType
   double second_moment_difference = 0;           ///< Σ|lumped − exact| / Σ exact of ss + tt over all contacts
 
+  /// Returns the numbers of a particle's contacts, in rising order.
   std::span<const std::uint32_t> row(std::size_t particle) const {
     return {rows.data() + row_begin[particle], row_begin[particle + 1] - row_begin[particle]};
   }
 };
 
-/// The frame of a unit normal, without branches (Duff et al. 2017); s × t = n.
+/// Computes tangents s and t for a unit normal, without branches (Duff et al. 2017); s × t = n.
 void canonical_frame(const Vec3d& n, Vec3d& s, Vec3d& t);
 
-/// Builds the network of a tessellation (Eq. 5–7 at the start: docs/model.md, section 3). Facets of
-/// voids are free surface: no contacts.
-/// \throws InputError when a particle is hidden (its number is named) or when no contact is left.
+/// Builds the network of a tessellation (Eq. 5–7 for the initial geometry: docs/model.md, section 3). Facets of voids
+/// are free surfaces and give no contacts.
+///
+/// \throws InputError if a particle has no cell (names its number) or if no contact remains.
 ContactNetwork build_network(const Specimen& specimen, const Tessellation& tessellation, const NetworkSpec& spec = {});
 
 }  // namespace macadam

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct.hpp  Images of computed tomography. Of use where the library was built with ITK (MACADAM_CT).
+/// \file ct.hpp  Images of computed tomography: reading, writing, and segmentation into phases and grains. Works only
+/// if the library was built with ITK (MACADAM_CT).
 #pragma once
 
 #include <array>
@@ -17,8 +18,8 @@
 
 namespace macadam {
 
-/// Voxels on a regular grid. Voxel (i, j, k) has its centre at origin + spacing∘(i, j, k); x runs fastest, z is the
-/// number of the slice.
+/// Voxels on a regular grid. Voxel (i, j, k) has its centre at origin + spacing∘(i, j, k). In memory x runs fastest; z
+/// is the number of the slice.
 template <class T>
 struct Image {
   std::array<std::int64_t, 3> size{};  ///< voxels along x, y, z
@@ -32,18 +33,20 @@ struct Image {
         spacing(spacing),
         origin(origin),
         voxels(static_cast<std::size_t>(size[0] * size[1] * size[2]), value) {}
-  /// An image of the same grid.
+  /// Returns an image on the same grid as another one.
   template <class U>
   static Image like(const Image<U>& other, T value = {}) {
     return Image(other.size, other.spacing, other.origin, value);
   }
 
   std::size_t count() const { return voxels.size(); }
+  /// Returns the index of a voxel in `voxels`.
   std::size_t index(std::int64_t i, std::int64_t j, std::int64_t k) const {
     return static_cast<std::size_t>(i + size[0] * (j + size[1] * k));
   }
   T& at(std::int64_t i, std::int64_t j, std::int64_t k) { return voxels[index(i, j, k)]; }
   const T& at(std::int64_t i, std::int64_t j, std::int64_t k) const { return voxels[index(i, j, k)]; }
+  /// Returns the position of a voxel's centre [m].
   Vec3d centre(std::int64_t i, std::int64_t j, std::int64_t k) const {
     return {origin.x + spacing.x * static_cast<double>(i), origin.y + spacing.y * static_cast<double>(j),
             origin.z + spacing.z * static_cast<double>(k)};
@@ -51,138 +54,149 @@ struct Image {
   double voxel_volume() const { return spacing.x * spacing.y * spacing.z; }  ///< [m³]
 };
 
-/// What an image file says of its voxels.
+/// The header of an image file.
 struct ImageHeader {
   std::array<std::int64_t, 3> size{};  ///< voxels along x, y, z
-  Vec3d spacing{}, origin{};           ///< [m]; a spacing of 0: the file has none
-  int bits = 0;                        ///< of a voxel
+  Vec3d spacing{}, origin{};           ///< [m]; spacing 0: the file gives none
+  int bits = 0;                        ///< bits per voxel
   bool floating = false;
-  std::vector<std::string> notes;  ///< for the user: grey values that are inverted, axes that are turned or mirrored
+  std::vector<std::string> notes;  ///< for the user: inverted grey values, rotated or mirrored axes
 };
 
 /// Reads the header of a MetaImage (.mha, .mhd), NRRD (.nrrd, .nhdr), TIFF (.tif, .tiff; pages are slices) or HDF5 file
-/// (.h5, .hdf5), or of a folder of TIFF files, which are slices in the order of their names, numbers in them by value.
-/// Lengths in files are millimetres where the file names no unit. Of an HDF5 file `dataset` names the dataset of three
-/// dimensions, z, y and x, which need not be named where there is one only. \throws InputError naming the file.
+/// (.h5, .hdf5), or of a folder of TIFF files. The files of a folder are slices in the order of their names, in which
+/// numbers are compared by value. Lengths without a unit in the file are millimetres. `dataset`: for HDF5, the dataset
+/// with three dimensions z, y and x; not needed if there is only one.
+///
+/// \throws InputError naming the file.
 ImageHeader read_image_header(const std::filesystem::path& path, const std::string& dataset = {});
 
-/// Reads such an image; T is uint8, uint16, uint32 or float. A voxel that T cannot hold, and one that is not finite, is
-/// an error: \throws InputError naming the file and the first such voxel.
+/// Reads an image of these formats. T is uint8, uint16, uint32 or float.
+///
+/// \throws InputError naming the file and the first voxel that T cannot hold or that is not finite.
 template <class T>
 Image<T> read_image(const std::filesystem::path& path, const std::string& dataset = {});
 
-/// Writes .mha (compressed where `compressed`), .nrrd or .tif. \throws RunError where that fails, InputError for
-/// another ending.
+/// Writes .mha (compressed if `compressed`), .nrrd or .tif.
+///
+/// \throws RunError if writing fails; InputError for another file ending.
 template <class T>
 void write_image(const std::filesystem::path& path, const Image<T>& image, bool compressed = true);
 
-/// What a voxel of phases.mha is.
+/// The phase of a voxel, as in phases.mha.
 enum class VoxelPhase : std::uint8_t { air_void, mastic, aggregate, outside = 255 };
 
 /// Grey values of the phases of a scan.
 struct GreyLevels {
-  double air = 0, mastic = 0, aggregate = 0;  ///< their means; air is below mastic, and this below aggregate
-  double deviation = 0;                       ///< standard deviation of each, in the scan as it is segmented
-  bool has_air = false;                       ///< without it, `air` has no meaning
+  double air = 0, mastic = 0, aggregate = 0;  ///< mean values, with air < mastic < aggregate
+  double deviation = 0;                       ///< standard deviation within each phase, in the scan as it is segmented
+  bool has_air = false;                       ///< whether there is air; if not, `air` has no meaning
   double contrast() const { return aggregate - mastic; }
 };
 
-enum class ScanRegion : std::uint8_t { found, whole, cylinder, prism };  ///< what of a scan is the specimen
-/// The specimen by coordinates of the scan: an upright box, or the upright cylinder around the middle of its sides
-/// whose diameter is its width along x.
+enum class ScanRegion : std::uint8_t { found, whole, cylinder, prism };  ///< which part of a scan is the specimen
+/// The specimen in coordinates of the scan: an upright box, or the upright cylinder around the axis of that box, whose
+/// diameter is the box's width along x.
 struct GivenRegion {
   Vec3d low, high;  ///< corners of the box [m]
   bool cylinder = false;
 };
 
-enum class Denoising : std::uint8_t { diffusion, median, none };  ///< diffusion keeps edges
-enum class SegmentRecipe : std::uint8_t { own, paper };           ///< paper: as [1], section 3.2.1
+enum class Denoising : std::uint8_t { diffusion, median, none };  ///< diffusion preserves edges
+enum class SegmentRecipe : std::uint8_t { own, paper };           ///< paper: the method of [1], section 3.2.1
 
-/// Two fragments of the watershed that touch. The inscribed radius is that of the largest sphere inside.
+/// Two fragments of the watershed that touch. An inscribed radius is that of the largest sphere inside.
 struct GrainCut {
   std::uint32_t a = 0, b = 0;  ///< numbers of the fragments, a < b
   Vec3d place{};               ///< middle of the face between them [m]
-  double neck = 0;             ///< inscribed radius at the face over the smaller one of the fragments
-  double solidity = 0;         ///< volume over that of the convex hull, of both together over that of each for itself
-  double valley = 0;           ///< grey value on the face, 0: mastic, 1: aggregate
-  double margin = 0;           ///< above 0: a cut between two grains; below: within one; near 0: doubtful
-  bool cut = false;            ///< what was decided
+  double neck = 0;             ///< inscribed radius at the face, over the smaller inscribed radius of the two fragments
+  double solidity = 0;  ///< solidity is volume over volume of the convex hull: that of both fragments together over
+                        ///< that of each alone
+  double valley = 0;    ///< grey value on the face; 0: mastic, 1: aggregate
+  double margin = 0;    ///< positive: a boundary between two grains; negative: within one grain; near 0: doubtful
+  bool cut = false;     ///< the decision: whether the fragments belong to two grains
 };
 
-/// How a scan is segmented.
+/// Options of the segmentation of a scan.
 struct SegmentOptions {
   ScanRegion region = ScanRegion::found;
-  std::optional<GivenRegion> given;                    ///< goes before `region`
-  bool slices = true, rings = true, hardening = true;  ///< which corrections
+  std::optional<GivenRegion> given;                    ///< takes precedence over `region`
+  bool slices = true, rings = true, hardening = true;  ///< which corrections are made
   Denoising denoising = Denoising::diffusion;
   SegmentRecipe recipe = SegmentRecipe::own;
-  std::optional<double> air_voids, aggregate;  ///< volume shares of the specimen, where the laboratory knows them
+  std::optional<double> air_voids, aggregate;  ///< volume fractions of the specimen, if known from the laboratory
   double smallest = 4e-3;                      ///< diameter of the smallest grain that matters [m]
-  std::vector<SievePassing> gradation;  ///< the laboratory's, where it is known: rising sieves, the last passes all
-  std::optional<std::vector<GrainCut>> cuts;  ///< decisions on the same scan, maybe changed by a person
+  /// Gradation from the laboratory, if known: sieves in rising order; everything passes the last one.
+  std::vector<SievePassing> gradation;
+  /// Decisions of an earlier run on the same scan, possibly edited by a person.
+  std::optional<std::vector<GrainCut>> cuts;
   bool surfaces = true;
-  int facets = 500;  ///< of a surface; up to 800 where the error asks for it
+  int facets = 500;  ///< number of facets of a surface; up to 800 if the error requires it
   std::function<void(const std::string& stage, double share)> progress;
 };
 
-/// A grain of a scan.
+/// A grain found in a scan.
 struct ScannedGrain {
-  std::uint32_t id = 0;  ///< its number in the labels
-  Surface surface;       ///< in the scan's coordinates
+  std::uint32_t id = 0;  ///< its number in the label image
+  Surface surface;       ///< in the coordinates of the scan
   ShapeMeasure measure;
-  double sieve = 0;          ///< side of the smallest square mesh that lets it pass [m]
-  bool border = false;       ///< cut by the end of the specimen or of the image
-  double confidence = 0;     ///< 0 to 1: that its outline and its cuts are right
+  double sieve = 0;          ///< side of the smallest square mesh that the grain passes [m]
+  bool border = false;       ///< whether the end of the specimen or of the image cuts it
+  double confidence = 0;     ///< 0 to 1: how certain its outline and its cuts are
   double surface_error = 0;  ///< largest distance of the isosurface from the simplified one [m]
 };
 
-/// What was taken out of a scan, in shares of the contrast between mastic and aggregate.
+/// Artefacts removed from a scan, over the contrast between mastic and aggregate.
 struct ScanCorrections {
   double slices = 0;     ///< root mean square over the slices
-  double rings = 0;      ///< the same over the rings
-  double hardening = 0;  ///< from the brightest to the darkest radius
+  double rings = 0;      ///< root mean square over the rings
+  double hardening = 0;  ///< difference between the brightest and the darkest radius
 };
 
-/// What became of a scan.
+/// Result of a segmentation.
 struct Segmentation {
   ScanCorrections corrections;
   GreyLevels levels;
   Image<std::uint8_t> phases;      ///< VoxelPhase
-  Image<std::uint8_t> confidence;  ///< that the phase is right, 0 to 255
+  Image<std::uint8_t> confidence;  ///< confidence in the phase, 0 to 255
   Image<std::uint32_t> labels;     ///< 0: no grain
-  Image<float> grey;               ///< corrected
+  Image<float> grey;               ///< the corrected scan
   std::vector<ScannedGrain> grains;
   std::vector<GrainCut> cuts;
-  double air_voids = 0, mastic = 0, aggregate = 0;  ///< volume shares of the specimen, partly filled voxels in part
-  /// Part of the aggregate's volume that is in no grain: pieces smaller than half of SegmentOptions::smallest, mostly.
+  /// Volume fractions of the specimen; partly filled voxels count in part.
+  double air_voids = 0, mastic = 0, aggregate = 0;
+  /// Fraction of the aggregate's volume that belongs to no grain, mostly pieces smaller than half of
+  /// SegmentOptions::smallest.
   double in_no_grain = 0;
-  double confidence_mean = 0;  ///< of the voxels of the specimen, 0 to 1
-  std::int64_t block = 1;      ///< edge of a voxel of these images in voxels of the scan; above 1: see segment_file()
-  std::size_t refined = 0;     ///< grains whose surfaces are finer than these images
-  std::vector<std::string> warnings;  ///< what a person should look at
+  double confidence_mean = 0;  ///< mean over the voxels of the specimen, 0 to 1
+  /// Edge of a voxel of these images, in voxels of the scan; greater than 1: see segment_file().
+  std::int64_t block = 1;
+  std::size_t refined = 0;            ///< number of grains whose surfaces are finer than these images
+  std::vector<std::string> warnings;  ///< what a person should check
 };
 
-/// Phases and grains of a scan whose spacing is known. \throws InputError where the scan cannot be segmented: empty,
-/// without contrast, with a phase missing.
+/// Segments a scan with known spacing into phases and grains. \throws InputError if the scan cannot be segmented: it is
+/// empty, has no contrast, or a phase is missing.
 Segmentation segment_scan(Image<float> scan, const SegmentOptions& options);
 
-/// A scan in a file, of any format of read_image().
+/// A scan in a file of any format of read_image().
 struct ScanFile {
   std::filesystem::path path;
-  std::string dataset;  ///< of HDF5
-  Vec3d spacing{};      ///< edges of a voxel [m]; they take precedence over those in the file. 0: those in the file
+  std::string dataset;  ///< HDF5 only
+  Vec3d spacing{};      ///< edges of a voxel [m]; they take precedence over those in the file. 0: use those in the file
 };
 
-/// The same of a file, with `memory` bytes to take. A scan that fits is segment_scan()'s. Of a larger one, phases and
-/// grains are decided on means of blocks of voxels, a twentieth of the smallest grain wide, and the surfaces of grains
-/// for which these are coarse are drawn from the file, which is read twice, some slices at a time; the images are
-/// those of the blocks. \throws InputError also where that does not fit either.
+/// Segments a scan in a file, using at most `memory` bytes. A scan that fits is passed to segment_scan(). A larger scan
+/// is averaged over blocks of voxels, a twentieth of the smallest grain wide; phases and grains are decided on these
+/// averages, and the images have the resolution of the blocks. Surfaces of grains for which the blocks are too coarse
+/// are computed from the file, which is read twice, some slices at a time. \throws InputError also if the averaged scan
+/// does not fit.
 Segmentation segment_file(const ScanFile& file, const SegmentOptions& options, double memory);
 
-/// Memory that there is to take: what the machine has free, or this process may have [bytes].
+/// Returns the memory that may be used: what is free on the machine, or what this process is allowed [bytes].
 double memory_available();
 
-/// Side of the smallest square opening that lets a surface pass, turned as it may be [m].
+/// Returns the side of the smallest square opening that a surface passes in its best orientation [m].
 double square_sieve(const Surface& surface);
 
 }  // namespace macadam

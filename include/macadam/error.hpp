@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file error.hpp  Errors carry the culprit: where it is, what was found, what was expected.
+/// \file error.hpp  Exceptions. A message says where the fault is, what was found and what was expected.
 #pragma once
 
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 namespace macadam {
 
-/// Base of everything that Macadam throws on purpose.
+/// Base class of all exceptions that Macadam throws on purpose.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -19,7 +19,7 @@ class InputError : public Error {
  public:
   using Error::Error;
 
-  /// `file:line: what: found F, expected E`; line 0 means that no line applies.
+  /// Makes the message `file:line: what: found F, expected E`. Line 0 means that no line applies.
   InputError(const std::string& file, int line, const std::string& what, const std::string& found,
              const std::string& expected)
       : Error(place(file, line) + ": " + in_one_line(what + ": found " + found + ", expected " + expected)) {}
@@ -28,7 +28,8 @@ class InputError : public Error {
   static std::string place(const std::string& file, int line) {
     return line > 0 ? file + ":" + std::to_string(line) : file;
   }
-  /// Names in a damaged file, and what libraries say of it, may hold anything: control characters are shown as `?`.
+  /// Replaces control characters by `?`, because names in a damaged file, and messages of libraries about it, may
+  /// contain any.
   static std::string in_one_line(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     for (char& c : text)
@@ -37,19 +38,20 @@ class InputError : public Error {
   }
 };
 
-/// The input was good but the run failed (exit code 1): divergence, no device, disk full.
+/// The input was correct but the run failed (exit code 1), for example by divergence, without a device, or on a full
+/// disk.
 class RunError : public Error {
  public:
   using Error::Error;
 };
 
-/// The run was asked to stop, by a signal for instance; the message says where its checkpoint is.
+/// The run was asked to stop, for example by a signal. The message says where its checkpoint is.
 class InterruptedError : public RunError {
  public:
   using RunError::RunError;
 };
 
-/// A time step diverged: the first particle that left the range of sense, and when.
+/// A time step diverged. Holds the first particle that moved too far, and the time.
 class DivergenceError : public RunError {
  public:
   DivergenceError(const std::string& message, long long particle, double time)

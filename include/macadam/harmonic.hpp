@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file harmonic.hpp  The steady state of a linear scene, (K*(s) + s²·M)·u = f for motions as e^(s·t): docs/model.md,
-/// section 15.
+/// \file harmonic.hpp  The solver of the frequency domain: the steady state of a linear scene, (K*(s) + s²·M)·u = f for
+/// motions e^(s·t): docs/model.md, section 15.
 ///
-/// Same contact network, same area moments, same wall contacts as the time stepping (geometry of the start), so that it
-/// is both the accuracy reference of every explicit run and the fast way to |E*| and φ.
+/// It uses the same contact network, area moments and wall contacts as the time stepping, with the initial geometry. So
+/// it is both the accuracy reference of every explicit run and the fast way to |E*| and φ.
 #pragma once
 
 #include <array>
@@ -25,45 +25,47 @@
 
 namespace macadam {
 
-/// Particles whose stiffness is factored unasked: memory grows as about n^(4/3), 2 GB for 35,760.
+/// Largest number of particles for which the direct solver is chosen automatically. Its memory grows as about n^(4/3):
+/// 2 GB for 35,760 particles.
 inline constexpr std::size_t largest_direct = 100'000;
 
-/// What the harmonic solver is told once.
+/// Options of the solver.
 struct HarmonicOptions {
-  /// Largest relative residual ‖f − K·u‖ / ‖f‖, beyond what rounding of u alone leaves of K·u.
+  /// Largest relative residual ‖f − K·u‖ / ‖f‖, in excess of what the rounding of u alone causes in K·u.
   double tolerance = 1e-11;
   LinearMethod linear = LinearMethod::automatic;
-  /// Where the iteration without factors runs, cpu or cuda (automatic: as select_backend() has it); all else is on the
-  /// CPU.
+  /// Where the iterative solver runs, cpu or cuda (automatic: as select_backend()). Everything else runs on the CPU.
   Backend backend = Backend::cpu;
-  DeviceList devices = {};          ///< cuda: the first of them is made the calling thread's, and solves
-  std::function<bool()> stop = {};  ///< asked between iterations: true ends a solution with InterruptedError
-  double typical_growth = 0;  ///< of the loads [1/s], beside the typical frequency: the preconditioner is made for both
+  DeviceList devices = {};          ///< for cuda; the first one becomes the current device of the calling thread
+  std::function<bool()> stop = {};  ///< called between iterations; true ends a solution with InterruptedError
+  /// Typical real part of s [1/s]; the preconditioner is made for it and the typical frequency.
+  double typical_growth = 0;
 };
 
-/// Motions as e^(s·t), s = growth + 2πi·frequency, with the inertia and viscous damping of a run; see
-/// Harmonic::solve().
+/// One problem to solve: motions e^(s·t) with s = growth + 2πi·frequency, and the inertia and viscous damping of a run;
+/// see Harmonic::solve().
 struct HarmonicLoad {
   double frequency_hz = 0, density_scaling = 0, viscous_damping = 0;
-  double growth = 0;  ///< real part of s [1/s]: 0 for the steady state; Laplace transforms take others
+  double growth = 0;  ///< real part of s [1/s]: 0 for the steady state; positive for Laplace transforms
 
-  /// Where to begin, of a similar load, or nullptr: HarmonicResult::motion.
+  /// Initial solution: HarmonicResult::motion of a similar problem, or nullptr.
   const std::vector<std::complex<double>>* near = nullptr;
 
   std::complex<double> s() const { return {growth, 2 * std::numbers::pi * frequency_hz}; }
 };
 
-/// One frequency's steady state.
+/// Result of one problem.
 struct HarmonicResult {
-  double frequency_hz = 0, growth = 0;  ///< of the load
-  Stiffness top;                        ///< from the reaction of the top wall, as the energy of the motion gives it
-  Stiffness bottom;                     ///< from the reaction of the bottom wall; equal without inertia
-  ModulusParts parts;                   ///< of which top is the sum
-  double residual = 0;                  ///< relative, computed anew from the solution
+  double frequency_hz = 0, growth = 0;  ///< of the problem
+  Stiffness top;                        ///< from the reaction of the top wall, computed from the energy of the motion
+  Stiffness bottom;                     ///< from the reaction of the bottom wall; equal to `top` without inertia
+  ModulusParts parts;                   ///< their sum gives `top`
+  double residual = 0;                  ///< relative, computed afresh from the solution
   int iterations = 0;
-  LinearMethod linear = LinearMethod::iterative;  ///< that found the solution
-  std::string why_factors;                        ///< why factors were taken, where they were not asked for
-  double held_force = 0;  ///< force that holds free rigid motions / reaction; rounding, where nothing is wrong
+  LinearMethod linear = LinearMethod::iterative;  ///< the method that found the solution
+  std::string why_factors;                        ///< why the direct solver was used although it was not asked for
+  /// Force that holds free rigid motions, over the reaction; rounding error only, if nothing is wrong.
+  double held_force = 0;
   double seconds = 0;
   /// Complex displacement and rotation of each particle (ux uy uz θx θy θz) per unit displacement of the top wall.
   std::vector<std::complex<double>> motion;
@@ -73,20 +75,23 @@ struct HarmonicResult {
 /// it.
 class Harmonic {
  public:
-  /// `typical_frequency`: one in the middle of those to be solved [Hz]; the preconditioner is made for it.
+  /// `typical_frequency`: one in the middle of those to be solved [Hz], for which the preconditioner is made.
+  ///
   /// \throws InputError naming the particles of a cluster that does not touch both walls, or a pair without a law;
-  /// RunError when the stiffness is singular (a mechanism), a device is not there or has too little memory.
+  /// RunError if the stiffness is singular (a mechanism), or if a device does not exist or has too little memory.
   Harmonic(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws, const Inertia& inertia,
            const HarmonicOptions& options, double typical_frequency);
   ~Harmonic();
 
-  /// The steady state at one frequency. With a `density_scaling` of 0 it has no inertia. Otherwise it has the term
-  /// density_scaling·(s² + s·β)·M, β the viscous damping [1/s], as a stepped run of that scaling and damping has.
-  /// \throws RunError when the residual does not come down to the tolerance; InterruptedError.
+  /// Returns the steady state at one frequency. With `density_scaling` 0 there is no inertia. Otherwise the equations
+  /// contain density_scaling·(s² + s·β)·M, with the viscous damping β [1/s], as in a stepped run with this density
+  /// scaling and damping.
+  ///
+  /// \throws RunError if the residual does not reach the tolerance; InterruptedError.
   HarmonicResult solve(double frequency_hz, double density_scaling = 0, double viscous_damping = 0);
 
-  /// Several at once, which share what is read of the network, four at a time.
-  /// `seconds` is each one's part of the whole. \throws RunError naming the frequency.
+  /// Solves several problems, four at a time, which share the reading of the network. `seconds` of each result is its
+  /// part of the total. \throws RunError naming the frequency.
   std::vector<HarmonicResult> solve(const std::vector<HarmonicLoad>& loads);
 
  private:
@@ -94,8 +99,8 @@ class Harmonic {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The state from which an explicit run is periodic at once: that of `motion` (HarmonicResult::motion, solved with the
-/// inertia and damping of the run) under the loading, whose ramp is not there. A chain is f = k*(ω)·x, x_l = f/(k_l +
+/// Returns the state from which an explicit run is periodic at once: that of `motion` (HarmonicResult::motion, solved
+/// with the inertia and damping of the run) under the loading without its ramp. A chain is f = k*(ω)·x, x_l = f/(k_l +
 /// iω·η_l).
 StartState steady_start(const ContactNetwork& network, const LawTable& laws,
                         const std::vector<std::complex<double>>& motion, const drives::Cyclic& loading);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file linear_method.hpp  How the linear systems of the frequency domain are solved.
+/// \file linear_method.hpp  The methods that solve the linear systems of the frequency domain.
 #pragma once
 
 #include <cstdint>
 
 namespace macadam {
 
-/// `iterative`: by iteration without factors. `direct`: by iteration with Cholesky factors of the real part of the
-/// stiffness as preconditioner. `automatic`: the first and, where that does not reach the tolerance, the second, up to
-/// `largest_direct` particles (harmonic.hpp).
+/// `iterative`: the iterative solver. `direct`: an iteration whose preconditioner is the Cholesky factorisation of the
+/// real part of the stiffness. `automatic`: the iterative solver and, if that does not reach the tolerance, the direct
+/// one, up to `largest_direct` particles (harmonic.hpp).
 enum class LinearMethod : std::uint8_t { automatic, iterative, direct };
 
-/// "auto", "iterative", "direct".
+/// Returns "auto", "iterative" or "direct".
 const char* to_string(LinearMethod);
 
 }  // namespace macadam

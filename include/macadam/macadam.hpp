@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file macadam.hpp  Everything, in the order in which data flows.
+/// \file macadam.hpp  Includes all public headers, in the order in which data flows.
 ///
-///     scene ─► Specimen ─► Tessellation ─► ContactNetwork ─┬─► Stepper ─► Observation ─► Results
-///                                                          └─► Harmonic (frequency domain) ─► Results
+///   scene ─► Specimen ─► Tessellation ─► ContactNetwork ─┬─► Stepper ─► Observation ─► Results
+///                                                        └─► Harmonic (frequency domain) ─► Results
 ///
-/// A newcomer reads the headers in this order; each noun is made in the folder of host/ or kernels/ with the same stem
-/// and tested in tests/ under the same stem. docs/model.md has the whole model; where a comment says "Eq. 13" or [1],
-/// it means the source that is named there.
+/// A newcomer should read the headers in this order. Each is implemented in the folder or file of host/ or kernels/
+/// with the same name and tested under that name in tests/. docs/model.md describes the whole model and names the
+/// source that "[1]" and "Eq. 13" in comments refer to.
 #pragma once
 
 #include "macadam/version.hpp"

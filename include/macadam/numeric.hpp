@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file numeric.hpp  Small vectors that the same law text uses on the CPU (scalars or SIMD packs) and on the device.
+/// \file numeric.hpp  Small vectors that the CPU (scalars or SIMD packs) and devices use in the same code.
 #pragma once
 
 #include <cmath>
@@ -12,8 +12,8 @@
 
 namespace macadam {
 
-/// a·b + c. On a device rounded once, wherever it stands: what several kernels compute has the same bits in all of
-/// them.
+/// Returns a·b + c. On a device it is rounded only once, in every context, so that different kernels compute the same
+/// bits.
 template <class R>
 MACADAM_HD R multiply_add(R a, R b, R c) {
 #ifdef __CUDA_ARCH__
@@ -23,7 +23,7 @@ MACADAM_HD R multiply_add(R a, R b, R c) {
 #endif
 }
 
-/// Three components of one quantity. T is double, float or a SIMD pack of either.
+/// A vector with three components. T is double, float or a SIMD pack of either.
 template <class T>
 struct Vec3 {
   T x{}, y{}, z{};
@@ -55,13 +55,13 @@ MACADAM_HD Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
           multiply_add(a.x, b.y, -(a.y * b.x))};
 }
 
-/// k·a + b
+/// Returns k·a + b.
 template <class T>
 MACADAM_HD Vec3<T> multiply_add(const T& k, const Vec3<T>& a, const Vec3<T>& b) {
   return {multiply_add(k, a.x, b.x), multiply_add(k, a.y, b.y), multiply_add(k, a.z, b.z)};
 }
 
-/// Euclidean length; for SIMD packs the square root is found by argument-dependent look-up.
+/// Returns the Euclidean length. For SIMD packs the square root is found by argument-dependent lookup.
 template <class T>
 MACADAM_HD T norm(const Vec3<T>& a) {
   using std::sqrt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file results.hpp  From sampled strain and stress to |E*| and φ, and to files.
+/// \file results.hpp  Evaluates sampled strain and stress of a cyclic test: |E*| and φ.
 #pragma once
 
 #include <cstdint>
@@ -23,18 +23,18 @@ struct Stiffness {
   double e_star_pa = 0, phase_deg = 0;
 };
 
-/// What one cyclic test says.
+/// Result of one cyclic test.
 struct CyclicResult {
-  Stiffness fit;                ///< fundamental with offset and trend over the last `fit_cycles` cycles
-  Stiffness peaks;              ///< Eq. 24–25 on the last cycle
-  double fit_rms = 0;           ///< rms of stress not in the fit / stress amplitude
-  double change_e_star = 0;     ///< |E*| of the last cycle / that of the cycle before − 1 (NaN with one cycle)
-  double change_phase_deg = 0;  ///< φ likewise, difference
+  Stiffness fit;             ///< from a fit of the fundamental with offset and trend over the last `fit_cycles` cycles
+  Stiffness peaks;           ///< by Eq. 24–25 from the last cycle
+  double fit_rms = 0;        ///< rms of the stress that the fit leaves, over the stress amplitude
+  double change_e_star = 0;  ///< relative change of |E*| from the last but one cycle to the last (NaN with one cycle)
+  double change_phase_deg = 0;  ///< the same change of φ, as a difference
 };
 
-/// Fits offset + trend + fundamental + second harmonic to strain and stress over the last `fit_cycles` whole cycles
-/// (least squares) and reads Eq. 24–25 off the last cycle (parabolic peaks). \throws InputError when the samples hold
-/// less than one cycle.
+/// Fits offset, trend, fundamental and second harmonic to strain and stress over the last `fit_cycles` whole cycles
+/// (least squares), and evaluates Eq. 24–25 on the last cycle (parabolic peaks). \throws InputError if the samples
+/// cover less than one cycle.
 CyclicResult evaluate_cyclic(std::span<const ResponseSample> samples, double frequency, int fit_cycles);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file run_many.hpp  Several scenes in one process, side by side.
+/// \file run_many.hpp  Runs several scenes in one process at the same time.
 #pragma once
 
 #include <exception>
@@ -13,42 +13,48 @@
 
 namespace macadam {
 
-/// A scene and the folder of its results.
+/// A scene and the folder for its results.
 struct SceneJob {
   Scene scene;
   std::filesystem::path out;
 };
 
-/// What became of it: a result, or an error.
+/// The result of a job, or its error.
 struct JobOutcome {
   std::optional<RunResult> result;
   std::exception_ptr error;
 };
 
+/// Options and callbacks of run_many().
 struct ManyOptions {
-  /// Scenes at a time; 0: four a device, so that the specimens of some are made while others are stepped, but no more
-  /// than cores; without a device one a core. Two specimens a device are made and planned at a time; they share the
-  /// cores, but for one a device where there are eight for each. Of several devices each has its first two one after
-  /// the other, by twice as many cores, so that it need not wait long. Once the cells of a scene are made, it keeps
-  /// half of its cores where others wait for some. Without a device each scene has an equal share of them, unless its
-  /// [solver] threads says otherwise.
+  /// Number of scenes at a time. 0: four per device, so that some specimens are prepared while others are stepped, but
+  /// not more than there are cores; without a device, one per core.
+  ///
+  /// Two specimens per device are prepared and planned at a time. They share the cores; one core per device is left
+  /// free if there are at least eight cores per device. With several devices, the first two specimens of each device
+  /// are prepared one after the other with twice as many cores, so that the device need not wait long. After
+  /// tessellation, a scene gives half of its cores to scenes that are waiting. Without a device the scenes have equal
+  /// numbers of cores, unless [solver] threads says otherwise.
   int at_once = 0;
-  bool resume = false;  ///< go on from checkpoints, where folders have them
-  /// The functions but `stop` are called by one thread at a time. `job`: position in the list. What `done` throws ends
-  /// all, once what runs has ended.
+  bool resume = false;  ///< continue from checkpoints, in folders that have them
+  /// Called by one thread at a time, like the next two. `job`: position in the list. If `done` throws, no scene is
+  /// begun any more, and the exception leaves run_many() once the running scenes have ended.
   std::function<void(std::size_t job, const std::string& stage, double share)> progress;
   std::function<void(std::size_t job, const std::string& warning)> warn;
   std::function<void(std::size_t job, const JobOutcome& outcome)> done;
-  std::function<bool()> stop;  ///< as Watcher::stop, from several threads; scenes that have not begun do not begin then
+  /// As Watcher::stop; called by several threads. Once it returns true, no scene is begun any more.
+  std::function<bool()> stop;
 };
 
-/// run() of every scene, each on one device: an idle one, or the one that got the fewest so far, of those that its
-/// [solver] names or, where it names none, of all that answer. When no scene is to come any more, a cyclic test goes to
-/// the device that has less left to do for its next frequency. Small specimens share a device at the same time; of
-/// others, the two that came first are stepped piece by piece. The results are those of run(). An error of one scene
-/// ends no other, unless a device fails for a whole process; scenes that are on a device together share its memory.
-/// Outcomes are in the order of the jobs; one that was not begun has an InterruptedError. \throws InputError where two
-/// jobs have one folder.
+/// Calls run() for every scene, each on one device: an idle one, or the one that got the fewest scenes so far, among
+/// those that the scene's [solver] names (if it names none, all that answer). When no more scenes are to come, a cyclic
+/// test moves to the device with less work left for its next frequency. Small specimens share a device at the same
+/// time. The two larger specimens that came first take turns in short pieces. The results are the same as those of
+/// run(). An error of one scene does not end the others, unless a device fails for the whole process; scenes that are
+/// on a device together share its memory.
+///
+/// Returns the outcomes in the order of the jobs; a job that was not begun has an InterruptedError. \throws InputError
+/// if two jobs have the same folder.
 std::vector<JobOutcome> run_many(const std::vector<SceneJob>& jobs, const ManyOptions& options = {});
 
 }  // namespace macadam

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sensitivity.hpp  Derivatives of E* by its parameters, from one solution of the frequency domain:
+/// \file sensitivity.hpp  Derivatives of E* by the parameters of a scene, from one solution of the frequency domain:
 /// docs/model.md, section 16.
 ///
-/// E* = H/A · uᵀ·(K*(s) − inertia·M)·u at unit displacement of the top wall is stationary in u, so that
-/// dE*/dθ = H/A · uᵀ·(∂K*/∂θ)·u: one sum over the contacts of the solution at hand.
+/// E* = H/A · uᵀ·(K*(s) − inertia·M)·u at unit displacement of the top wall is stationary in u. Therefore dE*/dθ = H/A
+/// · uᵀ·(∂K*/∂θ)·u, one sum over the contacts of the solution.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace macadam {
 
-/// The parts of which E* is the sum [Pa], without conjugates.
+/// The parts whose sum is E* [Pa]; products are formed without conjugation.
 struct ModulusParts {
   std::array<std::complex<double>, pair_types> normal{};  ///< by PairType: opening and bending
   std::array<std::complex<double>, pair_types> shear{};   ///< slip and twist, α included
@@ -26,19 +26,21 @@ struct ModulusParts {
   std::complex<double> modulus() const;
 };
 
-/// Change of |E*| and φ per unit of a parameter's natural logarithm: a hundredth of it for one per cent.
+/// Change of |E*| and φ per unit of a parameter's natural logarithm. For a change of the parameter by one per cent,
+/// take a hundredth of it.
 struct Sensitivity {
   std::string parameter;  ///< "M-A.E_m", "M-A.delta", "M-A.alpha", "density_scaling"
   double d_e_star_pa = 0, d_phase_deg = 0;
 };
 
-/// By every parameter of every pair that is there, δ and α (where it is not 0), and the density scaling where there is
-/// inertia, for motions as e^(s·t). δ multiplies all moduli and viscosities of a pair.
+/// Returns derivatives by every parameter of every pair that is present, by δ and α (if α is not 0), and by the density
+/// scaling if there is inertia, for motions e^(s·t). δ multiplies all moduli and viscosities of a pair.
 std::vector<Sensitivity> sensitivities(const ModulusParts& parts, const LawTable& laws, std::complex<double> s);
 std::vector<Sensitivity> sensitivities(const ModulusParts&, const LawTable&,
-                                       double) = delete;  // s = iω, not ω
+                                       double) = delete;  // deleted, so that ω cannot be passed instead of s = iω
 
-/// The share of E* that each pair carries, by PairType: its part along E*, over |E*|. Without inertia they add up to 1.
+/// Returns the fraction of E* that each pair carries, by PairType: its component along E*, over |E*|. Without inertia
+/// the fractions add up to 1.
 std::array<double, pair_types> shares(const ModulusParts& parts);
 
 }  // namespace macadam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file simulation.hpp  The main job: scene in, results in a folder.
+/// \file simulation.hpp  The main job: runs a scene and writes its results to a folder.
 #pragma once
 
 #include <cstdint>
@@ -20,110 +20,123 @@ namespace macadam {
 
 class Stepper;
 
-/// Particles, cells and contacts of a scene, with what their making took.
+/// Particles, cells and contacts of a scene, and the time it took to make them.
 struct Preparation {
   Specimen specimen;
-  std::vector<CompositionRow> composition;  ///< empty for specimens read from a file, likewise the next
+  std::vector<CompositionRow> composition;  ///< empty for a specimen read from a file, like the next
   std::vector<Aggregate> aggregates;
   Tessellation tessellation;
   ContactNetwork network;
-  std::int64_t loose_particles = 0;  ///< in clusters that do not touch both walls: they carry nothing
-  int spanning_clusters = 0;         ///< clusters that touch both; one, usually
-  int relaxation_iterations = 0;     ///< of a generated specimen
+  std::int64_t loose_particles = 0;  ///< particles in clusters that do not touch both walls; they carry no load
+  int spanning_clusters = 0;         ///< number of clusters that touch both walls; usually one
+  int relaxation_iterations = 0;     ///< iterations of the generator; generated specimens only
   double seconds_specimen = 0, seconds_tessellation = 0, seconds_network = 0;
 };
 
 /// Something that a run leaves out because the scene does not need it.
 struct Skip {
   std::string what, why;
-  std::string effect;  ///< on the answer: "none: same bits", or how much
+  std::string effect;  ///< effect on the result: "none: same bits", or its size
 };
 
-/// Wall time of a run's phases in this process [s], beside those of its Preparation: each moment is in one of them.
+/// Wall time of the phases of a run in this process [s], in addition to those of its Preparation. Every moment belongs
+/// to exactly one phase.
 struct PhaseSeconds {
-  double start = 0;           ///< a device is found and waited for, a checkpoint is read
+  double start = 0;           ///< finding a device and waiting for it, reading a checkpoint
   double planning = 0;        ///< explicit: critical step and settings
-  double preconditioner = 0;  ///< of the harmonic solutions, or their factors
-  double harmonic = 0;        ///< harmonic solutions: for the plan, for the start, or those that are the result
+  double preconditioner = 0;  ///< making the preconditioner or the factorisation for harmonic solutions
+  double harmonic = 0;        ///< harmonic solutions: for the plan, for the start, or as the result
   double stepper = 0;         ///< explicit: making the steppers and their states
-  double stepping = 0;        ///< explicit: with response.csv, which grows by a line a sample
+  double stepping = 0;        ///< explicit: the steps, including response.csv, which grows by one line per sample
   double writing = 0;         ///< all other files
 
   double sum() const { return start + planning + preconditioner + harmonic + stepper + stepping + writing; }
 };
 
-/// Outcome of a run.
+/// Result of a run.
 struct RunResult {
-  ExperimentResult found;              ///< of the scene's test
-  PhaseSeconds phases;                 ///< a phase is in it once it is over
-  std::vector<std::string> decisions;  ///< what the scene left open, and what was chosen why
+  ExperimentResult found;              ///< result of the scene's experiment
+  PhaseSeconds phases;                 ///< a phase is included once it has ended
+  std::vector<std::string> decisions;  ///< choices that the scene left open, and the reason for each
   std::vector<Skip> skips;
-  std::vector<std::string> warnings;     ///< what a reader of the results must know, a sentence each
+  std::vector<std::string> warnings;     ///< what a reader of the results must know, one sentence each
   std::string solver;                    ///< what ran, in words: Stepper::description(), or "harmonic, …"
-  Backend backend = Backend::automatic;  ///< that ran
+  Backend backend = Backend::automatic;  ///< the backend that ran
 
-  /// The cyclic test as it was stepped, or as it was solved. \throws std::bad_variant_access where it was not.
+  /// Return the cyclic test as it was stepped, or as it was solved. \throws std::bad_variant_access if it was not.
   const experiments::SteppedCyclic& stepped() const { return std::get<experiments::SteppedCyclic>(found); }
   const experiments::HarmonicCyclic& harmonic() const { return std::get<experiments::HarmonicCyclic>(found); }
 };
 
-/// Called as work goes on: what is being done, share of it done 0…1. What it throws ends the work.
+/// Called as work proceeds, with the current stage and the fraction of it that is done, 0…1. An exception thrown by it
+/// ends the work.
 using Progress = std::function<void(const std::string& stage, double share)>;
 
-/// What a run found, in lines for people.
+/// Returns the results of a run as lines for people.
 std::string results_table(const RunResult& result);
 
-/// Specimen (read or generated), tessellation, network; checks that every pair present has a law.
+/// Makes specimen (reads or generates it), tessellation and network; checks that every pair that is present has a law.
 Preparation prepare(const Scene& scene, const Progress& progress = {});
-/// The same of particles in place of the scene's own.
+/// Does the same with the given particles in place of the scene's own.
 Preparation prepare(const Scene& scene, Specimen specimen, const Progress& progress = {});
 
-/// Prepares a scene and writes specimen.csv, aggregates.csv (of a generated specimen), gradation.csv (of a recipe by
-/// mass), contacts.csv (where the scene asks), section_*.csv of the planes and summary.json without results. Nothing is
+/// Prepares a scene and writes specimen.csv, aggregates.csv (generated specimens), gradation.csv (recipes by mass),
+/// contacts.csv (if the scene asks for it), section_*.csv of the planes, and summary.json without results. Nothing is
 /// written before the work is done.
-/// \throws InputError also where the folder holds a run, whose results these files would replace, or where another
+///
+/// \throws InputError also if the folder holds a run, whose results these files would replace, or if another command is
+/// writing into it; RunError.
 /// command is writing into it; RunError.
 Preparation prepare_into(const std::filesystem::path& out, const Scene& scene,
                          const std::vector<SectionPlane>& sections = {}, const Progress& progress = {});
 
-/// What a run tells as it goes; any may be empty.
+/// Functions that a run calls as it proceeds; any may be empty.
 struct Watcher {
   Progress progress;
-  std::function<void(const Preparation&)> prepared;  ///< once specimen and network are there
-  /// Decisions, once nothing can refuse the scene any more and the specimen's files are written: before the first step.
+  std::function<void(const Preparation&)> prepared;  ///< called once specimen and network are made
+  /// Called with the decisions, before the first step. The scene has then been accepted and the specimen's files are
+  /// written.
   std::function<void(const RunResult&)> planned;
-  std::function<void(const std::string&)> warn;  ///< at once; all warnings are in RunResult::warnings too
-  /// Asked before the first sample, once a second at least while steps are taken, and between iterations of the
-  /// frequency domain: true ends the run, a stepped one with a checkpoint.
+  /// Called at once for each warning; RunResult::warnings has all of them too.
+  std::function<void(const std::string&)> warn;
+  /// Called before the first sample, at least once per second while steps are taken, and between iterations of the
+  /// frequency domain. If it returns true, the run ends; a stepped run leaves a checkpoint.
   std::function<bool()> stop;
-  /// Asked before the steps of each frequency of a cyclic test on backend cuda, with the number of steps that are left,
-  /// this frequency whole: the devices that take them. Where none is named, they are those of the frequency before, or
-  /// the scene's. Where another device cannot take them, the one of before does, and this is asked no more. The bits
-  /// are the same on any.
+  /// Called before the steps of each frequency of a cyclic test on backend cuda, with the number of steps left,
+  /// including all of this frequency. Returns the devices that take the steps. An empty list means those of the
+  /// frequency before, or of the scene. If another device cannot take them, the one used before continues, and this is
+  /// not called again. The bits are the same on any device.
   std::function<DeviceList(std::int64_t steps)> devices;
-  /// Called after every `every` steps of a test that is stepped, with the frequency of a cyclic one, else with 0;
-  /// `every` = 0: never.
+  /// Called after every `every` steps of a stepped test, with the frequency of a cyclic one, otherwise with 0. `every`
+  /// = 0: never.
   std::function<void(const Stepper&, double frequency_hz)> stepped;
   std::int64_t every = 0;
 };
 
-/// The whole job: prepare, plan, step every frequency, write every file. The folder is as it was until preparing and
-/// planning are done, so that what refuses the scene leaves older results alone; then they are replaced.
-/// response.csv is complete up to the last sample whatever happens later; so is summary.json up to the last frequency
-/// (up to ten times what saving takes, where frequencies take less). A stepped run of a scene that was read from a file
-/// leaves `checkpoint.h5` as it goes (OutputSpec::checkpoint), replaced by a rename, and the one before it as
-/// `checkpoint-previous.h5`; one that cannot be written is a warning. When all is done the run removes its own and
-/// those of the same scene, no other; but its first one replaces whatever checkpoint is there. Backend reference keeps
-/// none. `resume` goes on from it to the same bits as a run that was never interrupted; where the newest is missing or
-/// damaged, a warning says so, and the one before is gone on from. \throws InputError also for a checkpoint that is not
-/// there, damaged, or of another scene, version, backend or precision, and where another command is writing into the
-/// folder; InterruptedError; RunError (DivergenceError names particle and time), also for a tolerance whose result
-/// cannot be right.
+/// Does the whole job: prepares, plans, steps every frequency, writes every file. The folder is not changed until
+/// preparing and planning are done, so that a scene that is refused leaves older results alone; then they are replaced.
 ///
-/// Processes that join_ranks() has joined all call this with the same scene; the first has the files. What `watcher`
-/// does with a stepper, it does on all of them. Where one fails, the others wait for it until Ranks::end_all().
+/// At any time response.csv is complete up to the last sample, and summary.json up to the last frequency. (If a
+/// frequency takes less than ten times as long as saving, summary.json is saved less often, so that saving takes at
+/// most about a tenth of the time.)
+///
+/// A stepped run of a scene that was read from a file writes `checkpoint.h5` as it goes (OutputSpec::checkpoint). It is
+/// replaced by renaming, and the one before it is kept as `checkpoint-previous.h5`. A checkpoint that cannot be written
+/// causes a warning. At the end the run removes its own checkpoints and those of the same scene, but no others; its
+/// first checkpoint replaces any that is there. Backend reference writes none.
+///
+/// `resume` continues from the checkpoint to the same bits as a run that was never interrupted. If the newest one is
+/// missing or damaged, a warning says so, and the run continues from the one before.
+///
+/// \throws InputError also for a checkpoint that is missing, damaged, or of another scene, version, backend or
+/// precision, and if another command is writing into the folder; InterruptedError; RunError (DivergenceError names
+/// particle and time), also for a tolerance whose result cannot be right.
+///
+/// All processes that join_ranks() has joined must call this with the same scene; the first one has the files. What
+/// `watcher` does with a stepper it must do in all of them. If one fails, the others wait for it until
+/// Ranks::end_all().
 RunResult run(const Scene& scene, const std::filesystem::path& out, const Watcher& watcher = {}, bool resume = false);
-/// The same of what was prepared already, of this scene or of one with the same particles.
+/// Does the same with an existing preparation, of this scene or of one with the same particles.
 RunResult run(const Scene& scene, const Preparation& prepared, const std::filesystem::path& out,
               const Watcher& watcher = {}, bool resume = false);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen.hpp  The particles of a specimen in its box: read, written, generated, checked.
+/// \file specimen.hpp  The particles of a specimen in its box: reading, writing, generating and checking them.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@
 
 namespace macadam {
 
-/// What a particle is made of.
+/// The material of a particle.
 enum class Phase : std::uint8_t {
   aggregate,
   mastic,
-  air_void  ///< of cells that are no particle: Specimen::voids
+  air_void  ///< only for cells of voids, which are not particles: Specimen::voids
 };
 
-/// `"aggregate"`, `"mastic"` or `"void"`.
+/// Returns "aggregate", "mastic" or "void".
 const char* to_string(Phase phase);
 
 /// Axis-aligned box with one corner at the origin; z is vertical.
@@ -31,111 +31,115 @@ struct Box {
   double volume() const { return size.x * size.y * size.z; }  ///< [m³]
 };
 
-/// A sphere of air. It has a cell in the tessellation as a particle has; the cell's facets are free surface.
+/// A sphere of air. It has a cell in the tessellation like a particle; the facets of the cell are free surfaces.
 struct VoidSphere {
   Vec3d centre{};     ///< [m]
   double radius = 0;  ///< [m]
 };
 
-/// Spheres in a box. All vectors but `voids` have one entry a particle; the order is the user's and is kept in every
-/// output. Voids are no particles: they have no mass, no motion and no contacts. Where cells are numbered, in the
-/// tessellation and in files, theirs come behind those of the particles.
+/// Spheres in a box. All vectors except `voids` have one entry per particle; the order is the user's and is kept in
+/// every output. Voids are not particles: they have no mass, motion or contacts. Where cells are numbered, in the
+/// tessellation and in files, the cells of voids follow those of the particles.
 struct Specimen {
   Box box;
   std::vector<Vec3d> centre;   ///< [m]
   std::vector<double> radius;  ///< [m]
   std::vector<Phase> phase;
-  std::vector<std::int32_t> body;  ///< number of the aggregate that the sphere belongs to, −1 for mastic
+  std::vector<std::int32_t> body;  ///< number of the aggregate that the sphere belongs to; −1 for mastic
   std::vector<VoidSphere> voids = {};
 
-  std::string source = "specimen";  ///< where it comes from, as messages say it: its file, or the scene's
-  int first_line = 0;               ///< of particle 0 in that file, one line a particle; 0: they have none
+  std::string source = "specimen";  ///< origin for messages: the specimen's file, or the scene's
+  int first_line = 0;               ///< line of particle 0 in that file, which has one line per particle; 0: no lines
 
   std::size_t size() const { return centre.size(); }
   std::size_t cells() const { return size() + voids.size(); }
+  /// Returns the phase of a cell; cells of voids are numbered after those of particles.
   Phase phase_of(std::int32_t cell) const {
     return static_cast<std::size_t>(cell) < size() ? phase[static_cast<std::size_t>(cell)] : Phase::air_void;
   }
-  /// For messages: the line of a particle or void, by its cell, in `source`, or 0.
+  /// For messages: returns the line in `source` of a particle or void, given by its cell; 0: no line.
   int line_of(std::int64_t cell) const { return first_line > 0 ? first_line + static_cast<int>(cell) : 0; }
 };
 
-/// Every sphere that has a cell, voids behind the particles, as a specimen of its own without voids.
+/// Returns a specimen without voids that has a particle for every sphere with a cell, voids last.
 Specimen with_voids_as_cells(const Specimen& specimen);
 
-/// Checks every particle and void: finite centre inside the box, finite positive radius, `body` −1 exactly for mastic,
-/// no two coincident centres; and that the box is finite and positive. `source` begins each message (a file name,
-/// usually). \throws InputError naming the first offending particle.
+/// Checks every particle and void: finite centre inside the box; finite positive radius; `body` −1 exactly for mastic;
+/// no two coincident centres. Also checks that the box is finite and positive. `source` begins each message (usually a
+/// file name). \throws InputError naming the first particle with a fault.
 void validate(const Specimen& specimen, const std::string& source);
 
-/// Reads `id,x,y,z,radius,phase,body` (metres; plain text or gzip, told by content), in file order, and validates it.
-/// Rows of phase `void` stand behind those of all particles.
+/// Reads `id,x,y,z,radius,phase,body` (metres; plain text or gzip, detected from the content), in file order, and
+/// validates it. Rows of phase `void` must follow those of all particles.
+///
 /// \throws InputError with file, line, what was found and what was expected.
 Specimen read_specimen_csv(const std::filesystem::path& file, const Box& box);
 
-/// Writes the same format with digits enough to round-trip a double.
-/// \throws RunError when the file cannot be written.
+/// Writes the same format, with enough digits to recover each double.
+///
+/// \throws RunError if the file cannot be written.
 void write_specimen_csv(const std::filesystem::path& file, const Specimen& specimen);
 
-/// How diameters are drawn between the two sieves of a class (docs/model.md, section 19: log-uniform
-/// fits Table 3 of [1]).
+/// How diameters are sampled between the two sieves of a class (docs/model.md, section 19; log-uniform fits Table 3 of
+/// [1]).
 enum class SizeLaw : std::uint8_t { log_uniform, uniform, volume_uniform };
 
 /// One aggregate class: spheres whose diameters lie between two sieves.
 struct AggregateClass {
   double sieve_min = 0, sieve_max = 0;    ///< diameters [m]
-  std::optional<double> volume_fraction;  ///< share of the solid volume (aggregates and mastic), or …
+  std::optional<double> volume_fraction;  ///< fraction of the solid volume (aggregates and mastic), or …
   std::optional<std::int64_t> count;      ///< … the number of aggregates
-  int line = 0;                           ///< in SpecimenSpec::source, for messages; 0: none
+  int line = 0;                           ///< line in SpecimenSpec::source, for messages; 0: none
 };
 
-/// The mastic that fills the rest: radius uniform in a range.
+/// The mastic that fills the remaining volume; radii are uniform in a range.
 struct MasticSpec {
   double radius_min = 0, radius_max = 0;  ///< [m]
   std::optional<double> porosity;         ///< 1 − Σ volumes of solid spheres / (box − voids), or …
   std::optional<std::int64_t> count;      ///< … the number of mastic spheres
-  int line = 0;                           ///< in SpecimenSpec::source, for messages; 0: none
+  int line = 0;                           ///< line in SpecimenSpec::source, for messages; 0: none
 };
 
-/// Air voids that have a size of their own: spheres without overlap, clear of the aggregates, radius uniform in a
-/// range.
+/// Air voids with sizes of their own: spheres that overlap neither each other nor the aggregates; radii are uniform in
+/// a range.
 struct VoidSpec {
   double radius_min = 0, radius_max = 0;  ///< [m]
   std::optional<double> fraction;         ///< Σ sphere volumes / box, or …
   std::optional<std::int64_t> count;      ///< … the number of voids
-  int line = 0;                           ///< in SpecimenSpec::source, for messages; 0: none
+  int line = 0;                           ///< line in SpecimenSpec::source, for messages; 0: none
 };
 
-/// How places of shaped aggregates are found.
+/// How positions of shaped aggregates are found.
 enum class PlacementMethod : std::uint8_t {
-  insertion,  ///< one by one at random, largest first, each where it touches none before it, as in [1]
-  packing     ///< all at once: grown from a smaller scale while overlaps push them apart; reaches higher fractions
+  insertion,  ///< one by one at random, largest first, each where it touches none placed before it, as in [1]
+  packing     ///< all at once: they grow from a smaller scale while overlaps push them apart; reaches higher fractions
 };
 
-/// What tells whether two shaped aggregates touch while they are inserted.
+/// Which geometry decides whether two shaped aggregates touch during insertion.
 enum class PlacementTest : std::uint8_t {
-  surfaces,  ///< those of the shapes
-  spheres    ///< those that fill the shapes: clusters may interlock
+  surfaces,  ///< surfaces of the shapes
+  spheres    ///< spheres that fill the shapes; clusters may interlock
 };
 
-/// Aggregates of real shape, each a deformable cluster of spheres, in place of single spheres. An aggregate's size, by
-/// which sieves part and classes are drawn, is then its D^I.
+/// Aggregates of real shape, each a deformable cluster of spheres, in place of single spheres. The size of an
+/// aggregate, used by sieves and classes, is then its D^I.
 struct ShapeSpec {
+  /// Source of the shapes.
   enum class Library : std::uint8_t {
     aggregates,                  ///< shape_library()
     icosahedron,                 ///< subdivided_icosahedron()
-    aggregates_and_icosahedron,  ///< the icosahedron as one more of the library ([1], section 3.3)
+    aggregates_and_icosahedron,  ///< the icosahedron is one more shape of the library ([1], section 3.3)
     folder                       ///< every surface of a folder
   };
   Library library = Library::aggregates;
-  std::filesystem::path folder;  ///< of surfaces, any unit of length; with Library::folder
-  FillSpec fill;                 ///< its seed is not used: every aggregate has one of its own
+  std::filesystem::path folder;  ///< folder of surfaces, in any unit of length; with Library::folder
+  FillSpec fill;                 ///< its seed is not used, because every aggregate has its own
   PlacementMethod placement = PlacementMethod::packing;
-  bool allow_short = false;  ///< insertion: classes that find no more room stay short of what was asked
+  bool allow_short = false;  ///< insertion: a class that finds no more space may stay below the requested amount
   PlacementTest test = PlacementTest::surfaces;  ///< insertion
-  double gap = 0.01;  ///< packing: least distance of two surfaces, over the smaller one's D^I
+  double gap = 0.01;  ///< packing: smallest distance between two surfaces, over the smaller D^I
   /// Stiffness of the shapes' surfaces against the mastic while it relaxes, over that of a pair of mastic spheres, 0 to
-  /// 10. At 0 only the spheres that fill the shapes hold the mastic out.
+  /// 10. With 0, only the spheres that fill the shapes keep the mastic out.
   double hold_out = 0;
 };
 
@@ -144,22 +148,22 @@ struct SpecimenSpec {
   std::optional<std::filesystem::path> file;
   Box box;
   std::uint64_t seed = 1;
-  std::vector<AggregateClass> aggregate;  ///< any order; placed largest first
-  std::optional<ShapeSpec> shapes;        ///< none: aggregates are single spheres
+  std::vector<AggregateClass> aggregate;  ///< in any order; placed largest first
+  std::optional<ShapeSpec> shapes;        ///< empty: aggregates are single spheres
   std::optional<MasticSpec> mastic;
   std::optional<VoidSpec> voids;
   SizeLaw size_law = SizeLaw::log_uniform;
-  double spacing = 0;                 ///< least distance of two aggregates one of which is inserted after the other [m]
-  bool fix_aggregates = true;         ///< hold the aggregates while the mastic relaxes (moves |E*| by 6–7 % if not)
+  double spacing = 0;          ///< smallest distance between two aggregates inserted one after the other [m]
+  bool fix_aggregates = true;  ///< hold the aggregates while the mastic relaxes (otherwise |E*| changes by 6–7 %)
   std::int64_t attempts = 2'000'000;  ///< positions tried for one aggregate before its class is given up
   std::string source = "specimen";    ///< the scene's file, for messages
-  int line = 0;                       ///< of its section there; 0: none
+  int line = 0;                       ///< line of its section in that file; 0: none
 };
 
-/// What was asked of the generator and what it reached, one entry an aggregate class, then one for the mastic, then one
-/// for the voids, if there are any.
+/// The requested and the reached amount of one component. The generator reports one entry per aggregate class, then one
+/// for the mastic, then one for the voids if there are any.
 struct CompositionRow {
-  std::string name;  ///< e.g. `"12.5-19 mm"` or `"mastic"`
+  std::string name;  ///< for example "12.5-19 mm" or "mastic"
   std::int64_t count_asked = 0, count = 0;
   double fraction_asked = 0, fraction = 0;  ///< Σ volumes (of the shapes, or of single spheres) / box volume
 };
@@ -167,43 +171,44 @@ struct CompositionRow {
 /// One aggregate of a generated specimen.
 struct Aggregate {
   std::int32_t body = 0;           ///< Specimen::body of its spheres
-  std::int32_t size_class = 0;     ///< number of its class in the recipe's order
-  std::string shape;               ///< name of its template, `"sphere"` where a single sphere stands for it
+  std::int32_t size_class = 0;     ///< index of its class in the recipe's order
+  std::string shape;               ///< name of its template; "sphere" if a single sphere represents it
   double size = 0;                 ///< D^I [m]
-  double d_long = 0, d_short = 0;  ///< D^L, D^S of the shape; of a single sphere its diameter [m]
-  Vec3d axis_long{};               ///< unit vector along D^L; 0 for a sphere
-  double volume = 0;               ///< of the shape, or of the single sphere [m³]
+  double d_long = 0, d_short = 0;  ///< D^L, D^S of the shape; for a single sphere its diameter [m]
+  Vec3d axis_long{};               ///< unit vector along D^L; zero for a sphere
+  double volume = 0;               ///< volume of the shape, or of the single sphere [m³]
   std::int64_t spheres = 1;
-  Vec3d centre{};             ///< of its volume [m]
-  std::int32_t surface = -1;  ///< number in GeneratedSpecimen::surfaces; −1 of a single sphere
-  Pose pose;                  ///< that brings this surface to the aggregate's place
+  Vec3d centre{};             ///< centroid of its volume [m]
+  std::int32_t surface = -1;  ///< index in GeneratedSpecimen::surfaces; −1 for a single sphere
+  Pose pose;                  ///< maps this surface to the aggregate's position
 };
 
-/// A generated specimen with the report of its making.
+/// A generated specimen, and the report of its generation.
 struct GeneratedSpecimen {
   Specimen specimen;
   std::vector<CompositionRow> composition;
   std::vector<Aggregate> aggregates;  ///< in the order of their spheres
-  std::vector<Surface> surfaces;      ///< templates of the shaped ones, about the centroids of their volumes
+  std::vector<Surface> surfaces;      ///< templates of the shaped aggregates, centred at the centroids of their volumes
   int relaxation_iterations = 0;
-  double residual_overlap = 0;  ///< largest aggregate–aggregate overlap after relaxation [m]; 0 where they are held
+  double residual_overlap = 0;  ///< largest aggregate–aggregate overlap after relaxation [m]; 0 if aggregates are held
 };
 
-/// Generates a specimen: aggregates largest first without overlap and inside the box (single spheres, or shapes filled
-/// with spheres), then mastic to the porosity or count, then relaxation until the spheres are evenly spread and every
-/// one has a Laguerre cell.
-/// The same spec (seed included) gives the same bits. `progress`, if given, receives (stage, share done 0…1).
-/// \throws InputError for impossible specs; RunError when a class cannot be placed, saying how much was.
+/// Generates a specimen: first aggregates, largest first, without overlap and inside the box (single spheres, or shapes
+/// filled with spheres); then mastic up to the porosity or count; then relaxation until the spheres are evenly spread
+/// and every one has a Laguerre cell. The same spec (seed included) gives the same bits. `progress`, if given, receives
+/// (stage, fraction done 0…1).
+///
+/// \throws InputError for an impossible spec; RunError if a class cannot be placed, saying how much was placed.
 GeneratedSpecimen generate_specimen(const SpecimenSpec& spec,
                                     const std::function<void(const char* stage, double share)>& progress = {});
 
-/// Writes `body,size_class,class,shape,size,d_long,d_short,axis_x,axis_y,axis_z,volume,spheres,x,y,z` (SI units), a
-/// line an aggregate; `classes` are the composition's names. \throws RunError when the file cannot be written.
+/// Writes `body,size_class,class,shape,size,d_long,d_short,axis_x,axis_y,axis_z,volume,spheres,x,y,z` (SI units), one
+/// line per aggregate; `classes` are the names of the composition. \throws RunError if the file cannot be written.
 void write_aggregates_csv(const std::filesystem::path& file, const std::vector<Aggregate>& aggregates,
                           const std::vector<CompositionRow>& classes);
 
-/// Numbers (specimen order) of particles whose Laguerre cell inside the box is empty. Declared here because the
-/// generator asks; the tessellation answers.
+/// Returns the numbers (specimen order) of particles whose Laguerre cell inside the box is empty. Declared here because
+/// the generator needs it; the tessellation defines it.
 std::vector<std::int32_t> particles_without_cell(const Specimen& specimen);
 
 }  // namespace macadam

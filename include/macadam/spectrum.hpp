@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file spectrum.hpp  Relaxation and creep of a specimen at any time, without a step in time.
+/// \file spectrum.hpp  Relaxation and creep of a specimen at any time, computed without time steps.
 ///
 /// A network of springs and dashpots without inertia relaxes as a sum of exponentials, E(t) = E_∞ + Σ g_i·e^(−t/τ_i)
-/// with positive g_i. Its solutions at some real s > 0 (the Laplace variable) span a space of motions in which these
-/// g_i and τ_i are those of one small symmetric eigenvalue problem; creep follows from the same numbers. More solutions
-/// are taken until E(t) is known.
+/// with positive g_i. Its solutions at some real s > 0 (the Laplace variable) span a space of motions. In this space
+/// g_i and τ_i follow from one small symmetric eigenvalue problem, and creep follows from the same numbers. Solutions
+/// at further s are added until E(t) is accurate enough.
 #pragma once
 
 #include <complex>
@@ -19,80 +19,84 @@
 
 namespace macadam {
 
-/// Relaxation modulus as a sum of Maxwell units, times ascending.
+/// Relaxation modulus as a sum of Maxwell units, in order of rising times.
 struct PronySeries {
   struct Unit {
     double modulus;  ///< g [Pa], positive
     double time;     ///< τ [s]
   };
-  double long_term = 0;  ///< E_∞ [Pa]: 0 for what flows
+  double long_term = 0;  ///< E_∞ [Pa]; 0 for a fluid
   std::vector<Unit> units;
 
   double instantaneous() const;    ///< E(0) [Pa]
-  double modulus(double t) const;  ///< E(t) [Pa]: stress after a step of strain, over it; 0 before
-  /// Stress over strain where the strain grows evenly from t = 0 to `duration`, and is held; 0: a step.
+  double modulus(double t) const;  ///< E(t) [Pa]: stress after a step of strain, over the strain; 0 for t < 0
+  /// Returns stress over strain if the strain grows linearly from t = 0 to `duration` and is then held; duration 0: a
+  /// step.
   double after_ramp(double t, double duration) const;
-  std::complex<double> stiffness(std::complex<double> s) const;  ///< E*(s) [Pa], for motions as e^(s·t)
-  std::complex<double> stiffness(double) const = delete;         // iω, not ω
+  std::complex<double> stiffness(std::complex<double> s) const;  ///< E*(s) [Pa], for motions e^(s·t)
+  std::complex<double> stiffness(double) const = delete;         // deleted, so that ω cannot be passed instead of iω
 };
 
-/// Creep compliance as a chain of Kelvin units in series with a spring and a dashpot, times ascending.
+/// Creep compliance as a chain of Kelvin units in series with a spring and a dashpot, in order of rising times.
 struct CreepSeries {
   struct Unit {
     double compliance;  ///< J [1/Pa], positive
     double time;        ///< retardation time [s]
   };
   double instantaneous = 0;  ///< J_0 [1/Pa]
-  double fluidity = 0;       ///< 1/η [1/(Pa·s)]: 0 for what does not flow
+  double fluidity = 0;       ///< 1/η [1/(Pa·s)]; 0 for a solid
   std::vector<Unit> units;
 
-  double compliance(double t) const;  ///< J(t) [1/Pa]: strain after a step of stress, over it; 0 before
-  /// Strain over stress where the stress grows evenly from t = 0 to `duration`, and is held; 0: a step.
+  double compliance(double t) const;  ///< J(t) [1/Pa]: strain after a step of stress, over the stress; 0 for t < 0
+  /// Returns strain over stress if the stress grows linearly from t = 0 to `duration` and is then held; duration 0: a
+  /// step.
   double after_ramp(double t, double duration) const;
 };
 
-/// The relaxation of a contact law: the poles and residues of its stiffness. \throws InputError for a law that is no
-/// chain with positive constants.
+/// Returns the relaxation of a contact law, from the poles and residues of its stiffness. \throws InputError for a law
+/// that is not a chain with positive constants.
 PronySeries prony_series(const Law& law);
 
-/// The same solid's or fluid's creep, from the zeros that lie between the poles. \throws InputError for a series
-/// without any modulus.
+/// Returns the creep of the same material, from the zeros that lie between the poles. \throws InputError for a series
+/// whose moduli are all zero.
 CreepSeries creep_series(const PronySeries& relaxation);
 
-/// A few units of a series, as many as keep its E(t) between two times, and E(0), to a relative tolerance.
+/// Returns a series with fewer units, as many as reproduce E(0), and E(t) between two times, to a relative tolerance.
 PronySeries few_units(const PronySeries& series, double shortest, double longest, double tolerance);
 
-/// The largest relative difference of E(t) from `exact`, at 0 and between two times.
+/// Returns the largest relative difference of E(t) from `exact`, at t = 0 and between two times.
 double difference(const PronySeries& series, const PronySeries& exact, double shortest, double longest);
 
-/// Where and how exactly a spectrum shall be known.
+/// Range of times and accuracy of a spectrum.
 struct SpectrumOptions {
-  double shortest = 1e-3, longest = 1e4;  ///< times [s]
-  double tolerance = 1e-6;                ///< of E(t), relative, by both measures of Spectrum
-  Backend backend = Backend::cpu;         ///< of the solutions
+  double shortest = 1e-3, longest = 1e4;  ///< range of times [s]
+  double tolerance = 1e-6;                ///< relative tolerance of E(t), for both error measures of Spectrum
+  Backend backend = Backend::cpu;         ///< where the solutions are computed
   LinearMethod linear = LinearMethod::automatic;
   DeviceList devices = {};
-  std::function<bool()> stop = {};                             ///< true ends with InterruptedError
-  std::function<void(int solutions, double error)> told = {};  ///< after every round
+  std::function<bool()> stop = {};                             ///< true ends the computation with InterruptedError
+  std::function<void(int solutions, double error)> told = {};  ///< called after every round of solutions
 };
 
-/// From `first` to `last`, both among them, evenly in the logarithm: `per_decade` of them a decade, or a little more.
+/// Returns numbers from `first` to `last`, both included, evenly spaced in the logarithm, with `per_decade` or slightly
+/// more per decade.
 std::vector<double> log_range(double first, double last, int per_decade);
 
-/// What a specimen's relaxation is, and how well it is known.
+/// The relaxation of a specimen, and its accuracy.
 struct Spectrum {
   PronySeries relaxation;
   CreepSeries creep;
-  /// Estimate of the largest relative error of E(t) between `shortest` and `longest`, from what the last two rounds of
-  /// solutions changed, and what their residuals may leave.
+  /// Estimate of the largest relative error of E(t) between `shortest` and `longest`: from the change by the last two
+  /// rounds of solutions and the effect of their residuals.
   double error = 0;
-  /// Largest relative difference of E*(iω) from solutions that have no part in the series, at frequencies of the range.
+  /// Largest relative difference of E*(iω) from solutions that were not used for the series, at frequencies of the
+  /// range.
   double checked = 0;
-  int solutions = 0;  ///< of the whole network
+  int solutions = 0;  ///< number of solutions of the whole network
 };
 
-/// The uniaxial relaxation of a specimen without inertia (sides as the network has them). \throws InputError for a law
-/// without a series, or times that make no sense; RunError as Harmonic does, or where the tolerance is not reached;
+/// Returns the uniaxial relaxation of a specimen without inertia (lateral walls as in the network). \throws InputError
+/// for a law without a series, or for impossible times; RunError as Harmonic, or if the tolerance is not reached;
 /// InterruptedError.
 Spectrum spectrum_of(const Specimen& specimen, const ContactNetwork& network,
                      const std::array<std::optional<Law>, pair_types>& laws, const SpectrumOptions& options = {});

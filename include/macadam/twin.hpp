@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file twin.hpp  The specimen in a scan, as a specimen that can be solved. Of use where the library was built with
-/// ITK (MACADAM_CT).
+/// \file twin.hpp  Makes a specimen that can be solved from the specimen in a scan (a twin). Works only if the library
+/// was built with ITK (MACADAM_CT).
 #pragma once
 
 #include <array>
@@ -15,36 +15,40 @@
 
 namespace macadam {
 
-/// What is made of a scan.
+/// Options of a twin.
 struct TwinSpec {
-  std::optional<std::array<Vec3d, 2>> box = {};  ///< lower and upper corner in the scan's coordinates [m]; none: what
-                                                 ///< is not outside of the specimen
-  std::optional<double> porosity = {};           ///< of the mastic, MasticSpec::porosity; none: the scene's
-  double least_void = 0;  ///< radius of the sphere below which a void is left out [m]; 0: a sphere of two voxels
+  /// Lower and upper corner in the scan's coordinates [m]; empty: the extent of the specimen's voxels.
+  std::optional<std::array<Vec3d, 2>> box = {};
+  std::optional<double> porosity = {};  ///< porosity of the mastic, as MasticSpec::porosity; empty: the scene's
+  /// Smallest radius of the sphere that represents a void [m], smaller voids are left out; 0: two voxel edges.
+  double least_void = 0;
   std::uint64_t seed = 1;
 };
 
-/// A specimen made of a scan.
+/// The specimen made from a scan.
 struct Twin {
   Specimen specimen;
-  Vec3d corner{};                                            ///< of the box, in the scan's coordinates [m]
-  std::int64_t grains = 0;                                   ///< in the box, at least in part
-  std::int64_t clusters = 0;                                 ///< of several spheres
-  std::int64_t lost = 0;                                     ///< grains of which too little is in the box for a sphere
-  std::int64_t enclosed_mastic = 0, enclosed_aggregate = 0;  ///< particles not joined to both walls, and taken out
-  double aggregate = 0, voids = 0;  ///< volumes of the labels and of the void voxels, over the box
-  double voids_left_out = 0;        ///< volume of what was too small, over the box
-  double mastic = 0;                ///< Σ volumes of the mastic's spheres over the box
+  Vec3d corner{};             ///< corner of the box, in the scan's coordinates [m]
+  std::int64_t grains = 0;    ///< number of grains that lie in the box, at least in part
+  std::int64_t clusters = 0;  ///< number of grains that are clusters of several spheres
+  std::int64_t lost = 0;      ///< grains with too little volume in the box for a sphere
+  /// Particles that were removed because they are not connected to both walls.
+  std::int64_t enclosed_mastic = 0, enclosed_aggregate = 0;
+  double aggregate = 0, voids = 0;  ///< volumes of the labelled grains and of the void voxels, over the box
+  double voids_left_out = 0;        ///< volume of voids that were too small, over the box
+  double mastic = 0;                ///< Σ volumes of the mastic spheres, over the box
 };
 
-/// Makes a specimen of a folder with labels.mha, phases.mha, library/grain_*.off and border/grain_*.off, as `ct
-/// segment` and the truth of `ct phantom` have them. Grains are filled with spheres as the scene's [specimen.shapes]
-/// asks, or are single spheres of their volumes; voids are spheres where the scan has them; mastic of the scene's radii
-/// is packed around them. \throws InputError for a folder that is none, or a box that is not within the specimen.
+/// Makes a specimen from a folder with labels.mha, phases.mha, library/grain_*.off and border/grain_*.off, as written
+/// by `ct segment` and, in truth/, by `ct phantom`. Grains are filled with spheres as the scene's [specimen.shapes]
+/// says, or are single spheres of the same volumes. Voids are spheres where the scan has voids. Mastic with the scene's
+/// radii is packed around them. \throws InputError for a folder without these files, or a box that is not within the
+/// specimen.
 Twin make_twin(const std::filesystem::path& folder, const Scene& scene, const TwinSpec& spec,
                const std::function<void(const std::string& stage, double share)>& progress = {});
 
-/// Writes scene.toml, which is the scene with this specimen in place of its own, specimen.csv and twin.json.
+/// Writes scene.toml (the scene with this specimen in place of its own), specimen.csv and twin.json.
+///
 /// \throws RunError naming the file.
 void write_twin(const std::filesystem::path& out, const Twin& twin, const Scene& scene);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file version.hpp  Which Macadam this is.
+/// \file version.hpp  The version of Macadam.
 #pragma once
 
 namespace macadam {
 
-/// "0.1.0"; between releases "0.1.0+3.gHASH", three commits after 0.1.0
+/// Returns "0.1.0"; between releases "0.1.0+3.gHASH", three commits after 0.1.0.
 const char* version();
 
 }  // namespace macadam

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file box_motion.hpp  The rigid motions of a box of particles, and what a load on a particle does on them.
+/// \file box_motion.hpp  The rigid motions of a box of particles: the motion of a particle that they give, and the load
+/// on them by a load on a particle.
 #pragma once
 
 #include "kernels/contact_kinematics.hpp"
 
 namespace macadam::kernels {
 
-/// Where a particle lies in its box: from the box's middle, over its half width [m]. The motions are three
-/// displacements y[0…2] and three turns y[3…5] about the middle over the half width, so that all are lengths.
+/// Position of a particle relative to the middle of its box, and the half width of the box [m]. The motions of a box
+/// are three displacements y[0…2], and three rotations y[3…5] about the middle times the half width, so that all six
+/// are lengths.
 struct Lever {
   double x, y, z, width;
 };
 
-/// Motion of the particle under those of its box: u = d + θ × lever / width, rotation θ / width.
+/// Returns the motion of the particle under the motions of its box: u = d + θ × lever / width, rotation θ / width.
 template <class T>
 MACADAM_HD Twist<T> moved_with_box(const Lever& l, const T (&y)[6]) {
   const double w = 1 / l.width;
@@ -22,7 +24,7 @@ MACADAM_HD Twist<T> moved_with_box(const Lever& l, const T (&y)[6]) {
           turn};
 }
 
-/// Load on the box's motions by that on the particle: the transpose of moved_with_box().
+/// Adds the load on a particle to the load on the box's motions: the transpose of moved_with_box().
 template <class T>
 MACADAM_HD void add_to_box(const Lever& l, const Twist<T>& v, T (&y)[6]) {
   const double w = 1 / l.width;

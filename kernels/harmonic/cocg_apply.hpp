@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_apply.hpp  q = K·p, a warp a body, and α from it.
+/// \file cocg_apply.hpp  The kernels apply and step of the iteration (cocg_view.hpp): q = K·p with one warp per body,
+/// then α.
 #pragma once
 
 #include <cuda_pipeline.h>
@@ -9,17 +10,18 @@
 
 namespace macadam::kernels {
 
-/// From so many contacts on, all warps of a block work on a body: a large aggregate has hundreds, which take one warp
-/// longer than the rest of the specimen takes all others.
+/// A body with at least this many contacts is computed by all warps of a block. A large aggregate has hundreds of
+/// contacts; one warp would take longer for it than all others take for the rest of the specimen.
 inline constexpr unsigned many_contacts = 64;
 
-/// Ends of contacts in a block's memory, a step apart at which threads that read one each find different banks.
+/// Buffer for contact ends in shared memory. One part more per end makes threads that read one end each access
+/// different banks.
 template <unsigned N>
 struct alignas(16) StagedEnds {
   static constexpr unsigned parts = sizeof(ContactEnd) / 16;
   uint4 end[N][parts + 1];
 
-  /// `count` ends, or as many of them as there is room for, are on their way after this. By a whole warp.
+  /// Starts the asynchronous copy of `count` ends, or as many as fit. Called by a whole warp.
   __device__ void send(const ContactEnd* from, unsigned count) {
     const auto* at = reinterpret_cast<const uint4*>(from);
     for (unsigned part = threadIdx.x % 32; part < N * parts; part += 32) {
@@ -30,22 +32,28 @@ struct alignas(16) StagedEnds {
   __device__ const ContactEnd& operator[](unsigned i) const { return *reinterpret_cast<const ContactEnd*>(end[i]); }
 };
 
-/// The bodies of a warp that have few contacts, and their contacts as many at a time as the warp has groups of threads.
+/// Iterates over the bodies of a warp that have few contacts, taking as many contacts at a time as the warp has slices
+/// (groups of W threads).
 struct WarpBodies {
+  /// Some contacts of one of the warp's bodies.
   struct Place {
     int body;
-    unsigned begin, left;  ///< contacts: from the segment's first, and how many there are from there on
+    unsigned begin, left;  ///< first contact, counted from the segment's first, and number of contacts from there on
   };
   const std::size_t* row_begin;
   Segment segment;
   std::size_t first_row;
-  unsigned begin = 0, count = 0;  ///< of the body that this thread has looked up, of 32 bodies of the warp
+  /// First contact and number of contacts of the body that this thread has looked up. A warp looks up 32 bodies at
+  /// once.
+  unsigned begin = 0, count = 0;
 
   __device__ WarpBodies(const std::size_t* rows, const Segment& of)
       : row_begin(rows), segment(of), first_row(rows[of.first]) {}
+  /// Returns the body with this number among those of the warp.
   __device__ int body(int number) const {
     return segment.first + static_cast<int>(threadIdx.x / 32) + number * static_cast<int>(cocg_threads / 32);
   }
+  /// Returns the first body from `number` on that has few contacts.
   __device__ Place from(int number) {
     for (; body(number) < segment.end; ++number) {
       if (number % 32 == 0) look_up(body(number + static_cast<int>(threadIdx.x % 32)));
@@ -54,6 +62,7 @@ struct WarpBodies {
     }
     return {number, 0, 0};
   }
+  /// Returns the next contacts of the body or, after its last ones, of the next body.
   __device__ Place after(const Place& at, unsigned step) {
     if (at.left > step) return {at.body, at.begin + step, at.left - step};
     return from(at.body + 1);
@@ -61,6 +70,7 @@ struct WarpBodies {
   __device__ bool there(const Place& at) const { return body(at.body) < segment.end; }
 
  private:
+  /// Reads first contact and number of contacts of a body.
   __device__ void look_up(int mine) {
     if (mine >= segment.end) return;
     const std::size_t first = row_begin[mine];
@@ -69,7 +79,8 @@ struct WarpBodies {
   }
 };
 
-/// W threads, one a lane, take a contact; the 32/W such groups of a warp share the body's contacts.
+/// q = K·p. W threads, one per lane, compute one contact; the 32/W slices of a warp divide the contacts of a body. pᵀq
+/// is summed for every box.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads, 2)
     cocg_apply(CocgView<F> d, unsigned first_segment, const double* from) {
@@ -97,7 +108,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
     to_lane(of, lane, six);
     return to_twist(six);
   };
-  // Adds what end number `slice` of `count` puts on the body.
+  // Adds the load that end number `slice` of `count` puts on the body.
   const auto add_load = [&](const StagedEnds<slices>& ends, unsigned count, const Twist<double>& own,
                             Twist<double>& sum) {
     const ContactEnd& e = ends[slice < count ? slice : 0];
@@ -110,7 +121,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
     }
   };
   double product[2] = {0, 0};
-  // `held`: −Σ of the loads on the body, component c.
+  // Writes component c of q for a body. `held`: Σ of the contact loads on the body, component c.
   const auto finish = [&](std::size_t body, int c, double held, bool counts) {
     const double at = __ldg(&from[(6 * body + c) * W + lane]);
     double q = -held;
@@ -132,7 +143,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
     own = twist(three(static_cast<std::size_t>(bodies.body(now.body))));
   }
   while (bodies.there(now)) {
-    const WarpBodies::Place next = bodies.after(now, slices);  // is on its way while this one is worked on
+    const WarpBodies::Place next = bodies.after(now, slices);  // is being copied while this one is computed
     const bool last = !bodies.there(next), ends_body = next.body != now.body;
     if (!last) staged[warp][turn ^ 1].send(ends + next.begin, next.left);
     if (!last && ends_body) next_own = three(static_cast<std::size_t>(bodies.body(next.body)));
@@ -158,7 +169,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
     turn ^= 1;
   }
   __shared__ double of_warps[warps][6][W];
-  __shared__ unsigned has_many[warps];  // a bit a body
+  __shared__ unsigned has_many[warps];  // one bit per body
   const auto contacts_of = [&](std::size_t body) {
     return static_cast<unsigned>(d.row_begin[body + 1] - d.row_begin[body]);
   };
@@ -208,7 +219,7 @@ __global__ void __launch_bounds__(cocg_threads, 2)
   });
 }
 
-/// α of every load, by one block. `first`: what is no iteration yet, where r = f − K·x is wanted.
+/// α of every load, by one thread block. `first`: no iteration yet; α = 1 gives r = f − K·x.
 template <int F>
 __global__ void __launch_bounds__(cocg_threads) cocg_step(CocgView<F> d, bool first) {
   constexpr unsigned W = 2 * F;

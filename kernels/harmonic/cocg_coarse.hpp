@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_coarse.hpp  The coarse correction of the residual, and where each load stands.
+/// \file cocg_coarse.hpp  The kernel coarse of the iteration (cocg_view.hpp): the coarse correction of the residual,
+/// and the decision which loads are solved.
 #pragma once
 
 #include "kernels/harmonic/cocg_view.hpp"
 
 namespace macadam::kernels {
 
-/// Looks where each load stands, and finds β = rᵀz / rᵀz before. What is done no longer moves. By a block.
+/// Decides which loads are solved, and computes β = rᵀz / (rᵀz before). A solved load no longer changes. By one thread
+/// block.
 template <int F>
 __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coarse) {
   constexpr int W = 2 * F;
-  __shared__ double open[F];  // residuals of what is not done
+  __shared__ double open[F];  // residuals of loads that are not solved
   if (threadIdx.x < F) {
     const int f = static_cast<int>(threadIdx.x);
     LinearState& state = s.state[f];
@@ -21,7 +23,7 @@ __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coars
       state.energy = fmax(conjugate_product(sums, f) + conjugate_product(coarse, f), 0.0);
       state.converged = done = state.residual <= s.tolerance[f] && state.energy <= s.energy_limit[f];
       state.iterations += s.iteration > 0;
-      if (!isfinite(state.residual)) done = true;  // lost; the others go on
+      if (!isfinite(state.residual)) done = true;  // this load has failed; the others continue
       if (!done) open[f] = state.residual;
       s.done[f] = done;
     }
@@ -42,12 +44,13 @@ __device__ void judge(CocgScalars<F>& s, const double* sums, const double* coars
   ++s.iteration;
 }
 
-/// Blocks of the kernel that take rows of the coarse matrix, a warp each; one more adds up what boxes have left.
+/// Rows of the coarse matrix per thread block, one per warp. One more thread block sums what the boxes have left.
 inline constexpr unsigned coarse_rows = cocg_threads / 32;
 inline unsigned row_blocks(std::size_t boxes) {
   return static_cast<unsigned>((6 * boxes + coarse_rows - 1) / coarse_rows);
 }
 
+/// Multiplies (RᵀKR)⁻¹ by Rᵀr. The last thread block to finish adds up all sums and calls judge().
 template <int F>
 __global__ void __launch_bounds__(cocg_threads) cocg_coarse(CocgView<F> d) {
   constexpr unsigned W = 2 * F;
@@ -63,7 +66,7 @@ __global__ void __launch_bounds__(cocg_threads) cocg_coarse(CocgView<F> d) {
     if (row < size) {
       const double* k = &d.coarse[static_cast<std::size_t>(row) * size];
       double sum[W] = {};
-#pragma unroll(24 / W)  // a row is long: some of its terms are asked for at a time
+#pragma unroll(24 / W)  // rows are long: several terms are loaded at a time
       for (unsigned b = threadIdx.x % 32; b < size; b += 32) {
         const double stiffness = __ldg(&k[b]);
 #pragma unroll

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_lanes.hpp  How threads share the complex numbers of F loads.
+/// \file cocg_lanes.hpp  How threads divide the complex numbers of F loads.
 ///
-/// Every vector holds the real and imaginary part of F loads side by side: W = 2F lanes. A thread works on one lane,
-/// its number modulo W; the partner of a real part is its imaginary part. What is linear is computed lane by lane. In
-/// memory a lane and its partner take whole complex numbers, every second component each, so that no line is asked for
-/// twice.
+/// Every vector holds the real and imaginary parts of F loads side by side: W = 2F lanes. A thread works on one lane,
+/// its number modulo W; the partner of a real part is its imaginary part. Linear operations are computed lane by lane.
+/// In memory, a lane and its partner load whole complex numbers, every second component each, so that no memory line is
+/// loaded twice.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -14,6 +14,7 @@
 
 namespace macadam::kernels {
 
+/// Returns v of the partner lane.
 __device__ inline double partner(double v) { return __shfl_xor_sync(0xffffffffu, v, 1); }
 
 /// A complex factor as one lane needs it: factor·x = own·x + cross·partner(x).
@@ -23,18 +24,19 @@ struct LaneFactor {
 };
 __device__ inline LaneFactor lane_factor(double2 z, bool imaginary) { return {z.x, imaginary ? z.y : -z.y}; }
 
+/// Complex product and quotient.
 __device__ inline double2 times(double2 a, double2 b) { return {a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x}; }
 __device__ inline double2 over(double2 a, double2 b) {
   const double scale = 1 / (fabs(b.x) + fabs(b.y)), x = scale * b.x, y = scale * b.y, square = x * x + y * y;
   return {scale * (a.x * x + a.y * y) / square, scale * (a.y * x - a.x * y) / square};
 }
 
-/// Components 0, 2, 4 of a body's six in an even lane, 1, 3, 5 in an odd one, of the lane's load.
+/// Components 0, 2, 4 of a body's six in an even lane, 1, 3, 5 in an odd one, of the lane's load, as complex numbers.
 struct ComplexThree {
   double2 z[3];
 };
 
-/// Where the three of a body lie in a vector; they are W apart.
+/// Returns the address of a lane's three components of a body; they are W apart.
 template <unsigned W, class Number>
 __device__ auto* three_at(Number* vector, std::size_t body, unsigned lane) {
   const unsigned odd = lane % 2;
@@ -49,7 +51,7 @@ __device__ ComplexThree load_three(const double* vector, std::size_t body, unsig
   const double2* at = three_at<W>(vector, body, lane);
   return {{at[0], at[W], at[2 * W]}};
 }
-/// Of a vector that the kernel does not change.
+/// The same for a vector that the kernel does not change.
 template <unsigned W>
 __device__ ComplexThree load_constant_three(const double* vector, std::size_t body, unsigned lane) {
   const double2* at = three_at<W>(vector, body, lane);
@@ -61,7 +63,7 @@ __device__ void store_three(double* vector, std::size_t body, unsigned lane, con
   for (int k = 0; k < 3; ++k) at[k * W] = v.z[k];
 }
 
-/// All six components in the lane. By a whole warp, as the next.
+/// Converts between the three complex components and all six components of the lane. Called by a whole warp.
 __device__ inline void to_lane(const ComplexThree& v, unsigned lane, double (&six)[6]) {
   const bool odd = lane % 2;
   for (int k = 0; k < 3; ++k) {
@@ -80,7 +82,8 @@ __device__ inline ComplexThree to_three(const double (&six)[6], unsigned lane) {
   return out;
 }
 
-/// Sums over the groups of W threads of a warp, of which each thread then has one or two: which, and how many.
+/// Sums over the slices of a warp (groups of W threads). Each thread holds one or two of the six sums: `count` of them,
+/// from number `first` on.
 template <unsigned W>
 struct SpreadSums {
   static constexpr int most = W <= 4 ? 1 : 2;
@@ -88,18 +91,18 @@ struct SpreadSums {
   int first, count;
 };
 
-/// Σ of v over the threads of a warp that share a lane. In each step, of two threads one adds up half of the numbers
-/// for both, and one the other half.
+/// Returns Σ of v over the threads of a warp that share a lane. In each step, one of two threads adds up half of the
+/// numbers for both, and the other one the other half.
 template <unsigned W>
 __device__ SpreadSums<W> spread_sums(const double (&v)[6]) {
   double held[6];
   for (int k = 0; k < 6; ++k) held[k] = v[k];
   SpreadSums<W> out{{}, 0, 6};
-  int size = 6;  // numbers that a thread holds, known to the compiler
+  int size = 6;  // numbers that a thread holds; a compile-time constant after unrolling
 #pragma unroll
   for (unsigned far = W; far < 32; far *= 2) {
     const bool upper = threadIdx.x & far;
-    if (size == 1) {  // both have the same number: one of them counts it
+    if (size == 1) {  // both hold the same number: only one of them counts it
       held[0] += __shfl_xor_sync(0xffffffffu, held[0], far);
       if (upper) out.count = 0;
       continue;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_memory.hpp  Arrays of a system and of an iteration on the devices of a team. Each device works on a run
-/// of segments; what they leave of each box goes to all devices, so that each finds the same scalars for itself and
-/// none waits for numbers from another but the motions beyond a cut.
+/// \file cocg_memory.hpp  Device arrays of a linear system and of an iteration, for a team of devices.
+///
+/// Each device works on consecutive segments (cocg_view.hpp). The sums of each box are written to all devices. So each
+/// device computes the same scalars itself and waits for none of another device; it only reads the motions of bodies
+/// across the cut.
 #pragma once
 
 #include <algorithm>
@@ -13,18 +15,20 @@
 
 namespace macadam::kernels {
 
+/// The arrays of a linear system on the devices of a team.
 struct SystemMemory {
-  static constexpr std::size_t segments_a_multiprocessor = 16;  ///< few enough for one, enough for two devices
+  static constexpr std::size_t segments_a_multiprocessor = 16;  ///< few enough for one device, enough for two
 
   std::size_t bodies, boxes, segments;
   int free;
-  std::vector<std::size_t> first_segment, first_body;  ///< [member + 1]
+  std::vector<std::size_t> first_segment, first_body;  ///< [member + 1] of each member of the team
   Shares by_body;
   DeviceArray<std::int32_t> particle;
   DeviceArray<std::size_t> row_begin;
   DeviceArray<ContactEnd> ends;
-  DeviceArray<double> mass, motion, inverse;  ///< inverse: packed, to be made
+  DeviceArray<double> mass, motion, inverse;  ///< inverse: packed blocks, filled in by invert_blocks
   DeviceArray<Lever> lever;
+  /// Arrays that each member has for itself.
   struct OfMember {
     DeviceArray<Segment> segment;
     DeviceArray<std::int32_t> box_segment;
@@ -43,7 +47,8 @@ struct SystemMemory {
       first_segment.push_back(m * segments / team.size());
       first_body.push_back(m == team.size() ? bodies : static_cast<std::size_t>(runs[first_segment.back()].first));
     }
-    const auto share = [&](auto&& first) {  // of items, the first of a member being first(its first body)
+    // Splits an array among the devices; first(b) is the index of the first item of body b
+    const auto share = [&](auto&& first) {
       Shares out;
       for (std::size_t m = 0; m < team.size(); ++m) out.push_back({first(first_body[m + 1]), team.device(m)});
       return out;
@@ -66,8 +71,8 @@ struct SystemMemory {
   }
 
  private:
-  /// About as many segments as the device has room for blocks, of some warps' bodies each; as many for a team as for
-  /// one device.
+  /// Makes about as many segments as the device can run thread blocks, each with bodies for some warps. Their number
+  /// does not depend on the number of devices.
   void make_segments(const LinearSystem& system, const DeviceTeam& team, std::vector<Segment>& runs,
                      std::vector<std::int32_t>& box_segment) const {
     int multiprocessors = 0;
@@ -83,11 +88,12 @@ struct SystemMemory {
   }
 };
 
-/// The vectors of an iteration of F loads.
+/// The vectors and sums of an iteration with F loads.
 template <int F>
 struct VectorMemory {
   static constexpr std::size_t lanes = 2 * F;
   DeviceArray<double> x, r, p, q, z;
+  /// Arrays that each member has for itself.
   struct OfMember {
     DeviceArray<double> segment_products, segment_sums, products, sums, loads, fine, boxes_move, coarse_sums;
     DeviceArray<CocgScalars<F>> scalars;
@@ -113,6 +119,7 @@ struct VectorMemory {
     for (OfMember& m : members) m.all.upload(all.data());
   }
 
+  /// Returns the arguments of kernels on member m.
   CocgView<F> view(const SystemMemory& system, std::size_t m) const {
     const SystemMemory::OfMember& of_system = system.members[m];
     const OfMember& own = members[m];

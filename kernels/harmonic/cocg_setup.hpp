@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_setup.hpp  What is computed on a device before the iterations and after them.
+/// \file cocg_setup.hpp  Kernels that run before and after the iterations: preconditioner blocks, right-hand sides,
+/// start and solution.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -9,8 +10,8 @@
 
 namespace macadam::kernels {
 
-/// K_ii⁻¹ of every body, packed. The first body whose own stiffness is singular in more ways than `own_motions` says
-/// goes to `loose`.
+/// Computes K_ii⁻¹ of every body, packed. `loose` receives the first body whose own stiffness is singular in more ways
+/// than `own_motions` says.
 static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_begin, const ContactEnd* ends,
                                      RealStiffness typical, const std::uint8_t* own_motions, double* inverse,
                                      unsigned long long* loose) {
@@ -27,7 +28,8 @@ static __global__ void invert_blocks(std::size_t bodies, const std::size_t* row_
   }
 }
 
-/// One load's numbers, [6·particles] in the order of the specimen, and the lanes of all, [6·bodies].
+/// Converts between the vector of one load, [6·particles] in the order of the specimen, and lane f of the vectors of
+/// all, [6·bodies].
 template <int F>
 __global__ void to_lanes(const double2* one, const std::int32_t* particle, double* all, std::size_t size, int f) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;
@@ -42,7 +44,7 @@ __global__ void from_lanes(const double* all, const std::int32_t* particle, doub
   one[6 * static_cast<std::size_t>(particle[i / 6]) + i % 6] = {all[i * 2 * F + 2 * f], all[i * 2 * F + 2 * f + 1]};
 }
 
-/// Loads on bodies into the lanes of one of F.
+/// Writes loads on bodies into lane f of the vectors of F loads.
 template <int F>
 __global__ void set_loads(const BodyLoad* on, std::size_t bodies, double* all, int f) {
   const std::size_t i = blockIdx.x * static_cast<std::size_t>(blockDim.x) + threadIdx.x;

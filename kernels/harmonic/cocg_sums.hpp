@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_sums.hpp  Sums over a block of threads and over the blocks of a launch, in an order that never changes.
+/// \file cocg_sums.hpp  Sums over the threads of a block and over the blocks of a launch, in a fixed order.
 #pragma once
 
 #include "kernels/harmonic/cocg_lanes.hpp"
@@ -8,7 +8,7 @@ namespace macadam::kernels {
 
 inline constexpr unsigned cocg_threads = 256;
 
-/// Adds up v over the threads of a block that share a lane, to out[N][W] (global or shared memory).
+/// Sums v over the threads of a block that share a lane, into out[N][W] (global or shared memory).
 template <int N, int W>
 __device__ void block_sum(const double (&v)[N], double* out) {
   __shared__ double warps[cocg_threads / 32][N * W];
@@ -27,8 +27,8 @@ __device__ void block_sum(const double (&v)[N], double* out) {
   __syncthreads();
 }
 
-/// Whether this block is the last of `blocks` to come here, from several devices or from one: it then sees what the
-/// others wrote.
+/// Returns whether this thread block is the last of `blocks` to call this. It then sees what the others have written.
+/// `several`: the blocks run on several devices.
 __device__ inline bool comes_last(unsigned* counter, unsigned blocks, bool several) {
   __shared__ bool last;
   const auto fence = [several] {
@@ -48,11 +48,11 @@ __device__ inline bool comes_last(unsigned* counter, unsigned blocks, bool sever
   return last;
 }
 
-/// Σ over `rows` rows of N·W numbers each, by the whole block, to out[N][W] in shared memory.
+/// Sums `rows` rows of N·W numbers each, by the whole thread block, into out[N][W] in shared memory.
 template <int N, int W>
 __device__ void sum_rows(const double* rows_of, unsigned rows, unsigned stride, double* out) {
   double own[N] = {};
-#pragma unroll 5  // rows are few, and each is asked for before the one before is there
+#pragma unroll 5  // there are few rows; unrolling loads several before the first has arrived
   for (unsigned r = threadIdx.x / W; r < rows; r += cocg_threads / W) {
     for (int n = 0; n < N; ++n)
       own[n] += __ldcg(&rows_of[static_cast<std::size_t>(r) * stride + n * W + threadIdx.x % W]);

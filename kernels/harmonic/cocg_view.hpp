@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cocg_view.hpp  What the kernels of an iteration of conjugate gradients share. An iteration is five of them:
+/// \file cocg_view.hpp  The arrays, sums and indices that the kernels of the iteration share. The iteration is the
+/// conjugate gradient method for complex symmetric matrices (COCG), preconditioned as linear_system.hpp says. Each
+/// iteration runs five kernels:
 ///
 ///   turn     p = z + coarse correction − free motions + β·p
 ///   apply    q = K·p;  pᵀq of every box
 ///   step     α = rᵀz / pᵀq
-///   advance  x += α·p, r −= α·q, z = K_ii⁻¹·r;  rᵀz, Rᵀr and others of every box
-///   coarse   (RᵀKR)⁻¹·Rᵀr;  where each load stands, and β
+///   advance  x += α·p, r −= α·q, z = K_ii⁻¹·r;  rᵀz, Rᵀr and other sums of every box
+///   coarse   (RᵀKR)⁻¹·Rᵀr;  which loads are solved, and β
 ///
-/// A segment is a run of bodies of one box that one block of threads works on; `first_segment` is that of the launch.
+/// A segment is a range of bodies of one box that one thread block works on; `first_segment` is the first one of a
+/// launch. A box is a group of neighbouring particles whose six rigid motions are unknowns of the coarse correction. A
+/// load is one right-hand side with its stiffness; F loads are solved side by side.
 #pragma once
 
 #include "kernels/harmonic/cocg_sums.hpp"
@@ -15,18 +19,19 @@
 
 namespace macadam::kernels {
 
+/// Bodies of one box that one thread block works on.
 struct Segment {
   std::int32_t first, end;  ///< bodies
   std::int32_t box;
 };
 
-/// What the loads of a block have in common with no vector: on the device.
+/// Scalars of an iteration of F loads, on the device.
 template <int F>
 struct CocgScalars {
   double2 k[pair_types][F], inertia[F];
   double alpha[pair_types];
   double scale[F], tolerance[F], energy_limit[F];
-  double2 rho[F], step[F], turn[F];  ///< rᵀz, α and β of the iteration
+  double2 rho[F], step[F], turn[F];  ///< of the iteration: rᵀz, α, β
   double drop[most_free_motions][2 * F];
   LinearState state[F];
   bool done[F];
@@ -35,29 +40,31 @@ struct CocgScalars {
   double best;
 };
 
-/// Sums of a box: rᵀz straight and crossed, rᴴr, free motions in z; and Rᵀr behind them.
+/// Sums of a box: two parts of rᵀz (straight and crossed, see plain_product()), rᴴr, and the free motions in z; after
+/// them Rᵀr.
 inline constexpr int sums_rr = 2, sums_drop = 3, fine_sums = 3 + most_free_motions, box_sums = fine_sums + 6;
-/// Of the coarse correction: its product with Rᵀr straight and crossed, free motions in it.
+/// Number of sums of the coarse correction: straight and crossed part of its product with Rᵀr, and one for each free
+/// motion.
 inline constexpr int coarse_sums = 2 + most_free_motions;
 
-/// K_ii⁻¹ of a body: its lower triangle, by rows, and a number that is not used.
+/// Size of a packed K_ii⁻¹ of a body: its lower triangle, by rows, and one unused number.
 inline constexpr int packed_block = 22;
 MACADAM_HD constexpr int packed_at(int a, int b) { return a >= b ? a * (a + 1) / 2 + b : b * (b + 1) / 2 + a; }
 
-/// What segments leave of a box: every device has it of all boxes.
+/// Sums of all boxes; every device has a copy.
 struct CocgBoxes {
-  double* products;  ///< [box][2][lanes]: pᵀq straight and crossed
+  double* products;  ///< [box][2][lanes]: pᵀq, straight and crossed
   double* sums;      ///< [box][fine_sums][lanes]
   double* loads;     ///< [lanes][6·boxes]: Rᵀr
 };
 
-/// Where segments leave what is summed over their boxes, [segment][…][lanes]: every device has memory of its own for
-/// it.
+/// Memory for the sums of segments before they are added up for a box, [segment][…][lanes]. Every device has its own.
 struct CocgScratch {
-  double *products, *sums;  ///< numbers of segments: 2, and box_sums
+  double *products, *sums;  ///< 2 numbers per segment; box_sums numbers per segment
   unsigned* box_ticket;
 };
 
+/// Arguments of the kernels of an iteration on one device.
 template <int F>
 struct CocgView {
   static constexpr int lanes = 2 * F;
@@ -69,28 +76,31 @@ struct CocgView {
   const Lever* lever;
   const double *coarse, *weight;
   double *x, *r, *p, *q, *z;  ///< [6·bodies][lanes]
-  CocgBoxes boxes_here;       ///< on the launch's device
-  const CocgBoxes* all;       ///< on each device
-  CocgScratch own, common;    ///< of the launch's device; of the first, for boxes that several devices work on
-  double* fine;               ///< sums over all boxes, [fine_sums][lanes]
-  double* boxes_move;         ///< [6·boxes][lanes]
-  double* coarse_sums;        ///< [block of coarse][coarse_sums][lanes]
+  CocgBoxes boxes_here;       ///< on the device of the launch
+  const CocgBoxes* all;       ///< [device]
+  /// Scratch of the launch's device; scratch of the first device, for boxes that several devices work on.
+  CocgScratch own, common;
+  double* fine;         ///< sums over all boxes, [fine_sums][lanes]
+  double* boxes_move;   ///< [6·boxes][lanes]
+  double* coarse_sums;  ///< [thread block of coarse][coarse_sums][lanes]
   unsigned* ticket;
   CocgScalars<F>* scalars;
   unsigned devices, boxes;
   int free;
 };
 
-/// Numbers whose lanes hold Σ re·re, Σ im·im (straight) and Σ re·im, Σ im·re (crossed, in any order of lanes).
+/// Product aᵀb of a load, from lanes that hold Σ re·re and Σ im·im (straight), and Σ re·im and Σ im·re (crossed, in any
+/// order).
 __device__ inline double2 plain_product(const double* straight, const double* crossed, int f) {
   return {straight[2 * f] - straight[2 * f + 1], crossed[2 * f] + crossed[2 * f + 1]};
 }
+/// Product aᴴb (real) of a load, from the straight sums.
 __device__ inline double conjugate_product(const double* straight, int f) {
   return straight[2 * f] + straight[2 * f + 1];
 }
 
-/// Adds up what the threads of this block have, v[N] a lane, over the segments of its box: put(box, i, sum) for
-/// i < N·lanes, by the block that is the last of the box.
+/// Sums v[N] per lane over the threads of this block and over the segments of its box. The last thread block of the box
+/// calls put(box, i, sum) for i < N·lanes.
 template <int N, int F, class Put>
 __device__ void sum_over_box(const CocgView<F>& d, unsigned number, unsigned first_segment, const double (&v)[N],
                              double* CocgScratch::*of_segments, Put&& put) {

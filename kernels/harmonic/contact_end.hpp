@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_end.hpp  A contact as one of its ends sees it, and the load that it puts on that end.
+/// \file contact_end.hpp  A contact as seen from one of its ends, and the load that it puts on that end.
 ///
-/// Each contact is computed by both ends, which costs less than to sort out who adds where, and gives the same bits for
-/// any number of threads.
+/// Each contact is computed for both ends separately. This costs less than coordinating who adds where, and gives the
+/// same bits for any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,19 @@
 
 namespace macadam::kernels {
 
-/// The normal points away from this end. Two cache lines, where an array begins with one.
+/// Data of one contact end: 128 bytes, two cache lines if the array begins at one. The normal points away from this
+/// end.
 struct alignas(16) ContactEnd {
   double n[3], s[3];  ///< t = n × s
   double arm, arm_other;
-  double moments[6];   ///< over the distance [m] [m²] [m³]
+  double moments[6];   ///< moments over the distance [m] [m²] [m³]
   std::int32_t other;  ///< body of the other end; `wall_at_rest` for walls
   std::int32_t pair;
 };
 inline constexpr std::int32_t wall_at_rest = -1;
 
-/// Force and moment on this end while the two ends move by `own` and `other`. T carries any number of real numbers that
-/// go the same way; `times(u)` multiplies them by k*(s) of the pair.
+/// Returns force and moment on this end if the two ends move by `own` and `other`. T holds one or several real numbers
+/// per component; `times(u)` multiplies them by k*(s) of the pair.
 template <class T, class Times>
 MACADAM_HD Twist<T> end_load(const ContactEnd& e, const Twist<T>& own, const Twist<T>& other, Times&& times, T alpha) {
   const Vec3<double> n{e.n[0], e.n[1], e.n[2]}, s{e.s[0], e.s[1], e.s[2]}, t = cross(n, s);

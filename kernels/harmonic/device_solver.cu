@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_solver.cu  Arrays of a system on the devices, and the queue of iterations.
+// device_solver.cu  The solver of the frequency domain on devices: uploads the system, and enqueues the iterations
+// (cocg_view.hpp lists their kernels).
 #include <limits>
 
 #include "kernels/device_room.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// The vectors of an iteration of F loads, and some iterations as a graph.
+/// The vectors of an iteration of F loads, and some iterations recorded as a graph.
 template <int F>
 struct Vectors : VectorMemory<F> {
   using VectorMemory<F>::VectorMemory;
@@ -26,6 +27,7 @@ struct Vectors : VectorMemory<F> {
   }
 };
 
+/// The solver on the devices of a team; solves one load, or up to four side by side.
 class Solver : public DeviceSolver {
  public:
   Solver(const LinearSystem& system, const DeviceList& devices, std::int64_t& loose)
@@ -48,7 +50,8 @@ class Solver : public DeviceSolver {
   }
 
  private:
-  /// Inverts the blocks of all bodies. Returns the first body that can move by itself though it should not, or -1.
+  /// Inverts the diagonal blocks of all bodies. Returns the first body that can move by itself although it should not,
+  /// or −1.
   std::int64_t invert(const LinearSystem& system) {
     constexpr unsigned long long none = std::numeric_limits<unsigned long long>::max();
     DeviceArray<unsigned long long> loose(1);
@@ -64,6 +67,7 @@ class Solver : public DeviceSolver {
     return found == none ? -1 : static_cast<std::int64_t>(found);
   }
 
+  /// Returns the scalars with which the iteration of some loads begins.
   template <int F>
   static CocgScalars<F> scalars_of(const std::vector<LinearLoad>& loads) {
     CocgScalars<F> out{};
@@ -116,7 +120,7 @@ class Solver : public DeviceSolver {
     {
       const DeviceRoom::ForSolution room(devices_, team_.behind());
       end = iterate(v, look);
-      start.most_iterations = 0;  // only judges
+      start.most_iterations = 0;  // no iteration, only the residual
       start_from_right_sides(start);
       judged = judge(v);
     }
@@ -128,6 +132,7 @@ class Solver : public DeviceSolver {
     return out;
   }
 
+  /// Passes the solution of a load to `take`.
   template <int F>
   void fetch(const Vectors<F>& v, std::size_t load, const TakePart& take) {
     DeviceArray<double2> staged(6 * system_.bodies);
@@ -144,7 +149,7 @@ class Solver : public DeviceSolver {
     parts_->copy(from, staged.size(), take);
   }
 
-  /// A kernel of a thread for each of `count`, on the first device, to its end.
+  /// Launches a kernel with one thread for each of `count` items, on the first device, and waits for it.
   template <class Kernel, class... Arguments>
   void over_numbers(const char* name, Kernel kernel, std::size_t count, Arguments... arguments) {
     if (count == 0) return;
@@ -152,7 +157,7 @@ class Solver : public DeviceSolver {
     team_.wait(name);
   }
 
-  /// A kernel over all segments, of which each member has a run.
+  /// Launches a kernel over all segments; each member of the team takes its own.
   template <int F, class Kernel, class... Arguments>
   void over_segments(const Vectors<F>& v, const char* name, Kernel kernel, Arguments... arguments) {
     team_.each([&](std::size_t m) {
@@ -162,7 +167,7 @@ class Solver : public DeviceSolver {
              arguments...);
     });
   }
-  /// A kernel that each member runs for itself.
+  /// Launches a kernel on every member, for the same work.
   template <int F, class Kernel, class... Arguments>
   void by_each(const Vectors<F>& v, const char* name, Kernel kernel, unsigned blocks, Arguments... arguments) {
     team_.each([&](std::size_t m) {
@@ -170,7 +175,7 @@ class Solver : public DeviceSolver {
     });
   }
 
-  /// r − α·K·`from`, and what follows from it; `first`: α = 1.
+  /// Computes r −= α·K·`from` and all that follows from it; `first`: α = 1.
   template <int F>
   void improve(const Vectors<F>& v, const double* from, bool first) {
     over_segments(v, "apply", cocg_apply<F>, from);
@@ -181,14 +186,14 @@ class Solver : public DeviceSolver {
     by_each(v, "coarse", cocg_coarse<F>, row_blocks(system_.boxes) + 1);
   }
 
-  /// r = f − K·x, as x does not move along p = 0.
+  /// Computes r = f − K·x. x does not change, because p = 0.
   template <int F>
   void begin(const Vectors<F>& v) {
     team_.meet();
     improve(v, v.x.data(), true);
   }
 
-  /// Where the loads stand, without an iteration.
+  /// Computes residual and energy of the loads without an iteration.
   template <int F>
   CocgScalars<F> judge(const Vectors<F>& v) {
     begin(v);
@@ -196,7 +201,8 @@ class Solver : public DeviceSolver {
     return v.members[0].scalars.download().front();
   }
 
-  /// Some iterations are always queued ahead of those that are looked at; once all is done they do nothing.
+  /// Runs batches of iterations until all loads are solved. One batch is always enqueued ahead of the one whose result
+  /// is examined; once all loads are solved, kernels do nothing.
   template <int F>
   CocgScalars<F> iterate(Vectors<F>& v, const std::function<void()>& look) {
     const auto queue_batch = [&] {
@@ -224,12 +230,12 @@ class Solver : public DeviceSolver {
   }
 
   static constexpr int batch_length = 8;
-  static constexpr std::size_t worth_pinning = std::size_t{32} << 20;  ///< bytes: to pin memory takes milliseconds
+  static constexpr std::size_t worth_pinning = std::size_t{32} << 20;  ///< bytes; pinning memory takes milliseconds
 
   DeviceList devices_;
   DeviceTeam team_;
   SystemMemory system_;
-  bool last_single_ = false;  ///< of the last solve(): its solution is in one_
+  bool last_single_ = false;  ///< whether the last solve() had one load; its solution is then in one_
   std::vector<Complex> usual_;
   std::unique_ptr<PinnedParts<Complex>> parts_;
   std::unique_ptr<Vectors<1>> one_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file linear_system.hpp  K*(s) + s²·M of a network and a real preconditioner of it, as arrays in the order of a
-/// layout.
+/// \file linear_system.hpp  The linear system K*(s) + s²·M of a network and its real preconditioner, as arrays in the
+/// order of a layout.
 #pragma once
 
 #include <array>
@@ -18,15 +18,17 @@
 
 namespace macadam::kernels {
 
-/// Free motions of the whole that the iteration can keep out: of two specimens side by side in a box.
+/// Largest number of free motions of the whole specimen that the iteration can keep out (two separate specimens side by
+/// side in a box have some).
 inline constexpr int most_free_motions = 6;
 
-/// Real stiffness per unit of area over distance, and α, of each pair.
+/// Real stiffness per unit of area over distance, and α, for each pair type.
 struct RealStiffness {
   std::array<double, pair_types> k{}, alpha{};
 };
 
-/// The preconditioner is z = (Σ_i K_ii⁻¹ + R·(RᵀKR)⁻¹·Rᵀ)·r with K of `typical`; R has the six motions of each box.
+/// A system and its preconditioner z = (Σ_i K_ii⁻¹ + R·(RᵀKR)⁻¹·Rᵀ)·r, with K made of `typical`. R has the six motions
+/// of each box.
 struct LinearSystem {
   std::vector<std::int32_t> particle;  ///< body → particle of the specimen
   std::vector<std::size_t> row_begin;  ///< body → first of its ends; bodies + 1 entries
@@ -35,10 +37,10 @@ struct LinearSystem {
   RealStiffness typical;
   std::vector<Lever> lever;            ///< [body]
   std::vector<std::int32_t> box_body;  ///< box → first body; boxes + 1 entries
-  std::vector<double> coarse;  ///< (RᵀKR)⁻¹ [6·boxes][6·boxes], what free motions of the whole have in it left out
-  int free = 0;                ///< motions of the whole that no wall resists
-  std::vector<double> motion;             ///< [body][free][6], orthonormal with respect to M
-  std::vector<std::uint8_t> own_motions;  ///< [body]: how many of them are motions of this body alone
+  std::vector<double> coarse;  ///< (RᵀKR)⁻¹ [6·boxes][6·boxes], without the free motions of the whole specimen
+  int free = 0;                ///< number of motions of the whole specimen that no wall resists
+  std::vector<double> motion;  ///< [body][free][6], orthonormal with respect to M
+  std::vector<std::uint8_t> own_motions;  ///< [body] number of these motions that move this body alone
   std::vector<double> weight;             ///< [free][6·boxes]: Rᵀ·M·motion
 
   std::size_t bodies() const { return row_begin.size() - 1; }
@@ -51,50 +53,50 @@ struct BodyLoad {
   std::complex<double> load[6];
 };
 
-/// One system to be solved.
+/// One right-hand side to be solved, with the stiffness of its frequency.
 struct LinearLoad {
-  std::vector<BodyLoad> right;  ///< f: each body once, nothing on the others
-  /// Where to begin, [6·particles] in the order of the specimen; nullptr: at rest.
+  std::vector<BodyLoad> right;  ///< f: each body at most once; zero on all others
+  /// Initial solution, [6·particles] in the order of the specimen; nullptr: zero.
   const std::complex<double>* start = nullptr;
   std::array<std::complex<double>, pair_types> k{};
   std::array<double, pair_types> alpha{};
-  std::complex<double> inertia = 0;  ///< taken off K: inertia·M
+  std::complex<double> inertia = 0;  ///< inertia·M is subtracted from K
   double scale = 1;                  ///< ‖f‖
-  double tolerance = 0;              ///< of ‖r‖ / ‖f‖
-  double energy_limit = 0;           ///< of rᴴ·P⁻¹·r
+  double tolerance = 0;              ///< largest ‖r‖ / ‖f‖
+  double energy_limit = 0;           ///< largest rᴴ·P⁻¹·r
 };
 
-/// What became of it.
+/// Result of the iteration for one load.
 struct LinearState {
-  double residual = 0;  ///< ‖r‖ / ‖f‖ by recurrence
-  double energy = 0;    ///< rᴴ·P⁻¹·r, of r = f − K·x computed anew
+  double residual = 0;  ///< ‖r‖ / ‖f‖, with r updated by recurrence
+  double energy = 0;    ///< rᴴ·P⁻¹·r, with r = f − K·x computed afresh
   int iterations = 0;
   bool converged = false;
 };
 
-/// Of a system, at the most.
+/// Largest number of iterations.
 inline constexpr int most_iterations = 5000;
-/// Iterations without a tenth of progress after which no solution is expected any more.
+/// The iteration is given up if the residual has not fallen by a tenth within this number of iterations.
 inline constexpr int most_stagnant = 500;
 
-/// Loads that are solved side by side.
+/// Largest number of loads solved side by side.
 inline constexpr int most_loads = 4;
 
-/// Conjugate gradients for complex symmetric matrices on CUDA devices: several loads side by side, all of it on the
-/// devices. The same kind of device gives the same bits every run, however many share the work.
+/// Conjugate gradients for complex symmetric matrices on CUDA devices, several loads side by side. All vectors stay on
+/// the devices. Devices of the same kind give the same bits in every run, however many of them share the work.
 class DeviceSolver {
  public:
   virtual ~DeviceSolver() = default;
-  /// Up to four loads. `look` is called between iterations and may throw.
+  /// Solves up to four loads. `look` is called between iterations and may throw.
   virtual std::vector<LinearState> solve(const std::vector<LinearLoad>& loads, const std::function<void()>& look) = 0;
-  /// take(first, numbers, count): `count` numbers of a solution, from number `first` on.
+  /// Receives `count` numbers of a solution, from number `first` on.
   using TakePart = std::function<void(std::size_t first, const std::complex<double>* numbers, std::size_t count)>;
-  /// The solution of a load of the last solve(), by its number there: [6·particles] in the order of the specimen, in
-  /// parts one after the other.
+  /// Passes the solution of load number `load` of the last solve() to `take`, in parts one after the other:
+  /// [6·particles] in the order of the specimen.
   virtual void solution(std::size_t load, const TakePart& take) = 0;
 };
 
-/// Only in builds with CUDA: as CudaCode::make_solver.
+/// As CudaCode::make_solver. Only in builds with CUDA.
 std::unique_ptr<DeviceSolver> make_device_solver(const LinearSystem& system, const DeviceList& devices,
                                                  std::int64_t& loose);
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file particle_block.hpp  What holds one particle while all others are at rest: a 6×6 block, and its inverse.
+/// \file particle_block.hpp  The 6×6 stiffness of one particle while all others are at rest, and its inverse.
 #pragma once
 
 #include "kernels/harmonic/contact_end.hpp"
 
 namespace macadam::kernels {
 
-/// Entries of a twist in the order ux uy uz θx θy θz.
+/// Converts a twist to an array in the order ux uy uz θx θy θz, and back.
 template <class T>
 MACADAM_HD void to_array(const Twist<T>& t, T (&out)[6]) {
   out[0] = t.linear.x, out[1] = t.linear.y, out[2] = t.linear.z;
@@ -17,7 +17,8 @@ MACADAM_HD Twist<T> to_twist(const T* v) {
   return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
-/// block[6·c + r] += the load r that holds a unit motion c against this contact; `k`, `alpha`: of its pair, k real.
+/// Adds one contact to the block: block[6·c + r] += component r of the load that holds a unit motion c. `k`, `alpha`:
+/// of the contact's pair, k real.
 MACADAM_HD void add_block(const ContactEnd& e, double k, double alpha, double (&block)[36]) {
   for (int c = 0; c < 6; ++c) {
     double unit[6] = {0, 0, 0, 0, 0, 0}, load[6];
@@ -29,11 +30,11 @@ MACADAM_HD void add_block(const ContactEnd& e, double k, double alpha, double (&
   }
 }
 
-/// Replaces a symmetric block without negative eigenvalues by its inverse. Returns the number of its rows that are, to
-/// rounding, combinations of rows before them; a generalised inverse has zeros there.
+/// Replaces a symmetric block without negative eigenvalues by its inverse. Returns the number of rows that are, to
+/// rounding, linear combinations of the rows before them. Such rows and columns are zero in the (generalised) inverse.
 MACADAM_HD int invert_block(double (&a)[36]) {
-  constexpr double rounding = 4 * 2.3e-16;  // of a pivot, from sums of a dozen contacts
-  double low[36];                           // a = low·lowᵀ, then its inverse
+  constexpr double rounding = 4 * 2.3e-16;  // relative error of a pivot, from sums of a dozen contacts
+  double low[36];                           // a = low·lowᵀ; later low is replaced by its inverse
   int dependent = 0;
   for (int j = 0; j < 6; ++j) {
     double pivot = a[7 * j];

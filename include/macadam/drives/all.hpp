@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file all.hpp  The drives that come with Macadam.
+/// \file all.hpp  Includes all drives that come with Macadam.
 #pragma once
 
 #include "macadam/drives/constant_rate.hpp"

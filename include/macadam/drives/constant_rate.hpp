@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file constant_rate.hpp  A displacement or a force that grows evenly: monotonic tests.
+/// \file constant_rate.hpp  A displacement or a force that grows linearly, for monotonic tests.
 #pragma once
 
 #include <cmath>
@@ -8,11 +8,11 @@
 
 namespace macadam::drives {
 
-/// speed·t.
+/// Value speed·t.
 struct ConstantRate final : Drive {
   double speed = 0;     ///< [m/s] or [N/s]
   double step = 0;      ///< Δt [s]
-  double duration = 0;  ///< of the whole test [s]
+  double duration = 0;  ///< duration of the whole test [s]
 
   ConstantRate() = default;
   ConstantRate(double speed, double step, double duration) : speed(speed), step(step), duration(duration) {}

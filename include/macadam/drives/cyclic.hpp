@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cyclic.hpp  −A·r(t)·sin(2πft): of the top wall, compression first ([1], section 4.4; model (13.1)).
+/// \file cyclic.hpp  A sine: −A·r(t)·sin(2πft). On the top wall it begins with compression ([1], section 4.4; model
+/// (13.1)).
 #pragma once
 
 #include <cmath>
@@ -9,8 +10,8 @@
 
 namespace macadam::drives {
 
-/// A whole number of steps makes a period, so the phase of step k is exact however long the run. The smooth start
-/// r(t) rises from 0 to 1 over `ramp_steps` as a half cosine; 0 starts at once.
+/// A period is a whole number of steps, so the phase of step k is exact in runs of any length. The ramp r(t) rises from
+/// 0 to 1 over `ramp_steps` as a half cosine; with 0 ramp steps, r = 1 from the start.
 struct Cyclic final : Drive {
   double amplitude = 0;  ///< A [m] or [N]
   double frequency = 0;  ///< f [Hz]
@@ -27,21 +28,21 @@ struct Cyclic final : Drive {
   bool begins() const override { return ramp_steps > 0; }
   double value(std::int64_t k) const override { return value(k, 0); }
 
-  /// At step k + half/2, half 0 or 1.
+  /// Returns the value at step k + half/2; half is 0 or 1.
   double value(std::int64_t k, int half) const { return -amplitude * ramp(k, half) * std::sin(phase(k, half)); }
 
-  /// The difference of two values over Δt, rearranged so that nothing cancels.
+  /// Returns the difference of two values over Δt, in a form without cancellation.
   double rate(std::int64_t k) const override {
     const double half_step = std::numbers::pi / static_cast<double>(steps_per_period);
     double v = 2 * ramp(k, 1) * std::sin(half_step) * std::cos(phase(k, 1));
-    if (ramping(k)) {  // sin at the middle times the rise of r over the step; exact to second order in Δt
+    if (ramping(k)) {  // the sine at mid-step times the rise of r over the step; exact to second order in Δt
       v += (ramp(k + 1, 0) - ramp(k, 0)) * std::sin(phase(k, 1));
     }
     return -amplitude * v / dt();
   }
 
  private:
-  /// A start in motion looks one step back, to k = −1: there is no ramp before the start.
+  /// A start in motion asks for step k = −1; there is no ramp before step 0.
   bool ramping(std::int64_t k) const { return k >= 0 && k < ramp_steps; }
   double phase(std::int64_t k, int half) const {
     const double in_period = static_cast<double>(k % steps_per_period) + 0.5 * half;

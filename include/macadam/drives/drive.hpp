@@ -1,37 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file drive.hpp  The contract of a drive: a displacement or a force as a function of the step.
+/// \file drive.hpp  The contract of a drive: a displacement or a force as a function of the step number.
 #pragma once
 
 #include <cstdint>
 
 namespace macadam {
 
-/// What a wall does along one axis: a displacement [m] or a force [N] at whole steps. Whether it is one or the other is
-/// said where it is used (boundary.hpp). Steppers ask for tables of some thousand steps at a time, on the host, so a
-/// drive of your own may be as slow as a microsecond a step. To add one: a header here, a line in all.hpp, a test.
+/// Prescribes a displacement [m] or a force [N] of a wall along one axis, at whole steps. boundary.hpp decides which of
+/// the two it is. Steppers read drives on the host, in tables of some thousand steps, so a drive of your own may take a
+/// microsecond per step. To add a drive: a header here, a line in all.hpp, a test.
 class Drive {
  public:
   virtual ~Drive() = default;
 
-  /// At step k [m] or [N]. A displacement is 0 at step 0, unless a run starts from a state of motion, which asks for
-  /// step −1 as well.
+  /// Returns the value at step k [m] or [N]. A displacement must be 0 at step 0, unless a run starts from a state of
+  /// motion; such a run also asks for step −1.
   virtual double value(std::int64_t k) const = 0;
 
-  /// Mean rate between the steps k and k + 1 [m/s], of a displacement. To be overridden where the difference of two
+  /// Returns the mean rate of a displacement between steps k and k + 1 [m/s]. Override it if the difference of two
   /// values cancels.
   virtual double rate(std::int64_t k) const { return (value(k + 1) - value(k)) / dt(); }
 
-  /// The time step that it is made for [s].
+  /// Returns the time step for which the drive is made [s].
   virtual double dt() const = 0;
 
-  /// The shortest time in which it changes much [s]: a period, the length of a ramp; ∞ where it never does. Devices
-  /// settle viscous laws many times within it.
+  /// Returns the shortest time in which the value changes much [s]: a period, or the length of a ramp; ∞ if it never
+  /// does. In a run with blocks of steps, viscoelastic states are updated many times within it.
   virtual double shortest_time() const = 0;
 
-  /// Whether anything begins at step 0. A run from a state of motion needs drives that have always gone on so.
+  /// Returns whether the drive changes its form at step 0, for example by a ramp. A run that starts from a state of
+  /// motion needs drives that do not.
   virtual bool begins() const { return true; }
 
-  /// Largest absolute rate [m/s] or [N/s].
+  /// Returns the largest absolute rate [m/s] or [N/s].
   virtual double fastest() const = 0;
 };
 

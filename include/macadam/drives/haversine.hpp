@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file haversine.hpp  Pulses with rest between them: the load of resilient modulus, permanent deformation and fatigue
-/// tests.
+/// \file haversine.hpp  Pulses with pauses between them: the load of resilient modulus, permanent deformation and
+/// fatigue tests.
 #pragma once
 
 #include <cmath>
@@ -11,14 +11,14 @@
 
 namespace macadam::drives {
 
-/// height·sin²(π·t/pulse) within a pulse, which is ½·height·(1 − cos(2π·t/pulse)), and 0 in the rest behind it. A whole
-/// number of steps makes a pulse and a rest, so that the last pulse is as exact as the first.
+/// height·sin²(π·t/pulse), which equals ½·height·(1 − cos(2π·t/pulse)), within a pulse, and 0 in the pause after it.
+/// Pulse and pause are whole numbers of steps, so the last pulse is as exact as the first.
 struct Haversine final : Drive {
   static constexpr std::int64_t forever = std::numeric_limits<std::int64_t>::max();
-  double height = 0;             ///< of the peaks [m] or [N]; below 0: compression, of the top wall
+  double height = 0;             ///< peak value [m] or [N]; negative: compression, if on the top wall
   double step = 0;               ///< Δt [s]
-  std::int64_t pulse_steps = 1;  ///< of a pulse
-  std::int64_t rest_steps = 0;   ///< from the end of a pulse to the next
+  std::int64_t pulse_steps = 1;  ///< steps of a pulse
+  std::int64_t rest_steps = 0;   ///< steps from the end of a pulse to the next one
   std::int64_t pulses = forever;
 
   Haversine() = default;
@@ -33,7 +33,7 @@ struct Haversine final : Drive {
     const double s = std::sin(std::numbers::pi * share(k));
     return height * (s * s);
   }
-  /// sin²b − sin²a = sin(b − a)·sin(b + a): nothing cancels.
+  /// Uses sin²b − sin²a = sin(b − a)·sin(b + a), which has no cancellation.
   double rate(std::int64_t k) const override {
     if (!within(k)) return 0;
     const double a = std::numbers::pi * share(k), turn = std::numbers::pi / static_cast<double>(pulse_steps);
@@ -42,9 +42,9 @@ struct Haversine final : Drive {
 
  private:
   std::int64_t period() const { return pulse_steps + rest_steps; }
-  /// Whether the step from k to k + 1 is one of a pulse.
+  /// Returns whether the step from k to k + 1 is within a pulse.
   bool within(std::int64_t k) const { return k >= 0 && k / period() < pulses && k % period() < pulse_steps; }
-  /// Of the pulse that is over at step k.
+  /// Returns the fraction of the pulse that has passed at step k; 0 in a pause.
   double share(std::int64_t k) const {
     return within(k) ? static_cast<double>(k % period()) / static_cast<double>(pulse_steps) : 0;
   }

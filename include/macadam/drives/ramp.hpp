@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ramp.hpp  From 0 to a value, a hold, and, where asked, back to 0: relaxation, creep and recovery.
+/// \file ramp.hpp  A ramp from 0 to a value, a hold and, if wanted, a ramp back to 0: relaxation, creep and recovery.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace macadam::drives {
 
-/// Rises over `ramp_steps` (one step at the least: a jump), holds for `hold_steps`, and falls again over `ramp_steps`.
+/// Rises over `ramp_steps` (at least one step, a jump), holds for `hold_steps`, and falls to 0 over `ramp_steps`.
 struct Ramp final : Drive {
   static constexpr std::int64_t forever = std::numeric_limits<std::int64_t>::max();
   double height = 0;            ///< [m] or [N]
   double step = 0;              ///< Δt [s]
   std::int64_t ramp_steps = 1;  ///< at least 1
   std::int64_t hold_steps = forever;
-  bool smooth = false;  ///< a half cosine in place of a line: waves are smaller
+  bool smooth = false;  ///< a half cosine instead of a line, which causes smaller waves
 
   Ramp() = default;
   Ramp(double height, double step, std::int64_t ramp_steps = 1, std::int64_t hold_steps = forever, bool smooth = false)

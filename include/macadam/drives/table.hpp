@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file table.hpp  Values at given times, straight lines between them: whatever a user has measured or thought of.
+/// \file table.hpp  Values at given times, connected by straight lines, for example measured ones.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 
 namespace macadam::drives {
 
-/// The first value before the first time, the last one after the last.
+/// Before the first time it has the first value, after the last time the last value.
 class Table final : public Drive {
  public:
-  /// Times [s] ascending, as many values [m] or [N], two at the least. \throws InputError naming the row.
+  /// `times` [s] must ascend, at least two; one of `values` [m] or [N] for each. \throws InputError naming the row.
   Table(double step, std::vector<double> times, std::vector<double> values)
       : step_(step), times_(std::move(times)), values_(std::move(values)) {
     if (times_.size() != values_.size() || times_.size() < 2) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file all.hpp  The one list of tests: what a scene may ask of its specimen.
+/// \file all.hpp  The list of experiments that a scene may ask for.
 #pragma once
 
 #include <variant>
@@ -13,11 +13,11 @@
 
 namespace macadam {
 
-/// `[loading]`: one of these, by its `kind`.
+/// The `[loading]` of a scene: one of these, by its `kind`.
 using Experiment = std::variant<experiments::Cyclic, experiments::Sweep, experiments::Relaxation, experiments::Creep,
                                 experiments::Monotonic>;
 
-/// What they find, by the method that ran; none before.
+/// The result of an experiment, by the method that ran; monostate before a run.
 using ExperimentResult =
     std::variant<std::monostate, experiments::SteppedCyclic, experiments::HarmonicCyclic, experiments::SweepResult,
                  experiments::SpectrumResponse, experiments::SteppedResponse>;

@@ -15,13 +15,13 @@ namespace macadam::experiments {
 struct CrackEvent {
   std::uint32_t contact = 0, point = 0;  ///< index in ContactNetwork::contacts and in its point arrays
   Break how = Break::none;
-  double time_s = 0;  ///< of the first sample at which the point is broken
+  double time_s = 0;  ///< time of the first sample at which the point is broken
 };
 
 /// Broken points of one pair type.
 struct PairCracks {
   std::int64_t points = 0, tension = 0, shear = 0;  ///< broken points, and how they broke
-  double area_m2 = 0;                               ///< their share of the contacts' areas [m²]
+  double area_m2 = 0;                               ///< area of the broken points [m²]
   std::int64_t breakable = 0;                       ///< points whose law can break, intact or broken
   std::optional<double> first_s;                    ///< time of the first event [s]
 };
@@ -41,10 +41,10 @@ struct Cracks {
   }
 };
 
-/// Why a test ended before its last point: no intact contact path joined bottom and top wall any more.
+/// Why a test ended before its last point: no path of intact contacts connected the bottom and top walls.
 struct Rupture {
-  double time_s = 0, strain = 0;                ///< of the sample at which that was found
-  double time_before_s = 0, strain_before = 0;  ///< of the sample before
+  double time_s = 0, strain = 0;                ///< at the sample at which this was found
+  double time_before_s = 0, strain_before = 0;  ///< at the sample before it
 };
 
 }  // namespace macadam::experiments

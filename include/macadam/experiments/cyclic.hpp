@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file cyclic.hpp  The cyclic test: the top wall moves as −A·sin(2πft), stress answers as a sine, |E*| and φ follow.
+/// \file cyclic.hpp  The cyclic test: the top wall moves as −A·sin(2πft), the stress is a sine, |E*| and φ follow.
 #pragma once
 
 #include <array>
@@ -12,51 +12,55 @@
 
 namespace macadam {
 
-/// `rest`: from zero displacement. `steady`: from the harmonic solution, so that the first cycle is periodic already.
+/// How a cyclic test starts. `rest`: from zero displacement. `steady`: from the harmonic solution, so that the first
+/// cycle is already periodic.
 enum class Start : std::uint8_t { rest, steady };
 const char* to_string(Start);
 
 namespace experiments {
 
-/// `[loading]`, kind "cyclic". What is empty was not given: make_plan() decides it.
+/// `[loading]` of kind "cyclic". make_plan() decides options that are empty.
 struct Cyclic {
   static constexpr const char* kind = "cyclic";
   static constexpr Stepping stepping = Stepping::usual;
-  static constexpr std::array files = {"response.csv"};  ///< that a run may leave
+  static constexpr std::array files = {"response.csv"};  ///< files that a run may write
 
-  std::vector<double> frequencies;   ///< [Hz]
-  std::vector<double> temperatures;  ///< [°C], every frequency at each; harmonic only; empty: Materials::temperature
-  double strain_amplitude = 1e-4;    ///< of the height
+  std::vector<double> frequencies;  ///< [Hz]
+  /// [°C]; every frequency is solved at each; harmonic method only; empty: Materials::temperature.
+  std::vector<double> temperatures;
+  double strain_amplitude = 1e-4;  ///< relative to the height of the specimen
   std::optional<Start> start;
   std::optional<int> cycles;
-  std::optional<double> ramp_cycles;  ///< smooth start over so many cycles, ≤ cycles − fit_cycles
-  std::optional<int> fit_cycles;      ///< last cycles that are fitted
-  int samples_per_cycle = 500;        ///< points of response.csv in a cycle
+  std::optional<double> ramp_cycles;  ///< length of the smooth start in cycles, ≤ cycles − fit_cycles
+  std::optional<int> fit_cycles;      ///< number of cycles at the end that are fitted
+  int samples_per_cycle = 500;        ///< samples per cycle in response.csv
 
-  /// Last cycles that are fitted of so many: as given, else two of four or more, else one.
+  /// Returns how many cycles at the end are fitted out of `of_cycles`: as given, otherwise two of four or more,
+  /// otherwise one.
   int fitted(int of_cycles) const { return fit_cycles.value_or(of_cycles >= 4 ? 2 : 1); }
 };
 
-/// One frequency, stepped.
+/// Result of one frequency by stepping.
 struct SteppedFrequency : Frequency {
   CyclicResult cyclic;  ///< fit, peaks, steadiness
   double dt_s = 0;
   std::int64_t steps = 0;
   int cycles = 0;
   Start start = Start::rest;
-  /// Whether the tolerance that was asked for was kept; nothing where there is no harmonic solution to tell.
+  /// Whether the requested tolerance was kept; empty if there is no harmonic solution to compare with.
   std::optional<bool> kept;
-  std::optional<ErrorEstimate> predicted, achieved;  ///< against the harmonic solution at true mass, if there is one
+  /// Relative to the harmonic solution at true mass, if there is one.
+  std::optional<ErrorEstimate> predicted, achieved;
 
-  double residual() const { return cyclic.fit_rms; }  ///< rms of stress that the fit leaves / amplitude
+  double residual() const { return cyclic.fit_rms; }  ///< rms of the stress that the fit leaves, over its amplitude
 };
 
-/// By method "explicit".
+/// Result of a cyclic test by method "explicit".
 struct SteppedCyclic : Stepped {
   std::vector<SteppedFrequency> frequencies;
 };
 
-/// By method "harmonic".
+/// Result of a cyclic test by method "harmonic".
 struct HarmonicCyclic {
   std::vector<HarmonicFrequency> frequencies;
 };

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file material.hpp  What a test in time finds of the mixture itself, besides its own response.
+/// \file material.hpp  The viscoelastic functions of the mixture that a test in time determines besides its own
+/// response.
 #pragma once
 
 #include "macadam/spectrum.hpp"
 
 namespace macadam::experiments {
 
+/// Viscoelastic functions of the mixture, and their accuracy.
 struct Material {
-  Spectrum spectrum;                     ///< as solved
-  double shortest_s = 0, longest_s = 0;  ///< times for which it holds
-  bool confined = false;                 ///< its sides were held: the moduli are those of a confined specimen
-  /// Few units that give the same to `table_error`, in every table that is written.
+  Spectrum spectrum;                     ///< spectrum as solved
+  double shortest_s = 0, longest_s = 0;  ///< range of times for which it holds
+  bool confined = false;                 ///< whether the sides were held, so that the moduli are confined ones
+  /// Series with few units that reproduce the spectrum to `table_error`; they are written in every table.
   PronySeries relaxation;
   CreepSeries creep;
-  double table_error = 0;  ///< largest relative difference of E(t) from `spectrum`, at these times
+  double table_error = 0;  ///< largest relative difference of E(t) from `spectrum`, within the range of times
   double seconds = 0;      ///< wall time of the solutions
 
-  /// What is known of E(t) and J(t) of the points, relative.
+  /// Returns the larger of the two error measures of the spectrum, for E(t) and J(t), relative.
   double error() const { return spectrum.error > spectrum.checked ? spectrum.error : spectrum.checked; }
 };
 

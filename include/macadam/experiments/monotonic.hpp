@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file monotonic.hpp  The monotonic test: the top wall is pulled, or pushed, at a constant rate of strain.
+/// \file monotonic.hpp  The monotonic test: the top wall moves at a constant strain rate, in tension or compression.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace macadam::experiments {
 
-/// `[loading]`, kind "monotonic".
+/// `[loading]` of kind "monotonic".
 struct Monotonic {
   static constexpr const char* kind = "monotonic";
   static constexpr Stepping stepping = Stepping::if_asked;
   static constexpr std::array files = {"monotonic.csv", "prony.csv", "kelvin.csv", "prony_abaqus.inp",
                                        "prony_ansys.txt"};
 
-  double rate = 0;            ///< of the strain [1/s], tension positive
-  std::vector<double> times;  ///< from the beginning [s], rising
-  double poisson_ratio = 0;   ///< for the tables of finite-element programs
+  double rate = 0;            ///< strain rate [1/s], tension positive
+  std::vector<double> times;  ///< times of the result, from the beginning [s], rising
+  double poisson_ratio = 0;   ///< Poisson's ratio for the tables of finite-element programs
 };
 
 }  // namespace macadam::experiments

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepped.hpp  Whether a test is stepped in time, and what is known of one that was.
+/// \file stepped.hpp  Whether an experiment can be stepped in time, and the report of its stepping.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +10,21 @@
 
 namespace macadam::experiments {
 
-/// Of a test: it cannot be, it is where the scene asks for it, it is where the scene says nothing.
+/// Whether an experiment is stepped: never; only if the scene asks for it; unless the scene asks for another
+/// method.
 enum class Stepping : std::uint8_t { never, if_asked, usual };
 
-/// How a test was stepped.
+/// How an experiment was stepped.
 struct Stepped {
-  double seconds_planning = 0;  ///< wall time before the first stepper, harmonic solutions included; resumed runs: that
-                                ///< of the run that was interrupted
-  ContactForm form = ContactForm::condensed;  ///< that ran, likewise the next two
+  double seconds_planning = 0;  ///< wall time before the first stepper was made, harmonic solutions included; for a
+                                ///< resumed run, of the interrupted run
+  ContactForm form = ContactForm::condensed;  ///< the form that ran, and so geometry and precision
   Geometry geometry = Geometry::updated;
   Precision precision = Precision::double_;
   std::int64_t bytes = 0;               ///< Stepper::bytes()
-  std::int32_t critical_particle = -1;  ///< the particle that sets the critical step; −1: the platen
+  std::int32_t critical_particle = -1;  ///< the particle that determines the critical step; −1: the platen
   double critical_dt_s = 0;             ///< the critical step at true mass
-  std::optional<Cracks> cracks = {};    ///< empty where no law of the scene can break
+  std::optional<Cracks> cracks = {};    ///< empty if no law of the scene can break
 };
 
 }  // namespace macadam::experiments

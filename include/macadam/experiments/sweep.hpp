@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file sweep.hpp  The complex modulus over a range of frequencies, and of temperatures: the data of a master curve.
+/// \file sweep.hpp  The complex modulus over a range of frequencies and temperatures: the data of a master curve.
 #pragma once
 
 #include <array>
@@ -10,18 +10,19 @@
 
 namespace macadam::experiments {
 
-/// `[loading]`, kind "sweep": steady states, each frequency at each temperature.
+/// `[loading]` of kind "sweep": steady states at each frequency and each temperature.
 struct Sweep {
   static constexpr const char* kind = "sweep";
   static constexpr Stepping stepping = Stepping::never;
-  static constexpr std::array files = {"sweep.csv"};  ///< that a run may leave
+  static constexpr std::array files = {"sweep.csv"};  ///< files that a run may write
 
   std::vector<double> frequencies;   ///< [Hz], rising
   std::vector<double> temperatures;  ///< [°C]; empty: Materials::temperature
 };
 
+/// Result of a sweep.
 struct SweepResult {
-  std::vector<HarmonicFrequency> points;  ///< temperature by temperature
+  std::vector<HarmonicFrequency> points;  ///< all frequencies of one temperature, then of the next
 };
 
 }  // namespace macadam::experiments

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file all.hpp  The list of contact laws. Scene reader, steppers, tests and benchmarks walk it.
+/// \file all.hpp  The list of contact laws. The scene reader, steppers, tests and benchmarks use it.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ namespace macadam {
 /// Any one law. To add a law, add its type here.
 using Law = std::variant<laws::Elastic, laws::GeneralisedKelvin, laws::BrittleBond>;
 
-/// One law for each pair type, by PairType; empty where there is none.
+/// One law for each pair type, by PairType; empty if there is none.
 using LawTable = std::array<std::optional<Law>, pair_types>;
 
 }  // namespace macadam

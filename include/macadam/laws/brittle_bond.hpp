@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file brittle_bond.hpp  An elastic bond that breaks for good, model (6.10) and (6.11).
+/// \file brittle_bond.hpp  An elastic bond that breaks permanently, model (6.10) and (6.11).
 #pragma once
 
 #include <limits>
@@ -10,7 +10,8 @@
 namespace macadam::laws {
 
 /// f = E·x in all directions, until at a contact point the normal stress f_n/d exceeds the tensile strength, or the
-/// shear stress α·|f_s|/d the shear strength. From then on that point bears compression alone: f_n = min(E·x_n, 0).
+/// shear stress α·|f_s|/d exceeds the shear strength. From then on that point only bears compression: f_n = min(E·x_n,
+/// 0).
 struct BrittleBond {
   static constexpr const char* name = "brittle_bond";
   static constexpr bool linear = false;
@@ -32,6 +33,7 @@ struct BrittleBond {
   /// Returns how a contact point broke, from its six numbers (Step::advance_point).
   static Break break_of(const double* state) { return static_cast<Break>(static_cast<int>(state[3])); }
 
+  /// Coefficients of one time step, see law.hpp.
   template <class R>
   struct Step {
     static constexpr bool memoryless = false, coupled = true;

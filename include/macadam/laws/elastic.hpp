@@ -11,7 +11,7 @@
 
 namespace macadam::laws {
 
-/// f = E·x.
+/// The law f = E·x.
 struct Elastic {
   static constexpr const char* name = "elastic";
   double E = 0;      ///< modulus [Pa], δ included
@@ -25,13 +25,14 @@ struct Elastic {
   double instantaneous() const { return E; }
   double shortest_time() const { return std::numeric_limits<double>::infinity(); }
   std::complex<double> stiffness(std::complex<double>) const { return E; }
-  std::complex<double> stiffness(double) const = delete;  // iω, not ω
+  std::complex<double> stiffness(double) const = delete;  // deleted, so that ω cannot be passed instead of iω
   std::complex<double> unit_compliance(int, std::complex<double>) const { return 0; }
   template <class F>
   void each_parameter(std::complex<double>, F&& f) const {
     f(std::string("E"), std::complex<double>(1));
   }
 
+  /// Coefficients of one time step, see law.hpp.
   template <class R>
   struct Step {
     static constexpr bool memoryless = true;
@@ -50,7 +51,7 @@ struct Elastic {
     return {static_cast<R>(E)};
   }
 
-  /// Nothing flows: a block of steps is as exact as the steps.
+  /// A block of steps. Nothing flows, so a block is as exact as single steps.
   struct Block {
     static constexpr int most_units = 0;
     double rate, relax, follow;

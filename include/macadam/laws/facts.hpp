@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file facts.hpp  What those who never look into a law must know of it, and which of the optional parts it has.
+/// \file facts.hpp  The properties of a law that code may need without knowing its type, and the traits that tell which
+/// optional parts a law has.
 #pragma once
 
 #include <array>
@@ -15,32 +16,33 @@
 
 namespace macadam {
 
-inline constexpr int pair_types = 6;  ///< of PairType (contact_network.hpp)
+inline constexpr int pair_types = 6;  ///< number of PairTypes (contact_network.hpp)
 
-/// Whether a contact point is broken, and by which stress it broke.
+/// Whether and how a contact point is broken: by tension or by shear.
 enum class Break : std::uint8_t { none, tension, shear };
 inline constexpr const char* to_string(Break how) {
   return how == Break::tension ? "tension" : how == Break::shear ? "shear" : "none";
 }
 
-/// A law, whatever its type.
+/// Properties of a law of any type; the contract in law.hpp explains them.
 struct LawFacts {
   const char* name = "";
   double alpha = 0;                                                ///< shear over normal stiffness
   double instantaneous = 0;                                        ///< [Pa]
   double shortest_time = std::numeric_limits<double>::infinity();  ///< [s]
-  int units = 0;                                                   ///< state numbers a component besides f
-  int only_units = -1;                                             ///< that the compiler knows of; −1: any
-  bool memoryless = false, linear = true, blocks = false;          ///< see law.hpp, likewise the next two
-  bool coupled = false;                                            ///< normal and shear of a point together
-  bool stiffness = true;                                           ///< has a place in the frequency domain
-  bool breaks = false;                                             ///< its contact points can break
+  int units = 0;                                                   ///< state numbers per component besides f
+  int only_units = -1;                                     ///< the number of units, if fixed at compile time; −1: any
+  bool memoryless = false, linear = true, blocks = false;  ///< see law.hpp, also for the next two
+  bool coupled = false;                                    ///< whether normal and shear of a point act on one another
+  bool stiffness = true;                                   ///< whether it can be solved in the frequency domain
+  bool breaks = false;                                     ///< whether its contact points can break
 };
 
-/// The optional parts of a law's contract (law.hpp).
+/// Traits for the optional parts of a law's contract (law.hpp).
 /// @{
 template <class L>
 inline constexpr bool memoryless_law = L::template Step<double>::memoryless;
+/// Whether f is a linear function of the history of x.
 template <class L>
 constexpr bool is_linear() {
   if constexpr (requires { L::linear; })
@@ -50,13 +52,14 @@ constexpr bool is_linear() {
 }
 template <class L>
 inline constexpr bool linear_law = is_linear<L>();
+/// Whether a law's Step advances the components of a point together.
 template <class Step>
 inline constexpr bool coupled_step = requires {
   requires Step::coupled;
 };
 template <class L>
 inline constexpr bool coupled_law = coupled_step<typename L::template Step<double>>;
-/// Whether it has all that the frequency domain asks for.
+/// Whether a law has everything that the frequency domain needs.
 template <class L>
 inline constexpr bool has_stiffness = linear_law<L>&& requires(const L& law, std::complex<double> s,
                                                                void (&each)(const std::string&, std::complex<double>)) {
@@ -64,6 +67,7 @@ inline constexpr bool has_stiffness = linear_law<L>&& requires(const L& law, std
   law.unit_compliance(0, s);
   law.each_parameter(s, each);
 };
+/// Whether a law can be stepped in blocks.
 template <class L>
 inline constexpr bool has_blocks = requires(const L& law) {
   law.block(1.0, 1).rate;
@@ -73,7 +77,7 @@ template <class L>
 inline constexpr bool breakable_law = requires(const double* state) {
   { L::break_of(state) } -> std::same_as<Break>;
 };
-/// The number of units where it is known to the compiler; −1: by value.
+/// Returns the number of units if it is fixed at compile time, else −1.
 template <class L>
 constexpr int units_of() {
   if constexpr (memoryless_law<L>)
@@ -85,6 +89,7 @@ constexpr int units_of() {
 }
 /// @}
 
+/// Returns the properties of a law; of each law in a table.
 template <class L>
 LawFacts facts_of(const L& law) {
   return {L::name,       law.alpha,      law.instantaneous(), law.shortest_time(),

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file generalised_kelvin.hpp  A Maxwell unit in series with any number of Kelvin units: Eq. 13–17, put
-/// right as docs/model.md, section 6, says.
+/// \file generalised_kelvin.hpp  A Maxwell unit in series with any number of Kelvin units: Eq. 13–17, corrected as
+/// docs/model.md, section 6, says.
 ///
 /// Displacement x = f/k_m + ∫f/η_m dt + Σ x_l with η_l·dx_l/dt + k_l·x_l = f. The trapezoidal rule over one step gives
 ///   c·f(t+Δt) = Δx + Σ (1 − b_l/a_l)·x_l(t) − g·f(t),   x_l(t+Δt) = [b_l·x_l(t) + Δt/(2η_l)·(f(t+Δt) + f(t))]/a_l.
-/// Written in increments, because 1 − b_l/a_l is 1e-9…1e-6.
+/// The code uses increments, because 1 − b_l/a_l is only 1e-9…1e-6.
 #pragma once
 
 #include <algorithm>
@@ -20,14 +20,15 @@
 
 namespace macadam::laws {
 
-/// Generalised Kelvin; L = 0 is a Maxwell unit, L = 1 Burgers, C_m = ∞ has no dashpot in series.
+/// Generalised Kelvin chain with L units. L = 0 is a Maxwell unit, L = 1 the Burgers model; C_m = ∞ means no dashpot in
+/// series.
 struct GeneralisedKelvin {
   static constexpr const char* name = "generalised_kelvin";
   static constexpr int max_units = 16;
   double E_m = 0;                                        ///< Maxwell spring [Pa], δ included
   double C_m = std::numeric_limits<double>::infinity();  ///< Maxwell dashpot [Pa·s], may be infinite
   std::vector<double> E;                                 ///< Kelvin springs [Pa], at most max_units
-  std::vector<double> C;                                 ///< Kelvin dashpots [Pa·s], as many
+  std::vector<double> C;                                 ///< Kelvin dashpots [Pa·s], one per spring
   double alpha = 0;                                      ///< shear over normal stiffness
 
   template <class F>
@@ -50,28 +51,29 @@ struct GeneralisedKelvin {
   }
   int units() const { return static_cast<int>(E.size()); }
   double instantaneous() const { return E_m; }
-  /// min C/E over all units, Maxwell's included [s]
+  /// Returns min C/E over all units, including Maxwell's [s].
   double shortest_time() const {
     double out = C_m / E_m;
     for (std::size_t l = 0; l < E.size(); ++l) out = std::min(out, C[l] / E[l]);
     return out;
   }
 
-  /// 1/k*(s) = 1/k_m + 1/(s·η_m) + Σ 1/(k_l + s·η_l)
+  /// Returns k*(s), with 1/k*(s) = 1/k_m + 1/(s·η_m) + Σ 1/(k_l + s·η_l).
   std::complex<double> stiffness(std::complex<double> s) const {
     std::complex<double> compliance = 1 / E_m;
     if (std::isfinite(C_m)) compliance += 1.0 / (s * C_m);
     for (int l = 0; l < units(); ++l) compliance += unit_compliance(l, s);
     return 1.0 / compliance;
   }
-  std::complex<double> stiffness(double) const = delete;  // iω, not ω
-  /// x_l/f = 1/(k_l + s·η_l)
+  std::complex<double> stiffness(double) const = delete;  // deleted, so that ω cannot be passed instead of iω
+  /// Returns x_l/f = 1/(k_l + s·η_l).
   std::complex<double> unit_compliance(int l, std::complex<double> s) const {
     const auto unit = static_cast<std::size_t>(l);
     return 1.0 / (E[unit] + s * C[unit]);
   }
 
-  /// k = 1/Σ c_j, so that ∂ln k/∂ln θ = −k·∂c/∂ln θ: E_m, C_m where it is finite, E_1, C_1, E_2, …
+  /// Calls f(name, ∂ln k/∂ln θ) for each parameter θ. k = 1/Σ c_j, so that ∂ln k/∂ln θ = −k·∂c/∂ln θ. Parameters: E_m,
+  /// C_m if it is finite, E_1, C_1, E_2, …
   template <class F>
   void each_parameter(std::complex<double> s, F&& f) const {
     const std::complex<double> k = stiffness(s);
@@ -85,6 +87,7 @@ struct GeneralisedKelvin {
     }
   }
 
+  /// Coefficients of one time step, see law.hpp; a_l, b_l, c and g as at the top of the file.
   template <class R>
   struct Step {
     static constexpr bool memoryless = false;
@@ -113,47 +116,49 @@ struct GeneralisedKelvin {
     double sum = 0;
     for (int l = 0; l < out.n; ++l) {
       const double a = 1 + E[l] * dt / (2 * C[l]);
-      out.recover[l] = static_cast<R>(E[l] * dt / C[l] / a);  // a − b = k·Δt/η: no subtraction
+      out.recover[l] = static_cast<R>(E[l] * dt / C[l] / a);  // a − b = k·Δt/η, computed without a subtraction
       out.compliance[l] = static_cast<R>(dt / (2 * a * C[l]));
       sum += dt / (2 * a * C[l]);
     }
     if (std::isfinite(C_m)) sum += dt / (2 * C_m);
-    const double inv_c = E_m / (1 + E_m * sum);  // exactly E_m where nothing flows
+    const double inv_c = E_m / (1 + E_m * sum);  // exactly E_m if nothing flows
     out.inv_c = static_cast<R>(inv_c);
     out.relax = static_cast<R>(2 * sum * inv_c);
     return out;
   }
 
-  /// M steps as one block, in which f changes little. x_l at step k of the block is x_l at its beginning, its own loss,
-  /// and what f gave; the first two and the part of f at the beginning are taken at the mean step (M − 1)/2, the part
-  /// of the change δf of f since then exactly, by the sum s of δf' + δf over the steps so far:
+  /// M steps taken as one block, in which f changes little. x_l at step k of the block is the sum of three parts: x_l
+  /// at its beginning, what it has lost since, and what f has added. The first two, and the part of f at the beginning,
+  /// are evaluated at the mean step (M − 1)/2. The part of the change δf of f since the beginning is exact, from the
+  /// sum s of δf' + δf over the steps so far:
   ///   δf(t+Δt) = δf(t) + rate·Δx + drift + follow·s − relax·δf(t)   (model (6.8)),
   ///   drift = rate·Σ r_l·x_l(mean step) − relax·f(beginning),   follow = rate·Σ r_l·Δt/(2·a_l·η_l).
-  /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with one weight for all steps (model (6.9)). What is
-  /// neglected has no mean over a block and is of second order in M·Δt over the times of the load and of the units.
+  /// At the end x_l ← (1 − r_l)^M·x_l + gain_l·Σ(f' + f), with the same weight for all steps (model (6.9)). The error
+  /// has no mean over a block and is of second order in M·Δt over the times of the load and of the units.
   struct Block {
     static constexpr int most_units = max_units;
     double rate, relax, follow;  ///< 1/c [Pa], (c + g)/c [1], [1]
     double recover[max_units];   ///< r_l [1]
-    double ahead[max_units];     ///< (M − 1)·Δt/(2·a_l·η_l): what f adds to x_l up to the middle [1/Pa]
-    double back[max_units];      ///< (M − 1)/2·r_l: what x_l loses of itself up to the middle [1]
+    double ahead[max_units];     ///< (M − 1)·Δt/(2·a_l·η_l): what f adds to x_l until the middle [1/Pa]
+    double back[max_units];      ///< (M − 1)/2·r_l: the fraction of x_l lost until the middle [1]
     double lost[max_units];      ///< 1 − (1 − r_l)^M [1]
     double gain[max_units];      ///< Δt/(2·a_l·η_l) times the mean of (1 − r_l)^k over k < M [1/Pa]
     int n;
 
+    /// Takes the coefficients of settle() from the block that ends.
     void settled_as(const Block& before) {
       std::copy(before.lost, before.lost + n, lost);
       std::copy(before.gain, before.gain + n, gain);
     }
 
-    /// Change of f in a step at rest, from f and x_l at the beginning of the block.
+    /// Returns the change of f per step without motion, from f and x_l at the beginning of the block.
     template <int L, class Units>
     MACADAM_HD double drift(double f, Units&& x) const {
       double past = 0;
       for (int l = 0; l < (L >= 0 ? L : n); ++l) past += recover[l] * (x(l) + (ahead[l] * f - back[l] * x(l)));
       return rate * past - relax * f;
     }
-    /// `sum`: Σ (f' + f) over the steps of the block.
+    /// Updates x_l at the end of a block. `sum`: Σ (f' + f) over its steps.
     template <int L, class Units>
     MACADAM_HD void settle(double sum, Units&& x) const {
       for (int l = 0; l < (L >= 0 ? L : n); ++l) x(l) += gain[l] * sum - lost[l] * x(l);

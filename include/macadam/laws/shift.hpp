@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shift.hpp  Time-temperature superposition, how temperature stretches the times of a law: docs/model.md,
-/// section 23.
+/// \file shift.hpp  Time–temperature superposition: how temperature changes the times of a law: docs/model.md, section
+/// 23.
 ///
-/// A thermorheologically simple law at temperature T and frequency f is the law at its reference temperature and f·a_T:
-/// every viscosity of the law is multiplied by a_T, its springs stay.
+/// A thermorheologically simple law at temperature T and frequency f equals the law at its reference temperature and
+/// frequency f·a_T. Every viscosity of the law is multiplied by a_T; its springs stay the same.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 
 namespace macadam::laws {
 
-/// Temperature changes nothing.
+/// Temperature has no effect.
 struct NoShift {};
 
-/// Williams, Landel and Ferry: log10 a_T = −C1·(T − T_r)/(C2 + T − T_r). No sense at T ≤ T_r − C2.
+/// Williams, Landel and Ferry: log10 a_T = −C1·(T − T_r)/(C2 + T − T_r). Not defined for T ≤ T_r − C2.
 struct Wlf {
   double C1 = 0, C2 = 0;             ///< [1], [K]
   double reference_temperature = 0;  ///< T_r [°C]
@@ -30,10 +30,10 @@ struct Arrhenius {
   double reference_temperature = 0;  ///< T_r [°C]
 };
 
-/// log10 a_T at given temperatures, linear in between; without values outside them.
+/// log10 a_T at given temperatures, linear in between; not defined outside them.
 struct ShiftTable {
   std::vector<double> temperatures;  ///< [°C], increasing, at least one
-  std::vector<double> log10_a_T;     ///< as many
+  std::vector<double> log10_a_T;     ///< one per temperature
 };
 
 using Shift = std::variant<NoShift, Wlf, Arrhenius, ShiftTable>;
@@ -41,7 +41,7 @@ using Shift = std::variant<NoShift, Wlf, Arrhenius, ShiftTable>;
 inline constexpr double gas_constant = 8.314462618;  ///< R [J/(mol·K)]
 inline constexpr double zero_celsius = 273.15;       ///< [K]
 
-/// log10 a_T at a temperature [°C]; NaN where the shift has no value.
+/// Returns log10 a_T at a temperature [°C]; NaN where the shift is not defined.
 inline double log10_shift(const Shift& shift, double temperature) {
   struct At {
     double t;
@@ -67,7 +67,7 @@ inline double log10_shift(const Shift& shift, double temperature) {
   return std::visit(At{temperature}, shift);
 }
 
-/// The law with every viscosity multiplied by a_T.
+/// Returns the law with every viscosity multiplied by a_T.
 inline Law shifted(Law law, double a_T) {
   std::visit(
       [a_T](auto& l) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file values.hpp  The coefficients of any law by name: to be read, shifted with temperature, calibrated.
+/// \file values.hpp  Access to the coefficients of any law by name, for reading, shifting with temperature and
+/// calibration.
 #pragma once
 
 #include <cmath>
@@ -11,7 +12,7 @@
 
 namespace macadam::laws {
 
-/// f(name, value, kind, need) for every modulus and viscosity of a law, under the names of `each_parameter`: E_1 is the
+/// Calls f(name, value, kind, need) for every coefficient of a law, under the names of `each_parameter`: E_1 is the
 /// first of the list `E`.
 template <class L, class F>
 void each_value(L& law, F&& f) {
@@ -26,7 +27,7 @@ void each_value(L& law, F&& f) {
   });
 }
 
-/// Whether every coefficient is a positive number; only those that may be infinite are.
+/// Returns whether every coefficient is positive, and finite unless it may be infinite.
 inline bool usable(const Law& law) {
   bool good = true;
   std::visit(
@@ -39,7 +40,7 @@ inline bool usable(const Law& law) {
   return good;
 }
 
-/// Whether a kind of law has viscosities, which temperature shifts.
+/// Returns whether a law has viscosities, which temperature shifts.
 inline bool flows(const Law& law) {
   bool out = false;
   std::visit(
