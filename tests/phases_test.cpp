@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// phases_test.cpp  Wall time goes into the phases of a run: each moment into one, and nearly all of it.
+// phases_test.cpp  The wall time of a run is divided into phases: every moment counts in one phase only, and nearly all
+// time is in some phase.
 #include "host/simulation/phases.hpp"
 
 #include <gtest/gtest.h>
@@ -36,10 +37,10 @@ TEST(Phases, AnInnerPhaseTakesItsTimeFromTheOuter) {
     wait();
   }
   const double whole = seconds_since(start);
-  EXPECT_GE(all.planning, 0.04);  // a sleep is never shorter than asked
+  EXPECT_GE(all.planning, 0.04);  // a sleep is never shorter than requested
   EXPECT_GE(all.harmonic, 0.02);
   EXPECT_GE(all.writing, 0.02);
-  EXPECT_LE(all.sum(), whole);  // longer, where a moment counts twice
+  EXPECT_LE(all.sum(), whole);  // it would be more if a moment counted twice
 }
 
 TEST(Phases, EndWithWhatIsThrown) {
@@ -52,7 +53,7 @@ TEST(Phases, EndWithWhatIsThrown) {
   EXPECT_GE(all.stepping, 0.02);
 }
 
-/// A run of some tenths of a second, and the phases that its summary.json must have.
+/// Runs a scene for some tenths of a second and expects these phases in its summary.json.
 void expect_whole(SolverMethod method, const std::vector<std::string>& expected) {
   Scene scene;
   scene.specimen.file = MACADAM_TEST_DATA "/t8.csv";
@@ -78,7 +79,7 @@ void expect_whole(SolverMethod method, const std::vector<std::string>& expected)
   }
   for (const auto& phase : expected) EXPECT_GT(timing.at(phase).get<double>(), 0) << phase;
   EXPECT_LE(sum, wall);
-  // what is left is the last writing of summary.json, 50 ms where a busy machine interrupts it
+  // the last writing of summary.json is not included; it takes up to 50 ms on a busy machine
   EXPECT_GE(sum, 0.9 * wall - 0.05) << timing.dump();
 }
 

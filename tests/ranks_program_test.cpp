@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ranks_program_test.cpp  The program as mpirun begins it several times: who writes, and how all end. The device of
-// each rank is the processor in disguise, which steps all of the specimen; devices that share it are tested in
-// device_ranks_test.cpp and tests/ranks/run.
+// ranks_program_test.cpp  The program started several times by mpirun: which rank writes, and that all ranks end
+// together. The device of each rank is a fake that computes on the processor and steps the whole specimen.
+// device_ranks_test.cpp and tests/ranks/run test devices that divide a specimen.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -30,7 +30,7 @@ class RanksProgram : public Program {
     fs::create_symlink(cuda, plugins_ / "libmacadam_cuda.so");
   }
 
-  /// The shell's command for two processes, for at most two minutes.
+  /// Returns the shell command for two processes, which are ended after two minutes.
   std::string command(const std::string& arguments) const {
     return fmt::format(
         "MACADAM_PLUGIN_PATH='{}' TMPDIR='{}' OMPI_ALLOW_RUN_AS_ROOT=1 "
@@ -77,7 +77,7 @@ TEST_F(RanksProgram, WritesOnce) {
 
 TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
   write_scene("density_scaling = 10.0\n");
-  std::thread told([&] {  // one rank of the two
+  std::thread told([&] {  // interrupts one of the two ranks
     const fs::path summary = folder_ / "two" / "summary.json";
     for (int k = 0; k < 600 && !(fs::exists(summary) && contains(read(summary), "running")); ++k)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -99,7 +99,7 @@ TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
   EXPECT_EQ(read(folder_ / "two" / "response.csv"), read(folder_ / "alone" / "response.csv"));
 }
 
-// An error that all have is told once.
+// An error that all ranks have is printed once.
 TEST_F(RanksProgram, FailsAsOne) {
   const Outcome missing = together(fmt::format("run {} --ranks --out {}", path("none.toml"), path("two")));
   EXPECT_EQ(missing.code, 2) << missing.err;
@@ -124,7 +124,7 @@ TEST_F(RanksProgram, FailsAsOne) {
   EXPECT_THAT(paper.err, HasSubstr("it is made of paper"));
 }
 
-// A farm of runs that mpirun or srun begins is no team, unless it says so.
+// Without --ranks, processes started by mpirun or srun are independent runs.
 TEST_F(RanksProgram, RunsAloneUnlessItIsToldOtherwise) {
   write_scene();
   setenv("PMI_SIZE", "2", 1);
@@ -138,7 +138,7 @@ TEST_F(RanksProgram, RunsAloneUnlessItIsToldOtherwise) {
   EXPECT_EQ(one.code, 0) << one.err;
 }
 
-// As where a file is old on one of the hosts.
+// The scene file differs between ranks, for example if one host has an old copy.
 TEST_F(RanksProgram, RefusesDifferentScenes) {
   write_scene();
   const std::string text = read(folder_ / "scene.toml");
