@@ -47,7 +47,7 @@ class RanksProgram : public Program {
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++out;
     return out;
   }
-  /// Nothing of the second rank's is left.
+  /// Returns whether the scratch folder of the second rank is removed.
   bool scratch_is_gone() const {
     for (const auto& entry : fs::directory_iterator(folder_ / "tmp")) {
       if (entry.path().filename().string().starts_with("macadam-rank")) return false;
