@@ -119,6 +119,7 @@ TEST(RepairSurface, WrapsWhatCutsItself) {
   // Two unit cubes that overlap by half have a union of volume 1.5. The wrap lies about 1/1000 of the diagonal (1.8)
   // outside of an area of 8, which adds 0.014. It also rounds edges and fills concave ones at a scale of 1/40 of the
   // diagonal.
+  const Surface s = joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02}));
   EXPECT_FALSE(check_surface(s).self_intersecting.empty());
   const SurfaceRepair repair = repaired(s, 1.52, 0.03, true);
   EXPECT_TRUE(contains(repair.what, "wrapped")) << repair.what;

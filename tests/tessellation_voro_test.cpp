@@ -36,7 +36,7 @@ constexpr double mm = 1e-3;
 /// Returns all cells with their neighbours and face areas, in millimetres because voro++ uses absolute tolerances.
 VoroResult voro_tessellate(const Specimen& s) {
   const Vec3d size = (1 / mm) * s.box.size;
-  constexpr double particles_per_block = 5.6;  // voro++'s own optimum
+  constexpr double particles_per_block = 5.6;  // the optimum according to voro++
   const double blocks = std::cbrt(static_cast<double>(s.size()) / (particles_per_block * size.x * size.y * size.z));
   const auto grid = [blocks](double length) { return static_cast<int>(length * blocks) + 1; };
   voro::container_poly container(0, size.x, 0, size.y, 0, size.z, grid(size.x), grid(size.y), grid(size.z), false,

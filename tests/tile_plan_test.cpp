@@ -108,7 +108,7 @@ void expect_every_load_arrives(const test::TestScene& scene) {
   const std::vector<float> whole = sums_by_tiles(scene, load.size(), load);
   for (std::size_t i = 0; i < whole.size(); ++i) {
     const double rounding =
-        static_cast<double>(scene.network.row(i).size()) * 0x1p-24 * largest[i];  // a sum's of n terms
+        static_cast<double>(scene.network.row(i).size()) * 0x1p-24 * largest[i];  // rounding of a sum of n terms
     EXPECT_NEAR(whole[i], expected[i], rounding) << "particle " << i;
   }
   for (const std::size_t contacts : {700u, 300u, 120u}) {
