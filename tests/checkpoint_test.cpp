@@ -211,7 +211,7 @@ TEST_F(CheckpointedRun, DamagedFilesAreRefused) {
   EXPECT_HAS(refusal(scene, "out"), "checkpoint of another");
 }
 
-/// If the newest checkpoint is damaged or missing, the run resumes from the one before, with a warning.
+/// If the newest checkpoint is damaged or missing, the run resumes from the previous one, with a warning.
 TEST_F(CheckpointedRun, WhereTheNewestIsDamagedTheOneBeforeIsGoneOnWith) {
   const Scene scene = this->scene(rest);
   const fs::path previous = out("out") / "checkpoint-previous.h5";

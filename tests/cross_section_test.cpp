@@ -121,7 +121,7 @@ class LatticeSection : public testing::TestWithParam<double> {
   }
 
   static void expect_every_eighth(const Specimen& s, const Tessellation& t) {
-    // Where a facet almost parallel to the plane meets one that is not, a shift δ of a centre opens or overlaps strips
+    // If a facet almost parallel to the plane meets another one, a shift δ of a centre opens or overlaps strips
     // of width δ.
     const double tolerance = rounding + 10 * GetParam();
     for (const char axis : {'x', 'y', 'z'}) {

@@ -64,7 +64,7 @@ TEST_F(CtCorrection, SlicesThatDriftGetTheLevelsOfAll) {
   });
   const double before = difference(scan, true_).second;
   for (int round = 0; round < 3; ++round) ct::correct_slices(scan, region_);
-  // What remains is the noise of a slice's level, which is a mean over 840 blocks.
+  // The rest is the noise of a slice's level, which is a mean over 840 blocks.
   EXPECT_LT(difference(scan, true_).second, 0.2 * before);
 }
 
