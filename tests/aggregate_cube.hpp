@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file aggregate_cube.hpp  A cube of one aggregate between two walls, from which [1] has its inner contact
-/// moduli.
+/// \file aggregate_cube.hpp  A cube of one aggregate, filled with spheres, between two walls. [1] found its inner
+/// contact moduli by compressing such a cube.
 #pragma once
 
 #include "macadam/shape.hpp"
@@ -9,7 +9,7 @@
 
 namespace macadam::test {
 
-/// Spheres that fill aggregates, with the modulus of [1] for the contacts among them.
+/// Sizes of the spheres that fill an aggregate, with the modulus of [1] for the contacts among them.
 struct InnerSpheres {
   const char* name;
   double radius_min, radius_max;  ///< [m]
@@ -19,14 +19,15 @@ inline constexpr InnerSpheres fine_spheres{"fine", 0.75e-3, 1e-3, 1.125e11};
 inline constexpr InnerSpheres coarse_spheres{"coarse", 1e-3, 2e-3, 1.116e11};
 inline constexpr double inner_alpha = 0.05;
 inline constexpr double cube_edge = 20e-3;              ///< [m]
-inline constexpr double scene_porosity = 0;             ///< of the fillings of examples/ac14_ms_*
-inline constexpr double aggregate_modulus = 60e9;       ///< of the rock [Pa]
-inline constexpr double paper_wall_modulus = 1.151e11;  ///< of A–W contacts [Pa]
+inline constexpr double scene_porosity = 0;             ///< porosity of the fillings in examples/ac14_ms_*
+inline constexpr double aggregate_modulus = 60e9;       ///< Young's modulus of the rock [Pa]
+inline constexpr double paper_wall_modulus = 1.151e11;  ///< modulus of A–W contacts in [1] [Pa]
 
-/// `shape`: fill_shape() of the cube's surface; `recipe`: the generator's, as for mastic.
+/// How the cube is filled: `shape` calls fill_shape() on its surface, `recipe` the specimen generator, as for mastic.
 enum class CubeFilling : std::uint8_t { shape, recipe };
 inline const char* to_string(CubeFilling filling) { return filling == CubeFilling::shape ? "shape" : "recipe"; }
 
+/// Returns a cube filled with spheres, all of which belong to aggregate 0.
 inline Specimen aggregate_cube(const InnerSpheres& spheres, CubeFilling filling, double porosity, std::uint64_t seed,
                                double edge = cube_edge) {
   Specimen out;
@@ -53,11 +54,12 @@ inline Specimen aggregate_cube(const InnerSpheres& spheres, CubeFilling filling,
 struct CubeModulus {
   double walls = 0;    ///< stress over the strain between the walls [Pa]
   double gauge = 0;    ///< stress over the strain of the middle 60 % of the height [Pa]
-  double poisson = 0;  ///< of the middle 60 %
+  double poisson = 0;  ///< Poisson's ratio of the middle 60 % of the height
 };
 
-/// Slope of a component of the displacements over the same component of the places, by least squares over particles
-/// in the middle 60 % of the height; per unit displacement of the top wall.
+/// Returns the normal strain along axis `component` (0 to 2) per unit displacement of the top wall. It is the slope of
+/// the displacements over the positions along that axis, by least squares over the particles in the middle 60 % of the
+/// height.
 inline double gauge_strain(const Specimen& s, const HarmonicResult& result, int component) {
   const double Vec3d::*axis[] = {&Vec3d::x, &Vec3d::y, &Vec3d::z};
   double n = 0, x = 0, u = 0, xx = 0, xu = 0;
@@ -69,7 +71,8 @@ inline double gauge_strain(const Specimen& s, const HarmonicResult& result, int 
   return (n * xu - x * u) / (n * xx - x * x);
 }
 
-/// Static answer of a specimen of one aggregate with elastic contacts; the walls hold it without friction.
+/// Returns the moduli of one aggregate under static compression. Contacts are elastic, and the walls have no friction
+/// (α = 0).
 inline CubeModulus cube_modulus(const Specimen& specimen, const laws::Elastic& inner,
                                 double wall_modulus = paper_wall_modulus, bool lateral_walls = false) {
   Laws laws;
@@ -84,8 +87,9 @@ inline CubeModulus cube_modulus(const Specimen& specimen, const laws::Elastic& i
           -0.5 * (gauge_strain(specimen, r, 0) + gauge_strain(specimen, r, 1)) / strain};
 }
 
-/// Young's modulus over the contact modulus where every sphere moved with the mean strain and facets lay in all
-/// directions alike: Σ A·d = 3V gives K = E/3, G = (2 + 3α)·E/10, and 9KG/(3K + G). Relaxation makes it less.
+/// Returns Young's modulus over the contact modulus for uniform strain: every sphere moves with the mean strain, and
+/// facets have all directions equally often. With Σ A·d = 3V, K = E/3 and G = (2 + 3α)·E/10, and Young's modulus is
+/// 9KG/(3K + G). Spheres that are free to relax give less.
 inline double uniform_strain_modulus(double alpha) {
   const double k = 1.0 / 3, g = (2 + 3 * alpha) / 10;
   return 9 * k * g / (3 * k + g);

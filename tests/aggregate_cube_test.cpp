@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// aggregate_cube_test.cpp  A cluster is one deformable body: a cube of aggregate has the modulus of
-// docs/aggregate-cube.md.
+// aggregate_cube_test.cpp  Checks that a cube of spheres, all of one aggregate, has the modulus that
+// docs/aggregate-cube.md reports: a cluster is a deformable particle.
 #include "aggregate_cube.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,8 @@
 namespace macadam::test {
 namespace {
 
-// Columns of springs: E between the walls, if these have it too, and in the middle, whatever they have.
+// A cubic lattice consists of independent columns of springs. The gauge modulus (middle of the height) is E for any
+// wall modulus. The modulus between the walls also contains the two wall contacts.
 TEST(AggregateCube, GaugeOfALatticeIsExact) {
   constexpr double E = 2e10, side = 2e-3;
   Specimen s;
@@ -26,7 +27,8 @@ TEST(AggregateCube, GaugeOfALatticeIsExact) {
   s.body.assign(s.centre.size(), 0);
   for (const double wall : {1.0, 3.0}) {
     const CubeModulus m = cube_modulus(s, {E, inner_alpha}, wall * E);
-    EXPECT_NEAR(m.walls / E, 1 / (0.9 + 0.1 / wall), 1e-9);  // half a side at each wall
+    // a tenth of the height, half a side at each wall, has the modulus of the wall contacts
+    EXPECT_NEAR(m.walls / E, 1 / (0.9 + 0.1 / wall), 1e-9);
     EXPECT_NEAR(m.gauge / E, 1, 1e-9);
     EXPECT_NEAR(m.poisson, 0, 1e-9);
   }
@@ -35,10 +37,11 @@ TEST(AggregateCube, GaugeOfALatticeIsExact) {
 struct Case {
   const InnerSpheres* spheres;
   CubeFilling filling;
-  double gauge, walls;     ///< our own means of twenty seeds [Pa]
-  double deviation;        ///< standard one among the seeds, the larger of both [Pa]
-  unsigned seeds;          ///< taken here: cubes of coarse spheres cost a tenth and differ three times as much
-  double contact_modulus;  ///< with which the aggregate has its 60 GPa: that of [1] where it does
+  double gauge, walls;  ///< recorded means over twenty seeds [Pa]
+  double deviation;     ///< standard deviation among the seeds, the larger of the two [Pa]
+  unsigned seeds;  ///< number of seeds used here; a cube of coarse spheres costs a tenth of a fine one and scatters
+                   ///< three times as much
+  double contact_modulus;  ///< contact modulus that gives the aggregate 60 GPa; that of [1] if it does so [Pa]
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.spheres->name << ", " << to_string(c.filling); }
@@ -53,6 +56,7 @@ std::vector<Case> cases() {
           {&coarse_spheres, recipe, 60.90e9, 64.15e9, 0.81e9, 6, coarse_spheres.contact_modulus}};
 }
 
+/// Returns the means over `seeds` cubes, from seed `first_seed` on.
 CubeModulus mean_modulus(const Case& c, double contact_modulus, std::uint64_t first_seed, unsigned seeds) {
   CubeModulus mean;
   for (unsigned k = 0; k < seeds; ++k) {
@@ -67,30 +71,32 @@ INSTANTIATE_TEST_SUITE_P(All, CubeOfSpheres, testing::ValuesIn(cases()), [](cons
   return std::string(info.param.spheres->name) + "_" + to_string(info.param.filling);
 });
 
-// What [1] found its contact moduli with: the rock's 60 GPa. Of uniform strain, with facets in all directions
-// alike, a large body of theirs has 59.7 (fine) and 59.2 GPa (coarse), from which relaxation takes a few per cent: 3 %,
-// and four standard deviations of a mean of so many seeds.
+// With the contact moduli of [1] the cube must have the 60 GPa of the rock. Under uniform strain, with facets in all
+// directions equally often, a large specimen of these contacts has 59.7 GPa (fine) or 59.2 GPa (coarse); relaxation
+// lowers this by a few per cent. Tolerance: 3 %, and four standard deviations of the mean over the seeds.
 TEST_P(CubeOfSpheres, HasTheRocksModulusAndUniformStrainsPoissonRatio) {
   const Case& c = GetParam();
   const CubeModulus mean = mean_modulus(c, c.spheres->contact_modulus, test_seed(), c.seeds);
   const double scatter = 4 * c.deviation / std::sqrt(c.seeds);
   EXPECT_NEAR(mean.gauge, aggregate_modulus, 0.03 * aggregate_modulus + scatter);
   EXPECT_LT(mean.gauge, uniform_strain_modulus(inner_alpha) * c.spheres->contact_modulus + 0.03 * mean.gauge + scatter);
-  // the walls' layers add to it: their contacts have the modulus of the springs, not that of a body of them
+  // The layers of contacts at the walls are stiffer: a wall contact has the modulus of its spring, not that of the
+  // packing.
   EXPECT_GT(mean.walls, mean.gauge);
-  // (1 − α)/(4 + α) = 0.235 of uniform strain, to which relaxation adds as it takes from the shear modulus
+  // Uniform strain gives (1 − α)/(4 + α) = 0.235. Relaxation lowers the shear modulus and so raises this ratio.
   EXPECT_NEAR(mean.poisson, (1 - inner_alpha) / (4 + inner_alpha), 0.04);
 
-  // Regression, beside it: what twenty of our own cubes had when docs/aggregate-cube.md was measured. Four standard
-  // deviations between a mean of these seeds and one of twenty: one choice of seeds in 16,000 is off.
+  // Regression: compares with the recorded means of twenty cubes in docs/aggregate-cube.md. The bound is four standard
+  // deviations of the difference between a mean of these seeds and a mean of twenty; one choice of seeds in 16,000
+  // exceeds it.
   const double bound = 4 * c.deviation * std::sqrt(1.0 / c.seeds + 1.0 / 20);
   EXPECT_NEAR(mean.gauge, c.gauge, bound);
   EXPECT_NEAR(mean.walls, c.walls, bound);
-  EXPECT_NEAR(mean.poisson, 0.25, 0.02);  // 0.245 to 0.260, ± 0.006 among seeds
+  EXPECT_NEAR(mean.poisson, 0.25, 0.02);  // recorded: 0.245 to 0.260, ± 0.006 among seeds
 }
 
-/// Stress over strain between the walls were every sphere moved by the best of all fields u = (a·x, b·y, c + d·z): an
-/// upper bound for any elastic network, by the reference's matrices.
+/// Returns the stress over the strain between the walls for the affine field u = (a·x, b·y, c + d·z) of least energy.
+/// This is an upper bound for the modulus of any elastic network. It uses the matrices of the reference implementation.
 double affine_modulus(const TestScene& scene) {
   const Specimen& s = scene.specimen;
   const reference::Stiffness stiffness = reference::assemble_stiffness(scene.network, scene.laws, s.size());
@@ -105,7 +111,8 @@ double affine_modulus(const TestScene& scene) {
   return (stiffness.top_stiffness - p.dot(k.ldlt().solve(p))) * s.box.size.z / (s.box.size.x * s.box.size.y);
 }
 
-// Two solvers, and a bound that neither may pass. A cube of fine spheres is smaller here, for the reference's sake.
+// The harmonic solver and the reference implementation must agree, and the modulus must be below the upper bound of
+// affine fields. The cube of fine spheres is smaller here because the reference is slow.
 TEST_P(CubeOfSpheres, HasTheReferencesModulusBelowThatOfUniformStrain) {
   const Case& c = GetParam();
   const double edge = c.spheres == &fine_spheres ? 0.6 * cube_edge : cube_edge;
@@ -116,17 +123,18 @@ TEST_P(CubeOfSpheres, HasTheReferencesModulusBelowThatOfUniformStrain) {
   laws[static_cast<std::size_t>(PairType::aw)] = laws::Elastic{paper_wall_modulus, 0};
   const TestScene scene = make_scene(cube, {}, laws);
   const double found = cube_modulus(cube, inner).walls;
-  // the harmonic residual of 1e-11 and the reference's of 1e-12, times some condition
+  // Residuals are 1e-11 (harmonic) and 1e-12 (reference); the conditioning of the system enlarges them.
   EXPECT_NEAR(found / reference_static_modulus(cube, scene.network, laws), 1, 1e-9);
   const double affine = affine_modulus(scene);
   fmt::print("{} spheres: {:.4f} of the modulus of uniform strain, which is {:.4f} of the inner modulus\n", cube.size(),
              found / affine, affine / inner.E);
   EXPECT_LT(found, affine);
-  EXPECT_GT(found, 0.85 * affine);  // regression: ours relax by 4 to 10 %, most where flat layers lie along the walls
+  // regression: recorded cubes relax by 4 to 10 %, most where layers of flat facets lie along the walls
+  EXPECT_GT(found, 0.85 * affine);
 }
 
-// Regression: of fixed seeds, with the moduli of [1] and for coarse cubes filled as shapes with that found by
-// ourselves.
+// Regression with fixed seeds: the contact modulus `c.contact_modulus` gives the rock's 60 GPa. It is the modulus of
+// [1], except for coarse cubes filled as shapes, for which we determined our own.
 TEST_P(CubeOfSpheres, HasTheModulusOfTheAggregate) {
   if (!long_tests) GTEST_SKIP() << "the same code as above, for other numbers";
   const Case& c = GetParam();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// batched_samples_test.cpp  Runs on a device that takes several samples at a time: they are those of a processor, which
-// takes one after the other. The device is the processor in disguise (fake_plugin.cpp), so that bits can be compared.
+// batched_samples_test.cpp  A device takes several samples per batch, the processor one after the other. Their results
+// must be equal bit by bit; this can be compared because the fake device computes on the processor (fake_plugin.cpp).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,7 +14,7 @@ namespace {
 
 class BatchedSamples : public FakeDevices {
  protected:
-  /// `loading`, `output`: lines of their tables.
+  /// Reads a scene of t8. `loading`, `solver` and `output` are the lines of their tables.
   Scene scene(const std::string& loading, const std::string& solver, Backend backend,
               const std::string& output = "") const {
     Scene out = read_scene(write_t8(loading, solver, output));
@@ -31,6 +31,7 @@ const std::string four = "kind = \"cyclic\"\nfrequencies = [5.0, 10.0, 20.0, 40.
 const std::string one = "kind = \"cyclic\"\nfrequencies = [20.0]\ncycles = 2\n";
 constexpr const char* quick = "density_scaling = 1e6\n";
 
+/// The response file of the device equals that of the processor, and progress is reported for every sample.
 TEST_F(BatchedSamples, AreThoseOfTheProcessor) {
   run(scene(four, quick, Backend::cpu), out("processor"));
   std::vector<double> shares;
@@ -45,6 +46,7 @@ TEST_F(BatchedSamples, AreThoseOfTheProcessor) {
   EXPECT_GT(shares.size(), 900u) << "each sample is told";
 }
 
+/// Frames of fields that are written between samples equal those of the processor, file by file.
 TEST_F(BatchedSamples, FramesOfFieldsAreThoseOfTheirSteps) {
   const std::string output = "fields = [\"particles\", \"contacts\"]\nevery = 45\nformat = \"vtp\"\n";
   for (const Backend backend : {Backend::cpu, Backend::cuda})
@@ -60,6 +62,7 @@ TEST_F(BatchedSamples, FramesOfFieldsAreThoseOfTheirSteps) {
   expect_same_files({"response.csv"});
 }
 
+/// A run on the device that is interrupted six times and resumed writes every sample exactly once.
 TEST_F(BatchedSamples, NoneIsLostOrDoubledByInterruptions) {
   const std::string loading = "kind = \"cyclic\"\nfrequencies = [5.0, 20.0]\ncycles = 1\n",
                     solver = "density_scaling = 1e5\n";
@@ -72,6 +75,7 @@ TEST_F(BatchedSamples, NoneIsLostOrDoubledByInterruptions) {
   expect_same_files({"response.csv"});
 }
 
+/// The points of a monotonic load are taken from the step at which they are due, although the device computes ahead.
 TEST_F(BatchedSamples, PointsOfALoadKnowTheStepperOfTheirStep) {
   const std::string loading = "kind = \"monotonic\"\nrate = 0.01\nstrain = 4e-5\npoints = 40\n";
   for (const Backend backend : {Backend::cpu, Backend::cuda})
@@ -79,6 +83,7 @@ TEST_F(BatchedSamples, PointsOfALoadKnowTheStepperOfTheirStep) {
   expect_same_files({"monotonic.csv"});
 }
 
+/// If several samples of a batch diverge, the message names the first one, as on the processor.
 TEST_F(BatchedSamples, TheFirstThatDivergesIsNamed) {
   std::array<std::string, 2> said;
   for (const Backend backend : {Backend::cpu, Backend::cuda}) {
@@ -91,7 +96,8 @@ TEST_F(BatchedSamples, TheFirstThatDivergesIsNamed) {
   EXPECT_HAS(said[0], "at t = ");
 }
 
-/// The devices that each frequency is asked to take, one after the other, and what was asked.
+/// Answers the watcher's question for devices with the lists in `named`, one per question, and records the steps left
+/// each time.
 struct Asked {
   std::vector<DeviceList> named;
   std::vector<std::int64_t> steps;
@@ -105,6 +111,8 @@ struct Asked {
   }
 };
 
+/// Each frequency runs on the device that the watcher names; an empty list keeps the present device. The devices in the
+/// log are those at the start, then 0, then 1.
 TEST_F(BatchedSamples, AFrequencyIsSteppedWhereItIsAskedFor) {
   const Environment log("FAKE_DEVICE_LOG", folder_ / "devices");
   Asked asked{{{}, {0}, {}, {1}}, {}}, never{{}, {}};
@@ -120,6 +128,8 @@ TEST_F(BatchedSamples, AFrequencyIsSteppedWhereItIsAskedFor) {
   }
 }
 
+/// If the new device is full, the run continues on its old device with the same results. A run that may only use the
+/// full device fails.
 TEST_F(BatchedSamples, ADeviceThatIsFullIsNoReasonToEnd) {
   const Environment log("FAKE_DEVICE_LOG", folder_ / "devices"), full("FAKE_DEVICE_FULL", "0");
   Asked asked{{{}, {0}}, {}};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bench_command_test.cpp  macadam bench: rows that mean what they say, in a format that others read.
+// bench_command_test.cpp  macadam bench: the rows have the right meaning, and the JSON has the format of Google
+// Benchmark.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -42,7 +43,7 @@ TEST_F(BenchCommand, WritesWhatItTimedAsGoogleBenchmarkDoes) {
     EXPECT_EQ(number, 3) << name;
     EXPECT_HAS(outcome.out, name);
   }
-  std::vector<double> shares;  // of a step, its parts together
+  std::vector<double> shares;  // time of the two parts of a step over the time of the whole step
   for (const json& entry : all["benchmarks"]) {
     if (!std::string(entry["name"]).starts_with("step/") || entry["run_type"] == "aggregate") continue;
     const double step = entry["real_time"].get<double>(), contacts = entry["contacts"];
@@ -52,14 +53,15 @@ TEST_F(BenchCommand, WritesWhatItTimedAsGoogleBenchmarkDoes) {
     EXPECT_GT(parts, 0) << entry;
     shares.push_back(parts / step);
   }
-  // A repetition of 2 ms is at the mercy of whatever else the machine does, so one share means nothing: the median of
-  // all does.
+  // Other work on the machine disturbs a repetition of 2 ms, so a single ratio means nothing. The median of all ratios
+  // does.
   ASSERT_EQ(shares.size(), 2u * 3 * 2 * 3);  // scenes × precisions × geometries × repetitions
   std::ranges::nth_element(shares, shares.begin() + shares.size() / 2);
   EXPECT_GT(shares[shares.size() / 2], 0.2);
   EXPECT_LT(shares[shares.size() / 2], 5);
 }
 
+/// The preparation row lists its four parts, which add up to its time.
 TEST_F(BenchCommand, TimesWhatComesBeforeAStep) {
   const Outcome outcome =
       bench("lattice:500 --only preparation --precision double --geometry fixed --json " + path("now.json"));
@@ -73,10 +75,12 @@ TEST_F(BenchCommand, TimesWhatComesBeforeAStep) {
     EXPECT_GT(entry[std::string("part_us ") + part].get<double>(), 0) << part;
     parts += entry[std::string("part_us ") + part].get<double>();
   }
-  const json& last = all["benchmarks"][2];  // of three repetitions, whose parts are told
+  const json& last = all["benchmarks"][2];  // the third repetition, to which the parts belong
   EXPECT_NEAR(parts, last["real_time"].get<double>(), 1e-6 * parts);
 }
 
+/// Against recorded times a thousandth as long, the command reports slower rows and exits with 1; against longer times
+/// it succeeds. A damaged record is refused.
 TEST_F(BenchCommand, SaysWhatBecameSlowerBeyondNoise) {
   ASSERT_EQ(bench("lattice:500 --only step --precision double --json " + path("now.json")).code, 0);
   json before = read_json("now.json");
@@ -99,6 +103,7 @@ TEST_F(BenchCommand, SaysWhatBecameSlowerBeyondNoise) {
   EXPECT_EQ(bench("lattice:500 --against " + path("nowhere.json")).code, 2);
 }
 
+/// The name of a row holds the scene and the number of Kelvin units.
 TEST_F(BenchCommand, ARowHasTheNameOfItsSceneAndOfTheUnits) {
   const Outcome outcome =
       bench("lattice:5e2 --only step --precision double --geometry fixed --units 0,2 --json " + path("now.json"));
@@ -119,6 +124,8 @@ TEST_F(BenchCommand, RefusesWhatItCannotTime) {
   }
 }
 
+/// A row is slower or faster only if its repetitions do not overlap with the recorded ones and the medians differ by
+/// more than about a hundredth.
 TEST(BenchComparison, TakesNoiseForNoise) {
   const auto row = [](std::vector<double> seconds) {
     return std::vector<bench::BenchRow>{{.name = "a", .label = "", .seconds = std::move(seconds), .counters = {}}};
@@ -127,8 +134,8 @@ TEST(BenchComparison, TakesNoiseForNoise) {
     const auto found = bench::compare(row(std::move(before)), row(std::move(now))).at(0);
     return found.slower ? 1 : found.faster ? -1 : 0;
   };
-  EXPECT_EQ(verdict({1, 1.1, 1.2}, {1.05, 1.15, 1.3}), 0);        // they overlap
-  EXPECT_EQ(verdict({1, 1.01, 1.005}, {1.011, 1.015, 1.02}), 0);  // a hundredth
+  EXPECT_EQ(verdict({1, 1.1, 1.2}, {1.05, 1.15, 1.3}), 0);        // the ranges overlap
+  EXPECT_EQ(verdict({1, 1.01, 1.005}, {1.011, 1.015, 1.02}), 0);  // the medians differ by a hundredth
   EXPECT_EQ(verdict({1, 1.1, 1.2}, {1.3, 1.4, 1.5}), 1);
   EXPECT_EQ(verdict({1.3, 1.4, 1.5}, {1, 1.1, 1.2}), -1);
   EXPECT_EQ(bench::median({3, 1, 2}), 2);
@@ -136,7 +143,8 @@ TEST(BenchComparison, TakesNoiseForNoise) {
   EXPECT_TRUE(bench::compare(row({1}), {{.name = "b", .label = "", .seconds = {1}, .counters = {}}}).empty());
 }
 
-// A lattice is a network like any other: twelve contacts inside, walls at two ends, all of them in rows.
+// A face-centred lattice is a normal network: twelve contacts per inner particle, walls at two ends, and every contact
+// in the rows.
 TEST(BenchLattice, IsANetwork) {
   const bench::BenchCase lattice = bench::lattice(4000, true);
   const std::size_t n = lattice.specimen.size();
@@ -146,7 +154,7 @@ TEST(BenchLattice, IsANetwork) {
   for (const Contact& c : lattice.network.contacts) {
     if (c.b >= 0) continue;
     ++at_walls;
-    // an area times the square of a length that is less than the distance from the wall, 0.32 mm at least
+    // a second moment is less than the area times the square of the distance from the wall, 0.32 mm at least
     for (const double moment : {c.moments.ss, c.moments.tt}) EXPECT_LT(moment, c.area * c.arm_a * c.arm_a);
   }
   EXPECT_EQ(most, 12u);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// block_length_test.cpp  Steps of a block: of the shortest time, never longer than it allows, and to the observations.
+// block_length_test.cpp  Number of steps per block. A block is a set fraction of the shortest time scale of laws and
+// load, and ends at observations if that costs little.
 #include "kernels/block_length.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ namespace {
 using kernels::block_steps;
 constexpr Vec3d size{0.05, 0.05, 0.1};
 
-/// 10 Hz: the period is the shortest time, 0.1 s; 1e6 steps of it.
+/// Returns options of a load of 10 Hz. Its period of 0.1 s is the shortest time; a period has 1e6 steps.
 StepperOptions options_of_10_hz() {
   StepperOptions out;
   const drives::Cyclic loading(1e-5, 10, 1000000);
@@ -26,27 +27,33 @@ Laws elastic() {
   out[0] = laws::Elastic{1e10, 0};
   return out;
 }
-/// One whose times are longer than any load's.
+/// Returns a law whose relaxation time is longer than the period of any load here.
 Laws lasting() {
   Laws out;
   out[0] = laws::GeneralisedKelvin{1e10, 1e15, {}, {}, 0};
   return out;
 }
 
+/// By default a block lasts 1/4000 of the shortest time, which may be that of the load, of a law, or of the turning of
+/// contacts in updated geometry.
 TEST(BlockLength, IsAFourThousandthOfTheShortestTimeWhereNobodyAsks) {
   StepperOptions options = options_of_10_hz();
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 250);
   Laws slow = lasting();
-  slow[1] = laws::GeneralisedKelvin{1e10, 1e8, {}, {}, 0};  // 2π·0.01 s
+  slow[1] = laws::GeneralisedKelvin{1e10, 1e8, {}, {}, 0};  // relaxation time of 0.01 s, times 2π
   EXPECT_EQ(block_steps(options, facts_of(slow), size), 157);
-  options.geometry = Geometry::updated;  // 4e-3 / (1e-4·20π/s) = 0.64 s
+  // limit from the geometry: 4e-3 / (1e-4·20π/s) = 0.64 s, longer than the load's
+  options.geometry = Geometry::updated;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 250);
-  options.boundary = moving_top(drives::Cyclic(1e-3, 10, 1000000));  // 4e-3 / (1e-2·20π/s) = 6.4e-3 s
+  // limit from the geometry: 4e-3 / (1e-2·20π/s) = 6.4e-3 s, shorter than the load's
+  options.boundary = moving_top(drives::Cyclic(1e-3, 10, 1000000));
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 15);
   options.boundary = {};
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
 }
 
+/// With elastic laws and fixed geometry nothing changes within a block, so it may be longer; one law with memory or
+/// updated geometry ends this.
 TEST(BlockLength, IsLongerWhereNothingHasAMemory) {
   StepperOptions options = options_of_10_hz();
   EXPECT_EQ(block_steps(options, facts_of(elastic()), size), kernels::longest_block);
@@ -56,7 +63,8 @@ TEST(BlockLength, IsLongerWhereNothingHasAMemory) {
   options.blocks = 200;
   options.dt *= 10;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 500);
-  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 500);  // fewer blocks would round more
+  // with fewer, longer blocks rounding would be larger
+  EXPECT_EQ(block_steps(options, facts_of(elastic()), size), 500);
   options.blocks = 20000;
   options.dt /= 10;
   Laws one_of_two = elastic();
@@ -70,12 +78,13 @@ TEST(BlockLength, FollowsTheNumberOfBlocks) {
   StepperOptions options = options_of_10_hz();
   options.blocks = 8000;
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 125);
-  options.blocks = 1e6 / 3.9;  // three steps do not pay
+  options.blocks = 1e6 / 3.9;  // blocks of three steps do not pay, so there are no blocks
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), 0);
-  options.blocks = 10;  // sums of so many steps are still good in single precision
+  options.blocks = 10;  // sums over this many steps are still accurate in single precision
   EXPECT_EQ(block_steps(options, facts_of(lasting()), size), kernels::longest_block);
 }
 
+/// A block is shortened to a divisor of the observation interval unless that makes it much shorter.
 TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
   StepperOptions options = options_of_10_hz();
   const auto steps = [&](std::int64_t observed_every) {
@@ -87,12 +96,13 @@ TEST(BlockLength, EndsAtObservationsWhereThatIsNotMuchShorter) {
   EXPECT_EQ(steps(212), 212);
   EXPECT_EQ(steps(424), 212);
   EXPECT_EQ(steps(600), 200);
-  EXPECT_EQ(steps(251), 250);  // a prime
-  EXPECT_EQ(steps(100), 200);  // observed twice a block
+  EXPECT_EQ(steps(251), 250);  // a prime number of steps has no useful divisor
+  EXPECT_EQ(steps(100), 200);  // two observations per block
   EXPECT_EQ(steps(1), 250);
 }
 
-// What settles the block that ends is of its own length; what is prepared is of the next one's.
+// When the number of steps changes, the ending block updates its state for its own length (1 step), and the next block
+// is prepared for the new length (50 steps).
 TEST(BlockLength, MayChangeFromABlockToTheNext) {
   const laws::GeneralisedKelvin law = mastic_am1();
   constexpr double dt = 1e-5;

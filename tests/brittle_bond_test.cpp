@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// brittle_bond_test.cpp  Bonds that break for good: one contact against closed forms, what breaking costs, and whole
-// specimens against the reference.
+// brittle_bond_test.cpp  Bonds that break for good: a single contact against closed forms, the energy that breaking
+// costs, and specimens against the reference implementation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace macadam::test {
 namespace {
 
-/// Steps of a law that is not linear: by points.
+/// Brittle bonds are not linear, so every case steps them by contact points.
 using Case = std::tuple<Backend, Precision, Geometry>;
 
 class BrittleBond : public BackendTest<Case> {
@@ -35,15 +35,17 @@ INSTANTIATE_TEST_SUITE_P(All, BrittleBond,
 
 constexpr double side = 2e-3, half = side / 2;
 const laws::BrittleBond bond{1e9, 2e6, 3e5, 0.3};
-constexpr double opens = 2e6 * half / 1e9, slips = 3e5 * half / (0.3 * 1e9);  ///< at which it breaks [m]
-constexpr double stiffness = 1e9 * side * side / half;                        ///< of the contact at a wall [N/m]
+constexpr double opens = 2e6 * half / 1e9,
+                 slips =
+                     3e5 * half / (0.3 * 1e9);  ///< displacements at which the bond breaks in tension and in shear [m]
+constexpr double stiffness = 1e9 * side * side / half;  ///< stiffness of the contact at a wall [N/m]
 
-/// A particle that is held, and the walls at its top and its bottom: two contacts, one of which is driven.
+/// A fixed particle between the bottom and the top wall. It has two contacts; only the top wall moves.
 struct HeldParticle {
   HandMade made = cubic_lattice_network(1, 1, 1, side, 1e-5);
   std::unique_ptr<Stepper> stepper;
 
-  /// The top wall is displaced along an axis through these values, `steps` steps from each to the next.
+  /// Moves the top wall along each axis through the given values, with `steps` steps from each value to the next.
   HeldParticle(Backend backend, StepperOptions options, const std::vector<std::pair<int, std::vector<double>>>& paths,
                int steps) {
     options.dt = 1e-7;
@@ -55,7 +57,7 @@ struct HeldParticle {
     }
     stepper = make_stepper(backend, made.specimen, made.network, same_law(bond), made.inertia, options);
   }
-  /// Displacement of the top wall and the force on it.
+  /// Advances by `more` steps; returns the displacement of the top wall and the force on it.
   std::pair<Vec3d, Vec3d> after(std::int64_t more) {
     stepper->advance(more);
     const Observation now = stepper->observe();
@@ -63,7 +65,8 @@ struct HeldParticle {
   }
 };
 
-/// The contact with the top wall is broken in this way with all of its points, the other one is intact.
+/// Expects that all points of the contact with the top wall are broken in the way `how`, and that the other contact is
+/// intact.
 void expect_broken(const Stepper& stepper, const ContactNetwork& network, Break how) {
   const std::vector<Break> breaks = stepper.point_breaks(network);
   ASSERT_EQ(breaks.size(), network.point_area.size());
@@ -73,8 +76,8 @@ void expect_broken(const Stepper& stepper, const ContactNetwork& network, Break 
   }
 }
 
-// Pulled to half of its strength and let go, pulled apart, pushed together, and pulled again: elastic until it breaks,
-// and in compression for ever.
+// The wall pulls to half of the strength and returns, pulls the bond apart, pushes, and pulls again. The bond is
+// elastic until it breaks; afterwards it bears compression only.
 TEST_P(BrittleBond, BearsTensionUntilItBreaksAndCompressionForEver) {
   const int steps = 50;
   const std::vector<double> path = {0, 0.5 * opens, 0, 1.51 * opens, -0.7 * opens, 0.4 * opens, -0.3 * opens};
@@ -85,7 +88,7 @@ TEST_P(BrittleBond, BearsTensionUntilItBreaksAndCompressionForEver) {
     const auto [u, force] = held.after(1);
     broken = broken || u.z > opens;
     const double expected = broken ? std::min(u.z, 0.0) : u.z;
-    // an increment a step, each rounded, and the displacement of the wall is their sum
+    // Force and displacement are sums of one rounded increment per step.
     ASSERT_NEAR(force.z, -stiffness * expected, 4 * k * rounding() * most) << "step " << k;
     ASSERT_NEAR(force.x, 0, 1e-12 * most);
   }
@@ -93,7 +96,8 @@ TEST_P(BrittleBond, BearsTensionUntilItBreaksAndCompressionForEver) {
   expect_broken(*held.stepper, held.made.network, Break::tension);
 }
 
-// The slip alone breaks it, at α·E·u/d = the shear strength; then it does not hold sideways, and bears compression.
+// Slip alone breaks the bond when α·E·u/d reaches the shear strength. Afterwards the contact has no shear force and
+// bears compression only.
 TEST_P(BrittleBond, BreaksInShearAndThenSlidesFreely) {
   const int steps = 50;
   HeldParticle held(backend(), options(),
@@ -111,7 +115,8 @@ TEST_P(BrittleBond, BreaksInShearAndThenSlidesFreely) {
   expect_broken(*held.stepper, held.made.network, Break::shear);
 }
 
-// What the wall gives to a bond that breaks and does not get back is the energy that the bond held, ½·k·u².
+// If the bond breaks, the net work of the wall is the energy that the bond held, ½·k·u²; otherwise the net work is
+// zero.
 TEST_P(BrittleBond, BreakingCostsTheEnergyThatItHeld) {
   const int steps = 400;
   for (const double reached : {0.95, 1.5}) {
@@ -124,13 +129,13 @@ TEST_P(BrittleBond, BreakingCostsTheEnergyThatItHeld) {
       u = u_next, force = force_next;
     }
     const double energy = 0.5 * stiffness * opens * opens;
-    // the step in which it breaks is taken as a line down, or up to a step later: half a step of the largest force
+    // Breaking may fall anywhere within a step, so the work is uncertain by half a step of the largest force.
     EXPECT_NEAR(work, reached > 1 ? energy : 0, reached > 1 ? 2 * reached / steps * energy : 1e-4 * energy) << reached;
   }
 }
 
-/// Contact points, and those that are broken; the numbers of a point are f and x of the opening, f and the break of
-/// each slip.
+/// Returns the number of contact points of brittle bonds, and how many of them are broken. The six state numbers per
+/// point are f and x of the opening, then f and the break of each slip.
 std::pair<int, int> broken_points(const TestScene& scene, const Stepper& stepper) {
   const ContactState state = stepper.contacts(scene.network);
   std::pair<int, int> out;
@@ -146,7 +151,7 @@ std::pair<int, int> broken_points(const TestScene& scene, const Stepper& stepper
   return out;
 }
 
-/// Compares the breaks that a stepper reports with the expected ones, and each contact's fraction with a count.
+/// Expects the given breaks from a stepper, and for each contact the fraction of broken points that follows from them.
 void expect_breaks(const TestScene& scene, const Stepper& stepper, const std::vector<Break>& expected) {
   const ContactState state = stepper.contacts(scene.network);
   EXPECT_EQ(stepper.point_breaks(scene.network), expected);
@@ -160,7 +165,8 @@ void expect_breaks(const TestScene& scene, const Stepper& stepper, const std::ve
   }
 }
 
-// A specimen that is shaken until many bonds are broken. A bond breaks in another step only where rounding decides it.
+// A specimen is shaken until many bonds are broken, and must agree with the reference. Only rounding may change the
+// step in which a bond breaks.
 TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   Laws laws = same_law(laws::BrittleBond{2e10, 3e4, 2e4, 0.3});
   laws[static_cast<std::size_t>(PairType::mm)] = mastic_am1();
@@ -176,7 +182,7 @@ TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   reference->advance(steps);
   stepper->advance(steps / 3);
   stepper->advance(steps - steps / 3);
-  // as StepperAgainstReference::tolerance()
+  // Same tolerance as StepperAgainstReference::tolerance().
   const double tolerance =
       (own.precision == Precision::double_ ? 100 * 0x1p-53 : 10 * 0x1p-24) * static_cast<double>(steps);
   const ParticleState want = reference->particles(), have = stepper->particles();
@@ -188,13 +194,14 @@ TEST_P(BrittleBond, SpecimensBreakAsTheReferenceDoes) {
   if (own.precision == Precision::double_) expect_breaks(scene, *stepper, breaks);
   const auto [points, broken] = broken_points(scene, *stepper);
   const auto expected = std::ssize(breaks) - std::count(breaks.begin(), breaks.end(), Break::none);
-  // rounding of single precision decides for points that are within 1e-5 of their strength
+  // In single precision, rounding may decide for points that are within 1e-5 of their strength; allowed is one point in
+  // a thousand.
   EXPECT_NEAR(broken, static_cast<double>(expected), own.precision == Precision::double_ ? 0 : 1e-3 * points);
   EXPECT_GT(broken, points / 20);
   EXPECT_LT(broken, points * 19 / 20);
 }
 
-// Whatever breaks acts on both sides alike: without walls, the momentum stays.
+// A breaking bond acts on both particles equally and oppositely, so without walls the momentum is conserved.
 TEST_P(BrittleBond, FreeAssembliesKeepTheirMomentum) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;
@@ -219,9 +226,10 @@ TEST_P(BrittleBond, FreeAssembliesKeepTheirMomentum) {
   const ParticleState now = stepper->particles();
   for (std::size_t i = 0; i < velocity.size(); ++i) after += scene.inertia.mass[i] * now.velocity[i];
   EXPECT_GT(broken_points(scene, *stepper).second, 10);
-  EXPECT_LT(norm(after - before), 500 * rounding() * size);  // velocities, rounded every step
+  EXPECT_LT(norm(after - before), 500 * rounding() * size);  // velocities are rounded every step
 }
 
+/// Only the point form can step brittle bonds; the condensed form is refused.
 TEST(BrittleBondInput, IsSteppedByPointsAlone) {
   const TestScene scene = make_scene(random_specimen(2), {}, same_law(bond));
   StepperOptions options = shaking_options(scene);

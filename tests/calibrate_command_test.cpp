@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibrate_command_test.cpp  `macadam calibrate` as a user meets it: the calibrated scene, files, messages.
+// calibrate_command_test.cpp  `macadam calibrate` run as a user does: the calibrated scene, the files, the messages.
 #include "program.hpp"
 
 namespace macadam::test {
@@ -26,7 +26,8 @@ class CalibrateCommand : public Program {
   static constexpr const char* harmonic = "method = \"harmonic\"\nbackend = \"cpu\"\n";
 };
 
-/// The calibrated scene gives, run, what was predicted; it lies in another folder than the specimen's file.
+/// Running the calibrated scene gives the predicted moduli, although the scene lies in another folder than the
+/// specimen's file.
 TEST_F(CalibrateCommand, TheCalibratedSceneReadsAndGivesWhatWasPredicted) {
   for (const char* solver :
        {harmonic, "method = \"harmonic\"\nbackend = \"cpu\"\ninertia = true\ndensity_scaling = 2e5\n"}) {
@@ -54,7 +55,8 @@ TEST_F(CalibrateCommand, TheCalibratedSceneReadsAndGivesWhatWasPredicted) {
   }
 }
 
-/// Comments, units and inline tables of a scene stay as they are.
+/// Only the values of free parameters and the path of the specimen change in the scene's text. Comments, units, inline
+/// tables and line ends stay.
 TEST_F(CalibrateCommand, OnlyTheValuesOfTheTextChange) {
   const std::string text =
       "# \u00b5 before everything\r\n[specimen]\r\nfile = \"t8.csv\"  # \u00b5m\r\nbox = [0.008, 0.008, 0.011]\r\n"
@@ -87,7 +89,8 @@ TEST_F(CalibrateCommand, OnlyTheValuesOfTheTextChange) {
   EXPECT_EQ(made, expected);
 }
 
-/// As bench/results/aggregate-cube.csv has it for this cube, there by the secant of two solutions.
+/// Finds the modulus that bench/results/aggregate-cube.csv lists for this cube. There it was found by the secant method
+/// from two solutions.
 TEST_F(CalibrateCommand, TheCubeOfAggregateGivesItsInnerModulus) {
   const std::string cube = MACADAM_EXAMPLES "/aggregate_cube";
   const Outcome outcome = macadam(fmt::format(
@@ -97,6 +100,7 @@ TEST_F(CalibrateCommand, TheCubeOfAggregateGivesItsInnerModulus) {
   EXPECT_NEAR(found()["parameters"][0]["value"].get<double>() / 105.45e9, 1, 1e-4);
 }
 
+/// A generated specimen is calibrated over several seeds; the calibrated scene keeps the first.
 TEST_F(CalibrateCommand, GeneratedSpecimensTakeSeeds) {
   write(folder_ / "scene.toml",
         "[specimen]\nbox = [0.008, 0.008, 0.011]\n[specimen.mastic]\nradius = [0.75e-3, 1e-3]\nporosity = 0.05\n"
@@ -111,7 +115,7 @@ TEST_F(CalibrateCommand, GeneratedSpecimensTakeSeeds) {
   EXPECT_HAS(refused("--free M-M.delta --seeds 0"), "--seeds");
 }
 
-/// The scene's test has no part in it: targets have frequencies of their own.
+/// The scene's own loading does not matter, because the targets have their own frequencies.
 TEST_F(CalibrateCommand, ScenesOfOtherTestsAreCalibratedToo) {
   target(std::string(header) + "20,1.4e10,6\n5,1.2e10,15\n");
   const std::string free = "--free M-A.delta";
@@ -129,6 +133,8 @@ TEST_F(CalibrateCommand, ScenesOfOtherTestsAreCalibratedToo) {
   }
 }
 
+/// With `--misfit modulus` the targets need no phase, with `--misfit phase` no modulus; given values that do not count
+/// change nothing.
 TEST_F(CalibrateCommand, WhatTheMisfitDoesNotCountNeedNotBeMeasured) {
   write_scene(harmonic);
   target("frequency_hz,e_star_mpa\n20,11000\n5,9500\n");
@@ -139,7 +145,7 @@ TEST_F(CalibrateCommand, WhatTheMisfitDoesNotCountNeedNotBeMeasured) {
   EXPECT_TRUE(moduli["errors"]["phase_rms_deg"].is_null());
   EXPECT_FALSE(moduli["residuals"][0].contains("phase_deg"));
   EXPECT_HAS(read(folder_ / "found" / "predicted.csv"), "20,,11000000000,,");
-  // with phases, which do not count, the same
+  // Phases in the file do not count, so the result is the same.
   target("frequency_hz,e_star_pa,phase_deg\n20,1.1e10,1\n5,9.5e9,2\n");
   fs::remove_all(folder_ / "found");
   ASSERT_EQ(calibrate("--free M-A.delta --misfit modulus").code, 0);
@@ -152,6 +158,7 @@ TEST_F(CalibrateCommand, WhatTheMisfitDoesNotCountNeedNotBeMeasured) {
   EXPECT_TRUE(found()["errors"]["e_star_rms"].is_null());
 }
 
+/// Either the picture is drawn, or the output names the command that draws it.
 TEST_F(CalibrateCommand, PicturesAreDrawnOrItIsSaidHow) {
   write_scene(harmonic);
   target(std::string(header) + "20,1.1e10,7\n");

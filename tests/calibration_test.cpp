@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// calibration_test.cpp  Known parameters are found again from the moduli that they give; targets without sense are
-// refused.
+// calibration_test.cpp  Calibration recovers known parameters from the moduli that they give, states their uncertainty,
+// and refuses nonsensical targets.
 #include "macadam/calibration.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// The 175 particles of t8 with the laws of binder AM1, two of which follow temperature.
+/// Returns the scene of the 175 particles of t8 with the laws of binder AM1, of which two follow temperature.
 Scene t8_scene(bool inertia = false) {
   Scene scene;
   scene.file = "t8";
@@ -31,7 +31,8 @@ Scene t8_scene(bool inertia = false) {
   scene.solver.method = SolverMethod::harmonic;
   scene.solver.backend = Backend::cpu;
   scene.solver.inertia = inertia;
-  if (inertia) scene.solver.density_scaling = std::vector<double>{2e5};  // of a tenth of |E*| at 20 Hz
+  // scaled so that inertia contributes a tenth of |E*| at 20 Hz
+  if (inertia) scene.solver.density_scaling = std::vector<double>{2e5};
   return scene;
 }
 
@@ -39,7 +40,7 @@ const laws::GeneralisedKelvin& chain(const Scene& scene, PairType pair) {
   return std::get<laws::GeneralisedKelvin>(*scene.laws[static_cast<std::size_t>(pair)]);
 }
 
-/// What the specimen of a scene has, as if it had been measured.
+/// Returns the moduli that the specimen of a scene has, as if they had been measured.
 ModulusData measured(const Scene& scene, const std::vector<double>& frequencies,
                      const std::vector<double>& temperatures = {}) {
   const Preparation prepared = prepare(scene);
@@ -65,7 +66,7 @@ CalibrationOptions freeing(const std::vector<std::string>& names) {
   return out;
 }
 
-/// Multiplies a pair's moduli and viscosities.
+/// Multiplies the moduli and viscosities of a pair's law by `delta`.
 void scale(Scene& scene, PairType pair, double delta) {
   auto& law = std::get<laws::GeneralisedKelvin>(*scene.laws[static_cast<std::size_t>(pair)]);
   law.E_m *= delta, law.C_m *= delta;
@@ -81,7 +82,7 @@ std::string message_of(const std::function<void()>& f) {
 }
 #define EXPECT_SAYS(what, part) EXPECT_NE(message_of(what).find(part), std::string::npos) << message_of(what)
 
-/// Solved with inertia or without, on a backend.
+/// Cases: with or without inertia, on each backend.
 class Truth : public testing::TestWithParam<std::tuple<bool, Backend>> {
  protected:
   static Scene t8() {
@@ -96,6 +97,7 @@ INSTANTIATE_TEST_SUITE_P(Calibration, Truth, testing::Combine(testing::Bool(), t
                                   to_string(std::get<1>(info.param));
                          });
 
+/// Four parameters are recovered to 1e-6 from exact data, for both misfits, within a dozen solutions.
 TEST_P(Truth, IsRecovered) {
   Scene truth = t8();
   scale(truth, PairType::ma, 1.68);
@@ -115,7 +117,7 @@ TEST_P(Truth, IsRecovered) {
   }
 }
 
-/// Pairs of spheres make up aggregates, in a specimen of 80 spheres.
+/// Recovers the inner modulus of clusters: in this specimen of 80 spheres, pairs of spheres make up the aggregates.
 TEST_P(Truth, OfClustersIsRecovered) {
   const fs::path file = fs::path(testing::TempDir()) / fmt::format("clusters_{}_{}_{}.csv", std::get<0>(GetParam()),
                                                                    to_string(std::get<1>(GetParam())), getpid());
@@ -133,6 +135,7 @@ TEST_P(Truth, OfClustersIsRecovered) {
   EXPECT_NEAR(c.parameters[1].value / 1.125e11, 0.6, 0.6e-6);
 }
 
+/// Two factors on moduli are recovered in fewer than seven solutions.
 TEST_P(Truth, OfTwoFactorsTakesFewTrials) {
   Scene truth = t8();
   scale(truth, PairType::ma, 1.68);
@@ -143,9 +146,9 @@ TEST_P(Truth, OfTwoFactorsTakesFewTrials) {
   EXPECT_LT(c.solutions, 7);
 }
 
-/// The spread of what is found from noisy measurements is the deviation that is stated: of one factor with noise as
-/// laboratories have it, of two that are hard to tell apart with noise so small that |E*| is straight in their
-/// logarithms.
+/// The scatter of fits to noisy data must match the deviation that calibration states. One case has one factor and the
+/// noise of a laboratory. The other has two factors that are hard to tell apart, with noise so small that log |E*| is
+/// linear in the logarithms of the factors.
 TEST(Calibration, DeviationsAreThoseOfNoise) {
   const ModulusData data = measured(t8_scene(), {0.5, 2, 8, 20});
   std::mt19937 random(5);
@@ -167,14 +170,15 @@ TEST(Calibration, DeviationsAreThoseOfNoise) {
       sum += off * off;
       within += std::abs(off) < 1.96;
     }
-    // a χ² of `trials` degrees of freedom, and a binomial number, within four of their standard deviations
+    // The mean square is a χ² of `trials` degrees of freedom over `trials`, the number within is binomial. Both may be
+    // off by four standard deviations.
     EXPECT_NEAR(sum / trials, 1, 4 * std::sqrt(2.0 / trials)) << free.free.size();
     EXPECT_NEAR(within, 0.95 * trials, 4 * std::sqrt(0.95 * 0.05 * trials)) << free.free.size();
   }
 }
 
-/// A parameter of value 3 by one or two measurements, both of which follow its logarithm. Where nobody stated what
-/// these deviate, the misfit of 50 tells it, as far as anything is left to tell it by.
+/// One parameter of value 3, measured once or twice; each measurement is proportional to it. If no deviations are
+/// stated, the misfit of 50 gives the scale of the errors, provided that there are more measurements than parameters.
 TEST(Calibration, DeviationsFollowTheMisfitWhereNoneAreStated) {
   const auto deviation = [](bool stated, std::size_t measurements) {
     Calibration c;
@@ -190,8 +194,8 @@ TEST(Calibration, DeviationsFollowTheMisfitWhereNoneAreStated) {
   EXPECT_NEAR(deviation(false, 1), 3, 1e-14);
 }
 
-/// |E*| = 10 GPa at a phase whose cosine is 0.8 and sine 0.6: E' = 8 GPa, E'' = 6 GPa. Deviations of 0.05 of |E*| and
-/// of 0.1 rad are 0.04 and 0.06 of |E*| along E', 0.03 and 0.08 along E''.
+/// |E*| = 10 GPa with cos φ = 0.8 and sin φ = 0.6 gives E' = 8 GPa and E'' = 6 GPa. Deviations of 0.05 of |E*| and 0.1
+/// rad contribute 0.04 and 0.06 of |E*| to E', and 0.03 and 0.08 to E''.
 TEST(Calibration, ResidualsOfThePartsAreInTheirStandardDeviations) {
   ModulusData data;
   data.points = {{1, 1e10, std::atan2(0.6, 0.8) / degree, 0, 0, 0}};
@@ -206,7 +210,7 @@ TEST(Calibration, ResidualsOfThePartsAreInTheirStandardDeviations) {
   const double storage = 1e10 * std::sqrt(0.04 * 0.04 + 0.06 * 0.06),
                loss = 1e10 * std::sqrt(0.03 * 0.03 + 0.08 * 0.08);
   ASSERT_EQ(residuals.size(), 2u);
-  // differences of a few hundredths of moduli that are known to some 1e-16
+  // The differences are a few hundredths of moduli that are accurate to about 1e-16.
   EXPECT_NEAR(residuals[0] / (3e8 / storage), 1, 1e-13);
   EXPECT_NEAR(residuals[1] / (-2e8 / loss), 1, 1e-13);
   const double expected[] = {3e9 / storage, -2e9 / storage, 1e9 / loss, 5e8 / loss};
@@ -214,6 +218,8 @@ TEST(Calibration, ResidualsOfThePartsAreInTheirStandardDeviations) {
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(jacobian[k] / expected[k], 1, 1e-14) << k;
 }
 
+/// Recovers two parameters from data at two temperatures. Temperatures without a temperature-dependent law, or outside
+/// of a shift table, are refused.
 TEST(Calibration, SeveralTemperaturesAndTheirShift) {
   Scene start = t8_scene();
   for (const PairType pair : {PairType::mm, PairType::ma})
@@ -234,10 +240,13 @@ TEST(Calibration, SeveralTemperaturesAndTheirShift) {
   EXPECT_SAYS([&] { calibrate(start, data, free); }, "25 degrees C, where the shift of");
 }
 
+/// Only the product of A-W.E and A-W.delta enters the moduli, so calibration reports their combination as undetermined.
+/// A prior for one of them makes both known.
 TEST(Calibration, WhatCannotBeToldApartIsNamed) {
   const ModulusData data = measured(t8_scene(), {0.1, 2, 20});
   CalibrationOptions known = freeing({"A-W.E", "A-W.delta", "M-M.delta"});
-  known.e_star_deviation = 1e-3, known.phase_deviation = 0.05;  // walls have little part in |E*|
+  // walls contribute little to |E*|, so accurate measurements are needed
+  known.e_star_deviation = 1e-3, known.phase_deviation = 0.05;
   const Calibration c = calibrate(t8_scene(), data, known);
   ASSERT_EQ(c.combinations.size(), 1u);
   EXPECT_TRUE(std::isinf(c.combinations[0].deviation));
@@ -255,7 +264,8 @@ TEST(Calibration, WhatCannotBeToldApartIsNamed) {
   EXPECT_EQ(with_prior.combinations.size(), 1u) << "of the measurements alone";
 }
 
-/// 95 % of what is distributed normally lies within 1.96 standard deviations, here of a logarithm.
+/// A poorly determined parameter is reported with the factor of its 95 % interval. For a normally distributed logarithm
+/// this is exp(1.96 standard deviations).
 TEST(Calibration, WhatIsHardlyDeterminedIsNamedWithItsFactor) {
   CalibrationOptions rough = freeing({"M-A.delta"});
   rough.e_star_deviation = 0.5, rough.phase_deviation = 20;
@@ -269,7 +279,7 @@ TEST(Calibration, WhatIsHardlyDeterminedIsNamedWithItsFactor) {
   EXPECT_NEAR(factor / std::exp(1.96 * c.combinations[0].deviation), 1, 0.05) << "two digits are written";
 }
 
-/// A laboratory's table: five temperatures, six frequencies. A trial stays a matter of milliseconds.
+/// Data of a laboratory: five temperatures, six frequencies. Fewer than seven solutions keep the time short.
 TEST(Calibration, ManyMeasurementsTakeFewSolutions) {
   Scene start = t8_scene();
   for (const PairType pair : {PairType::mm, PairType::ma})
@@ -283,7 +293,8 @@ TEST(Calibration, ManyMeasurementsTakeFewSolutions) {
   EXPECT_LT(c.solutions, 7);
 }
 
-/// What lies at a bound is as if it were given: the other's deviation is that without it.
+/// A parameter at its bound counts as given. The other parameter then has the value and deviation of a calibration in
+/// which the first is fixed.
 TEST(Calibration, AParameterAtItsBoundIsAsIfGiven) {
   Scene truth = t8_scene();
   scale(truth, PairType::ma, 3), scale(truth, PairType::mm, 0.9);
@@ -300,6 +311,7 @@ TEST(Calibration, AParameterAtItsBoundIsAsIfGiven) {
   EXPECT_NEAR(bounded.parameters[1].deviation / alone.parameters[0].deviation, 1, 1e-2);
 }
 
+/// With two seeds the fit compares the mean modulus of both specimens with the target and reports their scatter.
 TEST(Calibration, SeedsAreAveraged) {
   Scene scene = t8_scene();
   scene.specimen = {};
@@ -323,7 +335,7 @@ TEST(Calibration, SeedsAreAveraged) {
   EXPECT_GT(both.points[0].e_star_scatter, 1e-4);
   const double missed = both.points[0].e_star_pa / data.points[0].e_star_pa - 1;
   EXPECT_LT(std::abs(missed), 0.03) << "walls do not follow M-M";
-  ModulusData again = data;  // its own prediction is found again
+  ModulusData again = data;  // the fit's own prediction must be recovered
   again.points[0].e_star_pa = both.points[0].e_star_pa, again.points[0].phase_deg = both.points[0].phase_deg;
   EXPECT_NEAR(calibrate(scene, again, options).parameters[0].value / both.parameters[0].value, 1, 1e-6);
 
@@ -333,14 +345,15 @@ TEST(Calibration, SeedsAreAveraged) {
     scene.specimen.seed = seed;
     found.push_back(measured(scene, {5}).points.front());
   }
-  // of two numbers it is their difference over √2
+  // The standard deviation of two numbers is their difference over √2.
   EXPECT_NEAR(both.points[0].e_star_scatter,
               std::abs(std::log(found[0].e_star_pa / found[1].e_star_pa)) / std::numbers::sqrt2, 1e-7);
   EXPECT_NEAR(both.points[0].phase_scatter_deg, std::abs(found[0].phase_deg - found[1].phase_deg) / std::numbers::sqrt2,
               1e-5);
 }
 
-/// The inner contacts of a cube of aggregate such that it is as stiff as the rock (bench/results/aggregate-cube.csv).
+/// Finds the inner contact modulus with which a cube of aggregate is as stiff as the rock
+/// (bench/results/aggregate-cube.csv).
 TEST(Calibration, TheCubeOfAggregateIsAsStiffAsItsRock) {
   const fs::path file = fs::path(testing::TempDir()) / fmt::format("cube_{}.csv", getpid());
   write_specimen_csv(file, aggregate_cube(coarse_spheres, CubeFilling::shape, scene_porosity, 1));
@@ -374,7 +387,7 @@ TEST(Calibration, TargetsWithoutSenseAreRefused) {
   EXPECT_NE(with([](ModulusData& d) { d.points[0].phase_deg = std::nan(""); }).find("measurement 1"),
             std::string::npos);
   EXPECT_NE(with([](ModulusData& d) { d.points.clear(); }).find("measurements: found none"), std::string::npos);
-  // M-A contacts alone cannot make of it what is stiffer than all the others together, nor what flows like water
+  // M-A contacts alone can neither make the specimen stiffer than all other contacts together, nor soft like a fluid.
   for (const double factor : {1e3, 1e-3}) {
     const std::string said = with([&](ModulusData& d) {
       for (ModulusPoint& p : d.points) p.e_star_pa *= factor;

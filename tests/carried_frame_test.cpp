@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// carried_frame_test.cpp  The series by which a contact's frame is carried, against closed forms. They are made for the
-// small turns of a step; here turns are so large that the first term left out is seen, and any other that is wrong.
+// carried_frame_test.cpp  The series that rotate a contact's frame from step to step, against closed forms. They are
+// meant for the small rotations of a step. The rotations here are so large that the first omitted term is visible, and
+// so is any other error.
 #include "kernels/carried_frame.hpp"
 
 #include <gtest/gtest.h>
@@ -10,15 +11,16 @@
 namespace macadam::kernels {
 namespace {
 
-/// v turned about the unit vector `axis` (Rodrigues).
+/// Returns v rotated about the unit vector `axis` (Rodrigues' formula).
 Vec3d turned(const Vec3d& v, const Vec3d& axis, double angle) {
   return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + ((1 - std::cos(angle)) * dot(axis, v)) * axis;
 }
 
 const Vec3d n = (1 / std::sqrt(14.0)) * Vec3d{1, 2, 3};
-const Vec3d s = (1 / std::sqrt(5.0)) * Vec3d{2, -1, 0};  // at a right angle to n
+const Vec3d s = (1 / std::sqrt(5.0)) * Vec3d{2, -1, 0};  // perpendicular to n
 constexpr double rounding = 1e-15;
 
+/// The first omitted term of the series is 63/256·e⁵.
 TEST(CarriedFrame, InverseRootIsASeriesOfFiveTerms) {
   for (const double e : {-0.1, -0.02, 0.0, 0.02, 0.1}) {
     const double left_out = 63.0 / 256 * std::pow(std::abs(e), 5);
@@ -26,8 +28,8 @@ TEST(CarriedFrame, InverseRootIsASeriesOfFiveTerms) {
   }
 }
 
-// What is left out of the divisor is e⁴/32, at a vector along the sum of the normals, which is 2 long; the step towards
-// unit length leaves the square of an error.
+// The divisor omits e⁴/32, multiplied by a vector along the sum of the normals, whose length is 2. The step that
+// restores unit length leaves only the square of an error.
 TEST(CarriedFrame, ATangentIsSwungWithItsNormal) {
   for (const double about : {0.0, 1.0, 2.0}) {  // tangents in all directions
     const Vec3d tangent = turned(s, n, about);
@@ -42,7 +44,7 @@ TEST(CarriedFrame, ATangentIsSwungWithItsNormal) {
 
 TEST(CarriedFrame, ATangentIsSpunAboutItsNormal) {
   for (const double angle : {-0.2, -0.01, 0.0, 0.01, 0.2}) {
-    const double left_out = std::pow(angle, 4) / 24;  // of the cosine; that of the sine is less
+    const double left_out = std::pow(angle, 4) / 24;  // omitted term of the cosine; that of the sine is smaller
     EXPECT_LE(norm(spun(s, n, angle) - turned(s, n, angle)), 1.01 * left_out + rounding) << angle;
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// check_solutions_test.cpp  The check of solutions against the loads of every contact, one by one, in complex numbers.
+// check_solutions_test.cpp  The check of harmonic solutions, which is vectorized over tasks, against a plain loop over
+// contacts in complex numbers.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -18,7 +19,7 @@ using harmonic::LinearTask;
 using harmonic::SolutionCheck;
 using Complex = std::complex<double>;
 
-/// A motion that solves nothing, at some stiffness and inertia.
+/// Returns a task with a motion that solves nothing, for some stiffness and inertia that depend on `number`.
 LinearTask any_task(const TestScene& scene, int number) {
   const std::size_t n = scene.specimen.size();
   LinearTask task;
@@ -31,7 +32,7 @@ LinearTask any_task(const TestScene& scene, int number) {
   return task;
 }
 
-/// The same by the operator and by one facet after the other.
+/// Computes the same check with the operator and one facet after the other.
 SolutionCheck one_by_one(const TestScene& scene, const LinearTask& task) {
   SolutionCheck out;
   harmonic::Vector rest;
@@ -55,7 +56,7 @@ SolutionCheck one_by_one(const TestScene& scene, const LinearTask& task) {
   return out;
 }
 
-// One task alone, several that fill no block of four, and more than one block.
+// Counts of tasks: one alone, several that do not fill a block of four, and more than one block.
 TEST(CheckSolutions, FindsWhatContactsSayOneByOne) {
   const TestScene scene = make_scene(random_specimen(test_seed(), 8, 8, 12));
   for (const int count : {1, 3, 4, 6}) {
@@ -67,7 +68,7 @@ TEST(CheckSolutions, FindsWhatContactsSayOneByOne) {
     ASSERT_EQ(found.size(), tasks.size());
     for (std::size_t f = 0; f < tasks.size(); ++f) {
       const SolutionCheck expected = one_by_one(scene, tasks[f]);
-      // Sums of some thousand contacts of a dozen products each, of random signs
+      // The sums have a few thousand contacts with a dozen products each, of random signs.
       constexpr double rounding = 1e-13;
       EXPECT_NEAR(found[f].residual, expected.residual, rounding * expected.residual);
       EXPECT_EQ(found[f].beyond_rounding, found[f].residual);
@@ -84,6 +85,7 @@ TEST(CheckSolutions, FindsWhatContactsSayOneByOne) {
   }
 }
 
+/// The result does not depend on the number of threads, bit by bit.
 TEST(CheckSolutions, TheSameBitsForAnyNumberOfThreads) {
   const TestScene scene = make_scene(random_specimen(test_seed(), 8, 8, 12));
   const LinearTask task = any_task(scene, 0);
@@ -101,9 +103,10 @@ TEST(CheckSolutions, TheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-// One particle turns by 2i about y with an arm of 3/4, the other rests: points move by 3/2 at the most. |Re k| + |Im k|
-// is 7 over a distance of 1, the area 1, the second moments 3/4 and 1/4. If nothing cancelled, forces were 7·3/2, and a
-// moment 7·(3/4 + 1/4)·2 and the force at its arm. A hundredth of them is taken off what each load really is.
+// Checks the rounding allowance of a residual. One particle rotates by 2i about y with an arm of 3/4, the other is at
+// rest, so points move by at most 3/2. |Re k| + |Im k| is 7, at distance 1 and area 1, with second moments 3/4 and 1/4.
+// Without cancellation the force is 7·3/2, and the moment is 7·(3/4 + 1/4)·2 plus the force times the arm. A hundredth
+// of these is subtracted from each actual load.
 TEST(CheckSolutions, RoundingIsAShareOfLoadsThatDoNotCancel) {
   HandMade made = two_sphere_network();
   Contact& c = made.network.contacts.front();
@@ -127,7 +130,7 @@ TEST(CheckSolutions, RoundingIsAShareOfLoadsThatDoNotCancel) {
     const std::vector<const LinearTask*> asked(count, &task);
     const SolutionCheck found = processor_code().check_solutions(made.network, made.inertia, asked, rounding).back();
     EXPECT_LT(found.beyond_rounding, 0.999 * found.residual);
-    EXPECT_NEAR(found.beyond_rounding, std::sqrt(squares), 1e-14 * found.residual);  // some ten products
+    EXPECT_NEAR(found.beyond_rounding, std::sqrt(squares), 1e-14 * found.residual);  // sums of about ten products
   }
 }
 

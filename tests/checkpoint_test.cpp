@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoint_test.cpp  A run in pieces gives the bits of a run in one; no other checkpoint is taken for its own.
+// checkpoint_test.cpp  A run in pieces gives the same bits as a run in one. A run does not resume from the checkpoint
+// of another run.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -24,7 +25,7 @@ namespace {
 constexpr const char* steady = "frequencies = [10.0, 20.0]\nstart = \"steady\"\nsamples_per_cycle = 40\n";
 constexpr const char* rest = "frequencies = [20.0]\ncycles = 3\nramp_cycles = 1\nsamples_per_cycle = 40\n";
 
-/// Bytes of all files but a checkpoint, which has ten times as many.
+/// File size limit [bytes] under which all files of a run fit except its checkpoint, which is ten times larger.
 constexpr rlim_t enough_for_the_rest = 40'000;
 
 class CheckpointedRun : public TestFolder {
@@ -35,7 +36,7 @@ class CheckpointedRun : public TestFolder {
   }
   fs::path file(const std::string& name) const { return out(name) / "checkpoint.h5"; }
 
-  /// The summary tells of an interrupted run.
+  /// Runs the scene as TestFolder::run_until(). If it was interrupted, the summary must say so.
   bool run_until(const Scene& scene, const std::string& name, int asked, bool resume) const {
     const bool interrupted = TestFolder::run_until(scene, name, asked, resume);
     if (interrupted) { EXPECT_EQ(summary(name).at("status"), "interrupted"); }
@@ -44,7 +45,7 @@ class CheckpointedRun : public TestFolder {
   nlohmann::json summary(const std::string& name) const {
     return nlohmann::json::parse(read(out(name) / "summary.json"));
   }
-  /// Without the times that a run took.
+  /// Returns the summary without the wall-clock times.
   nlohmann::json timeless(const std::string& name) const {
     nlohmann::json all = summary(name);
     all.erase("timing_s");
@@ -68,7 +69,7 @@ class CheckpointedRun : public TestFolder {
   }
 };
 
-/// Loading, solver and output of a scene.
+/// Parameters: the lines of loading, solver and output of a scene.
 struct InPieces : CheckpointedRun, testing::WithParamInterface<std::tuple<const char*, const char*, const char*>> {
   static std::string name_of(const testing::TestParamInfo<ParamType>& info) {
     const auto& [loading, solver, output] = info.param;
@@ -77,6 +78,8 @@ struct InPieces : CheckpointedRun, testing::WithParamInterface<std::tuple<const 
   }
 };
 
+/// The run is interrupted six times at different places and resumed. Its files must equal those of an uninterrupted
+/// run.
 TEST_P(InPieces, GivesTheBitsOfOne) {
   const auto [loading, solver, output] = GetParam();
   const Scene scene = this->scene(loading, solver, output);
@@ -84,14 +87,15 @@ TEST_P(InPieces, GivesTheBitsOfOne) {
   int interrupted = 0;
   for (const int asked : {1, 2, 30, 3, 21, 15, 1000000}) {
     interrupted += run_until(scene, "pieces", asked, interrupted > 0);
-    // whatever became of it: the next piece writes it anew
+    // Damage to response.csv does no harm, because the next piece rewrites it.
     if (interrupted == 3 && *output == 0) write(out("pieces") / "response.csv", "frequency_hz,time_s\n1,2\n");
   }
   EXPECT_EQ(interrupted, 6);
   expect_same("pieces", "one");
 }
 
-// at 1e5 a sample takes some ten steps, at 1e4 some thirty, so that it is cut between samples as well
+// With a density scaling of 1e5 a sample takes about ten steps, with 1e4 about thirty, so that runs are also
+// interrupted between samples.
 constexpr const char* heavy = "density_scaling = 1e5\n";
 const char* const lighter =
     long_tests ? "density_scaling = 1e4\nprecision = \"mixed\"\n" : "density_scaling = 1e5\nprecision = \"mixed\"\n";
@@ -100,7 +104,8 @@ INSTANTIATE_TEST_SUITE_P(CheckpointedRun, InPieces,
                                           testing::Values("", "response = false\n")),
                          InPieces::name_of);
 
-// A copy made while the run goes on is what a kill at that moment would have left.
+// Checkpoints are written at time intervals. A copy of the folder made during the run equals the state after a kill at
+// that moment, and can be resumed.
 TEST_F(CheckpointedRun, KeepsCheckpointsByTheClock) {
   const Scene scene = this->scene(steady, "density_scaling = 1e4\n", "checkpoint = \"1 ms\"\n");
   int copies = 0;
@@ -123,6 +128,8 @@ TEST_F(CheckpointedRun, KeepsCheckpointsByTheClock) {
   run(seldom, out("none"), watcher);
 }
 
+/// Every difference between the scene and the checkpoint, or a missing checkpoint, is refused with a message that names
+/// it; the files stay unchanged.
 TEST_F(CheckpointedRun, AnythingElseIsRefusedAndNamed) {
   const Scene scene = this->scene(steady);
   EXPECT_HAS(refusal(scene, "nowhere"), "no such file");
@@ -170,11 +177,12 @@ TEST_F(CheckpointedRun, AnythingElseIsRefusedAndNamed) {
   write(folder_ / "t8.csv", before);
 
   EXPECT_TRUE(read(file("out")) == kept);
-  run(scene, out("out"), {}, true);  // nothing of that has harmed it
+  run(scene, out("out"), {}, true);  // the refused attempts have done no harm
   run(scene, out("one"));
   expect_same("out", "one");
 }
 
+/// Truncated, extended or bit-flipped checkpoints are refused.
 TEST_F(CheckpointedRun, DamagedFilesAreRefused) {
   const Scene scene = this->scene(rest);
   ASSERT_TRUE(run_until(scene, "out", 20, false));
@@ -197,12 +205,13 @@ TEST_F(CheckpointedRun, DamagedFilesAreRefused) {
     write(file("out"), damaged);
     EXPECT_HAS(message_of([&] { read_checkpoint(file("out")); }), "damaged");
   }
-  // good checksum, no checkpoint within
+  // The checksum is right, but the file contains no checkpoint.
   write(file("out"), kept);
   write_checkpoint(file("out"), {});
   EXPECT_HAS(refusal(scene, "out"), "checkpoint of another");
 }
 
+/// If the newest checkpoint is damaged or missing, the run resumes from the previous one, with a warning.
 TEST_F(CheckpointedRun, WhereTheNewestIsDamagedTheOneBeforeIsGoneOnWith) {
   const Scene scene = this->scene(rest);
   const fs::path previous = out("out") / "checkpoint-previous.h5";
@@ -226,14 +235,15 @@ TEST_F(CheckpointedRun, WhereTheNewestIsDamagedTheOneBeforeIsGoneOnWith) {
     EXPECT_TRUE(read(out("out") / "response.csv") == read(out("one") / "response.csv"));
     for (const fs::path& gone : {file("out"), previous}) EXPECT_FALSE(fs::exists(gone)) << gone;
   }
-  // both damaged: the newest is named
+  // If both are damaged, the message names the newest.
   ASSERT_TRUE(run_until(scene, "out", 20, false));
   write(file("out"), "nonsense");
   write(previous, "nonsense");
   EXPECT_HAS(refusal(scene, "out"), "checkpoint.h5: checkpoint: found another kind of file");
 }
 
-/// Good checksums say nothing of what an HDF5 file counts, nor where it leads.
+/// A correct checksum does not make the content of an HDF5 file valid: wrong counts, and links to other files, are
+/// refused.
 TEST_F(CheckpointedRun, ForgedCountsAndLinksAreRefused) {
   const auto refused = [&](const std::function<void(const H5::Group&, const H5::Group&)>& forge, const char* word) {
     const fs::path file = folder_ / "forged.h5";
@@ -259,6 +269,7 @@ TEST_F(CheckpointedRun, ForgedCountsAndLinksAreRefused) {
   refused([&](auto&, auto& arrays) { arrays.createGroup("x"); }, "\"x\" is no dataset");
 }
 
+/// Writing is atomic: after a kill during writing the checkpoint is complete.
 TEST_F(CheckpointedRun, AKillWhileWritingLeavesTheOldOrTheNewOne) {
   Checkpoint checkpoint;
   checkpoint.texts["text"] = "a\nb\n";
@@ -281,6 +292,8 @@ TEST_F(CheckpointedRun, AKillWhileWritingLeavesTheOldOrTheNewOne) {
   EXPECT_HAS(message_of([&] { write_checkpoint(folder_ / "no" / "checkpoint.h5", checkpoint); }), "cannot be written");
 }
 
+/// If the disk is full, a run warns, goes on without checkpoints and leaves the old one intact. Later it can be
+/// resumed.
 TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
   const Scene scene = this->scene(steady);
   ASSERT_TRUE(run_until(scene, "out", 20, false));
@@ -320,6 +333,7 @@ TEST_F(CheckpointedRun, AFullDiskIsAWarningAndTheOldCheckpointStays) {
   expect_same("out", "one");
 }
 
+/// Warnings are kept in the checkpoint, so a resumed run reports them again.
 TEST_F(CheckpointedRun, KeepsItsWarningsWhereItGoesOn) {
   const Scene often = scene(steady, "density_scaling = 1e4\n", "checkpoint = \"1 ms\"\n");
   std::optional<FileLimit> limit(std::in_place, enough_for_the_rest);
@@ -333,6 +347,7 @@ TEST_F(CheckpointedRun, KeepsItsWarningsWhereItGoesOn) {
   EXPECT_EQ(run(often, out("out"), {}, true).warnings, warned);
 }
 
+/// A harmonic run in the same folder does not touch the checkpoint of a stepped run.
 TEST_F(CheckpointedRun, ARunOfAnotherKindLeavesTheCheckpointAlone) {
   const Scene scene = this->scene(steady);
   ASSERT_TRUE(run_until(scene, "out", 20, false));
@@ -346,7 +361,8 @@ TEST_F(CheckpointedRun, ARunOfAnotherKindLeavesTheCheckpointAlone) {
   expect_same("out", "one");
 }
 
-// What it would lead to is there. Another scene's is not this run's to remove.
+// A finished run removes the checkpoint of the same scene, because the results to which it would lead are there. It
+// leaves the checkpoint of another scene.
 TEST_F(CheckpointedRun, AFinishedRunRemovesItsOwnCheckpointOnly) {
   const Scene scene = this->scene(steady);
   ASSERT_TRUE(run_until(scene, "out", 20, false));
@@ -358,7 +374,8 @@ TEST_F(CheckpointedRun, AFinishedRunRemovesItsOwnCheckpointOnly) {
   EXPECT_TRUE(read(file("out")) == kept);
 }
 
-// What keeps other arrays, as a device that takes steps in another way: here one array has another name.
+// A device that steps in another way has other state arrays; here one array is renamed. Such a checkpoint is refused
+// before any result file changes.
 TEST_F(CheckpointedRun, AnotherMachinesCheckpointIsRefusedBeforeAnythingIsTouched) {
   const Scene scene = this->scene(steady);
   run(scene, out("out"));
@@ -374,7 +391,7 @@ TEST_F(CheckpointedRun, AnotherMachinesCheckpointIsRefusedBeforeAnythingIsTouche
   EXPECT_TRUE(read(out("out") / "summary.json") == all);
 }
 
-// With another base address than the file's own: HDF5's tools still find what stands behind the user block.
+// The HDF5 part starts behind a user block, at another base address. HDF5's own library still reads it.
 TEST_F(CheckpointedRun, IsAnHdf5FileForAnyReader) {
   write_checkpoint(folder_ / "checkpoint.h5", {{{"text", "words"}}, {{"numbers", "m", std::vector<double>{1, 2}}}});
   const H5::H5File in((folder_ / "checkpoint.h5").string(), H5F_ACC_RDONLY);
@@ -383,6 +400,7 @@ TEST_F(CheckpointedRun, IsAnHdf5FileForAnyReader) {
   EXPECT_EQ(values[1], 2);
 }
 
+/// `checkpoint` in the scene sets the interval; the reference backend cannot write checkpoints and refuses.
 TEST_F(CheckpointedRun, SceneSaysHowOftenAndTheReferenceRefuses) {
   EXPECT_FALSE(scene(rest).output.checkpoint);
   EXPECT_EQ(scene(rest, "", "checkpoint = \"10 min\"\n").output.checkpoint, 600.0);
@@ -392,17 +410,19 @@ TEST_F(CheckpointedRun, SceneSaysHowOftenAndTheReferenceRefuses) {
   Scene asked = scene(rest, "", "checkpoint = \"1 min\"\n");
   asked.solver.backend = Backend::reference;
   EXPECT_HAS(message_of([&] { run(asked, out("out")); }), "reference keeps no checkpoints");
-  EXPECT_FALSE(fs::exists(out("out")));  // said at once
+  EXPECT_FALSE(fs::exists(out("out")));  // refused before the folder is made
 }
 
-// The program itself, with the signals of a terminal and of a queueing system.
+// Runs the program and interrupts it with SIGTERM (queueing system) and SIGINT (terminal). It must leave a checkpoint
+// from which it resumes.
 TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
   scene(rest, long_tests ? "density_scaling = 3e2\nthreads = 1\n" : "density_scaling = 3e3\nthreads = 1\n");
   const auto start = [&](const std::string& name, bool resume) {
     const pid_t child = fork();
     if (child == 0) {
       const std::string to = out(name).string(), scene = (folder_ / "scene.toml").string();
-      for (const int number : {SIGINT, SIGTERM}) signal(number, SIG_DFL);  // who runs tests may ignore them
+      // the shell that runs the tests may ignore them
+      for (const int number : {SIGINT, SIGTERM}) signal(number, SIG_DFL);
       if (!freopen((folder_ / "stdout.txt").c_str(), "w", stdout)) _exit(99);
       if (!freopen((folder_ / "stderr.txt").c_str(), "w", stderr)) _exit(99);
       execl(MACADAM_PROGRAM, MACADAM_PROGRAM, "run", scene.c_str(), "--out", to.c_str(), resume ? "--resume" : nullptr,
@@ -425,7 +445,7 @@ TEST_F(CheckpointedRun, SignalsLeaveACheckpointThatTheProgramResumes) {
   const std::uintmax_t whole = size_of("one");
   bool resume = false;
   for (const int signal : {SIGTERM, SIGINT}) {
-    const std::uintmax_t wanted = size_of("out") + whole / 6;  // more than it writes anew before the first step
+    const std::uintmax_t wanted = size_of("out") + whole / 6;  // more than a resumed run rewrites before its first step
     const pid_t child = start("out", resume);
     while (size_of("out") < wanted && waitpid(child, nullptr, WNOHANG) == 0) usleep(1000);
     ASSERT_EQ(kill(child, signal), 0) << "it was done before it could be interrupted";

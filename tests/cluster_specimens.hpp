@@ -6,7 +6,8 @@
 
 namespace macadam::test {
 
-/// Icosahedra of 3.6 to 4.5 mm, some 20 to 35 spheres each, a fifth of the solid volume, in mastic.
+/// Returns a recipe of icosahedra of 3.6 to 4.5 mm in mastic. Each has about 20 to 35 spheres; together they are a
+/// fifth of the solid volume.
 inline SpecimenSpec cluster_recipe(std::uint64_t seed, const Vec3d& box) {
   SpecimenSpec spec;
   spec.box.size = box;
@@ -21,7 +22,7 @@ inline SpecimenSpec cluster_recipe(std::uint64_t seed, const Vec3d& box) {
   return spec;
 }
 
-/// Two clusters in some 140 spheres: few enough for dense matrices.
+/// Returns two clusters in mastic, about 140 spheres in all: few enough for dense matrices.
 inline Specimen few_clusters(std::uint64_t seed) {
   SpecimenSpec spec = cluster_recipe(seed, {6.5e-3, 6.5e-3, 8.5e-3});
   spec.aggregate = {{3.6e-3, 3.9e-3, std::nullopt, 2}};

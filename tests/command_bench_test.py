@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""bench/command: phases that do not make up the wall time are refused, and a run of the program gives every row.
+"""Tests bench/command: phases that do not add up to the wall time are refused, and a run of the program gives all rows.
 
-usage: command_bench_test.py REPOSITORY PROGRAM; exit code 1 where something is wrong."""
+usage: command_bench_test.py REPOSITORY PROGRAM; exit code 1 if something is wrong."""
 import csv
 import subprocess
 import sys
@@ -13,16 +13,16 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "bench" / "command"))
 from phases import PHASES, TIMED, collected, phases_of  # noqa: E402
 
-WALL = 20.0  # seconds, of which a twentieth may be left
+WALL = 20.0  # [s]; a twentieth may be missing in the sum of the phases
 
 
 def summary(status="done", solve=17.0, **changed):
-    """Of phases that last 2 s each; None takes one away."""
+    """Returns a summary whose phases last 2 s each; None removes a phase."""
     timing = {**{phase: 2.0 for phase in TIMED}, "solve": solve, **changed}
     return {"status": status, "timing_s": {name: s for name, s in timing.items() if s is not None}}
 
 
-# summary, wall time, what must be said; nothing where it is sound
+# summary, wall time, expected message (None for a valid summary)
 CASES = [
     (summary(), 2.0 * len(TIMED), None),
     (summary(), 2.0 * len(TIMED) + 0.9, None),
@@ -60,7 +60,7 @@ def of_phases():
 
 
 def of_program():
-    """The script from beginning to end; a specimen that is read takes the other way to its scene."""
+    """Runs the whole script, with a specimen that is generated and with one that is read from a file."""
     wrong = []
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "command.csv"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// command_help_test.cpp  The help of every command: for people, with examples that the command line takes.
+// command_help_test.cpp  The help of every command: readable, complete, and with examples that the command line
+// accepts.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,7 +12,7 @@
 namespace macadam::test {
 namespace {
 
-/// f(a command) for the program and all below it.
+/// Calls f(command) for the program and all commands below it.
 template <class F>
 void for_each_command(CLI::App& command, F&& f) {
   f(command);
@@ -23,7 +24,7 @@ std::string name_of(const CLI::App& command) {
   return parent ? name_of(*parent) + " " + command.get_name() : command.get_name();
 }
 
-/// As --help prints it.
+/// Returns the help as --help prints it.
 std::string help_of(const CLI::App& command) {
   return command.help(command.get_parent() ? name_of(*command.get_parent()) : "");
 }
@@ -39,7 +40,7 @@ TEST_F(CommandHelp, WalksAllCommands) {
   EXPECT_GE(commands, 15u);
 }
 
-/// Its words, one space between them.
+/// Returns the words of a text with one space between them.
 std::string in_one_line(const std::string& text) {
   std::string out;
   std::istringstream words(text);
@@ -58,14 +59,15 @@ TEST_F(CommandHelp, HasEveryDescriptionWordForWord) {
   });
 }
 
-// A type that CLI11 prints by itself is a table of numbers, `ENUM:value in {auto->1} OR {1}`.
+// If CLI11 prints the type of an enumeration, the help shows a table of numbers such as `ENUM:value in {auto->1} OR
+// {1}`.
 TEST_F(CommandHelp, IsForPeople) {
   for_each_command(app_, [](CLI::App& command) {
     const std::string help = help_of(command);
     for (const char* word : {"ENUM", "->", "=TEXT", "FLOAT", "UINT"})
       EXPECT_EQ(help.find(word), std::string::npos) << name_of(command) << ": " << word << "\n" << help;
     std::istringstream lines(help);
-    bool examples = false;  // these are one line each, whatever their length
+    bool examples = false;  // an example is one line of any length
     for (std::string line; std::getline(lines, line);) {
       examples = examples || line == "Examples:";
       EXPECT_TRUE(examples || line.size() <= 100) << name_of(command) << ": " << line;
@@ -88,13 +90,13 @@ TEST_F(CommandHelp, SaysChoicesDefaultsAndWhatIsRequired) {
     EXPECT_NE(fill.find(words), std::string::npos) << words << "\n" << fill;
 }
 
-/// Why the program does not take these words; empty where it does. Nothing is run.
+/// Returns the reason why the program refuses these words; empty if it accepts them. Runs nothing.
 std::string fault_of(std::vector<std::string> words) {
   CLI::App app;
   make_command_line(app);
-  app.parse_complete_callback([] { throw CLI::Success(); });  // before any command's own callback
-  std::reverse(words.begin(), words.end());                   // CLI11 takes them from the end
-  words.pop_back();                                           // macadam
+  app.parse_complete_callback([] { throw CLI::Success(); });  // called before the callback of any command
+  std::reverse(words.begin(), words.end());                   // CLI11 expects the words in reverse order
+  words.pop_back();                                           // removes the word macadam
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) { return error.get_exit_code() == 0 ? "" : error.what(); }

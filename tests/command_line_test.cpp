@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// command_line_test.cpp  The program as a user meets it: exit codes, messages, files.
+// command_line_test.cpp  The program run as a user does: exit codes, messages, files.
 #include <map>
 #include <regex>
 
@@ -73,6 +73,7 @@ TEST_F(CommandLine, WrongUsageIsExitCodeTwo) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
+/// `macadam report` runs the Python that MACADAM_PYTHON names. An empty MACADAM_PYTHON counts as unset.
 TEST_F(CommandLine, ReportsAreMadeByThePythonThatIsNamedIfOneIs) {
   for (const char* name : {"python3", "named"}) {
     std::ofstream(folder_ / name) << "#!/bin/sh\necho " << name << " \"$@\"\n";
@@ -87,12 +88,12 @@ TEST_F(CommandLine, ReportsAreMadeByThePythonThatIsNamedIfOneIs) {
     return std::pair{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out)};
   };
   EXPECT_EQ(report("MACADAM_PYTHON=" + path("named")), (std::pair{0, std::string("named -m macadam report --help\n")}));
-  const auto unnamed = report("");  // that of scripts/python, where there is one
+  const auto unnamed = report("");  // uses scripts/python if it exists
   EXPECT_EQ(unnamed.first, 0) << unnamed.second;
   EXPECT_EQ(report("MACADAM_PYTHON="), unnamed);
 }
 
-// What CLI11 makes of enumerations is their number, which would be printed as a character.
+// CLI11 prints an enumeration as its number, which would appear as a control character.
 TEST_F(CommandLine, HelpIsPlainText) {
   for (const char* command : {"run", "specimen", "shapes fill", "shapes measure", "shapes generate", "info", ""}) {
     const std::string help = macadam(std::string(command) + " --help").out;
@@ -101,7 +102,7 @@ TEST_F(CommandLine, HelpIsPlainText) {
   EXPECT_TRUE(contains(macadam("run --help").out, "--backend auto|cuda|cpu|reference"));
 }
 
-// 010 is ten, not eight: two specimens of ten are the same one.
+// A leading zero does not make a number octal: seeds 010 and 10 give the same specimen, seed 8 another.
 TEST_F(CommandLine, NumbersAreDecimal) {
   std::ofstream(folder_ / "made.toml") << "[specimen]\nbox = [0.004, 0.004, 0.004]\n[specimen.mastic]\n"
                                           "radius = [\"0.4 mm\", \"0.5 mm\"]\ncount = 60\n"
@@ -124,7 +125,7 @@ TEST_F(CommandLine, WrongInputIsExitCodeTwoAndNamesTheLine) {
     EXPECT_EQ(missing.code, 2);
     EXPECT_TRUE(contains(missing.err, "nowhere.toml")) << missing.err;
 
-    write_scene("density_scalling = 1e6\n");  // line 9
+    write_scene("density_scalling = 1e6\n");  // the misspelt key is in line 9 of the scene
     const Outcome misspelt = job("scene.toml");
     EXPECT_EQ(misspelt.code, 2);
     EXPECT_TRUE(contains(misspelt.err, "scene.toml:9:")) << misspelt.err;
@@ -199,7 +200,7 @@ TEST_F(CommandLine, RunWritesItsFilesWithoutProgressText) {
   EXPECT_EQ(response.size(), 502u);  // header, start, 500 samples
   EXPECT_EQ(response[0], "frequency_hz,time_s,strain,stress_pa");
   EXPECT_EQ(lines_of(read(folder_ / "out/specimen.csv")).size(), 176u);
-  EXPECT_FALSE(fs::exists(folder_ / "out/contacts.csv"));  // nobody asked
+  EXPECT_FALSE(fs::exists(folder_ / "out/contacts.csv"));  // the scene does not ask for contacts
   const auto summary = this->summary("out");
   EXPECT_EQ(summary.at("status"), "done");
   EXPECT_EQ(summary.at("solver").at("backend"), "cpu");
@@ -219,7 +220,7 @@ TEST_F(CommandLine, SameSceneSameBytes) {
   for (std::size_t k = 1; k < options.size(); ++k) EXPECT_TRUE(responses[k] == responses[0]) << options[k];
 }
 
-// The command line overrides the scene. 500 steps in single precision round by up to 500·2⁻²⁴ = 3e-5.
+// The command line overrides the scene. Rounding of 500 steps in single precision is at most 500·2⁻²⁴ = 3e-5.
 TEST_F(CommandLine, OtherPrecisionsAndTheReferenceRun) {
   write_scene();
   ASSERT_EQ(run_quick("double").code, 0);
@@ -255,7 +256,7 @@ TEST_F(CommandLine, CudaWithoutADeviceFailsAndLeavesOldResultsAlone) {
   }
   EXPECT_EQ(cuda.code, 1);
   EXPECT_TRUE(contains(cuda.err, "cuda") && contains(cuda.err, "cpu")) << cuda.err;  // what and instead
-  EXPECT_TRUE(contains(cuda.err, report_backends().cuda_status)) << cuda.err;        // why
+  EXPECT_TRUE(contains(cuda.err, report_backends().cuda_status)) << cuda.err;        // and the reason
   EXPECT_TRUE(read(folder_ / "out/response.csv") == response);
   EXPECT_TRUE(read(folder_ / "out/summary.json") == summary);
 }
@@ -284,14 +285,16 @@ TEST_F(CommandLine, ACudaDeviceIsChosenByNumber) {
   }
 }
 
-// The scene's device belongs to the scene's backend: another one on the command line does without it.
+// The device number in the scene belongs to the scene's backend. If the command line names another backend, the number
+// is ignored.
 TEST_F(CommandLine, AnotherBackendDoesWithoutTheScenesCudaDevice) {
   write_scene(quick, "device = 1023\n");
   EXPECT_NE(run_quick("scene", "").code, 0);
   EXPECT_EQ(run_quick("cpu", "--backend cpu").code, 0);
 }
 
-// A step of 1e-4 s is 1.5 times the limit for this mass: it takes some samples to leave the range of sense.
+// A step of 1e-4 s is 1.5 times the stable limit for this mass. The motion grows for some samples before the run counts
+// as diverged.
 TEST_F(CommandLine, ADivergingRunNamesAParticleAndKeepsItsFiles) {
   write_scene("density_scaling = 2e5\ntime_step = 1e-4\n");
   const Outcome outcome = run_quick("out");
@@ -315,7 +318,7 @@ TEST_F(CommandLine, ADivergingRunNamesAParticleAndKeepsItsFiles) {
     ASSERT_EQ(static_cast<std::size_t>(end), response[k].size()) << response[k];
     ASSERT_TRUE(std::isfinite(stress)) << response[k];
   }
-  EXPECT_NEAR(failed_at - time, 1e-4, 1e-7);  // it stopped one sample after the last good one
+  EXPECT_NEAR(failed_at - time, 1e-4, 1e-7);  // the run stopped one sample after the last finite one
   const auto summary = this->summary("out");
   EXPECT_EQ(summary.at("status").get<std::string>().rfind("failed", 0), 0u) << summary.at("status");
   EXPECT_TRUE(contains(summary.at("status"), "particle " + found[1].str()));
@@ -336,7 +339,8 @@ TEST_F(CommandLine, AFolderThatCannotBeMadeIsExitCodeOne) {
   EXPECT_EQ(read(folder_ / "file"), "in the way\n");
 }
 
-// The known number of t8 at 20 Hz to its digits; a response of an earlier stepped run does not stay beside it.
+// The harmonic method gives the recorded modulus of t8 at 20 Hz to all recorded digits. The response file of an earlier
+// stepped run is removed.
 TEST_F(CommandLine, HarmonicMethodGivesTheKnownNumber) {
   write_scene();
   ASSERT_EQ(run_quick("out").code, 0);
@@ -357,7 +361,7 @@ TEST_F(CommandLine, HarmonicMethodGivesTheKnownNumber) {
 
 TEST_F(CommandLine, AFileThatCannotBeWrittenIsExitCodeOne) {
   write_scene();
-  fs::create_directories(folder_ / "out/response.csv");  // a folder where the file should be
+  fs::create_directories(folder_ / "out/response.csv");  // a folder in place of the file
   const Outcome outcome = run_quick("out");
   EXPECT_EQ(outcome.code, 1);
   EXPECT_TRUE(contains(outcome.err, "response.csv")) << outcome.err;

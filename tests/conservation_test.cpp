@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// conservation_test.cpp  What a free assembly keeps on every backend: momenta, energy, and no force from rigid motion.
+// conservation_test.cpp  Conservation in free assemblies, on every backend: momenta, energy, and no force from rigid
+// motion.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -13,14 +14,14 @@ namespace {
 
 constexpr double rounding = 0x1p-53;
 
-/// 27 particles without walls.
+/// Returns 27 particles without walls.
 TestScene free_assembly(unsigned seed, const Laws& laws) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;
   return make_scene(random_specimen(seed, 3, 3, 3), spec, laws);
 }
 
-/// AM1 moduli without dashpots and with shear in every pair.
+/// Returns elastic laws with the instantaneous moduli of AM1 and with shear stiffness in every pair.
 Laws elastic_laws() {
   Laws out;
   const Laws am1 = am1_laws();
@@ -34,7 +35,8 @@ struct Motion {
   std::vector<Vec3d> velocity, spin;
 };
 
-/// Velocities up to `speed` in each direction and spins that give points of the surface about the same.
+/// Returns random velocities of up to `speed` in each direction, and spins that give points on the surface about the
+/// same speed.
 Motion random_motion(const TestScene& scene, unsigned seed, double speed) {
   std::mt19937 random(seed);
   const auto component = [&] { return speed * (2 * (static_cast<double>(random()) / 4294967296.0) - 1); };
@@ -50,7 +52,7 @@ struct Momenta {
   Vec3d linear, angular;
 };
 
-/// With `displaced`, angular momentum is taken about the moving centres' places, where updated geometry acts.
+/// Returns the total momenta. If `displaced`, angular momentum uses the displaced centres, as updated geometry does.
 Momenta momenta(const TestScene& scene, const ParticleState& p, bool displaced) {
   Momenta out;
   for (std::size_t i = 0; i < scene.specimen.size(); ++i) {
@@ -89,8 +91,8 @@ INSTANTIATE_TEST_SUITE_P(All, FreeAssembly,
                                           testing::Values(Geometry::updated, Geometry::fixed)),
                          name_of);
 
-// Leapfrog keeps both momenta exactly when every contact's forces and moments balance: Σ x × m·v changes by Σ x × F
-// alone, because x moves along v.
+// Leapfrog conserves both momenta exactly if forces and moments of every contact balance: because x moves along v, the
+// change of Σ x × m·v is Σ x × F alone.
 TEST_P(FreeAssembly, MomentaStayOverAHundredThousandSteps) {
   const std::int64_t steps = long_tests ? 100'000 : 5'000;
   const bool displaced = std::get<Geometry>(GetParam()) == Geometry::updated;
@@ -107,18 +109,18 @@ TEST_P(FreeAssembly, MomentaStayOverAHundredThousandSteps) {
     ASSERT_GT(largest(state.force), 0);
     const Momenta after = momenta(scene, state, displaced);
 
-    // A step rounds the velocity of each of n particles by up to ε·v, and the increments Δt·F/m, which are no larger
-    // than v, by about as much: a random walk of 2·ε·√(steps·n) momenta of one particle.
+    // A step rounds the velocity of each of n particles by up to ε·v, and the increments Δt·F/m, which are not larger
+    // than v, by about the same. This is a random walk of 2·ε·√(steps·n) times the momentum of a particle.
     const double particle = speed * *std::max_element(scene.inertia.mass.begin(), scene.inertia.mass.end());
     const double walk = 2 * rounding * std::sqrt(static_cast<double>(steps * scene.specimen.size()));
     EXPECT_LT(norm(after.linear - before.linear), walk * particle);
     EXPECT_LT(norm(after.angular - before.angular), walk * particle * norm(scene.specimen.box.size));
-    EXPECT_GT(norm(before.linear), 0.5 * particle);  // there is something to keep
+    EXPECT_GT(norm(before.linear), 0.5 * particle);  // the momenta are large enough to be worth conserving
     EXPECT_GT(norm(before.angular), 0.5 * particle * 1e-3);
   }
 }
 
-/// Takes the rigid part of a motion away, so that the assembly neither drifts nor turns.
+/// Subtracts the rigid part of a motion, so that the assembly neither drifts nor rotates.
 void remove_rigid_part(const TestScene& scene, Motion& motion) {
   Vec3d centre{};
   double mass = 0;
@@ -145,8 +147,8 @@ void remove_rigid_part(const TestScene& scene, Motion& motion) {
   }
 }
 
-// For forces F = −K·q with a symmetric K, leapfrog keeps ½·v(k−½)·M·v(k+½) − ½·q(k)·F(k) exactly: the second term is
-// the elastic energy at the whole step, q the displacements and rotations.
+// For forces F = −K·q with a symmetric K, leapfrog conserves ½·v(k−½)·M·v(k+½) − ½·q(k)·F(k) exactly. Here q are
+// displacements and rotations, and the second term is the elastic energy at the whole step.
 TEST_P(FreeAssembly, EnergyOfElasticContactsStays) {
   const int steps = long_tests ? 20'000 : 2'000;
   const TestScene scene = free_assembly(31, elastic_laws());
@@ -178,14 +180,14 @@ TEST_P(FreeAssembly, EnergyOfElasticContactsStays) {
     elastic_share = std::max(elastic_share, elastic / first);
     now = next;
   }
-  EXPECT_GT(elastic_share, 0.3);  // energy does change hands
-  // Fixed geometry is linear: a step rounds by some ε of the energy, a random walk. Updated geometry turns normals and
-  // lever arms by angles of the order of the strain, 1e-6, and so changes the stiffness and its energy.
+  EXPECT_GT(elastic_share, 0.3);  // energy is exchanged between both forms
+  // Fixed geometry is linear: each step rounds by a few ε of the energy, a random walk. Updated geometry rotates
+  // normals and lever arms by angles of the order of the strain, 1e-6, and so changes the stiffness and the energy.
   EXPECT_LT(error, options.geometry == Geometry::fixed ? 10 * rounding * std::sqrt(steps) : 10 * strain);
 }
 
-/// Whatever moves as one body, by moves given step by step, creates no force. Nothing can be fixed, as all of it moves;
-/// masses are so large that the moves are kept whatever the forces.
+/// An assembly that moves rigidly, by motions prescribed step by step, has no contact forces. Particles cannot be fixed
+/// because all move; instead their masses are so large that forces do not change the motion.
 class RigidMotion : public FreeAssembly {
  protected:
   TestScene heavy_assembly() const {
@@ -195,7 +197,7 @@ class RigidMotion : public FreeAssembly {
     return scene;
   }
 
-  /// Largest E·A over all contacts: the force that a strain of one creates [N].
+  /// Returns the largest E·A over all contacts, the force at a strain of one [N].
   static double force_scale(const TestScene& scene) {
     double area = 0;
     for (const Contact& c : scene.network.contacts) area = std::max(area, c.area);
@@ -216,7 +218,7 @@ TEST_P(RigidMotion, TranslationCreatesNoForce) {
   const std::size_t n = scene.specimen.size();
   stepper->set_velocities(std::vector<Vec3d>(n, {3, -5, 7}), std::vector<Vec3d>(n));
   stepper->advance(10'000);
-  ASSERT_GT(norm(stepper->particles().displacement[0]), 0.05);  // twenty diameters
+  ASSERT_GT(norm(stepper->particles().displacement[0]), 0.05);  // a distance of about twenty diameters
   // All displacements are the same to the last bit, so their differences are zero.
   EXPECT_EQ(largest(stepper->particles().force), 0);
   EXPECT_EQ(largest(stepper->particles().moment), 0);
@@ -231,7 +233,7 @@ TEST_P(RigidMotion, AFullTurnCreatesNoForce) {
   const auto stepper = make(scene, options);
   const double root = std::sqrt(14.0);
   const Vec3d axis{1 / root, -2 / root, 3 / root}, middle = 0.5 * scene.specimen.box.size;
-  const auto turned = [&](const Vec3d& v, double by) {  // Rodrigues
+  const auto turned = [&](const Vec3d& v, double by) {  // Rodrigues' formula
     return std::cos(by) * v + std::sin(by) * cross(axis, v) + (1 - std::cos(by)) * dot(axis, v) * axis;
   };
   const std::size_t n = scene.specimen.size();
@@ -251,13 +253,13 @@ TEST_P(RigidMotion, AFullTurnCreatesNoForce) {
     }
   }
   const ParticleState end = stepper->particles();
-  ASSERT_LT(largest(end.displacement), 1e-12);  // it came back
-  // A step moves the centres by the chord 2·sin(θ/2)·d while ω·Δt is the arc θ: a slip of d·θ³/24, which adds up over
-  // the steps to the strain angle·θ²/24 = 2.6e-8, times α = 0.3 in the force of a contact. Some fourteen contacts a
-  // particle, of many directions, pull at it.
+  ASSERT_LT(largest(end.displacement), 1e-12);  // it is back at the start
+  // In a step the centres move along the chord 2·sin(θ/2)·d, while ω·Δt is the arc θ. This gives a slip of d·θ³/24 per
+  // step, and over all steps a strain of angle·θ²/24 = 2.6e-8. Times α = 0.3 it is the force of a contact; about
+  // fourteen contacts per particle act, in many directions.
   const double strain = angle * step_angle * step_angle / 24;
   EXPECT_LT(force, 14 * 0.3 * strain * force_scale(scene));
-  EXPECT_LT(moment, 14 * 0.3 * strain * force_scale(scene) * 1.5e-3);  // levers of up to 1.5 mm
+  EXPECT_LT(moment, 14 * 0.3 * strain * force_scale(scene) * 1.5e-3);  // lever arms of up to 1.5 mm
 }
 
 }  // namespace

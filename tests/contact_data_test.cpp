@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_data_test.cpp  The memory foretold for a group of contacts is that of its arrays.
+// contact_data_test.cpp  The memory predicted for a group of contacts equals the size of its arrays.
 #include "kernels/contact_data.hpp"
 
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 namespace macadam::test {
 namespace {
 
+/// Expects that GroupShape predicts the bytes of the arrays of every group in the layout.
 template <class P>
 void expect_foretold(const TestScene& scene, const StepperOptions& options) {
   const kernels::Layout layout = kernels::make_layout(scene.specimen, scene.network, 8, 100);
@@ -40,7 +41,7 @@ TEST(GroupShape, ForetellsTheArrays) {
       }
     }
   }
-  scene.laws.fill(laws::BrittleBond{1e9, 1e6});  // coupled: all three components, and the distance
+  scene.laws.fill(laws::BrittleBond{1e9, 1e6});  // coupled laws need all three components and the distance
   for (const auto geometry : {Geometry::updated, Geometry::fixed}) {
     StepperOptions options = shaking_options(scene);
     options.form = ContactForm::points, options.geometry = geometry;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file contact_network_test.cpp  Contacts: frames, lever arms, point areas, moments, pair types, filters, rows.
+/// \file contact_network_test.cpp  Contacts of a network: frames, lever arms, point areas, moments, pair types,
+/// filters, and the rows that list contacts by particle.
 #include "macadam/contact_network.hpp"
 
 #include <gtest/gtest.h>
@@ -19,6 +20,7 @@ namespace {
 
 using test::add;
 
+/// Returns n spheres of mixed phases at random positions in a unit box; all of them have cells.
 Specimen random_specimen(int n = 300, unsigned seed = 4) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> u(0.02, 0.98), r(0.05, 0.06);
@@ -29,7 +31,7 @@ Specimen random_specimen(int n = 300, unsigned seed = 4) {
     add(s, {u(engine), u(engine), u(engine)}, r(engine), aggregate ? Phase::aggregate : Phase::mastic,
         aggregate ? i / 60 : -1);
   }
-  // Of two centres that nearly coincide one may be hidden: take those out.
+  // If two centres nearly coincide, one sphere may have no cell. Such spheres are removed.
   const auto hidden = particles_without_cell(s);
   for (auto it = hidden.rbegin(); it != hidden.rend(); ++it) {
     s.centre.erase(s.centre.begin() + *it);
@@ -66,6 +68,7 @@ std::string message(const Specimen& s, const NetworkSpec& spec = {}) {
   return "no error";
 }
 
+/// Returns n³ equal spheres on a cubic lattice of spacing a that fills the box.
 Specimen cubic(int n, double a) {
   Specimen s;
   s.box.size = {n * a, n * a, n * a};
@@ -84,7 +87,7 @@ TEST(CanonicalFrame, IsOrthonormalAndRightHandedEverywhere) {
     const Vec3d v{g(engine), g(engine), g(engine)};
     normals.push_back((1 / norm(v)) * v);
   }
-  constexpr double tolerance = 2e-15;  // a few products of numbers up to 1, and the normal's own length
+  constexpr double tolerance = 2e-15;  // a few products of numbers up to 1, and the rounding of the normal's length
   for (const Vec3d& n : normals) {
     Vec3d s, t;
     canonical_frame(n, s, t);
@@ -107,13 +110,15 @@ TEST_F(RandomNetwork, EveryFacetIsAContactInOrder) {
   EXPECT_EQ(network.point_s.size(), network.point_area.size());
 }
 
+/// The lever arms put the reference point x0 into the plane of the facet, and equal the arms of Eq. 5–7.
 TEST_F(RandomNetwork, ArmsPutTheReferencePointOnTheFacetsPlane) {
   int outside = 0;
   for (std::size_t k = 0; k < network.contacts.size(); ++k) {
     const Contact& c = network.contacts[k];
     const Facet& f = tessellation.facets[k];
     const Vec3d x0 = specimen.centre[c.a] + c.arm_a * c.n;
-    // Vertices carry ε of the box over the flatness of their tetrahedron (≥ 1e-3 in double).
+    // A vertex has an error of ε of the box over the flatness of its tetrahedron, which is at least 1e-3 in double
+    // precision.
     for (const Vec3d& v : tessellation.polygon(f)) EXPECT_NEAR(dot(v - x0, c.n), 0, 1e-12);
     if (c.b < 0) {
       EXPECT_EQ(c.arm_b, 0);
@@ -130,6 +135,7 @@ TEST_F(RandomNetwork, ArmsPutTheReferencePointOnTheFacetsPlane) {
   EXPECT_GT(outside, 0) << "the specimen should contain a centre outside its own cell";
 }
 
+/// Point areas add up to the facet's area, and their first moments to those of the facet about x0.
 TEST_F(RandomNetwork, PointAreasAndFirstMoments) {
   for (std::size_t k = 0; k < network.contacts.size(); ++k) {
     const Contact& c = network.contacts[k];
@@ -138,14 +144,16 @@ TEST_F(RandomNetwork, PointAreasAndFirstMoments) {
     ASSERT_EQ(c.point_end - c.point_begin, f.vertex_end - f.vertex_begin + 1);
     double area = 0, s = 0, t = 0, reach = 0;
     for (std::uint32_t j = c.point_begin; j < c.point_end; ++j) {
-      // A facet that rounding leaves slightly not convex may have a fan triangle of −ε of the area.
+      // Rounding may leave a facet slightly non-convex; then a triangle of the fan can have a negative area of about ε
+      // of the facet's.
       EXPECT_GT(network.point_area[j], -1e-12 * c.area);
       area += network.point_area[j];
       s += network.point_area[j] * network.point_s[j];
       t += network.point_area[j] * network.point_t[j];
       reach = std::max(reach, std::hypot(network.point_s[j], network.point_t[j]));
     }
-    // Local coordinates carry ε of the box and of the distance to x0: a facet of length l has 1e-16/l in its area.
+    // Local coordinates have an error of ε of the box and of the distance to x0, so a facet of length l has a relative
+    // error of 1e-16/l in its area.
     const double relative = 1e-14 / std::sqrt(c.area) * (1 + reach);
     EXPECT_NEAR(area, c.area, relative * c.area);
     EXPECT_NEAR(c.moments.a, area, 1e-14 * area);
@@ -153,7 +161,7 @@ TEST_F(RandomNetwork, PointAreasAndFirstMoments) {
     EXPECT_NEAR(t, c.area * dot(f.centroid - x0, c.t), relative * c.area * reach);
     EXPECT_NEAR(c.moments.s, s, 1e-14 * c.area * reach);
     EXPECT_NEAR(c.moments.t, t, 1e-14 * c.area * reach);
-    // The points lie where the polygon has its vertices and its centroid.
+    // The first point is the first vertex of the polygon, the last point its centroid.
     const Vec3d first = x0 + network.point_s[c.point_begin] * c.s + network.point_t[c.point_begin] * c.t;
     EXPECT_NEAR(norm(first - tessellation.polygon(f)[0]), 0, 1e-12);
     const Vec3d last = x0 + network.point_s[c.point_end - 1] * c.s + network.point_t[c.point_end - 1] * c.t;
@@ -169,17 +177,19 @@ TEST_F(RandomNetwork, LumpedMomentsAreThoseOfThePoints) {
       st += network.point_area[j] * network.point_s[j] * network.point_t[j];
       tt += network.point_area[j] * network.point_t[j] * network.point_t[j];
     }
-    const double tolerance = 1e-13 * (ss + tt);  // some ten products, each good to ε
+    const double tolerance = 1e-13 * (ss + tt);  // about ten products, each accurate to ε
     EXPECT_NEAR(c.moments.ss, ss, tolerance);
     EXPECT_NEAR(c.moments.st, st, tolerance);
     EXPECT_NEAR(c.moments.tt, tt, tolerance);
   }
 }
 
+/// Exact second moments agree with a fine midpoint rule, and are less than those of the points (lumped).
 TEST_F(RandomNetwork, ExactMomentsAgreeWithFineQuadrature) {
   spec.quadrature = Quadrature::exact;
   const ContactNetwork exact = build_network(specimen, tessellation, spec);
-  constexpr int m = 40;  // strips a side of each triangle: the midpoint rule is off by 1/m² of the facet's own spread
+  // strips per side of each triangle; the midpoint rule has a relative error of 1/m² of the facet's squared extent
+  constexpr int m = 40;
   double difference = 0, total = 0;
   for (std::size_t k = 0; k < exact.contacts.size(); k += 7) {
     const Contact& c = exact.contacts[k];
@@ -189,7 +199,8 @@ TEST_F(RandomNetwork, ExactMomentsAgreeWithFineQuadrature) {
     const auto cell = [&](double area, double x, double y) {
       ss += area * x * x, st += area * x * y, tt += area * y * y;
     };
-    for (std::size_t v = 1; v + 1 < n; ++v) {  // fan from vertex 0: not the fan of the code
+    // fan from vertex 0, unlike the fan about the centroid in the code under test
+    for (std::size_t v = 1; v + 1 < n; ++v) {
       const double us = s[v] - s[0], ut = t[v] - t[0], ws = s[v + 1] - s[0], wt = t[v + 1] - t[0];
       const double area = 0.5 * (us * wt - ws * ut) / (m * m);
       const auto at = [&](double p, double q) { cell(area, s[0] + p * us + q * ws, t[0] + p * ut + q * wt); };
@@ -207,7 +218,7 @@ TEST_F(RandomNetwork, ExactMomentsAgreeWithFineQuadrature) {
   }
   for (std::size_t k = 0; k < exact.contacts.size(); ++k) {
     const AreaMoments &e = exact.contacts[k].moments, &l = network.contacts[k].moments;
-    EXPECT_GE(l.ss + l.tt, e.ss + e.tt);  // corners lie farther out than the area between them
+    EXPECT_GE(l.ss + l.tt, e.ss + e.tt);  // vertices lie farther out than the area between them
     difference += l.ss + l.tt - e.ss - e.tt;
     total += e.ss + e.tt;
   }
@@ -268,7 +279,7 @@ TEST_F(RandomNetwork, Filters) {
   EXPECT_EQ(static_cast<std::int64_t>(n.contacts.size()), particle_facets + on_walls - wide - small);
 }
 
-/// A pair's own limit is in place of the network's, for that pair alone.
+/// A limit for one pair type replaces the limit of the network for this pair type only.
 TEST_F(RandomNetwork, LimitsOfOnePair) {
   const auto left = [&](const NetworkSpec& s) { return build_network(specimen, tessellation, s).count; };
   const auto filtered = [&](auto set) {
@@ -318,14 +329,14 @@ TEST(ContactNetwork, CubicLattice) {
   const ContactNetwork network = build_network(s, t);
   EXPECT_EQ(network.contacts.size(), static_cast<std::size_t>(3 * n * n * (n - 1) + 2 * n * n));
   EXPECT_EQ(network.count[static_cast<int>(PairType::mw)], 2 * n * n);
-  constexpr double relative = 1e-12;  // ε of four spacings, and their products
+  constexpr double relative = 1e-12;  // coordinates of four spacings are accurate to ε, and so are their products
   for (const Contact& c : network.contacts) {
     EXPECT_NEAR(c.distance, c.b < 0 ? a / 2 : a, relative * a);
     EXPECT_NEAR(c.arm_a, a / 2, relative * a);
     EXPECT_NEAR(c.area, a * a, relative * a * a);
     ASSERT_EQ(c.point_end - c.point_begin, 5U);
-    // Corners: two triangles of a²/4 each, a third of them; centroid: a third of all. The lumped second moment is
-    // 4·(a²/6)·(a/2)² = a⁴/6 against the exact a⁴/12.
+    // Each corner has a third of two triangles of a²/4; the centroid has a third of all four. The lumped second moment
+    // is 4·(a²/6)·(a/2)² = a⁴/6; the exact one is a⁴/12.
     for (std::uint32_t j = c.point_begin; j < c.point_begin + 4; ++j)
       EXPECT_NEAR(network.point_area[j], a * a / 6, relative * a * a);
     EXPECT_NEAR(network.point_area[c.point_begin + 4], a * a / 3, relative * a * a);
@@ -355,7 +366,7 @@ TEST(ContactNetwork, WallContact) {
   EXPECT_DOUBLE_EQ(bottom.arm_a, 0.3);
   EXPECT_EQ(top.n.z, 1);
   EXPECT_EQ(bottom.n.z, -1);
-  // The foot point (0.5, 0.25) is the origin: first moments of a unit square about it.
+  // The origin is the foot of the perpendicular, (0.5, 0.25). The first moment of a unit square about it is 0.25.
   EXPECT_NEAR(std::hypot(top.moments.s, top.moments.t), 0.25, 1e-15);
 }
 
@@ -369,7 +380,7 @@ TEST(ContactNetwork, CentreOnALoadedWallIsNamed) {
   s.centre[26].z = s.box.size.z - 1e-10 * s.radius[26];
   EXPECT_NE(message(s).find("particle 26"), std::string::npos) << message(s);
   s = cubic(3, 0.01);
-  s.centre[0].x = 0;  // a lateral wall is free
+  s.centre[0].x = 0;  // lateral walls are not contacts by default, so a centre may lie on them
   EXPECT_EQ(message(s), "no error");
   EXPECT_NE(message(s, walls(true, true)).find("particle 0"), std::string::npos);
 }
@@ -415,7 +426,8 @@ TEST(ContactNetwork, TessellationOfAnotherSpecimenIsRefused) {
   EXPECT_THROW(build_network(s, tessellate(cubic(3, 0.01))), InputError);
 }
 
-// Networks of billions of contacts do not fit this machine; what guards their numbers does.
+// A network with more contacts than 32 bits can count does not fit on a test machine, so only the conversion that
+// guards the counts is tested.
 TEST(ContactNetwork, CountsBeyond32BitsAreRefused) {
   EXPECT_EQ(counted<std::uint32_t>(4294967295u, "contact points"), 4294967295u);
   EXPECT_THROW(counted<std::uint32_t>(std::size_t{4294967296u}, "contact points"), RunError);

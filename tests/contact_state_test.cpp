@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// contact_state_test.cpp  What a stepper tells of its contacts: forces that add up to those of the bodies, deformation
-// that follows from the displacements, chains that are those of the laws.
+// contact_state_test.cpp  The contact state that a stepper reports: forces add up to those of particles and walls,
+// deformations follow from the displacements, and the chains are those of the laws.
 #include <gtest/gtest.h>
 
 #include <complex>
@@ -18,7 +18,7 @@ class ContactStates : public BackendTest<StepperCase> {
   }
 };
 
-/// Forces and moments of the contacts on every particle and wall.
+/// Expects that the forces and moments of all contacts add up to those of every particle and wall.
 void expect_sums(const TestScene& scene, const Stepper& stepper, double tolerance) {
   const ContactState contacts = stepper.contacts(scene.network);
   const ParticleState particles = stepper.particles();
@@ -36,12 +36,12 @@ void expect_sums(const TestScene& scene, const Stepper& stepper, double toleranc
     force[b] -= contacts.force[i];
     moment[b] += c.arm_b * cross(c.n, contacts.force[i]) - contacts.moment[i];
   }
-  double size = 0;  // of the single contacts: sums nearly cancel
+  double size = 0;  // the largest force of a single contact, because the sums nearly cancel
   for (const Vec3d& f : contacts.force) size = std::max(size, norm(f));
   ASSERT_GT(size, 0);
   for (std::size_t i = 0; i < force.size(); ++i) {
     ASSERT_LT(norm(force[i] - particles.force[i]), tolerance * size) << i;
-    ASSERT_LT(norm(moment[i] - particles.moment[i]), tolerance * size * 1e-3) << i;  // arms of a millimetre
+    ASSERT_LT(norm(moment[i] - particles.moment[i]), tolerance * size * 1e-3) << i;  // lever arms of about a millimetre
   }
   for (std::size_t w = 0; w < wall.size(); ++w) EXPECT_LT(norm(wall[w] - walls.wall_force[w]), 10 * tolerance * size);
 }
@@ -50,29 +50,31 @@ TEST_P(ContactStates, ForcesAddUpToThoseOfTheBodies) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   for (StepperOptions options : {shaking_options(scene), slow_options(scene)}) {
     const auto stepper = make(scene, options);
-    stepper->advance(137);  // within a block of steps, where there are blocks
-    // The lever arms of the start are taken here, which strains of 1e-4 change by as much.
+    stepper->advance(137);  // a step within a block of steps, for backends that have blocks
+    // With fixed geometry the stepper keeps the initial lever arms; strains of 1e-4 would change them by as much. The
+    // sums here use the current ones.
     const bool fixed = options.geometry == Geometry::fixed;
     const double rounding = options.precision == Precision::double_ ? 1e-12 : 2e-5;
     expect_sums(scene, *stepper, std::max(rounding, fixed ? 0.0 : 1e-3));
   }
 }
 
-// An elastic contact of fixed geometry has f = E·x, in each of its six components.
+// With fixed geometry an elastic contact has f = E·x in each of its six components, so the reported deformation times E
+// must be f.
 TEST_P(ContactStates, RelativeDisplacementIsWhatTheLawSees) {
   Laws laws;
   laws.fill(laws::Elastic{2e10, 0.3});
   const TestScene scene = make_scene(random_specimen(test_seed() + 1), {}, laws);
   StepperOptions options = shaking_options(scene);
   const auto stepper = make(scene, options);
-  if (options.form == ContactForm::points) return;  // has chains of points
+  if (options.form == ContactForm::points) return;  // in this form the chains belong to points, not to contacts
   stepper->advance(60);
   const ContactState state = stepper->contacts(scene.network);
   double largest = 0, worst = 0;
   for (std::size_t c = 0; c < scene.network.contacts.size(); ++c) {
     ASSERT_EQ(state.chain_begin[c + 1] - state.chain_begin[c], 6);
     for (std::size_t k = 0; k < 6; ++k) {
-      // slopes and twist over a facet of a millimetre are as large as opening and slip
+      // Over a facet of a millimetre, slopes and twist (per metre) are a thousand times larger than opening and slip.
       const double scale = k == 0 || k == 3 || k == 4 ? 1 : 1e-3;
       const double f = state.chain[state.chain_begin[c] + k] / 2e10;
       largest = std::max(largest, scale * std::abs(f));
@@ -85,6 +87,7 @@ TEST_P(ContactStates, RelativeDisplacementIsWhatTheLawSees) {
 
 INSTANTIATE_TEST_SUITE_P(All, ContactStates, all_stepper_cases(), [](const auto& info) { return name_of_case(info); });
 
+/// Sampling calls back at the start and after every sample.
 TEST(Sampling, TellsTheStartAndEverySample) {
   const TestScene scene = make_scene(random_specimen(3));
   const StepperOptions options = shaking_options(scene);

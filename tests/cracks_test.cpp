@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cracks_test.cpp  Broken contact points in tables, summary.json, cracks.csv and fields, and specimens that break in
-// two.
+// cracks_test.cpp  Broken contact points in tables, summary.json, cracks.csv and fields, and runs that end when the
+// specimen breaks in two.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,10 +18,10 @@ namespace {
 using experiments::SteppedPoint;
 using experiments::SteppedResponse;
 
-/// The bond's strength [Pa] and modulus [Pa]; the walls' contacts have the same modulus.
+/// Strength and modulus of the bonds [Pa]; contacts with walls have the same modulus.
 constexpr double strength = 1e5, modulus = 1e9;
 
-/// All fields of the lines of a CSV file below its head.
+/// Returns the fields of the lines of a CSV file after the line `head`.
 std::vector<std::vector<std::string>> rows_of(const std::string& text, const std::string& head) {
   std::vector<std::vector<std::string>> out;
   std::istringstream in(text);
@@ -40,7 +40,7 @@ std::vector<std::vector<std::string>> rows_of(const std::string& text, const std
 
 class CracksOfATest : public TestFolder {
  protected:
-  /// A column of spheres, a cube of 10 mm for each: every facet is a square with 5 contact points.
+  /// Returns a scene of a column of spheres, one per cube of 10 mm. Every facet is a square with 5 contact points.
   Scene column(int spheres, const std::string& loading, const std::string& more = "") const {
     std::string particles = "id,x,y,z,radius,phase,body\n";
     for (int i = 0; i < spheres; ++i)
@@ -55,7 +55,7 @@ class CracksOfATest : public TestFolder {
                     0.01 * spheres, loading, more));
     return read_scene(folder_ / "column.toml");
   }
-  /// The specimen t8 with bonds between all particles: it breaks little by little.
+  /// Returns a scene of the specimen t8 with brittle bonds between all particles; it breaks gradually.
   Scene bonded(const std::string& more = "", int points = 40) const {
     std::string text =
         "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n[materials.aggregate]\n"
@@ -81,7 +81,8 @@ class CracksOfATest : public TestFolder {
 constexpr const char* crack_head = "contact,a,b,pair,x,y,z,nx,ny,nz,area_m2,mode,time_s";
 constexpr const char* monotonic_head = "time_s,strain,stress_pa,secant_pa,error,bottom_pa,kinetic_j,broken_points";
 
-// One contact breaks, with all of its five points at once: they have the same stress.
+// All bonds of the column have the same stress, so one contact breaks first, with all five points at once. The test
+// then ends, and every output must report this break.
 TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
   const Scene asked = column(4, "kind = \"monotonic\"\nrate = 0.002\nstrain = 1.5e-4\npoints = 200\n",
                              "[output]\nfields = [\"contacts\"]\nevery = 60\nformat = \"vtp\"\n");
@@ -89,8 +90,8 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
   const auto& found = std::get<SteppedResponse>(result.found);
   ASSERT_TRUE(found.rupture);
   ASSERT_LT(found.points.size(), 200u) << "the test ends where the column is in two";
-  // damping drags at the top wall with 0.1 to 0.3 % of the strength; the peak is found between the points, which are
-  // 0.75 % apart
+  // Damping adds 0.1 to 0.3 % of the strength to the stress at the top wall. The peak is determined between the points,
+  // which are 0.75 % apart.
   ASSERT_TRUE(found.peak);
   EXPECT_NEAR(found.peak->stress_pa / strength, 1, 3e-3);
   EXPECT_NEAR(found.peak->strain / (strength / modulus), 1, 3e-3);
@@ -137,7 +138,7 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
     EXPECT_EQ(event.at(11), "tension");
     EXPECT_EQ(std::stod(event.at(12)), found.rupture->time_s);
   }
-  // frames of samples 0, 60 and 120, and the last
+  // frames at samples 0, 60 and 120, and the last one
   int frames = 0;
   for (const auto& entry : fs::directory_iterator(out("out") / "fields")) {
     if (entry.path().extension() != ".vtp") continue;
@@ -147,6 +148,7 @@ TEST_F(CracksOfATest, AColumnBreaksAtTheStrengthOfItsBonds) {
   EXPECT_EQ(frames, 4);
 }
 
+/// Compression does not break bonds, so there is no rupture and no strength.
 TEST_F(CracksOfATest, CompressionBreaksNoBondAndReachesNoStrength) {
   const RunResult result =
       run(column(4, "kind = \"monotonic\"\nrate = -0.01\nstrain = -2e-4\npoints = 20\n"), out("out"));
@@ -163,6 +165,7 @@ TEST_F(CracksOfATest, CompressionBreaksNoBondAndReachesNoStrength) {
   EXPECT_TRUE(rows_of(read(out("out") / "cracks.csv"), crack_head).empty());
 }
 
+/// A creep stress of 1.5 times the strength breaks the specimen before the first point; the summary reports it.
 TEST_F(CracksOfATest, ACreepAboveTheStrengthSaysThatTheSpecimenBroke) {
   const RunResult result =
       run(column(2, "kind = \"creep\"\nstress = 1.5e5\ntimes = [\"1 ms\", \"20 ms\"]\npoints = 20\n"), out("out"));
@@ -178,6 +181,7 @@ TEST_F(CracksOfATest, ACreepAboveTheStrengthSaysThatTheSpecimenBroke) {
   EXPECT_HAS(read(out("out") / "creep.csv"), ",error,top_pa,bottom_pa,kinetic_j,broken_points\n");
 }
 
+/// A later run without brittle bonds in the same folder removes cracks.csv.
 TEST_F(CracksOfATest, ALaterSceneWithoutBondsLeavesNoCracks) {
   run(column(2, "kind = \"monotonic\"\nrate = 0.01\nstrain = 2e-4\npoints = 10\n"), out("out"));
   EXPECT_TRUE(fs::exists(out("out") / "cracks.csv"));
@@ -190,8 +194,8 @@ TEST_F(CracksOfATest, ALaterSceneWithoutBondsLeavesNoCracks) {
   EXPECT_EQ(read(out("out") / "monotonic.csv").find("broken_points"), std::string::npos);
 }
 
-// Counts of a specimen that breaks little by little. Rounding parts the backends by 1e-13 of the stress, so that a
-// point breaks at another sample only where its stress is that near to the strength at a step.
+// The counts of broken points of a specimen that breaks gradually are equal on all backends. Their stresses differ by
+// about 1e-13, so a point could break at another sample only if its stress came that close to the strength.
 TEST_F(CracksOfATest, EveryBackendCountsTheSame) {
   Scene asked = bonded();
   const auto found = [&](Backend backend) {
@@ -217,6 +221,7 @@ TEST_F(CracksOfATest, EveryBackendCountsTheSame) {
   }
 }
 
+/// The number of threads and interruptions do not change the files, bit by bit.
 TEST_F(CracksOfATest, AnyNumberOfThreadsAndAnyPiecesGiveTheSameBytes) {
   const Scene asked = bonded("threads = 1\n", 200);
   run(asked, out("one"));
@@ -234,6 +239,7 @@ TEST_F(CracksOfATest, AnyNumberOfThreadsAndAnyPiecesGiveTheSameBytes) {
   expect_same("two");
 }
 
+/// Break events in a checkpoint that refer to wrong points, times or kinds are refused.
 TEST_F(CracksOfATest, DamagedEventsInACheckpointAreRefused) {
   const Scene asked = bonded("", 200);
   ASSERT_TRUE(run_until(asked, "out", 20));

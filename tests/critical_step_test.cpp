@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// critical_step_test.cpp  The computed time step against the true limit 2/ω_max: never above it, at most √2 below it.
+// critical_step_test.cpp  The computed time step against the true limit 2/ω_max: it is not above the limit, and at most
+// a factor √2 below it.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -24,8 +25,8 @@ double computed_limit(const TestScene& scene, const StepperOptions& options = {}
 
 Laws elastic_laws() { return same_law(laws::Elastic{3e10, 0.3}); }
 
-/// The same contacts with other points: the mid-sides of every fan triangle with a third of its area each. That rule is
-/// exact for second moments, so per-point stiffnesses become those of the polygon.
+/// Returns the same contacts with other points: the midpoints of the sides of every fan triangle, each with a third of
+/// its area. This quadrature is exact for second moments, so per-point stiffnesses equal those of the polygon.
 ContactNetwork with_exact_points(const ContactNetwork& network) {
   ContactNetwork out = network;
   out.point_s.clear(), out.point_t.clear(), out.point_area.clear();
@@ -49,8 +50,9 @@ ContactNetwork with_exact_points(const ContactNetwork& network) {
   return out;
 }
 
-// ω_max² ≤ 2·max λ(M_i⁻¹·K_ii), since a contact's energy is at most twice the sum of its ends' own: the step is safe.
-// Moving one particle alone shows ω_max² ≥ max λ(M_i⁻¹·K_ii): it is no less than 1/√2 of the true one.
+// The energy of a contact is at most twice the sum of the energies of moving each of its ends alone, so ω_max² ≤ 2·max
+// λ(M_i⁻¹·K_ii), and the computed step is safe. Moving only one particle shows ω_max² ≥ max λ(M_i⁻¹·K_ii), so the
+// computed step is at least 1/√2 of the true limit.
 TEST(CriticalStep, IsBelowTheTrueLimitAndAboveItsRootHalf) {
   const unsigned seed = test_seed() + 99;
   double sum = 0;
@@ -63,8 +65,8 @@ TEST(CriticalStep, IsBelowTheTrueLimitAndAboveItsRootHalf) {
     const double computed = computed_limit(scene);
     if (spec.quadrature == Quadrature::exact) scene.network = with_exact_points(scene.network);
     const double share = computed / true_limit(scene);
-    // a backward stable solver has ω_max², the largest of n, to some n roundings of itself; the step of the root to
-    // half
+    // A backward stable eigenvalue solver has a relative error of about n roundings in ω_max², the largest of n
+    // eigenvalues. The step depends on its root, so it has half of that.
     const double rounding =
         0.5 * static_cast<double>(6 * scene.specimen.size()) * std::numeric_limits<double>::epsilon();
     EXPECT_LE(share, 1 + rounding);
@@ -74,6 +76,8 @@ TEST(CriticalStep, IsBelowTheTrueLimitAndAboveItsRootHalf) {
   fmt::print("computed step over true limit, mean of 10: {:.3f}\n", sum / 10);
 }
 
+/// Lumped points have larger second moments than the polygon, so their rotational stiffness is larger and the step
+/// shorter.
 TEST(CriticalStep, LumpedPointsAreStifferThanThePolygon) {
   NetworkSpec exact;
   exact.quadrature = Quadrature::exact;
@@ -91,6 +95,7 @@ TEST(CriticalStep, ScalesWithDensityAndLocalDamping) {
   EXPECT_NEAR(computed_limit(scene, options) / (std::sqrt(1000.0 / 1.3) * limit), 1, 1e-12);
 }
 
+/// Reducing the mass and inertia of one particle makes it the one that limits the step; the result names it.
 TEST(CriticalStep, NamesTheParticleThatSetsIt) {
   TestScene scene = make_scene(random_specimen(2));
   const double before = computed_limit(scene);
@@ -113,7 +118,7 @@ TEST(Inertia, IsThatOfSolidSpheres) {
   }
 }
 
-// ---- the steppers at the limit
+// Steppers at the limit: stable just below the computed step, unstable above the true one.
 
 using Case = std::tuple<Backend, ContactForm, Geometry, bool /* AM1, else elastic */, bool /* local damping */>;
 
@@ -133,7 +138,7 @@ class AtTheLimit : public BackendTest<Case> {
     return out;
   }
 
-  /// A stepper whose particles all move and spin, so that every mode takes part.
+  /// Returns a stepper in which all particles have random velocities and spins, so that every mode is excited.
   std::unique_ptr<Stepper> shaken(const StepperOptions& options) const {
     auto stepper = make_stepper(backend(), scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
     std::mt19937 random(6);
@@ -173,9 +178,9 @@ TEST_P(AtTheLimit, StableJustBelowTheComputedOne) {
   options.dt = 0.95 * computed_limit(scene_, options);
   const auto stepper = shaken(options);
   const double start = kinetic_energy(stepper->particles());
-  // Leapfrog keeps H = ½·v(k−½)·M·v(k+½) + ½·q·K·q, which is at least the kinetic energy at the half step times
-  // 1 − (ω_max·Δt/2)². From q = 0, H is the kinetic energy of the start; dashpots and damping only take from it. A
-  // hundredth more for the change of geometry.
+  // Leapfrog conserves H = ½·v(k−½)·M·v(k+½) + ½·q·K·q. H is at least the kinetic energy at the half step times 1 −
+  // (ω_max·Δt/2)². At the start q = 0, so H is the initial kinetic energy; dashpots and damping only reduce it. One
+  // hundredth more allows for the change of geometry.
   const double half_phase = options.dt / true_limit(scene_);
   const double bound = 1.01 * start / (1 - half_phase * half_phase);
   const int steps = long_tests ? 20'000 : 2'000;
@@ -191,7 +196,8 @@ TEST_P(AtTheLimit, BlowsUpAboveTheTrueOneAndNamesAParticle) {
   StepperOptions options = this->options();
   options.dt = 1.02 * true_limit(scene_);
   const auto stepper = shaken(options);
-  // An unstable mode grows by e^{2·arcosh(1.02)} = 1.49 a step, from 1e-3 m/s to a radius a step in some fifty steps.
+  // An unstable mode grows by e^{2·arcosh(1.02)} = 1.49 per step. In about fifty steps it grows from 1e-3 m/s to a
+  // radius per step.
   stepper->advance(3000);
   const std::int64_t particle = stepper->first_divergent();
   EXPECT_GE(particle, 0);

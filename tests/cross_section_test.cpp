@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cross_section_test.cpp  Sections fill the box's cut without gap or overlap, wherever the plane lies.
+// cross_section_test.cpp  The cells of a cross section fill the box's section without gap or overlap, wherever the
+// plane lies.
 #include "macadam/cross_section.hpp"
 
 #include <gtest/gtest.h>
@@ -16,6 +17,7 @@
 namespace macadam::test {
 namespace {
 
+/// Returns n spheres at random positions, with radii between 0.01 and 0.01·ratio.
 Specimen random_box(int n, double ratio, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> u(0, 1);
@@ -33,7 +35,8 @@ Vec3d unit(char axis) {
   return n;
 }
 
-/// Every polygon lies in the plane, is convex and counter-clockwise, has the area that is said; their sum is the box's.
+/// Expects that every polygon lies in the plane, is convex and counter-clockwise, and has the stated area, and that the
+/// areas add up to the box's section.
 void expect_partition(const Specimen& s, const CrossSection& section, double tolerance) {
   SCOPED_TRACE(fmt::format("{} = {}", section.plane.axis, section.plane.position));
   const Vec3d n = unit(section.plane.axis), box = s.box.size;
@@ -58,7 +61,8 @@ void expect_partition(const Specimen& s, const CrossSection& section, double tol
   EXPECT_NEAR(sum / area, 1, tolerance);
 }
 
-// A few ε of the box for each edge of each cell, and edges about as long in sum as there are cells on a side.
+// An error of a few ε of the box per edge of a cell; the edges together are about as long as the number of cells per
+// side.
 constexpr double rounding = 1e-13;
 
 TEST(CrossSection, OneParticleShowsTheWholeRectangle) {
@@ -74,18 +78,19 @@ TEST(CrossSection, OneParticleShowsTheWholeRectangle) {
   }
 }
 
+/// Two spheres part at the plane of equal power, and a section across it has the corresponding areas.
 TEST(CrossSection, TwoParticlesPartAtTheWeightedPlane) {
   Specimen s;
   s.box.size = {1, 1, 1};
   add(s, {0.25, 0.5, 0.5}, 0.375);
   add(s, {0.75, 0.5, 0.5}, 0.125);
-  const double x = 0.625;  // 0.25 + (d² + R_a² − R_b²)/(2d), exact in binary
+  const double x = 0.625;  // 0.25 + (d² + R_a² − R_b²)/(2d), which is exact in binary
   const Tessellation t = tessellate(s);
   const CrossSection across = cut(s, t, {'z', 0.3});
   ASSERT_EQ(across.cells.size(), 2U);
   EXPECT_NEAR(across.cells[0].area, x, 1e-15);
   EXPECT_NEAR(across.cells[1].area, 1 - x, 1e-15);
-  // The facet itself belongs to the cell above; a plane beside it to the one it is in.
+  // The facet itself belongs to the cell above it. A plane close to the facet belongs to the cell in which it lies.
   for (const auto& [position, owner] : std::map<double, int>{{x - 1e-6, 0}, {x, 1}, {x + 1e-6, 1}, {0, 0}, {1, 1}}) {
     const CrossSection along = cut(s, t, {'x', position});
     ASSERT_EQ(along.cells.size(), 1U) << position;
@@ -94,12 +99,14 @@ TEST(CrossSection, TwoParticlesPartAtTheWeightedPlane) {
   }
 }
 
-// Lattices: planes through facets, edges and corners, each shared by more cells than elsewhere and off by rounding.
+// On lattices, planes pass through facets, edges and corners, where more cells than usual meet and rounding decides.
+// The parameter shifts the centres.
 class LatticeSection : public testing::TestWithParam<double> {
  protected:
-  static constexpr double a = 7e-3;  // no binary fraction
+  static constexpr double a = 7e-3;  // not exactly representable in binary
 
-  /// Basis in periods; every centre off by up to the parameter's share of a period.
+  /// Returns a lattice with the given basis (in periods). Every centre is shifted at random by up to the parameter, as
+  /// a fraction of a period.
   static Specimen lattice(const std::array<int, 3>& cells, const std::vector<Vec3d>& basis) {
     std::mt19937_64 engine(3);
     std::uniform_real_distribution<double> u(-GetParam() * a, GetParam() * a);
@@ -114,8 +121,8 @@ class LatticeSection : public testing::TestWithParam<double> {
   }
 
   static void expect_every_eighth(const Specimen& s, const Tessellation& t) {
-    // Where a facet as good as parallel to the plane and one that is not meet, each shift δ of a centre opens or
-    // overlaps strips of width δ.
+    // If a facet almost parallel to the plane meets another one, a shift δ of a centre opens or overlaps strips
+    // of width δ.
     const double tolerance = rounding + 10 * GetParam();
     for (const char axis : {'x', 'y', 'z'}) {
       const double length = s.box.size.*component(axis);
@@ -133,7 +140,7 @@ TEST_P(LatticeSection, SimpleCubic) {
   const Specimen s = lattice(n, {{0.5, 0.5, 0.5}});
   const Tessellation t = tessellate(s);
   expect_every_eighth(s, t);
-  for (int k = 0; k <= n[2]; ++k) {  // through the facets: one layer each, whole squares
+  for (int k = 0; k <= n[2]; ++k) {  // planes through the facets show one layer of whole squares
     const CrossSection section = cut(s, t, {'z', k == n[2] ? s.box.size.z : k * a});
     EXPECT_EQ(section.cells.size(), static_cast<std::size_t>(n[0] * n[1])) << k;
     for (const SectionCell& c : section.cells) {
@@ -155,7 +162,7 @@ TEST_P(LatticeSection, FaceCentredCubic) {
 }
 
 TEST_P(LatticeSection, LargeSlabsOverSmallCells) {
-  // Facets of one big cell with many small ones, in the plane and tilted by rounding.
+  // Facets of one large cell with many small ones lie in the plane or are tilted by rounding.
   Specimen s = lattice({5, 5, 2}, {{0.5, 0.5, 0.5}});
   s.box.size.z = 10 * a;
   add(s, {2.5 * a, 2.5 * a, 6 * a}, 0.4 * a);
@@ -165,6 +172,8 @@ TEST_P(LatticeSection, LargeSlabsOverSmallCells) {
 class RandomSection : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(RadiusRatio, RandomSection, testing::Values(1.0, 5.0, 50.0));
 
+/// At random points of the plane, the particle of smallest power distance (by brute force) owns the polygon that
+/// contains the point.
 TEST_P(RandomSection, EveryPointBelongsToThePolygonOfTheNearestInPower) {
   const Specimen s = random_box(400, GetParam(), 5);
   const Tessellation t = tessellate(s);
@@ -194,6 +203,7 @@ TEST_P(RandomSection, EveryPointBelongsToThePolygonOfTheNearestInPower) {
   }
 }
 
+/// Planes through vertices of the tessellation, and on the walls, where the polygons must equal the wall facets.
 TEST_P(RandomSection, ThroughVerticesAndOnWalls) {
   const Specimen s = random_box(200, GetParam(), 6);
   const Tessellation t = tessellate(s);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `macadam ct segment` as a user meets it: regions by coordinates, where the edge of a voxel comes from.
+// `macadam ct segment` run as a user does: regions by coordinates, units, warnings, and the source of the voxel size.
 #include <fstream>
 #include <sstream>
 
@@ -12,13 +12,15 @@ namespace {
 using namespace ct_scans;
 using CtCommand = Program;
 
-/// Two balls of radius 12 in a scan of 70 × 40 × 40 voxels of 0.1 mm, around (20, 20, 20) and (50, 20, 20) voxels.
+/// Returns a scan of two balls of radius 12 voxels, with centres (20, 20, 20) and (50, 20, 20), in 70 × 40 × 40 voxels
+/// of 0.1 mm.
 Image<float> two_balls() {
   Image<float> scan = scan_of({70, 40, 40}, {ball(20, 20, 20, 12), ball(50, 20, 20, 12)}, {ball(35, 34, 34, 4)});
   add_noise(scan, 0.05);
   return scan;
 }
 
+/// Returns the number of rows of a CSV file without its header.
 std::size_t rows(const std::string& file) {
   std::ifstream in(file);
   std::size_t n = 0;
@@ -26,6 +28,7 @@ std::size_t rows(const std::string& file) {
   return n - 1;
 }
 
+/// Only grains inside the given prism or cylinder are found, and voxels outside of it are marked 255.
 TEST_F(CtCommand, ARegionByCoordinatesHoldsWhatLiesInIt) {
   write_image(folder_ / "scan.mha", two_balls(), false);
   const std::string segment = "ct segment " + path("scan.mha") + " --smallest '1.8 mm' --out " + path("out");
@@ -40,7 +43,7 @@ TEST_F(CtCommand, ARegionByCoordinatesHoldsWhatLiesInIt) {
   const Image<std::uint8_t> phases = read_image<std::uint8_t>(folder_ / "out/phases.mha");
   const auto inside =
       std::count_if(phases.voxels.begin(), phases.voxels.end(), [](std::uint8_t p) { return p != 255; });
-  // pixels whose centres lie in a circle of 15: its area within a hundredth
+  // the number of pixels with centres in a circle of radius 15 equals its area within a hundredth
   EXPECT_NEAR(static_cast<double>(inside) / 40 / (3.14159 * 15 * 15), 1, 0.01);
   EXPECT_EQ(grains("cylinder:5 mm,2 mm,3 mm,0.5 mm,3.5 mm"), 1u);
   const Image<std::uint8_t> cut = read_image<std::uint8_t>(folder_ / "out/phases.mha");
@@ -75,15 +78,16 @@ TEST_F(CtCommand, FractionsAreNumbersOrPerCent) {
   }
 }
 
+/// Aggregate in pieces that are too small to be grains is printed as a fraction and warned of.
 TEST_F(CtCommand, AggregateInNoGrainIsPrintedAndWarnedOf) {
-  // a ball of radius 12 voxels, 2.4 mm wide, beside a row of eight of radius 5, 1 mm wide
+  // A ball of radius 12 voxels, 2.4 mm in diameter, beside eight balls of radius 5, 1 mm in diameter.
   std::vector<Body> balls{ball(20, 20, 20, 12)};
   for (int n = 0; n < 8; ++n) balls.push_back(ball(44 + 14 * (n % 4), 12 + 16 * (n / 4), 20, 5));
   Image<float> scan = scan_of({100, 40, 40}, balls, {ball(70, 34, 34, 4)});
   add_noise(scan, 0.05);
   write_image(folder_ / "scan.mha", scan, false);
   const std::string segment = "ct segment " + path("scan.mha") + " --region whole --out " + path("out");
-  // volumes: 8·5³ / (12³ + 8·5³) = 36.7 % is in the small balls
+  // 8·5³ / (12³ + 8·5³) = 36.7 % of the volume is in the small balls
   const Outcome coarse = macadam(segment + " --smallest '2.4 mm'");
   EXPECT_EQ(coarse.code, 0) << coarse.err;
   EXPECT_HAS(coarse.out, "1 grains, 0 of them cut by the end of the specimen; 3");
@@ -132,6 +136,7 @@ TEST_F(CtCommand, MemoryIsAnAmountWithAUnit) {
   }
 }
 
+/// The voxel size comes from the file if it has one, otherwise from the command line.
 TEST_F(CtCommand, TheEdgeOfAVoxelIsThatOfTheFileOrOfTheCommandLine) {
   const Image<float> scan = two_balls();
   write_image(folder_ / "scan.mha", scan, false);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The file of cuts between fragments, and cuts that do not fit a scan.
+// The file that lists the cuts between fragments of grains, and cuts that do not fit the scan.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@
 namespace macadam {
 namespace {
 
-constexpr double voxel = 1e-4;  // [m]
+constexpr double voxel = 1e-4;  // edge of a voxel [m]
 
 TEST(CtCuts, AreReadAsTheyWereWritten) {
   const std::filesystem::path file =
@@ -43,7 +43,8 @@ TEST(CtCuts, AreReadAsTheyWereWritten) {
   std::filesystem::remove(file);
 }
 
-// Three fragments of which each touches the two others.
+// Three fragments, each of which touches the other two. Cuts that do not match the faces of the scan, or contradict one
+// another, are refused.
 TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
   ct::Fragments fragments;
   fragments.labels = Image<std::uint32_t>({1, 1, 1}, {voxel, voxel, voxel});
@@ -54,7 +55,7 @@ TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
     fragments.faces.push_back({a, b, 1e-3, 0, 4, 4.0 * middle});
     good.push_back({a, b, middle, 1, 1, 1, -1, a == 1 && b == 2});
   }
-  good[1].cut = true;  // 2 and 3 are one grain, 1 is another
+  good[1].cut = true;  // fragments 2 and 3 are one grain, 1 is another
   EXPECT_EQ(ct::decide(fragments, good).grain, (std::vector<std::uint32_t>{0, 1, 2, 2}));
   const auto fault_of = [&](const std::vector<GrainCut>& cuts) -> std::string {
     try {
@@ -63,11 +64,11 @@ TEST(CtCuts, OfAnotherScanOrAgainstOneAnotherAreRefused) {
     return "none";
   };
   std::vector<GrainCut> cuts = good;
-  cuts[1].cut = false;  // 1 and 2 would be cut, and joined by way of 3
+  cuts[1].cut = false;  // fragments 1 and 2 would be cut apart although both are joined to 3
   EXPECT_NE(fault_of(cuts).find("fragments 1 and 2"), std::string::npos) << fault_of(cuts);
   EXPECT_NE(fault_of(cuts).find("other rows join them"), std::string::npos) << fault_of(cuts);
   cuts = good;
-  cuts[2].place.x += 1.9 * voxel;  // within two voxels of the face
+  cuts[2].place.x += 1.9 * voxel;  // within two voxels of the face, the tolerance
   EXPECT_EQ(fault_of(cuts), "none");
   cuts[2].place.x += 0.2 * voxel;
   EXPECT_NE(fault_of(cuts).find("row 3"), std::string::npos) << fault_of(cuts);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_folder.hpp  A folder for the images of one test.
+/// \file ct_folder.hpp  A test fixture that makes an empty folder for each test's images and removes it afterwards.
 #pragma once
 
 #include <gtest/gtest.h>

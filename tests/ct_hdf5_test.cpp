@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scans in HDF5 files: the dataset that was meant, its axes and edges, and files that are none or hold too little.
+// Scans in HDF5 files: choice of the dataset, its axes and voxel sizes, and files that are not HDF5 or hold less data
+// than they state.
 #include <H5Cpp.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ class CtHdf5 : public testing::Test {
     return "read without error";
   }
 
-  /// A file with a dataset of size z, y, x; `how` says how it is stored.
+  /// Writes a dataset of dimensions z, y, x to a file; `how` sets the storage (chunks, compression).
   template <class T>
   H5::DataSet write(H5::H5File& file, const std::string& name, std::vector<hsize_t> size, const std::vector<T>& voxels,
                     const H5::PredType& type, const H5::DSetCreatPropList& how = H5::DSetCreatPropList::DEFAULT) {
@@ -55,10 +56,11 @@ TEST_F(CtHdf5, TheLastAxisIsXAndRunsFastest) {
     H5::H5File file = make("scan.h5");
     const H5::DataSet set = write(file, "exchange", {3, 4, 5}, voxels, H5::PredType::NATIVE_UINT16);
     const hsize_t three = 3;
-    const double edges[3] = {30, 20, 10};  // z, y, x
+    const double edges[3] = {30, 20, 10};  // voxel sizes along z, y, x
     set.createAttribute("element_size_um", H5::PredType::IEEE_F64LE, H5::DataSpace(1, &three))
         .write(H5::PredType::NATIVE_DOUBLE, edges);
-    write(file, "angles", {7}, std::vector<float>(7), H5::PredType::NATIVE_FLOAT);  // no volume: not asked for
+    // not a volume, so it is not a candidate
+    write(file, "angles", {7}, std::vector<float>(7), H5::PredType::NATIVE_FLOAT);
   }
   const auto image = read_image<std::uint16_t>(folder_ / "scan.h5");
   EXPECT_EQ(image.size, (std::array<std::int64_t, 3>{5, 4, 3}));
@@ -84,7 +86,7 @@ TEST_F(CtHdf5, EveryTypeAndChunksThatArePackedAreRead) {
     write(file, "nan", {1, 1, 2}, std::vector<float>{3, NAN}, H5::PredType::NATIVE_FLOAT);
   }
   const fs::path scan = folder_ / "scan.hdf5";
-  // big-endian on disk, and written here as if the bytes were such: each voxel's two bytes are exchanged
+  // The type is big-endian but the bytes were written little-endian, so the two bytes of every voxel are swapped.
   const auto image = read_image<float>(scan, "entry/data/grey");
   ASSERT_EQ(image.count(), voxels.size());
   for (const std::size_t i : {0ul, 1ul, 12345ul, voxels.size() - 1})
@@ -99,6 +101,7 @@ TEST_F(CtHdf5, EveryTypeAndChunksThatArePackedAreRead) {
   EXPECT_NE(fault(scan, "nan").find("voxel 1"), std::string::npos);
 }
 
+/// A dataset may state more voxels than the file holds; this is refused.
 TEST_F(CtHdf5, CountsThatTheFileDoesNotHoldAreRefused) {
   H5::DSetCreatPropList chunks;
   const hsize_t chunk[3] = {16, 16, 16};
@@ -134,6 +137,7 @@ TEST_F(CtHdf5, WhatIsNoSuchFileIsRefused) {
   EXPECT_NE(fault(folder_ / "scan.mha", "grey").find("not HDF5"), std::string::npos);
 }
 
+/// A header that states more voxels than the file can hold is refused before memory is allocated.
 TEST_F(CtHdf5, HeadersThatCountWhatNoFileHoldsAreRefusedBeforeMemoryIsAskedFor) {
   const std::string header =
       "ObjectType = Image\nNDims = 3\nBinaryData = True\nElementSpacing = 1 1 1\nDimSize = 60000 60000 2000\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Headers of images on which ITK would not end, ends the program, or says nothing: refused, and what is near them is
-// read.
+// Headers of image files on which ITK hangs, aborts or silently misreads. They are refused; unusual but valid headers
+// are read.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
@@ -30,13 +30,13 @@ class CtHeaders : public CtFolder {
     const auto image = read_image<std::uint8_t>(folder_ / name);
     return {image.voxels.begin(), image.voxels.end()};
   }
-  /// The notes for the user, one behind another.
+  /// Returns the notes for the user, concatenated.
   std::string notes(const std::string& name) {
     std::string all;
     for (const std::string& note : read_image_header(folder_ / name).notes) all += note;
     return all;
   }
-  /// The file is refused with these words.
+  /// Writes the file and expects that reading it is refused with these words.
   void refused(const std::string& name, const std::string& bytes, const std::string& words) {
     write(name, bytes);
     std::string said = "nothing was said";
@@ -51,6 +51,7 @@ std::string mha(const std::string& line, const std::string& data = "LOCAL") {
   return "ObjectType = Image\n" + line + "\nDimSize = 2 1\nElementType = MET_UCHAR\nElementDataFile = " + data + "\nab";
 }
 
+/// MetaImage headers that ITK misreads, each refused with line and key.
 TEST_F(CtHeaders, OfAMetaImage) {
   for (const char* dimensions : {"3e9", "3 3", "+3", "1", "4", "", "2147483648"})
     refused("a.mha", mha("NDims = " + std::string(dimensions)),
@@ -82,6 +83,7 @@ TEST_F(CtHeaders, OfAMetaImage) {
           "CompressedDataSize: found 4294967296, expected at most the 147 bytes of a.mha");
 }
 
+/// MetaImage headers that are unusual but valid.
 TEST_F(CtHeaders, OfAMetaImageThatAreUnusualAndGood) {
   const std::string more = "Other = " + std::string(400, 'o') + "\r\nComment = " + std::string(254, 'c') +
                            "\r\n0008|0090 =\r\nLong = " + std::string(300, 'l') + "\r\nName = \xc3\xa4\x1b";
@@ -104,8 +106,9 @@ std::string nrrd(const std::string& sizes, const std::string& more = "") {
   return "NRRD0004\r\ntype: uchar\r\ndimension: 3\r\nencoding: raw\r\n" + sizes + "\r\n" + more + "\r\nabcdef";
 }
 
+/// NRRD headers that ITK misreads, each refused with its line.
 TEST_F(CtHeaders, OfAnNrrd) {
-  for (const std::string sizes : {"1 4294967324 1", "3 2 0", "3 2 1.0", "3 x 1"})  // the first is 28 to ITK
+  for (const std::string sizes : {"1 4294967324 1", "3 2 0", "3 2 1.0", "3 x 1"})  // ITK reads the first size as 28
     refused("a.nrrd", nrrd("sizes: " + sizes), ":5: sizes: found \"" + sizes + "\", expected whole numbers");
   refused("a.nrrd", nrrd("content: x\rsizes: 1 4294967324 1"), ":5: header of an NRRD file: found \"content: x?sizes");
   refused("a.nrrd", nrrd(std::string("\0content: x", 11)), ":5: header of an NRRD file: found \"?content");
@@ -117,6 +120,7 @@ TEST_F(CtHeaders, OfAnNrrd) {
   refused("a.nrrd", nrrd("sizes: 3 2 1", "byte skip: -1\r\nencoding: gzip\r\n"), "byte skip: found below 0");
 }
 
+/// NRRD headers that are unusual but valid.
 TEST_F(CtHeaders, OfAnNrrdThatAreUnusualAndGood) {
   write("a.nrrd", nrrd("sizes: 3 2 1", "# sizes: x\r\nsizes:=many\r\ndata file:=LIST\r\nbyte skip: -1\r\n"));
   EXPECT_EQ(voxels("a.nrrd"), "abcdef");
@@ -125,7 +129,7 @@ TEST_F(CtHeaders, OfAnNrrdThatAreUnusualAndGood) {
   EXPECT_EQ(voxels("a.nhdr"), "ghijkl");
 }
 
-// A length of 250 in each unit; "" stands for a file that names none.
+// The length in metres of 250 in each unit; an empty text is a file without a unit.
 constexpr std::pair<const char*, double> lengths[] = {{"um", 250e-6},
                                                       {"microns", 250e-6},
                                                       {"Micrometers", 250e-6},
@@ -192,11 +196,12 @@ TEST_F(CtHeaders, AxesThatAreTurnedOrMirroredAreNoted) {
   EXPECT_NE(notes("a.nrrd").find("mirror images"), std::string::npos) << notes("a.nrrd");
 }
 
-/// Type, number of values, and value or place of an entry in a directory.
+/// An entry of a TIFF directory: type, number of values, and the value or its position.
 using Entry = std::array<std::uint32_t, 3>;
-using Page = std::map<std::uint32_t, std::optional<Entry>>;  // by tag; nothing: leave it out
+using Page = std::map<std::uint32_t, std::optional<Entry>>;  // entries by tag; std::nullopt removes the entry
 
-/// A little-endian TIFF of pages of 3 x 2 voxels, all of which are the bytes abcdef, changed so.
+/// Returns a little-endian TIFF whose pages have 3 × 2 voxels with the bytes abcdef. Each page is changed by the
+/// entries of `pages`.
 std::string tiff(const std::vector<Page>& pages, std::uint32_t last = 0) {
   std::string out;
   const auto add = [&](std::uint32_t value, int bytes) {
@@ -222,6 +227,7 @@ std::string tiff(const std::vector<Page>& pages, std::uint32_t last = 0) {
   return out;
 }
 
+/// TIFF directories that ITK misreads, each refused with its tag.
 TEST_F(CtHeaders, OfATiff) {
   const auto refused_page = [&](const Page& page, const std::string& words) { refused("a.tif", tiff({page}), words); };
   refused_page({{277, Entry{3, 1, 3}}}, "tag 277 of the TIFF file: found 3 values a voxel, expected one grey");
@@ -261,7 +267,7 @@ TEST_F(CtHeaders, OfATiffWhoseTextEndsTheFile) {
 TEST_F(CtHeaders, GreyValuesOfATiffWhoseWhiteIsZeroAreInverted) {
   const Page inverted{{262, Entry{3, 1, 0}}};
   write("a.tif", tiff({inverted, inverted}));
-  EXPECT_EQ(voxels("a.tif"), "\x9e\x9d\x9c\x9b\x9a\x99\x9e\x9d\x9c\x9b\x9a\x99");  // 255 less than a, b, ...
+  EXPECT_EQ(voxels("a.tif"), "\x9e\x9d\x9c\x9b\x9a\x99\x9e\x9d\x9c\x9b\x9a\x99");  // 255 minus the bytes a, b, …
   EXPECT_NE(notes("a.tif").find("0 is white (PhotometricInterpretation 0): its grey values were inverted"),
             std::string::npos);
   write("16.tif", tiff({{{262, Entry{3, 1, 0}}, {258, Entry{3, 1, 16}}, {279, Entry{4, 1, 12}}}}));
@@ -285,7 +291,7 @@ TEST_F(CtHeaders, GreyValuesOfATiffWhoseWhiteIsZeroAreInverted) {
   }
 }
 
-/// A file of one directory with ImageJ's description, and behind it bytes.
+/// Returns a TIFF of one directory with ImageJ's description, followed by the bytes `behind`.
 std::string imagej(const std::string& lines, const Page& more, const std::string& behind) {
   const std::string text = "ImageJ=1.54f\n" + lines + '\0';
   Page page = more;
@@ -296,6 +302,7 @@ std::string imagej(const std::string& lines, const Page& more, const std::string
   return tiff({page}) + text + behind;
 }
 
+/// ImageJ writes a stack with one directory and states the number of slices in the description; all slices are read.
 TEST_F(CtHeaders, AStackOfImageJWithOneDirectoryHasAllItsSlices) {
   const std::string bytes = "0123456789abcdefgh";
   write("a.tif", imagej("images=3\nslices=3\n", {}, bytes));
@@ -324,7 +331,7 @@ TEST_F(CtHeaders, AStackOfImageJWithOneDirectoryHasAllItsSlices) {
 TEST_F(CtHeaders, OfATiffWithPages) {
   write("a.tif", tiff({{}, {}}));
   EXPECT_EQ(voxels("a.tif"), "abcdefabcdef");
-  // a colour profile, and what a camera noted: programs for photographs write them
+  // Photo editors add a colour profile and the camera's data; both are ignored.
   write("saved.tif", tiff({{{34675, Entry{7, 12, 8}}, {34665, Entry{4, 1, 8}}}}));
   EXPECT_EQ(voxels("saved.tif"), "abcdef");
   write("undefined.tif", tiff({{{339, Entry{3, 1, 4}}}}));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Image files of computed tomography: what is written is read back, and what is wrong with a file is said.
+// Image files of computed tomography: written images are read back unchanged, and faulty files are refused with a
+// reason.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -22,7 +23,7 @@ namespace fs = std::filesystem;
 
 class CtImage : public CtFolder {
  protected:
-  /// What reading a file says of it.
+  /// Returns the error message of reading a file.
   template <class T>
   std::string fault(const fs::path& file) {
     try {
@@ -45,7 +46,7 @@ void expect_same(const Image<T>& read, const Image<T>& written, bool spacing) {
   EXPECT_EQ(read.size, written.size);
   EXPECT_EQ(read.voxels, written.voxels);
   if (!spacing) return;
-  // lengths pass through decimal text of millimetres
+  // lengths are stored as decimal text in millimetres
   EXPECT_NEAR(read.spacing.x, written.spacing.x, 1e-12);
   EXPECT_NEAR(read.spacing.y, written.spacing.y, 1e-12);
   EXPECT_NEAR(read.spacing.z, written.spacing.z, 1e-12);
@@ -69,6 +70,7 @@ TEST_F(CtImage, FilesOfEveryTypeAreReadAsTheyWereWritten) {
   round_trip<float>(folder_);
 }
 
+/// Single slices of a compressed file equal those of the whole image.
 TEST_F(CtImage, SomeSlicesOfAPackedFileAreThoseOfTheWhole) {
   const auto image = ramp<std::uint16_t>({6, 5, 9});
   for (const std::string name : {"packed.mha", "packed.nrrd"}) {
@@ -92,13 +94,14 @@ TEST_F(CtImage, PagesOfATiffAndFilesOfAFolderAreSlicesInTheOrderOfTheirNumbers) 
   for (std::int64_t k = 0; k < 12; ++k) {
     Image<std::uint16_t> slice({6, 5, 1}, image.spacing);
     std::copy_n(image.voxels.begin() + 30 * k, 30, slice.voxels.begin());
-    write_image(folder_ / "slices" / ("s" + std::to_string(k) + ".tif"), slice);  // s10 after s9
+    write_image(folder_ / "slices" / ("s" + std::to_string(k) + ".tif"), slice);  // s10 must come after s9
   }
   expect_same(read_image<std::uint16_t>(folder_ / "slices"), image, false);
   write_image(folder_ / "slices" / "s5.tif", Image<std::uint16_t>({6, 4, 1}, image.spacing));
   EXPECT_NE(fault<std::uint16_t>(folder_ / "slices").find("s5.tif"), std::string::npos);
 }
 
+/// Only the number in a file name determines the order of slices, not the text after it.
 TEST_F(CtImage, WhatIsBehindANumberDoesNotMatterToTheOrderOfSlices) {
   const auto image = ramp<std::uint16_t>({6, 5, 3});
   const std::array<const char*, 3> names{"9 of the core.tif", "10 of the core.tif", "11 end.tif"};
@@ -110,6 +113,7 @@ TEST_F(CtImage, WhatIsBehindANumberDoesNotMatterToTheOrderOfSlices) {
   expect_same(read_image<std::uint16_t>(folder_), image, false);
 }
 
+/// A gap in the numbers of the slices is refused; a regular spacing, such as every second number, is accepted.
 TEST_F(CtImage, AStackWithoutOneOfItsSlicesIsRefused) {
   const Image<std::uint16_t> slice({6, 5, 1}, {1e-4, 1e-4, 1e-4});
   for (const int k : {8, 10, 12, 14}) write_image(folder_ / ("core2_" + std::to_string(k) + ".tif"), slice);
@@ -122,6 +126,7 @@ TEST_F(CtImage, AStackWithoutOneOfItsSlicesIsRefused) {
       << fault<std::uint16_t>(folder_);
 }
 
+/// Another image among the slices is refused.
 TEST_F(CtImage, AStrayImageBesideTheSlicesIsRefused) {
   const Image<std::uint16_t> slice({6, 5, 1}, {1e-4, 1e-4, 1e-4});
   for (int k = 0; k < 12; ++k) write_image(folder_ / ("slice_" + std::to_string(k) + ".tif"), slice);
@@ -140,6 +145,7 @@ TEST_F(CtImage, AStrayImageBesideTheSlicesIsRefused) {
   EXPECT_EQ(read_image<std::uint16_t>(folder_).size[2], 13);
 }
 
+/// If names contain several numbers, the one that differs between them counts the slices.
 TEST_F(CtImage, TheOnlyNumberInWhichNamesDifferCountsTheSlices) {
   const Image<std::uint16_t> slice({6, 5, 1}, {1e-4, 1e-4, 1e-4});
   for (int k = 8; k < 12; ++k) write_image(folder_ / (std::to_string(k) + "_25um.tif"), slice);
@@ -169,7 +175,7 @@ TEST_F(CtImage, WhatIsWrongWithAFileIsSaid) {
   EXPECT_NE(fault<std::uint8_t>(folder_ / "large.mha").find("from 0 to 255"), std::string::npos);
 }
 
-// In a process of its own: what a limit of the address space leaves is what the process has not taken of it.
+// Runs in a child process, because a limit of the address space also counts the memory that the process already has.
 TEST_F(CtImage, MemoryIsWhatALimitLeaves) {
   const pid_t child = fork();
   if (child == 0) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scans larger than the memory that is given: the same grains as in memory, on two levels.
+// Scans larger than the given memory. They are segmented on blocks of voxels and refined from the file; the grains must
+// equal those found in memory.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ constexpr double pi = std::numbers::pi;
 
 class CtLargeScan : public CtFolder {
  protected:
-  /// Less than what the scan takes whole, somewhat more than 12 bytes a voxel and 100 MB.
+  /// Returns too little memory for the whole scan: 100 MB and a little more than 12 bytes per voxel.
   static double little(const Image<float>& scan) { return 1e8 + 12.1 * static_cast<double>(scan.count()); }
   std::string fault(const fs::path& file, const SegmentOptions& options, double memory) {
     try {
@@ -32,7 +33,8 @@ class CtLargeScan : public CtFolder {
     return "segmented";
   }
 
-  /// Grains that were told apart on blocks, with surfaces from the scan itself; `number` says whose a block is.
+  /// Returns the surfaces of grains that are labelled on blocks and refined with the voxels of the scan. `number` gives
+  /// the grain number of a block, 0 for none.
   std::vector<ScannedGrain> refined(const Image<float>& scan, std::int64_t block,
                                     const std::function<std::uint32_t(const std::array<std::int64_t, 3>&)>& number,
                                     double noise, Denoising denoising) {
@@ -63,7 +65,8 @@ class CtLargeScan : public CtFolder {
   }
 };
 
-/// Two balls that touch, an ellipsoid, a block that the scan cuts, and voids, 220 × 120 × 122 voxels.
+/// Returns a scan of 220 × 120 × 122 voxels with two balls that touch, an ellipsoid, a block that the end of the scan
+/// cuts, and voids.
 Image<float> stones() {
   const Body ellipsoid = [](double x, double y, double z) {  // half axes 30, 50, 26
     return 26 * (1 - std::sqrt((x - 178) * (x - 178) / 900 + (y - 60) * (y - 60) / 2500 + (z - 80) * (z - 80) / 676));
@@ -73,11 +76,14 @@ Image<float> stones() {
                  {ball(95, 18, 20, 14), ball(95, 102, 102, 14), ball(130, 102, 20, 13)});
 }
 
+/// Sorts the grains by volume, so that grains of two segmentations correspond.
 void by_place(Segmentation& scan) {
   std::sort(scan.grains.begin(), scan.grains.end(),
             [](const ScannedGrain& a, const ScannedGrain& b) { return a.measure.volume < b.measure.volume; });
 }
 
+/// The mean of a block is the mean of its voxels, its middle the central voxel; incomplete blocks at the ends are left
+/// out.
 TEST_F(CtLargeScan, ABlockHasItsMeanAndTheVoxelInItsMiddle) {
   constexpr std::int64_t n = 3;
   Image<float> scan({3 * n + 1, 2 * n, 2 * n + 2}, {voxel, voxel, voxel});
@@ -104,12 +110,14 @@ TEST_F(CtLargeScan, ABlockHasItsMeanAndTheVoxelInItsMiddle) {
   }
 }
 
+/// Segmentation on two levels finds the same grains as segmentation in memory, and their measures agree within the
+/// resolution of the surfaces.
 TEST_F(CtLargeScan, TwoLevelsFindTheSameGrainsAsMemoryDoes) {
   Image<float> scan = stones();
   add_noise(scan, 0.1);
   write_image(folder_ / "scan.mha", scan, false);
   const ScanFile file{folder_ / "scan.mha", {}, {}};
-  const SegmentOptions options = options_of(80);  // blocks of 4
+  const SegmentOptions options = options_of(80);  // gives blocks of 4 voxels
   Segmentation whole = segment_file(file, options, 1e12), parts = segment_file(file, options, little(scan));
   EXPECT_EQ(whole.block, 1);
   EXPECT_EQ(whole.refined, 0u);
@@ -121,7 +129,8 @@ TEST_F(CtLargeScan, TwoLevelsFindTheSameGrainsAsMemoryDoes) {
   by_place(whole), by_place(parts);
   for (std::size_t g = 0; g < whole.grains.size(); ++g) {
     const ScannedGrain &a = whole.grains[g], &b = parts.grains[g];
-    // Nodes of both are 1 to 2 voxels, grains 48 to 100: a tenth of a voxel all over the surface is a percent or so.
+    // Surface nodes are 1 to 2 voxels apart, and grains have diameters of 48 to 100 voxels. A tenth of a voxel all over
+    // the surface is about one per cent of the volume.
     EXPECT_NEAR(b.measure.volume / a.measure.volume, 1, 0.01) << g;
     EXPECT_NEAR(b.measure.area / a.measure.area, 1, 0.02) << g;
     EXPECT_NEAR(b.measure.d_intermediate / a.measure.d_intermediate, 1, 0.015) << g;
@@ -133,11 +142,13 @@ TEST_F(CtLargeScan, TwoLevelsFindTheSameGrainsAsMemoryDoes) {
   }
   EXPECT_NEAR(parts.grains[0].measure.volume / (4 * pi / 3 * std::pow(24 * voxel, 3)), 1, 0.02);
   EXPECT_NEAR(parts.grains[3].measure.volume / (4 * pi / 3 * std::pow(40 * voxel, 3)), 1, 0.01);
-  // a block on a surface is one phase or the other: as many one way as the other
+  // A block on a surface is assigned wholly to one phase; errors in both directions cancel.
   EXPECT_NEAR(parts.aggregate, whole.aggregate, 0.005);
   EXPECT_NEAR(parts.air_voids, whole.air_voids, 0.002);
 }
 
+/// Corrections that are determined on the means of blocks are also applied to the voxels from which surfaces are
+/// refined.
 TEST_F(CtLargeScan, WhatWasTakenOutOfTheBlocksIsTakenOutOfTheirVoxels) {
   Image<float> scan = many_balls(132, 20);
   for (std::int64_t k = 0; k < 132; ++k) {
@@ -156,10 +167,11 @@ TEST_F(CtLargeScan, WhatWasTakenOutOfTheBlocksIsTakenOutOfTheirVoxels) {
   ASSERT_EQ(parts.grains.size(), 27u);
   EXPECT_EQ(parts.refined, 27u);
   const double truth = 4 * pi / 3 * std::pow(20 * voxel, 3);
-  for (const ScannedGrain& grain : parts.grains)  // without corrections they differ by a quarter
+  for (const ScannedGrain& grain : parts.grains)  // without corrections the volumes differ by a quarter
     EXPECT_NEAR(grain.measure.volume / truth, 1, 0.05) << grain.id;
 }
 
+/// A recorded correction, evaluated at a voxel, gives the corrected grey value.
 TEST_F(CtLargeScan, StepsOfACorrectionAreFunctionsOfThePlace) {
   Image<float> scan = many_balls(60), before;
   for (std::int64_t k = 0; k < 60; ++k)
@@ -179,10 +191,12 @@ TEST_F(CtLargeScan, StepsOfACorrectionAreFunctionsOfThePlace) {
       largest = std::max(largest, std::abs(grey - scan.at(i, 30, k)));
     }
   }
-  // a ring's place between two radii counts here: what neighbouring rings differ by
+  // A position between two radii uses an interpolated ring correction, so the tolerance is the difference between
+  // neighbouring rings.
   EXPECT_LT(largest, 0.01 * contrast);
 }
 
+/// Slices in a folder are read in parts. A compressed file must be read whole, so too little memory is refused.
 TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
   Image<float> scan = many_balls(96, 20);
   fs::create_directories(folder_ / "slices");
@@ -200,7 +214,8 @@ TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
   write_image(folder_ / "packed.mha", whole, true);
   EXPECT_EQ(segment_file({folder_ / "packed.mha", {}, {}}, options, little(scan)).grains.size(), 8u);
   EXPECT_NE(fault(folder_ / "packed.mha", options, 1.01e8).find("no part can be read alone"), std::string::npos);
-  // 96³ voxels of 2 bytes that are held, 2 that are read and 4 as numbers are 7 MB beside the program's 100
+  // 96³ voxels of 2 bytes stored, 2 bytes read and 4 bytes as numbers are 7 MB, in addition to the 100 MB of the
+  // program.
   EXPECT_NE(fault(folder_ / "packed.mha", options, 1.05e8).find("no part can be read alone"), std::string::npos);
   EXPECT_NE(fault(folder_ / "packed.mha", options, 1e6).find("GB for the means of blocks"), std::string::npos);
   SegmentOptions paper = options;
@@ -210,6 +225,8 @@ TEST_F(CtLargeScan, SlicesInAFolderAndWhatCannotBeReadInParts) {
   EXPECT_NE(fault(folder_ / "pages.tif", options, 1e12).find("edge of a voxel"), std::string::npos);
 }
 
+/// The ends of the scan cut grains in the same way on both sides of each axis: mirroring the scan does not change the
+/// volumes.
 TEST_F(CtLargeScan, GrainsAreCutAlikeByBothEndsOfEachAxis) {
   Image<float> scan = scan_of({96, 96, 96}, {ball(95.5, 30, 34, 20), ball(34, 95.5, 30, 22), ball(30, 34, 95.5, 24)},
                               {ball(76, 76, 76, 10)});
@@ -221,11 +238,12 @@ TEST_F(CtLargeScan, GrainsAreCutAlikeByBothEndsOfEachAxis) {
     EXPECT_EQ(parts.refined, 3u);
     by_place(parts);
     for (const ScannedGrain& grain : parts.grains) found.push_back(grain.measure.volume);
-    std::reverse(scan.voxels.begin(), scan.voxels.end());  // mirrored along x, y and z
+    std::reverse(scan.voxels.begin(), scan.voxels.end());  // mirrors the scan along x, y and z
   }
   ASSERT_EQ(volumes[0].size(), 3u);
   ASSERT_EQ(volumes[1].size(), 3u);
-  // other facets, of as many; half a voxel of where a ball is cut would be 0.04
+  // The surfaces have different facets, but equally many. If a cut were off by half a voxel, the volume would differ by
+  // 0.04.
   for (std::size_t g = 0; g < 3; ++g) EXPECT_NEAR(volumes[1][g] / volumes[0][g], 1, 0.005) << g;
   std::sort(volumes[0].begin(), volumes[0].end());
   for (std::size_t g = 0; g < 3; ++g) {  // facets of about two voxels cut off 3/1000 of a ball
@@ -234,7 +252,8 @@ TEST_F(CtLargeScan, GrainsAreCutAlikeByBothEndsOfEachAxis) {
   }
 }
 
-/// Aggregate from one place to another, cut between 19 and 20 along an axis: only labels tell the two grains apart.
+/// A block of aggregate that is cut between voxels 19 and 20 along one axis. Grey values do not change there; only the
+/// labels separate the two grains.
 class CutGrains : public CtLargeScan {
  protected:
   using Place = std::array<std::int64_t, 3>;
@@ -250,7 +269,8 @@ class CutGrains : public CtLargeScan {
     };
     return refined(scan, 2, number, 0, Denoising::none);
   }
-  /// The first grain ends there, and the second begins, at this place along another axis.
+  /// Expects that the first grain contains the point `before` but not `behind` along an axis, and the second grain the
+  /// reverse. `there` is the coordinate of both points along the axis `other`.
   void expect_parted(const std::vector<ScannedGrain>& grains, std::size_t along, double before, double behind,
                      std::size_t other, double there) {
     for (const double at : {before, behind}) {
@@ -271,11 +291,12 @@ TEST_F(CutGrains, MeetAtTheCutAlongEachAxis) {
     size[axis] = 40, end[axis] = 36;
     const std::vector<ScannedGrain> grains = cut(size, {4, 4, 4}, end, axis);
     ASSERT_EQ(grains.size(), 2u);
-    EXPECT_NEAR(grains[1].measure.volume / grains[0].measure.volume, 1, 0.005) << axis;  // each the other's mirror
+    EXPECT_NEAR(grains[1].measure.volume / grains[0].measure.volume, 1, 0.005) << axis;  // the grains are mirror images
     expect_parted(grains, axis, 19.3, 19.7, (axis + 1) % 3, 11.4);
   }
 }
 
+/// Both grains remain separated up to the first and last voxels of the scan.
 TEST_F(CutGrains, ArePartedUpToTheFirstAndTheLastVoxelsOfTheScan) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t along = (axis + 1) % 3;
@@ -290,7 +311,8 @@ TEST_F(CutGrains, ArePartedUpToTheFirstAndTheLastVoxelsOfTheScan) {
 TEST_F(CtLargeScan, NoiseThatMeansOfVoxelsAreRidOfTakesNoRoundOfDiffusion) {
   Image<float> scan = scan_of({76, 76, 76}, {ball(37.5, 37.5, 37.5, 33)});
   add_noise(scan, 0.03);
-  const auto volume = [&](double noise, Denoising denoising) {  // 17 blocks of 4, 34 nodes of 2 through the ball
+  // the ball is 17 blocks of 4 voxels wide, 34 surface nodes 2 voxels apart
+  const auto volume = [&](double noise, Denoising denoising) {
     const auto number = [](const std::array<std::int64_t, 3>& at) {
       const auto from_middle = [](std::int64_t n) { return 4 * static_cast<double>(n) + 1.5 - 37.5; };
       return norm(Vec3d{from_middle(at[0]), from_middle(at[1]), from_middle(at[2])}) < 33 ? 1u : 0u;
@@ -299,12 +321,14 @@ TEST_F(CtLargeScan, NoiseThatMeansOfVoxelsAreRidOfTakesNoRoundOfDiffusion) {
   };
   const double as_it_is = volume(0.03, Denoising::none);
   EXPECT_NEAR(as_it_is / (4 * pi / 3 * std::pow(33 * voxel, 3)), 1, 0.01);
-  EXPECT_EQ(volume(0.03, Denoising::diffusion), as_it_is);  // that of the means of 8 voxels is 0.01
+  // averaging 8 voxels reduces this noise to 0.01, so diffusion is not applied
+  EXPECT_EQ(volume(0.03, Denoising::diffusion), as_it_is);
   EXPECT_NE(volume(0.1, Denoising::diffusion), as_it_is);
 }
 
 TEST_F(CtLargeScan, ANeedleThinnerThanABlockLeavesItsGrainsSurfaceClosed) {
-  // The needle is too thin for the blocks, so that it goes on where what is read again for the ball ends.
+  // The needle is too thin for the blocks, so it continues beyond the region that is read again for the ball. Its cut
+  // end must be closed.
   Image<float> scan =
       scan_of({96, 96, 96}, {ball(44, 44, 44, 20), block({60, 44.5, 44.5}, {92, 46.5, 46.5})}, {ball(80, 80, 80, 10)});
   add_noise(scan, 0.02);
@@ -319,6 +343,8 @@ TEST_F(CtLargeScan, ANeedleThinnerThanABlockLeavesItsGrainsSurfaceClosed) {
   EXPECT_LE(parts.grains[0].surface.facets.size(), 800u) << "more would be of a surface that had to be mended";
 }
 
+/// The outermost voxels of the specimen are mixed with air. A grain that begins one voxel behind this rim counts as
+/// cut; one two voxels behind it does not.
 TEST_F(CtLargeScan, AGrainBehindARimOfMixedVoxelsIsCutByTheSpecimensEnd) {
   Image<std::uint8_t> phases({9, 9, 9}, {1, 1, 1}, {}, 255);
   Image<std::uint32_t> labels = Image<std::uint32_t>::like(phases);
@@ -345,7 +371,7 @@ TEST_F(CtLargeScan, AGrainNearOneEndOfTheScanIsNotCutByAirAtTheOther) {
         for (std::int64_t i = 0; i < 9; ++i) {
           std::array<std::int64_t, 3> at{i, j, k};
           if (at[axis] < 2) phases.at(i, j, k) = 255;
-          at[axis] -= 2;  // the grain is in the middle, and along the axis one voxel from the end
+          at[axis] -= 2;  // the grain is in the middle, and along this axis one voxel from the end of the scan
           labels.at(i, j, k) = std::all_of(at.begin(), at.end(), [](auto n) { return n >= 3 && n <= 5; });
         }
       }

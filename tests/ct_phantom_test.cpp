@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_phantom_test.cpp  Synthetic scans: volumes of known bodies, sawn faces, faults as large as asked, files.
+/// \file ct_phantom_test.cpp  Synthetic scans: volumes of known grains, sawn faces, artefacts of the requested size,
+/// files.
 #include "macadam/phantom.hpp"
 
 #include <unistd.h>
@@ -18,7 +19,7 @@ constexpr double pi = std::numbers::pi;
 
 class CtPhantom : public CtFolder {};
 
-/// Without faults, so that grey values are shares of phases.
+/// Returns a specification without artefacts, so that grey values are the fractions of phases in a voxel.
 PhantomSpec clean(double voxel) {
   PhantomSpec spec;
   spec.voxel = voxel;
@@ -27,12 +28,14 @@ PhantomSpec clean(double voxel) {
   return spec;
 }
 
+/// Returns the volume of the voxels of each label.
 std::vector<double> label_volumes(const Phantom& p) {
   std::vector<double> out(p.grains.size() + 1);
   for (const std::uint32_t label : p.labels.voxels) out.at(label) += p.labels.voxel_volume();
   return out;
 }
 
+/// The part of each voxel that a sphere covers does not depend on the origin of the grid.
 TEST(CtCoverage, OfAGridThatBeginsElsewhereIsTheSame) {
   const Vec3d shift{3e-3, -2e-3, 5e-3};
   const auto of = [](const Vec3d& at) {
@@ -43,12 +46,13 @@ TEST(CtCoverage, OfAGridThatBeginsElsewhereIsTheSame) {
   const ct::Coverage here = of({}), there = of(shift);
   EXPECT_EQ(there.begin, here.begin);
   EXPECT_EQ(there.end, here.end);
-  // columns end where a sphere does, by the differences of coordinates that are good to 1e-18 m or so
+  // The columns end at the surface of a sphere, which is computed from differences of coordinates accurate to about
+  // 1e-18 m.
   EXPECT_NEAR(there.volume / here.volume, 1, 1e-9);
   EXPECT_LT(norm(there.centroid - here.centroid - shift), 1e-12);
   ASSERT_EQ(there.share.size(), here.share.size());
   for (std::size_t i = 0; i < here.share.size(); ++i)
-    EXPECT_NEAR(there.share[i], here.share[i], 1e-5) << i;  // floats: 16 terms
+    EXPECT_NEAR(there.share[i], here.share[i], 1e-5) << i;  // floats, sums of 16 terms
 }
 
 TEST_F(CtPhantom, ASphereHasItsVolumeInGreyValuesAndLabels) {
@@ -62,10 +66,11 @@ TEST_F(CtPhantom, ASphereHasItsVolumeInGreyValuesAndLabels) {
   EXPECT_NEAR(g.area / (4 * pi * 9e-6), 1, 1e-12);
   EXPECT_NEAR(g.sieve / 6e-3, 1, 1e-12);
   EXPECT_NEAR(measure_shape(g.surface).volume / volume, 1, 1e-9);
-  // columns of a ninth of a voxel's area: about 2,000 across the sphere, their errors fall as that to the power 3/4
+  // The columns have a ninth of a voxel's cross-section, about 2,000 across the sphere; their errors decrease as this
+  // number to the power 3/4.
   EXPECT_NEAR(p.aggregate, volume / box, 3e-3 * volume / box);
   EXPECT_NEAR(p.voids, air / box, 1e-2 * air / box);
-  // a voxel counts where more than half of it is the sphere's
+  // A voxel gets the label if more than half of it is in the sphere.
   EXPECT_NEAR(label_volumes(p)[1] / volume, 1, 1e-2);
   double sum = 0;
   for (std::size_t v = 0; v < p.scan.count(); ++v) {
@@ -81,7 +86,8 @@ TEST_F(CtPhantom, ASphereHasItsVolumeInGreyValuesAndLabels) {
 
 TEST_F(CtPhantom, TheSawLeavesCaps) {
   PhantomSpec spec = clean(0.1e-3);
-  spec.sawn = 2e-3;  // a box of 6 x 4 x 4 mm, which cuts the sphere of 3 mm about (3.5, 4, 4) on five sides
+  // leaves a box of 6 × 4 × 4 mm, which cuts the sphere of radius 3 mm about (3.5, 4, 4) mm on five sides
+  spec.sawn = 2e-3;
   const Phantom p = make_phantom(spheres_scene(), spec);
   EXPECT_NEAR(p.specimen.box.size.x, 6e-3, 1e-15);
   ASSERT_EQ(p.grains.size(), 1U);
@@ -90,7 +96,8 @@ TEST_F(CtPhantom, TheSawLeavesCaps) {
   for (std::size_t v = 0; v < p.phases.count(); ++v) {
     if (p.phases.voxels[v] == 255) { EXPECT_EQ(p.labels.voxels[v], 0U); }
   }
-  // a slab of the sphere between z = 2 and 6 mm: half of it, seen from above, is outside of the prism; by columns
+  // The expected volume is that of the slab of the sphere between z = 2 and 6 mm over the sawn rectangle, by numerical
+  // integration over columns.
   double sum = 0;
   const int n = 600;
   for (int i = 0; i < n; ++i) {
@@ -103,20 +110,24 @@ TEST_F(CtPhantom, TheSawLeavesCaps) {
   EXPECT_NEAR(p.grains[0].volume / (sum * 1e-9), 1, 1e-3);
 }
 
+/// A grain counts as cut by the saw if only its lower side is cut, and its volume and centre are those of the rest of
+/// the sphere.
 TEST_F(CtPhantom, ASphereCutFromBelowAloneIsCut) {
-  const Scene scene = scene_of_rows("0,0.005,0.004,0.0033,0.003,aggregate,4\n");  // 0.3 mm above z = 0
+  const Scene scene = scene_of_rows("0,0.005,0.004,0.0033,0.003,aggregate,4\n");  // lowest point 0.3 mm above z = 0
   const auto sawn_by = [&](double off) {
     PhantomSpec spec = clean(0.1e-3);
     spec.sawn = off;
     return make_phantom(scene, spec).grains.at(0);
   };
-  const double volume = 4 * pi / 3 * 27e-9, cap = pi * 0.36e-6 * (9e-3 - 0.6e-3) / 3;  // πh²(3r − h)/3
+  // volume of the cap, πh²(3r − h)/3
+  const double volume = 4 * pi / 3 * 27e-9, cap = pi * 0.36e-6 * (9e-3 - 0.6e-3) / 3;
   const PhantomGrain whole = sawn_by(0.2e-3), cut = sawn_by(0.9e-3);
   EXPECT_FALSE(whole.border);
   EXPECT_NEAR(whole.volume / volume, 1, 1e-12);
   EXPECT_TRUE(cut.border);
   EXPECT_NEAR(cut.volume / (volume - cap), 1, 1e-3);
-  // a cap from a to r has the moment π(r² − a²)²/4 about the sphere's middle, which is at 2.4 mm here: 0.075 mm
+  // A cap from a to r has the moment π(r² − a²)²/4 about the centre of the sphere. The centre is at 2.4 mm here, and
+  // the cut shifts the centroid by 0.075 mm.
   const double moment = pi / 4 * std::pow(9e-6 - 5.76e-6, 2);
   EXPECT_NEAR(cut.centre.z, 2.4e-3 + moment / (volume - cap), 2e-6);
   EXPECT_NEAR(cut.centre.x, 4.1e-3, 2e-6);
@@ -141,20 +152,21 @@ TEST_F(CtPhantom, ShapesFillTheirVoxels) {
     EXPECT_NEAR(m.volume / g.volume, 1, 1e-9);
     EXPECT_NEAR(m.area / g.area, 1, 1e-9);
     EXPECT_NEAR(m.d_long / g.d_long, 1, 1e-9);
-    // directions of the search do not turn with the grain: steps of a quarter of a degree at its end
+    // The search for the sieve size uses fixed directions that do not rotate with the grain; they are a quarter of a
+    // degree apart at the end.
     EXPECT_NEAR(square_sieve(g.surface) / g.sieve, 1, 5e-3);
     EXPECT_LT(norm(m.centroid - g.centre), 1e-9);
-    EXPECT_NEAR(volumes[g.id] / g.volume, 1, 2e-2) << g.id;  // some 4,000 voxels, of which 1,200 are cut
+    EXPECT_NEAR(volumes[g.id] / g.volume, 1, 2e-2) << g.id;  // about 4,000 voxels, of which the surface cuts 1,200
   }
   EXPECT_EQ(p.specimen.voids.empty(), false);
   for (const GrainGap& gap : p.gaps) {
     EXPECT_LT(gap.a, gap.b);
-    EXPECT_GT(gap.gap, 0);  // the generator lets no two touch
+    EXPECT_GT(gap.gap, 0);  // the generator does not let particles touch
     EXPECT_LE(gap.gap, 3 * 0.2e-3);
   }
 }
 
-/// Mean and standard deviation over a part of an image.
+/// Returns mean and standard deviation of the grey values of the chosen voxels.
 template <class Choose>
 std::pair<double, double> statistics(const Phantom& p, const Choose& chosen) {
   double n = 0, sum = 0, squares = 0;
@@ -182,6 +194,8 @@ TEST_F(CtPhantom, SamplesThatAreNoneOrTooManyAreRefused) {
   }
 }
 
+/// Noise, cupping, drift, rings and blur have the requested size, as seen in the air, on the axis, between slices and
+/// in the phases.
 TEST_F(CtPhantom, FaultsAreAsLargeAsAsked) {
   const Scene scene = spheres_scene();
   const auto scanned = [&](double PhantomSpec::*fault, double value) {
@@ -194,7 +208,8 @@ TEST_F(CtPhantom, FaultsAreAsLargeAsAsked) {
   };
   const Phantom noisy = scanned(&PhantomSpec::noise, 0.05);
   const auto corner = [](auto i, auto, auto) { return i < 2; };
-  EXPECT_NEAR(statistics(noisy, corner).second, 1800, 75);  // of 3,872 voxels: 1.1 %; air is above 0 by 3.3 of it
+  // 3,872 voxels give it to 1.1 %; grey values are not clipped, because air is 3.3 standard deviations above 0
+  EXPECT_NEAR(statistics(noisy, corner).second, 1800, 75);
   const Phantom cupped = scanned(&PhantomSpec::cupping, 0.2);
   const auto axis = [](auto i, auto j, auto k) { return (i == 26 || i == 27) && (j == 21 || j == 22) && k == 22; };
   EXPECT_NEAR(statistics(cupped, axis).first, 0.8 * 42000, 0.01 * 42000);
@@ -205,8 +220,8 @@ TEST_F(CtPhantom, FaultsAreAsLargeAsAsked) {
   EXPECT_GT(*means.rbegin() - *means.begin(), 0.05 * 6000);
   EXPECT_LT(*means.rbegin() - *means.begin(), 0.3 * 6000);
   const Phantom ringed = scanned(&PhantomSpec::rings, 0.05);
-  EXPECT_NEAR(statistics(ringed, corner).second, 1800, 500);      // of some 20 rings
-  EXPECT_EQ(ringed.scan.at(0, 0, 5), ringed.scan.at(53, 43, 5));  // as far from the axis
+  EXPECT_NEAR(statistics(ringed, corner).second, 1800, 500);      // about 20 rings pass through this region
+  EXPECT_EQ(ringed.scan.at(0, 0, 5), ringed.scan.at(53, 43, 5));  // the same distance from the axis
   const Phantom sharp = make_phantom(scene, clean(0.2e-3)), blurred = scanned(&PhantomSpec::blur, 1.5);
   EXPECT_NEAR(statistics(blurred, in_phase(blurred, 2)).first, statistics(sharp, in_phase(sharp, 2)).first, 1500);
   EXPECT_GT(statistics(blurred, in_phase(blurred, 0)).first, statistics(sharp, in_phase(sharp, 0)).first + 2000);

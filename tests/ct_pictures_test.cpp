@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of a segmented scan: that they are pictures, and what their pixels show.
+// Pictures of a segmented scan: valid PNG files, and the contents of their pixels.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -43,10 +43,10 @@ TEST_F(CtPictures, ThreePlanesLieSideBySideWithNothingBetweenThem) {
   scan.labels = Image<std::uint32_t>::like(scan.phases);
   scan.grey = Image<float>::like(scan.phases, mastic);
   scan.levels = {air, mastic, aggregate, 0, true};
-  scan.labels.at(1, 2, 2) = 1;  // in the planes z = 2 and y = 2, not in x = 3
+  scan.labels.at(1, 2, 2) = 1;  // lies in the planes z = 2 and y = 2, not in x = 3
   ct::write_overlay(file_, scan);
   const test::PngPicture picture = test::read_png(file_);
-  constexpr std::size_t edge = 8, gap = 16;  // pixels of a voxel in a small scan, and between planes
+  constexpr std::size_t edge = 8, gap = 16;  // pixels per voxel in a small scan, and pixels between planes
   constexpr std::size_t second = 6 * edge + gap, third = 2 * second;
   ASSERT_EQ(picture.width, third + 5 * edge);
   ASSERT_EQ(picture.height, 5 * edge + 2 * gap + 14);
@@ -54,8 +54,8 @@ TEST_F(CtPictures, ThreePlanesLieSideBySideWithNothingBetweenThem) {
     for (std::size_t x = 0; x < picture.width; ++x) {
       const auto& [red, green, blue] = picture.at(x, y);
       const bool plane = x < 6 * edge || (y < 4 * edge && ((x >= second && x < second + 6 * edge) || x >= third));
-      const bool grain = (x / edge == 1 && y / edge == 2) ||  // y and z run upwards
-                         (x >= second && (x - second) / edge == 1 && y / edge == 1);
+      // Pictures of two-dimensional planes have the y or z axis upwards.
+      const bool grain = (x / edge == 1 && y / edge == 2) || (x >= second && (x - second) / edge == 1 && y / edge == 1);
       EXPECT_EQ(red == green && green == blue, !grain) << x << ' ' << y;
       EXPECT_EQ(red == 255 && green == 255 && blue == 255, !plane) << x << ' ' << y;
     }
@@ -63,20 +63,20 @@ TEST_F(CtPictures, ThreePlanesLieSideBySideWithNothingBetweenThem) {
 }
 
 TEST_F(CtPictures, VoxelsHaveTheirEdgesAndTheScaleItsLength) {
-  Segmentation scan;  // 20 x 10 x 15 mm
+  Segmentation scan;  // a scan of 20 × 10 × 15 mm
   scan.phases = Image<std::uint8_t>({80, 40, 30}, {0.25e-3, 0.25e-3, 0.5e-3}, {}, std::uint8_t(VoxelPhase::mastic));
   scan.labels = Image<std::uint32_t>::like(scan.phases);
   scan.grey = Image<float>::like(scan.phases, mastic);
   scan.levels = {air, mastic, aggregate, 0, true};
   ct::write_overlay(file_, scan);
   const test::PngPicture picture = test::read_png(file_);
-  // 50 mm at 0.25 mm are 200 pixels: six for each voxel make 1200
+  // 50 mm in voxels of 0.25 mm are 200 pixels; six pixels per voxel make 1200.
   constexpr std::size_t gap = 16, mm = 24;
   ASSERT_EQ(picture.width, 50 * mm + 2 * gap);
   ASSERT_EQ(picture.height, 15 * mm + 2 * gap + 14);
   const auto is_black = [&](std::size_t x, std::size_t y) { return picture.at(x, y)[0] == 0; };
   EXPECT_EQ(picture.at(20 * mm + gap, 15 * mm - 1)[0] == 255, false) << "30 voxels of twice the height";
-  std::size_t longest = 0;  // row of black pixels below the planes: the scale
+  std::size_t longest = 0;  // longest row of black pixels below the planes, which is the scale bar
   for (std::size_t y = 15 * mm; y < picture.height; ++y) {
     for (std::size_t x = 0, row = 0; x < picture.width; ++x) {
       row = is_black(x, y) ? row + 1 : 0;
@@ -86,10 +86,12 @@ TEST_F(CtPictures, VoxelsHaveTheirEdgesAndTheScaleItsLength) {
   EXPECT_EQ(longest, 5 * mm) << "5 mm is the round length below 0.4 of 20 mm";
 }
 
+/// In the three-dimensional view a grain in front hides the grains behind it.
 TEST_F(CtPictures, TheNearerGrainHidesWhatIsBehindIt) {
   Segmentation scan;
   scan.labels = Image<std::uint32_t>({40, 40, 40}, {voxel, voxel, voxel});
-  // Seen from the front left and 30° above. Balls 1 and 2 behind the scan's middle, as it is seen; 3 above the middle.
+  // The view is from the front left, 30° above the horizontal. Seen so, balls 1 and 2 lie behind the middle of the scan
+  // and ball 3 above it.
   const Vec3d eye{-std::sqrt(3.0) / 4, -0.75, 0.5};
   const auto add_ball = [&](std::uint32_t id, const Vec3d& place, double radius) {
     ScannedGrain grain;
@@ -104,7 +106,7 @@ TEST_F(CtPictures, TheNearerGrainHidesWhatIsBehindIt) {
   const test::PngPicture picture = test::read_png(file_);
   ASSERT_EQ(picture.width, picture.height);
   const double middle = static_cast<double>(picture.width) / 2;
-  // the colours of 1, 2 and 3 are bluish, greenish and reddish; in full shade nothing tells them from each other
+  // The colours of balls 1, 2 and 3 are bluish, greenish and reddish. In full shade they cannot be distinguished.
   enum { red, green, blue, white, dark };
   struct Pixel {
     double from_middle;
@@ -124,8 +126,9 @@ TEST_F(CtPictures, TheNearerGrainHidesWhatIsBehindIt) {
       farthest[colour] = std::max(farthest[colour], pixels.back().from_middle);
     }
   }
-  EXPECT_NEAR(farthest[blue] / farthest[green], 3.0 / 5, 0.03);  // whole pixels of some 37 and 62
-  const auto other = [&](int colour, double from, double to) {  // pixels that are not of this colour, nor in full shade
+  EXPECT_NEAR(farthest[blue] / farthest[green], 3.0 / 5, 0.03);  // whole pixels, of about 37 and 62
+  // number of pixels in a ring around the middle that have neither this colour nor full shade
+  const auto other = [&](int colour, double from, double to) {
     return std::count_if(pixels.begin(), pixels.end(), [&](const Pixel& p) {
       return p.from_middle > from && p.from_middle < to && p.colour != colour && p.colour != dark;
     });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_scans.hpp  Small scans for tests: bodies of known volume in mastic, and what scanners do to them.
+/// \file ct_scans.hpp  Small scans for tests: grains and voids of known volume in mastic, and the blur and noise of a
+/// scanner.
 #pragma once
 
 #include <cmath>
@@ -11,11 +12,11 @@
 
 namespace macadam::ct_scans {
 
-constexpr double voxel = 1e-4;  // of these scans [m]
+constexpr double voxel = 1e-4;  // edge of a voxel of these scans [m]
 constexpr float air = 2000, mastic = 20000, aggregate = 32000;
 constexpr float contrast = aggregate - mastic;
 
-/// Depth below a body's surface in voxels, negative outside.
+/// Returns the depth of a point below the surface of a solid, in voxels; negative outside.
 using Body = std::function<double(double x, double y, double z)>;
 
 inline Body ball(double x, double y, double z, double radius) {
@@ -30,7 +31,8 @@ inline Body block(Vec3d low, Vec3d high) {
   };
 }
 
-/// Bodies of aggregate and of air in mastic, voxels of 0.1 mm; a surface is blurred over two voxels.
+/// Returns a scan of grains of aggregate and voids of air in mastic, with voxels of 0.1 mm. Each surface is blurred
+/// over two voxels.
 inline Image<float> scan_of(std::array<std::int64_t, 3> size, const std::vector<Body>& grains,
                             const std::vector<Body>& voids = {}) {
   Image<float> scan(size, {1e-4, 1e-4, 1e-4}, {}, mastic);
@@ -48,7 +50,7 @@ inline Image<float> scan_of(std::array<std::int64_t, 3> size, const std::vector<
   return scan;
 }
 
-/// Of grains of so many voxels and more, in the whole scan.
+/// Returns options that segment the whole scan and keep grains of at least `smallest_voxels` voxels in diameter.
 inline SegmentOptions options_of(double smallest_voxels) {
   SegmentOptions options;
   options.region = ScanRegion::whole;
@@ -56,14 +58,14 @@ inline SegmentOptions options_of(double smallest_voxels) {
   return options;
 }
 
-/// Noise of a standard deviation that is this share of the contrast.
+/// Adds normally distributed noise; its standard deviation is `share` times the contrast of aggregate and mastic.
 inline void add_noise(Image<float>& scan, double share, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::normal_distribution<float> noise(0, static_cast<float>(share) * contrast);
   for (float& grey : scan.voxels) grey += noise(random);
 }
 
-/// Balls on a loose lattice that fill a scan, with voids between them.
+/// Returns a cubic scan filled with balls on a loose, randomly shifted lattice, with voids between them.
 inline Image<float> many_balls(std::int64_t edge, double radius = 9) {
   std::vector<Body> grains, voids;
   std::mt19937 random(3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_scenes.hpp  Small scenes that are scanned.
+/// \file ct_scenes.hpp  Small scenes from which the tests make synthetic scans.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace macadam::test {
 
-/// A folder of its own, with scenes in it.
+/// Makes a temporary folder for each test and writes scenes into it.
 class CtFolder : public testing::Test {
  protected:
   CtFolder()
@@ -33,21 +33,21 @@ class CtFolder : public testing::Test {
     return scene_of("[specimen]\nbox = [0.01, 0.008, 0.008]\nfile = \"specimen.csv\"\n");
   }
 
-  /// One aggregate, one mastic sphere, one void.
+  /// Returns a scene of one aggregate, one mastic sphere and one void.
   Scene spheres_scene() const {
     return scene_of_rows(
         "0,0.0035,0.004,0.004,0.003,aggregate,4\n1,0.008,0.002,0.004,0.001,mastic,-1\n"
         "2,0.008,0.005,0.005,0.001,void,-1\n");
   }
 
-  /// An aggregate of two spheres.
+  /// Returns a scene with an aggregate of two spheres and one mastic sphere.
   Scene cluster_scene() const {
     return scene_of_rows(
         "0,0.002,0.004,0.004,0.002,aggregate,7\n1,0.005,0.004,0.004,0.002,aggregate,7\n"
         "2,0.008,0.004,0.004,0.001,mastic,-1\n");
   }
 
-  /// Some crushed stones of 4 to 6 mm, with voids.
+  /// Returns a scene with a few icosahedral aggregates of 4 to 6 mm, mastic and voids.
   Scene shapes_scene() const {
     return scene_of(
         "[specimen]\nbox = [0.012, 0.012, 0.014]\n[[specimen.aggregate]]\nsieve = [0.004, 0.006]\n"

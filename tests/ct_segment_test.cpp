@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grains and phases of small scans of which everything is known, and what is said of scans that are none.
+// Grains and phases of small scans whose contents are known exactly, and the refusal of images that are not scans.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -31,8 +31,10 @@ std::string fault(const Image<float>& scan, const SegmentOptions& options) {
   return "segmented";
 }
 
+/// Two maxima of the distance to the surface are one fragment if the saddle between them is less than half a voxel
+/// lower.
 TEST(CtFragments, BasinsLessThanHalfAVoxelDeepAreOne) {
-  const auto fragments = [](double saddle) {  // two places 3 voxels from the surface
+  const auto fragments = [](double saddle) {  // two maxima 3 voxels from the surface, with a saddle between them
     Image<float> distance({3, 1, 1}, {voxel, voxel, voxel}, {}, static_cast<float>(3 * voxel));
     distance.voxels[1] = static_cast<float>(saddle * voxel);
     return ct::flood(distance, Image<float>::like(distance, 1), 1).radius.size() - 1;
@@ -43,7 +45,7 @@ TEST(CtFragments, BasinsLessThanHalfAVoxelDeepAreOne) {
 
 TEST(CtFragments, ABasinHasItsHighestDistance) {
   Image<float> distance({3, 1, 1}, {voxel, voxel, voxel});
-  const double depth[] = {4.97, 5, 4.98};  // voxels; less than 3/64 apart
+  const double depth[] = {4.97, 5, 4.98};  // in voxels; the differences are less than the step of 3/64
   for (std::size_t n = 0; n < 3; ++n) distance.voxels[n] = static_cast<float>(depth[n] * voxel);
   const Image<float> grey = Image<float>::like(distance, 1);
   const ct::Fragments found = ct::flood(distance, grey, 1);
@@ -52,7 +54,8 @@ TEST(CtFragments, ABasinHasItsHighestDistance) {
   EXPECT_EQ(ct::flood(Image<float>::like(distance), grey, 1).radius.size(), 1u) << "nothing lies inside";
 }
 
-// One voxel behind the other in memory, at opposite ends of the scan.
+// The two voxels are neighbours in memory but lie at opposite ends of the scan, so a label must not spread from one to
+// the other.
 TEST(CtLabels, DoNotSpreadFromOneEndOfTheScanToTheOther) {
   using Place = std::array<std::int64_t, 3>;
   const auto spread = [](const Place& from, const Place& to) {
@@ -77,10 +80,10 @@ TEST(CtSegment, ABallAndABlockAreMeasured) {
   std::sort(out.grains.begin(), out.grains.end(), by_volume);
   ASSERT_EQ(out.grains.size(), 2u);
   const double r = 12 * voxel;
-  EXPECT_NEAR(out.grains[0].measure.area / (4 * pi * r * r), 1, 0.02);  // bar of a ball of 12 voxels
+  EXPECT_NEAR(out.grains[0].measure.area / (4 * pi * r * r), 1, 0.02);  // tolerance for a ball of radius 12 voxels
   EXPECT_NEAR(out.grains[0].measure.volume / (4 * pi / 3 * r * r * r), 1, 0.02);
   const ShapeMeasure& block = out.grains[1].measure;
-  // edges and corners of the blurred block are round: a voxel of the sides' 24 to 30 each
+  // Blur rounds the edges and corners of the block by about a voxel; its sides are 24 to 30 voxels.
   EXPECT_NEAR(block.volume / (30 * 24 * 28 * std::pow(voxel, 3)), 1, 0.03);
   EXPECT_NEAR(block.area / (2 * (30 * 24 + 24 * 28 + 28 * 30) * voxel * voxel), 1, 0.05);
   EXPECT_FALSE(out.grains[0].border);
@@ -88,6 +91,8 @@ TEST(CtSegment, ABallAndABlockAreMeasured) {
   EXPECT_LE(out.grains[1].surface.facets.size(), 800u);
 }
 
+/// Two balls that touch are separated, and a long grain is not cut. The cut can be removed by hand, but only with rows
+/// that match the scan.
 TEST(CtSegment, TouchingBallsArePartedAndALongGrainIsNot) {
   const Body stone = [](double x, double y, double z) {  // an ellipsoid of half axes 24, 10, 9
     return 9 * (1 - std::sqrt((x - 40) * (x - 40) / 576 + (y - 55) * (y - 55) / 100 + (z - 25) * (z - 25) / 81));
@@ -104,7 +109,7 @@ TEST(CtSegment, TouchingBallsArePartedAndALongGrainIsNot) {
   const auto cuts = std::count_if(out.cuts.begin(), out.cuts.end(), [](const GrainCut& c) { return c.cut; });
   EXPECT_EQ(cuts, 1);
 
-  // A person joins the two, and only them.
+  // Someone joins these two grains by hand, and nothing else changes.
   SegmentOptions by_hand = options_of(18);
   by_hand.cuts = out.cuts;
   for (GrainCut& cut : *by_hand.cuts) cut.cut = false;
@@ -118,7 +123,8 @@ TEST(CtSegment, TouchingBallsArePartedAndALongGrainIsNot) {
 }
 
 TEST(CtSegment, AnEdgeAlongTheSideOfAnotherGrainStaysWithItsOwn) {
-  // A stone with a thin plate lies on a block: the plate is nearer to the block's middle than to that of its stone.
+  // A stone with a thin plate lies on a block. The plate is nearer to the middle of the block than to that of its own
+  // stone.
   const Body stone = ball(20, 32, 46, 15), plate = block({20, 22, 40.6}, {66, 42, 47}),
              below = block({26, 8, 10}, {74, 56, 40});
   const auto together = [&](double x, double y, double z) { return std::max(stone(x, y, z), plate(x, y, z)); };
@@ -138,7 +144,8 @@ TEST(CtSegment, AnEdgeAlongTheSideOfAnotherGrainStaysWithItsOwn) {
   EXPECT_GT(static_cast<double>(right) / static_cast<double>(voxels), 0.9);
 }
 
-// A border with the neck, the solidity and the valley at which nobody can tell, and one of a neck narrower by 0.1.
+// The margin is 0 for the values of neck, solidity and valley at which both decisions are equally likely, and positive
+// for a neck narrower by 0.1.
 TEST(CtSegment, AMarginIsTheSurenessOfACut) {
   EXPECT_NEAR(ct::margin_of(0.8, 0.93, 0.85), 0, 1e-12);
   EXPECT_NEAR(ct::margin_of(0.7, 0.93, 0.85), std::tanh(0.5 * 0.4), 1e-12);
@@ -159,6 +166,8 @@ TEST(CtSegment, ThreadsDoNotChangeTheAnswer) {
   EXPECT_EQ(ct::grains_csv(one.grains), ct::grains_csv(three.grains));
 }
 
+/// The fractions of the phases are found within 0.3 points. If the laboratory's fractions are given, the thresholds are
+/// set to match them.
 TEST(CtSegment, SharesOfThePhasesAreRightAndThoseOfTheLaboratoryAreKept) {
   const Image<float> clean = many_balls(66);
   double true_air = 0;
@@ -169,13 +178,14 @@ TEST(CtSegment, SharesOfThePhasesAreRightAndThoseOfTheLaboratoryAreKept) {
   SegmentOptions options = options_of(14);
   options.surfaces = false;
   const Segmentation free = segment_scan(scan, options);
-  EXPECT_NEAR(free.air_voids, true_air, 0.003);  // a bar of 0.3 points
+  EXPECT_NEAR(free.air_voids, true_air, 0.003);  // tolerance of 0.3 points
   double confidence = 0;
   for (const std::uint8_t c : free.confidence.voxels) confidence += c / 255.0;
-  EXPECT_NEAR(free.confidence_mean, confidence / static_cast<double>(clean.count()), 1e-12);  // all is specimen
+  // the whole scan is specimen
+  EXPECT_NEAR(free.confidence_mean, confidence / static_cast<double>(clean.count()), 1e-12);
   options.aggregate = free.aggregate + 0.01;
   EXPECT_NEAR(segment_scan(scan, options).aggregate, free.aggregate + 0.01, 0.003);
-  options.aggregate = 0.9;  // not what the scan shows
+  options.aggregate = 0.9;  // a fraction that contradicts the scan
   EXPECT_FALSE(segment_scan(scan, options).warnings.empty());
 }
 
@@ -195,9 +205,11 @@ TEST(CtSegment, ASpecimenInAirIsFound) {
   const Segmentation out = segment_scan(scan, options);
   const auto inside = static_cast<double>(
       std::count_if(out.phases.voxels.begin(), out.phases.voxels.end(), [](std::uint8_t p) { return p != 255; }));
-  EXPECT_NEAR(inside / (pi * 30 * 30 * 57), 1, 0.02);  // half a voxel of the radius is 3 %, found by area
+  // half a voxel of radius is 3 % of the volume; the region is accurate to less
+  EXPECT_NEAR(inside / (pi * 30 * 30 * 57), 1, 0.02);
 }
 
+/// A prism at the side of the scan is found with its own end, not that of the scan.
 TEST(CtRegion, OfAPrismAtTheSideOfTheScanEndsWhereThePrismDoes) {
   Image<float> scan({30, 28, 10}, {voxel, voxel, voxel}, {}, air);
   for (std::int64_t k = 0; k < 10; ++k)
@@ -225,12 +237,12 @@ TEST(CtSegment, WhatIsNoScanIsRefused) {
   Image<float> noise({48, 48, 48}, {voxel, voxel, voxel}, {}, 20000);
   add_noise(noise, 0.3);
   EXPECT_NE(fault(noise, options).find("contrast"), std::string::npos);
-  Image<float> faint = many_balls(60);  // limestone in mastic full of its filler
+  Image<float> faint = many_balls(60);  // the little contrast of limestone in mastic with limestone filler
   for (float& grey : faint.voxels) grey = std::min(grey, mastic + 0.02f * (grey - mastic));
   add_noise(faint, 0.1);
   EXPECT_NE(fault(faint, options).find("a phase is missing"), std::string::npos);
   Image<float> coarse = many_balls(60);
-  coarse.spacing = {1e-3, 1e-3, 1e-3};  // micrometres taken for tens of them
+  coarse.spacing = {1e-3, 1e-3, 1e-3};  // voxel sizes ten times too large
   EXPECT_NE(fault(coarse, options).find("edge of a voxel"), std::string::npos);
   EXPECT_NE(fault(Image<float>({0, 0, 0}, {voxel, voxel, voxel}), options).find("voxels"), std::string::npos);
 }
@@ -243,7 +255,7 @@ TEST(CtSegment, ADoubtfulScanIsSegmentedWithAWarning) {
   const Segmentation out = segment_scan(clipped, options);
   ASSERT_FALSE(out.warnings.empty());
   EXPECT_NE(out.warnings.front().find("clipped"), std::string::npos);
-  const Image<float> dense = scan_of({60, 60, 60}, {ball(30, 30, 30, 14)});  // no voids at all
+  const Image<float> dense = scan_of({60, 60, 60}, {ball(30, 30, 30, 14)});  // a scan without voids
   const Segmentation no_air = segment_scan(dense, options);
   EXPECT_FALSE(no_air.levels.has_air);
   EXPECT_EQ(no_air.air_voids, 0);
@@ -265,7 +277,7 @@ TEST(CtSegment, ThePapersStepsShiftSlicesToTheMeanOfTheScan) {
   Image<float> scan({5, 5, 2}, {voxel, voxel, voxel}, {}, 10);
   std::fill(scan.voxels.begin() + 25, scan.voxels.end(), 30.0f);
   Image<std::uint8_t> region = Image<std::uint8_t>::like(scan, 1);
-  region.at(0, 0, 1) = 0, scan.at(0, 0, 1) = 5;  // counts for nothing, and stays
+  region.at(0, 0, 1) = 0, scan.at(0, 0, 1) = 5;  // outside of the region: is not counted and stays unchanged
   ct::equalise(scan, region);
   for (std::size_t n = 0; n < 50; ++n) EXPECT_NEAR(scan.voxels[n], n == 25 ? 5 : (25 * 10 + 24 * 30) / 49.0, 1e-5) << n;
 }
@@ -283,12 +295,12 @@ TEST(CtSegment, ThePapersStepsFillHolesInGrainsAndNoOthers) {
 TEST(CtSieve, OfABlockAndABall) {
   const Surface ball = subdivided_icosahedron(0.005);
   EXPECT_LT(square_sieve(ball), 0.01);
-  EXPECT_GT(square_sieve(ball), 0.0094);  // the sphere that touches its 80 facets from within
+  EXPECT_GT(square_sieve(ball), 0.0094);  // diameter of the sphere inscribed in its 80 facets
   Surface block{"block", {}, {}};
   for (int c = 0; c < 8; ++c) block.points.push_back({0.010 * (c & 1), 0.006 * (c >> 1 & 1), 0.004 * (c >> 2 & 1)});
   block.facets = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  EXPECT_NEAR(square_sieve(block), 0.006, 6e-5);  // it passes end on
+  EXPECT_NEAR(square_sieve(block), 0.006, 6e-5);  // it passes the sieve with its long axis through the opening
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces of fields and of grains in a scan.
+// Isosurfaces of scalar fields, and surfaces of grains in a scan.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 using namespace ct_scans;
 constexpr double pi = std::numbers::pi;
 
-/// Half the depth below the surface of a ball of 12 voxels, in voxels, and no more than a half.
+/// Returns half the depth below the surface of a ball of radius 12 voxels, in voxels, limited to ±½.
 Image<float> field_of_a_ball(const Vec3d& spacing) {
   Image<float> field({30, 30, 30}, spacing);
   const Body body = ball(14.3, 14.6, 14.1, 12);
@@ -35,7 +35,8 @@ TEST(CtIsosurface, OfABallHasItsVolumeAndItsArea) {
   EXPECT_TRUE(check_surface(fine).good()) << check_surface(fine).text();
   const ShapeMeasure m = measure_shape(fine);
   const double r = 12 * voxel;
-  // Chords of a ball of 12 voxels cut off (1/12)²/10 or so; a surface of whole voxels would have 7 % too much.
+  // The chords of a ball of radius 12 voxels cut off about (1/12)²/10. A surface along voxel faces would be far worse,
+  // 7 %.
   EXPECT_NEAR(m.area / (4 * pi * r * r), 1, 0.01);
   EXPECT_NEAR(m.volume / (4 * pi / 3 * r * r * r), 1, 0.01);
   const ct::Simplified fewer = ct::simplified(fine, 400, 800, 0.5 * voxel);
@@ -45,6 +46,7 @@ TEST(CtIsosurface, OfABallHasItsVolumeAndItsArea) {
   EXPECT_NEAR(measure_shape(fewer.surface).volume / m.volume, 1, 0.005);
 }
 
+/// Non-cubic voxels stretch the surface along the axes accordingly.
 TEST(CtIsosurface, HasTheEdgesOfVoxelsThatAreNoCubes) {
   const Surface surface = ct::isosurface(field_of_a_ball({voxel, 1.5 * voxel, 2 * voxel}));
   EXPECT_TRUE(check_surface(surface).good()) << check_surface(surface).text();
@@ -53,8 +55,8 @@ TEST(CtIsosurface, HasTheEdgesOfVoxelsThatAreNoCubes) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  // Between nodes the surface is straight. At an end of the ball it lies 1/(8·12) voxels too deep at the most: 0.001 of
-  // the 24 voxels, at both.
+  // The surface is straight between nodes. At an end of the ball it is at most 1/(8·12) voxels too deep, 0.001 of the
+  // 24 voxels; this occurs at both ends.
   const Vec3d edge = (1 / (24 * voxel)) * (high - low);
   EXPECT_NEAR(edge.x, 1, 0.002);
   EXPECT_NEAR(edge.y, 1.5, 0.003);
@@ -65,13 +67,13 @@ TEST(CtIsosurface, HasTheEdgesOfVoxelsThatAreNoCubes) {
 TEST(CtIsosurface, OfAFieldThatIsPositiveEverywhereIsClosedAtItsEnds) {
   Image<float> field({5, 6, 7}, {voxel, voxel, voxel}, {}, 0.5f);
   ct::close_ends(field);
-  EXPECT_EQ(std::count(field.voxels.begin(), field.voxels.end(), 0.5f), 3 * 4 * 5);  // all but the outermost nodes
+  EXPECT_EQ(std::count(field.voxels.begin(), field.voxels.end(), 0.5f), 3 * 4 * 5);  // all except the outermost nodes
   const Surface surface = ct::isosurface(field);
   EXPECT_TRUE(check_surface(surface).good()) << check_surface(surface).text();
 }
 
 TEST(CtGrainSurfaces, OfTwoGrainsMeetAtTheCutBetweenThem) {
-  // Aggregate from x = 4 to 39, cut between 19 and 20: only labels tell the two from each other.
+  // Aggregate extends from x = 4 to 39 and is cut between 19 and 20. Only the labels separate the two grains.
   Segmentation scan;
   scan.phases = Image<std::uint8_t>({44, 24, 24}, {voxel, voxel, voxel}, {}, std::uint8_t(VoxelPhase::mastic));
   scan.confidence = Image<std::uint8_t>::like(scan.phases, 255);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file ct_twin_test.cpp  Specimens of scans: what lay where still does, and the scene runs.
+/// \file ct_twin_test.cpp  Specimens made from scans: grains and voids stay at their places, and the scene runs.
 #include "macadam/twin.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr double pi = std::numbers::pi;
 
 class CtTwin : public CtFolder {
  protected:
-  /// The truth of a phantom of the scene.
+  /// Writes a phantom of the scene and returns the folder of its exact phases and labels.
   fs::path truth_of(const Scene& scene, CoreShape shape = CoreShape::prism) const {
     PhantomSpec spec;
     spec.voxel = 0.2e-3;
@@ -29,7 +29,7 @@ class CtTwin : public CtFolder {
   }
 };
 
-/// Volume and centroid of the spheres of each body.
+/// Returns volume and centroid of the spheres of each aggregate.
 std::map<std::int32_t, std::pair<double, Vec3d>> bodies_of(const Specimen& s) {
   std::map<std::int32_t, std::pair<double, Vec3d>> out;
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -43,26 +43,28 @@ std::map<std::int32_t, std::pair<double, Vec3d>> bodies_of(const Specimen& s) {
   return out;
 }
 
+/// A twin has every grain and void at its place, with about the same volumes and the same modulus as the original
+/// specimen.
 TEST_F(CtTwin, HasEveryGrainWhereItLayAndRuns) {
   const Scene scene = shapes_scene();
   const fs::path truth = truth_of(scene);
   const Specimen source = read_specimen_csv(truth / "specimen.csv", scene.specimen.box);
   const Twin twin = make_twin(truth, scene, {});
   const Vec3d size = scene.specimen.box.size;
-  EXPECT_LT(norm(twin.specimen.box.size - size), 1e-9);  // edges that are whole numbers of voxels
+  EXPECT_LT(norm(twin.specimen.box.size - size), 1e-9);  // the edges of the box are whole numbers of voxels
   EXPECT_LT(norm(twin.corner), 1e-9);
   const auto here = bodies_of(twin.specimen), there = bodies_of(source);
   ASSERT_EQ(here.size(), there.size());
   EXPECT_EQ(twin.lost, 0);
-  for (const auto& [id, sums] : here) {  // numbers of the labels: those of the bodies from 1
+  for (const auto& [id, sums] : here) {  // labels count the aggregates from 1
     const auto& [volume, centre] = there.at(id - 1);
     EXPECT_LT(norm(sums.second - centre), 0.2e-3);
-    EXPECT_NEAR(sums.first / volume, 1, 0.15);  // the last sphere of a dozen or so
+    EXPECT_NEAR(sums.first / volume, 1, 0.15);  // the volume is off by up to the last of about a dozen spheres
   }
   double air = 0, here_air = 0;
   for (const VoidSphere& v : source.voids) air += 4 * pi / 3 * std::pow(v.radius, 3);
   for (const VoidSphere& v : twin.specimen.voids) here_air += 4 * pi / 3 * std::pow(v.radius, 3);
-  EXPECT_NEAR(here_air / air, 1, 0.03);  // by whole voxels
+  EXPECT_NEAR(here_air / air, 1, 0.03);  // volume of whole voxels
   EXPECT_EQ(twin.specimen.voids.size(), source.voids.size());
   const Twin without = make_twin(truth, scene, {.least_void = 1e-2});
   EXPECT_TRUE(without.specimen.voids.empty());
@@ -79,11 +81,12 @@ TEST_F(CtTwin, HasEveryGrainWhereItLayAndRuns) {
     return run(s, out).harmonic().frequencies.front().stiffness;
   };
   const Stiffness a = modulus(folder_ / "a", scene), b = modulus(folder_ / "b", made);
-  // some 500 particles: other places of the mastic alone change |E*| by some per cent
+  // With about 500 particles, other positions of the mastic spheres change |E*| by some per cent.
   EXPECT_NEAR(b.e_star_pa / a.e_star_pa, 1, 0.1);
   EXPECT_NEAR(b.phase_deg, a.phase_deg, 1.5);
 }
 
+/// If the twin is a part of the scan, grains that the box cuts are kept up to the cut.
 TEST_F(CtTwin, OfABoxKeepsTheGrainsThatItCuts) {
   const Scene scene = shapes_scene();
   const fs::path truth = truth_of(scene);
@@ -108,9 +111,10 @@ TEST_F(CtTwin, GrainsAreSingleSpheresWhereTheSceneHasNoShapes) {
   EXPECT_NEAR(volume / twin.specimen.box.volume(), twin.aggregate, 1e-9);
 }
 
+/// Mastic that a void encloses completely would not be connected to the specimen, so it is removed.
 TEST_F(CtTwin, WhatVoidsEncloseIsTakenOut) {
   const Scene scene = shapes_scene();
-  // a ball of mastic in a shell of air
+  // A ball of mastic inside a shell of air.
   Image<std::uint8_t> phases({60, 60, 70}, {0.2e-3, 0.2e-3, 0.2e-3}, {0.1e-3, 0.1e-3, 0.1e-3},
                              static_cast<std::uint8_t>(VoxelPhase::mastic));
   for (std::int64_t k = 0; k < 70; ++k)
@@ -127,7 +131,7 @@ TEST_F(CtTwin, WhatVoidsEncloseIsTakenOut) {
   });
   EXPECT_EQ(stages, (std::vector<std::string>{"reading the scan", "filling grains", "relaxing mastic", "tessellation",
                                               "what hangs on nothing"}));
-  EXPECT_GT(twin.enclosed_mastic, 5);  // some 14 spheres of 0.7 mm have its volume
+  EXPECT_GT(twin.enclosed_mastic, 5);  // its volume is that of about 14 spheres of 0.7 mm
   EXPECT_EQ(twin.enclosed_aggregate, 0);
   for (const Vec3d& p : twin.specimen.centre) EXPECT_GT(norm(p - Vec3d{6e-3, 6e-3, 7e-3}), 3e-3);
   for (const Cluster& c : find_clusters(build_network(twin.specimen, tessellate(twin.specimen)), twin.specimen.size()))
@@ -141,7 +145,8 @@ TEST_F(CtTwin, RefusesWhatIsNoScan) {
   };
   EXPECT_HAS(message(folder_, {}), "phases.mha");
   const fs::path truth = truth_of(scene, CoreShape::cylinder);
-  EXPECT_HAS(message(truth, {}), "outside of the specimen: found 21 %");  // beside a cylinder in its box: 1 − π/4
+  // the fraction of a square outside of its inscribed circle is 1 − π/4
+  EXPECT_HAS(message(truth, {}), "outside of the specimen: found 21 %");
   EXPECT_HAS(message(truth, {.box = {{Vec3d{0, 0, 0}, Vec3d{1, 1, 1}}}}), "box");
   EXPECT_HAS(message(truth, {.box = {{Vec3d{5e-3, 5e-3, 5e-3}, Vec3d{4e-3, 6e-3, 6e-3}}}}), "box");
   EXPECT_EQ(message(truth, {.box = {{Vec3d{3e-3, 3e-3, 3e-3}, Vec3d{9e-3, 9e-3, 9e-3}}}}), "nothing was thrown");
@@ -162,7 +167,7 @@ TEST(VoidSpheres, ARoundVoidIsOneSphere) {
     for (std::int64_t j = 0; j < 30; ++j)
       for (std::int64_t i = 0; i < 40; ++i)
         if (norm(image.centre(i, j, k) - centre) < 0.6e-3) image.at(i, j, k) = 0, ++n;
-  image.at(39, 29, 29) = 0;  // a voxel of noise
+  image.at(39, 29, 29) = 0;  // a single voxel of noise
   const ct::VoidSpheres found = ct::void_spheres(image, 2e-4);
   ASSERT_EQ(found.spheres.size(), 1U);
   EXPECT_NEAR(4 * pi / 3 * std::pow(found.spheres[0].radius, 3), static_cast<double>(n) * 1e-12, 1e-20);
@@ -184,7 +189,7 @@ TEST(VoidSpheres, ALongVoidIsARowOfThem) {
     volume += 4 * pi / 3 * std::pow(s.radius, 3);
     EXPECT_TRUE(s.centre.y > 1.15e-3 && s.centre.y < 1.75e-3);
     EXPECT_TRUE(s.centre.z > 1.15e-3 && s.centre.z < 1.75e-3);
-    // no centre within another sphere: each has a cell
+    // No centre lies within another sphere, so each sphere has a cell.
     for (std::size_t l = 0; l < k; ++l)
       EXPECT_GT(norm(s.centre - found.spheres[l].centre), 0.9 * std::max(s.radius, found.spheres[l].radius));
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cubic_lattice_test.cpp  A cubic lattice of equal spheres without shear has the modulus of its contacts: E = E_macro.
+// cubic_lattice_test.cpp  A cubic lattice of equal spheres without shear stiffness has the modulus of its contacts.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr double E = 2e10, side = 2e-3;
 
-/// Mastic spheres at the centres of the cubes that fill the box. All facets of a sphere meet three at a corner with
-/// those of its neighbours: the most degenerate input of the tessellation.
+/// Returns mastic spheres at the centres of cubes that fill the box. At every corner of a cell facets of eight spheres
+/// meet, which is the most degenerate input of a tessellation.
 Specimen lattice(int nx, int ny, int nz, double radius) {
   Specimen out;
   out.box.size = {nx * side, ny * side, nz * side};
@@ -31,11 +31,11 @@ Specimen lattice(int nx, int ny, int nz, double radius) {
   return out;
 }
 
-// Columns of springs E·A/side, ended by walls at half a side with E·A/(side/2), make up E over the whole height. Sizes
-// that are no powers of two, so that coordinates round.
+// The lattice consists of columns of springs: E·A/side between spheres and E·A/(side/2) at the walls. Their series
+// gives E over the whole height. Sizes are not powers of two, so that coordinates round.
 TEST(CubicLattice, StaticModulusIsE) {
   for (const auto& [nx, ny, nz] : {std::tuple{1, 1, 1}, {1, 1, 7}, {3, 3, 5}, {6, 5, 7}, {10, 10, 11}}) {
-    for (const double radius : {0.4 * side, 0.5 * side, 0.6 * side}) {  // apart, touching, overlapping
+    for (const double radius : {0.4 * side, 0.5 * side, 0.6 * side}) {  // spheres apart, touching, overlapping
       const TestScene scene = make_scene(lattice(nx, ny, nz, radius), {}, same_law(laws::Elastic{E, 0}));
       ASSERT_EQ(scene.network.contacts.size(),
                 static_cast<std::size_t>((nx - 1) * ny * nz + nx * (ny - 1) * nz + nx * ny * (nz + 1)));
@@ -57,7 +57,7 @@ using Case = std::tuple<Backend, ContactForm, Geometry>;
 
 class LoadedLattice : public BackendTest<Case> {
  protected:
-  /// |E*| and φ of a sinusoidal load of four cycles, of which three are a smooth start.
+  /// Returns |E*| and φ of a sinusoidal load of four cycles, of which the first three are a smooth start.
   Stiffness modulus(const TestScene& scene, double frequency) const {
     StepperOptions options;
     std::tie(std::ignore, options.form, options.geometry) = GetParam();
@@ -87,9 +87,9 @@ INSTANTIATE_TEST_SUITE_P(All, LoadedLattice,
                                           testing::Values(Geometry::updated, Geometry::fixed)),
                          [](const auto& info) { return name_of_case(info); });
 
-// A bar of height H held below and driven above at ω has the modulus E·κ/tan κ = E·(1 − κ²/3 − κ⁴/45 …) with
-// κ = ω·H·√(ρ/E): inertia alone parts it from E, by the square of the frequency. A column of n spheres has its mass at
-// n heights, Σ ((i − ½)/n)²/n = ⅓·(1 − 1/(4n²)) in place of ⅓.
+// A bar of height H that is held below and driven above at ω has the modulus E·κ/tan κ = E·(1 − κ²/3 − κ⁴/45 …) with κ
+// = ω·H·√(ρ/E). So inertia changes E by the square of the frequency. A column of n spheres has its mass at n heights;
+// therefore Σ ((i − ½)/n)²/n = ⅓·(1 − 1/(4n²)) replaces ⅓.
 TEST_P(LoadedLattice, SlowLoadingReachesTheStaticModulus) {
   constexpr int n = 5;
   const TestScene scene = make_scene(lattice(3, 3, n, 0.5 * side), {}, same_law(laws::Elastic{E, 0}));
@@ -99,8 +99,8 @@ TEST_P(LoadedLattice, SlowLoadingReachesTheStaticModulus) {
     const double square = kappa * kappa, fourth = square * square / 45;
     const double expected = 1 - square / 3 * (1 - 0.25 / (n * n)) - fourth;
     const Stiffness found = modulus(scene, kappa / (2 * std::numbers::pi * height * std::sqrt(density / E)));
-    // The masses' heights change the fourth order by 1/n² of it, taken as a tenth; the start is so smooth that ringing
-    // stays below 1e-8.
+    // The discrete heights of the masses change the fourth-order term by about 1/n² of it; a tenth is allowed. The
+    // start is smooth enough to keep ringing below 1e-8.
     EXPECT_NEAR(found.e_star_pa / E, expected, fourth / 10 + 1e-8);
     EXPECT_NEAR(found.phase_deg, 0, 1e-5);
   }

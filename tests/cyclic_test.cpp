@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// cyclic_test.cpp  Signals of known |E*| and φ read back, and the loading that makes them.
+// cyclic_test.cpp  Evaluation of cyclic tests: signals of known |E*| and φ are recovered. Then the loading that such
+// tests apply.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,13 +17,14 @@ namespace {
 constexpr double pi = std::numbers::pi, degree = pi / 180;
 constexpr double strain_amplitude = 1e-4, modulus = 1.17e10;
 
-/// A test that samples −ε·sin(ωt) and a stress given by the phase 2π·cycles.
+/// A test with the strain −ε·sin(ωt) and a stress of known modulus and phase.
 struct Signal {
   double frequency = 20, phase_deg = 7;
   int per_cycle = 500, cycles = 4;
-  double first_cycle = 0;  ///< where the samples begin
+  double first_cycle = 0;  ///< cycle at which the samples begin
 
-  using Addition = std::function<double(double cycles)>;  ///< in units of the amplitude
+  using Addition = std::function<double(double cycles)>;  ///< added signal in units of the amplitude, as a function of
+                                                          ///< the time in cycles
 
   std::vector<ResponseSample> samples(const Addition& to_stress = {}, const Addition& to_strain = {}) const {
     std::vector<ResponseSample> out;
@@ -56,8 +58,8 @@ TEST(EvaluateCyclic, SinusoidsAreReadToRounding) {
   }
 }
 
-// The trend is not orthogonal to a second harmonic, which large strains have: unless it is fitted, h of it makes
-// −0.78·h of fundamental over one cycle.
+// Large strains add a second harmonic to the stress. It is not orthogonal to the linear trend: unless both are fitted
+// together, a second harmonic of amplitude h changes the fundamental by −0.78·h over one cycle.
 TEST(EvaluateCyclic, ASecondHarmonicDoesNotLeak) {
   for (const int cycles : {1, 2, 4}) {
     Signal signal;
@@ -69,7 +71,8 @@ TEST(EvaluateCyclic, ASecondHarmonicDoesNotLeak) {
   }
 }
 
-// t·f loses ε·t·f of its fraction: 1e5 cycles are a phase of 2π·1e-11 in strain and stress alike.
+// The product t·f has a rounding error of ε·t·f. After 1e5 cycles this is a phase error of 2π·1e-11, in strain and
+// stress.
 TEST(EvaluateCyclic, LateCyclesAreAsGood) {
   Signal signal;
   signal.first_cycle = 1e5;
@@ -85,8 +88,8 @@ TEST(EvaluateCyclic, OffsetAndTrendAreTakenOutExactly) {
   EXPECT_LT(found.fit_rms, 1e-12);
 }
 
-// White noise of deviation s on N samples moves a fitted amplitude by s·√(2/N) in each direction; five deviations are
-// allowed. The residual is s, to s/√(2N).
+// White noise of standard deviation s on N samples changes a fitted amplitude by s·√(2/N) in each direction; five such
+// deviations are allowed. The residual is s, accurate to s/√(2N).
 TEST(EvaluateCyclic, NoiseMovesTheFitByItsShare) {
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0, 0.05);
@@ -96,11 +99,13 @@ TEST(EvaluateCyclic, NoiseMovesTheFitByItsShare) {
   const double samples = 2.0 * signal.per_cycle, deviation = 0.05 * std::sqrt(2 / samples);
   expect_stiffness(found.fit, signal.phase_deg, 5 * deviation, 5 * deviation);
   EXPECT_NEAR(found.fit_rms, 0.05, 5 * 0.05 / std::sqrt(2 * samples));
-  EXPECT_GT(std::abs(found.peaks.e_star_pa / modulus - 1), 5 * deviation);  // what the fit is for
+  // peaks are more sensitive to noise, which is why the fit is used
+  EXPECT_GT(std::abs(found.peaks.e_star_pa / modulus - 1), 5 * deviation);
 }
 
-// A ringing of r periods a cycle leaks into the fundamental over c cycles by at most (1/(r − 1) + 1/(r + 1))/(π·c) of
-// its amplitude, once more for what the trend takes of it. Peaks take it almost whole.
+// Ringing with r periods per cycle leaks into the fundamental over c cycles by at most (1/(r − 1) + 1/(r + 1))/(π·c) of
+// its amplitude; the bound is doubled for its effect on the trend. The evaluation by peaks contains almost the whole
+// ringing.
 TEST(EvaluateCyclic, RingingHardlyMovesTheFit) {
   constexpr double ringing = 0.02;
   const Signal signal;
@@ -114,9 +119,9 @@ TEST(EvaluateCyclic, RingingHardlyMovesTheFit) {
   }
 }
 
-// Samples h apart, a crest δ from the nearest: the parabola's crest lies (h/2)·tan δ/tan(h/2) from it and is
-// δ²·(h² − δ²)/8 too low. Over |δ| ≤ h/2 these are at most h³/62 in angle and 3h⁴/128 in height; strain and stress have
-// an error each.
+// Error of a parabola through three samples h apart, if the crest is δ from the nearest: the angle is (h/2)·tan
+// δ/tan(h/2) in place of δ, and the height is δ²·(h² − δ²)/8 too low. For |δ| ≤ h/2 these errors are at most h³/62 and
+// 3h⁴/128. Strain and stress have one error each.
 void expect_peaks_good_to_the_sampling(double phase, int per_cycle, int left_out = 0) {
   SCOPED_TRACE(testing::Message() << phase << "°, " << per_cycle << " samples a cycle");
   const double h = 2 * pi / per_cycle;
@@ -137,26 +142,25 @@ TEST(EvaluateCyclic, PeaksAreGoodToTheSampling) {
   }
 }
 
-// Stress a quarter ahead of −sin(ωt) has its trough where a cycle ends and the next begins.
+// Stress that leads −sin(ωt) by a quarter cycle has its trough at the end of a cycle.
 TEST(EvaluateCyclic, PeaksAtTheEndOfACycleAreAsGood) {
   for (const int per_cycle : {50, 500}) {
     for (const double phase : {89.0, 89.64, 89.9, 90.0}) expect_peaks_good_to_the_sampling(phase, per_cycle);
   }
 }
 
-// Without its last half cycle the signal ends where stress has its crest, three quarters of a cycle after that of
-// strain.
+// Without the last half cycle, the signal ends at a crest of stress, three quarters of a cycle after that of strain.
 TEST(EvaluateCyclic, PeaksOfCrestsOfTwoCyclesAreAsGood) {
   for (const int per_cycle : {50, 500}) {
     for (const double phase : {89.9, 90.0}) expect_peaks_good_to_the_sampling(phase, per_cycle, per_cycle / 2);
   }
 }
 
-/// A signal that changes its stiffness and phase at the end of each cycle.
+/// Returns a signal whose stiffness and phase change at the end of each cycle.
 std::vector<ResponseSample> changing(int cycles, double growth, double turn_deg, int per_cycle = 200) {
   std::vector<ResponseSample> out;
   for (int k = 0; k <= cycles * per_cycle; ++k) {
-    const int cycle = k == 0 ? 0 : (k - 1) / per_cycle;  // the sample at its end belongs to a cycle
+    const int cycle = k == 0 ? 0 : (k - 1) / per_cycle;  // the sample at the end of a cycle belongs to this cycle
     const double angle = 2 * pi * k / per_cycle, phase = (10 + turn_deg * cycle) * degree;
     out.push_back({5, k / (5.0 * per_cycle), strain_amplitude * std::sin(angle),
                    strain_amplitude * modulus * std::pow(1 + growth, cycle) * std::sin(angle + phase)});
@@ -168,7 +172,7 @@ TEST(EvaluateCyclic, ChangeFromCycleToCycle) {
   const CyclicResult found = evaluate_cyclic(changing(4, 0.01, -0.2), 5, 1);
   EXPECT_NEAR(found.change_e_star, 0.01, 1e-11);
   EXPECT_NEAR(found.change_phase_deg, -0.2, 1e-10);
-  EXPECT_NEAR(found.fit.e_star_pa / modulus, std::pow(1.01, 3), 1e-11);  // the last cycle alone is fitted
+  EXPECT_NEAR(found.fit.e_star_pa / modulus, std::pow(1.01, 3), 1e-11);  // only the last cycle is fitted
   EXPECT_NEAR(found.fit.phase_deg, 10 - 3 * 0.2, 1e-10);
 
   const CyclicResult steady = evaluate_cyclic(Signal{}.samples(), 20, 1);
@@ -182,7 +186,7 @@ TEST(EvaluateCyclic, ChangeFromCycleToCycle) {
 
 TEST(EvaluateCyclic, OnlyTheLastCyclesCount) {
   std::vector<ResponseSample> samples = Signal{}.samples();
-  for (std::size_t k = 0; k <= 1000; ++k) samples[k].stress_pa = 1e12;  // two cycles, the sample at their end included
+  for (std::size_t k = 0; k <= 1000; ++k) samples[k].stress_pa = 1e12;  // two cycles, including the sample at their end
   expect_stiffness(evaluate_cyclic(samples, 20, 2).fit, 7, 1e-12, 1e-12);
   samples[1001].stress_pa = 1e12;
   EXPECT_GT(std::abs(evaluate_cyclic(samples, 20, 2).fit.e_star_pa / modulus - 1), 1e-3);
@@ -207,7 +211,7 @@ TEST(EvaluateCyclic, TooLittleIsAnError) {
   EXPECT_NE(refused(all, NAN, 1), "accepted");
 }
 
-// ---- the loading
+// The loading of a cyclic test.
 
 drives::Cyclic loading_of(std::int64_t steps_per_period, std::int64_t ramp_steps) {
   drives::Cyclic out;
@@ -218,7 +222,7 @@ drives::Cyclic loading_of(std::int64_t steps_per_period, std::int64_t ramp_steps
   return out;
 }
 
-// Rounding of a sum of n steps of up to A·2π/n each: a walk far below 1e-12·A.
+// The rounding of a sum of n steps of at most A·2π/n each is far below 1e-12·A.
 TEST(CyclicLoading, VelocityIsTheMeanRateOfDisplacement) {
   for (const std::int64_t n : {8, 500, 43'500}) {
     const drives::Cyclic loading = loading_of(n, 0);
@@ -230,8 +234,8 @@ TEST(CyclicLoading, VelocityIsTheMeanRateOfDisplacement) {
   }
 }
 
-// During the start the product r·sin is differenced by its factors at the middle of the step: exact to Δt³ a step,
-// hence to Δt² at the end of the start, and constant from there.
+// During the smooth start the rate of the product r·sin is computed from its factors at the middle of the step. The
+// error is Δt³ per step, hence Δt² at the end of the start, and constant afterwards.
 TEST(CyclicLoading, VelocityDuringTheSmoothStartIsOfSecondOrder) {
   std::vector<double> errors;
   for (const std::int64_t n : {100, 200, 400}) {
@@ -252,10 +256,11 @@ TEST(CyclicLoading, PhaseIsExactHoweverLongTheRun) {
   const drives::Cyclic loading = loading_of(43'500, 0);
   for (const std::int64_t k : {std::int64_t{1}, std::int64_t{12'345}, std::int64_t{43'499}}) {
     const double angle = 2 * pi * static_cast<double>(k) / 43'500;
-    // angles below 2π round by up to 9e-16 here and there
+    // angles below 2π have rounding errors of up to 9e-16
     EXPECT_NEAR(loading.value(k), -1.1e-6 * std::sin(angle), 2e-15 * 1.1e-6);
     EXPECT_NEAR(loading.value(k, 1), -1.1e-6 * std::sin(angle + pi / 43'500), 2e-15 * 1.1e-6);
-    for (const std::int64_t periods : {std::int64_t{23'000}, std::int64_t{1'000'000'000}}) {  // from 1e9 steps on
+    // the second value gives more than 1e13 steps
+    for (const std::int64_t periods : {std::int64_t{23'000}, std::int64_t{1'000'000'000}}) {
       EXPECT_EQ(loading.value(k + periods * 43'500), loading.value(k));
       EXPECT_EQ(loading.rate(k + periods * 43'500), loading.rate(k));
     }
@@ -267,7 +272,7 @@ TEST(CyclicLoading, StartsSmoothlyFromNothingToAll) {
   EXPECT_EQ(smooth.value(0), 0);
   double before = 0;
   for (std::int64_t k = 1; k < 2500; ++k) {
-    if (k % 500 == 0) continue;  // the sine is zero
+    if (k % 500 == 0) continue;  // the sine is zero here
     const double ramp = smooth.value(k) / plain.value(k);
     ASSERT_GT(ramp, before) << k;
     ASSERT_LT(ramp, 1) << k;
@@ -275,7 +280,7 @@ TEST(CyclicLoading, StartsSmoothlyFromNothingToAll) {
   }
   EXPECT_NEAR(smooth.value(1250) / plain.value(1250), 0.5, 1e-14);
   for (const std::int64_t k : {2500, 2501, 3250, 99'999}) EXPECT_EQ(smooth.value(k), plain.value(k));
-  // No jump of velocity: it begins as the cube of time, r·sin ≈ (π/2·k/2500)²·2πk/1000.
+  // The velocity starts without a jump: r·sin ≈ (π/2·k/2500)²·2πk/1000 grows as the cube of time.
   EXPECT_LT(std::abs(smooth.rate(0)), 1e-5 * std::abs(plain.rate(0)));
 }
 

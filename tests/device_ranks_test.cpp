@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_ranks_test.cpp  One specimen by several processes: the same bits as by one. The ranks are threads here, which
-// share a device; tests/ranks/run takes processes, MPI and NCCL.
+// device_ranks_test.cpp  One specimen on several ranks gives the same bits as on one. Here the ranks are threads that
+// use one device; tests/ranks/run uses processes, MPI and NCCL.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -19,7 +19,7 @@ struct Case {
   Precision precision;
   ContactForm form;
   Geometry geometry;
-  bool pushed;  // by forces, on a wall and on the particles
+  bool pushed;  // loads act on a wall and on the particles, instead of a prescribed motion
   const char* path;
 };
 
@@ -34,7 +34,7 @@ class RanksOf : public testing::TestWithParam<Case> {
     options_.form = c.form;
     options_.geometry = c.geometry;
     options_.devices = {0};
-    options_.multiprocessors = 1;  // no room for the specimen on the chip
+    options_.multiprocessors = 1;  // one multiprocessor cannot hold the specimen in registers and shared memory
     if (!c.pushed) return;
     const double mass = std::accumulate(scene_.inertia.mass.begin(), scene_.inertia.mass.end(), 0.0);
     options_.boundary = {};
@@ -57,6 +57,7 @@ std::vector<Vec3d> list(const std::array<Vec3d, n>& of) {
   return {of.begin(), of.end()};
 }
 
+/// Several ranks take the same steps as one: walls, state, forces of particles and contacts are equal bit by bit.
 TEST_P(RanksOf, TakeTheStepsOfOne) {
   const auto alone = make();
   EXPECT_HAS(alone->description(), GetParam().path);
@@ -72,7 +73,7 @@ TEST_P(RanksOf, TakeTheStepsOfOne) {
       EXPECT_HAS(part->description(), std::to_string(count) + " ranks");
       EXPECT_HAS(part->description(), GetParam().path);
       for (const std::int64_t steps : {1, 32, 300}) part->advance(steps);
-      const Observation now = part->observe();  // before anything is gathered
+      const Observation now = part->observe();  // observed before the state is gathered
       expect_same(list(now.wall_force), list(seen.wall_force), "forces on the walls");
       expect_same(list(now.wall_displacement), list(seen.wall_displacement), "displacements of the walls");
       expect_same(list(now.wall_velocity), list(seen.wall_velocity), "velocities of the walls");
@@ -84,6 +85,7 @@ TEST_P(RanksOf, TakeTheStepsOfOne) {
   }
 }
 
+/// A state saved by one number of ranks can be continued by another number.
 TEST_P(RanksOf, GoOnFromACheckpointOfAnotherNumber) {
   const auto alone = make();
   alone->advance(150);
@@ -106,7 +108,7 @@ TEST_P(RanksOf, GoOnFromACheckpointOfAnotherNumber) {
   });
 }
 
-// As the next frequency of a test does.
+// Makes a new stepper from a used one, as a test does for its next frequency.
 TEST_P(RanksOf, BeginAnew) {
   const auto alone = make();
   alone->advance(100);
@@ -123,7 +125,7 @@ TEST_P(RanksOf, BeginAnew) {
   });
 }
 
-// As the cyclic test does where a tolerance is given.
+// Starts from the steady state of the harmonic solution, as a cyclic test does if a tolerance is given.
 TEST(Ranks, BeginInTheSteadyState) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   const TestScene scene = make_scene(random_specimen(3, 16, 16, 20));
@@ -154,7 +156,8 @@ TEST(Ranks, BeginInTheSteadyState) {
   for_ranks(3, [&](Ranks& rank) { expect_same(stepped(&rank), alone); });
 }
 
-/// Two ranks, whose options `change` makes differ, make a stepper and take 10 + `more` steps; both are refused.
+/// Expects that two ranks are refused. Both make a stepper with options that `change` makes differ, then take 10 +
+/// more(rank) steps.
 void expect_refused(const std::string& why, const std::function<void(int rank, StepperOptions& options)>& change,
                     const std::function<std::int64_t(int rank)>& more) {
   const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));
@@ -171,7 +174,7 @@ void expect_refused(const std::string& why, const std::function<void(int rank, S
   });
 }
 
-// They would wait for each other for ever, or step two specimens.
+// Ranks that differ would wait for each other forever, or step two different specimens.
 TEST(Ranks, ThatDifferAreRefused) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   const auto as_it_is = [](int, StepperOptions&) {};
@@ -189,6 +192,7 @@ TEST(Ranks, ThatDifferAreRefused) {
       none);
 }
 
+/// If particles of different ranks can diverge, all ranks name the same one.
 TEST(Ranks, NameTheFirstParticleThatDiverges) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   const TestScene scene = make_scene(random_specimen(3, 8, 8, 8));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_room_test.cpp  Whose steps, or which solution, have the multiprocessors of a device. Events are addresses
-// here: no device is needed.
+// device_room_test.cpp  The order in which steppers and harmonic solutions get the multiprocessors of a device. Events
+// are plain addresses here, so no device is needed.
 #include "kernels/device_room.hpp"
 
 #include <gtest/gtest.h>
@@ -19,11 +19,12 @@ using namespace std::chrono_literals;
 using Share = DeviceRoom::Share;
 using Event = DeviceRoom::Event;
 
-/// A specimen that takes so many of the 100 multiprocessors of a device of its own.
+/// A specimen that needs the number of multiprocessors in `share` on each device; every device has 100.
 class Specimen {
  public:
   explicit Specimen(Share share) : share_(std::move(share)) {}
-  /// On its way in a thread of its own; what it waits for on the device.
+  /// Requests the multiprocessors in a new thread. The result is the event on the device behind which the steps are
+  /// queued, null if none.
   std::future<Event> takes() {
     return std::async(std::launch::async, [this] {
       Share all;
@@ -46,6 +47,8 @@ class Specimen {
 void nowhere(Event) {}
 bool waits(std::future<Event>& taken) { return taken.wait_for(50ms) == std::future_status::timeout; }
 
+/// While the first specimen still queues steps the second waits. Then it is queued behind the end of the first; only
+/// one specimen may queue behind another.
 TEST(DeviceRoom, ASecondSpecimenIsQueuedBehindTheStepsOfTheFirst) {
   Specimen a(Share{{0, 90}}), b(Share{{0, 90}}), c(Share{{0, 90}});
   EXPECT_EQ(a.takes().get(), nullptr);
@@ -68,7 +71,8 @@ TEST(DeviceRoom, ASecondSpecimenIsQueuedBehindTheStepsOfTheFirst) {
   b.gives();
 }
 
-// The specimen that is there longest goes first, however large it is, and though it asks last.
+// Specimens get their turn in the order of their numbers, which is the order of their creation, whatever their size and
+// the order of their requests.
 TEST(DeviceRoom, GivesTurnsByTheSpecimensNumbers) {
   const DeviceRoom::Share whole{{700, 10}}, small{{700, 4}}, other{{701, 1}}, of_device{{700, 10}, {701, 10}};
   std::mutex mutex;
@@ -99,6 +103,8 @@ TEST(DeviceRoom, GivesTurnsByTheSpecimensNumbers) {
   EXPECT_EQ(order, (std::vector<char>{'o', 'L', 's', 'y'}));
 }
 
+/// Specimens that fit on the device together run side by side. A third would have to wait for both, so it waits on the
+/// host.
 TEST(DeviceRoom, SmallSpecimensAreSideBySide) {
   Specimen a(Share{{2, 40}}), b(Share{{2, 40}}), c(Share{{2, 40}});
   EXPECT_EQ(a.takes().get(), nullptr);
@@ -113,6 +119,7 @@ TEST(DeviceRoom, SmallSpecimensAreSideBySide) {
   c.gives();
 }
 
+/// A specimen on several devices waits until all of them are free or can be queued behind.
 TEST(DeviceRoom, SpecimensOnSeveralDevicesWaitForAllOfThem) {
   Specimen a(Share{{3, 90}}), both(Share{{3, 90}, {4, 90}}), b(Share{{4, 90}});
   a.takes().get();
@@ -129,7 +136,8 @@ TEST(DeviceRoom, SpecimensOnSeveralDevicesWaitForAllOfThem) {
   b.gives();
 }
 
-/// A solution on its way in a thread of its own, until it is told to end; what it waits for on the device.
+/// A harmonic solution in a new thread, which lasts until ends() is called. The result of begins() is the event behind
+/// which it is queued.
 class Solution {
  public:
   explicit Solution(DeviceList devices)
@@ -151,9 +159,10 @@ class Solution {
   std::promise<Event> begun_;
   std::promise<void> end_;
   std::future<Event> taken_ = begun_.get_future();
-  std::thread thread_;  // the last, as it works with the others
+  std::thread thread_;  // declared last, because the thread uses the other members
 };
 
+/// A solution is served before a stepper that is waiting.
 TEST(DeviceRoom, ASolutionGoesBeforeStepsThatWait) {
   Specimen a(Share{{5, 90}}), b(Share{{5, 90}});
   a.takes().get();
@@ -169,6 +178,7 @@ TEST(DeviceRoom, ASolutionGoesBeforeStepsThatWait) {
   b.gives();
 }
 
+/// A solution uses all multiprocessors of its devices; steppers on these devices wait.
 TEST(DeviceRoom, ASolutionHasItsDevicesToItself) {
   Specimen small(Share{{6, 1}}), other(Share{{7, 1}}), elsewhere(Share{{8, 1}});
   Solution both({6, 7});
@@ -187,6 +197,8 @@ TEST(DeviceRoom, ASolutionHasItsDevicesToItself) {
   for (Specimen* s : {&small, &other, &elsewhere}) s->gives();
 }
 
+/// A specimen cannot release its multiprocessors while another is being queued behind its event, which might be
+/// destroyed.
 TEST(DeviceRoom, NobodyGivesRoomWhileAnotherIsQueuedBehind) {
   Specimen a(Share{{9, 90}});
   a.takes().get();
@@ -199,6 +211,7 @@ TEST(DeviceRoom, NobodyGivesRoomWhileAnotherIsQueuedBehind) {
   given.get();
 }
 
+/// If queueing behind an event fails, the solution does not keep the device.
 TEST(DeviceRoom, WhoCannotBeQueuedHasNoRoom) {
   Specimen a(Share{{10, 90}}), b(Share{{10, 90}});
   a.takes().get();

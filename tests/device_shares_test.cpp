@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_shares_test.cpp  Which device a scene takes, among several scenes and several devices.
+// device_shares_test.cpp  Which device a scene is assigned to, with several scenes and several devices.
 #include "host/simulation/device_shares.hpp"
 
 #include <gtest/gtest.h>
@@ -10,12 +10,12 @@
 namespace macadam {
 namespace {
 
-/// Scenes that may take any of these devices, but no more than `most` on one.
+/// Assigns scenes to any of the given devices, with at most `most` scenes per device.
 class Scenes : public DeviceShares {
  public:
   Scenes(std::size_t number, DeviceList devices, int most)
       : DeviceShares(number), devices_(std::move(devices)), most_(most) {}
-  /// The device that the next scene takes; −1: none.
+  /// Returns the device of the next scene; −1 if all are full.
   int next() {
     const std::optional<int> device = choose(devices_, most_);
     if (!device) return -1;
@@ -33,35 +33,37 @@ class Scenes : public DeviceShares {
 TEST(DeviceShares, GivesEachDeviceAsMany) {
   Scenes scenes(10, {0, 1, 2}, 2);
   for (const int device : {0, 1, 2, 0, 1, 2, -1}) EXPECT_EQ(scenes.next(), device);
-  scenes.end(4);  // of device 1
+  scenes.end(4);  // a scene of device 1
   EXPECT_EQ(scenes.next(), 1);
   EXPECT_EQ(scenes.next(), -1);
 }
 
 TEST(DeviceShares, AnIdleDeviceComesFirstAndABusyOneLast) {
   Scenes scenes(10, {0, 1}, 4);
-  scenes.next(), scenes.next(), scenes.next();  // 0 and 2 on device 0, 1 on device 1
+  scenes.next(), scenes.next(), scenes.next();  // scenes 0 and 2 are on device 0, scene 1 on device 1
   scenes.end(0), scenes.end(2);
   EXPECT_EQ(scenes.next(), 0) << "it is idle, though it got more";
   EXPECT_EQ(scenes.next(), 1);
-  scenes.end(3);  // of device 0, which got two and runs none; device 1 got two and runs two
+  scenes.end(3);  // a scene of device 0. Device 0 got two more and now runs none; device 1 got two and runs two
   EXPECT_EQ(scenes.next(), 0);
   scenes.end(5);
   EXPECT_EQ(scenes.next(), 0);
 }
 
+/// A scene does not move to another device as long as scenes without a device may still come.
 TEST(DeviceShares, MovesNoneWhileOthersAreToCome) {
   Scenes scenes(4, {0, 1}, 4);
   scenes.next(), scenes.next(), scenes.next();
   scenes.end(1);
   for (const double work : {100.0, 10.0}) EXPECT_EQ(scenes.go_on_with(0, work), 0);
-  scenes.end(3);  // which failed before it had a device
+  scenes.end(3);  // this scene failed before it got a device
   EXPECT_EQ(scenes.go_on_with(0, 10), 1) << "no other is to come";
 }
 
+/// A scene moves to the device on which less work is left.
 TEST(DeviceShares, MovesToWhereLessIsLeft) {
   Scenes scenes(3, {0, 1}, 4);
-  scenes.next(), scenes.next(), scenes.next();  // 0 and 2 on device 0, 1 on device 1
+  scenes.next(), scenes.next(), scenes.next();  // scenes 0 and 2 are on device 0, scene 1 on device 1
   EXPECT_EQ(scenes.go_on_with(1, 100), 1);
   EXPECT_EQ(scenes.go_on_with(2, 100), 0) << "both devices have as much beside it";
   EXPECT_EQ(scenes.go_on_with(0, 100), 0);
@@ -70,6 +72,7 @@ TEST(DeviceShares, MovesToWhereLessIsLeft) {
   EXPECT_EQ(scenes.go_on_with(0, 50), 0) << "alone";
 }
 
+/// A scene moves only if the gain is large enough.
 TEST(DeviceShares, MovesForNoSmallGain) {
   Scenes scenes(3, {0, 1}, 4);
   scenes.next(), scenes.next(), scenes.next();
@@ -79,6 +82,7 @@ TEST(DeviceShares, MovesForNoSmallGain) {
   EXPECT_EQ(scenes.go_on_with(2, 100), 1);
 }
 
+/// A scene does not move to a device that is full or not in its list.
 TEST(DeviceShares, MovesToNoFullAndNoForbiddenDevice) {
   Scenes full(5, {0, 1}, 2);
   for (int k = 0; k < 4; ++k) full.next();
@@ -92,7 +96,8 @@ TEST(DeviceShares, MovesToNoFullAndNoForbiddenDevice) {
   EXPECT_EQ(named.go_on(1, 100, 4), 7);
 }
 
-// Scenes of four equal frequencies, the work of which differs; each device steps its own in turn, a frequency each.
+// Simulates six scenes with four frequencies of equal work each; the work differs between scenes. Each device steps its
+// scenes in turn, one frequency at a time.
 TEST(DeviceShares, DevicesEndTogether) {
   const std::vector<double> work{40, 52, 38, 60, 45, 58};
   Scenes scenes(work.size(), {0, 1}, 4);
@@ -107,7 +112,7 @@ TEST(DeviceShares, DevicesEndTogether) {
       const std::size_t scene = (last[static_cast<std::size_t>(now)] + k) % work.size();
       if (device[scene] == now && done[scene] < 4) next = scene;
     }
-    if (next == work.size()) {  // idle
+    if (next == work.size()) {  // this device is idle
       clock[static_cast<std::size_t>(now)] = clock[static_cast<std::size_t>(1 - now)] + 1e-9;
       continue;
     }

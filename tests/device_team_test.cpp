@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_team_test.cpp  One specimen on several devices: the same bits as on one. A device that is named more than once
-// takes so many shares, so that one device is enough for most of this.
+// device_team_test.cpp  One specimen on several devices gives the same bits as on one. A device that is named several
+// times takes several parts, so most of these tests need only one device.
 #include <gtest/gtest.h>
 
 #include <mutex>
@@ -13,7 +13,7 @@
 namespace macadam::test {
 namespace {
 
-/// Teams of 1 to 8 shares of the first device, and one of all devices.
+/// Returns teams of 1 to 8 parts on the first device, and one of all devices.
 std::vector<DeviceList> teams() {
   std::vector<DeviceList> out;
   for (const std::size_t shares : {1u, 2u, 3u, 5u, 8u}) out.emplace_back(shares, 0);
@@ -26,7 +26,7 @@ struct Case {
   Precision precision;
   ContactForm form;
   Geometry geometry;
-  int multiprocessors;  // few: the specimen does not fit the chip
+  int multiprocessors;  // 0 means all; if few, the specimen does not fit into registers and shared memory
   const char* path;
   bool elastic = false;
 };
@@ -37,7 +37,7 @@ class Team : public testing::TestWithParam<Case> {
     if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
     const Case& c = GetParam();
     const Laws laws = c.elastic ? elastic_laws() : am1_laws();
-    scene_ = make_scene(random_specimen(3, 16, 16, 20), {}, laws);  // more than eight multiprocessors take
+    scene_ = make_scene(random_specimen(3, 16, 16, 20), {}, laws);  // needs more than eight multiprocessors
     options_ = slow_options(scene_);
     options_.precision = c.precision;
     options_.form = c.form;
@@ -61,7 +61,8 @@ TEST_P(Team, TakesTheStepsOfOneDevice) {
   for (const DeviceList& devices : teams()) {
     SCOPED_TRACE(to_string(devices));
     const auto team = make(devices);
-    const std::string path = GetParam().path;  // more multiprocessors may have room for what one streams
+    // A specimen that one device streams may fit into the multiprocessors of several.
+    const std::string path = GetParam().path;
     if (path != "tiles streamed") { EXPECT_HAS(team->description(), path); }
     if (devices.size() > 1) { EXPECT_HAS(team->description(), "devices " + to_string(devices)); }
     for (const std::int64_t steps : {1, 32, 300}) team->advance(steps);
@@ -77,6 +78,7 @@ TEST_P(Team, TakesTheStepsOfOneDevice) {
   }
 }
 
+/// A state saved by one team can be continued by another.
 TEST_P(Team, GoesOnFromTheCheckpointOfAnother) {
   const auto alone = make({0});
   alone->advance(150);
@@ -92,7 +94,8 @@ TEST_P(Team, GoesOnFromTheCheckpointOfAnother) {
   expect_same(five->state(), whole);
 }
 
-// Of different sizes, so that each asks for shared memory of its own; in turn they take all of the device.
+// The specimens have different sizes, so that each needs another amount of shared memory. They take turns with the
+// whole device.
 TEST(SideBySide, SpecimensOfOneDeviceTakeTheirOwnSteps) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   constexpr std::size_t specimens = 3;
@@ -125,6 +128,7 @@ TEST(SideBySide, SpecimensOfOneDeviceTakeTheirOwnSteps) {
   for (std::size_t k = 0; k < specimens; ++k) expect_same(together[k], alone[k]);
 }
 
+/// The harmonic solver on a team gives the same motion and number of iterations as on one device.
 TEST(TeamHarmonic, FindsTheMotionOfOneDevice) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   for (const Specimen& specimen : {random_specimen(3, 16, 16, 20), boulders(3)}) {
@@ -136,7 +140,7 @@ TEST(TeamHarmonic, FindsTheMotionOfOneDevice) {
       Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, options, 10);
       auto found =
           harmonic.solve(std::vector<HarmonicLoad>{{.frequency_hz = 2}, {.frequency_hz = 20, .density_scaling = 1}});
-      found.push_back(harmonic.solve(5));  // alone, by kernels of its own
+      found.push_back(harmonic.solve(5));  // a single load has its own kernels
       return found;
     };
     const auto alone = solve({0});

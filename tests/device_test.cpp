@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// device_test.cpp  Which CUDA device runs, and which a build has code for.
+// device_test.cpp  Choice of the CUDA device, and devices for which a build has code.
 #include <gtest/gtest.h>
 
 #ifdef MACADAM_CUDA
@@ -15,6 +15,7 @@
 namespace macadam::test {
 namespace {
 
+/// Machine code serves its own generation of devices; virtual code (PTX) serves all later ones.
 TEST(DeviceCode, MachineCodeServesItsGenerationAndVirtualCodeAllLater) {
   struct Case {
     const char* list;
@@ -44,6 +45,7 @@ TEST(DeviceCode, MachineCodeServesItsGenerationAndVirtualCodeAllLater) {
   }
 }
 
+/// From 300,000 contacts on, idle devices are used in addition, if the number of contacts pays for them.
 TEST(ChooseDevices, TakesIdleOnesWhereTheyPay) {
   const std::vector<DeviceInfo> devices{{1, "A", 90, 0, 132}, {2, "A", 90, 0, 132}, {4, "A", 90, 0, 132}};
   std::vector<int> asked;
@@ -72,15 +74,17 @@ TEST(ChooseDevices, TakesIdleOnesWhereTheyPay) {
   EXPECT_EQ(choose_devices(1'000'000, {}, {}, decision), DeviceList{});
 }
 
+/// Steppers for a user's own laws follow the same rules for backend and precision as Macadam's.
 TEST(OwnLaws, AreResolvedAsMacadamsAre) {
   const TestScene scene = make_scene(random_specimen(1, 2, 2, 2));
   StepperOptions options = shaking_options(scene);
-  const auto make = [&](Backend backend) {  // the kernels of Macadam's laws, as if they were a program's own
+  const auto make = [&](Backend backend) {  // treats Macadam's laws as laws of another program
     return make_stepper_of<Law, false, Precision::double_, Precision::mixed>(backend, scene.specimen, scene.network,
                                                                              scene.laws, scene.inertia, options);
   };
   for (const Backend backend : {Backend::cpu, Backend::automatic}) {
-    EXPECT_HAS(make(backend)->description(), "cpu");  // it has no kernels for devices, whatever is there
+    // no kernels are compiled for devices, whether there is one or not
+    EXPECT_HAS(make(backend)->description(), "cpu");
     EXPECT_HAS(make(backend)->description(), "double");
   }
   options.precision = Precision::mixed;
@@ -97,7 +101,7 @@ TEST(OwnLaws, AreResolvedAsMacadamsAre) {
 
 class Motion : public BackendTest<std::tuple<Backend, Precision>> {};
 
-// What lies on a device is what particles() tells, body by body; of the processor nothing is told.
+// The arrays on a device equal what particles() returns, for each particle. A processor has no device arrays.
 TEST_P(Motion, OnTheDeviceIsThatOfTheParticles) {
   const TestScene scene = make_scene(random_specimen(4));
   StepperOptions options = shaking_options(scene);
@@ -182,7 +186,7 @@ TEST(DeviceChoice, OfACudaDeviceThatIsNotThereListsThoseThatAre) {
   }
 }
 
-// Steppers on different devices may serve in turn: each makes its own device the thread's.
+// Steppers on different devices may be used in turn, because each selects its own device for the calling thread.
 TEST(DeviceChoice, EveryCudaDeviceTakesTheSameSteps) {
   const BackendReport report = report_backends();
   if (report.devices.empty()) GTEST_SKIP() << report.cuda_status;
@@ -204,7 +208,7 @@ TEST(DeviceChoice, EveryCudaDeviceTakesTheSameSteps) {
   }
   for (std::size_t i = 0; i < steppers.size(); ++i) {
     EXPECT_EQ(steppers[i]->observe().step, 300);
-    if (report.devices[i].name != report.devices[0].name) continue;  // another device may have other tiles
+    if (report.devices[i].name != report.devices[0].name) continue;  // another type of device may have other tiles
     EXPECT_EQ(steppers[i]->observe().top_force(), steppers[0]->observe().top_force());
   }
 }

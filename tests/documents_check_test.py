@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scripts/documents --check can fail: a copy of the documents with one fault each.
+"""Tests that scripts/documents --check fails for copies of the documents with one fault each.
 
-usage: documents_check_test.py REPOSITORY; exit code 1 where a fault passes, or where a sound document does not."""
+usage: documents_check_test.py REPOSITORY; exit code 1 if a fault passes, or if a correct document does not."""
 import contextlib
 import io
 import re
@@ -21,7 +21,7 @@ PROGRAM = runpy.run_path(str(ROOT / "scripts" / "documents"))
 
 
 def documents(folder, *options):
-    """In this process, which reads the results once."""
+    """Runs scripts/documents in this process, so that the results are read only once."""
     said = io.StringIO()
     with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
         code = PROGRAM["main"](["--root", str(folder), *options])
@@ -29,7 +29,7 @@ def documents(folder, *options):
 
 
 def other_digit(text):
-    """The text with its first digit changed."""
+    """Returns the text with its first digit changed."""
     return re.sub(r"\d", lambda m: str((int(m[0]) + 1) % 10), text, count=1)
 
 
@@ -42,13 +42,13 @@ def in_sentence(text):
 
 
 def unmarked_twin(text):
-    """The text with the last of several uses of one mark typed by hand."""
+    """Returns the text with the last of several uses of one mark replaced by its number without the mark."""
     uses = list(re.finditer(r"<!--= rounding mixed -->(.*?)<!--/-->", text))
     assert len(uses) > 1
     return text[:uses[-1].start()] + uses[-1][1] + text[uses[-1].end():]
 
 
-# what is done to which document, and what must be said of it beside file and line
+# document, change to it, and the message that is expected in addition to file and line
 FAULTS = [
     ("docs/accuracy.md", in_table, "expected"),
     ("docs/accuracy.md", in_sentence, "expected"),
@@ -91,7 +91,7 @@ FAULTS = [
 
 
 def of_results():
-    """What the pages say of a committed row that failed, and of a file that is not there."""
+    """Tests what the pages state about a committed row that failed, and about a file that does not exist."""
     def refused(call, text):
         try:
             said = call()
@@ -125,7 +125,7 @@ def of_results():
 
 
 def of_tests():
-    """An asserted number is found with its name alone."""
+    """Tests that a number asserted in a test is found only under its own name."""
     where = ("t8_test", "TwentyHertzInBothForms")
     if common.asserted(*where, "difference", "1e-10") != "1e-10":
         return ["an asserted number is not found"]

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// draws_ahead_test.cpp  Tries on many threads take from a stream what tries one after another do.
+// draws_ahead_test.cpp  Attempts on many threads take the same numbers from a random stream as attempts one after
+// another.
 #include "host/spheres/draws_ahead.hpp"
 
 #include <gtest/gtest.h>
@@ -10,12 +11,13 @@
 namespace macadam {
 namespace {
 
-/// What a search finds, by the numbers of the try, and then the next number of the stream.
+/// The numbers of the successful attempts that a search finds, and then the next number of the stream.
 using Found = std::vector<double>;
 
-/// Tries of two draws: good ones are those whose product exceeds a limit.
+/// An attempt uses two random numbers; it succeeds if their product exceeds a limit.
 bool good(double a, double b, double limit) { return a * b > limit; }
 
+/// Returns the result of searches that make one attempt after another.
 Found one_by_one(std::uint64_t seed, double limit, std::int64_t most, int searches) {
   RandomStream random(seed, 0);
   Found found;
@@ -30,6 +32,7 @@ Found one_by_one(std::uint64_t seed, double limit, std::int64_t most, int search
   return found;
 }
 
+/// Appends the next number of the stream.
 Found next_of(DrawsAhead& random, Found found) {
   found.push_back(random.first_good(1, 1, 1, [](Draws) { return true; })->uniform());
   return found;
@@ -43,6 +46,7 @@ class SearchesOf : public testing::TestWithParam<int> {
 };
 INSTANTIATE_TEST_SUITE_P(Threads, SearchesOf, testing::Values(1, 2, 3, 16));
 
+/// first_good() finds the same attempt as a loop, for any number of threads.
 TEST_P(SearchesOf, TheFirstGoodTry) {
   for (const double limit : {0.0, 0.5, 0.9, 0.999, 1.0})
     for (const std::int64_t most : {1, 7, 1000}) {
@@ -62,6 +66,7 @@ TEST_P(SearchesOf, TheFirstGoodTry) {
     }
 }
 
+/// each_good() finds the same successful attempts as a loop, for any number of threads.
 TEST_P(SearchesOf, ManyGoodTries) {
   for (const int wanted : {1, 3, 500})
     for (const double limit : {0.0, 0.5, 0.9}) {
@@ -81,13 +86,14 @@ TEST_P(SearchesOf, ManyGoodTries) {
     }
 }
 
+/// A search ends after 300 failures in a row.
 TEST_P(SearchesOf, GiveUpAfterSoManyTriesInARow) {
   int taken = 0;
   const auto rare = [](Draws d) { return d.uniform() > 0.99; };
   const auto take = [&](Draws) { return ++taken > 0; };
   DrawsAhead random(RandomStream(7, 0));
   EXPECT_FALSE(random.each_good(300, 1, 4, rare, take));
-  // By hand: the good ones before the first gap of 300.
+  // The expected number is that of the successes before the first 300 failures in a row.
   RandomStream same(7, 0);
   int expected = 0;
   for (int failed = 0; failed < 300;) same.uniform() > 0.99 ? (failed = 0, ++expected) : ++failed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// drive_test.cpp  Drives against their formulas; driven walls, platens, fixed particles and body forces on every
-// backend against the reference, and against momentum and static solutions.
+// drive_test.cpp  Drives against their formulas. Driven walls, platens, fixed particles and body forces on every
+// backend, against the reference, conservation of momentum and static solutions.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -14,7 +14,8 @@
 namespace macadam::test {
 namespace {
 
-/// Rates over all steps must add up to the change of the value.
+/// Expects that the rates over all steps add up to the change of the drive's value, and that fastest() is the largest
+/// rate.
 void expect_rates_of(const Drive& drive, std::int64_t steps, double scale) {
   double sum = drive.value(0), fastest = 0;
   for (std::int64_t k = 0; k < steps; ++k) {
@@ -51,8 +52,8 @@ TEST(Drives, ConstantRateAndTable) {
   const drives::Table table(0.25, {1, 2, 4}, {5, 7, 3});
   expect_rates_of(table, 30, 7);
   EXPECT_EQ(table.value(0), 5);
-  EXPECT_EQ(table.value(6), 6);   // 1.5 s
-  EXPECT_EQ(table.value(12), 5);  // 3 s
+  EXPECT_EQ(table.value(6), 6);   // at 1.5 s
+  EXPECT_EQ(table.value(12), 5);  // at 3 s
   EXPECT_EQ(table.value(100), 3);
   EXPECT_EQ(table.shortest_time(), 1);
   EXPECT_EQ(table.fastest(), 2);
@@ -84,7 +85,7 @@ TEST(Drives, HaversinePulsesWithRest) {
 
 class DrivenWalls : public BackendTest<StepperCase> {
  protected:
-  /// Motion of particles and walls, and forces on walls, against the reference.
+  /// Compares motion of particles and walls, and forces on walls, with those of the reference stepper.
   void compare(const TestScene& scene, StepperOptions options, std::int64_t steps) {
     const auto& [backend, precision, form, geometry] = GetParam();
     options.form = form;
@@ -100,12 +101,12 @@ class DrivenWalls : public BackendTest<StepperCase> {
     reference->advance(steps);
     stepper->advance(steps / 3);
     stepper->advance(steps - steps / 3);
-    // as StepperAgainstReference::tolerance()
+    // Same tolerance as StepperAgainstReference::tolerance().
     const double rounding = precision == Precision::double_ ? 100 * 0x1p-53 : 10 * 0x1p-24;
     const double tolerance = rounding * static_cast<double>(std::max<std::int64_t>(steps, 100));
     const ParticleState expected = reference->particles(), found = stepper->particles();
     EXPECT_LT(relative_difference(found.displacement, expected.displacement), tolerance);
-    // turns are differences of slips, of which drives along the facets leave little
+    // Rotations are differences of slips, and a drive tangential to the facets leaves little of them.
     EXPECT_LT(relative_difference(found.rotation, expected.rotation), 10 * tolerance);
     EXPECT_LT(relative_difference(found.velocity, expected.velocity), tolerance);
     EXPECT_LT(relative_difference(found.force, expected.force), tolerance);
@@ -113,7 +114,7 @@ class DrivenWalls : public BackendTest<StepperCase> {
     const auto list = [](const auto& array) { return std::vector<Vec3d>(array.begin(), array.end()); };
     EXPECT_LT(relative_difference(list(have.wall_force), list(want.wall_force)), tolerance);
     EXPECT_LT(relative_difference(list(have.wall_velocity), list(want.wall_velocity)), tolerance);
-    // a cyclic drive's rates add up to its value to second order in the step
+    // The rates of a cyclic drive add up to its value with an error of second order in the step.
     EXPECT_LT(relative_difference(list(have.wall_displacement), list(want.wall_displacement)), 1e-4);
   }
   static TestScene scene(unsigned seed) {
@@ -135,7 +136,7 @@ TEST_P(DrivenWalls, OnSeveralAxesAtOnce) {
   compare(of, options, 150);
 }
 
-// On walls that change slowly a device takes steps in blocks.
+// With walls that move slowly, a device steps in blocks.
 TEST_P(DrivenWalls, SlowlyOnSeveralWalls) {
   const TestScene of = scene(test_seed() + 3);
   StepperOptions options = slow_options(of);
@@ -164,8 +165,8 @@ TEST_P(DrivenWalls, UnderForcesWithFixedParticlesAndWeight) {
   compare(of, options, 150);
 }
 
-// The usual load of the laboratory: pulses, and rests between them. They are so slow that a step turns no normal by
-// more than some 5e-7, by whose square the two writings part.
+// The usual load in laboratories: pulses with rests between them. The motion is so slow that a step rotates normals by
+// at most about 5e-7; stepper and reference differ by the square of this angle.
 TEST_P(DrivenWalls, UnderHaversinePulses) {
   const TestScene of = scene(test_seed() + 4);
   StepperOptions options = shaking_options(of);
@@ -175,10 +176,11 @@ TEST_P(DrivenWalls, UnderHaversinePulses) {
   const double area = of.specimen.box.size.x * of.specimen.box.size.y, size = of.specimen.box.size.x;
   options.boundary.load(wall_z_hi, 2, std::make_shared<drives::Haversine>(-1e5 * area, options.dt, 60, 30), mass);
   options.boundary.move(wall_x_lo, 0, std::make_shared<drives::Haversine>(5e-6 * size, options.dt, 80, 20, 1));
-  compare(of, options, 120);  // within the second pulse of the platen, and after the only one of the side
+  // the end is within the second pulse of the platen, and after the only pulse of the side wall
+  compare(of, options, 120);
 }
 
-// A wall whose contacts are more than those that one thread adds up on a device.
+// A wall with more contacts than one thread on a device sums up.
 TEST_P(DrivenWalls, APlatenOnManyParticles) {
   const TestScene of = make_scene(random_specimen(test_seed() + 5, 9, 9, 2));
   std::int64_t on_top = 0;
@@ -191,7 +193,7 @@ TEST_P(DrivenWalls, APlatenOnManyParticles) {
   compare(of, options, 100);
 }
 
-// Longer than the piece of the walls' table that a stepper makes at once.
+// More steps than a stepper tabulates for the walls at once.
 TEST_P(DrivenWalls, OverMoreStepsThanOnePieceOfTheTable) {
   const std::int64_t piece = kernels::WallTable<double>::most_rows;
   const TestScene of = make_scene(random_specimen(test_seed() + 6, 2, 2, 2));
@@ -200,7 +202,7 @@ TEST_P(DrivenWalls, OverMoreStepsThanOnePieceOfTheTable) {
   options.damping = 1e4;
   options.boundary = {};
   const double size = of.specimen.box.size.z, area = of.specimen.box.size.x * of.specimen.box.size.y;
-  // each does something in the second piece that it did not do in the first
+  // In the second piece of the table each wall moves or is loaded differently than in the first.
   const auto steps = [&](std::int64_t k) { return static_cast<double>(k) * options.dt; };
   options.boundary.move(wall_z_lo, 2,
                         std::make_shared<drives::Table>(options.dt, std::vector{0.0, steps(piece), steps(2 * piece)},
@@ -212,7 +214,7 @@ TEST_P(DrivenWalls, OverMoreStepsThanOnePieceOfTheTable) {
   compare(of, options, piece + 300);
 }
 
-// In blocks of steps as well, where a device takes them
+// A device takes these steps in blocks.
 TEST_P(DrivenWalls, FixedParticlesAndWeightUnderASlowDrive) {
   const TestScene of = scene(test_seed() + 2);
   StepperOptions options = slow_options(of);
@@ -231,7 +233,7 @@ class Platen : public BackendTest<std::tuple<Backend, Precision>> {
   }
 };
 
-// What the drive and the bottom wall give in a step is what the particles and the platen gain: exactly, but for
+// The impulse of the drive and the bottom wall equals the change of momentum of particles and platen, except for
 // rounding.
 TEST_P(Platen, KeepsMomentum) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
@@ -252,13 +254,13 @@ TEST_P(Platen, KeepsMomentum) {
   double momentum = mass * velocity;
   const ParticleState state = stepper->particles();
   for (std::size_t i = 0; i < scene.specimen.size(); ++i) momentum += scene.inertia.mass[i] * state.velocity[i].z;
-  // forces of some thousand contacts, each rounded, over a hundred steps that average them
+  // forces of about a thousand contacts, each rounded, over a hundred steps, in which the errors average
   const double rounding = std::get<Precision>(GetParam()) == Precision::double_ ? 0x1p-53 : 0x1p-24;
   EXPECT_NEAR(momentum, given, 300 * rounding * largest);
   EXPECT_GT(largest, 0.1 * std::abs(force) * 100 * options.dt);
 }
 
-// Damped, an elastic column under a platen comes to rest at F/K.
+// With damping, an elastic column under a platen comes to rest at the displacement F/K.
 TEST_P(Platen, ComesToRestAtTheStaticDisplacement) {
   const double side = 2e-3, modulus = 3e9;
   const int layers = 3;
@@ -277,7 +279,7 @@ TEST_P(Platen, ComesToRestAtTheStaticDisplacement) {
   options.boundary = Boundary().load(wall_z_hi, 2, std::make_shared<drives::Ramp>(force, options.dt, 100), mass);
   const auto stepper = make(scene, options);
   stepper->advance(4000);
-  // contacts in a row: E·A/d each, two of half the length at the walls
+  // The contacts are springs in series, E·A/d each, with half the length at the two walls.
   const double expected = force / (modulus * side * side / (layers * side));
   const Observation now = stepper->observe();
   EXPECT_NEAR(now.wall_displacement[wall_index(wall_z_hi)].z, expected, 1e-4 * std::abs(expected));
@@ -306,7 +308,7 @@ TEST(FixedParticles, StayWhereTheyAreWhateverTheirVelocityWasSetTo) {
   }
 }
 
-// The weights and the walls' table are held for the step too.
+// The bytes of a stepper include the weights of the particles and the table of the walls.
 TEST(SteppersBytes, CountWeightsAndTheWallsTable) {
   const TestScene scene = make_scene(random_specimen(6));
   StepperOptions options;
@@ -321,7 +323,7 @@ TEST(SteppersBytes, CountWeightsAndTheWallsTable) {
   EXPECT_EQ(bytes() - bare, 4 * 8 * particles + 8 * 4 * (kernels::WallTable<double>::most_rows + 1));
 }
 
-// A platen on an elastic contact: λ = E·A/(d·m), and the step is √(2/λ).
+// A light platen on an elastic contact limits the time step: λ = E·A/(d·m), and the step is √(2/λ).
 TEST(PlatenStep, IsCriticalWhereThePlatenIsLight) {
   const HandMade made = cubic_lattice_network(1, 1, 2, 2e-3, 2e-5);
   const Laws laws = same_law(laws::Elastic{3e9, 0.2});

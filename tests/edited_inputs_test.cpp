@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// edited_inputs_test.cpp  What readers say of good files with one change each, against what they said when it was
-// recorded: tests/recorded/edits has a text for each file. A change that is meant is recorded anew with
-// MACADAM_RECORD=1 in the environment, and its difference is looked at like any other. Other tests say what is right.
+// edited_inputs_test.cpp  Valid input files with one change each: what the readers report is compared with the recorded
+// reports in tests/recorded/edits, one text per file. After an intended change, record again with MACADAM_RECORD=1 in
+// the environment and review the difference. These tests notice changes; other tests say what is right.
 #include <functional>
 #include <set>
 
@@ -16,13 +16,13 @@ namespace {
 
 const fs::path recorded = MACADAM_RECORDED;
 
-/// Reads a file that was written for it, and says what it found.
+/// Reads a file and returns a short description of its content; throws if it is refused.
 using Reading = std::function<std::string(const fs::path&)>;
 
-/// A number as every compiler has it.
+/// Returns a number with six digits, which are the same for every compiler.
 std::string few_digits(double value) { return fmt::format("{:.6g}", value); }
 
-/// All coefficients of all laws as one number.
+/// Returns one number that depends on all coefficients of all laws.
 double digest_of(const LawTable& laws) {
   double out = 0;
   int place = 0;
@@ -40,7 +40,7 @@ double digest_of(const LawTable& laws) {
   return out;
 }
 
-/// A run that the scene would be, but for what the machine decides.
+/// Returns a description of the run that a scene asks for, without anything that depends on the machine.
 std::string run_of(const fs::path& file) {
   Scene scene = read_scene(file);
   scene.solver.backend = Backend::cpu;
@@ -56,7 +56,7 @@ std::string run_of(const fs::path& file) {
                            fmt::join(f.files, " "));
 }
 
-/// Numbers of a table, by columns: how many there are, and the sum of each with its places.
+/// Returns the number of rows, and for each column the sum of its numbers times their positions.
 std::string sums_of(std::size_t rows, const std::vector<std::vector<double>>& columns) {
   std::string out = fmt::format("{}:", rows);
   for (const std::vector<double>& column : columns) {
@@ -67,7 +67,7 @@ std::string sums_of(std::size_t rows, const std::vector<std::vector<double>>& co
   return out;
 }
 
-/// One member of each row.
+/// Returns one member of each row.
 template <class Rows, class F>
 std::vector<double> column_of(const Rows& rows, F&& member) {
   std::vector<double> out;
@@ -115,11 +115,11 @@ std::string surface_of(const fs::path& file) {
   return sums_of(s.points.size(), columns) + ", " + check_surface(s).text();
 }
 
-/// What is read, and which changes are made to it.
+/// An input file, its reader, and the changes that are made to it.
 struct Input {
   std::string file;  ///< below tests/recorded, or "t8.csv"
   Reading read;
-  std::vector<std::string> sections;  ///< of a scene: all keys of these are tried
+  std::vector<std::string> sections;  ///< sections of a scene of which every known key is tried
 };
 
 const std::vector<Input>& inputs() {
@@ -153,14 +153,16 @@ const std::vector<Input>& inputs() {
   return all;
 }
 
-/// Making the library of crushed aggregates takes a hundred times as long as the rest of a forecast.
+/// Replaces the library of crushed aggregates by icosahedra, because generating it takes a hundred times as long as
+/// everything else in a forecast.
 void quick_shapes(std::string& scene) {
   for (const std::string slow : {"\"aggregates\"", "\"aggregates and icosahedron\""})
     if (const std::size_t at = scene.find(slow); at != std::string::npos)
       scene.replace(at, slow.size(), "\"icosahedron\"");
 }
 
-/// Of `all`, those of a scene, or the first dozen and the last two: what comes between is more of the same.
+/// Returns the numbers of the lines to change: all of a scene, otherwise the first dozen and the last two, because the
+/// lines between are similar.
 std::vector<std::size_t> lines_to_change(const std::vector<std::string>& all, const std::string& ending) {
   std::vector<std::size_t> out;
   std::size_t rows = 0;
@@ -172,8 +174,8 @@ std::vector<std::size_t> lines_to_change(const std::vector<std::string>& all, co
   return out;
 }
 
-/// All changes that are tried of a text. Behind the first `own_lines` lines stand laws that many scenes share: they are
-/// changed only where `sections` names theirs.
+/// Returns all changes of a text that are tried. The lines after the first `own_lines` are laws that many scenes share;
+/// they are changed only if `sections` contains their section.
 std::vector<TextEdit> edits_of(const std::string& text, std::size_t own_lines, const std::string& ending,
                                const std::vector<std::string>& sections) {
   const auto is_named = [&](const std::string& section) {
@@ -185,7 +187,7 @@ std::vector<TextEdit> edits_of(const std::string& text, std::size_t own_lines, c
   const std::vector<std::size_t> which = lines_to_change(lines, ending);
   if (ending == ".toml") {
     edits::replace_parts(out, text, which, {"0", "-1", "1", "1e-6", "1e9", "nan"}, edits::numbers);
-    std::set<std::string> tried;  // a key stands there once for each test or law that has it
+    std::set<std::string> tried;  // a key is listed once for each experiment or law that has it
     for (const scene::KnownKey& key : scene::known_keys()) {
       if (!is_named(key.section) || !tried.insert(key.section + key.name).second) continue;
       std::vector<std::string> values{"0", "-1", "1", "2.5", "1e9", "true", "\"5 %\"", "[]", "[0.5, 2.0]"};
@@ -216,7 +218,8 @@ class EditedInputs : public Program, public testing::WithParamInterface<Input> {
     }
   }
 
-  /// A line for each place, and one for each thing that is said of some of its changes.
+  /// Returns a line for each place that is changed, followed by a line for each different report with the changes that
+  /// lead to it.
   std::string happened(const Input& input) const {
     const bool is_specimen = input.file == "t8.csv";
     const fs::path file = folder_ / fs::path(input.file).filename();
@@ -231,7 +234,7 @@ class EditedInputs : public Program, public testing::WithParamInterface<Input> {
     for (std::size_t i = 0; i < all.size();) {
       const std::string& place = all[i].place;
       out += place + '\n';
-      std::vector<std::pair<std::string, std::string>> groups;  // what is said, and of which changes
+      std::vector<std::pair<std::string, std::string>> groups;  // report, and the changes that lead to it
       for (; i < all.size() && all[i].place == place; ++i) {
         std::string now = said(input, file, all[i].text);
         if (now == good) now = "the same";

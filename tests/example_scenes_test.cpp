@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// example_scenes_test.cpp  The scenes in examples/ hold what the tables of [1] give, and a law for every contact.
+// example_scenes_test.cpp  The scenes in examples/ have the values in the tables of [1] and a law for every contact.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -31,7 +31,7 @@ TEST_P(ExampleScene, HasTheSolverAndLoadingOfThePaper) {
   EXPECT_EQ(scene.specimen.mastic->radius_max, 1e-3);
 }
 
-/// Every contact that the specimen can have finds a law.
+/// Every contact that the specimen can have has a law.
 TEST_P(ExampleScene, HasEveryLaw) {
   const Scene scene = this->scene();
   Specimen specimen;
@@ -44,13 +44,13 @@ TEST_P(ExampleScene, HasEveryLaw) {
   }
   if (scene.specimen.shapes) network.count[int(PairType::inner)] = 10;
   EXPECT_NO_THROW(require_laws(scene, specimen, network));
-  // and none that no contact can have
+  // Pairs that cannot occur have no law.
   EXPECT_EQ(scene.laws[int(PairType::inner)].has_value(), scene.specimen.shapes.has_value());
   EXPECT_EQ(scene.laws[int(PairType::aa)].has_value(), !scene.specimen.aggregate.empty());
 }
 
-/// Elastic contacts: the modulus in [1] of an aggregate's contacts (Table 4), within aggregates that which its cubes
-/// of fine and of coarse spheres need for the rock's 60 GPa, at a wall the stiffest spring of what touches it.
+/// Elastic contacts. Between aggregates: the modulus in Table 4 of [1]. Within an aggregate: the modulus with which a
+/// cube of fine or coarse spheres has the rock's 60 GPa. At a wall: the stiffest spring of the touching material.
 TEST_P(ExampleScene, HasThePapersElasticLaws) {
   const Scene scene = this->scene();
   std::vector<std::pair<PairType, laws::Elastic>> expected;
@@ -84,8 +84,8 @@ INSTANTIATE_TEST_SUITE_P(Scene, ExampleScene,
                                            "ac14_ms_poly_fine", "ac14_ms_ico_coarse", "ac14_ms_ico_fine",
                                            "ac14_ms_design", "mastic", "ac14_recipe", "ac20_recipe"));
 
-/// The M–A row of Table 4 is δ times the M–M row, to half a unit of the fourth digit of each: at most 5e-4, twice. A
-/// digit mistyped in an example shows here.
+/// The M–A row of Table 4 is δ times the M–M row. Both rows are rounded to four digits, so the ratio is accurate to
+/// twice 5e-4. This finds mistyped digits in the examples.
 TEST(ExampleScenes, TheMasticAggregateLawIsDeltaTimesTheMasticLaw) {
   for (const auto& [folder, delta] : {std::pair{"ac14_ss_am1", 3.15},
                                       {"ac14_ss_am2", 6.75},
@@ -125,9 +125,9 @@ TEST(ExampleScenes, AC14HasTheCountsOfTable3AndTheModuliOfTable4) {
   EXPECT_EQ(std::get<laws::Elastic>(*scene.laws[int(PairType::aa)]).alpha, 0.05);
 }
 
-/// The AC 14 of [1] by mass: 16.3, 12.5, 23.4 and 15.3 % of the aggregate are above 2 mm, which with its density and
-/// 5.2 % of binder are nearly its design formulation by volume, 14.0, 11.0, 20.7 and 13.6 % of the solids. They differ
-/// by what [1] rounds and does not say (the binder's density): half a percentage point.
+/// The AC 14 of [1] by mass has 16.3, 12.5, 23.4 and 15.3 % of the aggregate above 2 mm. With the densities and 5.2 %
+/// of binder this is nearly its design formulation by volume, 14.0, 11.0, 20.7 and 13.6 % of the solids. The difference
+/// of half a percentage point comes from rounding in [1] and from the binder's density, which [1] does not give.
 TEST(ExampleScenes, AC14ByMassIsTheDesignFormulation) {
   const Scene scene = read_scene(fs::path(MACADAM_EXAMPLES) / "ac14_recipe" / "scene.toml");
   const Scene design = read_scene(fs::path(MACADAM_EXAMPLES) / "ac14_ms_design" / "scene.toml");
@@ -143,7 +143,7 @@ TEST(ExampleScenes, AC14ByMassIsTheDesignFormulation) {
   EXPECT_EQ(scene.materials.aggregate, design.materials.aggregate);
 }
 
-/// Its curve is the formula that the scene names, to the digits given.
+/// The gradation is the formula that the scene names, to the digits given.
 TEST(ExampleScenes, AC20IsAFullerCurve) {
   const Scene scene = read_scene(fs::path(MACADAM_EXAMPLES) / "ac20_recipe" / "scene.toml");
   for (const SievePassing& s : scene.recipe->gradation)

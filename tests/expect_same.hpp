@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file expect_same.hpp  States and vectors that must be the same to the last bit.
+/// \file expect_same.hpp  Checks that states or vectors are equal bit by bit.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace macadam::test {
 
-/// The same arrays, by name and bits.
+/// Expects the same arrays: equal names and equal values, bit by bit.
 inline void expect_same(const std::vector<StateArray>& a, const std::vector<StateArray>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -19,7 +19,7 @@ inline void expect_same(const std::vector<StateArray>& a, const std::vector<Stat
   }
 }
 
-/// The same vectors; says how many are not.
+/// Expects equal vectors; the message gives the number of vectors that differ.
 inline void expect_same(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, const char* what) {
   ASSERT_EQ(a.size(), b.size()) << what;
   std::size_t different = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// experiments_test.cpp  Relaxation, creep and sweeps as a user runs them: against inversions of full solutions, the
-// harmonic solver, and the files that come out.
+// experiments_test.cpp  Relaxation, creep, constant rates and sweeps run as a user does. Results are compared with
+// numerical inversions of full solutions and with the harmonic solver; then the files are checked.
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -17,7 +17,7 @@ using Complex = std::complex<double>;
 
 class Experiments : public Program {
  protected:
-  /// Runs a test of the 175 particles; the text of its file.
+  /// Runs an experiment on the 175 particles and returns the text of its file.
   std::string run_t8(const std::string& loading, const std::string& file, const std::string& solver = "") const {
     const fs::path scene = write_scene_of(loading, solver);
     const Outcome outcome = run_quick("out");
@@ -27,7 +27,7 @@ class Experiments : public Program {
   }
   std::string text(const std::string& name) const { return read(folder_ / name); }
 
-  /// Why the command refuses a scene.
+  /// Returns the error message with which the program refuses a scene.
   std::string refusal(const std::string& loading, const std::string& solver = "",
                       const std::string& options = "--backend cpu") const {
     write_scene_of(loading, solver);
@@ -38,7 +38,7 @@ class Experiments : public Program {
   }
 };
 
-/// Rows of a table by the names of its columns; an empty field is NaN.
+/// Returns the rows of a table by the names of its columns; an empty field is NaN.
 std::vector<std::map<std::string, double>> rows_of(const std::string& text) {
   std::vector<std::map<std::string, double>> out;
   for (const auto& row : table_of(text)) {
@@ -52,7 +52,7 @@ std::vector<std::map<std::string, double>> rows_of(const std::string& text) {
   return out;
 }
 
-/// E*(s) of the 175 particles by the frequency domain's own solver, s by s.
+/// Computes E*(s) of the 175 particles with the harmonic solver, a full solution for each s.
 class FullSolutions {
  public:
   explicit FullSolutions(const fs::path& scene) : scene_(read_scene(scene)), prepared_(prepare(scene_)) {}
@@ -75,9 +75,10 @@ TEST_F(Experiments, RelaxationIsTheInversionOfFullSolutions) {
   const FullSolutions modulus(folder_ / "scene.toml");
   ASSERT_EQ(rows.size(), 5u);
   for (const auto& row : rows) {
-    EXPECT_LE(row.at("error"), 1e-5);  // what is asked where the scene says nothing
+    EXPECT_LE(row.at("error"), 1e-5);  // the default tolerance
     const double expected = talbot([&](Complex s) { return modulus(s) / s; }, row.at("time_s"), 18);
-    EXPECT_NEAR(row.at("modulus_pa") / expected, 1, row.at("error") + 1e-7) << row.at("time_s");  // 18 nodes: 1e-8
+    // the inversion with 18 nodes is accurate to 1e-8
+    EXPECT_NEAR(row.at("modulus_pa") / expected, 1, row.at("error") + 1e-7) << row.at("time_s");
     EXPECT_EQ(row.at("strain"), 2e-4);
     EXPECT_NEAR(row.at("stress_pa") / (2e-4 * row.at("modulus_pa")), 1, 1e-14);
   }
@@ -89,6 +90,7 @@ TEST_F(Experiments, RelaxationIsTheInversionOfFullSolutions) {
   EXPECT_EQ(summary("out").at("solver").at("method"), "harmonic");
 }
 
+/// The strain of creep and recovery is the inversion of 1/(s·E*(s)), superposed for load and release.
 TEST_F(Experiments, CreepGrowsAndRecovers) {
   const std::string loading =
       "kind = \"creep\"\nstress = \"-0.1 MPa\"\nrelease = \"1 s\"\ntimes = [1e-3, 0.9, 1.01, 10]\n";
@@ -105,14 +107,14 @@ TEST_F(Experiments, CreepGrowsAndRecovers) {
   }
 }
 
-// At 1 s exactly the stress is off: what a step takes away at once is gone. Slowly, it is still there.
+// If the stress is released in a step at 1 s, it is zero at exactly this time. With a ramp it is still there.
 TEST_F(Experiments, RampsTakeTheirTime) {
   const std::string slow = "kind = \"creep\"\nstress = 1e5\nramp = 0.5\nrelease = 1\ntimes = [0.25, 0.5, 1, 1.25, 2]\n";
   const auto rows = rows_of(run_t8(slow, "creep.csv"));
   const double expected[] = {0.5e5, 1e5, 1e5, 0.5e5, 0};
   for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_NEAR(rows[i].at("stress_pa"), expected[i], 1e-10);
   const FullSolutions modulus(folder_ / "scene.toml");
-  const auto ramp = [&](double t) {  // 1/(s²·ramp), which is there once more with the other sign when it ends
+  const auto ramp = [&](double t) {  // transform 1/(s²·ramp), minus the same from the end of the ramp on
     const auto grows = [&](double since) {
       return since <= 0 ? 0 : talbot([&](Complex s) { return 1.0 / (0.5 * s * s * modulus(s)); }, since, 18);
     };
@@ -125,6 +127,7 @@ TEST_F(Experiments, RampsTakeTheirTime) {
   }
 }
 
+/// The stress under a constant rate is the inversion of E*(s)/s².
 TEST_F(Experiments, ConstantRatesIntegrateTheRelaxation) {
   const auto rows =
       rows_of(run_t8("kind = \"monotonic\"\nrate = \"-1e-5 1/s\"\ntimes = [1e-3, 0.1, 10]\n", "monotonic.csv"));
@@ -163,7 +166,7 @@ TEST_F(Experiments, SweepsAreTheHarmonicTestAndItsMasterCurve) {
   }
 }
 
-// The tables give back E(t) and J(t), whoever reads them.
+// The tables for other programs reproduce E(t) and J(t).
 TEST_F(Experiments, TablesForOtherProgramsHoldTheSameMaterial) {
   const auto rows = rows_of(run_t8(
       "kind = \"relaxation\"\ntimes = [1e-3, 10]\npoints_per_decade = 4\npoisson_ratio = 0.3\n", "relaxation.csv"));
@@ -179,7 +182,7 @@ TEST_F(Experiments, TablesForOtherProgramsHoldTheSameMaterial) {
   EXPECT_NEAR(shares, 1, 1e-12);
   const auto kelvin = rows_of(text("out/kelvin.csv"));
 
-  // shares and times of both finite-element tables, in their order
+  // Fractions and relaxation times of both finite-element tables, in their order.
   std::vector<double> abaqus, ansys;
   double instantaneous = 0;
   const auto abaqus_lines = lines_of(text("out/prony_abaqus.inp"));
@@ -205,14 +208,14 @@ TEST_F(Experiments, TablesForOtherProgramsHoldTheSameMaterial) {
     std::istringstream in(line.substr(7));
     std::string field;
     std::getline(in, field, ',');
-    EXPECT_EQ(std::stoul(field), ansys.size() + 1);  // numbers go on where the line before ends
+    EXPECT_EQ(std::stoul(field), ansys.size() + 1);  // numbering continues from the line before
     while (std::getline(in, field, ',')) ansys.push_back(std::stod(field));
   }
   EXPECT_EQ(abaqus, ansys);
   ASSERT_EQ(abaqus.size(), 2 * (prony.size() - 1));
   double sum = 0;
   for (std::size_t i = 0; i < abaqus.size(); i += 2) sum += abaqus[i];
-  EXPECT_LT(sum, 1);  // programs refuse 1
+  EXPECT_LT(sum, 1);  // the programs refuse a sum of 1
 
   for (const auto& row : rows) {
     const double t = row.at("time_s"), expected = row.at("modulus_pa");
@@ -220,7 +223,7 @@ TEST_F(Experiments, TablesForOtherProgramsHoldTheSameMaterial) {
     for (const auto& unit : prony) series += unit.at("modulus_pa") * std::exp(-t / unit.at("time_s"));
     for (std::size_t i = 0; i < abaqus.size(); i += 2) elements -= abaqus[i] * -std::expm1(-t / abaqus[i + 1]);
     EXPECT_NEAR(series / expected, 1, 1.01 * asked) << t;
-    // printed to ten digits, and short of 1 by 1e-8
+    // The table has ten digits, and the sum is 1e-8 below 1.
     EXPECT_NEAR(instantaneous * elements, expected, 1.01 * asked * expected + 2e-8 * instantaneous) << t;
     for (const auto& unit : kelvin) {
       const bool maxwell = std::isnan(unit.at("time_s"));
@@ -228,11 +231,12 @@ TEST_F(Experiments, TablesForOtherProgramsHoldTheSameMaterial) {
           maxwell ? 1 / unit.at("E_pa") + t / unit.at("C_pa_s") : -std::expm1(-t / unit.at("time_s")) / unit.at("E_pa");
       if (!maxwell) { EXPECT_NEAR(unit.at("C_pa_s") / unit.at("E_pa") / unit.at("time_s"), 1, 1e-14); }
     }
-    EXPECT_GT(creep * expected, 0.1);  // J·E is at most 1, and near it for what relaxes slowly
+    EXPECT_GT(creep * expected, 0.1);  // J·E is at most 1, and close to 1 for slow relaxation
     EXPECT_LE(creep * expected, 1 + 1e-9);
   }
 }
 
+/// If lateral walls hold the specimen, the result is a confined modulus, and the outputs say so.
 TEST_F(Experiments, HeldSidesAreSaid) {
   const fs::path scene = write_scene_of("kind = \"relaxation\"\ntimes = [0.01, 1]\n");
   std::ofstream(scene, std::ios::app) << "[network]\nlateral_walls = true\n";
@@ -244,7 +248,8 @@ TEST_F(Experiments, HeldSidesAreSaid) {
   EXPECT_EQ(result.at("sides"), "held");
   EXPECT_EQ(summary("out").at("warnings").size(), 2u);
   EXPECT_TRUE(contains(text("out/prony.csv"), "confined modulus"));
-  EXPECT_FALSE(fs::exists(folder_ / "out/prony_abaqus.inp"));  // what is not uniaxial would be taken for it
+  // these programs would take a confined modulus for a uniaxial one
+  EXPECT_FALSE(fs::exists(folder_ / "out/prony_abaqus.inp"));
   EXPECT_FALSE(fs::exists(folder_ / "out/prony_ansys.txt"));
 
   for (const char* solver : {"method = \"harmonic\"\n", quick}) {
@@ -258,12 +263,14 @@ TEST_F(Experiments, HeldSidesAreSaid) {
   }
 }
 
-// stepped_load_test has the numbers; here the command, with what it says of them.
+// stepped_load_test checks the numbers. Here the command is run, and its files and messages are checked.
 TEST_F(Experiments, AreSteppedWhereTheSceneAsksForIt) {
   const std::string steps = "method = \"explicit\"\ndensity_scaling = 25\n";
   for (const auto& [kind, load, columns, shown] :
-       {std::tuple{"relaxation", "strain = -1e-4\n", "strain,stress_pa,modulus_pa,error,bottom_pa", "stress/strain (MPa)"},
-        {"creep", "stress = -1e5\n", "stress_pa,strain,compliance_1_pa,error,top_pa,bottom_pa", "strain/stress (1/GPa)"},
+       {std::tuple{"relaxation", "strain = -1e-4\n", "strain,stress_pa,modulus_pa,error,bottom_pa",
+                   "stress/strain (MPa)"},
+        {"creep", "stress = -1e5\n", "stress_pa,strain,compliance_1_pa,error,top_pa,bottom_pa",
+         "strain/stress (1/GPa)"},
         {"monotonic", "rate = -0.01\n", "strain,stress_pa,secant_pa,error,bottom_pa", "secant (MPa)"}}) {
     const std::string file = fmt::format("{}.csv", kind);
     const auto rows = rows_of(run_t8(fmt::format("kind = \"{}\"\n{}times = [2e-3, 4e-3]\n", kind, load), file, steps));

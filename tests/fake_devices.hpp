@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fake_devices.hpp  Two devices that are the processor in disguise (fake_plugin.cpp), for a whole process: the
-/// backend is looked for once.
+/// \file fake_devices.hpp  A fixture with two fake devices that compute on the processor (fake_plugin.cpp). They stay
+/// for the whole process, because the program looks for a backend only once.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 
 namespace macadam::test {
 
-/// A variable of the environment while it lives.
+/// Sets an environment variable and removes it in the destructor.
 class Environment {
  public:
   Environment(const char* name, const std::string& value) : name_(name) { ::setenv(name, value.c_str(), 1); }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fake_plugin.cpp  What tests have in place of the CUDA backend: of this version with one device that cannot be used,
-// or, with FAKE_INTERFACE, of another, or, with FAKE_DEVICE, with some that are the processor: as many as FAKE_DEVICES
-// of the environment says, or one. Each line of the file FAKE_DEVICE_LOG is then the device of a stepper that was made.
+// fake_plugin.cpp  A plugin that replaces the CUDA backend in tests. Compiled without options, it has this version and
+// one device that cannot be used. With FAKE_INTERFACE, it has another interface version. With FAKE_DEVICE, its devices
+// compute on the processor; the environment variable FAKE_DEVICES sets their number (default 1). Every stepper that is
+// made appends its device to the file FAKE_DEVICE_LOG.
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -25,7 +26,7 @@ void report(BackendReport& out) {
 }
 #ifdef FAKE_DEVICE
 std::string refusal(int) { return ""; }
-/// The processor's stepper, which takes several samples at a time as a device does.
+/// The processor's stepper, which returns up to seven samples at a time, as a device does.
 class InBatches : public Stepper {
  public:
   InBatches(std::unique_ptr<Stepper> on, int device) : on_(std::move(on)), device_(device) {}
@@ -58,7 +59,8 @@ class InBatches : public Stepper {
   int device_;
 };
 
-/// The device FAKE_DEVICE_FULL of the environment has no memory.
+/// Makes a stepper. The device with the number in the environment variable FAKE_DEVICE_FULL reports that it has no
+/// memory.
 std::unique_ptr<Stepper> make(const Specimen& specimen, const ContactNetwork& network, const LawTable& laws,
                               const Inertia& inertia, const StepperOptions& options, std::unique_ptr<Stepper> used) {
   const int device = options.devices.front();

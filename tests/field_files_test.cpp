@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// field_files_test.cpp  Field files as HDF5 and XML have them: whole after each frame, whatever happens.
+// field_files_test.cpp  Field files in HDF5 and XML: complete after each frame, also after a kill or on a full disk.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mman.h>
@@ -19,7 +19,7 @@ namespace {
 using Floats = std::vector<float>;
 using Whole = std::vector<std::int32_t>;
 
-/// Points in a row, `n` of them, as vertices or joined by lines.
+/// Returns n points in a row, as vertices or joined by lines.
 FieldMesh row_of_points(int n, FieldMesh::Shape shape = FieldMesh::Shape::vertices) {
   FieldMesh out;
   out.shape = shape;
@@ -36,7 +36,7 @@ FieldMesh row_of_points(int n, FieldMesh::Shape shape = FieldMesh::Shape::vertic
   return out;
 }
 
-/// Arrays of a frame that only this time has.
+/// Returns arrays of a frame whose numbers depend on the time.
 std::vector<FieldArray> arrays_at(std::size_t rows, double time) {
   Floats u(3 * rows), f(rows);
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = static_cast<float>(1000 * time + static_cast<double>(i));
@@ -54,7 +54,7 @@ class FieldFiles : public TestFolder {
                                      std::optional<double> until = {}) const {
     return begin_fields(stem(), format, row_of_points(points), until);
   }
-  /// The file has so many frames at times 0, 1, 2 …, each with its own numbers.
+  /// Expects that the file has `frames` frames at times 0, 1, 2 …, each with its own numbers.
   void expect_frames(std::size_t frames, std::size_t points) const {
     const H5::H5File file = open_hdf5(vtkhdf());
     ASSERT_EQ(steps(file), static_cast<std::int64_t>(frames));
@@ -72,13 +72,14 @@ class FieldFiles : public TestFolder {
   }
 };
 
+/// A VTKHDF file has all groups and attributes that its specification requires.
 TEST_F(FieldFiles, VtkHdfHasEveryGroupThatItsDocumentationAsksFor) {
   const auto series = begin_fields(stem(), FieldFormat::vtkhdf, row_of_points(4, FieldMesh::Shape::lines));
-  EXPECT_FALSE(fs::exists(vtkhdf()));  // no file without a frame: viewers stumble over them
+  EXPECT_FALSE(fs::exists(vtkhdf()));  // no file before the first frame, because viewers fail on empty ones
   series->add(0.5, arrays_at(3, 0.5));
   series->add(0.75, arrays_at(3, 0.75));
   EXPECT_EQ(series->size(), 2U);
-  const H5::H5File file = open_hdf5(vtkhdf());  // while it is open for writing
+  const H5::H5File file = open_hdf5(vtkhdf());  // while the series is still open for writing
   const H5::Group root = file.openGroup("VTKHDF");
   EXPECT_EQ(text(root, "Type"), "PolyData");
   std::int64_t version[2];
@@ -116,7 +117,7 @@ TEST_F(FieldFiles, VtkHdfHasEveryGroupThatItsDocumentationAsksFor) {
   EXPECT_EQ(file.openDataSet("VTKHDF/CellData/u").getDataType().getSize(), sizeof(float));
 }
 
-/// A number that a child process tells its parent as it goes.
+/// An integer that a child process shares with its parent.
 class Shared {
  public:
   Shared()
@@ -129,6 +130,7 @@ class Shared {
   std::atomic<int>* at_;
 };
 
+/// A writer that is killed at a random moment leaves a valid file with at least the frames that were finished.
 TEST_F(FieldFiles, AKillAtAnyMomentLeavesTheFramesBefore) {
   constexpr int kills = 12, most_frames = 8;
   constexpr std::size_t points = 3000;
@@ -144,15 +146,16 @@ TEST_F(FieldFiles, AKillAtAnyMomentLeavesTheFramesBefore) {
     }
     const int enough = 1 + static_cast<int>(random() % most_frames);
     while (*written < enough) usleep(50);
-    usleep(static_cast<useconds_t>(random() % 2000));  // a frame takes about as long
+    usleep(static_cast<useconds_t>(random() % 2000));  // about the time that a frame takes
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);
     std::size_t frames = 0;
     ASSERT_NO_THROW(frames = static_cast<std::size_t>(steps(open_hdf5(vtkhdf()))));
     ASSERT_GE(frames, static_cast<std::size_t>(*written));
-    ASSERT_EQ(numbers(open_hdf5(vtkhdf()), "VTKHDF/Steps/Values").size(), frames);  // VTK overruns its memory otherwise
+    // otherwise VTK reads beyond its arrays
+    ASSERT_EQ(numbers(open_hdf5(vtkhdf()), "VTKHDF/Steps/Values").size(), frames);
     ASSERT_NO_THROW(expect_frames(frames, points));
-    // and it can be gone on with
+    // The series can be continued.
     const auto series = begin(points, FieldFormat::vtkhdf, 1e9);
     ASSERT_EQ(series->size(), frames);
     series->add(static_cast<double>(frames), arrays_at(points, static_cast<double>(frames)));
@@ -161,7 +164,7 @@ TEST_F(FieldFiles, AKillAtAnyMomentLeavesTheFramesBefore) {
 }
 
 TEST_F(FieldFiles, AFullDiskIsAnErrorThatNamesTheFileAndLeavesTheFramesBefore) {
-  constexpr std::size_t points = 20'000;  // 320 kB a frame
+  constexpr std::size_t points = 20'000;  // 320 kB per frame
   const auto series = begin(points);
   for (int k = 0; k < 3; ++k) series->add(k, arrays_at(points, k));
   const auto bytes = fs::file_size(vtkhdf());
@@ -171,7 +174,7 @@ TEST_F(FieldFiles, AFullDiskIsAnErrorThatNamesTheFileAndLeavesTheFramesBefore) {
                "row.vtkhdf: cannot be written: File too large");
   }
   expect_frames(3, points);
-  EXPECT_EQ(fs::file_size(vtkhdf()), bytes);  // the room that was taken in vain is given back
+  EXPECT_EQ(fs::file_size(vtkhdf()), bytes);  // the space of the failed frame is freed
   const auto resumed = begin(points, FieldFormat::vtkhdf, 3.0);
   resumed->add(3, arrays_at(points, 3));
   expect_frames(4, points);
@@ -199,6 +202,7 @@ TEST_F(FieldFiles, AMissingFolderIsNamed) {
   }
 }
 
+/// A series that is resumed at a time drops the frames from this time on.
 TEST_F(FieldFiles, AResumedSeriesDropsWhatIsAheadOfIt) {
   constexpr std::size_t points = 100;
   for (int k = 0; k < 6; ++k) {
@@ -208,7 +212,7 @@ TEST_F(FieldFiles, AResumedSeriesDropsWhatIsAheadOfIt) {
   {
     const auto series = begin(points, FieldFormat::vtkhdf, 2.5);
     EXPECT_EQ(series->size(), 3U);
-    // even if nothing follows, arrays are as long as there are steps
+    // Even without further frames, the arrays are as long as the number of steps.
     EXPECT_EQ(numbers(open_hdf5(vtkhdf()), "VTKHDF/Steps/Values").size(), 3U);
     for (const char* name :
          {"NumberOfParts", "PartOffsets", "PointOffsets", "PointDataOffsets/u", "PointDataOffsets/f"})
@@ -216,7 +220,7 @@ TEST_F(FieldFiles, AResumedSeriesDropsWhatIsAheadOfIt) {
     EXPECT_EQ(shape(open_hdf5(vtkhdf()), "VTKHDF/PointData/u").front(), 3 * points);
     EXPECT_EQ(shape(open_hdf5(vtkhdf()), "VTKHDF/PointData/number").front(), points);
   }
-  const auto series = begin(points, FieldFormat::vtkhdf, 2.0);  // a frame at that time is written anew
+  const auto series = begin(points, FieldFormat::vtkhdf, 2.0);  // the frame at this time is written again
   EXPECT_EQ(series->size(), 2U);
   series->add(2, arrays_at(points, 2));
   expect_frames(3, points);
@@ -226,7 +230,7 @@ TEST_F(FieldFiles, AResumedSeriesDropsWhatIsAheadOfIt) {
 TEST_F(FieldFiles, AListOfFramesIsGoneOnWithToo) {
   const auto listed = [&] {
     const std::string all = read(pvd());
-    return std::count(all.begin(), all.end(), '\n') - 5;  // beside its frame
+    return std::count(all.begin(), all.end(), '\n') - 5;  // number of lines except the five that do not list a frame
   };
   {
     const auto series = begin(10, FieldFormat::vtp);

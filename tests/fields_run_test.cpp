@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fields_run_test.cpp  Fields of specimens, stepped runs and steady states: which files, which frames, also when
-// resumed.
+// fields_run_test.cpp  Fields of specimens, stepped runs and steady states: which files are written and which frames
+// they have, also after resuming.
 #include <sstream>
 #include <gtest/gtest.h>
 
@@ -50,19 +50,20 @@ TEST_F(RunFields, ASteppedRunHasAFrameEverySoManySamples) {
   const auto z = numbers(file, "VTKHDF/Points");
   for (std::size_t k = 0; k < times.size(); ++k) {
     EXPECT_NEAR(times[k], 0.05 * static_cast<double>(k) / 5, 1e-12);
-    // the wall moves as −A·sin ωt, and particles by between nothing and that, more the higher they are
+    // The wall moves as −A·sin ωt. Particles move in the same direction, by less; the upper ones move more.
     const double wall = -1e-4 * 0.011 * std::sin(2 * std::numbers::pi * 20 * times[k]);
     double lower = 0, upper = 0;
     for (std::size_t i = 0; i < particles; ++i) {
       (z[3 * i + 2] < 0.0055 ? lower : upper) += u[3 * (k * particles + i) + 2] / wall;
     }
-    if (k % 5 == 0) continue;  // the wall is where it was
+    if (k % 5 == 0) continue;  // the wall is at its initial position
     EXPECT_GT(upper, 1.5 * lower) << times[k];
     EXPECT_GT(lower, 0);
   }
 }
 
-// The contacts of the top wall carry the stress of response.csv at every frame, in both forms and on carried frames.
+// At every frame the contacts of the top wall carry the stress in response.csv, in both contact forms and with rotating
+// contact frames.
 TEST_F(RunFields, ContactsOfASteppedRunCarryItsStress) {
   for (const std::string form : {"condensed", "points"}) {
     const Scene asked = scene("fields = [\"contacts\"]\nevery = 8\n", "frequencies = [20.0]\ncycles = 1\n",
@@ -98,6 +99,7 @@ TEST_F(RunFields, TwentyFramesACycleWhereTheSceneDoesNotSay) {
   EXPECT_EQ(steps(open_hdf5(out("out") / "fields/particles_20Hz.vtkhdf")), 21);
 }
 
+/// A run that is interrupted and resumed leaves the same field files as an uninterrupted one.
 TEST_F(RunFields, AResumedRunLeavesTheFileOfOneThatWasNotInterrupted) {
   const std::string two = "frequencies = [10.0, 20.0]\ncycles = 1\n";
   for (const std::string format : {"vtkhdf", "vtp"}) {
@@ -122,6 +124,7 @@ TEST_F(RunFields, AResumedRunLeavesTheFileOfOneThatWasNotInterrupted) {
   }
 }
 
+/// If the field file is missing, a resumed run begins another one and warns.
 TEST_F(RunFields, WithoutItsFileAResumedRunBeginsAnother) {
   const Scene asked = scene("fields = [\"particles\"]\nevery = 2\n");
   run_until(asked, "out", 25);
@@ -149,7 +152,7 @@ TEST_F(RunFields, ASteadyStateHasAFileAFrequencyAndTemperature) {
   EXPECT_LT(most, 1.1 * 1.1e-6);
   run(scene("fields = [\"particles\"]\nformat = \"vtp\"\n", "frequencies = [20.0]\n", "method = \"harmonic\"\n"),
       out("out"));
-  EXPECT_EQ(files("out"), Names{"particles_20Hz.vtp"});  // those of the older run are gone
+  EXPECT_EQ(files("out"), Names{"particles_20Hz.vtp"});  // the files of the earlier run are removed
 }
 
 TEST_F(RunFields, ASpecimenHasFieldsWithoutTime) {

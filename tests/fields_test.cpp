@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fields_test.cpp  Numbers of fields against what they must add up to.
+// fields_test.cpp  Arrays of fields against sums and balances that they must satisfy.
 #include "macadam/fields.hpp"
 
 #include <gtest/gtest.h>
@@ -54,12 +54,12 @@ TEST(FieldMeshes, EveryCellIsClosedAndHasItsVolume) {
     for (std::int64_t k = mesh.offsets[p] + 1; k + 1 < mesh.offsets[p + 1]; ++k) {
       twice += cross(corner(k) - first, corner(k + 1) - first);
     }
-    volume[cell] += dot(first, twice) / 6;  // outwards, as the divergence theorem has it
+    volume[cell] += dot(first, twice) / 6;  // volume by the divergence theorem; facets point outwards
     EXPECT_TRUE((area.emplace(std::pair{particle[p], neighbour[p]}, 0.5 * norm(twice)).second));
-    // corners are single precision: 6e-8 of 8 mm against facets of 2 mm
+    // Corners are in single precision: 6e-8 of 8 mm, for facets of 2 mm.
     EXPECT_NEAR(floats(mesh.arrays, "area")[p], 0.5 * norm(twice), 1e-6 * 4e-6);
   }
-  // 8 mm · 6e-8 on surfaces of some 2e-5 m²
+  // Rounding of 8 mm · 6e-8 over surfaces of about 2e-5 m².
   for (std::size_t i = 0; i < s.cells(); ++i) EXPECT_NEAR(volume[i], t.cell_volume[i], 2e-14) << i;
   for (const auto& [pair, one] : area) {
     if (pair.second >= 0) { EXPECT_NEAR(one, area.at({pair.second, pair.first}), 1e-12); }
@@ -77,7 +77,7 @@ TEST(FieldMeshes, LinesJoinWhatContactsJoin) {
     EXPECT_EQ(a, static_cast<std::size_t>(contact.a));
     if (contact.b >= 0) { EXPECT_EQ(b, static_cast<std::size_t>(contact.b)); }
     const Vec3d line = vector(mesh.points, b) - vector(mesh.points, a);
-    EXPECT_NEAR(norm(line), contact.distance, 1e-8);  // single precision of coordinates up to 10 mm
+    EXPECT_NEAR(norm(line), contact.distance, 1e-8);  // single precision, for coordinates up to 10 mm
     EXPECT_NEAR(dot(line, contact.n), contact.distance, 1e-8);
     EXPECT_EQ(whole(mesh.arrays, "b")[c], contact.b);
     EXPECT_EQ(whole(mesh.arrays, "pair")[c], static_cast<int>(contact.pair));
@@ -97,8 +97,8 @@ TEST(FieldMeshes, SizeClassesAreThoseOfTheAggregates) {
   EXPECT_THROW(array(particle_mesh(s, {}).arrays, "size_class"), std::runtime_error);
 }
 
-/// Largest sum of forces (and of moments) on a particle over the largest force (times a radius), where contacts of an
-/// array of forces on their first bodies act at x0.
+/// Returns the largest sum of forces on a particle over the largest force of a contact, and the same for moments over
+/// this force times 1 mm. Forces and moments act on the first particle of a contact, at x0.
 std::pair<double, double> imbalance(const TestScene& scene, const std::vector<float>& force,
                                     const std::vector<float>& moment) {
   std::vector<Vec3d> sum(scene.specimen.size()), turn(scene.specimen.size());
@@ -124,7 +124,7 @@ TEST(HarmonicFields, ForcesOnEveryParticleAreInEquilibriumAndThoseOfTheWallGiveT
   const HarmonicResult solved =
       Harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, frequency).solve(frequency);
   const auto arrays = contact_arrays(scene.network, scene.laws, frequency, solved.motion, amplitude);
-  // single precision of some twenty forces each
+  // single precision, sums of about twenty forces
   constexpr double tolerance = 2e-6;
   for (const std::string part : {"real", "imag"}) {
     const auto [force, moment] = imbalance(scene, floats(arrays, "force_" + part), floats(arrays, "moment_" + part));
@@ -142,7 +142,7 @@ TEST(HarmonicFields, ForcesOnEveryParticleAreInEquilibriumAndThoseOfTheWallGiveT
       const double phase = floats(arrays, "normal_force_phase")[c] * std::numbers::pi / 180;
       EXPECT_NEAR(std::abs(std::polar(1.0, phase) - n / std::abs(n)), 0, 1e-3);
     }
-    if (contact.b == wall_z_hi) top += n;  // n is +z: tension pulls the particle up
+    if (contact.b == wall_z_hi) top += n;  // n is +z, so tension pulls the particle up
   }
   const Vec3d size = scene.specimen.box.size;
   const std::complex<double> modulus = top / (size.x * size.y) / (amplitude / size.z);
@@ -150,6 +150,8 @@ TEST(HarmonicFields, ForcesOnEveryParticleAreInEquilibriumAndThoseOfTheWallGiveT
   EXPECT_NEAR(std::arg(modulus) * 180 / std::numbers::pi, solved.top.phase_deg, 1e-4);
 }
 
+/// The stretches of all units and springs of a contact add up to its relative displacement, and the opening agrees with
+/// the motion of its particles.
 TEST(HarmonicFields, StretchesAndSpringsMakeUpTheRelativeDisplacement) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   constexpr double frequency = 5, amplitude = 1e-6;
@@ -170,14 +172,14 @@ TEST(HarmonicFields, StretchesAndSpringsMakeUpTheRelativeDisplacement) {
       std::complex<double> sum = 0;
       for (int l = 1; l <= 3; ++l) sum += at(fmt::format("stretch_{}", l), 6 * c + k);
       if (!kelvin) {
-        EXPECT_EQ(sum, 0.0);  // no such units
+        EXPECT_EQ(sum, 0.0);  // an elastic contact has no units
         continue;
       }
       const std::complex<double> f = kelvin->stiffness(s) * x;
       EXPECT_NEAR(std::abs(sum + f * (1 / kelvin->E_m + 1.0 / (s * kelvin->C_m)) - x), 0, 1e-6 * std::abs(x));
     }
     if (contact.b < 0) continue;
-    // the opening is the difference of the displacements along the normal
+    // The opening is the difference of the displacements along the normal.
     std::complex<double> opening = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const double n = k == 0 ? contact.n.x : k == 1 ? contact.n.y : contact.n.z;
@@ -203,8 +205,8 @@ TEST(HarmonicFields, AmplitudeAndPhaseAreThoseOfThePartsForAWallThatMovesAsACosi
   EXPECT_EQ(floats(arrays, "rotation_imag"), (std::vector<float>{0, 0, 2}));
 }
 
-// Forces that a uniform stress gives to all facets, ends of cells at the walls among them: every cell has that stress,
-// whatever its shape.
+// Every contact, including those at the walls, gets the force of a uniform stress on its facet. Every cell must then
+// have this stress, whatever its shape.
 TEST(SteppedFields, AUniformStressIsThatOfEveryCell) {
   NetworkSpec spec;
   spec.lateral_walls = true;
@@ -222,10 +224,11 @@ TEST(SteppedFields, AUniformStressIsThatOfEveryCell) {
   const auto& found = std::get<std::vector<float>>(stress.values);
   ASSERT_EQ(found.size(), 6 * scene.specimen.size());
   const double expected[6] = {xx, yy, zz, xy, yz, xz};
-  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i % 6], 1e-6 * zz) << i;  // as a float
+  // single precision
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i % 6], 1e-6 * zz) << i;
 }
 
-// At rest under a platen each cube of a lattice has the stress of the platen, in every geometry.
+// A lattice at rest under a platen: each of its cubes has the stress of the platen.
 TEST(SteppedFields, StressOfALatticeIsThatOfItsWalls) {
   const double side = 2e-3, force = -3.0;
   const HandMade made = cubic_lattice_network(2, 2, 3, side, 2e-5);
@@ -252,17 +255,17 @@ TEST(SteppedFields, NormalsTurnWithTheParticles) {
   state.force = {{3, 0, 4}};
   state.moment = {{1, 2, 3}};
   state.relative = {{1, 2, 3, 4, 5, 6}};
-  state.chain = {10, 11, 12, 20, 21, 22, 30, 31, 32, 40, 41, 42, 50, 51, 52, 60, 61, 62};  // two units
+  state.chain = {10, 11, 12, 20, 21, 22, 30, 31, 32, 40, 41, 42, 50, 51, 52, 60, 61, 62};  // two Kelvin units
   state.chain_begin = {0, 18};
   const auto still = contact_arrays(made.specimen, made.network, state, {});
-  EXPECT_EQ(floats(still, "normal_force"), std::vector<float>{4});  // n is z
+  EXPECT_EQ(floats(still, "normal_force"), std::vector<float>{4});  // n is along z
   EXPECT_EQ(floats(still, "shear_force"), std::vector<float>{3});
   EXPECT_EQ(floats(still, "moment"), (std::vector<float>{1, 2, 3}));
   EXPECT_EQ(floats(still, "relative_displacement"), (std::vector<float>{1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(floats(still, "stretch_1"), (std::vector<float>{11, 21, 31, 41, 51, 61}));
   EXPECT_EQ(floats(still, "stretch_2"), (std::vector<float>{12, 22, 32, 42, 52, 62}));
   EXPECT_THROW(array(still, "stretch_3"), std::runtime_error);
-  // b moves aside until the line of centres is along x + z
+  // Particle b is displaced sideways until the line of centres is along x + z.
   const double distance = norm(made.specimen.centre[1] - made.specimen.centre[0]);
   const auto turned = contact_arrays(made.specimen, made.network, state, {{0, 0, 0}, {distance, 0, 0}});
   EXPECT_FLOAT_EQ(floats(turned, "normal_force")[0], static_cast<float>(7 / std::sqrt(2.0)));

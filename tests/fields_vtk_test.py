@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""VTK itself reads what `[output] fields` writes, in both formats, and finds the numbers of specimen.csv and contacts.csv.
+"""Tests that VTK reads what `[output] fields` writes, in both formats, with the numbers of specimen.csv and contacts.csv.
 
-usage: fields_vtk_test.py REPOSITORY PROGRAM; exit code 1 where something is wrong, 77 (skipped) where there is no VTK of
-at least 9.3: `scripts/vtk-python` installs one."""
+usage: fields_vtk_test.py REPOSITORY PROGRAM; exit code 1 if something is wrong, 77 (skipped) if VTK 9.3 or newer
+is not available: `scripts/vtk-python` installs it."""
 import csv
 import os
 import subprocess
@@ -12,7 +12,7 @@ import xml.etree.ElementTree as xml
 from pathlib import Path
 
 ROOT, PROGRAM = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-OWN = ROOT / "build" / "vtk" / "bin" / "python3"  # of scripts/vtk-python
+OWN = ROOT / "build" / "vtk" / "bin" / "python3"  # installed by scripts/vtk-python
 try:
     import numpy as np
     import vtk
@@ -64,7 +64,7 @@ def check(holds, what):
 
 
 def equal(found, expected, what):
-    """To the bit: a double of the CSV file, rounded to the single of the field."""
+    """Checks that values are equal to the bit: the CSV file's double, rounded to the field's single precision."""
     found = np.asarray(found)
     expected = np.asarray(expected).astype(found.dtype)
     check(found.shape == expected.shape and np.array_equal(found, expected), f"{what}: {found} is not {expected}")
@@ -83,7 +83,7 @@ def write_scene(folder, form, fields, method="harmonic", solver=""):
 
 
 class Errors:
-    """What VTK complains of; it goes on in spite of it."""
+    """Collects the errors and warnings of VTK, which continues after them."""
 
     def __init__(self, algorithm):
         algorithm.AddObserver("ErrorEvent", lambda *_: faults.append(f"VTK complains of {algorithm.GetFileName()}"))
@@ -91,7 +91,7 @@ class Errors:
 
 
 def frames(file):
-    """(time or None, PolyData) of each frame of a .vtkhdf, .pvd or .vtp file."""
+    """Returns (time or None, PolyData) of each frame of a .vtkhdf, .pvd or .vtp file."""
     if file.suffix == ".pvd":
         listed = [(float(d.get("timestep")), file.parent / d.get("file")) for d in xml.parse(file).iter("DataSet")]
         return [(time, frames(name)[0][1]) for time, name in listed]
@@ -140,7 +140,7 @@ def column(rows, *names):
 
 
 def check_specimen(out, ending):
-    """Particles, contacts and cells without time against the CSV files."""
+    """Compares particles, contacts and cells of files without times with the CSV files."""
     rows = rows_of(out / "specimen.csv")
     [(_, particles)] = frames(out / "fields" / f"particles{ending}")
     centres, found = column(rows, "x", "y", "z"), arrays(particles)
@@ -168,7 +168,7 @@ def check_specimen(out, ending):
     volume = vtk.vtkMassProperties()
     triangles = vtk.vtkTriangleFilter()
     triangles.SetInputData(cells)
-    chosen = vtk.vtkThreshold()  # one cell alone is closed, and has a volume
+    chosen = vtk.vtkThreshold()  # the surface of a single cell is closed, so it has a volume
     chosen.SetInputConnection(triangles.GetOutputPort())
     chosen.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_CELLS, "particle")
     total = 0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// files_page_test.cpp  docs/files.md has the columns of every table, as the program writes them.
+// files_page_test.cpp  docs/files.md lists the columns of every table that the program writes.
 #include "program.hpp"
 
 namespace macadam::test {
@@ -8,7 +8,7 @@ namespace {
 struct FilesPage : Program {
   std::string page_ = read(fs::path(MACADAM_EXAMPLES).parent_path() / "docs/files.md");
 
-  /// The columns of all tables in a folder stand on the page; their number.
+  /// Expects that the columns of all tables in a folder are on the page; returns the number of tables.
   int expect_columns(const std::string& folder) const {
     int tables = 0;
     for (const auto& entry : fs::directory_iterator(folder_ / folder)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file fill_test.cpp  Shapes filled with spheres, and clusters measured against closed forms.
+/// \file fill_test.cpp  Shapes filled with spheres, and the report on a filling against closed forms.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -29,7 +29,7 @@ bool same(const MultiSphere& a, const MultiSphere& b) {
                                             [](const Vec3d& p, const Vec3d& q) { return norm(p - q) == 0; });
 }
 
-/// By how much of its own radius a sphere comes out of the surface at most.
+/// Returns the largest distance by which a sphere protrudes from the surface, as a fraction of its radius.
 double largest_protrusion(const Surface& surface, const MultiSphere& cluster) {
   const SurfaceDistance distance(surface);
   double largest = 0;
@@ -43,26 +43,28 @@ bool every_sphere_has_a_cell(const MultiSphere& cluster) {
   return particles_without_cell(in_box(cluster, -far, far)).empty();
 }
 
+/// The number of spheres in an icosahedron agrees with the published numbers within the range of porosities that fit
+/// them.
 TEST(Fill, IcosahedronTakesAsManySpheresAsThePublishedOne) {
   const Surface icosahedron = subdivided_icosahedron(6.295e-3);
   const std::pair<double, double> published[] = {{0.5e-3, 1568}, {2e-3, 24}};
   for (const auto& [radius, count] : published) {
     const MultiSphere cluster = fill_shape(icosahedron, of_radius(radius, radius));
-    // The number is that of the porosity, to a whole one, and nothing else of the algorithm is in it.
+    // The number of spheres follows from the porosity alone, rounded to an integer.
     const double of_porosity = 0.88 * measure_shape(icosahedron).volume / (4 * pi / 3 * std::pow(radius, 3));
     EXPECT_EQ(cluster.size(), static_cast<std::size_t>(std::llround(of_porosity)));
-    // One porosity for both published numbers, whole ones too: 0.10 by 1568, 0.10 to 0.14 by 24. The default, 0.12,
-    // is within 0.02 of them.
+    // The porosity behind the published integers is 0.10 for 1568 and 0.10 to 0.14 for 24. The default, 0.12, is within
+    // 0.02 of these.
     EXPECT_NEAR(static_cast<double>(cluster.size()), count, 0.02 / 0.88 * count);
     EXPECT_EQ(cluster.radius, std::vector(cluster.size(), radius));
-    EXPECT_LT(largest_protrusion(icosahedron, cluster), 0.15);  // the wall is ten times as stiff as a pair
+    EXPECT_LT(largest_protrusion(icosahedron, cluster), 0.15);  // the wall is ten times as stiff as a pair of spheres
     EXPECT_TRUE(every_sphere_has_a_cell(cluster));
 
     const FillReport report = measure_fill(icosahedron, cluster);
-    EXPECT_GT(report.covered, 0.7);  // twenty-four spheres; random positions alone give 1 − exp(−0.88) = 0.59
+    EXPECT_GT(report.covered, 0.7);  // twenty-four spheres; random positions would cover 1 − exp(−0.88) = 0.59
     EXPECT_LT(report.outside, 0.015);
-    EXPECT_LT(report.largest_overlap, 0.5);           // no centre inside another sphere
-    EXPECT_LT(report.deviation_mean, 0.25 * radius);  // a layer that touches the wall has 0.2
+    EXPECT_LT(report.largest_overlap, 0.5);           // no centre lies inside another sphere
+    EXPECT_LT(report.deviation_mean, 0.25 * radius);  // a layer of spheres that touch the wall has 0.2
     EXPECT_NEAR(report.d_long, 2 * 6.295e-3, 0.5 * radius);
   }
 }
@@ -79,7 +81,8 @@ TEST(Fill, RadiiAreUniformAndTheirVolumeIsThatAskedFor) {
     volume += 4 * pi / 3 * r * r * r, sum += r;
   }
   EXPECT_NEAR(volume, 0.8 * measure_shape(icosahedron).volume, 1e-12 * volume);
-  // One radius in each of n equal parts of the range, bent until the volume fits: the mean is that of the range to 3 %.
+  // One radius is taken from each of n equal parts of the range, then all are adjusted until the volume fits. The mean
+  // stays that of the range to 3 %.
   EXPECT_NEAR(sum / static_cast<double>(cluster.size()), 1.25e-3, 0.03 * 1.25e-3);
   EXPECT_TRUE(every_sphere_has_a_cell(cluster));
   EXPECT_LT(largest_protrusion(icosahedron, cluster), 0.15);
@@ -87,7 +90,7 @@ TEST(Fill, RadiiAreUniformAndTheirVolumeIsThatAskedFor) {
 
 TEST(Fill, SameSeedSameBitsForAnyNumberOfThreads) {
   const Surface shape = subdivided_icosahedron(6.295e-3);
-  FillSpec spec = of_radius(0.55e-3, 0.6e-3);  // 1,037 spheres: enough for loops to run in parallel
+  FillSpec spec = of_radius(0.55e-3, 0.6e-3);  // 1,037 spheres, enough to run the loops in parallel
   const int threads = omp_get_max_threads();
   omp_set_num_threads(1);
   const MultiSphere one = fill_shape(shape, spec);
@@ -106,7 +109,7 @@ TEST(Fill, ScaledCopyIsTheScaledCluster) {
   const MultiSphere small = fill_shape(shape, of_radius(0.75e-3, 1e-3));
   const MultiSphere large = ShapeFiller(shape).fill(2, of_radius(1.5e-3, 2e-3));
   ASSERT_EQ(small.size(), large.size());
-  for (std::size_t i = 0; i < small.size(); ++i) {  // to the bit, as 2 is a power of two
+  for (std::size_t i = 0; i < small.size(); ++i) {  // equal bit by bit, because 2 is a power of two
     EXPECT_EQ(large.radius[i], 2 * small.radius[i]);
     EXPECT_EQ(norm(large.centre[i] - 2.0 * small.centre[i]), 0);
   }
@@ -131,25 +134,27 @@ TEST(Fill, FewerThanLeastBecomeOneSphere) {
     EXPECT_NEAR(one.radius[0], radius, 1e-9 * radius);  // the smallest enclosing sphere is found by iteration
     EXPECT_LT(norm(one.centre[0] - Vec3d{a / 2, b / 2, c / 2}), 1e-12 * a);
   }
-  EXPECT_EQ(fill_shape(box, of_radius(5e-3, 6e-3)).size(), 1u);  // spheres larger than the shape
+  EXPECT_EQ(fill_shape(box, of_radius(5e-3, 6e-3)).size(), 1u);  // these spheres are larger than the shape
 }
 
 TEST(Fill, ThinPlateTakesOneEvenLayer) {
   const double side = 10e-3, thick = 1.1e-3;
   const Surface plate = test::box_surface(side, side, thick);
-  // One kind just fits between the faces; the other is too large, and comes out of both by the same.
+  // Spheres of the first radius just fit between the faces. The second radius is too large; the spheres protrude from
+  // both faces equally.
   for (const double radius : {0.5e-3, 0.7e-3}) {
     const MultiSphere cluster = fill_shape(plate, of_radius(radius, radius));
     ASSERT_GT(cluster.size(), 20u);
     EXPECT_TRUE(every_sphere_has_a_cell(cluster));
     std::array<int, 4> quarter{};
     for (const Vec3d& c : cluster.centre) {
-      EXPECT_NEAR(c.z, thick / 2, 0.35 * radius);  // a layer pressed together gives way to both sides
+      EXPECT_NEAR(c.z, thick / 2, 0.35 * radius);  // spheres in a compressed layer move to both sides
       EXPECT_GT(test::depth_in_box({c.x, c.y, thick / 2}, side, side, thick), 0.5 * thick - 0.35 * radius);
       ++quarter[(c.x > side / 2 ? 1 : 0) + (c.y > side / 2 ? 2 : 0)];
     }
     const double mean = static_cast<double>(cluster.size()) / 4;
-    for (int n : quarter) EXPECT_NEAR(n, mean, 0.2 * mean);  // a random throw would scatter by √n, here 0.2 to 0.3
+    // random positions would scatter by √n, here 0.2 to 0.3 of the mean
+    for (int n : quarter) EXPECT_NEAR(n, mean, 0.2 * mean);
   }
 }
 
@@ -164,7 +169,8 @@ TEST(Fill, BothArmsOfAnLFillAndTheNotchStaysEmpty) {
     EXPECT_FALSE(c.x > width && c.y > width);
     right += c.x > width ? 1 : 0, upper += c.y > width ? 1 : 0;
   }
-  const double arm = static_cast<double>(cluster.size()) * 2 / 5;  // two of the five cubes that make up the L
+  // each arm is two of the five cubes that make up the L
+  const double arm = static_cast<double>(cluster.size()) * 2 / 5;
   EXPECT_NEAR(right, arm, 0.1 * arm);
   EXPECT_NEAR(upper, arm, 0.1 * arm);
 }
@@ -204,7 +210,8 @@ TEST(Fill, ImpossibleSpecsNameTheCulprit) {
   EXPECT_THROW(fill_shape(open, of_radius(1e-3, 1e-3)), InputError);
 }
 
-/// Mean distance of a unit cube's surface from its middle: ∫∫ √(x² + y² + 1/4) over the face, by the midpoint rule.
+/// Returns the mean distance of a unit cube's surface from its centre, ∫∫ √(x² + y² + 1/4) over a face, by the midpoint
+/// rule.
 double mean_distance_of_cube() {
   constexpr int n = 1000;
   double sum = 0;
@@ -221,7 +228,7 @@ TEST(FillReport, OneSphereInACube) {
   EXPECT_NEAR(r.outside, 0, 1e-12);
   EXPECT_EQ(r.largest_overlap, 0);
   EXPECT_NEAR(r.deviation_mean, mean_distance_of_cube() - 0.5, 1e-4);  // 20,000 samples, second order
-  EXPECT_NEAR(r.deviation_largest, std::sqrt(3) / 2 - 0.5, 1e-14);     // at a corner, which is a sample
+  EXPECT_NEAR(r.deviation_largest, std::sqrt(3) / 2 - 0.5, 1e-14);     // at a corner, which is one of the samples
   for (double d : {r.d_long, r.d_intermediate, r.d_short}) EXPECT_EQ(d, 1);
 }
 
@@ -231,7 +238,7 @@ TEST(FillReport, ASphereThatComesOutOfItsCube) {
   const FillReport r = measure_fill(test::box_surface(1, 1, 1), {{{0.5, 0.5, 0.5}}, {radius}});
   EXPECT_NEAR(r.outside, out, 5e-5);
   EXPECT_NEAR(r.covered, 4 * pi / 3 * radius * radius * radius - out, 5e-5);
-  // In a larger sphere that leaves no corner out, it is the coming out that is largest.
+  // A larger sphere leaves no corner uncovered, so the largest deviation is its protrusion.
   const FillReport large = measure_fill(test::box_surface(1, 1, 1), {{{0.5, 0.5, 0.5}}, {1}});
   EXPECT_NEAR(large.deviation_largest, 0.5, 1e-14);
   EXPECT_NEAR(large.covered, 1, 1e-12);
@@ -256,20 +263,20 @@ TEST(FillReport, TwoTouchingSpheresAndTwoThatOverlap) {
 
   const FillReport half = measure_fill(box, {{{0.75, 0.5, 0.5}, {1.25, 0.5, 0.5}}, {0.5, 0.5}});
   EXPECT_NEAR(half.largest_overlap, 0.5, 1e-15);
-  // The lens common to two spheres of radius R at distance d: π(4R + d)(2R − d)²/12
+  // Volume of the lens common to two spheres of radius R at distance d: π(4R + d)(2R − d)²/12.
   EXPECT_NEAR(half.covered * 2, pi / 3 - pi * 2.5 * 0.25 / 12, 5e-5);
 }
 
 TEST(FillReport, LengthsOfAClusterFollowFromItsLongestChords) {
-  // The first two fix D^L along x; the chord of the next two leans, as their middles differ by 1 in x; the last one
-  // stands above the third along z.
+  // The first two spheres determine D^L along x. The chord of the next two is not perpendicular to it, because their
+  // centres differ by 1 in x. The last sphere lies above the third along z.
   const MultiSphere cluster{{{-5, 0, 0}, {5, 0, 0}, {0.5, 2, 0}, {-0.5, -3, 0}, {0.5, 2, 4}}, {1, 1, 1.5, 0.5, 0.5}};
   Surface around = test::box_surface(20, 20, 20);
   for (Vec3d& p : around.points) p = p - Vec3d{10, 10, 10};
   const FillReport r = measure_fill(around, cluster);
   EXPECT_NEAR(r.d_long, 12, 1e-14);
   EXPECT_NEAR(r.d_short, 6, 1e-14);
-  // Ends at −u of the one and 1 − u of the other along x: the longest of all such chords, by trial.
+  // The chord's ends are at −u and 1 − u along x from the two centres. The longest such chord is found by trial.
   double longest = 0;
   for (double u = 0.5; u <= 1.5; u += 1e-5)
     longest = std::max(longest, 5 + std::sqrt(1.5 * 1.5 - u * u) + std::sqrt(std::max(0.0, 0.25 - (1 - u) * (1 - u))));

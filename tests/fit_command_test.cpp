@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit_command_test.cpp  `macadam fit` as a user meets it: data files, results, messages.
+// fit_command_test.cpp  `macadam fit` run as a user does: data files, results, messages.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@ class FitCommand : public Program {
   Outcome fit(const std::string& options = "") const {
     return macadam(fmt::format("fit {} --out {} --no-pictures {}", path("data.csv"), path("law"), options));
   }
-  /// A column of a table of the fit; the first is 0.
+  /// Returns a column of a table of the fit; the first column has number 0.
   std::vector<double> column(const std::string& table, int number) const {
     std::vector<double> out;
     const std::vector<std::string> lines = lines_of(read(folder_ / "law" / table));
@@ -28,7 +28,7 @@ class FitCommand : public Program {
     }
     return out;
   }
-  /// What is said of a data file that is refused.
+  /// Returns the error message for a data file that is refused.
   std::string refused(const std::string& text, const std::string& options = "") const {
     data(text);
     const Outcome outcome = fit(options);
@@ -67,11 +67,11 @@ TEST_F(FitCommand, TheCovarianceMatrixIsSquareAndHasTheDeviations) {
   const json found = json::parse(read(folder_ / "law" / "fit.json"));
   const json &parameters = found["parameters"], &of = found["covariance"]["of"];
   const auto matrix = found["covariance"]["matrix"].get<std::vector<std::vector<double>>>();
-  ASSERT_GE(parameters.size(), 6u);  // a spring, two units, the shift
+  ASSERT_GE(parameters.size(), 6u);  // a spring, two units and the shift
   ASSERT_EQ(matrix.size(), parameters.size());
   for (const auto& row : matrix) ASSERT_EQ(row.size(), matrix.size());
   for (std::size_t i = 0; i < matrix.size(); ++i) {
-    // sums of a few terms, each at most the root of the two variances
+    // Sums of a few terms, each at most the root of both variances.
     for (std::size_t k = 0; k < i; ++k)
       EXPECT_NEAR(matrix[i][k], matrix[k][i], 1e-14 * std::sqrt(matrix[i][i] * matrix[k][k])) << i << " " << k;
     const bool logarithmic = of[i].get<std::string>().starts_with("ln ");
@@ -87,7 +87,7 @@ TEST_F(FitCommand, TheCurveReachesHalfADecadeBeyondTheData) {
   const std::vector<double> data = column("fit.csv", 3), curve = column("curve.csv", 0);  // reduced frequencies
   const auto [lowest, highest] = std::minmax_element(data.begin(), data.end());
   ASSERT_GT(curve.size(), 2u);
-  // to rounding of a few products
+  // Rounding of a few products.
   EXPECT_NEAR(curve.front() / (*lowest / std::sqrt(10.0)), 1, 1e-14);
   EXPECT_NEAR(curve.back() / (*highest * std::sqrt(10.0)), 1, 1e-14);
 }
@@ -108,9 +108,9 @@ TEST_F(FitCommand, ShearModuliTakePoissonsRatio) {
   const Outcome outcome = fit("--poisson 0.25 --units 0 --no-flow");
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const json found = json::parse(read(folder_ / "law" / "fit.json"));
-  EXPECT_NEAR(found["law"]["E_m_pa"].get<double>(), 2.5e9, 25);  // 2·(1 + 0.25)·1e9, found to 1e-8
+  EXPECT_NEAR(found["law"]["E_m_pa"].get<double>(), 2.5e9, 25);  // 2·(1 + 0.25)·1e9, accurate to 1e-8
   EXPECT_EQ(found["deviations"], "of the data");
-  // three measurements of 1 %: the mean has 1 %/√3
+  // Three measurements with 1 % each: the mean has 1 %/√3.
   EXPECT_NEAR(found["parameters"][0]["standard_deviation"].get<double>(), 2.5e9 * 0.01 / std::sqrt(3.0), 1e3);
 }
 
@@ -140,7 +140,8 @@ TEST_F(FitCommand, AModelBecomesAChain) {
   }
 }
 
-/// Isotherms far from each other: least squares on their way come by shifts without a finite modulus.
+/// The isotherms are far apart, so the least-squares iteration meets shifts without a finite modulus. It must not print
+/// anything about them.
 TEST_F(FitCommand, NothingIsSaidBesideTheFit) {
   data(
       "frequency_hz,temperature_c,e_star_pa,phase_deg\n"
@@ -158,13 +159,15 @@ TEST_F(FitCommand, NothingIsSaidBesideTheFit) {
     EXPECT_EQ(outcome.code, 0) << shift;
     EXPECT_EQ(outcome.err, "") << shift;
     const json found = json::parse(read(folder_ / "law" / "fit.json"));
-    // noise of 1 %; of nine measurements a free shift takes a parameter more, for which the criterion takes a unit less
+    // The noise is 1 %. With nine measurements a free shift has one parameter more, so the criterion chooses one unit
+    // less.
     EXPECT_LT(found["errors"]["e_star_rms"], std::string(shift) == "free" ? 0.05 : 0.02) << shift;
   }
   data("frequency_hz,e_star_pa,phase_deg\n1,1e9,80\n2,5e8,10\n3,2e9,89\n4,1e8,1\n5,3e9,45\n6,1e9,30\n");
   EXPECT_HAS(fit().out, "warning: the fit misses |E*| by");
 }
 
+/// If no chain approximates the fitted model to the requested error, the fit itself is still written, but no law.
 TEST_F(FitCommand, AModelThatNoChainReachesIsWrittenAllTheSame) {
   fs::copy_file(example, folder_ / "data.csv");
   write(folder_ / "law" / "fit.json", "{}");
@@ -188,7 +191,7 @@ TEST_F(FitCommand, ColumnsThatAreNotUsedAreNamed) {
   EXPECT_EQ(column("fit.csv", 4), (std::vector<double>{2e9, 4e9, 6e9}));
 }
 
-/// Pictures are drawn by the Python that reports use.
+/// Pictures are drawn by the Python of MACADAM_PYTHON, as reports are.
 TEST_F(FitCommand, PicturesTakeThePythonThatIsNamed) {
   fs::copy_file(example, folder_ / "data.csv");
   write(folder_ / "python", "#!/bin/sh\ntouch \"$3/master-curve.png\"\n");

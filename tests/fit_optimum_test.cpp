@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit_optimum_test.cpp  Fits end at the same optimum, whatever the reference temperature and from wherever they start.
+// fit_optimum_test.cpp  Fits reach the same optimum for any reference temperature and any starting point.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +15,8 @@ namespace {
 
 const AnalogueModel binder{0, 2.4e9, 0.24, 0.62, 3.4, 2e-4, 90};
 
-/// Moduli over two decades at each temperature, with noise of `noise` times 3 % and 1 degree.
+/// Returns moduli over two decades at each temperature. The standard deviation of their noise is `noise` times 3 % and
+/// 1 degree.
 ModulusData measured(const std::vector<double>& temperatures, double noise, unsigned seed, int frequencies = 7) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -41,12 +42,13 @@ bool has_warning(const Fit& fit, const std::string& part) {
   return false;
 }
 
-/// An element that has nothing to do lies at its limit, where a spring still changes |E*| by e^-12 of it: 2e-4 of the
-/// standard deviation of 3 % in each of the residuals.
+/// An element that is not needed lies at its limit, where a spring still changes |E*| by e^-12. In each residual this
+/// is 2e-4 of the standard deviation of 3 %.
 void expect_not_above(double larger, double smaller, std::size_t residuals, const std::string& what) {
   EXPECT_LE(std::sqrt(larger), std::sqrt(smaller) + 2e-4 * std::sqrt(static_cast<double>(residuals))) << what;
 }
 
+/// A chain with more units, or with flow, never fits worse than a chain that it contains.
 TEST(FitOptimum, AChainNeverFitsWorseThanOneThatItContains) {
   for (unsigned seed = 1; seed <= 2; ++seed) {
     const ModulusData data = measured({-20, -5, 10, 25, 40, 55, 70}, seed % 2 ? 0.2 : 1, seed);
@@ -82,13 +84,13 @@ TEST(FitOptimum, AFreeShiftFitsNoWorseThanALawAnd2S2P1DNoWorseThanHuetSayegh) {
                      to_string(shift));
 }
 
-/// Every result at one reference temperature against that at another, whose frequencies are a times as high.
+/// Expects that the law at one reference temperature is that at another, with all times multiplied by a.
 void expect_rescaled(const laws::GeneralisedKelvin& found, const laws::GeneralisedKelvin& first, double a,
                      const std::string& what) {
   ASSERT_EQ(found.units(), first.units()) << what;
   EXPECT_DOUBLE_EQ(found.E_m, first.E_m) << what;
   EXPECT_EQ(std::isfinite(found.C_m), std::isfinite(first.C_m)) << what;
-  // the logarithm of a viscosity (about 20) and of a_T are added: rounding to 1e-15 of 50
+  // The logarithms of a viscosity (about 20) and of a_T are added, with a rounding error of 1e-15 of 50.
   if (std::isfinite(first.C_m)) { EXPECT_NEAR(found.C_m / (a * first.C_m), 1, 1e-12) << what; }
   for (std::size_t l = 0; l < first.E.size(); ++l) {
     EXPECT_DOUBLE_EQ(found.E[l], first.E[l]) << what;
@@ -104,7 +106,7 @@ TEST(FitOptimum, AnotherReferenceTemperatureRescalesTimeAndNothingElse) {
       std::optional<Fit> first;
       std::optional<KelvinConversion> first_chain;
       for (const double reference : {5.0, -10.0, 50.0, 24.3}) {
-        if (shift == ShiftKind::free && reference == 24.3) continue;  // was not measured
+        if (shift == ShiftKind::free && reference == 24.3) continue;  // was not measured, so a free shift cannot use it
         FitOptions options;
         options.model = model, options.shift = shift, options.reference_temperature = reference, options.most_units = 4;
         const Fit fit = fit_modulus(data, options);
@@ -114,7 +116,7 @@ TEST(FitOptimum, AnotherReferenceTemperatureRescalesTimeAndNothingElse) {
         const double moved = laws::log10_shift(first->shift, reference), a = std::pow(10.0, moved);
         EXPECT_EQ(fit.misfit, first->misfit) << what;
         EXPECT_EQ(fit.chosen, first->chosen) << what;
-        for (const double t : temperatures)  // eleven decades at most, each factor rounded to 1e-16 of its logarithm
+        for (const double t : temperatures)  // at most eleven decades; each factor is rounded to 1e-16 of its logarithm
           EXPECT_NEAR(laws::log10_shift(fit.shift, t), laws::log10_shift(first->shift, t) - moved, 1e-11) << what;
         if (model == FitModel::kelvin) {
           expect_rescaled(std::get<laws::GeneralisedKelvin>(fit.model), std::get<laws::GeneralisedKelvin>(first->model),
@@ -135,11 +137,12 @@ TEST(FitOptimum, AnotherReferenceTemperatureRescalesTimeAndNothingElse) {
   }
 }
 
+/// Temperatures that differ by tenths of a degree are treated as one isotherm.
 TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   const std::vector<double> nominal{0, 15, 30};
   ModulusData data = measured(nominal, 0, 1, 9);
   for (std::size_t i = 0; i < data.points.size(); ++i)
-    data.points[i].temperature_c += 0.1 * static_cast<double>(i % 5) - 0.2;  // as an instrument logs them
+    data.points[i].temperature_c += 0.1 * static_cast<double>(i % 5) - 0.2;  // as an instrument records them
   FitOptions options;
   options.shift = ShiftKind::free;
   options.units = 4;
@@ -149,8 +152,8 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   ASSERT_EQ(table.temperatures.size(), nominal.size());
   for (std::size_t i = 0; i < nominal.size(); ++i) EXPECT_NEAR(table.temperatures[i], nominal[i], 0.2);
   EXPECT_EQ(table.log10_a_T[1], 0);
-  // log10 a_T = 13.5·(T − 15)/(…): 1.4 and −1.2 at the nominal temperatures; the chain of four units misses by some per
-  // cent
+  // log10 a_T = 13.5·(T − 15)/(…) is 1.4 and −1.2 at the nominal temperatures. The chain of four units misfits by a few
+  // per cent.
   const laws::Shift truth = laws::Wlf{13.5, 140, 20};
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}})
     EXPECT_NEAR(table.log10_a_T[i], laws::log10_shift(truth, nominal[i]) - laws::log10_shift(truth, 15), 0.1);
@@ -159,6 +162,7 @@ TEST(FitOptimum, ReadingsThatDifferByTenthsAreOneIsotherm) {
   EXPECT_NO_THROW(fit_modulus(data, options)) << "one isotherm needs no shift";
 }
 
+/// A ramp of temperature has no isotherms, so a free shift is refused and a shift law is fitted.
 TEST(FitOptimum, ARampOfTemperatureTakesAShiftLaw) {
   std::vector<double> ramp;
   for (int i = 0; i <= 100; ++i) ramp.push_back(0.4 * i);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// fit_test.cpp  Laws from data: what made the data comes back, and the limits that are stated hold.
+// fit_test.cpp  Laws fitted to data: the law that made the data is recovered, and stated errors and confidence limits
+// hold.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +24,7 @@ std::vector<double> frequencies(double low, double high, int count) {
   return out;
 }
 
-/// Moduli of a law at frequencies and, with a shift, temperatures.
+/// Returns the moduli of a law at the given frequencies and, if there are several, temperatures.
 template <class Model>
 ModulusData measured(const Model& model, const std::vector<double>& at, const laws::Shift& shift = laws::NoShift{},
                      const std::vector<double>& temperatures = {0}) {
@@ -39,7 +40,7 @@ ModulusData measured(const Model& model, const std::vector<double>& at, const la
   return out;
 }
 
-/// Largest |E*_fit − E*|/|E*| on a grid that is finer than the data.
+/// Returns the largest |E*_fit − E*|/|E*| on a grid that is finer than the data.
 template <class Model>
 double largest_difference(const Fit& fit, const Model& model, double low, double high) {
   double out = 0;
@@ -49,7 +50,8 @@ double largest_difference(const Fit& fit, const Model& model, double low, double
   return out;
 }
 
-/// With noise of 3 % in the modulus and 1 degree in the phase.
+/// Adds noise with a standard deviation of 3 % in the modulus and 1 degree in the phase; `deviations` says whether the
+/// data state it.
 ModulusData noisy(ModulusData data, std::mt19937_64& random, bool deviations) {
   std::normal_distribution<double> normal;
   data.deviations = deviations;
@@ -65,7 +67,7 @@ ModulusData noisy(ModulusData data, std::mt19937_64& random, bool deviations) {
 const AnalogueModel mixture{8e7, 3.5e10, 0.18, 0.56, 2.1, 0.08, 250};
 
 TEST(Fit, CurvesOfThePapersLawsComeBack) {
-  // two of AM2's three units have the same retardation time, 0.0927 s: as one they give the same curve
+  // Two of AM2's three units have the same retardation time, 0.0927 s, so two units give the same curve.
   for (const auto& [law, units] : {std::pair{mastic_am1(), 3}, {mastic_am2(), 2}}) {
     const Fit fit = fit_modulus(measured(law, frequencies(1e-3, 1e3, 31)));
     EXPECT_EQ(std::get<laws::GeneralisedKelvin>(fit.model).units(), units);
@@ -89,7 +91,8 @@ TEST(Fit, BicAndNumbersOfUnitsThatAreGiven) {
   EXPECT_FALSE(std::isfinite(std::get<laws::GeneralisedKelvin>(fit_modulus(data, options).model).C_m));
 }
 
-/// AM1 has three units: of at most one the criterion takes that one, with a dashpot or without.
+/// AM1 has three units. If at most one is allowed, the criterion chooses one and the fit warns that it would take more.
+/// If one was requested, there is no warning.
 TEST(Fit, MoreUnitsAreWantedOnlyWhereTheCriterionChoseTheMost) {
   const ModulusData data = measured(mastic_am1(), frequencies(1e-3, 1e3, 31));
   const auto warned = [&](const FitOptions& options) {
@@ -105,6 +108,7 @@ TEST(Fit, MoreUnitsAreWantedOnlyWhereTheCriterionChoseTheMost) {
   EXPECT_FALSE(warned(options)) << "as many as were asked for";
 }
 
+/// A number of units below 0 or above the largest that a law can have is refused.
 TEST(Fit, NumbersOfUnitsBeyondALawsAreRefused) {
   const ModulusData data = measured(mastic_am1(), frequencies(1e-3, 1e3, 31));
   const int most = laws::GeneralisedKelvin::max_units;
@@ -117,16 +121,16 @@ TEST(Fit, NumbersOfUnitsBeyondALawsAreRefused) {
   }
 }
 
-/// n = 20 numbers and p = 3 parameters: n − p − 1 = 16. Without stated deviations the size of the errors is a
-/// parameter.
+/// n = 20 numbers and p = 3 parameters, so n − p − 1 = 16. If no deviations are stated, the size of the errors is one
+/// more parameter.
 TEST(Fit, CriteriaAreThoseOfTheirFormulae) {
   EXPECT_DOUBLE_EQ(fitting::criterion(Criterion::aicc, 7, 20, 3, true), 7 + 6 + 24.0 / 16);
   EXPECT_DOUBLE_EQ(fitting::criterion(Criterion::bic, 7, 20, 3, true), 7 + 3 * std::log(20.0));
   EXPECT_DOUBLE_EQ(fitting::criterion(Criterion::aicc, 7, 20, 3, false), 20 * std::log(0.35) + 8 + 40.0 / 15);
 }
 
-/// A count of a binomial of 200 trials at 0.95 lies in [179, 198] but for 3e-4 of the cases on either side; the seeds
-/// are fixed, so it lies there or it does not.
+/// In 200 trials with probability 0.95 the number of hits is in [179, 198], except for 3e-4 of the cases on each side.
+/// The seeds are fixed, so the test cannot fail at random.
 TEST(Fit, ConfidenceBandsHoldTheTruthAsOftenAsTheySay) {
   const laws::GeneralisedKelvin law = mastic_am1();
   const ModulusData exact = measured(law, frequencies(1e-3, 1e2, 24));
@@ -156,6 +160,7 @@ TEST(Fit, ConfidenceBandsHoldTheTruthAsOftenAsTheySay) {
   }
 }
 
+/// Shift laws and free shift factors are recovered from exact data.
 TEST(Fit, ShiftFactorsComeBack) {
   const std::vector<double> temperatures{-10, 0, 10, 20, 30, 40};
   const laws::Shift wlf = laws::Wlf{14.5, 128, 10}, arrhenius = laws::Arrhenius{2.1e5, 10};
@@ -175,6 +180,7 @@ TEST(Fit, ShiftFactorsComeBack) {
   }
 }
 
+/// If moduli are assigned to the wrong temperatures, a_T rises with temperature; the fit warns of this.
 TEST(Fit, TemperaturesInTheWrongRowsAreAskedAbout) {
   const std::vector<double> temperatures{0, 10, 20};
   ModulusData data = measured(mixture, frequencies(0.1, 20, 8), laws::Wlf{14.5, 128, 10}, temperatures);
@@ -215,7 +221,7 @@ void expect_equal(const AnalogueModel& found, const AnalogueModel& truth) {
   EXPECT_LT(relative(found.h, truth.h), 1e-4);
   EXPECT_LT(relative(found.delta, truth.delta), 1e-4);
   EXPECT_LT(relative(found.tau, truth.tau), 1e-4);
-  EXPECT_TRUE(found.beta == truth.beta || relative(found.beta, truth.beta) < 1e-4);  // both infinite, or near
+  EXPECT_TRUE(found.beta == truth.beta || relative(found.beta, truth.beta) < 1e-4);  // both infinite, or nearly equal
 }
 
 TEST(Fit, ParametersOfAnaloguesComeBack) {
@@ -229,6 +235,7 @@ TEST(Fit, ParametersOfAnaloguesComeBack) {
   expect_equal(std::get<AnalogueModel>(fit_modulus(measured(huet, frequencies(1e-6, 1e6, 49)), options).model), huet);
 }
 
+/// A chain approximates an analogue model within the stated error over the range of frequencies.
 TEST(Fit, AChainStandsForAnAnalogueWithinTheStatedError) {
   AnalogueModel fluid = mixture;
   fluid.E_00 = 0;
@@ -237,12 +244,12 @@ TEST(Fit, AChainStandsForAnAnalogueWithinTheStatedError) {
   std::vector<int> units;
   for (const auto& [model, error] : {std::pair{mixture, 0.03}, {mixture, 0.003}, {fluid, 0.01}, {huet, 0.01}}) {
     const KelvinConversion conversion = to_kelvin(model, 1e-3, 1e3, error);
-    double largest = 0;  // at ten times as many frequencies as it was judged at
+    double largest = 0;  // at ten times as many frequencies as the conversion checks
     for (const double f : frequencies(1e-3, 1e3, 6001)) {
       const std::complex<double> exact = model.stiffness(s_of(f));
       largest = std::max(largest, std::abs(conversion.law.stiffness(s_of(f)) - exact) / std::abs(exact));
     }
-    // between the frequencies the error curve is smooth: a hundredth of its largest value
+    // Between the checked frequencies the error is a smooth curve, so it can be a hundredth larger.
     EXPECT_LT(largest, 1.01 * conversion.largest_error);
     EXPECT_LE(conversion.largest_error, error);
     EXPECT_EQ(std::isfinite(conversion.law.C_m), model.E_00 == 0);
@@ -255,7 +262,8 @@ TEST(Fit, AChainStandsForAnAnalogueWithinTheStatedError) {
   EXPECT_HAS(message_of([&] { to_kelvin(mixture, -1, 10, 0.01); }), "-1 to 10 Hz");
 }
 
-/// A spring between limits that are 100 apart: within 1e-6 of that from one of them it is taken to lie there.
+/// A parameter between limits that are 100 apart counts as lying at a limit if it is within 1e-6 of this range from it;
+/// then it is not determined.
 TEST(Fit, AParameterNearItsBoundIsNotDetermined) {
   const fitting::Unknowns spring;
   const auto determined = [&](double log_modulus) {
@@ -263,7 +271,8 @@ TEST(Fit, AParameterNearItsBoundIsNotDetermined) {
     target.place.omega = 1;
     target.log_modulus = log_modulus;
     const fitting::Minimum found = fitting::refine(spring, {target}, {{20, 120}}, {70});
-    EXPECT_NEAR(found.theta.at(0), log_modulus, 1e-9);  // one unknown, linear: its steps end at 1e-12 of it
+    // one linear unknown; the iteration ends at steps of 1e-12 of it
+    EXPECT_NEAR(found.theta.at(0), log_modulus, 1e-9);
     return found.determined;
   };
   EXPECT_FALSE(determined(20 + 5e-5));
@@ -272,8 +281,8 @@ TEST(Fit, AParameterNearItsBoundIsNotDetermined) {
   EXPECT_FALSE(determined(120 - 5e-5));
 }
 
-// A unit so stiff that it changes |E*| by 1e-13 of what E_m does is not determined, however small the deviations that
-// the residuals are counted in.
+// A unit so stiff that it changes |E*| by only 1e-13 of the spring's part is not determined, whatever the standard
+// deviations of the residuals.
 TEST(Fit, WhatTheDataDoNotDetermineIsMarked) {
   const fitting::Unknowns chain{FitModel::kelvin, 1, false};
   const auto undetermined = [&](double stiff, double deviation) {

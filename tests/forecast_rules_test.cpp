@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_rules_test.cpp  Cycles and steps of a forecast against those of the plan, and its files against those that
-// runs of every kind and method leave.
+// forecast_rules_test.cpp  The forecast's cycles and steps against the plan of the run, and its list of files against
+// the files that runs of every kind and method write.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,8 +27,9 @@ class ForecastRules : public TestFolder {
   }
 };
 
-// The forecast has no contacts: only its critical step, a part of the scaling and the modulus of the slowest wave are
-// estimates, so that steps that rest on them are within a factor of two. A given step leaves nothing to estimate.
+// A forecast has no contacts, so it estimates the critical step, a part of the density scaling and the modulus of the
+// slowest wave. Numbers of steps that depend on these are within a factor of two; with a given time step they are
+// exact.
 TEST_F(ForecastRules, CyclesAndStepsOfACyclicTestAreThoseOfItsPlan) {
   const std::string twenty = "kind = \"cyclic\"\nfrequencies = [20.0, 2.0]\n";
   struct Case {
@@ -69,6 +70,7 @@ TEST_F(ForecastRules, CyclesAndStepsOfACyclicTestAreThoseOfItsPlan) {
   }
 }
 
+/// The same for the steps of relaxation, creep and constant rates.
 TEST_F(ForecastRules, StepsOfALoadAreThoseOfItsPlan) {
   const std::string times = "times = [1e-2, 5e-2]\n", method = "method = \"explicit\"\n";
   for (const std::string& loading :
@@ -90,7 +92,8 @@ TEST_F(ForecastRules, StepsOfALoadAreThoseOfItsPlan) {
   }
 }
 
-/// Paths of a folder, where `*` stands for the numbers of frames, and the bytes of each.
+/// Returns the files of a folder and their bytes. In names of frames `*` replaces the number, and their bytes are added
+/// up.
 std::map<std::string, double> files_in(const fs::path& folder) {
   std::map<std::string, double> out;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -117,7 +120,8 @@ void expect_files(const Scene& asked, const fs::path& out) {
     const auto at = written.find(found.files[i]);
     if (at == written.end()) continue;
     sum += at->second;
-    constexpr double large = 2e4;  // smaller ones hold sentences, and the block size of a disk is not far
+    // the sizes of smaller files vary with the text in them and with the block size of the disk
+    constexpr double large = 2e4;
     if (at->second > large) {
       EXPECT_NEAR(std::log(found.file_bytes[i] / at->second), 0, std::log(2))
           << found.files[i] << ": " << at->second << ", predicted " << found.file_bytes[i];
@@ -160,7 +164,7 @@ TEST_F(ForecastRules, FilesAreThoseThatRunsWrite) {
   }
 }
 
-// A made specimen lists its aggregates where it has some.
+// The list of files includes aggregates.csv if the generated specimen has aggregates.
 TEST_F(ForecastRules, FilesOfAMadeSpecimen) {
   for (const char* name : {"stepped_creep", "mastic"}) {
     Scene asked = read_scene(fs::path(MACADAM_EXAMPLES) / name / "scene.toml");
@@ -171,7 +175,8 @@ TEST_F(ForecastRules, FilesOfAMadeSpecimen) {
   }
 }
 
-// The iteration takes longer if soft contacts lie beside stiff ones, until the direct solver takes its place.
+// Soft contacts beside stiff ones slow the iterative solver down, until the direct solver replaces it, which needs more
+// memory.
 TEST_F(ForecastRules, SoftScenesTakeLonger) {
   const auto of = [&](const char* frequency, const char* linear = "auto") {
     return forecast(scene(fmt::format("kind = \"cyclic\"\nfrequencies = [{}]\n", frequency),

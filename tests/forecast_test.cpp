@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forecast_test.cpp  What macadam check foretells, beside what is then made.
+// forecast_test.cpp  Predictions of `macadam check` against what is then made or was measured.
 #include "host/simulation/forecast.hpp"
 
 #include <chrono>
@@ -19,7 +19,8 @@ struct Check : Program {
   Scene example(const std::string& name) const { return read_scene(fs::path(MACADAM_EXAMPLES) / name / "scene.toml"); }
 };
 
-// Counts are drawn as the run draws them; contacts are those of a mixture's cells, whose number varies by some percent.
+// Particles are counted by sampling sizes as the run does, so the number is exact except with shapes. The number of
+// contacts is estimated from the mean number of facets per cell, which varies by some per cent.
 TEST_F(Check, CountsWhatIsMade) {
   for (const char* name : {"demo", "mastic", "stepped_creep", "aggregate_cube", "study"}) {
     Scene scene = example(name);
@@ -27,7 +28,8 @@ TEST_F(Check, CountsWhatIsMade) {
     const Forecast foretold = forecast(scene);
     const Preparation made = prepare(scene);
     const double particles = static_cast<double>(made.specimen.size());
-    // packed shapes are drawn anew where a class misses its volume, and mastic fills what they leave
+    // Packed shapes are sampled again if a class misses its volume, and mastic fills the rest, so their number is only
+    // approximate.
     EXPECT_NEAR(static_cast<double>(foretold.census.particles()), particles,
                 scene.specimen.shapes ? 0.01 * particles : 0)
         << name;
@@ -41,7 +43,8 @@ std::vector<std::map<std::string, std::string>> measured(const std::string& file
   return table_of(read(fs::path(MACADAM_EXAMPLES).parent_path() / "bench/results" / file));
 }
 
-// A request for memory on a cluster may be as much too small.
+// The predicted memory is within 10 % of the measured memory of runs; a request on a cluster may be this much too
+// small.
 TEST_F(Check, FindsTheMemoryThatRunsTook) {
   const auto rows = measured("forecast.csv");
   ASSERT_GT(rows.size(), 5u);
@@ -72,7 +75,7 @@ TEST_F(Check, FindsTheMemoryOfMillionsOfParticles) {
   EXPECT_NEAR(forecast(scene).host_bytes, found, 0.1 * found);
 }
 
-// A forecast has no contacts: it knows the critical step by the materials and the smallest particles.
+// A forecast has no contacts; it estimates the critical step from the materials and the smallest particles.
 TEST_F(Check, StepsOfACreepTestAreThoseOfItsCriticalStep) {
   const Scene scene = example("stepped_creep");
   const Preparation made = prepare(scene);
@@ -83,7 +86,7 @@ TEST_F(Check, StepsOfACreepTestAreThoseOfItsCriticalStep) {
   EXPECT_NEAR(foretold.dt_s / expected, 1, 0.5);
 }
 
-// The smallest spheres are then those of the file.
+// For a specimen from a file, the smallest spheres are those in the file.
 TEST_F(Check, StepsOfASpecimenFromAFileAreThoseOfTheMixtureThatItWasMadeOf) {
   Scene scene = example("stepped_creep");
   const StepForecast of_mixture = forecast(scene).steps.front();
@@ -92,12 +95,13 @@ TEST_F(Check, StepsOfASpecimenFromAFileAreThoseOfTheMixtureThatItWasMadeOf) {
   scene.specimen.mastic.reset(), scene.specimen.aggregate.clear();
   const StepForecast of_file = forecast(scene).steps.front();
   EXPECT_GE(of_file.dt_s, of_mixture.dt_s);
-  EXPECT_NEAR(of_file.dt_s / of_mixture.dt_s, 1, 0.02);  // of hundreds of spheres, one is nearly the smallest
+  // among hundreds of spheres one is nearly the smallest possible
+  EXPECT_NEAR(of_file.dt_s / of_mixture.dt_s, 1, 0.02);
   EXPECT_NEAR(of_file.steps / of_mixture.steps, 1, 0.02);
 }
 
-// What fits into a processor's cache, or onto a device's chip, takes less time a contact. A cube of 20 mm has 10,000
-// contacts, one of 40 mm 86,000, and one of 100 mm 1.4 million.
+// Data that fit into a processor's cache, or into a device's registers and shared memory, take less time per contact. A
+// cube of 20 mm has 10,000 contacts, one of 40 mm 86,000, and one of 100 mm 1.4 million.
 TEST_F(Check, AContactOfASmallSpecimenTakesLessTime) {
   for (const Backend backend : tested_backends()) {
     Scene scene = example("demo");
@@ -114,8 +118,8 @@ TEST_F(Check, AContactOfASmallSpecimenTakesLessTime) {
   }
 }
 
-// Against a step with three units. Time: what a step does without chains is taken to shrink and grow with them, which
-// is a fifth too much where there are few.
+// Costs relative to a step with three units, compared with measurements. The prediction scales the whole step with the
+// number of units, including the part that does not depend on it; with few units it is a fifth too large.
 TEST_F(Check, KelvinUnitsCostWhatWasMeasured) {
   const auto rows = measured("kelvin-units-cpu.csv");
   ASSERT_EQ(rows.size(), 8u);
@@ -157,7 +161,8 @@ TEST_F(Check, AStepOfElasticContactsTakesLessTimeThanOneOfChains) {
   EXPECT_LT(of_a_step(), 0.8 * with_chains);
 }
 
-// A fitted law has many Kelvin units, and the state of each is kept. To a tenth, as all memory is foretold.
+// A fitted law has many Kelvin units, and each has a state. The predicted memory for them is within a tenth of the
+// stepper's.
 TEST_F(Check, KelvinUnitsTakeTheMemoryThatAStepperTakes) {
   Scene scene = example("demo");
   scene.solver.backend = Backend::cpu;
@@ -210,7 +215,7 @@ TEST_F(Check, TakesNoTimeForAMillionParticles) {
   const auto found = nlohmann::json::parse(outcome.out);
   EXPECT_GT(found["particles"], 900'000);
   EXPECT_GT(found["host_bytes"], 1e9);
-  EXPECT_LT(seconds.count(), 5);  // one second on a machine that does nothing else
+  EXPECT_LT(seconds.count(), 5);  // takes one second on an otherwise idle machine
 }
 
 TEST_F(Check, SaysWhatARunWouldDoAndWritesNothing) {
@@ -223,7 +228,7 @@ TEST_F(Check, SaysWhatARunWouldDoAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "summary.json"));
 }
 
-// Of a file in metres beside a box in millimetres, and the other way round as far as that can run.
+// Warns if the specimen's file is in metres and the box in millimetres, and the reverse if such a scene can run at all.
 TEST_F(Check, WarnsOfABoxThatIsAlmostEmpty) {
   const fs::path scene = write_scene("method = \"harmonic\"\n");
   const std::string usual = read(scene), box = "box = [0.008, 0.008, 0.011]";

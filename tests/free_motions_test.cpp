@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// free_motions_test.cpp  Motions that nothing resists leave the modulus determined: columns, sliding parts, single
-// spheres.
+// free_motions_test.cpp  Motions that no contact resists, such as columns that turn, parts that slide and single
+// spheres, do not prevent a unique modulus.
 #include <gtest/gtest.h>
 
 #include "host/harmonic/rigid_motions.hpp"
@@ -11,7 +11,7 @@
 namespace macadam::test {
 namespace {
 
-constexpr double of_mastic = 1e9, of_mixed = 3e9, of_aggregate = 5e9, of_wall = 2e9;  // Pa
+constexpr double of_mastic = 1e9, of_mixed = 3e9, of_aggregate = 5e9, of_wall = 2e9;  // moduli of the contacts [Pa]
 
 Laws laws_of(double mm, double ma, double aa) {
   Laws out;
@@ -23,7 +23,8 @@ Laws laws_of(double mm, double ma, double aa) {
   return out;
 }
 
-/// A cubic lattice of nx × nx × nz spheres of radius 1 mm that touch; layer z is of aggregates where `is_aggregate`.
+/// Returns a cubic lattice of nx × nx × nz touching spheres of radius 1 mm. Layer z is aggregate if `is_aggregate(z)`,
+/// otherwise mastic.
 Specimen lattice(int nx, int nz, const std::function<bool(int z)>& is_aggregate) {
   Specimen s;
   s.box.size = {2e-3 * nx, 2e-3 * nx, 2e-3 * nz};
@@ -38,7 +39,7 @@ Specimen lattice(int nx, int nz, const std::function<bool(int z)>& is_aggregate)
   return s;
 }
 
-/// Contacts in series: a half layer at each wall, a layer between two layers of centres.
+/// Returns the modulus of the contacts in series: half a layer at each wall, and a layer between successive centres.
 double in_series(const Specimen& s, int nz) {
   const std::size_t per_layer = s.size() / static_cast<std::size_t>(nz);
   double soft = 2 * 0.5 / of_wall;
@@ -65,7 +66,8 @@ class FreeMotions : public BackendTest<std::tuple<Backend>> {
     EXPECT_LT(r.held_force, 1e-10);
     return r.top.e_star_pa;
   }
-  /// Both solvers find the value; rounding of some ten contacts times the condition, at most 1e4.
+  /// Expects the modulus from both solvers. The tolerance is the rounding of about ten contacts times the condition, at
+  /// most 1e4.
   void expect_by_both(const TestScene& scene, double expected) const {
     for (const LinearMethod linear : {LinearMethod::direct, LinearMethod::iterative})
       EXPECT_NEAR(modulus(scene, linear) / expected, 1, 1e-11) << to_string(linear);
@@ -80,7 +82,8 @@ std::size_t number_of_free_motions(const TestScene& scene) {
   return found.motions.size();
 }
 
-// The sphere may turn about the vertical through its centre. The modulus is that of the walls, for any size and height.
+// A single sphere can rotate about the vertical through its centre. The modulus is that of the wall contacts, for any
+// size and height.
 TEST_P(FreeMotions, OneSphere) {
   Specimen s = lattice(1, 1, none);
   expect_by_both(make_scene(s, {}, laws_of(0.1, 0.1, 0.1)), of_wall);
@@ -89,6 +92,7 @@ TEST_P(FreeMotions, OneSphere) {
   expect_by_both(make_scene(s, {}, laws_of(0.1, 0.1, 0.1)), of_wall);
 }
 
+/// A column has three free motions. The modulus is that of its contacts in series.
 TEST_P(FreeMotions, ColumnsTurnAboutTheirAxis) {
   for (const int n : {2, 3, 7}) {
     const TestScene scene = make_scene(lattice(1, n, every_other), {}, laws_of(0.1, 0.1, 0.1));
@@ -97,7 +101,8 @@ TEST_P(FreeMotions, ColumnsTurnAboutTheirAxis) {
   }
 }
 
-// Without shear stiffness each sphere slides and turns by itself.
+// Without shear stiffness each sphere of a column can slide and rotate on its own. The iterative solver refuses more
+// free motions than it can exclude.
 TEST_P(FreeMotions, ColumnsWithoutShear) {
   const TestScene two = make_scene(lattice(1, 2, none), {}, laws_of(0, 0, 0));
   EXPECT_EQ(number_of_free_motions(two), 6u);
@@ -108,20 +113,23 @@ TEST_P(FreeMotions, ColumnsWithoutShear) {
   EXPECT_HAS(message_of([&] { modulus(ten, LinearMethod::iterative); }), "found 30 motions");
 }
 
-// Mastic on mastic resists sliding, mastic on aggregate does not: layers M M A M M are three parts.
+// Mastic on mastic resists sliding, mastic on aggregate does not. So the layers M M A M M form three parts with three
+// free motions each.
 TEST_P(FreeMotions, PartsOfAColumnSlideOnOneAnother) {
   const TestScene scene = make_scene(lattice(1, 5, [](int z) { return z == 2; }), {}, laws_of(0.1, 0, 0.1));
   EXPECT_EQ(number_of_free_motions(scene), 9u);
   EXPECT_NEAR(modulus(scene, LinearMethod::direct) / in_series(scene.specimen, 5), 1, 1e-11);
 }
 
+/// Two blocks of several columns slide on each other; each has three free motions.
 TEST_P(FreeMotions, TwoBlocksSlideOnOneAnother) {
   const TestScene scene = make_scene(lattice(3, 4, [](int z) { return z >= 2; }), {}, laws_of(0.1, 0, 0.1));
   EXPECT_EQ(number_of_free_motions(scene), 6u);
   expect_by_both(scene, in_series(scene.specimen, 4));
 }
 
-// With one point per facet, on the axis, nothing resists the spin of a sphere. Spheres at the ends also tilt about it.
+// With one point per facet, on the axis of the column, nothing resists the rotation of a sphere about the axis. Spheres
+// at the ends can also tilt about their point.
 TEST_P(FreeMotions, SpheresOfAColumnTurnByThemselvesAboutSinglePoints) {
   NetworkSpec spec;
   spec.quadrature = Quadrature::one_point;
@@ -129,7 +137,7 @@ TEST_P(FreeMotions, SpheresOfAColumnTurnByThemselvesAboutSinglePoints) {
   EXPECT_NEAR(modulus(scene, LinearMethod::direct) / (4e9 / 3), 1, 1e-11);
 }
 
-// Inertia of the free motions has no part in the load either.
+// The inertia of free motions does not contribute to the load, so both solvers agree with inertia too.
 TEST_P(FreeMotions, BothSolversAgreeWithInertia) {
   for (const auto& laws : {laws_of(0.1, 0.1, 0.1), laws_of(0, 0, 0)}) {
     const TestScene scene = make_scene(lattice(1, 2, every_other), {}, laws);
@@ -139,7 +147,7 @@ TEST_P(FreeMotions, BothSolversAgreeWithInertia) {
   }
 }
 
-// The free motions of three parts of one column are orthonormal by mass.
+// The free motions of the three parts of a column are orthonormal with respect to mass.
 TEST(FreeMotionsOfParts, AreOrthonormal) {
   const TestScene scene = make_scene(lattice(1, 5, [](int z) { return z == 2; }), {}, laws_of(0.1, 0, 0.1));
   const auto found = harmonic::find_free_motions(

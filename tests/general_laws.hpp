@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file general_laws.hpp  The same behaviour with every contact given all that any contact needs: what skips are
-/// compared with.
+/// \file general_laws.hpp  Gives every contact the most general law without changing its behaviour. Tests compare steps
+/// that skip unneeded work with steps of these laws, which skip nothing.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace macadam::test {
 
-/// Every law as a generalised Kelvin law of at least `units` units; those added have E = 0, C = ∞ and never move.
+/// Returns every law as a generalised Kelvin law of at least `units` units. Added units have E = 0 and C = ∞ and never
+/// move.
 inline LawTable general_laws(LawTable laws, std::size_t units) {
   for (auto& law : laws) {
     if (!law) continue;

@@ -26,7 +26,7 @@ namespace {
 
 double volume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
-/// A small mix in a box of 13 mm: two classes and about 440 mastic spheres.
+/// Returns a small mix in a box of 13 mm with two size classes and about 440 mastic spheres.
 SpecimenSpec small_mix() {
   SpecimenSpec spec;
   spec.box = {{0.013, 0.013, 0.013}};
@@ -41,10 +41,10 @@ bool same_bits(const Specimen& a, const Specimen& b) {
          std::equal(a.centre.begin(), a.centre.end(), b.centre.begin(), b.centre.end(), equal);
 }
 
-/// Aggregates are wholly inside the box, no two overlap, and each is its own body.
+/// Expects that aggregates are inside the box, do not overlap, are sorted by size, and each have a number of their own.
 void expect_sound_aggregates(const Specimen& s) {
   const std::size_t n = std::count(s.phase.begin(), s.phase.end(), Phase::aggregate);
-  // Positions are compared as doubles: half a unit in the last place of the box's edge a coordinate.
+  // Positions are doubles: each coordinate is rounded by half a unit in the last place of the box's edge.
   const double rounding =
       4 * std::numeric_limits<double>::epsilon() * std::max({s.box.size.x, s.box.size.y, s.box.size.z});
   for (std::size_t i = 0; i < n; ++i) {
@@ -91,7 +91,7 @@ TEST(Generate, SameBitsForAnyNumberOfThreads) {
     spec.fix_aggregates = fix;
     omp_set_num_threads(1);
     const Specimen one = generate_specimen(spec).specimen;
-    ASSERT_GT(one.size(), 1000u);  // fewer are left to one thread
+    ASSERT_GT(one.size(), 1000u);  // smaller specimens use one thread
     for (int t : {2, 3, 16}) {
       omp_set_num_threads(t);
       EXPECT_TRUE(same_bits(one, generate_specimen(spec).specimen)) << t << " threads, fix_aggregates " << fix;
@@ -100,7 +100,8 @@ TEST(Generate, SameBitsForAnyNumberOfThreads) {
   omp_set_num_threads(threads);
 }
 
-/// The generator tessellates to see that no sphere is hidden; nobody does it a second time.
+/// The generator tessellates to check that every sphere has a cell. It returns these cells, so that nothing tessellates
+/// again; they must equal a new tessellation.
 TEST(Generate, HandsOnTheCellsOfTheSpecimenAsItIs) {
   const auto same = [](const Facet& a, const Facet& b) {
     return a.a == b.a && a.b == b.b && a.area == b.area && norm(a.centroid - b.centroid) == 0;
@@ -132,7 +133,7 @@ TEST(Generate, AggregatesKeepTheSpacing) {
   const Specimen s = generate_specimen(spec).specimen;
   expect_sound_aggregates(s);
   for (std::size_t i = 0; s.phase[i] == Phase::aggregate; ++i)
-    for (std::size_t j = 0; j < i; ++j)  // 1e-15 m: rounding of positions in a box of centimetres
+    for (std::size_t j = 0; j < i; ++j)  // tolerance 1e-15 m: rounding of positions in a box of centimetres
       EXPECT_GE(norm(s.centre[i] - s.centre[j]), s.radius[i] + s.radius[j] + spec.spacing - 1e-15) << i << " and " << j;
 }
 
@@ -154,7 +155,7 @@ TEST(Generate, CompositionIsWhatWasAsked) {
     EXPECT_LE(r, k == 2 ? 0.001 : 0.00475);
   }
   for (int k = 0; k < 3; ++k) {
-    // Bisection ends at 1e-13 of the class; sums of some hundred terms round to less than that.
+    // Bisection ends at 1e-13 of the class, and the sums of some hundred terms round to less than that.
     EXPECT_NEAR(sums[k], asked[k], 1e-12) << k;
     EXPECT_NEAR(g.composition[k].fraction, sums[k], 1e-12) << k;
     EXPECT_NEAR(g.composition[k].fraction_asked, asked[k], 1e-12) << k;
@@ -163,8 +164,8 @@ TEST(Generate, CompositionIsWhatWasAsked) {
 }
 
 TEST(Generate, CountsGiveTheMeanVolumeOfTheSizeLaw) {
-  // Mean cubes between a and b: log-uniform (b³−a³)/(3 ln(b/a)); uniform (b⁴−a⁴)/(4(b−a)); volume spread evenly over
-  // the diameters, density ∝ d⁻³: 2a²b²/(a+b).
+  // The count must give the volume of the mean cube. Mean cubes of diameters between a and b are (b³−a³)/(3 ln(b/a))
+  // for log-uniform, (b⁴−a⁴)/(4(b−a)) for uniform, and 2a²b²/(a+b) for equal volume per diameter (density ∝ d⁻³).
   const double a = 0.001, b = 0.003, mastic_min = 0.0005, mastic_max = 0.001;
   const std::pair<SizeLaw, double> laws[] = {{SizeLaw::log_uniform, (b * b * b - a * a * a) / (3 * std::log(b / a))},
                                              {SizeLaw::uniform, (std::pow(b, 4) - std::pow(a, 4)) / (4 * (b - a))},
@@ -183,8 +184,8 @@ TEST(Generate, CountsGiveTheMeanVolumeOfTheSizeLaw) {
         (std::pow(mastic_max, 4) - std::pow(mastic_min, 4)) / (4 * (mastic_max - mastic_min));
     EXPECT_NEAR(g.composition[1].fraction, 300 * 4 * std::numbers::pi / 3 * mean_radius_cube / spec.box.volume(),
                 1e-12);
-    // Stratified draws: the share below any size is within one sphere of the law's, and the bend that makes the volume
-    // exact moves it by less than one more.
+    // Sizes are stratified samples: the number below any size is within one sphere of the law, and adjusting the sizes
+    // to the exact volume changes it by less than one more.
     const double middle = law == SizeLaw::log_uniform ? std::sqrt(a * b)
                           : law == SizeLaw::uniform   ? (a + b) / 2
                                                       : std::sqrt(2 / (1 / (a * a) + 1 / (b * b)));
@@ -194,7 +195,8 @@ TEST(Generate, CountsGiveTheMeanVolumeOfTheSizeLaw) {
   }
 }
 
-/// By the mean volume, three of the largest are as much as 3.49 spheres, and three of the smallest as much as 2.54.
+/// Three spheres of the largest size have the volume of 3.49 mean spheres, three of the smallest size that of 2.54. The
+/// number must be three in both cases.
 TEST(ClassRequest, ThreeOfOneSizeAreThree) {
   for (const double largest : {0.001, 0.0047, 0.0125, 1.0}) {
     ClassRequest request{"", {SizeLaw::uniform, 0.9 * largest, largest}, 1, {}, {}};
@@ -207,6 +209,7 @@ TEST(ClassRequest, ThreeOfOneSizeAreThree) {
   }
 }
 
+/// If mastic is given by count, its volume follows from the count and the total solid volume.
 TEST(Generate, MasticByCountSolvesForTheSolidVolume) {
   SpecimenSpec spec = small_mix();
   spec.aggregate = {{0.002, 0.004, 0.25, {}}, {0.004, 0.006, {}, 3}};
@@ -219,8 +222,8 @@ TEST(Generate, MasticByCountSolvesForTheSolidVolume) {
 TEST(Generate, MasticIsSpreadEvenly) {
   const Specimen s = generate_specimen(small_mix()).specimen;
   EXPECT_TRUE(particles_without_cell(s).empty());
-  // Of 440 points at random in this box a dozen pairs are closer than 0.2 of touching. Spread evenly at porosity
-  // 0.05 neighbours keep about 0.9 of touching, those squeezed between a wall and an aggregate somewhat less.
+  // Of 440 random points in this box, a dozen pairs are closer than 0.2 of the sum of radii. Evenly spread spheres at
+  // porosity 0.05 keep about 0.9 of it, and somewhat less if they are squeezed between a wall and an aggregate.
   double closest = 1;
   for (std::size_t i = 0; i < s.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
@@ -229,6 +232,7 @@ TEST(Generate, MasticIsSpreadEvenly) {
   EXPECT_LT(closest, 1);
 }
 
+/// If aggregates may move during relaxation, the largest overlap between them is reported, and it is small.
 TEST(Generate, FreeAggregatesReportTheirOverlap) {
   SpecimenSpec spec = small_mix();
   const Specimen held = generate_specimen(spec).specimen;
@@ -242,10 +246,10 @@ TEST(Generate, FreeAggregatesReportTheirOverlap) {
           largest, g.specimen.radius[i] + g.specimen.radius[j] - norm(g.specimen.centre[i] - g.specimen.centre[j]));
   }
   EXPECT_EQ(g.residual_overlap, largest);
-  // Mastic overlaps by about a tenth of its diameter of 1.75 mm; a pair of aggregates, 20 times stiffer, by less even
-  // where it carries the load of several.
+  // Mastic spheres of 1.75 mm overlap by about a tenth of their diameter. Pairs of aggregates are 20 times stiffer and
+  // overlap less, even if they carry the load of several contacts.
   EXPECT_LT(largest, 0.000175);
-  EXPECT_GT(farthest, 1e-5);  // they did move
+  EXPECT_GT(farthest, 1e-5);  // the aggregates did move
 }
 
 TEST(Generate, MasticOnlyAggregatesOnlySingleParticle) {
@@ -260,7 +264,7 @@ TEST(Generate, MasticOnlyAggregatesOnlySingleParticle) {
   spec.mastic.reset();
   g = generate_specimen(spec);
   EXPECT_EQ(g.composition.size(), 2u);
-  EXPECT_NEAR(g.composition[0].fraction, 0.2, 1e-12);  // no mastic: of the box
+  EXPECT_NEAR(g.composition[0].fraction, 0.2, 1e-12);  // without mastic the fraction refers to the box
   expect_sound_aggregates(g.specimen);
 
   spec.aggregate = {{0.004, 0.006, {}, 1}};
@@ -273,7 +277,8 @@ TEST(Generate, MasticOnlyAggregatesOnlySingleParticle) {
 TEST(Generate, AClassWithoutRoomSaysHowMuchHadRoom) {
   SpecimenSpec spec = small_mix();
   spec.box = {{0.016, 0.016, 0.016}};
-  spec.aggregate = {{0.0047, 0.005, {}, 40}};  // 56 % of the box at one size: beyond random sequential placement
+  // 56 % of the box with spheres of nearly one size is more than random sequential placement reaches
+  spec.aggregate = {{0.0047, 0.005, {}, 40}};
   spec.mastic.reset();
   spec.attempts = 30'000;
   EXPECT_THROW(generate_specimen(spec), RunError);
@@ -286,13 +291,15 @@ TEST(Generate, AClassWithoutRoomSaysHowMuchHadRoom) {
   const std::size_t figures = message.find("attempts: ");
   ASSERT_NE(figures, std::string::npos);
   ASSERT_EQ(std::sscanf(message.c_str() + figures, "attempts: %d of 40 placed, %lf %%", &placed, &percent), 2);
-  EXPECT_GT(percent, 100.0 * placed / 40 - 0.1);  // the largest come first
+  EXPECT_GT(percent, 100.0 * placed / 40 - 0.1);  // the largest spheres are placed first
   EXPECT_LT(percent, 100.0 * placed / 40 * std::pow(5 / 4.7, 3));
 }
 
-/// What `taken` is asked about is clear of the aggregate. Of 9.8³ mm³ for the small one's centre 448 are: each of the
-/// 20,000 tries anywhere is clear with 0.476. Then come tries in cells of 0.2 mm that are not wholly taken, of which
-/// none is nearer to the middle than 4.9 mm less a diagonal: these are 604 mm³ at most, and a try is clear with 0.74.
+/// Counts the positions near which `taken` is called, that is those clear of the large aggregate. The centre of the
+/// small sphere may be anywhere in 9.8³ mm³, of which 448 mm³ are clear, so each of the first 20,000 attempts is clear
+/// with probability 0.476. Later attempts are made only in cells of 0.2 mm that are not fully taken. No such cell is
+/// nearer to the middle than 4.9 mm minus a diagonal, so they have at most 604 mm³, and an attempt is clear with
+/// probability 0.74.
 TEST(Placement, LaterTriesAreWhereThereMayBeRoom) {
   Specimen specimen;
   specimen.box.size = {0.01, 0.01, 0.01};
@@ -301,11 +308,12 @@ TEST(Placement, LaterTriesAreWhereThereMayBeRoom) {
   Placement placement(specimen, 2e-4, 40'000, RandomStream(1, 1), {}, taken);
   placement.add_aggregate({0.005, 0.005, 0.005}, 0.0048, 0);
   EXPECT_THROW(placement.place_aggregates({{{}, {1e-4}, {}}}, 0, [](double) {}), RunError);
-  EXPECT_GT(clear, 20'000 * (0.476 + 0.742) - 400);  // four standard deviations
+  EXPECT_GT(clear, 20'000 * (0.476 + 0.742) - 400);  // tolerance of four standard deviations
   EXPECT_LE(clear, 20'000 * (0.476 + 1) + 400);
 }
 
-/// Halfway between two equal aggregates that overlap, a sphere is pushed neither way and has no cell.
+/// Half-way between two equal overlapping aggregates, a sphere has no force on it and no cell. It must get another
+/// position.
 TEST(Mastic, WithoutACellGetsAnotherPlace) {
   Specimen s;
   s.box.size = {1, 1, 1};
@@ -324,7 +332,7 @@ TEST(Mastic, WithoutACellGetsAnotherPlace) {
   for (std::size_t i : {0, 1}) EXPECT_GE(norm(s.centre[2] - s.centre[i]), radius);
 }
 
-/// Of a scene, messages name its file and the line of the class.
+/// If the recipe comes from a scene, messages name the file and the line of the class.
 TEST(Generate, WhatCannotBeMetIsNamedWithItsLine) {
   SpecimenSpec spec = small_mix();
   spec.source = "mix.toml", spec.line = 3;
@@ -358,13 +366,13 @@ TEST(Generate, WhatCannotBeMetIsNamedWithItsLine) {
 TEST(Relax, AggregatesAloneMoveApart) {
   Specimen s{{{1, 1, 1}}, {{0.4, 0.5, 0.5}, {0.6, 0.5, 0.5}}, {0.2, 0.2}, {Phase::aggregate, Phase::aggregate}, {0, 1}};
   relax(s, false, [](double) {});
-  // downhill until the energy has stalled: what is left of the overlap of 0.2 is a thousandth of a radius at most
+  // The relaxation stops when the energy stalls; of the overlap of 0.2, at most a thousandth of a radius remains.
   EXPECT_LT(largest_aggregate_overlap(s), 2e-4);
   EXPECT_NEAR(s.centre[0].x + s.centre[1].x, 1, 1e-12) << "both give way alike";
   EXPECT_LT(s.centre[1].x - s.centre[0].x, 0.5) << "and stop soon after";
 }
 
-/// Errors in OpenMP's threads are exceptions like any other, not the end of the process.
+/// An exception in an OpenMP thread is passed on to the caller and does not terminate the process.
 TEST(Relax, WhatAWallThrowsIsThrown) {
   Specimen s{{{1, 1, 1}}, {}, {}, {}, {}};
   for (int i = 0; i < 1500; ++i) {
@@ -438,7 +446,7 @@ TEST(GenerateLarge, PaperSpecimen) {
   double total = 0;
   for (const CompositionRow& row : g.composition) {
     EXPECT_EQ(row.count, row.count_asked) << row.name;
-    EXPECT_NEAR(row.fraction, row.fraction_asked, 1e-10) << row.name;  // 34,164 terms of one sign, rounded
+    EXPECT_NEAR(row.fraction, row.fraction_asked, 1e-10) << row.name;  // rounding of 34,164 terms of one sign
     total += row.fraction;
   }
   EXPECT_NEAR(total, 1.017, 0.001);  // from the mean volumes: 0.1227 + 0.0941 + 0.1738 + 0.1374 + 0.4891

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// harmonic_test.cpp  The frequency domain against known answers, a dense solution, and its own invariants.
+// harmonic_test.cpp  The harmonic solver against known results, a dense solution, and its own invariants.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
@@ -24,7 +24,7 @@ HarmonicResult solve(const TestScene& scene, double frequency, double density_sc
 
 TestScene t8() { return make_scene(read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}})); }
 
-// Values of an independent program (other tessellation, other code) to the digits that it gives.
+// Results of an independent program (other tessellation, other code), to the digits that it prints.
 TEST(Harmonic, EightNumbersOfT8) {
   const TestScene scene = t8();
   const double frequency[4] = {2, 5, 10, 20};
@@ -40,15 +40,15 @@ TEST(Harmonic, EightNumbersOfT8) {
       EXPECT_NEAR(r.top.phase_deg, phase[i], 0.51e-5);
       EXPECT_LE(r.residual, 1e-11);
       EXPECT_LT(r.iterations, linear == LinearMethod::direct ? 40 : 120);
-      // equilibrium: the two walls carry the same, free motions are held by nothing; K·u to the residual, times its
-      // condition
+      // In equilibrium both walls carry the same force and nothing holds the free motions. The tolerance is the
+      // residual of K·u times the condition.
       EXPECT_NEAR(r.bottom.e_star_pa, r.top.e_star_pa, 1e-9 * r.top.e_star_pa);
       EXPECT_LT(r.held_force, 1e-10);
     }
   }
 }
 
-// On t8 a density scaling of 1000 costs −1.4e-4 at 20 Hz and inertia grows as s·f².
+// On t8 a density scaling of 1000 changes |E*| by −1.4e-4 at 20 Hz. The effect of inertia grows as s·f².
 TEST(Harmonic, InertiaOfScaledMass) {
   const TestScene scene = t8();
   const double still = solve(scene, 20).top.e_star_pa;
@@ -56,12 +56,13 @@ TEST(Harmonic, InertiaOfScaledMass) {
   EXPECT_NEAR(at_1000, -1.4e-4, 0.1e-4);
   EXPECT_NEAR(solve(scene, 20, 100).top.e_star_pa / still - 1, at_1000 / 10, 0.01 * std::abs(at_1000));
   const HarmonicResult scaled = solve(scene, 20, 1000);
-  EXPECT_GT(scaled.bottom.e_star_pa, scaled.top.e_star_pa);  // the specimen's own mass lies between the walls
-  // free motions are no work for the iteration: they took three times as many
+  EXPECT_GT(scaled.bottom.e_star_pa, scaled.top.e_star_pa);  // the inertia of the specimen acts between the walls
+  // Without care for free motions, inertia tripled the number of iterations.
   EXPECT_LE(solve(scene, 20, 1).iterations, solve(scene, 20).iterations + 2);
 }
 
-/// (K* − ω²M)·u = f as dense matrices of contact blocks; free motions held by the minimum-norm solution.
+/// Solves (K* − ω²M)·u = f with dense matrices assembled from the contacts. The minimum-norm solution fixes free
+/// motions.
 Complex dense_modulus(const TestScene& scene, double frequency, double density_scaling) {
   const double omega = 2 * std::numbers::pi * frequency;
   const auto n = static_cast<Eigen::Index>(6 * scene.specimen.size());
@@ -108,16 +109,16 @@ TEST(Harmonic, AgreesWithADenseSolutionOnFreshSpecimens) {
     for (const double density_scaling : {0.0, 1e5}) {
       const Complex expected = dense_modulus(scene, 7, density_scaling);
       const HarmonicResult r = solve(scene, 7, density_scaling);
-      // 480 unknowns, condition about 1e5: 1e-9 leaves two digits
+      // 480 unknowns with a condition of about 1e5; a tolerance of 1e-9 leaves a margin of two digits
       EXPECT_NEAR(r.top.e_star_pa, std::abs(expected), 1e-9 * std::abs(expected)) << "seed " << seed;
       EXPECT_NEAR(r.top.phase_deg, std::arg(expected) * 180 / std::numbers::pi, 1e-7) << "seed " << seed;
     }
   }
 }
 
-// The scaled specimen's first resonances lie below these: the matrix is indefinite, and near one of them nearly
-// singular. A number is right then, or there is none. The conditions of the matrices, some 1e8, times a residual of
-// 1e-11.
+// The first resonances of the scaled specimen are below these frequencies. The matrix is indefinite and near a
+// resonance almost singular. The solver must either give the right number or refuse. Tolerance: conditions of about 1e8
+// times a residual of 1e-11, with some margin.
 TEST(Harmonic, BeyondResonanceTheNumberIsRightOrThereIsNone) {
   const TestScene scene = make_scene(random_specimen(8));
   int found = 0, by_factors = 0;
@@ -147,11 +148,11 @@ TEST(Harmonic, ElasticSceneIsTheStaticModulus) {
   EXPECT_NEAR(r.top.e_star_pa, reference_static_modulus(scene.specimen, scene.network, scene.laws),
               1e-8 * r.top.e_star_pa);
   EXPECT_NEAR(r.top.phase_deg, 0, 1e-9);
-  EXPECT_EQ(r.iterations, 1);  // the preconditioner is the matrix
+  EXPECT_EQ(r.iterations, 1);  // the preconditioner equals the matrix
 }
 
-// The wall of a laboratory is rigid. Its reaction as stiffness times opening would lose all digits but four at 1e12;
-// what is left of a finite stiffness falls as one over it.
+// Walls in a laboratory are rigid. If the wall's reaction were computed as stiffness times opening, only four digits
+// would remain at a factor of 1e12. The effect of a finite wall stiffness decreases as its inverse.
 TEST(Harmonic, WallsFarStifferThanTheSpecimen) {
   TestScene scene = t8();
   const auto with = [&](double factor) {
@@ -164,12 +165,13 @@ TEST(Harmonic, WallsFarStifferThanTheSpecimen) {
   for (const double factor : {1e10, 1e12}) {
     const HarmonicResult r = with(factor);
     EXPECT_NEAR(r.top.e_star_pa / rigid, 1, 1e-8) << factor;
-    // the error of the solution enters the bottom's reaction as it is, here times the wall's stiffness
+    // The reaction of the bottom wall contains the error of the solution times the wall's stiffness.
     EXPECT_NEAR(r.bottom.e_star_pa / rigid, 1, 1e-6) << factor;
     EXPECT_NEAR(r.top.phase_deg, r.bottom.phase_deg, 1e-4) << factor;
   }
 }
 
+/// A particle without contacts is named in the error.
 TEST(Harmonic, ClusterThatFloatsIsNamed) {
   TestScene scene = make_scene(random_specimen(6));
   std::vector<Contact> kept;
@@ -204,11 +206,11 @@ TEST(Harmonic, APairWithoutALawIsNamed) {
   }
 }
 
-// The contacts of z walls are looked for in pieces of 65,536: here they are in three. The numbers are whole, so that
-// sums of them are exact.
+// Contacts with the z walls are collected in pieces of 65,536; this network has three pieces. All numbers are integers,
+// so sums are exact.
 TEST(ContactOperator, EveryWallContactCountsOnceInALargeNetwork) {
   ContactNetwork network;
-  double area[2] = {};  // of all contacts of the bottom and of the top wall
+  double area[2] = {};  // total area of the contacts of the bottom and of the top wall
   for (int i = 0; i < 140'000; ++i) {
     const bool top = i % 2 == 1;
     Contact c;
@@ -233,7 +235,7 @@ TEST(ContactOperator, EveryWallContactCountsOnceInALargeNetwork) {
 }
 
 TEST(Harmonic, MechanismIsRefused) {
-  Laws laws;  // neither shear nor, with moments like these, bending stiffness
+  Laws laws;  // no shear stiffness and, with the moments set to zero, no bending stiffness
   laws.fill(laws::Elastic{1e10, 0.0});
   TestScene scene = make_scene(random_specimen(8), {}, laws);
   for (Contact& c : scene.network.contacts) c.moments = {c.moments.a, 0, 0, 0, 0, 0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file hdf5_numbers.hpp  Arrays of an HDF5 file, for tests.
+/// \file hdf5_numbers.hpp  Reads arrays and attributes of an HDF5 file in tests.
 #pragma once
 
 #include <H5Cpp.h>
@@ -17,7 +17,7 @@ inline H5::H5File open_hdf5(const std::filesystem::path& file) {
   return H5::H5File(file.string(), H5F_ACC_RDONLY, H5::FileCreatPropList::DEFAULT, unlocked);
 }
 
-/// All numbers of an array.
+/// Returns all numbers of an array.
 inline std::vector<double> numbers(const H5::H5File& file, const std::string& name) {
   const H5::DataSet set = file.openDataSet(name);
   std::vector<double> out(static_cast<std::size_t>(set.getSpace().getSimpleExtentNpoints()));
@@ -25,7 +25,7 @@ inline std::vector<double> numbers(const H5::H5File& file, const std::string& na
   return out;
 }
 
-/// The numbers of some rows alone, as viewers read a frame.
+/// Returns `number` rows of an array from row `first` on, as a viewer reads one frame.
 inline std::vector<double> rows(const H5::H5File& file, const std::string& name, hsize_t first, hsize_t number) {
   const H5::DataSet set = file.openDataSet(name);
   H5::DataSpace space = set.getSpace();
@@ -40,7 +40,7 @@ inline std::vector<double> rows(const H5::H5File& file, const std::string& name,
   return out;
 }
 
-/// Rows and numbers a row.
+/// Returns the dimensions of an array: the number of rows, then the numbers per row if there are several.
 inline std::vector<hsize_t> shape(const H5::H5File& file, const std::string& name) {
   const H5::DataSpace space = file.openDataSet(name).getSpace();
   std::vector<hsize_t> out(static_cast<std::size_t>(space.getSimpleExtentNdims()));

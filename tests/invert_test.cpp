@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// invert_test.cpp  The inverse of a dense matrix by all threads: below, at and above the size of its blocks.
+// invert_test.cpp  The parallel inverse of a dense matrix, for sizes below, at and above the block size.
 #include "host/harmonic/iterative/invert.hpp"
 
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 namespace macadam::test {
 namespace {
 
-/// Symmetric, with eigenvalues from 1 to some ten times `size`.
+/// Returns a symmetric matrix with eigenvalues from 1 to about ten times `size`.
 Eigen::MatrixXd positive_matrix(Eigen::Index size) {
-  std::srand(1);  // Eigen's numbers
+  std::srand(1);  // seeds the random numbers of Eigen
   const Eigen::MatrixXd a = Eigen::MatrixXd::Random(size, size);
   return a * a.transpose() + Eigen::MatrixXd::Identity(size, size);
 }
@@ -43,7 +43,7 @@ TEST(Invert, SameBitsForAnyNumberOfThreads) {
   omp_set_num_threads(before);
 }
 
-// An eigenvalue of −1 that only the last block meets.
+// The matrix has one eigenvalue of −1, which appears only in the last block.
 TEST(Invert, AMatrixThatIsNotPositiveDefiniteIsRefused) {
   Eigen::MatrixXd matrix = positive_matrix(100);
   matrix.bottomRows(1).setZero();

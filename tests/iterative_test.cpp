@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// iterative_test.cpp  The frequency domain without factors: against factors, for every kind of network, and in blocks.
+// iterative_test.cpp  The iterative solver of the frequency domain against the direct one, for every kind of network,
+// with several frequencies at once.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -21,7 +22,7 @@ using harmonic::Complex;
 
 const std::vector<double> frequencies{2, 5, 10, 20};
 
-/// Over the backends of the iteration; factors are on the CPU.
+/// Runs on each backend of the iterative solver; the direct solver is always on the CPU.
 class Iterative : public BackendTest<std::tuple<Backend>> {
  protected:
   HarmonicOptions options(LinearMethod linear, double tolerance = HarmonicOptions{}.tolerance) const {
@@ -41,7 +42,8 @@ class Iterative : public BackendTest<std::tuple<Backend>> {
 };
 INSTANTIATE_TEST_SUITE_P(Backends, Iterative, testing::Combine(all_backends()), name_of_case<Backend>);
 
-/// E* enters by the square of residuals of 1e-11 times the condition, some 1e5: what is left is rounding of the sums.
+/// The error of E* is the square of the residual, 1e-11, times a condition of about 1e5, so the tolerance is the
+/// rounding of the sums.
 void Iterative::expect_same(const TestScene& scene, const std::vector<HarmonicLoad>& loads, const std::string& what,
                             double tolerance) const {
   const auto found = solve(scene, LinearMethod::iterative, loads), expected = solve(scene, LinearMethod::direct, loads);
@@ -87,15 +89,15 @@ TEST_P(Iterative, AgreesWithFactorsOnClusters) {
   }
 }
 
-// Almost without shear stiffness facets still resist bending, which is far softer: the condition grows, and so does the
-// error.
+// With almost no shear stiffness, facets still resist bending, but this is much softer. The condition increases, and so
+// does the error.
 TEST_P(Iterative, AgreesWithFactorsAlmostWithoutShear) {
   Laws laws = am1_laws();
   for (auto& law : laws) std::visit([](auto& l) { l.alpha = 1e-3; }, *law);
   expect_same(make_scene(random_specimen(test_seed()), {}, laws), loads_of(), "alpha = 0.001", 1e-8);
 }
 
-/// Far apart stiffnesses, sizes and slivers.
+/// Returns networks that are hard to solve: very different stiffnesses, very different sizes, and sliver facets.
 std::vector<std::pair<std::string, TestScene>> hostile_networks() {
   std::vector<std::pair<std::string, TestScene>> out;
   for (const double ratio : {1e2, 1e4, 1e6}) {
@@ -109,7 +111,7 @@ std::vector<std::pair<std::string, TestScene>> hostile_networks() {
   return out;
 }
 
-// On a device a block of threads works on each of them.
+// On a device a whole thread block works on each particle with this many contacts.
 TEST_P(Iterative, AgreesWithFactorsWhereParticlesTouchAHundredOthers) {
   const TestScene scene = make_scene(boulders(test_seed()));
   std::size_t with_many = 0;
@@ -119,12 +121,12 @@ TEST_P(Iterative, AgreesWithFactorsWhereParticlesTouchAHundredOthers) {
   expect_same(scene, {{10}}, "one");
 }
 
-// Where loads far larger than the wall's cancel, a residual of 1e-11 is below rounding; E* is as exact for it.
+// If loads much larger than the wall's cancel, a residual of 1e-11 is below rounding; E* is still as accurate.
 TEST_P(Iterative, AgreesWithFactorsOnHostileNetworks) {
   for (const auto& [name, scene] : hostile_networks()) expect_same(scene, {{10}}, name);
 }
 
-// A residual of 1e-8 enters E* squared: nine digits are there. Specimens of examples/:
+// The error of E* is the square of the residual, so 1e-8 gives nine digits. For the specimens of examples/ see
 // bench/results/harmonic-digits.csv.
 TEST_P(Iterative, AResidualOf1e8GivesNineDigits) {
   auto networks = hostile_networks();
@@ -142,8 +144,8 @@ TEST_P(Iterative, AResidualOf1e8GivesNineDigits) {
   }
 }
 
-// At s = a + iω laws, inertia and damping are those of e^(s·t): on the real axis all is real, and conjugate numbers
-// have conjugate moduli.
+// At s = a + iω, laws, inertia and damping are those of e^(s·t). For real s the modulus is real, and conjugate s give
+// conjugate moduli.
 TEST_P(Iterative, AnyComplexFrequency) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   for (const double growth : {0.5, 30.0}) {
@@ -176,7 +178,8 @@ TEST_P(Iterative, StopsWhenAsked) {
   }
 }
 
-// One frequency alone takes other code than four together, and begins elsewhere than from rest after another inertia.
+// One frequency alone uses other code than four together. Here it also starts from the solution for another inertia,
+// not from rest.
 TEST_P(Iterative, OneAtATimeGivesTheSame) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   const auto together = solve(scene, LinearMethod::iterative, loads_of(1e4));
@@ -192,24 +195,25 @@ TEST_P(Iterative, OneAtATimeGivesTheSame) {
   EXPECT_NEAR(three[2].top.e_star_pa / together[3].top.e_star_pa, 1, 1e-10);
 }
 
-// On a device, large enough that a solution comes from it in parts.
+// Starting at a solution needs no iteration. On a device the network is so large that solutions are copied in parts.
 TEST_P(Iterative, BeginsAtASolutionAndStaysThere) {
   const bench::BenchCase lattice = bench::lattice(backend() == Backend::cuda ? 380'000 : 15'000, true);
   const TestScene scene{lattice.specimen, lattice.network, lattice.laws, lattice.inertia};
   const HarmonicResult found = solve(scene, LinearMethod::iterative, {{.frequency_hz = 20}}, 1e-6)[0];
   EXPECT_GT(found.iterations, 0);
-  EXPECT_LE(found.residual, 1e-6);  // the host's own sum over the contacts
+  EXPECT_LE(found.residual, 1e-6);  // computed on the host from the contacts
   const HarmonicLoad there{.frequency_hz = 20, .near = &found.motion};
   const HarmonicResult again = solve(scene, LinearMethod::iterative, {there}, 1e-5)[0];
   EXPECT_EQ(again.iterations, 0);
-  double apart = 0;  // by rounding of the free motions that are taken out of where it begins
+  double apart = 0;  // rounding when the free motions are removed from the starting point
   for (std::size_t i = 0; i < found.motion.size(); ++i) {
     apart = std::max(apart, std::abs(again.motion[i] - found.motion[i]));
   }
-  EXPECT_LT(apart, 1e-10);  // the top moves by 1
+  EXPECT_LT(apart, 1e-10);  // the top wall moves by 1
 }
 
-// Large enough that the order of particles, the rows, the coarse matrix and all sums are made in several pieces.
+// The lattice is large enough that the particle order, the rows, the coarse matrix and all sums are computed in several
+// pieces.
 TEST_P(Iterative, SameBitsForAnyNumberOfThreads) {
   const bench::BenchCase lattice = bench::lattice(15000, true);
   const TestScene scene{lattice.specimen, lattice.network, lattice.laws, lattice.inertia};
@@ -230,8 +234,8 @@ TEST_P(Iterative, SameBitsForAnyNumberOfThreads) {
   EXPECT_TRUE(moduli[0] == moduli[1] && moduli[0] == moduli[2]);
 }
 
-// Boxes of particles take part in the preconditioner alone: however many there are, the solution is the same, and with
-// more of them it takes fewer iterations.
+// Boxes of particles (the coarse space) are part of the preconditioner only: their number does not change the solution,
+// but more of them reduce the number of iterations.
 TEST(CoarseSpace, SavesIterationsAndChangesNoSolution) {
   const TestScene scene = make_scene(random_specimen(test_seed(), 8, 8, 20));
   const std::size_t n = scene.specimen.size();
@@ -257,12 +261,11 @@ TEST(CoarseSpace, SavesIterationsAndChangesNoSolution) {
   EXPECT_TRUE(same.motion == usual.motion && same.iterations == usual.iterations);
   EXPECT_LT(usual.iterations, few.iterations);
   EXPECT_LT(few.iterations, none.iterations);
-  for (const auto* task : {&none, &few}) {  // E* by the square of residuals of 1e-10 times the condition, some 1e5
-    EXPECT_NEAR(std::abs(modulus(*task) / modulus(usual) - 1.0), 0, 1e-9);
-  }
+  // the error of E* is the square of residuals of 1e-10 times a condition of about 1e5
+  for (const auto* task : {&none, &few}) { EXPECT_NEAR(std::abs(modulus(*task) / modulus(usual) - 1.0), 0, 1e-9); }
 }
 
-/// The rows' kernels against the operator that the checks of a solution use.
+/// Compares the kernels that work on rows with the operator that checks solutions.
 template <int F>
 void expect_same_rows() {
   const TestScene scene = make_scene(random_specimen(test_seed()));
@@ -300,7 +303,7 @@ void expect_same_rows() {
     for (int f = 0; f < F; ++f) {
       double scale = 0;
       for (std::size_t i = 0; i < 6 * n; ++i) scale = std::max(scale, std::abs(expected[f][i]));
-      for (std::size_t c = 0; c < 6; ++c) {  // some 15 contacts of a dozen products each
+      for (std::size_t c = 0; c < 6; ++c) {  // about 15 contacts with a dozen products each
         EXPECT_NEAR(std::abs(out[c].at(f) - expected[f][6 * particle + c]), 0, 1e-14 * scale);
       }
     }
@@ -309,7 +312,8 @@ void expect_same_rows() {
 TEST(IterativeRows, OfOneFrequency) { expect_same_rows<1>(); }
 TEST(IterativeRows, OfFourFrequencies) { expect_same_rows<4>(); }
 
-// Three columns side by side that do not touch: nine motions of theirs are free, more than the iteration keeps out.
+// Three separate columns have nine free motions, more than the iterative solver can exclude. The direct solver takes
+// over.
 TEST_P(Iterative, ManyFreeMotionsAreLeftToFactors) {
   Specimen columns;
   columns.box.size = {9, 3, 4};
@@ -332,7 +336,8 @@ TEST_P(Iterative, ManyFreeMotionsAreLeftToFactors) {
   EXPECT_NEAR(r.bottom.e_star_pa / r.top.e_star_pa, 1, 1e-8);
 }
 
-// Free ends: a particle that only its neighbour's facet holds has no stiffness of its own against turning.
+// The contacts resist neither sliding nor bending, so particles at free ends can rotate. Both solvers refuse such a
+// mechanism.
 TEST_P(Iterative, AMechanismIsRefusedByBoth) {
   Laws laws;
   laws.fill(laws::Elastic{1e10, 0.0});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// judgement_test.cpp  Results that cannot be right are said to be so.
+// judgement_test.cpp  Results that cannot be right are reported as warnings or errors.
 #include "host/experiments/cyclic/judgement.hpp"
 
 #include <limits>
@@ -11,7 +11,7 @@
 namespace macadam::test {
 namespace {
 
-constexpr double stiffest = 1.5e11;  // [Pa]
+constexpr double stiffest = 1.5e11;  // modulus of the stiffest contact [Pa]
 
 experiments::SteppedFrequency good_result() {
   experiments::SteppedFrequency f;
@@ -38,6 +38,8 @@ TEST(Judgement, AGoodResultHasNoWarning) {
   EXPECT_TRUE(warnings_of(viscous, {}).empty());
 }
 
+/// A passive specimen has a phase angle of 0 to 90 degrees and is not stiffer than its stiffest contact. Other results
+/// give a warning.
 TEST(Judgement, WhatNoPassiveSpecimenHasIsSaid) {
   for (const double phase : {-115.0, -2.0, 92.0, 180.0}) {
     experiments::SteppedFrequency f = good_result();
@@ -61,6 +63,7 @@ TEST(Judgement, WhatIsNoPositiveFiniteModulusIsAnError) {
   }
 }
 
+/// If nothing verifies the tolerance, it does not count as kept.
 TEST(Judgement, AToleranceThatNothingVerifiesIsNotCalledKept) {
   experiments::SteppedFrequency f = good_result();
   f.kept.reset();
@@ -69,7 +72,7 @@ TEST(Judgement, AToleranceThatNothingVerifiesIsNotCalledKept) {
   EXPECT_FALSE(f.kept.has_value());
   EXPECT_HAS(warnings.at(0), "could not be verified");
 
-  f.cyclic.change_e_star = 2e-3;  // not steady yet
+  f.cyclic.change_e_star = 2e-3;  // the response is not steady yet
   judge(f, stiffest, 1e-3, warnings);
   EXPECT_EQ(f.kept, false);
   EXPECT_HAS(warnings.back(), "cannot have been kept");
@@ -80,7 +83,7 @@ TEST(Judgement, AToleranceThatNothingVerifiesIsNotCalledKept) {
   EXPECT_HAS(warnings.back(), "the tolerance was not kept");
 }
 
-// 0.05 degrees are 0.9e-3 rad, 0.1 degrees 1.7e-3.
+// 0.05 degrees are 0.9e-3 rad and within the tolerance of 1e-3; 0.1 degrees are 1.7e-3.
 TEST(Judgement, PhasesOfTheLastCyclesAreComparedInRadians) {
   experiments::SteppedFrequency f = good_result();
   f.kept.reset();
@@ -102,7 +105,7 @@ TEST(Judgement, WallsThatDisagreeWithoutInertiaAreSaid) {
   std::vector<std::string> warnings;
   judge(f, stiffest, warnings);
   EXPECT_HAS(warnings.at(0), "the bottom wall's reaction differs from the top's by 9.8e-04");
-  f.density_scaling = 1;  // inertia takes a part of the force
+  f.density_scaling = 1;  // with inertia the walls may differ
   judge(f, stiffest, warnings);
   EXPECT_EQ(warnings.size(), 1u);
 }
@@ -113,11 +116,11 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfThePairsThatArePresent) {
   Scene scene = read_scene(write_scene());
   const Preparation prepared = prepare(scene);
   EXPECT_DOUBLE_EQ(stiffest_contact(scene, prepared.network, 20), 1.151e11);         // A-A, elastic
-  scene.laws[static_cast<std::size_t>(PairType::inner)] = laws::Elastic{1e13, 0.5};  // no such contact is there
+  scene.laws[static_cast<std::size_t>(PairType::inner)] = laws::Elastic{1e13, 0.5};  // the specimen has no such contact
   EXPECT_DOUBLE_EQ(stiffest_contact(scene, prepared.network, 20), 1.151e11);
 }
 
-// A spring and a dashpot in series that are equally stiff at 20 Hz: 1/√2 of the spring.
+// A spring and a dashpot in series that are equally stiff at 20 Hz have 1/√2 of the spring's stiffness.
 TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   Scene scene = read_scene(write_scene());
   const Preparation prepared = prepare(scene);
@@ -127,7 +130,8 @@ TEST_F(WithoutReference, TheStiffestContactIsThatOfTheFrequency) {
   EXPECT_NEAR(stiffest_contact(scene, prepared.network, 20) / (spring / std::numbers::sqrt2), 1, 1e-12);
 }
 
-// A particle that nothing joins leaves no harmonic solution; so heavy a specimen is far beyond its resonance.
+// A particle without contacts prevents the harmonic solution as a check. The heavy specimens here are far beyond their
+// resonance, so their results cannot be right.
 TEST_F(WithoutReference, ARunWithAToleranceFailsWhereItsResultCannotBeRight) {
   const std::string loose = "[network]\ngap_max = -0.2\n";
   for (const char* scaling : {"1e6", "1e7", "1e9"}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// known_keys_test.cpp  The table of keys is what the reader knows, each with its words, and docs/keys.md shows it.
+// known_keys_test.cpp  The table of keys agrees with the scene reader, every key has a description, and docs/keys.md
+// shows the table.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -19,7 +20,7 @@ namespace {
 using scene::KnownKey;
 using scene::Need;
 
-/// Sections that a scene cannot be read without.
+/// Returns the sections without which a scene cannot be read, except the section `but`.
 std::string needed(const std::string& but) {
   const std::map<std::string, std::string> all{
       {"[specimen]",
@@ -29,13 +30,14 @@ std::string needed(const std::string& but) {
       {"[loading]", "[loading]\nkind = \"cyclic\"\nfrequencies = [1.0]\n"}};
   std::string out;
   for (const auto& [title, text] : all) {
-    const std::string name = title.substr(0, title.find(']'));  // "[specimen" begins "[specimen.mastic]" too
+    // the name without the bracket also matches subsections such as [specimen.mastic]
+    const std::string name = title.substr(0, title.find(']'));
     if (!but.starts_with(name) && !but.starts_with("[" + name)) out += text;
   }
   return out;
 }
 
-/// What the reader lists as the keys of a section where it is given one that nobody knows.
+/// Returns the keys of a section that the reader lists in its error message about an unknown key.
 std::set<std::string> listed_in_error(const std::string& section, const std::string& chooser,
                                       const std::string& choice) {
   std::string text = "nobody = 1\n";
@@ -50,7 +52,8 @@ std::set<std::string> listed_in_error(const std::string& section, const std::str
   } catch (const InputError& error) {
     const std::string message = error.what(), before = "an unknown ";
     if (message.find(before) == std::string::npos) throw;
-    const std::string list = message.substr(message.find("expected ") + 9);  // no key is near "nobody"
+    // no key resembles "nobody", so the message lists all keys
+    const std::string list = message.substr(message.find("expected ") + 9);
     std::istringstream words(list.starts_with("one of ") ? list.substr(7) : list);
     std::set<std::string> out;
     for (std::string word; words >> word;) out.insert(word.substr(0, word.find_first_of(",)")));
@@ -61,7 +64,7 @@ std::set<std::string> listed_in_error(const std::string& section, const std::str
 
 TEST(KnownKeys, AreThoseOfTheReader) {
   const std::vector<KnownKey> keys = scene::known_keys();
-  std::map<std::string, std::set<std::string>> choosers;  // of a section, what it may be
+  std::map<std::string, std::set<std::string>> choosers;  // the kinds that a section can have
   std::map<std::string, std::string> chooser_of;
   std::set<std::string> sections;
   for (const KnownKey& key : keys) {

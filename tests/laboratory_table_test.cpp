@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// laboratory_table_test.cpp  Tables of measured moduli as laboratories write them: units, spellings, and what is wrong.
+// laboratory_table_test.cpp  Tables of measured moduli as laboratories write them: units, spellings, and error
+// messages.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -21,13 +22,13 @@ class LaboratoryTable : public TestFolder {
   }
 };
 
-/// Two measurements of 2.5 and 5 GPa at 1.5 and 10 Hz, at 20 °C.
+/// Expects two measurements: 2.5 GPa at 1.5 Hz and 5 GPa at 10 Hz, at 20 °C.
 void expect_the_two(const ModulusData& data, const std::string& what) {
   ASSERT_EQ(data.points.size(), 2u) << what;
   EXPECT_TRUE(data.temperatures) << what;
   const double frequencies[] = {1.5, 10}, moduli[] = {2.5e9, 5e9}, phases[] = {30.5, 20};
   for (std::size_t i = 0; i < 2; ++i) {
-    // products of two or three rounded factors
+    // Products of two or three rounded factors.
     EXPECT_NEAR(data.points[i].frequency_hz / frequencies[i], 1, 1e-14) << what;
     EXPECT_NEAR(data.points[i].e_star_pa / moduli[i], 1, 1e-14) << what;
     EXPECT_NEAR(data.points[i].phase_deg, phases[i], 1e-12) << what;
@@ -39,7 +40,7 @@ TEST_F(LaboratoryTable, SpellingsOfLaboratoriesGiveTheSameNumbers) {
   const std::string plain = "frequency_hz,e_star_pa,phase_deg,temperature_c\n1.5,2.5e9,30.5,20\n10,5e9,20,20\n";
   for (const std::string& text : {
            plain,
-           plain.substr(0, plain.size() - 1),  // no newline at the end
+           plain.substr(0, plain.size() - 1),  // no newline at the end of the file
            "\xEF\xBB\xBF" + plain,
            std::string("\"frequency_hz\",\"e_star_pa\",\"phase_deg\",\"temperature_c\"\r\n1.5,2.5e9,\"30.5\",20\r\n"
                        "10,5e9,20,20\r\n"),
@@ -104,7 +105,7 @@ TEST_F(LaboratoryTable, UnitsThatCannotBeMeantAreAskedAbout) {
   EXPECT_HAS(refusal("frequency_hz,e_star_mpa,phase_deg\n1,9e9,15\n"), "another unit than the name of the column says");
   EXPECT_HAS(refusal("frequency_hz,e_star_pa,phase_deg\nHz,MPa,deg\n1,9000,15\n"),
              "unit of e_star_pa: found \"MPa\", expected Pa, which the name says");
-  // a hot binder is soft, and rubber has its modulus in MPa
+  // A hot binder is soft, and a rubber has a modulus of some MPa; both are accepted.
   EXPECT_NO_THROW(read_text(header + "0.01,20,89,80\n10,9e3,84,80\n"));
   EXPECT_NO_THROW(read_text("frequency_hz,e_star_mpa,phase_deg\n1,2,5\n"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file lattice_test.cpp  Tessellations of lattices, whose cells are known.
+/// \file lattice_test.cpp  Tessellations of lattices, whose cells are known exactly.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,14 +17,14 @@ namespace {
 using test::add, test::facets_of, test::expect_invariants, test::expect_order_and_orientation, test::empty_box,
     test::facet_tolerance;
 
-// Lattices: every vertex is shared by more cells than four, and (in decimals) only up to rounding.
+// In lattices every vertex is shared by more than four cells and, with decimal coordinates, only up to rounding.
 
-/// `unit` 1: coordinates exact in binary; 1e-3: millimetres turned into metres, with all their rounding.
+/// `unit` 1 gives coordinates that are exact in binary. `unit` 1e-3 converts millimetres to metres, with rounding.
 struct Lattice : ::testing::TestWithParam<double> {
-  double unit = GetParam(), a = GetParam() == 1 ? 8 : 7;  ///< 7 mm is no binary fraction of a metre
+  double unit = GetParam(), a = GetParam() == 1 ? 8 : 7;  ///< 7 mm is not an exact binary fraction of a metre
   double length(double x) const { return x * unit; }
 
-  /// `cells` periods of the basis (in periods), all in the box's interior, none on its boundary.
+  /// Returns `cells` periods of the basis (in units of the period). All spheres are inside the box.
   Specimen build(std::array<int, 3> cells, const Vec3d& period, const std::vector<Vec3d>& basis, double radius) {
     Specimen s = empty_box({length(cells[0] * period.x), length(cells[1] * period.y), length(cells[2] * period.z)});
     for (int i = 0; i < cells[0]; ++i)
@@ -36,7 +36,7 @@ struct Lattice : ::testing::TestWithParam<double> {
     return s;
   }
 
-  /// Calls `check` with the facets of each cell whose neighbours are all in the box; there must be some.
+  /// Calls `check` with the facets of each cell whose neighbours are all in the box. There must be such cells.
   void interior(const Specimen& s,
                 const std::function<void(const std::map<int, std::pair<double, std::size_t>>&)>& check) {
     const Tessellation t = tessellate(s);
@@ -54,7 +54,7 @@ struct Lattice : ::testing::TestWithParam<double> {
     EXPECT_GT(found, 0);
   }
 
-  /// A cell has so many facets, each of the area that those of its number of corners have.
+  /// Expects a cell with `number` facets; the area of a facet depends on its number of corners only.
   void expect_facets(const std::map<int, std::pair<double, std::size_t>>& facets, std::size_t number,
                      const std::map<std::size_t, double>& area) const {
     EXPECT_EQ(facets.size(), number);
@@ -113,7 +113,7 @@ TEST_P(Lattice, HexagonalLayersArePrisms) {
 }
 
 TEST_P(Lattice, ParticlesOnTheBoxBoundary) {
-  // A grid that starts and ends on the walls: cells are cut in half, quarters and eighths.
+  // The grid begins and ends on the walls, so cells are cut into halves, quarters and eighths.
   const int n = 5;
   Specimen s = empty_box({length(a * (n - 1)), length(a * (n - 1)), length(a * (n - 1))});
   for (int i = 0; i < n; ++i)
@@ -126,7 +126,8 @@ TEST_P(Lattice, ParticlesOnTheBoxBoundary) {
   expect_invariants(s, t);
 }
 
-/// Vertices in the middle of an edge come and go with the rounding of the unit, and with them contact points.
+/// Rounding may add or remove a vertex in the middle of an edge, and with it a contact point. The polygons must not
+/// depend on the unit.
 TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
   const std::vector<std::vector<Vec3d>> bases{
       {{0.5, 0.5, 0.5}},
@@ -136,7 +137,7 @@ TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
       {{0, 0, 0},
        {0.5, 0.5, 0},
        {0.5, 0, 0.5},
-       {0, 0.5, 0.5},  // diamond: up to 144 such vertices
+       {0, 0.5, 0.5},  // diamond lattice, with up to 144 such vertices
        {0.25, 0.25, 0.25},
        {0.75, 0.75, 0.25},
        {0.75, 0.25, 0.75},
@@ -162,7 +163,8 @@ TEST(Lattices, HaveTheSamePolygonsInAnyUnit) {
         const auto p = t.polygon(t.facets[f]), q = exact.polygon(exact.facets[f]);
         ASSERT_EQ(p.size(), q.size()) << "lattice " << b << ", unit " << unit << ", facet " << f;
         EXPECT_NEAR(t.facets[f].area, exact.facets[f].area * unit * unit, facet_tolerance * unit * unit);
-        // About the centroid, as the contact points have it: a fan triangle's thirds of Σ|x|².
+        // Second moment about the centroid, by the points of the contact: a third of each fan triangle's area times
+        // Σ|x|².
         const auto moment = [](const Facet& facet, const auto& polygon) {
           double sum = 0;
           for (std::size_t v = 0; v < polygon.size(); ++v) {

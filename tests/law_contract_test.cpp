@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// law_contract_test.cpp  What a law must have to be stepped, and to have a place in the frequency domain.
+// law_contract_test.cpp  The members that a law must have to be stepped, and to be used in the frequency domain.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -15,7 +15,7 @@ using laws::Elastic;
 using laws::GeneralisedKelvin;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A law of which the frequency domain knows nothing.
+/// A law without a stiffness in the frequency domain.
 struct Unknown {
   static constexpr const char* name = "unknown";
   double alpha = 0;
@@ -87,7 +87,7 @@ struct WithoutValue : Unknown {
     return {};
   }
 };
-/// Says that it is coupled, and has neither advance_point() nor the number of its units.
+/// Declares that it is coupled, but has neither advance_point() nor the number of its units.
 struct Coupled : UnknownAndNotLinear {
   template <class R>
   struct Step {
@@ -99,7 +99,7 @@ struct Coupled : UnknownAndNotLinear {
   }
 };
 
-// What a stepper asks for, one part taken away at a time.
+// The requirements of a stepper: types that lack one of them do not satisfy the concept.
 TEST(Contract, IsAConcept) {
   using laws::SteppableLaw;
   static_assert(SteppableLaw<Elastic> && SteppableLaw<GeneralisedKelvin> && SteppableLaw<Unknown>);

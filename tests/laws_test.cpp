@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file laws_test.cpp  The contact laws against closed forms and against the reference's own writing.
+/// \file laws_test.cpp  The contact laws against closed forms, and against their implementation in the reference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -25,7 +25,7 @@ using laws::GeneralisedKelvin;
 using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// One displacement component under a law of the library.
+/// One displacement component with a law of the library.
 template <class L>
 class Element {
  public:
@@ -44,7 +44,7 @@ class Element {
   double f_;
 };
 
-/// The same under the reference's chain, area over distance being 1.
+/// The same with the chain of the reference implementation, for an area over distance of 1.
 class ReferenceElement {
  public:
   ReferenceElement(const Law& law, double dt, double f = 0) : law_(reference::make_reference_law(law, "M-M")), dt_(dt) {
@@ -66,7 +66,7 @@ class ReferenceElement {
 struct Case {
   std::string name;
   GeneralisedKelvin law;
-  double settling;  ///< longer than 35 of the slowest relaxation times [s]: transients fall below e⁻³⁵ ≈ 6e-16
+  double settling;  ///< more than 35 of the slowest relaxation times [s]; transients decay below e⁻³⁵ ≈ 6e-16
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -86,18 +86,19 @@ std::vector<Case> cases() {
       {"FiveUnits", {1.0e10, 2.0e9, {3.0e9, 1.0e9, 5.0e9, 2.0e9, 4.0e9}, {1.0e9, 2.0e7, 5.0e8, 1.0e8, 3.0e7}}, 130}};
 }
 
-/// Complex stiffness of an element driven by x = sin(2πft), from its last whole cycle.
+/// Returns the complex stiffness of an element that is driven by x = sin(2πft), evaluated over the last whole cycle.
 template <class E>
 std::complex<double> measured_stiffness(E element, double frequency, double settling, int steps_per_cycle) {
   const int n = steps_per_cycle;
   std::vector<double> x(n);
   for (int k = 0; k < n; ++k) x[k] = std::sin(2 * pi * k / n);
-  // The rule damps what is faster than the step slowly, by 1 − 4τ/Δt a step: 200 cycles more settle τ > Δt/1000.
+  // If Δt is much larger than a relaxation time τ, the trapezoidal rule damps this transient only by 1 − 4τ/Δt per
+  // step. 200 more cycles are enough for τ > Δt/1000.
   const auto cycles = static_cast<std::int64_t>(std::ceil(settling * frequency)) + 200;
   for (std::int64_t c = 0; c + 1 < cycles; ++c) {
     for (int k = 0; k < n; ++k) element.advance(x[(k + 1) % n] - x[k]);
   }
-  // f = Im(k*·e^{iωt}) = (k*·e^{iωt} − c.c.)/2i, and the mean of e^{−2iωt} over whole cycles is 0.
+  // f = Im(k*·e^{iωt}) = (k*·e^{iωt} − c.c.)/2i, and e^{−2iωt} has zero mean over whole cycles.
   const std::complex<double> i(0, 1);
   std::complex<double> mean = 0;
   for (int k = 0; k < n; ++k) {
@@ -110,8 +111,9 @@ class ComplexStiffness : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Chains, ComplexStiffness, testing::ValuesIn(cases()),
                          [](const auto& info) { return info.param.name; });
 
-// The trapezoidal rule maps a harmonic at ω exactly onto the continuous law at (2/Δt)·tan(ωΔt/2). The tolerance is the
-// random walk of rounding over up to 2e6 steps, 1400·1.1e-16, on forces up to E_m while |k*| may be E_m/1000.
+// The trapezoidal rule gives a harmonic at ω exactly the stiffness of the continuous law at (2/Δt)·tan(ωΔt/2).
+// Tolerance: rounding over up to 2e6 steps is a random walk, 1400·1.1e-16, in forces up to E_m, while |k*| may be
+// E_m/1000.
 TEST_P(ComplexStiffness, IsExactAtTheWarpedFrequency) {
   const auto& [name, law, settling] = GetParam();
   constexpr int n = 64;
@@ -126,7 +128,7 @@ TEST_P(ComplexStiffness, IsExactAtTheWarpedFrequency) {
   }
 }
 
-// Second order: a quarter of the error for half the step. The next order of the error is (ωΔt)² = 0.01 of it.
+// The error is of second order: half the step gives a quarter of the error. The next order is (ωΔt)² = 0.01 of it.
 TEST_P(ComplexStiffness, ConvergesAtSecondOrder) {
   const auto& law = GetParam().law;
   const double settling = GetParam().settling;
@@ -138,7 +140,7 @@ TEST_P(ComplexStiffness, ConvergesAtSecondOrder) {
   };
   const double coarse = error(64), fine = error(128);
   if (name == "Spring") {
-    EXPECT_LT(coarse, 1e-12);  // nothing to integrate: only 64 roundings
+    EXPECT_LT(coarse, 1e-12);  // there is nothing to integrate, only 64 roundings
   } else {
     EXPECT_LT(coarse, 1e-3);  // (ωΔt)²/12 = 8e-4
     EXPECT_NEAR(coarse / fine, 4, 0.05);
@@ -147,11 +149,12 @@ TEST_P(ComplexStiffness, ConvergesAtSecondOrder) {
 
 TEST_P(ComplexStiffness, TendsToTheInstantaneousStiffness) {
   const auto& law = GetParam().law;
-  // At ω the dashpots give way by E_m/(ω·C), summed below 5e10/(1e12·2e6).
+  // At ω the dashpots reduce the stiffness by E_m/(ω·C), in sum less than 5e10/(1e12·2e6).
   EXPECT_LT(std::abs(law.stiffness(std::complex<double>(0, 1e12)) - law.instantaneous()) / law.instantaneous(), 1e-6);
 }
 
-// Both writings of the law follow the same random motion. Rounding walks over 1e4 steps: 100·1.1e-16 of forces E_m·1.
+// Library and reference implementation follow the same random motion. Rounding is a random walk over 1e4 steps:
+// 100·1.1e-16 of forces up to E_m·1.
 TEST_P(ComplexStiffness, LibraryAndReferenceAgree) {
   const auto& law = GetParam().law;
   for (double dt : {1e-7, 1e-3, 1.0}) {
@@ -167,14 +170,15 @@ TEST_P(ComplexStiffness, LibraryAndReferenceAgree) {
   }
 }
 
-/// Closed form of creep under a unit force.
+/// Returns the displacement of creep under a unit force, in closed form.
 double creep(const GeneralisedKelvin& law, double t) {
   double x = 1 / law.E_m + t / law.C_m;
   for (std::size_t l = 0; l < law.E.size(); ++l) x += -std::expm1(-law.E[l] * t / law.C[l]) / law.E[l];
   return x;
 }
 
-/// Displacement after `steps` steps of the unit force: dx is what keeps f, from Eq. 13 with f(t+Δt) = f(t).
+/// Returns the displacement after `steps` steps under a unit force. Each dx is the one that keeps f constant, by Eq. 13
+/// with f(t+Δt) = f(t).
 double computed_creep(const GeneralisedKelvin& law, double dt, int steps) {
   Element element(law, dt, 1.0);
   double x = 1 / law.E_m;
@@ -185,29 +189,29 @@ double computed_creep(const GeneralisedKelvin& law, double dt, int steps) {
     element.advance(dx);
     x += dx;
   }
-  EXPECT_NEAR(element.force(), 1, steps * 4e-16);  // a rounding or two a step
+  EXPECT_NEAR(element.force(), 1, steps * 4e-16);  // one or two roundings per step
   return x;
 }
 
 TEST(Creep, FollowsTheClosedForm) {
   for (const Case& c : cases()) {
     if (c.name == "Spring") continue;
-    // One relaxation time of the fastest unit, so that every unit is on its way.
+    // The time is one relaxation time of the fastest unit, so that all units are still creeping.
     double t = 1;
     for (std::size_t l = 0; l < c.law.E.size(); ++l) t = std::min(t, c.law.C[l] / c.law.E[l]);
     const double exact = creep(c.law, t);
     const double coarse = std::abs(computed_creep(c.law, t / 50, 50) - exact) / exact;
     const double fine = std::abs(computed_creep(c.law, t / 100, 100) - exact) / exact;
     if (c.law.units() == 0) {
-      EXPECT_LT(coarse, 1e-13) << c.name;  // a Maxwell unit creeps linearly: 50 roundings
+      EXPECT_LT(coarse, 1e-13) << c.name;  // a Maxwell unit creeps linearly, so there are only 50 roundings
     } else {
-      EXPECT_LT(coarse, 2e-5) << c.name;  // (Δt/τ)²/12·e⁻¹ of one unit's share
+      EXPECT_LT(coarse, 2e-5) << c.name;  // (Δt/τ)²/12·e⁻¹ times the part of one unit
       EXPECT_NEAR(coarse / fine, 4, 0.02) << c.name;
     }
   }
 }
 
-/// Force after `steps` steps at rest, starting from a unit displacement just applied.
+/// Returns the force after `steps` steps at rest that follow a sudden unit displacement.
 double computed_relaxation(const GeneralisedKelvin& law, double dt, int steps) {
   Element element(law, dt, law.E_m);
   for (int k = 0; k < steps; ++k) element.advance(0);
@@ -218,7 +222,7 @@ void expect_relaxation(const GeneralisedKelvin& law, double t, double exact) {
   const double coarse = std::abs(computed_relaxation(law, t / 100, 100) / exact - 1);
   const double fine = std::abs(computed_relaxation(law, t / 200, 200) / exact - 1);
   EXPECT_LT(coarse, 1e-3);
-  EXPECT_NEAR(coarse / fine, 4, 0.05);  // the next order is (Δt/τ)² below 1e-2 of it
+  EXPECT_NEAR(coarse / fine, 4, 0.05);  // the next order is (Δt/τ)², less than 1e-2 of the error
 }
 
 TEST(Relaxation, Maxwell) {
@@ -234,7 +238,7 @@ TEST(Relaxation, Zener) {
 
 TEST(Relaxation, Burgers) {
   const double k = 2.0e9, eta = 1.5e9, k1 = 1.0e9, eta1 = 0.8e9, t = 0.9;
-  // f + p1·f' + p2·f'' = q1·x' + q2·x'' for a step of x: two exponentials.
+  // For a step of x, f + p1·f' + p2·f'' = q1·x' + q2·x'' has a solution of two exponentials.
   const double p1 = eta / k + eta / k1 + eta1 / k1, p2 = eta * eta1 / (k * k1);
   const double q1 = eta, q2 = eta * eta1 / k1;
   const double root = std::sqrt(p1 * p1 - 4 * p2), r1 = (p1 - root) / (2 * p2), r2 = (p1 + root) / (2 * p2);
@@ -252,7 +256,7 @@ TEST(ElasticLimit, AChainWithoutDashpotsIsTheElasticLaw) {
   for (int k = 0; k < 1000; ++k) {
     const double dx = increment(random);
     spring.advance(dx), bare.advance(dx), slow.advance(dx);
-    // A thousand roundings of forces below 1e2·E; dashpots of 1e30 give way by 1e-21 of the displacement a second.
+    // A thousand roundings of forces below 1e2·E. Dashpots of 1e30 move by 1e-21 of the displacement per second.
     ASSERT_NEAR(bare.force(), spring.force(), 1e-11 * 2.0e9);
     ASSERT_NEAR(slow.force(), spring.force(), 1e-11 * 2.0e9);
   }
@@ -276,13 +280,14 @@ TEST(Step, TheNumberOfUnitsMayBeKnownToTheCompiler) {
   for (int l = 0; l < 3; ++l) EXPECT_DOUBLE_EQ(x[l], y[l]);
 }
 
-/// What blocks change of f under a sine, from steps taken one by one.
+/// Errors of f under a sinusoidal displacement, if steps are taken in blocks and not one by one.
 struct BlockErrors {
-  double largest;      ///< difference over the largest f
-  double fundamental;  ///< of the last cycle: |ratio − 1|, by size and phase
+  double largest;      ///< largest difference over the largest f
+  double fundamental;  ///< error of size and phase in the last cycle, |ratio − 1|
 };
 
-/// f over `cycles` of a sine, in blocks of `block` steps. `Real` is what δf and the sum are carried in.
+/// Returns the errors over `cycles` of a sine, in blocks of `block` steps. `Real` is the type of the change of f within
+/// a block, δf, and of its sum.
 template <class Real, class L>
 BlockErrors block_errors(const L& law, double frequency, int steps_per_cycle, int block, int cycles) {
   const double dt = 1 / (frequency * steps_per_cycle);
@@ -329,10 +334,9 @@ TEST(Block, ConvergesAtSecondOrder) {
   }
 }
 
-/// A block of a 4,000th of the period, or of 2π times the shortest time of the law where that is less: what f misses
-/// within a block is a saw-tooth of at most (2π/4000)²/8 = 3e-7. In single precision δf, at most 2π/4000 of f, and the
-/// drive round by 2^-24 of themselves: a random walk over the 4,000 blocks of a period, and of their steps, stays
-/// below.
+/// A block lasts 1/4000 of the period, or of 2π times the shortest time of the law if this is less. The error of f
+/// within a block is a saw-tooth of at most (2π/4000)²/8 = 3e-7. In single precision, δf (at most 2π/4000 of f) and the
+/// drive are rounded by 2^-24; this random walk over the 4,000 blocks of a period and their steps stays below 3e-7.
 TEST(Block, IsExactEnoughAtAFourThousandthOfTheShortestTime) {
   for (const auto& law : {test::mastic_am1(), test::mastic_am2()}) {
     for (const double frequency : {2.0, 20.0}) {
@@ -347,8 +351,8 @@ TEST(Block, IsExactEnoughAtAFourThousandthOfTheShortestTime) {
   EXPECT_DOUBLE_EQ(test::mastic_am1().shortest_time(), 1.114e9 / 4.308e10);
 }
 
-/// As long as a tolerance allows it: size and phase keep the share that the plan counts with, also where δf is carried
-/// in single precision.
+/// If a block is as long as a tolerance allows, size and phase have at most the error that the plan assumes, also if δf
+/// is in single precision.
 TEST(Block, OfTheLengthThatAnErrorAllowsKeepsIt) {
   for (const auto& law : {test::mastic_am1(), test::mastic_am2()}) {
     for (const double frequency : {2.0, 5.0, 20.0}) {
@@ -367,7 +371,8 @@ TEST(Block, OfTheLengthThatAnErrorAllowsKeepsIt) {
   EXPECT_LT(block_error(4000), 3e-7);
 }
 
-// 1 − b/a formed in single precision would be 0 or 1.2e-7 here. Rounded once from double it is good to 6e-8.
+// In single precision, computing 1 − b/a would give 0 or 1.2e-7 here. Rounding it once from double precision is
+// accurate to 6e-8.
 TEST(Step, SinglePrecisionCoefficientsDoNotCancel) {
   const auto step = GeneralisedKelvin{1, 1, {1, 10}, {1, 1}}.step<float>(1e-9);
   EXPECT_NEAR(step.recover[0], 1e-9, 1e-16);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// load_error_test.cpp  The error that a stepped relaxation, creep or constant rate states, against its true difference
-// from the answer to the load that was asked for.
+// load_error_test.cpp  The error that a stepped relaxation, creep or constant rate states for each row, against the
+// true difference from the solution for the requested load.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,12 +18,12 @@ using experiments::SteppedResponse;
 const std::string chain_law =
     "law = \"generalised_kelvin\"\nE_m = 1e9\nC_m = 1e7\nalpha = 0.1\nE = [1e8, 5e8]\nC = [1e6, 1e5]\n";
 
-/// The load of a scene, and its settings.
+/// The load of a scene, and its solver settings.
 struct Case {
   const char* name;
   std::string loading, solver;
-  double ramp = 0;                     ///< as asked [s]
-  std::optional<double> release = {};  /// as asked [s]
+  double ramp = 0;                     ///< as in the scene [s]
+  std::optional<double> release = {};  /// as in the scene [s]
 };
 
 const double stress = 1e4, strain = 1e-4, rate = 1e-3;
@@ -48,7 +48,8 @@ std::vector<Case> cases() {
           {"rate, scaling 3e6", monotonic + rows, "density_scaling = 3e6\n"}};
 }
 
-/// Two spheres in a column between walls: half of the height is the contact between them, half those with the walls.
+/// Two spheres in a column between two walls. Half of the height belongs to the contact between them, half to the
+/// contacts with the walls.
 class LoadError : public TestFolder {
  protected:
   Scene scene(const Case& c, const std::string& wall = "law = \"elastic\"\nE = 1e10\nalpha = 0.1\n") const {
@@ -63,7 +64,7 @@ class LoadError : public TestFolder {
     return read_scene(folder_ / "pair.toml");
   }
 
-  /// J(t) in closed form: half of the chain's, and half of the walls' springs.
+  /// Returns J(t) in closed form: half of the chain's compliance and half of that of the walls' springs.
   static CreepSeries exact_creep() {
     CreepSeries out;
     out.instantaneous = 0.5 / 1e9 + 0.5 / 1e10;
@@ -72,20 +73,20 @@ class LoadError : public TestFolder {
     return out;
   }
 
-  /// E(t) by solutions at a hundredth of the tolerance of a run.
+  /// Returns E(t) from harmonic solutions with a hundredth of the tolerance of a run.
   static PronySeries exact_relaxation(const Scene& scene) {
     const Preparation prepared = prepare(scene);
     return spectrum_of(prepared.specimen, prepared.network, scene.laws, {1e-4, 1, 1e-8}).relaxation;
   }
 
-  /// The true difference of each row, relative as `error` is.
+  /// Returns the true difference of each row, relative in the same way as `error`.
   static std::vector<double> differences(const Case& c, const SteppedResponse& found, const PronySeries& e) {
     const CreepSeries j = exact_creep();
     std::vector<double> out;
     for (const SteppedPoint& p : found.points) {
       const double t = p.time_s;
       if (found.kind == "creep") {
-        // at the step nearest to it, and a load that goes at once is there until then
+        // The release acts at the nearest step. A load that is released at once acts up to this step.
         const double gone = c.release ? std::round(*c.release / found.dt_s) * found.dt_s : INFINITY;
         const double held = j.after_ramp(t, c.ramp);
         const double expected = t > gone * (1 + 1e-9) ? held - j.after_ramp(t - gone, c.ramp) : held;
@@ -102,7 +103,8 @@ class LoadError : public TestFolder {
   }
 };
 
-// The answer without steps is known to 1e-5, which `error` contains; updated normals of a column do not turn.
+// The solution without steps is accurate to 1e-5, which `error` includes. In a column the normals of updated geometry
+// do not rotate, so `error` must equal the true difference.
 TEST_F(LoadError, IsTheTrueDifference) {
   const PronySeries e = exact_relaxation(scene(cases().front()));
   int large = 0;
@@ -121,8 +123,9 @@ TEST_F(LoadError, IsTheTrueDifference) {
   EXPECT_GT(large, 4);
 }
 
-// Without linear laws the answer without steps is not known. Walls that could break but do not give the same result, so
-// the truth is known; the estimate must not be below it, nor say that nothing is known.
+// With a law that is not linear, there is no solution without steps, and the error is estimated. Here bonds at the
+// walls could break but do not, so the true difference is known. The estimate must not be below it, and must not be
+// useless.
 TEST_F(LoadError, IsEstimatedWhereALawIsNotLinear) {
   const PronySeries e = exact_relaxation(scene(cases().front()));
   const std::string unbroken = "law = \"brittle_bond\"\nE = 1e10\nalpha = 0.1\ntensile_strength = 1e30\n";
@@ -155,7 +158,8 @@ TEST_F(LoadError, NamesItsCause) {
   EXPECT_HAS(warning(all[6]), "in place of a load at once");
 }
 
-// E(t) under a ramp is not E(t) after a step, however well it is stepped.
+// The stated error does not include the effect of the ramp: E(t) after a ramp differs from E(t) after a step. This
+// effect is stated separately.
 TEST_F(LoadError, TheRampIsANumberOfItsOwn) {
   const Case c = cases()[4];
   const RunResult result = run(scene(c), out("out"));
@@ -170,7 +174,8 @@ TEST_F(LoadError, TheRampIsANumberOfItsOwn) {
   EXPECT_TRUE(said) << effect;
 }
 
-// A large strain turns contacts, which the answer without steps does not contain: the rows are estimated.
+// A large strain rotates contacts, which the solution without steps does not contain, so the errors of the rows are
+// estimated.
 TEST_F(LoadError, OfALargeStrainIsEstimated) {
   const std::string loading = "kind = \"relaxation\"\nstrain = 0.02\nramp = \"0.2 ms\"\ntimes = [\"1 ms\", \"2 ms\"]\n";
   const auto rows_of = [&](const char* geometry) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file long_tests.hpp  Whether runs of very many steps are worth their time: not against a library full of checks.
+/// \file long_tests.hpp  Says whether tests with very many steps run. MACADAM_SHORT_TESTS turns them off, for builds in
+/// which checks (such as sanitizers) make every step slow.
 #pragma once
 
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// multi_sphere_test.cpp  Specimens of clusters against what they become: single spheres, rigid bodies, and the
-// reference's equations.
+// multi_sphere_test.cpp  Specimens of clusters in limiting cases: as single spheres, as mastic, as rigid clusters; and
+// equilibrium in the equations of the reference implementation.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ double difference(const Stiffness& a, const Stiffness& b) {
   return std::abs(complex_of(a) - complex_of(b)) / b.e_star_pa;
 }
 
-/// Every sphere of an aggregate an aggregate of its own.
+/// Returns the specimen with every sphere of an aggregate as an aggregate of its own.
 Specimen single_spheres(Specimen specimen) {
   std::int32_t body = 0;
   for (std::size_t i = 0; i < specimen.size(); ++i) {
@@ -41,8 +41,9 @@ Specimen all_mastic(Specimen specimen) {
   return specimen;
 }
 
-// Which body a sphere belongs to chooses the law of a contact and nothing else. The same sums may be taken in another
-// order: some hundred terms a row, rounded, times the condition of 1e5 that harmonic_test allows for.
+// The number of its aggregate only chooses the law of a contact. With the law A–A for inner contacts, clusters equal
+// single spheres. Sums may be in another order: about a hundred rounded terms per row times the condition of 1e5 that
+// harmonic_test allows for.
 TEST(MultiSphere, WithTheLawOfAggregatesWithinItIsTheSpecimenOfItsSingleSpheres) {
   const Specimen clusters = generate_specimen(cluster_recipe(test_seed(), {0.012, 0.012, 0.016})).specimen;
   for (Laws laws : {am1_laws(), am2_laws()}) {
@@ -53,11 +54,12 @@ TEST(MultiSphere, WithTheLawOfAggregatesWithinItIsTheSpecimenOfItsSingleSpheres)
     EXPECT_EQ(ss.network.count[aa], ms.network.count[aa] + ms.network.count[inner]);
     const Stiffness single = solve(ss, 10).top;
     EXPECT_LT(difference(solve(ms, 10).top, single), 1e-9);
-    laws[inner] = laws::Elastic{1.125e11 / 4, 0.05};  // and the inner law is what it is about
+    laws[inner] = laws::Elastic{1.125e11 / 4, 0.05};  // the check: another inner law changes the modulus
     EXPECT_GT(difference(solve(make_scene(clusters, {}, laws), 10).top, single), 0.02);
   }
 }
 
+/// If all pairs have one law, clusters in mastic are mastic.
 TEST(MultiSphere, OfOneLawEverywhereItIsMastic) {
   const Specimen clusters = few_clusters(test_seed());
   Laws laws = am1_laws();
@@ -69,7 +71,8 @@ TEST(MultiSphere, OfOneLawEverywhereItIsMastic) {
   EXPECT_LT(difference(solve(ms, 10).top, solve(mastic, 10).top), 1e-9);
 }
 
-// The harmonic solver's motion is in equilibrium in the reference's equations, point by point, and has its modulus.
+// The motion of the harmonic solver satisfies the equations of the reference implementation, contact point by contact
+// point, and gives the same modulus.
 TEST(MultiSphere, IsInEquilibriumByTheReference) {
   const TestScene scene = make_scene(generate_specimen(cluster_recipe(test_seed(), {0.012, 0.012, 0.016})).specimen);
   for (const Laws& laws : {am1_laws(), am2_laws()}) {
@@ -79,7 +82,7 @@ TEST(MultiSphere, IsInEquilibriumByTheReference) {
       const HarmonicResult r = solve(of, frequency);
       const BilinearForm form = bilinear_form(of.network, laws, of.specimen.size(), frequency);
       const Eigen::VectorXcd u = motion_of(r);
-      // the solver's own 1e-11 is with forces and moments made comparable: here they are not
+      // the solver's residual of 1e-11 weights moments to make them comparable with forces; here they are not weighted
       EXPECT_LT((form.p - form.K * u).norm() / form.p.norm(), 1e-9);
       const Complex expected = modulus_of(form(u, u), of.specimen.box);
       EXPECT_LT(std::abs(complex_of(r.top) - expected) / std::abs(expected), 1e-9);
@@ -87,10 +90,11 @@ TEST(MultiSphere, IsInEquilibriumByTheReference) {
   }
 }
 
-constexpr double length = 1e-3;  // of a lever: rotations times it are as large as displacements
+constexpr double length = 1e-3;  // reference length: rotations times it are comparable with displacements
 
-/// Motions of all spheres by those of bodies: a mastic sphere moves by itself, the spheres of an aggregate as one.
-/// Rotations are counted as what they move at `length`.
+/// Returns the motions of all spheres as a matrix times the motions of rigid particles: a mastic sphere moves alone,
+/// the spheres of an aggregate move as one rigid cluster. A rotation is measured by the displacement at distance
+/// `length`.
 Eigen::MatrixXd rigid_bodies(const Specimen& s) {
   std::vector<std::int32_t> number(s.size());
   std::map<std::int32_t, std::int32_t> of_body;
@@ -113,7 +117,7 @@ Eigen::MatrixXd rigid_bodies(const Specimen& s) {
   return T;
 }
 
-/// Of spheres that do not hold each other: sliding along x and y and turning about z, as columns.
+/// Returns the motions that nothing resists: sliding of the whole specimen along x and y, and rotation about z.
 Eigen::MatrixXd free_motions(const Specimen& s) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(6 * s.size()), 3);
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -125,10 +129,10 @@ Eigen::MatrixXd free_motions(const Specimen& s) {
   return out;
 }
 
-// Inner contacts s times as stiff as those of [1]: the clusters become rigid bodies as s grows. With u = T·q the
-// condensed network is Tᵀ·K·T·q = Tᵀ·p without any inner contact; what it leaves, g = p − K·T·q, is what clusters must
-// bear, and yields gᵀ·K_inner⁻¹·g / s. The modulus is convex in 1/s, so it is never below the condensed one less that,
-// and never above the condensed one.
+// Inner contacts s times as stiff as those of [1] make the clusters rigid as s grows. With u = T·q the rigid network is
+// Tᵀ·K·T·q = Tᵀ·p, where K has no inner contacts. The remaining forces g = p − K·T·q act within the clusters and reduce
+// the modulus by gᵀ·K_inner⁻¹·g / s. The modulus is convex in 1/s, so it lies between the rigid one and the rigid one
+// minus this reduction.
 TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
   const Specimen clusters = few_clusters(test_seed());
   Laws laws;
@@ -145,7 +149,8 @@ TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
   std::erase_if(outer.contacts, [](const Contact& c) { return c.pair == PairType::inner; });
   std::erase_if(within.contacts, [](const Contact& c) { return c.pair != PairType::inner; });
   const reference::Stiffness between = reference::assemble_stiffness(outer, laws, clusters.size());
-  // K·u = p is singular, and solved with springs that hold what p does not load: they carry nothing
+  // K·u = p is singular. Springs that hold the free motions make it regular; they carry no force, because p does not
+  // load these motions.
   const Eigen::MatrixXd held = (T.transpose() * free_motions(clusters)).colwise().normalized();
   const Eigen::MatrixXd condensed = T.transpose() * (between.K * T);
   const double scale = condensed.diagonal().mean();
@@ -156,7 +161,7 @@ TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
   const Eigen::VectorXd g = between.top_wall - between.K * (T * q);
   EXPECT_LT((T.transpose() * g).norm(), 1e-9 * between.top_wall.norm());
   const Eigen::MatrixXd inside = reference::assemble_stiffness(within, laws, clusters.size()).K;
-  Eigen::MatrixXd rigid_motions = T;  // weighted, as rotations are in T
+  Eigen::MatrixXd rigid_motions = T;  // weighted, because T measures rotations by displacements
   for (Eigen::Index row = 3; row < T.rows(); row += 6) rigid_motions.middleRows<3>(row) *= length * length;
   const Eigen::VectorXd bent = (inside + scale * rigid_motions * rigid_motions.transpose()).ldlt().solve(g);
   const double yields = modulus_of(g.dot(bent), clusters.box).real();
@@ -167,11 +172,12 @@ TEST(MultiSphere, BecomesRigidBodiesAsItsInnerContactsStiffen) {
     TestScene stiff = scene;
     stiff.laws[inner] = laws::Elastic{s * 1.125e11, 0.05};
     const double yielded = s * (rigid - solve(stiff, 1).top.e_star_pa) / yields;
-    // 1e-11 of the modulus, which `yields / s` is the smaller part of
+    // 1e-11 of the modulus, of which `yields / s` is a small part
     const double rounding = 1e-10 * s * rigid / yields;
     EXPECT_LT(yielded, 1 + rounding) << s;
     EXPECT_GT(yielded, 0) << s;
-    // what is left out is of the next order in 1/s: a tenth at a ten times stiffer cluster, from the second on
+    // The error of this estimate is of second order in 1/s, so it falls to a tenth for ten times stiffer clusters, from
+    // the second s on.
     if (s > 10) { EXPECT_NEAR((1 - yielded) / before, 0.1, 0.02) << s; }
     fmt::print("inner contacts {:g} times as stiff: {:.3e} of the modulus below rigid, {:.6f} of first order\n", s,
                rigid / solve(stiff, 1).top.e_star_pa - 1, yielded);

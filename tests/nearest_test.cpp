@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// nearest_test.cpp  A message guesses a known word only if one is near.
+// nearest_test.cpp  An error message suggests a known word only if one is similar to the given word.
 #include "host/nearest.hpp"
 
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@ const std::vector<std::string> sections{"specimen", "contacts", "loading", "solv
 TEST(Nearest, GuessesAWordWithFewEdits) {
   const std::string list = " (the nearest of specimen, contacts, loading, solver, output, seed)";
   EXPECT_EQ(expected_one_of("specimens", sections), "specimen" + list);
-  EXPECT_EQ(expected_one_of("LOADING", sections), "loading" + list);  // case does not count
-  EXPECT_EQ(expected_one_of("sede", sections), "seed" + list);        // neighbours exchanged: one edit of 4 letters
+  EXPECT_EQ(expected_one_of("LOADING", sections), "loading" + list);  // upper and lower case are equal
+  EXPECT_EQ(expected_one_of("sede", sections), "seed" + list);        // exchanged neighbours are one edit, of 4 letters
   EXPECT_EQ(expected_one_of("sovler", sections), "solver" + list);
   EXPECT_EQ(expected_one_of("spezimen", sections), "specimen" + list);
 }
@@ -40,7 +40,8 @@ TEST(Nearest, CountsEdits) {
 }
 
 TEST(Nearest, CutsLongWords) {
-  EXPECT_EQ(expected_one_of(std::string(1 << 22, 'x'), {"seed"}), "seed");  // at once, not in minutes
+  // takes no time, although comparing such a long word would take minutes
+  EXPECT_EQ(expected_one_of(std::string(1 << 22, 'x'), {"seed"}), "seed");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// neighbours_test.cpp  Lists of neighbours against all pairs: who is in them, in which order, after every kind of move.
+// neighbours_test.cpp  Lists of neighbours against a comparison of all pairs: their content and order, after every kind
+// of move.
 #include "host/spheres/neighbours.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace {
 constexpr double skin = 0.02;
 const Box box{{1, 1.5, 0.8}};
 
-/// Radii over a factor of thirty, and equal ones among them.
+/// Returns spheres with radii over a factor of thirty; a third of them have equal radii.
 std::vector<Ball> spheres(int n, RandomStream& random) {
   std::vector<Ball> balls;
   for (int i = 0; i < n; ++i) {
@@ -24,7 +25,8 @@ std::vector<Ball> spheres(int n, RandomStream& random) {
   return balls;
 }
 
-/// As the header has it, with the spheres nearer than `gap` to each other.
+/// Returns the list of sphere i in the order that the header documents, of all spheres nearer than `gap`, by comparing
+/// all pairs.
 std::vector<std::int32_t> by_hand(const std::vector<Ball>& balls, const std::vector<std::int32_t>& number, int i,
                                   double gap) {
   std::vector<std::pair<std::pair<int, int>, int>> row;
@@ -40,7 +42,7 @@ std::vector<std::int32_t> by_hand(const std::vector<Ball>& balls, const std::vec
   return out;
 }
 
-/// Those of a list that are nearer than `gap`.
+/// Returns the members of a list that are nearer than `gap`.
 std::vector<std::int32_t> within(const std::vector<Ball>& balls, const Neighbours& neighbours, int i, double gap) {
   std::vector<std::int32_t> out;
   for (const std::int32_t j : neighbours.of(static_cast<std::size_t>(i)))
@@ -70,7 +72,8 @@ TEST_P(NeighboursOf, AreThoseOfAllPairsInOrder) {
   }
 }
 
-/// Some stray a little each time, some far, now and then all do; those before `first` stand still, numbers are mixed.
+/// In each round most spheres move a little and some move far; in every fifth round all move far enough to need new
+/// lists. Spheres before `first` do not move. The numbers are in mixed order.
 TEST_P(NeighboursOf, HoldAllThatTouchAfterManyMoves) {
   RandomStream random(4, 0);
   constexpr int n = 1500, first = 200;
@@ -82,7 +85,7 @@ TEST_P(NeighboursOf, HoldAllThatTouchAfterManyMoves) {
   for (int round = 0; round < 20; ++round) {
     std::vector<std::int32_t> strayed;
     const double step = round % 5 == 4 ? skin : 0.1 * skin;
-    const double share = round % 3 == 2 ? 0.02 : 0.004;  // enough for several threads, or not
+    const double share = round % 3 == 2 ? 0.02 : 0.004;  // so that relisting uses several threads, or only one
     for (int i = first; i < n; ++i) {
       const bool far = random.uniform() < share;
       const auto moved = [&](double x, double length) {

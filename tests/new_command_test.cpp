@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_command_test.cpp  macadam new: every scene that it writes is read and runs, and so does every key in its
+// new_command_test.cpp  macadam new: every scene that it writes can be read and run, and so can every key in its
 // comments.
 #include <regex>
 #include <set>
@@ -15,7 +15,7 @@ namespace {
 using scene::NewKind;
 
 struct NewCommand : Program {
-  /// The text of a scene in the folder, where specimen.csv is t8.
+  /// Returns the text of a new scene. The folder has t8 as specimen.csv.
   std::string scene_text(NewKind kind, const std::string& test) const {
     fs::copy_file(folder_ / "t8.csv", folder_ / "specimen.csv", fs::copy_options::skip_existing);
     return scene::new_scene(kind, test);
@@ -43,7 +43,8 @@ TEST_F(NewCommand, EverySceneIsRead) {
     }
 }
 
-// A comment that is a key with its default is the scene itself once the # is away; one without a fixed default says so.
+// If the # is removed from a comment that shows a key with its default, the scene stays the same. A comment on a key
+// without a fixed default says so.
 TEST_F(NewCommand, EveryKeyInACommentCanBeTakenOut) {
   const std::regex key("^# ([A-Za-z0-9_]+ = )(.*)$");
   for (const NewKind kind : kinds) {
@@ -75,15 +76,16 @@ TEST_F(NewCommand, KeysAreExplainedWhereTheirSectionComesFirst) {
     std::size_t again = 0;
     for (const std::string& line : lines_of(scene_text(kind, "cyclic"))) {
       if (line.starts_with('[')) first = sections.insert(line).second;
-      if (first || line.empty() || line.starts_with('#')) continue;  // what begins with # is said of a whole section
+      // a comment on its own line belongs to the whole section
+      if (first || line.empty() || line.starts_with('#')) continue;
       EXPECT_FALSE(contains(line, "#")) << line;
       ++again;
     }
-    EXPECT_GE(again, 15u);  // of the contacts
+    EXPECT_GE(again, 15u);  // keys of the repeated sections of contacts
   }
 }
 
-// Behind each, or above it; also those that only this kind of test, or this law, takes.
+// Every key is explained behind it or above it, including keys that only this kind of loading or this law has.
 TEST_F(NewCommand, KeysOfTheTestAndOfTheLawAreExplained) {
   for (const std::string& test : scene::tests_of_new_scenes()) {
     std::set<std::string> sections;
@@ -119,7 +121,7 @@ TEST_F(NewCommand, EveryKindRuns) {
   for (const NewKind kind : kinds) {
     std::string text = scene_text(kind, "cyclic");
     if (kind == NewKind::file) text = replaced(text, "[\"20 mm\", \"20 mm\", \"30 mm\"]", "[0.008, 0.008, 0.011]");
-    // 82 packed shapes take seconds, and shaped_specimen_test has them
+    // 82 packed shapes take seconds; shaped_specimen_test tests them
     if (kind == NewKind::shapes) text = replaced(text, "library = \"aggregates\"", "library = \"icosahedron\"");
     write(folder_ / "mix.toml", text);
     const Outcome outcome = macadam("run " + path("mix.toml") + " --backend cpu --out " + path("out"));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// no_memory_test.cpp  Memory that ends at any moment is std::bad_alloc: no bad file, no short file, no end of the
-// process.
+// no_memory_test.cpp  If an allocation fails at any moment, std::bad_alloc is thrown. It is not reported as a faulty
+// file, does not shorten a file, and does not end the process.
 #include <gtest/gtest.h>
 #include <omp.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@
 #include "test_surfaces.hpp"
 
 namespace {
-/// Of the allocations that count, the one of this number fails; 0: none.
+/// The number of allocations so far, and the number of the allocation that fails; 0 means none.
 std::atomic<int> counted{0}, failing{0};
 std::atomic<bool> in_threads_only{false};
 
@@ -37,9 +37,10 @@ void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept { return a
 namespace macadam::test {
 namespace {
 
-/// Fails every allocation once, or `tries` of them where there are more.
+/// Runs `work` repeatedly and lets a different allocation fail each time: all of them, or `tries` of them if there are
+/// more. Each failure must be std::bad_alloc.
 void expect_bad_alloc(const std::string& what, const std::function<void()>& work, int tries = 100) {
-  work();  // what is made once and kept
+  work();  // makes what is created once and kept
   counted = 0;
   work();
   const int all = counted;
@@ -96,9 +97,9 @@ TEST_F(NoMemory, IsNoBadOrShortSpecimen) {
   expect_bad_alloc("read", [&] { read_specimen_csv(file, s.box); });
 }
 
-/// What is thrown may not leave OpenMP's threads: unless each piece of work is guarded, the process ends.
+/// An exception may not leave an OpenMP thread: if a parallel piece of work does not catch it, the process ends.
 TEST_F(NoMemory, InAnyThreadIsThrown) {
-  Specimen s{{{1, 1, 1}}, {}, {}, {}, {}};  // nearly a lattice: its flat tetrahedra are solved in exact numbers
+  Specimen s{{{1, 1, 1}}, {}, {}, {}, {}};  // nearly a lattice, so that flat tetrahedra are solved in exact arithmetic
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> u(-1e-9, 1e-9);
   for (int i = 0; i < 1000; ++i) {

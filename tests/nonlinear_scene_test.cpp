@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// nonlinear_scene_test.cpp  Scenes with a law that has no place in the frequency domain: stepped, and refused by name
-// wherever that is asked.
+// nonlinear_scene_test.cpp  Scenes with a law that is not linear: they can be stepped, and every use of the frequency
+// domain refuses them with the name of the law.
 #include "program.hpp"
 
 namespace macadam::test {
 namespace {
 
-/// The laws of AM1, with bonds in place of the mastic's.
+/// Returns the laws of AM1 with brittle bonds in place of the mastic's law.
 std::string bonds(const std::string& strength) {
   std::string text = am1_contacts;
   const auto begin = text.find("law = \"generalised_kelvin\""), end = text.find("alpha = 0.10");
@@ -66,7 +66,8 @@ TEST_F(NonlinearScene, WhatRestsOnLinearityIsRefused) {
   EXPECT_HAS(refusal(), "quadrature in [network]: found \"exact\" beside law brittle_bond of M-M, expected \"lumped\"");
 }
 
-// Stepped it runs, by points unasked, from rest, and says what |E*| is then. Unbroken, bonds are an elastic law.
+// Such a scene is stepped by contact points, from rest, even if the scene asks for neither, and a warning explains the
+// meaning of |E*|. Bonds that do not break equal an elastic law.
 TEST_F(NonlinearScene, IsSteppedAndSaysWhatTheResultIs) {
   const auto solved = [&](const std::string& strength, const std::string& out, const std::string& loading) {
     scene(cyclic + loading, quick, strength);
@@ -91,7 +92,8 @@ TEST_F(NonlinearScene, IsSteppedAndSaysWhatTheResultIs) {
   write(folder_ / "scene.toml", text);
   const Outcome elastic = run_quick("elastic", "--backend cpu");
   ASSERT_EQ(elastic.code, 0) << elastic.err;
-  // condensed contacts, of carried frames: to the square of the strain
+  // the elastic scene uses condensed contacts with rotating frames; the difference is of the order of the strain
+  // squared
   EXPECT_NEAR(e_star(strong) / e_star(summary("elastic")), 1, 1e-6);
 }
 

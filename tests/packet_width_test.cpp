@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// packet_width_test.cpp  Processors with SIMD registers of different widths: the same bits, and checkpoints that go
-// from one to another. The steppers of this file are compiled with sanitizers (tests/CMakeLists.txt): every default run
-// of the tests has the CPU's kernels looked at, also where nobody builds the whole library with them.
+// packet_width_test.cpp  Processors with SIMD registers of different widths give the same bits, and can resume each
+// other's checkpoints. The steppers of this file are compiled with sanitizers (tests/CMakeLists.txt), so every default
+// run of the tests checks the CPU kernels, even if the library is not built with sanitizers.
 #include <gtest/gtest.h>
 
 #include "kernels/exec_cpu.hpp"
@@ -16,8 +16,8 @@ namespace {
 template <class P>
 class PacketWidth : public testing::Test {
  protected:
-  /// The width that the library does not have where it is compiled for this machine's processor; where it has code for
-  /// several, that of this file is for the oldest of them.
+  /// A stepper with the other packet width (4 or 8). The library has the width of this machine if it is compiled for
+  /// it; if it contains code for several processors, this file is compiled for the oldest.
   using OtherExec = kernels::ExecCpu<P, Law, 12 - kernels::packet_width<P>>;
 
   static void expect_same(const TestScene& scene, StepperOptions options) {
@@ -59,7 +59,7 @@ TYPED_TEST(PacketWidth, DoesNotShowWhereBondsBreak) {
   laws[static_cast<std::size_t>(PairType::mm)] = mastic_am1();
   const TestScene scene = make_scene(random_specimen(11), {}, laws);
   StepperOptions options = shaking_options(scene);
-  options.form = ContactForm::points;  // the one in which bonds break
+  options.form = ContactForm::points;  // only this form can step breaking bonds
   this->expect_same(scene, options);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// packing_check_test.cpp  Packings that do not fill their box, or fill more than it, are warned of before a run.
+// packing_check_test.cpp  Specimens that do not fill their box, or overfill it, give a warning before a run.
 #include "host/tessellation/packing_check.hpp"
 
 #include <numbers>
@@ -16,7 +16,7 @@ void add_mastic(Specimen& s, const Vec3d& centre, double radius) {
   s.centre.push_back(centre), s.radius.push_back(radius), s.phase.push_back(Phase::mastic), s.body.push_back(-1);
 }
 
-/// Spheres of radius 0.5 m that touch, in a box of nx × ny × nz m; off their places by up to 0.1 m.
+/// Returns touching spheres of radius 0.5 m in a box of nx × ny × nz m, shifted at random by up to 0.1 m.
 Specimen touching(int nx, int ny, int nz, double radius = 0.5) {
   std::mt19937 random(3);
   const auto off = [&] { return 0.2 * (static_cast<double>(random()) / 4294967296.0 - 0.5); };
@@ -28,7 +28,7 @@ Specimen touching(int nx, int ny, int nz, double radius = 0.5) {
   return out;
 }
 
-/// Spheres of radius 1 m at random places without overlap: `fill` of a cube.
+/// Returns spheres of radius 1 m at random positions without overlap; they are the fraction `fill` of a cube.
 Specimen random_spheres(double fill, std::size_t number, unsigned seed) {
   std::mt19937 random(seed);
   const double edge = std::cbrt(static_cast<double>(number) * 4 * std::numbers::pi / 3 / fill);
@@ -52,8 +52,8 @@ TEST(PackingCheck, ABoxTwiceAsHighNamesTheTopWall) {
   const auto found = warnings_of(s);
   ASSERT_EQ(found.size(), 1u) << testing::PrintToString(found);
   EXPECT_HAS(found[0], "the packing does not fill its box: the facet of particle 1");
-  EXPECT_HAS(found[0], "with the +z wall reaches 6");                      // 6 m above the spheres, to a corner
-  EXPECT_HAS(found[0], "spheres fill 26.2 % of the box of 5 x 5 x 12 m");  // π/6, half of it
+  EXPECT_HAS(found[0], "with the +z wall reaches 6");  // 6 m above the spheres, measured to a corner of the facet
+  EXPECT_HAS(found[0], "spheres fill 26.2 % of the box of 5 x 5 x 12 m");  // half of π/6
 }
 
 TEST(PackingCheck, ABoxTwiceAsWideNamesASide) {
@@ -64,7 +64,7 @@ TEST(PackingCheck, ABoxTwiceAsWideNamesASide) {
   EXPECT_HAS(found[0], "with the +x wall reaches ");
 }
 
-// The corners of the box are at least 3.7 m from the spheres.
+// The corners of the box are at least 3.7 m from the spheres of the cylinder.
 TEST(PackingCheck, ACylinderInABoxIsFound) {
   const Specimen block = touching(18, 18, 6);
   Specimen s;
@@ -86,7 +86,7 @@ TEST(PackingCheck, DiametersForRadiiFillTooMuch) {
             "diameters?");
 }
 
-// Spheres of one aggregate overlap: they count for no more than their cells.
+// Spheres of one aggregate overlap; they count at most the volume of their cells.
 TEST(PackingCheck, ClustersOfOverlappingSpheresAreNoFault) {
   Specimen s = few_clusters(1);
   EXPECT_TRUE(warnings_of(s).empty()) << testing::PrintToString(warnings_of(s));
@@ -96,7 +96,7 @@ TEST(PackingCheck, ClustersOfOverlappingSpheresAreNoFault) {
   EXPECT_TRUE(warnings_of(one).empty()) << testing::PrintToString(warnings_of(one));
 }
 
-// The lowest fill is just above the bound of sparse boxes. Cells of such packings reach up to 6 radii, and 1.8 mean
+// The smallest fill is just above the limit for sparse boxes. Cells of such packings reach up to 6 radii, or 1.8 mean
 // spacings.
 TEST(PackingCheck, LoosePackingsAreNoFault) {
   for (const double fill : {0.101, 0.15, 0.25}) {
@@ -107,7 +107,8 @@ TEST(PackingCheck, LoosePackingsAreNoFault) {
   }
 }
 
-// A layer of large spheres below one of small ones: holes among the large are many mean spacings wide.
+// A layer of large spheres below a layer of small ones: gaps between the large spheres are many mean spacings wide,
+// which is not a fault.
 TEST(PackingCheck, LayersOfDifferentSizesAreNoFault) {
   Specimen s = touching(4, 4, 2);
   for (int z = 0; z < 10; ++z)
@@ -145,8 +146,8 @@ TEST_F(PackingCheckOfCommands, WarnBeforeTheRunAndInTheSummary) {
   EXPECT_HAS(summary("specimen").at("warnings").at(0).get<std::string>(), sentence);
   const Outcome run = macadam("run " + path("scene.toml") + " --out " + path("run"));
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_HAS(run.err, "macadam: warning: " + sentence);  // before the run
-  EXPECT_HAS(run.out, "warning: " + sentence);           // with its results
+  EXPECT_HAS(run.err, "macadam: warning: " + sentence);  // printed before the run
+  EXPECT_HAS(run.out, "warning: " + sentence);           // printed with its results
   EXPECT_HAS(summary("run").at("warnings").at(0).get<std::string>(), sentence);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// phases_test.cpp  Wall time goes into the phases of a run: each moment into one, and nearly all of it.
+// phases_test.cpp  The wall time of a run is divided into phases: every moment counts in one phase only, and nearly all
+// time is in some phase.
 #include "host/simulation/phases.hpp"
 
 #include <gtest/gtest.h>
@@ -37,10 +38,10 @@ TEST(Phases, AnInnerPhaseTakesItsTimeFromTheOuter) {
     wait();
   }
   const double whole = seconds_since(start);
-  EXPECT_GE(all.planning, 0.04);  // a sleep is never shorter than asked
+  EXPECT_GE(all.planning, 0.04);  // a sleep is never shorter than requested
   EXPECT_GE(all.harmonic, 0.02);
   EXPECT_GE(all.writing, 0.02);
-  EXPECT_LE(all.sum(), whole);  // longer, where a moment counts twice
+  EXPECT_LE(all.sum(), whole);  // it would be more if a moment counted twice
 }
 
 TEST(Phases, EndWithWhatIsThrown) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plugin_test.cpp  The CUDA backend is found when the program runs, if it is of this version; else it is said why not.
+// plugin_test.cpp  The CUDA plugin is loaded at run time if it has the right version; otherwise the program says why
+// not.
 #include "program.hpp"
 
 namespace macadam::test {
@@ -16,7 +17,7 @@ class Plugin : public Program {
     Program::TearDown();
   }
 
-  /// What the program says with a file in place of the plugin.
+  /// Runs the program with `file` in place of the plugin.
   Outcome with(const fs::path& file, const std::string& command = "info") const {
     fs::remove(folder_ / "libmacadam_cuda.so");
     fs::copy_file(file, folder_ / "libmacadam_cuda.so");
@@ -34,10 +35,10 @@ TEST_F(Plugin, OfThisVersionIsUsed) {
   EXPECT_TRUE(contains(run.err, "backend cuda was asked for but cannot run: paper device")) << run.err;
 }
 
-/// As it is installed: no variable names its folder.
+/// The plugin is found in the folder of the library, as after installation, if no variable names its folder.
 TEST_F(Plugin, BesideTheLibraryIsFound) {
   fs::create_symlink(MACADAM_LIBRARY, folder_ / fs::path(MACADAM_LIBRARY).filename());
-  setenv("LD_LIBRARY_PATH", folder_.c_str(), 1);  // the library as the program finds it has this folder
+  setenv("LD_LIBRARY_PATH", folder_.c_str(), 1);  // the dynamic linker finds the library in this folder
   unsetenv("MACADAM_PLUGIN_PATH");
   const Outcome info = with(FAKE_PLUGIN);
   unsetenv("LD_LIBRARY_PATH");

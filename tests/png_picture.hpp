@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file png_picture.hpp  Reads the PNG files of colours that the program writes.
+/// \file png_picture.hpp  Reads the RGB PNG files that the program writes.
 #pragma once
 
 #include <zlib.h>
@@ -18,14 +18,14 @@ namespace macadam::test {
 
 struct PngPicture {
   std::size_t width = 0, height = 0;
-  std::vector<std::uint8_t> bytes;  ///< red, green, blue, from left to right and from the top down
+  std::vector<std::uint8_t> bytes;  ///< red, green and blue of each pixel, from left to right and from the top down
   std::array<std::uint8_t, 3> at(std::size_t x, std::size_t y) const {
     const std::size_t first = 3 * (x + width * y);
     return {bytes.at(first), bytes.at(first + 1), bytes.at(first + 2)};
   }
 };
 
-/// \throws std::runtime_error where the file has other than 8 bits of red, green and blue a pixel.
+/// \throws std::runtime_error if the file does not have 8 bits of red, green and blue per pixel.
 inline PngPicture read_png(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   const std::string file{std::istreambuf_iterator<char>(in), {}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file power_diagram_test.cpp  A triangulation in parts is the whole one, bit by bit; and who is near, against a look
-/// at everybody.
+/// \file power_diagram_test.cpp  A triangulation computed in parts equals the whole one bit by bit. Searches for near
+/// sites agree with a comparison of all sites.
 #include "host/tessellation/power_diagram.hpp"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ namespace {
 
 using test::add;
 
-/// Spheres anywhere in a box that is not a cube. One in fifty is up to ten times as large: it hides some of the others,
-/// and reaches far beyond a part.
+/// Returns spheres at random positions in a box that is not a cube. One in fifty is up to ten times as large, so that
+/// it hides other spheres and reaches far beyond a part.
 Specimen random_spheres(int number, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> share(0, 1);
@@ -34,7 +34,7 @@ Specimen random_spheres(int number, unsigned seed) {
   return s;
 }
 
-/// Equal spheres on a face-centred cubic lattice: every hole has six or more cospherical neighbours.
+/// Returns equal spheres on a face-centred cubic lattice, where six or more spheres around each hole are cospherical.
 Specimen lattice(int cells) {
   Specimen s;
   const double edge = cells;
@@ -47,7 +47,7 @@ Specimen lattice(int cells) {
   return s;
 }
 
-/// Two crowds with nothing in between, so that what a part needs lies far away.
+/// Returns two distant groups of spheres with nothing between them, so that a part needs data from far away.
 Specimen two_crowds(int number) {
   Specimen s = random_spheres(number, 5);
   for (std::size_t i = 0; i < s.size(); ++i) {
@@ -79,7 +79,7 @@ TEST(PowerDiagram, PartsGiveTheWholeOfSpheresOfManySizes) {
 }
 TEST(PowerDiagram, PartsGiveTheWholeOfALattice) { expect_same_in_parts(lattice(5)); }
 TEST(PowerDiagram, PartsGiveTheWholeOfCrowdsFarApart) { expect_same_in_parts(two_crowds(600)); }
-/// Boulders in sand: what a part needs of a boulder's cell lies behind it, out of the part's reach.
+/// Large spheres among small ones: a part may need sites on the far side of a large sphere, outside of its reach.
 TEST(PowerDiagram, PartsGiveTheWholeOfBoulders) {
   Specimen s = random_spheres(3000, 13);
   for (std::size_t i = 0; i < s.size(); ++i) s.radius[i] = i < 6 ? 0.25 : std::min(s.radius[i], 0.03);
@@ -90,7 +90,7 @@ TEST(PowerDiagram, PartsGiveTheWholeOfAPlane) {
   for (Vec3d& p : s.centre) p.z = 0.8;
   expect_same_in_parts(s);
 }
-/// Dual points are no numbers then: who is near cannot be told, so all are taken.
+/// Dual points overflow here, so nearness cannot be decided and all sites must be included.
 TEST(PowerDiagram, PartsGiveTheWholeOfCentresThatNearlyCoincide) {
   for (const double distance : {1e-12, 1e-200, 5e-324}) {
     Specimen s = random_spheres(200, 14);
@@ -109,7 +109,7 @@ TEST(PowerDiagram, PartsGiveTheWholeWithoutSomeParticles) {
   expect_same_in_parts(s, active);
 }
 
-/// What the arrays promise, whoever made them.
+/// Properties of the arrays that hold for any number of parts.
 TEST(PowerDiagram, TetrahedraAreInOrderAndKnowTheirNeighbours) {
   const Specimen s = random_spheres(800, 8);
   const PowerDiagram d = power_diagram(s, std::vector<std::uint8_t>(s.size(), 1), 3);
@@ -131,8 +131,9 @@ TEST(PowerDiagram, TetrahedraAreInOrderAndKnowTheirNeighbours) {
   }
 }
 
-/// No site has less power at a dual point than the corners, but for rounding of squares of lengths up to that of the
-/// bounding sites, some 100 m²: 1e-16 · 100, and room for the flattest tetrahedron that is solved in double, 1e3.
+/// At a dual point no site has less power than the four corners. Tolerance: rounding of squared lengths up to the
+/// bounding sites, about 100 m², is 1e-16 · 100; the flattest tetrahedron that is solved in double precision enlarges
+/// it by 1e3.
 TEST(PowerDiagram, NobodyIsInsideADualSphere) {
   const Specimen s = random_spheres(400, 9);
   const WeightedSites sites(s);
@@ -145,6 +146,7 @@ TEST(PowerDiagram, NobodyIsInsideADualSphere) {
   }
 }
 
+/// The tree finds the same sites as a comparison of all of them.
 TEST(SiteTree, FindsWhomALookAtEverybodyFinds) {
   const Specimen s = random_spheres(500, 10);
   const WeightedSites sites(s);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// precision_test.cpp  What is estimated of rounding lies above all that was measured, and says where measurements end.
+// precision_test.cpp  The estimated rounding error is above every measured one, and the program says where the
+// measurements end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +26,7 @@ std::vector<std::string> cells(const std::string& line) {
   return out;
 }
 
-/// A table of bench/results/.
+/// Returns a table of bench/results/.
 std::vector<Row> committed(const std::string& name) {
   std::ifstream in(MACADAM_EXAMPLES "/../bench/results/" + name);
   EXPECT_TRUE(in) << name;
@@ -46,13 +47,14 @@ std::vector<Row> committed(const std::string& name) {
 
 double number(const Row& row, const std::string& key) { return std::stod(row.at(key)); }
 
-/// One comparison with double: of |E*| (relative) or φ [rad], the larger.
+/// A comparison with double precision: the larger of the relative difference of |E*| and the difference of φ [rad].
 struct Comparison {
   std::string precision, scene;
   RoundingScale scale;
   double off;
 };
 
+/// Returns the comparisons of the precision study.
 std::vector<Comparison> study() {
   std::vector<Comparison> out;
   for (const Row& r : committed("precision.csv")) {
@@ -65,13 +67,13 @@ std::vector<Comparison> study() {
   return out;
 }
 
-/// The drift study of accuracy.csv, and what `tolerance` chose, against double at the same settings or else the
-/// harmonic solution of the same inertia. Layers are those of the study of precision; no inertia makes the estimate
-/// smaller.
+/// Returns the comparisons of the drift study in accuracy.csv and of the runs with `tolerance`. They are compared with
+/// double precision at the same settings, or otherwise with the harmonic solution of the same inertia. The number of
+/// layers is that of the precision study. Inertia 0 makes the estimate smaller, so the test is stricter.
 std::vector<Comparison> drift() {
   std::map<std::string, double> layers;
   for (const Comparison& c : study()) layers[c.scene] = c.scale.layers;
-  layers["seed 102"] = layers.at("seed 101");  // the same box and sizes
+  layers["seed 102"] = layers.at("seed 101");  // has the same box and sizes
   const auto key = [](const Row& r) {
     std::string out;
     for (const char* k : {"scene", "mix", "frequency_hz", "density_scaling", "cycles", "geometry"})
@@ -103,7 +105,7 @@ std::vector<Comparison> drift() {
 std::vector<Comparison> all() {
   std::vector<Comparison> out = study();
   for (const Comparison& c : drift()) out.push_back(c);
-  // the full specimen at true mass on the device, some 40 layers, against the harmonic solution
+  // The full specimen at true mass on a device, about 40 layers, against the harmonic solution.
   for (const Row& r : committed("whole-tests-h200-2026-11-21.csv")) {
     if (r.at("scene") != "true mass") continue;
     out.push_back({r.at("precision"),
@@ -126,7 +128,7 @@ TEST(Rounding, IsEstimatedAboveEveryMeasurement) {
   EXPECT_EQ(found.size(), 2u);
 }
 
-// What a user is told was measured is what the files hold, rounded.
+// The ranges that the program reports as measured are those in the files, rounded.
 TEST(Rounding, TheMeasuredRangeIsThatOfTheFiles) {
   for (const auto& [precision, told] : {std::pair{"single", single_measured}, {"mixed", mixed_measured}}) {
     SCOPED_TRACE(precision);
@@ -161,13 +163,13 @@ TEST(Rounding, WhatLiesBeyondTheMeasurementsIsNamed) {
   EXPECT_NE(beyond(scale, single_measured).find("stiffnesses"), std::string::npos);
   scale = within, scale.inertia *= 2;
   EXPECT_NE(beyond(scale, single_measured).find("inertia"), std::string::npos);
-  scale = within, scale.contrast = NAN;  // nothing is known of it
+  scale = within, scale.contrast = NAN;  // unknown contrast
   EXPECT_NE(beyond(scale, single_measured), "");
 }
 
 class PlannedPrecision : public testing::Test {
  protected:
-  /// t8 at 20 Hz with so much asked.
+  /// Returns the scene of t8 at 20 Hz with this tolerance.
   static Scene asked(double tolerance) {
     Scene scene;
     scene.specimen.file = MACADAM_TEST_DATA "/t8.csv";
@@ -201,7 +203,8 @@ TEST_F(PlannedPrecision, IsSingleWhereThatWasMeasured) {
   EXPECT_EQ(said(made).find("not measured so far"), std::string::npos) << said(made);
 }
 
-// Walls far stiffer than any that were measured: neither is taken, however much is allowed, and it is said.
+// The walls are far stiffer than in any measurement, so neither single nor mixed precision is chosen, whatever the
+// tolerance, and the program says so.
 TEST_F(PlannedPrecision, IsDoubleBeyondTheMeasuredStiffnesses) {
   Scene scene = asked(0.1);
   for (const PairType pair : {PairType::aw, PairType::mw}) {
@@ -215,7 +218,7 @@ TEST_F(PlannedPrecision, IsDoubleBeyondTheMeasuredStiffnesses) {
   EXPECT_NE(said(made).find("not mixed precision, which was not measured so far: stiffnesses"), std::string::npos);
 }
 
-// More steps than single precision was measured with, fewer than mixed was.
+// More steps than were measured in single precision, fewer than in mixed precision.
 TEST_F(PlannedPrecision, IsMixedBeyondTheStepsOfSingle) {
   Scene scene = asked(0.1);
   scene.cyclic().frequencies = {1};
@@ -231,7 +234,7 @@ TEST_F(PlannedPrecision, IsMixedBeyondTheStepsOfSingle) {
 TEST_F(PlannedPrecision, TheContrastIsThatOfTheFrequency) {
   Scene scene = asked(1e-3);
   for (auto& law : scene.laws) law = laws::Elastic{1e10, 0};
-  const double omega = 2 * std::numbers::pi * 20;  // a spring and a dashpot that are equally stiff there
+  const double omega = 2 * std::numbers::pi * 20;  // a spring and a dashpot that are equally stiff at this frequency
   scene.laws[static_cast<std::size_t>(PairType::mm)] = laws::GeneralisedKelvin{1e10, 1e10 / omega, {}, {}, 0};
   EXPECT_NEAR(rounding_scale(scene, prepare(scene), 20, 1000, 1).contrast, std::numbers::sqrt2, 1e-12);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file program.hpp  Tests of the program as a user meets it: a folder, a scene, a command, and what came out.
+/// \file program.hpp  Fixture for tests that run the program as a user does: a folder, a scene, a command, and its exit
+/// code and output.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 
 namespace macadam::test {
 
-/// One cycle of 500 steps at 20 Hz.
+/// Solver settings under which one cycle at 20 Hz takes 500 steps.
 inline constexpr const char* quick = "density_scaling = 1e6\n";
 
 inline std::vector<std::string> lines_of(const std::string& text) {
@@ -27,15 +28,16 @@ inline std::vector<std::string> lines_of(const std::string& text) {
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+/// Exit code and output of a command; the code is −1 if a signal ended it.
 struct Outcome {
   int code = -1;
   std::string out, err;
 };
 
-/// A folder with the specimen t8, and the program run in it.
+/// A folder with the specimen t8, in which the program is run.
 class Program : public TestFolder {
  protected:
-  /// Runs the program in a shell; output goes to files, which are no terminals.
+  /// Runs the program in a shell. Its output goes to files, so the program sees no terminal.
   Outcome macadam(const std::string& arguments) const {
     const fs::path out = folder_ / "stdout.txt", err = folder_ / "stderr.txt";
     const int status = std::system(
@@ -45,12 +47,12 @@ class Program : public TestFolder {
 
   std::string path(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
 
-  /// A scene of the 175 particles; the specimen's path is relative to it.
+  /// Writes a cyclic scene of the 175 particles of t8. The specimen's path is relative to the scene file.
   fs::path write_scene(const std::string& solver = quick, const std::string& more = "") const {
     return write_scene_of("kind = \"cyclic\"\nfrequencies = [20.0]\ncycles = 1\n", solver + more);
   }
 
-  /// The same with another test.
+  /// Writes the same scene with another `[loading]`.
   fs::path write_scene_of(const std::string& loading, const std::string& solver = "") const {
     return write_t8(loading, solver);
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ranks_program_test.cpp  The program as mpirun begins it several times: who writes, and how all end. The device of
-// each rank is the processor in disguise, which steps all of the specimen; devices that share it are tested in
-// device_ranks_test.cpp and tests/ranks/run.
+// ranks_program_test.cpp  The program started several times by mpirun: which rank writes, and that all ranks end
+// together. The device of each rank is a fake that computes on the processor and steps the whole specimen.
+// device_ranks_test.cpp and tests/ranks/run test devices that divide a specimen.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -48,7 +48,7 @@ class RanksProgram : public Program {
     for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++out;
     return out;
   }
-  /// Nothing of the second rank's is left.
+  /// Returns whether the scratch folder of the second rank is removed.
   bool scratch_is_gone() const {
     for (const auto& entry : fs::directory_iterator(folder_ / "tmp")) {
       if (entry.path().filename().string().starts_with("macadam-rank")) return false;
@@ -107,7 +107,7 @@ TEST_F(RanksProgram, IsInterruptedAndGoesOn) {
   EXPECT_EQ(read(folder_ / "two" / "response.csv"), read(folder_ / "alone" / "response.csv"));
 }
 
-// An error that all have is told once.
+// An error that all ranks have is printed once.
 TEST_F(RanksProgram, FailsAsOne) {
   const Outcome missing = together(fmt::format("run {} --ranks --out {}", path("none.toml"), path("two")));
   EXPECT_EQ(missing.code, 2) << missing.err;
@@ -132,7 +132,7 @@ TEST_F(RanksProgram, FailsAsOne) {
   EXPECT_THAT(paper.err, HasSubstr("it is made of paper"));
 }
 
-// A farm of runs that mpirun or srun begins is no team, unless it says so.
+// Without --ranks, processes started by mpirun or srun are independent runs.
 TEST_F(RanksProgram, RunsAloneUnlessItIsToldOtherwise) {
   write_scene();
   setenv("PMI_SIZE", "2", 1);
@@ -146,7 +146,7 @@ TEST_F(RanksProgram, RunsAloneUnlessItIsToldOtherwise) {
   EXPECT_EQ(one.code, 0) << one.err;
 }
 
-// As where a file is old on one of the hosts.
+// The scene file differs between ranks, for example if one host has an old copy.
 TEST_F(RanksProgram, RefusesDifferentScenes) {
   write_scene();
   const std::string text = read(folder_ / "scene.toml");

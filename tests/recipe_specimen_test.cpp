@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file recipe_specimen_test.cpp  Specimens of mix designs by mass: what is measured of their particles is what was
-/// asked, and the program says and writes it.
+/// \file recipe_specimen_test.cpp  Specimens of mix designs by mass: the measured composition of their particles is the
+/// requested one, and the program prints and writes it.
 #include <algorithm>
 #include <numbers>
 
@@ -11,7 +11,7 @@ namespace {
 
 class RecipeSpecimen : public Program {
  protected:
-  /// A mixture of three classes above 2 mm in a small box.
+  /// Writes the scene of a mixture with three classes above 2 mm in a small box.
   fs::path write_recipe(const std::string& more = "") const {
     std::string contacts = am1_contacts;
     contacts = contacts.substr(contacts.find("[[contacts]]"));
@@ -42,13 +42,14 @@ method = "harmonic"
 
 double volume_of_sphere(double diameter) { return std::numbers::pi / 6 * diameter * diameter * diameter; }
 
-/// A body of the specimen, measured.
+/// Size and volume of a particle.
 struct Body {
   double size, volume;
 };
 
-/// What bodies between the sieves of each class hold of the box is what the design asks, as near as the last particle
-/// allows: the smallest of the class more or less would bring it no nearer. Whatever lies in no class is a fault.
+/// Expects that particles between the sieves of each class have the requested volume and mass in the box, within the
+/// smallest particle of the class, so that one particle more or less would not be better. Every particle must be in a
+/// class.
 void expect_classes(const Scene& scene, const std::vector<Body>& bodies, double mastic) {
   const MixVolumes asked = volumes_of(*scene.recipe);
   const double box = scene.specimen.box.volume();
@@ -57,7 +58,7 @@ void expect_classes(const Scene& scene, const std::vector<Body>& bodies, double 
   for (const MixClass& c : asked.classes) {
     double volume = 0, smallest = box;
     for (const Body& b : bodies) {
-      // a diameter is twice a radius that was half of it; ends of the range may be met to rounding
+      // rounding: a diameter is twice a radius that was half of it, and may equal a sieve size
       if (b.size < c.sieve_min * (1 - 1e-12) || b.size > c.sieve_max * (1 + 1e-12)) continue;
       ++counted, volume += b.volume, smallest = std::min(smallest, b.volume);
     }
@@ -89,7 +90,8 @@ TEST_F(RecipeSpecimen, OfSpheresHasItsShares) {
   }
   expect_classes(scene, bodies, mastic_volume(made.specimen));
 
-  // The curve from the particles themselves: dry mass finer than each sieve, the fines in the mastic's proportion.
+  // The gradation recomputed from the particles: the dry mass finer than each sieve; the mastic contains its fixed
+  // fraction of fines.
   const MixVolumes v = volumes_of(*scene.recipe);
   const double fines =
       (v.mastic_fine_mass + v.mastic_filler_mass) / v.mastic_mass * v.mastic_density * mastic_volume(made.specimen);
@@ -140,7 +142,7 @@ TEST_F(RecipeSpecimen, IsWrittenAndSaid) {
   EXPECT_EQ(recipe["outside_of_envelope_m"], nlohmann::json::array({0.004}));
   EXPECT_EQ(recipe["envelope"][1]["most"], 0.5);
   EXPECT_NEAR(double(recipe["reached"]["bulk_density"]) / v.bulk_density, 1,
-              0.005);  // 0.2 % of the box a class at most
+              0.005);  // at most 0.2 % of the box per class
   EXPECT_NEAR(double(recipe["reached"]["air_voids"]), 0.04, 0.005);
 
   const auto rows = lines_of(read(folder_ / "out" / "gradation.csv"));
@@ -150,7 +152,7 @@ TEST_F(RecipeSpecimen, IsWrittenAndSaid) {
   EXPECT_EQ(rows[5].substr(0, 11), "0.0005,0.2,");
   EXPECT_EQ(recipe["gradation"][4]["reached"], std::stod(rows[5].substr(11)));
 
-  // another scene in the same folder takes the file away
+  // A scene without a recipe in the same folder removes the file.
   write_scene();
   ASSERT_EQ(macadam(fmt::format("specimen {} --out {}", path("scene.toml"), path("out"))).code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "out" / "gradation.csv"));

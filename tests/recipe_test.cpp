@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file recipe_test.cpp  Mix designs by mass: hand calculations of EN 12697-5 and EN 12697-8, what must hold of any
-/// design, and the numbers that are refused.
+/// \file recipe_test.cpp  Mix designs by mass: hand calculations after EN 12697-5 and EN 12697-8, invariants of any
+/// design, and refused numbers.
 #include "macadam/recipe.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +13,8 @@
 namespace macadam::test {
 namespace {
 
-/// The AC 14 of [1]: shares of mass between its sieves, summed; one density of rock, the binder's assumed.
+/// Returns the AC 14 of [1]: the mass between its sieves, summed up; one density of rock; an assumed density of the
+/// binder.
 MixDesign ac14() {
   MixDesign d;
   d.gradation = {{0.019, 1},     {0.0125, 0.837},   {0.0095, 0.712},   {0.00475, 0.478},
@@ -25,7 +26,8 @@ MixDesign ac14() {
   return d;
 }
 
-/// Densities a size, absorbed binder, binder of the aggregate's mass: round numbers.
+/// Returns a design with round numbers: a density per size, absorbed binder, and binder relative to the mass of
+/// aggregate.
 MixDesign limestone() {
   MixDesign d;
   d.gradation = {{0.010, 1}, {0.005, 0.6}, {0.002, 0.3}, {0.000063, 0.1}};
@@ -39,7 +41,7 @@ MixDesign limestone() {
   return d;
 }
 
-/// What was calculated by hand has seven digits.
+/// Compares with a hand calculation of seven digits.
 void expect_hand(double value, double by_hand) { EXPECT_NEAR(value / by_hand, 1, 1e-6) << value << " for " << by_hand; }
 
 /// 1 kg of mix: 0.948 kg of aggregate in 0.948/2630 = 3.604563e-4 m³, 0.052 kg of binder in 0.052/1030 = 5.048544e-5
@@ -54,7 +56,7 @@ TEST(Recipe, AC14ByHand) {
   expect_hand(v.vfb, 0.7000787);
   EXPECT_EQ(v.air_voids, 0.05);
   EXPECT_EQ(v.effective_binder, 0.052);
-  // 16.3, 12.5, 23.4, 15.3 % of 0.948 kg; over 2630 kg/m³, times 2311.763 kg/m³ of mix in a m³ of the box
+  // 16.3, 12.5, 23.4 and 15.3 % of 0.948 kg; divided by 2630 kg/m³, times 2311.763 kg of mix per m³ of the box.
   ASSERT_EQ(v.classes.size(), 4u);
   const double mass[] = {0.154524, 0.1185, 0.221832, 0.145044};
   const double volume[] = {0.1358262, 0.1041612, 0.1949898, 0.1274933};
@@ -74,10 +76,10 @@ TEST(Recipe, AC14ByHand) {
   expect_hand(v.mastic_binder_mass, 0.052);
 }
 
-/// 1 kg of aggregate and 0.05 kg of binder. Volumes with the pores: 0.4/2500 = 1.6e-4, 0.3/2800 = 1.071429e-4,
-/// 0.2/2600 = 7.692308e-5, 0.1/2700 = 3.703704e-5, in all 3.811030e-4 m³. Of the binder 0.01 kg is in the pores, 0.04
-/// kg takes 4e-5 m³. Maximum density 1.05/4.211030e-4 = 2493.452, bulk 0.96 · 2493.452 = 2393.714 kg/m³. VMA = 1 −
-/// 2393.714 · 3.811030e-4/1.05 = 1 − 0.8688109 = 0.1311891, VFB = (0.1311891 − 0.04)/0.1311891 = 0.6950966.
+/// 1 kg of aggregate and 0.05 kg of binder. Volumes including pores: 0.4/2500 = 1.6e-4, 0.3/2800 = 1.071429e-4,
+/// 0.2/2600 = 7.692308e-5, 0.1/2700 = 3.703704e-5, in all 3.811030e-4 m³. 0.01 kg of the binder is in the pores, 0.04
+/// kg takes 4e-5 m³. Maximum density 1.05/4.211030e-4 = 2493.452, bulk density 0.96 · 2493.452 = 2393.714 kg/m³. VMA =
+/// 1 − 2393.714 · 3.811030e-4/1.05 = 1 − 0.8688109 = 0.1311891, VFB = (0.1311891 − 0.04)/0.1311891 = 0.6950966.
 TEST(Recipe, DensitiesASizeAndAbsorbedBinderByHand) {
   const MixVolumes v = volumes_of(limestone());
   expect_hand(v.maximum_density, 2493.452);
@@ -86,7 +88,7 @@ TEST(Recipe, DensitiesASizeAndAbsorbedBinderByHand) {
   expect_hand(v.vfb, 0.6950966);
   expect_hand(v.binder, 0.04761905);            // 0.05/1.05
   expect_hand(v.effective_binder, 0.03809524);  // 0.04/1.05
-  // particles: 0.7 kg and 0.007 kg of binder in their pores, in 2.671429e-4 m³
+  // particles: 0.7 kg, and 0.007 kg of binder in their pores, in 2.671429e-4 m³
   expect_hand(v.aggregate_density, 2646.524);
   expect_hand(v.aggregate_volume, 0.6090129);  // 2.671429e-4 · 2393.714/1.05
   expect_hand(v.classes[1].density, 2800);
@@ -96,8 +98,8 @@ TEST(Recipe, DensitiesASizeAndAbsorbedBinderByHand) {
   expect_hand(v.mastic_binder_mass, 0.04095238);  // 0.043/1.05
 }
 
-/// What a laboratory measures instead: the densities above, rounded to 1 kg/m³. Half a unit of 2493 is 2e-4; it moves
-/// the volume of the mix, 4.2e-4 m³, by 8.4e-8 m³, so 8.4e-5 kg of absorbed binder in a kg of aggregate.
+/// A laboratory measures densities, here those above rounded to 1 kg/m³. Half a unit of 2493 is 2e-4; this changes the
+/// volume of the mix, 4.2e-4 m³, by 8.4e-8 m³, and the absorbed binder by 8.4e-5 kg per kg of aggregate.
 TEST(Recipe, MeasuredDensitiesGiveAbsorbedBinderAndVoids) {
   MixDesign d = limestone();
   d.absorbed_binder = {}, d.air_voids = {};
@@ -109,7 +111,8 @@ TEST(Recipe, MeasuredDensitiesGiveAbsorbedBinderAndVoids) {
   expect_hand(v.air_voids, 0.03971119);  // 1 − 2394/2493
 }
 
-/// A maximum density measured and rounded where nothing is absorbed is no contradiction: 2433 for 2433.435.
+/// If nothing is absorbed, a measured maximum density may be slightly low because it is rounded: 2433 for 2433.435.
+/// This is not a contradiction.
 TEST(Recipe, RoundingOfAMeasuredDensityIsNoContradiction) {
   MixDesign d = ac14();
   d.maximum_density = 2433;
@@ -127,7 +130,7 @@ MixDesign random_design(std::mt19937& random) {
   for (int k = 0; k < sieves; ++k) {
     d.gradation.push_back({size, passing});
     size *= uniform(0.3, 0.9);
-    if (random() % 4) passing *= uniform(0.3, 1);  // else nothing lies between the two
+    if (random() % 4) passing *= uniform(0.3, 1);  // otherwise nothing lies between the two sieves
     if (k > 0) d.aggregate_density.push_back(uniform(2000, 4000));
   }
   if (random() % 2) d.aggregate_density.resize(1);
@@ -136,13 +139,15 @@ MixDesign random_design(std::mt19937& random) {
   d.binder_of = random() % 2 ? BinderOf::mix : BinderOf::aggregate;
   if (random() % 2) d.filler_density = uniform(2000, 4000);
   d.binder_density = uniform(900, 1200);
-  if (random() % 2) d.absorbed_binder = uniform(0, 0.019);  // below the least binder, 0.02/1.02 of a kg of aggregate
+  // below the smallest binder content, 0.02/1.02 of a kg of aggregate
+  if (random() % 2) d.absorbed_binder = uniform(0, 0.019);
   d.air_voids = uniform(0, 0.3);
   return d;
 }
 
-/// Mass in is mass out, volumes fill the box, and the measured densities lead back to the design. Sums of at most 20
-/// terms of order one in doubles: 1e-13; back from 1/ρ_mv the absorbed binder loses three digits at most.
+/// Masses add up to the whole, volumes fill the box, and the measured densities lead back to the design. Tolerance:
+/// sums of at most 20 terms of order one in double precision, 1e-13; the absorbed binder computed back from 1/ρ_mv
+/// loses at most three digits.
 TEST(Recipe, MassInIsMassOut) {
   std::mt19937 random(7);
   for (int n = 0; n < 500; ++n) {
@@ -155,7 +160,7 @@ TEST(Recipe, MassInIsMassOut) {
                 tolerance);
     double mass = v.mastic_fine_mass + v.mastic_filler_mass, volume = 0;
     for (const MixClass& c : v.classes) mass += c.mass, volume += c.volume;
-    ASSERT_NEAR(mass, 1 - v.binder, tolerance);  // of the aggregate, dry
+    ASSERT_NEAR(mass, 1 - v.binder, tolerance);  // of the dry aggregate
     ASSERT_NEAR(volume, v.aggregate_volume, tolerance);
     // EN 12697-8 with the effective binder: VMA = V_m + B·ρ_b/ρ_B
     const double effective = v.effective_binder * v.bulk_density / d.binder_density;
@@ -171,7 +176,7 @@ TEST(Recipe, MassInIsMassOut) {
   }
 }
 
-/// A sieve more on the straight line between two others changes no sum: same densities, cut and mass.
+/// One more sieve on the straight line between two others changes no sum: densities, cut and mass stay.
 TEST(Recipe, ASieveMoreChangesNothing) {
   const MixVolumes one = volumes_of(ac14());
   MixDesign d = ac14();
@@ -182,7 +187,7 @@ TEST(Recipe, ASieveMoreChangesNothing) {
   EXPECT_NEAR(more.mastic_density / one.mastic_density, 1, 1e-14);
 }
 
-/// The classes of a specimen are shares of its solid volume, and the voids its porosity.
+/// The classes of the specimen are fractions of its solid volume, and the air voids are its porosity.
 TEST(Recipe, IsFollowedByASpecimen) {
   SpecimenSpec spec;
   EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "[specimen.mastic] with its radii");
@@ -196,7 +201,7 @@ TEST(Recipe, IsFollowedByASpecimen) {
   EXPECT_HAS(message_of([&] { follow(ac14(), spec); }), "a porosity or count of the mastic beside it");
 }
 
-/// Half of the first class is missing: 1 kg of aggregate without 0.0815 kg.
+/// If half of the first class is missing, 1 kg of aggregate lacks 0.0815 kg.
 TEST(Recipe, ReachedCurveByHand) {
   const MixDesign d = ac14();
   const MixVolumes v = volumes_of(d);
@@ -213,7 +218,7 @@ TEST(Recipe, ReachedCurveByHand) {
   EXPECT_HAS(message_of([&] { gradation_of(d, reached); }), "4 and the mastic");
 }
 
-/// What a scene's reader refuses by itself, of a design that a program makes.
+/// A design made by a program can have envelopes that the scene reader would refuse; they are refused here too.
 TEST(Recipe, EnvelopesThatAreNoneAreRefused) {
   const auto refusal = [](double size, double least, double most) {
     MixDesign d = ac14();
@@ -229,7 +234,7 @@ TEST(Recipe, EnvelopesThatAreNoneAreRefused) {
 TEST(Recipe, TellsWhereItLeavesTheEnvelope) {
   MixDesign d = ac14();
   d.envelope = {{0.019, 0.9, 1}, {0.0125, 0.7, 0.8}, {0.002, 0.325, 0.4}, {0.000075, 0.06, 0.08}, {0.001, 0, 0.1}};
-  const auto outside = outside_of_envelope(d);  // 1 mm is no sieve of the curve
+  const auto outside = outside_of_envelope(d);  // 1 mm is not a sieve of the curve
   ASSERT_EQ(outside.size(), 2u);
   EXPECT_EQ(outside[0].size, 0.0125);
   EXPECT_EQ(outside[1].size, 0.000075);

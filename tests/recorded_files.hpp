@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file recorded_files.hpp  What a file of results holds, as short lists: tests compare them with those recorded
-/// before.
+/// \file recorded_files.hpp  Reads files of results into short lists of numbers and text, which tests compare with
+/// recorded ones.
 #pragma once
 
 #include <algorithm>
@@ -20,15 +20,15 @@
 
 namespace macadam::test::recorded {
 
-/// Numbers in their order, and the text around them with '#' in place of each.
+/// The numbers of a file in their order, and the text around them with '#' in place of each number.
 struct Content {
   std::string text;
   std::vector<double> numbers;
 };
-/// By the names of columns, keys and arrays.
+/// Contents by the names of columns, keys and arrays.
 using Contents = std::map<std::string, Content>;
 
-/// Adds text; numbers in it are those that no letter, digit, point or underscore stands before.
+/// Appends text to `to`. A number begins where no letter, digit, point or underscore stands before it.
 inline void add(Content& to, const std::string& text) {
   const auto part_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.'; };
   for (std::size_t at = 0; at < text.size();) {
@@ -48,7 +48,7 @@ inline void add(Content& to, const std::string& text) {
   }
 }
 
-/// Lines of a text, each of its own where they are few.
+/// Adds the lines of a text: one entry per line for at most 100 lines, otherwise one entry for the whole text.
 inline void add_lines(Contents& to, const std::string& text, const std::string& name) {
   const auto number = std::count(text.begin(), text.end(), '\n');
   std::istringstream lines(text);
@@ -57,7 +57,7 @@ inline void add_lines(Contents& to, const std::string& text, const std::string& 
     add(to[number <= 100 ? fmt::format("{} {:02}", name, ++at) : name], line + '\n');
 }
 
-/// Columns of CSV; lines that begin with # are a text of their own.
+/// Adds the columns of a CSV table; lines that begin with # go into a separate entry.
 inline void add_table(Contents& to, const std::string& text) {
   std::vector<std::string> names;
   std::istringstream lines(text);
@@ -76,7 +76,7 @@ inline void add_table(Contents& to, const std::string& text) {
   }
 }
 
-/// Values of JSON by their path; an array of numbers is one list.
+/// Adds the values of JSON by their paths; an array of numbers is one list.
 inline void add_json(Contents& to, const nlohmann::json& json, const std::string& path) {
   if (json.is_object())
     for (const auto& [key, value] : json.items()) add_json(to, value, path.empty() ? key : path + '.' + key);
@@ -90,7 +90,7 @@ inline void add_json(Contents& to, const nlohmann::json& json, const std::string
     add(to[path], json.dump() + ' ');
 }
 
-/// Arrays of numbers of HDF5; texts and attributes are left out.
+/// Adds the numeric arrays of an HDF5 file; texts and attributes are left out.
 inline void add_arrays(Contents& to, const H5::Group& group, const std::string& path) {
   for (hsize_t i = 0; i < group.getNumObjs(); ++i) {
     const std::string name = group.getObjnameByIdx(i), all = path.empty() ? name : path + '/' + name;
@@ -106,7 +106,7 @@ inline void add_arrays(Contents& to, const H5::Group& group, const std::string& 
   }
 }
 
-/// What a file holds, by its ending.
+/// Adds the content of a file, read according to its extension.
 inline void add_file(Contents& to, const fs::path& path) {
   const std::string ending = path.extension().string();
   if (ending == ".h5" || ending == ".vtkhdf") return add_arrays(to, open_hdf5(path), "");
@@ -115,7 +115,7 @@ inline void add_file(Contents& to, const fs::path& path) {
     return;
   }
   const std::string text = read(path);
-  if (ending == ".vtp" || ending == ".pvd") {  // XML, in .vtp with arrays in bits behind it
+  if (ending == ".vtp" || ending == ".pvd") {  // XML; a .vtp file has binary arrays after it
     to["bits"].text = text;
     return;
   }
@@ -131,15 +131,15 @@ inline void add_file(Contents& to, const fs::path& path) {
   add_lines(to, text, "line");
 }
 
-/// FNV-1a: the same on every machine, unlike std::hash.
+/// Returns the FNV-1a hash, which is the same on every machine, unlike std::hash.
 inline std::uint64_t hash(const std::string& text) {
   std::uint64_t out = 14695981039346656037u;
   for (const char c : text) out = (out ^ static_cast<unsigned char>(c)) * 1099511628211u;
   return out;
 }
 
-/// As it is written down: numbers all where they are few, else how many, their sum, their sum with rising weights and
-/// that of their sizes; of a long text its hash.
+/// Returns the form in which a content is recorded. Up to 12 numbers are kept as they are; of more, the count, the sum,
+/// the sum with increasing weights and the sum of absolute values are kept. Of a long text the hash is kept.
 inline nlohmann::ordered_json digest(const Content& content) {
   nlohmann::ordered_json out;
   std::string bare;

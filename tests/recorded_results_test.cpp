@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// recorded_results_test.cpp  Everything that commands print and write, against what they did when it was recorded. The
-// other tests say what is right. These say what has changed, down to the ninth digit, whoever meant it to.
+// recorded_results_test.cpp  Everything that commands print and write, compared with recorded output to nine digits.
+// Other tests say what is right; these notice every change, intended or not.
 //
-// Each folder of tests/recorded is a case: `commands` has one command of macadam a line, run in the case's folder,
-// which holds what they read and the specimen t8.csv; laws.toml is put behind every scene without contacts. Where a
-// case has a file `library`, its numbers are those of this version of a library, which others do not keep.
-// expected.json has what came out. A change that is meant is recorded anew with MACADAM_RECORD=1 in the environment,
-// and its difference is looked at like any other.
+// Each folder of tests/recorded is a case. Its file `commands` has one macadam command per line, run in a copy of the
+// folder, which contains the inputs; laws.toml is appended to every scene without contacts. If a case has a file
+// `library`, its numbers depend on the version of that library, and the case is skipped with other versions.
+// expected.json has the recorded output. After an intended change, record again with MACADAM_RECORD=1 in the
+// environment and review the difference.
 #include <ceres/version.h>
 
 #include <algorithm>
@@ -22,15 +22,16 @@ using nlohmann::ordered_json;
 
 const fs::path cases = MACADAM_RECORDED;
 
-/// Code for sanitizers is optimised less, and sums of libraries are then rounded otherwise, which iterations and
-/// searches carry on. There, files, names and words are compared, and how many numbers there are.
+/// Code with sanitizers is optimized less, so sums in libraries are rounded differently, and iterations and searches
+/// amplify this. For such builds only files, names, words and the count of numbers are compared.
 #ifdef MACADAM_ROUNDS_OTHERWISE
 constexpr bool compares_numbers = false;
 #else
 constexpr bool compares_numbers = true;
 #endif
 
-/// Whether this build has what a case asks for: without computed tomography the program has no `ct`, nor help of it.
+/// Returns whether this build can run a case: without computed tomography the program has no `ct` command, and its help
+/// differs.
 bool is_possible(const std::string& name) {
 #ifdef MACADAM_HAS_CT
   return !name.empty();
@@ -39,7 +40,7 @@ bool is_possible(const std::string& name) {
 #endif
 }
 
-/// A library that a case names with its version, as this build has it.
+/// Returns the version of a library (ceres or itk) in this build, in the form in which a case names it.
 std::string as_built(const std::string& library) {
   if (library.starts_with("ceres ")) return fmt::format("ceres {}.{}", CERES_VERSION_MAJOR, CERES_VERSION_MINOR);
   return fmt::format("itk {}", MACADAM_ITK_VERSION);
@@ -55,15 +56,15 @@ std::vector<std::string> names_of_cases() {
   return out;
 }
 
-/// Of values in JSON and arrays in HDF5: times, memory, versions; remainders that are rounding alone; and phases in
-/// fields, which are those of rounding where hardly anything moves.
+/// Returns whether a value in JSON or an array in HDF5 is not compared: times, memory, versions, residuals that consist
+/// of rounding, and phases in fields, which are rounding where almost nothing moves.
 bool is_left_out(const std::string& key) {
   static const std::regex names(
       R"(timing_s\..*|.*solve_s|solver\.bytes|macadam|.*residual|.*held_force|VTKHDF/.*_phase)");
   return std::regex_match(key, names);
 }
 
-/// A line for each part, so that a difference between two versions can be read.
+/// Returns JSON with one line per part, so that a difference between two versions can be read.
 std::string lines_of_json(const ordered_json& all) {
   std::string out;
   for (const auto& [file, contents] : all.items()) {
@@ -85,7 +86,7 @@ class RecordedResults : public Program, public testing::WithParamInterface<std::
   void SetUp() override {
     Program::SetUp();
     version_ = lines_of(macadam("--version").out).at(0);
-    setenv("OMP_NUM_THREADS", "2", 1);  // their number is in descriptions, and in the forecast of times
+    setenv("OMP_NUM_THREADS", "2", 1);  // the number of threads appears in descriptions and affects predicted times
     for (const auto& entry : fs::directory_iterator(source()))
       if (const fs::path name = entry.path().filename();
           name != "commands" && name != "expected.json" && name != "library")
@@ -99,8 +100,8 @@ class RecordedResults : public Program, public testing::WithParamInterface<std::
     for (const auto& entry : fs::recursive_directory_iterator(folder_)) given_.push_back(entry.path());
   }
 
-  /// A text without what differs from machine to machine or from one time to the next: times, memory, threads, the
-  /// version, folders, and a line of remainders that are rounding alone.
+  /// Returns the text without everything that differs between machines or runs: times, memory, threads, version,
+  /// folders, and the line of tessellation errors, which are rounding.
   std::string comparable(std::string text) const {
     const auto replace = [&](const std::string& what, const std::string& with) {
       for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
@@ -120,7 +121,7 @@ class RecordedResults : public Program, public testing::WithParamInterface<std::
     return out;
   }
 
-  /// Runs the commands; what they print, and the files that they write.
+  /// Runs the commands and returns what they print and the files that they write.
   ordered_json happened() const {
     std::map<std::string, recorded::Contents> all;
     int number = 0;
@@ -140,7 +141,7 @@ class RecordedResults : public Program, public testing::WithParamInterface<std::
     std::sort(files.begin(), files.end());
     for (const fs::path& file : files) {
       const fs::path local = file.lexically_relative(folder_);
-      // surfaces of many grains are one list
+      // Surfaces of many grains are combined into one list.
       const bool one_of_many = file.extension() == ".off";
       recorded::Contents& to = all[one_of_many ? (local.parent_path() / "*.off").string() : local.string()];
       recorded::Contents contents;
@@ -165,7 +166,8 @@ class RecordedResults : public Program, public testing::WithParamInterface<std::
     return outcome;
   }
 
-  /// Numbers to nine digits, which libraries of other versions leave as they are; and to rounding beside larger ones.
+  /// Returns whether values are equal. Numbers must agree to nine digits, which other versions of libraries do not
+  /// change, or to rounding of the largest number in the list.
   static bool alike(const ordered_json& a, const ordered_json& b) {
     if (a.is_array() && b.is_array() && a.size() == b.size()) {
       if (!compares_numbers) return true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// reduced_model_test.cpp  E* between known motions: that of a solution where there is one, and near it elsewhere.
+// reduced_model_test.cpp  The reduced model computes E* in the space of known motions: it is exact where a known motion
+// is the solution, and close to it elsewhere.
 #include "host/harmonic/reduced_model.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ using harmonic::ReducedModel;
 
 class Reduced : public testing::TestWithParam<bool> {
  protected:
-  /// Laws whose M-M contacts are so many times as stiff, and slip as easily.
+  /// Returns laws with M-M moduli multiplied by `factor` and the M-M shear ratio multiplied by `alpha`.
   Laws with(double factor, double alpha = 1) const {
     Laws out = start;
     auto& law = std::get<laws::GeneralisedKelvin>(*out[static_cast<std::size_t>(PairType::mm)]);
@@ -51,7 +52,8 @@ TEST_P(Reduced, WhereThereIsASolutionItIsThat) {
     model.add({solved.motion});
     const ReducedModel::Solution found = model.solve(start, load(frequency));
     const double scale = std::abs(solved.parts.modulus());
-    // sums of some thousand contacts, and a small system scaled by its diagonal: rounding of a few thousand operations
+    // Sums of about a thousand contacts, and a small system scaled by its diagonal: rounding of a few thousand
+    // operations.
     for (std::size_t pair = 0; pair < pair_types; ++pair) {
       EXPECT_LT(std::abs(found.parts.normal[pair] - solved.parts.normal[pair]) / scale, 1e-11) << pair;
       EXPECT_LT(std::abs(found.parts.shear[pair] - solved.parts.shear[pair]) / scale, 1e-11) << pair;
@@ -65,7 +67,8 @@ TEST_P(Reduced, WhereThereIsASolutionItIsThat) {
   EXPECT_EQ(model.motions(), 4) << "nothing new";
 }
 
-/// Galerkin's error is the square of what the motions lack, which is of first order in the change of the laws.
+/// A Galerkin method has an error in the order of the square of the error of the known motions. This is of first order
+/// in the change of the laws, so the error of E* is of second order.
 TEST_P(Reduced, ErrorGoesWithTheSquareOfTheDistance) {
   ReducedModel model(specimen, network, inertia);
   model.add({solution(start, 2).motion});

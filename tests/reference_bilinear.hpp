@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_bilinear.hpp  Complex stiffness of a network at one frequency, of the reference's matrices: what the
-/// harmonic solver's motions are checked with.
+/// \file reference_bilinear.hpp  The complex stiffness of a network at one frequency, assembled from the matrices of
+/// the reference implementation. Tests check the motions of the harmonic solver with it.
 #pragma once
 
 #include <complex>
@@ -13,7 +13,7 @@ namespace macadam::test {
 
 using Complex = std::complex<double>;
 
-/// k*(ω) of a law as the chain that it is: springs and dashpots in series add their compliances.
+/// Returns the complex stiffness k*(ω) of a law. A chain has springs and dashpots in series, so their compliances add.
 inline Complex chain_stiffness(const Law& law, double omega) {
   if (const auto* elastic = std::get_if<laws::Elastic>(&law)) return elastic->E;
   const auto& chain = std::get<laws::GeneralisedKelvin>(law);
@@ -22,10 +22,11 @@ inline Complex chain_stiffness(const Law& law, double omega) {
   return 1.0 / compliance;
 }
 
-/// a(u, v) = uᵀ·K·v − p·(u + v) + k of motions under a unit displacement of the top wall, whose reaction is
-/// k − p·u. Where u is in equilibrium, K·u = p, a(u, v) is that reaction for every v; so small errors of u do not show.
+/// The bilinear form a(u, v) = uᵀ·K·v − p·(u + v) + k, for motions under a unit displacement of the top wall. The
+/// reaction of that wall is k − p·u. If u is in equilibrium (K·u = p), a(u, v) is that reaction for every v; therefore
+/// a small error of u has only a second-order effect on a(u, u).
 struct BilinearForm {
-  Eigen::SparseMatrix<Complex> K;  ///< [N/m], [N], [N·m]
+  Eigen::SparseMatrix<Complex> K;  ///< stiffness of the particles; entries in N/m, N and N·m
   Eigen::VectorXcd p;
   Complex k = 0;
 
@@ -55,12 +56,12 @@ inline BilinearForm bilinear_form(const ContactNetwork& network, const Laws& law
   return out;
 }
 
-/// HarmonicResult::motion as a vector.
+/// Returns HarmonicResult::motion as a vector.
 inline Eigen::VectorXcd motion_of(const HarmonicResult& result) {
   return Eigen::Map<const Eigen::VectorXcd>(result.motion.data(), static_cast<Eigen::Index>(result.motion.size()));
 }
 
-/// E* of a reaction [N/m].
+/// Returns E* [Pa] of a reaction per unit displacement [N/m].
 inline Complex modulus_of(const Complex& reaction, const Box& box) {
   return reaction * box.size.z / (box.size.x * box.size.y);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_conservation_test.cpp  What the reference must keep: co-rotating loads, momenta, energy.
+/// \file reference_conservation_test.cpp  Conservation laws of the reference stepper: loads rotate with the pair,
+/// momenta, energy.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,8 +23,9 @@ using test::options_of;
 using test::PairShape;
 using test::spring;
 
-// Opened, slipped, bent and twisted, then turned as one rigid body by 2 rad about an oblique axis: the loads turn
-// along. Velocities are seen in the frame half-way through the step, where B's chord about A is the tangent.
+// A pair is opened, sheared, bent and twisted, then rotated rigidly by 2 rad about an oblique axis. The loads must
+// rotate with it. Velocities are evaluated in the contact frame at the middle of the step, in which the chord of B's
+// path around A is tangential.
 TEST(Reference, RigidRotationCreatesNoForce) {
   const HandMade made = test::two_sphere_network(heavy({2.0 / 7, 3.0 / 7, 6.0 / 7}));
   const Contact& c = made.network.contacts[0];
@@ -37,7 +39,7 @@ TEST(Reference, RigidRotationCreatesNoForce) {
 
   const double root = std::sqrt(14.0), step_angle = 2.0 / steps;
   const Vec3d axis{1 / root, 2 / root, 3 / root};
-  const auto turned = [&](const Vec3d& v, double angle) {  // Rodrigues
+  const auto turned = [&](const Vec3d& v, double angle) {  // Rodrigues' formula
     return std::cos(angle) * v + std::sin(angle) * cross(axis, v) + (1 - std::cos(angle)) * dot(axis, v) * axis;
   };
   const Vec3d centres = c.distance * c.n + stretch;
@@ -47,8 +49,9 @@ TEST(Reference, RigidRotationCreatesNoForce) {
     stepper->set_velocities({{}, (1 / dt) * move}, {spin, spin});
     stepper->advance(1);
   }
-  // What remains: ω·Δt is the arc and the move is the chord, (5e-5)³/24·d shorter; 40,000 times that is 2e-10·d,
-  // a slip of 4e-13 m against a stretch of 4e-6 m. Rounding of n·d adds about 40,000·ε·d = 1e-14 m.
+  // The remaining error: ω·Δt is the arc, but the move is the chord, which is (5e-5)³/24·d shorter. After 40,000 steps
+  // this is 2e-10·d, a slip of 4e-13 m compared with a stretch of 4e-6 m. Rounding of n·d adds about 40,000·ε·d = 1e-14
+  // m.
   const double tolerance = 1e-7 * norm(before.force[0]);
   const ParticleState after = stepper->particles();
   expect_near(after.force[0], turned(before.force[0], 2.0), tolerance, "force on A");
@@ -60,7 +63,7 @@ struct Momenta {
   Vec3d linear, angular;
 };
 
-/// With `displaced`, angular momentum is taken about the moving centres' places, as updated geometry does.
+/// Returns the total momenta. If `displaced`, angular momentum uses the displaced centres, as updated geometry does.
 Momenta momenta(const HandMade& made, const ParticleState& p, bool displaced) {
   Momenta out;
   for (std::size_t i = 0; i < made.specimen.size(); ++i) {
@@ -97,15 +100,16 @@ TEST_P(FreePair, MomentaStay) {
   const ParticleState p = stepper->particles();
   const Momenta end = momenta(made, p, displaced);
   ASSERT_EQ(stepper->first_divergent(), -1);
-  // The forces of a pair are of the order m·v·ω and change hands every step with a rounding: a random walk of 1e4
-  // steps, 100·1e-16, on momenta of 1e-5 kg·0.4 m/s at levers of 5e-3 m; ten times that is allowed.
+  // The forces of a pair are of the order m·v·ω and are rounded in every step: a random walk of 1e4 steps, 100·1e-16,
+  // in momenta of 1e-5 kg·0.4 m/s with lever arms of 5e-3 m. Ten times that is allowed.
   const double scale = 1e-5 * 0.4;
   expect_near(end.linear, start.linear, 1e-13 * scale, "momentum");
   expect_near(end.angular, start.angular, 1e-13 * scale * 5e-3, "angular momentum");
   EXPECT_GT(norm(p.force[0]), 0);
 }
 
-// One mode, opening: leapfrog keeps ½·μ·v(k−½)·v(k+½) + ½·k·x(k)² exactly, and x(k) is force over stiffness.
+// With only one mode, opening, leapfrog conserves ½·μ·v(k−½)·v(k+½) + ½·k·x(k)² exactly, where x(k) is the force over
+// the stiffness.
 TEST(Reference, EnergyOfAnElasticPairStays) {
   const HandMade made = test::two_sphere_network();
   const Contact& c = made.network.contacts[0];
@@ -122,12 +126,12 @@ TEST(Reference, EnergyOfAnElasticPairStays) {
     const ParticleState next = stepper->particles();
     const double x = now.force[0].z / stiffness;
     const double kept = 0.5 * mass * opening_rate(now) * opening_rate(next) + 0.5 * stiffness * x * x;
-    ASSERT_NEAR(kept / energy, 1, 1e-12) << k;  // random walk of 1e4 steps of a few 1e-16
+    ASSERT_NEAR(kept / energy, 1, 1e-12) << k;  // random walk of 1e4 steps with a few 1e-16 each
     now = next;
   }
 }
 
-// All modes at once, updated geometry: kinetic energy returns to its bound and does not grow beyond it.
+// With all modes and updated geometry, kinetic energy returns to its initial value and does not grow beyond it.
 TEST(Reference, EnergyOfAnElasticPairIsBoundedInUpdatedGeometry) {
   PairShape shape;
   shape.s0 = 2e-4;
@@ -149,7 +153,7 @@ TEST(Reference, EnergyOfAnElasticPairIsBoundedInUpdatedGeometry) {
     stepper->advance(1);
     (k < 10'000 ? early : late) = std::max(k < 10'000 ? early : late, kinetic());
   }
-  // Half-step velocities exceed the bound by (ωΔt)²/4 < 0.0025; the rest of the energy is in the springs in between.
+  // Half-step velocities exceed the bound by (ωΔt)²/4 < 0.0025. In between, the rest of the energy is in the springs.
   EXPECT_LT(early, 1.0025 * start);
   EXPECT_LT(late, 1.0025 * start);
   EXPECT_GT(late, 0.5 * start);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_pair.hpp  What the tests of the reference stepper share: a spring, a driven pair, a comparison.
+/// \file reference_pair.hpp  Shared by the tests of the reference stepper: an elastic law, a pair that moves as
+/// prescribed, a comparison of vectors.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ inline std::unique_ptr<Stepper> make(const HandMade& made, const Law& law, const
   return make_reference_stepper(made.specimen, made.network, same_law(law), made.inertia, options);
 }
 
-/// A pair so heavy that its own forces do not move it: it does what its velocities say.
+/// Returns a pair so heavy that contact forces do not change its motion: it keeps the velocities that a test sets.
 inline PairShape heavy(const Vec3d& n = {0, 0, 1}) {
   PairShape shape;
   shape.mass_a = shape.mass_b = 1e30;
@@ -33,7 +34,7 @@ inline PairShape heavy(const Vec3d& n = {0, 0, 1}) {
   return shape;
 }
 
-/// Compares each component.
+/// Expects each component within `tolerance` of the expected one.
 inline void expect_near(const Vec3d& found, const Vec3d& expected, double tolerance, const char* what) {
   EXPECT_NEAR(found.x, expected.x, tolerance) << what;
   EXPECT_NEAR(found.y, expected.y, tolerance) << what;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_spectrum_test.cpp  Largest frequency and static modulus of networks worked out on paper.
+/// \file reference_spectrum_test.cpp  Largest frequency and static modulus of small networks, against values worked out
+/// on paper.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +24,8 @@ using test::same_law;
 
 constexpr double E = 1e9;
 
-/// Equal spheres, so that the modes separate: opening, twist, bending (spins opposed), slip (spins alike).
+/// Returns a pair of equal spheres, whose modes separate into opening, twist, bending (opposed spins) and slip (equal
+/// spins).
 PairShape equal_spheres(double side) {
   PairShape shape;
   shape.radius_a = shape.radius_b = 1e-3;
@@ -33,6 +35,7 @@ PairShape equal_spheres(double side) {
   return shape;
 }
 
+/// Returns the largest angular frequency of such a pair in closed form.
 double largest_of_equal_spheres(const PairShape& shape, double alpha) {
   const double d = shape.distance, m = shape.mass_a, inertia = 0.4 * m * shape.radius_a * shape.radius_a;
   const double k = E * shape.side * shape.side / d;
@@ -40,7 +43,7 @@ double largest_of_equal_spheres(const PairShape& shape, double alpha) {
   const double opening_mode = 2 * k / m;
   const double twist_mode = 2 * alpha * 2 * bending / inertia;
   const double bending_mode = 2 * bending / inertia;
-  const double slip_mode = alpha * k * (2 / m + d * d / (2 * inertia));  // slip w + d·θ, masses m/2 and 2·I
+  const double slip_mode = alpha * k * (2 / m + d * d / (2 * inertia));  // slip is w + d·θ, with masses m/2 and 2·I
   return std::sqrt(std::max({opening_mode, twist_mode, bending_mode, slip_mode}));
 }
 
@@ -48,7 +51,7 @@ TEST(LargestFrequency, OfTwoEqualSpheres) {
   struct Choice {
     double side, alpha;
   };
-  // In turn the largest: opening, bending, slip, twist.
+  // The largest mode is opening, bending, slip and twist in turn.
   for (const auto& [side, alpha] : {Choice{0.3e-3, 0.1}, Choice{4e-3, 0.1}, Choice{0.3e-3, 3}, Choice{4e-3, 2}}) {
     const PairShape shape = equal_spheres(side);
     const HandMade made = test::two_sphere_network(shape);
@@ -67,7 +70,7 @@ TEST(LargestFrequency, OfTwoUnequalSpheresInOpening) {
   EXPECT_NEAR(found / std::sqrt(k * (1 / shape.mass_a + 1 / shape.mass_b)), 1, 1e-12);
 }
 
-// The stepper is stable below 2/ω_max and not above.
+// The stepper is stable below 2/ω_max and diverges above.
 TEST(LargestFrequency, IsTheLimitOfTheStep) {
   const HandMade made = test::cubic_lattice_network(2, 2, 2, 2e-3, 1e-5);
   const auto law = same_law(laws::Elastic{E, 0.3});
@@ -78,7 +81,7 @@ TEST(LargestFrequency, IsTheLimitOfTheStep) {
     options.geometry = Geometry::fixed;
     auto stepper = make_reference_stepper(made.specimen, made.network, law, made.inertia, options);
     std::vector<Vec3d> velocity, spin;
-    for (int i = 0; i < 8; ++i) {  // no symmetry, so that every mode takes part
+    for (int i = 0; i < 8; ++i) {  // without symmetry, so that every mode is excited
       velocity.push_back({1e-3 * std::sin(i), 1e-3 * std::cos(3 * i), 1e-3 * std::sin(5 * i + 1)});
       spin.push_back({std::sin(7 * i), std::cos(2 * i), std::sin(4 * i + 2)});
     }
@@ -87,24 +90,25 @@ TEST(LargestFrequency, IsTheLimitOfTheStep) {
     return stepper->first_divergent();
   };
   EXPECT_EQ(divergent_after(0.99), -1);
-  EXPECT_GE(divergent_after(1.01), 0);  // grows by e^{2·√0.02} a step
+  EXPECT_GE(divergent_after(1.01), 0);  // grows by a factor e^{2·√0.02} per step
 }
 
-// Centre-to-wall distances at the walls make a column of n cubes exactly n·side of material (α = 0 or not: nothing
-// strains sideways). Without shear every row of spheres is free to slide; no force may hold it.
+// Contacts at the walls have the distance from centre to wall, so a column of n cubes has exactly the length n·side of
+// material. α does not matter, because nothing is sheared. Without shear stiffness every layer of spheres can slide; no
+// force is needed to hold it.
 TEST(StaticModulus, OfACubicLatticeIsE) {
   for (double alpha : {0.0, 0.3}) {
     for (const auto& size : {std::array{1, 1, 1}, std::array{1, 1, 5}, std::array{3, 3, 4}}) {
       const HandMade made = test::cubic_lattice_network(size[0], size[1], size[2], 2e-3, 1e-5);
       test::Laws laws = same_law(laws::Elastic{E, alpha});
       laws[static_cast<std::size_t>(PairType::mw)] = laws::Elastic{E, 0};
-      // Equilibrium is asked for to 1e-12 of the load.
+      // The reference solves for equilibrium to 1e-12 of the load.
       EXPECT_NEAR(reference_static_modulus(made.specimen, made.network, laws) / E, 1, 1e-11) << alpha << ' ' << size[2];
     }
   }
 }
 
-// A particle that nothing touches has rows without a single stiffness: it must neither carry nor be refused.
+// A particle without contacts has rows without stiffness in the matrix. It carries nothing and must not be refused.
 TEST(StaticModulus, ALooseParticleChangesNothing) {
   HandMade made = test::cubic_lattice_network(2, 2, 3, 2e-3, 1e-5);
   const test::Laws laws = same_law(laws::Elastic{E, 0.1});
@@ -114,7 +118,7 @@ TEST(StaticModulus, ALooseParticleChangesNothing) {
   EXPECT_NEAR(reference_static_modulus(made.specimen, made.network, laws) / without, 1, 1e-11);
 }
 
-// Walls of another modulus act in series: 1/E* = Σ length share / modulus.
+// Walls with another modulus act in series: 1/E* = Σ (fraction of length) / modulus.
 TEST(StaticModulus, OfLayersInSeries) {
   const HandMade made = test::cubic_lattice_network(2, 2, 4, 2e-3, 1e-5);
   test::Laws laws = same_law(laws::Elastic{E, 0.1});
@@ -126,7 +130,7 @@ TEST(StaticModulus, OfLayersInSeries) {
 TEST(StaticModulus, AContactOfAParticleThatIsNotThereIsNamed) {
   HandMade made = test::cubic_lattice_network(1, 1, 2, 2e-3, 1e-5);
   const test::Laws laws = same_law(laws::Elastic{E, 0.1});
-  made.network.contacts.at(1).b = 2;  // of the particles 0 and 1
+  made.network.contacts.at(1).b = 2;  // there are only particles 0 and 1
   for (const auto& compute :
        std::vector<std::function<void()>>{[&] { reference_static_modulus(made.specimen, made.network, laws); },
                                           [&] { reference_largest_frequency(made.network, laws, made.inertia); }}) {

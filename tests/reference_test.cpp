@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file reference_test.cpp  The reference stepper against answers worked out on paper.
+/// \file reference_test.cpp  The reference stepper against solutions worked out on paper.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,11 +22,11 @@ using test::PairShape;
 using test::same_law;
 using test::spring;
 
-/// A small displacement of B along one direction, or a small rotation about one axis, A at rest, for a pair
-/// with an oblique normal and a facet off the line of centres.
+/// B makes a small displacement in one direction or a small rotation about one axis, while A rests. The pair has an
+/// oblique normal and a facet whose centroid is off the line of centres.
 class SmallMotion : public testing::TestWithParam<Geometry> {
  protected:
-  static constexpr double amount = 1e-9;  // [m], or this many radians a millimetre
+  static constexpr double amount = 1e-9;  // displacement [m], or rotation in radians per 1 mm of lever arm
 
   SmallMotion() {
     shape.s0 = 1.0e-4;
@@ -41,7 +41,8 @@ class SmallMotion : public testing::TestWithParam<Geometry> {
     stepper->advance(10);
     return stepper->particles();
   }
-  /// Forces and moments on both particles. Updated geometry turns the normal by amount/distance = 6e-7 on the way.
+  /// Expects these forces and moments on both particles. In updated geometry the normal rotates by amount/distance =
+  /// 6e-7, which is the tolerance.
   void expect_loads(const ParticleState& p, const Vec3d& force_a, const Vec3d& moment_a, const Vec3d& moment_b) {
     const double error = GetParam() == Geometry::fixed ? 1e-13 : 2e-6;
     const double force = E * contact.area / contact.distance * amount;
@@ -58,7 +59,7 @@ class SmallMotion : public testing::TestWithParam<Geometry> {
 INSTANTIATE_TEST_SUITE_P(Geometries, SmallMotion, testing::Values(Geometry::fixed, Geometry::updated),
                          [](const auto& info) { return info.param == Geometry::fixed ? "Fixed" : "Updated"; });
 
-// The points' first moments are A·s0 and A·t0. n × ŝ = t̂, n × t̂ = −ŝ, ŝ × t̂ = n.
+// First moments of the points are A·s0 and A·t0. The frame satisfies n × ŝ = t̂, n × t̂ = −ŝ, ŝ × t̂ = n.
 TEST_P(SmallMotion, Opening) {
   const Vec3d &n = contact.n, &s = contact.s, &t = contact.t;
   const double f = E * contact.area / contact.distance * amount;
@@ -73,19 +74,19 @@ TEST_P(SmallMotion, Slip) {
   expect_loads(after(amount * s, {}), f * s, f * contact.arm_a * t + twist, f * contact.arm_b * t - twist);
 }
 
-// B turns by θ about ŝ: the point (s, t) opens by θ·t and, arm_b below B, slips by θ·arm_b along t̂.
+// B rotates by θ about ŝ. The point (s, t) opens by θ·t and, since it is arm_b below B, slips by θ·arm_b along t̂.
 TEST_P(SmallMotion, Bending) {
   const Vec3d &n = contact.n, &s = contact.s, &t = contact.t;
   const double theta = amount / 1e-3, k = E / contact.distance * theta;
   const AreaMoments& m = contact.moments;
   const double slip = alpha * k * m.a * contact.arm_b;
-  // Σ (s·ŝ + t·t̂) × (k·t·n + α·k·arm_b·t̂)·A_J
+  // sum of moments Σ (s·ŝ + t·t̂) × (k·t·n + α·k·arm_b·t̂)·A_J
   const Vec3d about_x0 = k * (m.tt * s - m.st * t) + alpha * k * contact.arm_b * m.s * n;
   expect_loads(after({}, theta * s), k * m.t * n + slip * t, about_x0 - contact.arm_a * slip * s,
                -about_x0 - contact.arm_b * slip * s);
 }
 
-// B turns by θ about n: the point (s, t) slips by θ·(s·t̂ − t·ŝ).
+// B rotates by θ about n. The point (s, t) slips by θ·(s·t̂ − t·ŝ).
 TEST_P(SmallMotion, Twist) {
   const Vec3d &n = contact.n, &s = contact.s, &t = contact.t;
   const double theta = amount / 1e-3, k = alpha * E / contact.distance * theta;
@@ -97,7 +98,7 @@ TEST_P(SmallMotion, Twist) {
                -about_x0 + contact.arm_b * lever);
 }
 
-// A pair held at constant velocity is a displacement-controlled test of the law in the contact: relaxation at AM1.
+// A pair at constant velocity prescribes the displacement of the contact, so the force must follow the law of AM1.
 TEST(Reference, ContactFollowsItsLaw) {
   HandMade made = test::two_sphere_network(heavy());
   const auto law = test::mastic_am1();
@@ -109,12 +110,13 @@ TEST(Reference, ContactFollowsItsLaw) {
   for (int k = 0; k < 500; ++k) f = step.advance<3>(f, 1e-6 * dt, [&](int l) -> double& { return x[l]; });
   stepper->advance(500);
   const Contact& c = made.network.contacts[0];
-  const double scale = c.area / c.distance, tolerance = 1e-12 * scale * f;  // 500 steps of rounding
+  const double scale = c.area / c.distance, tolerance = 1e-12 * scale * f;  // rounding of 500 steps
   EXPECT_NEAR(stepper->particles().force[0].z, scale * f, tolerance);
   EXPECT_NEAR(stepper->particles().force[0].x, law.alpha * scale * f, tolerance);
 }
 
-// Viscosities of dashpots in series add as their inverses.
+// Viscosities of dashpots in series add as their inverses, so a Kelvin unit without a spring acts like a softer Maxwell
+// dashpot.
 TEST(Reference, AUnitWithoutASpringIsADashpot) {
   const HandMade made = test::two_sphere_network(heavy());
   const auto force_under = [&](const laws::GeneralisedKelvin& law) {
@@ -142,7 +144,7 @@ TEST(Reference, ViscousDampingDecaysAsItsClosedForm) {
   StepperOptions options = options_of(1e-4, Geometry::fixed);
   options.damping_kind = Damping::viscous;
   options.damping = 25;
-  options.density_scaling = 7;  // no force, no mass
+  options.density_scaling = 7;  // without forces the mass does not matter
   auto stepper = make(made, spring, options);
   const Vec3d v{0.01, -0.02, 0.03};
   stepper->set_velocities({v, v}, {{}, {}});
@@ -152,7 +154,7 @@ TEST(Reference, ViscousDampingDecaysAsItsClosedForm) {
   EXPECT_NEAR(discrete / std::exp(-25 * 0.1), 1, 2e-6);                                      // β³Δt²·T/12 = 1.3e-6
 }
 
-// One step of known force: F on A is k·Δt·v along z and the damping takes χ of it against the motion.
+// After one step the force on A is known, k·Δt·v along z. Local damping adds χ times its size, against the motion.
 TEST(Reference, LocalDampingOpposesEveryComponent) {
   const HandMade made = test::two_sphere_network();
   const Contact& c = made.network.contacts[0];
@@ -165,12 +167,12 @@ TEST(Reference, LocalDampingOpposesEveryComponent) {
   stepper->advance(2);
   const double force = E * c.area / c.distance * 1e-8 * 0.03;
   const ParticleState p = stepper->particles();
-  // A: pulled up (+) while it moves down (−), so the damping pulls up as well. B likewise downwards.
+  // A is pulled up (+) while it moves down (−), so damping acts upwards too. B likewise downwards.
   EXPECT_NEAR(p.velocity[0].z, -0.01 + 1e-8 * 1.2 * force / (10 * 2e-5), 1e-15);
   EXPECT_NEAR(p.velocity[1].z, 0.02 - 1e-8 * 1.2 * force / (10 * 1e-5), 1e-15);
 }
 
-// A sphere that cannot move between two walls: the top wall's spring has d = h, the bottom one stays at rest.
+// A fixed sphere between two walls. The spring of the top wall has d = h; the bottom wall stays at rest.
 TEST(Reference, TheTopWallFollowsItsLoading) {
   const double side = 2e-3;
   const HandMade made = test::cubic_lattice_network(1, 1, 1, side, 1e-5);
@@ -184,7 +186,7 @@ TEST(Reference, TheTopWallFollowsItsLoading) {
     const Observation seen = stepper->observe();
     EXPECT_EQ(seen.step, 700);
     EXPECT_DOUBLE_EQ(seen.time, 0.35);
-    // The smooth start's velocity is exact to (2π/1000)²: 4e-5, of which its mean over the ramp remains.
+    // The velocity during the smooth start is exact to (2π/1000)², 4e-5; the mean of this error over the ramp remains.
     EXPECT_NEAR(seen.top_displacement(), loading.value(700), 1e-5 * loading.amplitude);
     const double stiffness = E * side * side / (side / 2);
     expect_near(seen.wall_force[wall_index(wall_z_hi)], {0, 0, -stiffness * seen.top_displacement()},
@@ -193,7 +195,7 @@ TEST(Reference, TheTopWallFollowsItsLoading) {
   }
 }
 
-// Eq. 5: when the centres move apart, each lever arm takes half of it.
+// Eq. 5: when the centres move apart, each lever arm grows by half of the opening.
 TEST(Reference, LeverArmsShareTheOpening) {
   const HandMade made = test::two_sphere_network(heavy());
   const Contact& c = made.network.contacts[0];
@@ -204,13 +206,13 @@ TEST(Reference, LeverArmsShareTheOpening) {
   stepper->set_velocities({{}, {slide, 0, 0}}, {{}, {}});
   stepper->advance(1);
   const ParticleState p = stepper->particles();
-  const double shear = alpha * E * c.area / c.distance * slide;  // along the initial d for all time
-  // The normal turned by slide/d = 6e-5, whose square is 3e-9, on its way; the opening has no moment.
+  const double shear = alpha * E * c.area / c.distance * slide;  // with the initial distance d, which does not change
+  // The normal rotates by slide/d = 6e-5, whose square is 3e-9. The opening has no moment.
   EXPECT_NEAR(p.moment[0].y / (shear * (c.arm_a + open / 2)), 1, 1e-8);
   EXPECT_NEAR(p.moment[1].y / (shear * (c.arm_b + open / 2)), 1, 1e-8);
 }
 
-// At a wall the lever ends on the wall's plane: a particle that rises towards it has a shorter one.
+// The lever arm of a wall contact ends on the plane of the wall, so it shortens as the particle rises towards the wall.
 TEST(Reference, WallLeverFollowsTheParticle) {
   const double side = 2e-3;
   const HandMade made = test::cubic_lattice_network(1, 1, 1, side, 1e30);
@@ -223,8 +225,8 @@ TEST(Reference, WallLeverFollowsTheParticle) {
   const ParticleState p = stepper->particles();
   const double shear = alpha * E * side * side / (side / 2) * slide;
   EXPECT_NEAR(p.force[0].x, -2 * shear, 1e-12 * shear);
-  // (h − rise)·ẑ × −shear·x̂ at the top, −(h + rise)·ẑ × −shear·x̂ at the bottom; the normal forces act on the axis.
-  // Each normal force is rise/slide/α = 333 times the shear, with roundings at levers of h.
+  // Moments: (h − rise)·ẑ × −shear·x̂ at the top and −(h + rise)·ẑ × −shear·x̂ at the bottom; normal forces act on the
+  // axis. Each normal force is rise/slide/α = 333 times the shear force and is rounded at lever arms of h.
   EXPECT_NEAR(p.moment[0].y, 2 * rise * shear, 1e-12 * shear * side);
 }
 
@@ -232,7 +234,7 @@ TEST(Reference, ReportsTheFirstDivergentParticle) {
   const HandMade made = test::two_sphere_network(heavy());
   auto stepper = make(made, spring, options_of(1e-3, Geometry::updated));
   EXPECT_EQ(stepper->first_divergent(), -1);
-  stepper->set_velocities({{0.9, 0, 0}, {0.9, 0, 0}}, {{}, {}});  // 0.9 mm a step: B's radius is 0.8 mm
+  stepper->set_velocities({{0.9, 0, 0}, {0.9, 0, 0}}, {{}, {}});  // 0.9 mm per step, more than B's radius of 0.8 mm
   EXPECT_EQ(stepper->first_divergent(), 1);
   stepper->set_velocities({{}, {}}, {{}, {0, NAN, 0}});
   EXPECT_EQ(stepper->first_divergent(), 1) << "a spin alone";

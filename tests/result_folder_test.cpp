@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// result_folder_test.cpp  What is in a folder of results stays until a command that nothing refuses replaces it, and
-// one command at a time writes there.
+// result_folder_test.cpp  The files in a results folder stay until an accepted command replaces them, and only one
+// command at a time writes there.
 #include "host/results/result_folder.hpp"
 
 #include <signal.h>
@@ -14,7 +14,7 @@ namespace {
 
 class Folder : public Program {
  protected:
-  /// Every file of a folder, with its bytes.
+  /// Returns every file of a folder with its bytes.
   std::map<std::string, std::string> content(const std::string& name) const {
     std::map<std::string, std::string> out;
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / name)) {
@@ -57,11 +57,12 @@ TEST_F(Folder, RefusedCommandsLeaveEveryFileAsItWas) {
   expect_refused(run, "no law");
   write_scene(quick, "[network]\ngap_max = -1.0\n");
   expect_refused(run, "no path of contacts");
-  write_scene("method = \"harmonic\"\n", "[network]\ngap_max = -0.2\n");  // particles that nothing joins
+  write_scene("method = \"harmonic\"\n", "[network]\ngap_max = -0.2\n");  // some particles have no contacts
   expect_refused(run, "no harmonic solution");
 }
 
-// At 1e-20 Hz dashpots are so soft beside springs that the stiffness is singular to rounding.
+// At 1e-20 Hz the dashpots are so soft compared with the springs that the stiffness matrix is singular to rounding.
+// Results of the frequencies before it stay.
 TEST_F(Folder, SolutionsBeforeOneThatFailsStay) {
   write_scene_of("kind = \"cyclic\"\nfrequencies = [20, 5, 1e-20, 2]\n",
                  "method = \"harmonic\"\nlinear = \"iterative\"\n");
@@ -82,6 +83,7 @@ TEST_F(Folder, ARefusedCommandLeavesNoFolder) {
   }
 }
 
+/// `macadam specimen` may overwrite the results of an earlier specimen, but not those of a run or of another program.
 TEST_F(Folder, ASpecimenMayReplaceASpecimenOnly) {
   write_scene();
   const std::string specimen = fmt::format("specimen {} --out {}", path("scene.toml"), path("out"));
@@ -97,16 +99,19 @@ TEST_F(Folder, ASpecimenMayReplaceASpecimenOnly) {
   }
 }
 
+/// A second command in the same folder is refused. The lock ends with its process, even after SIGKILL.
 TEST_F(Folder, OneCommandAtATimeAndTheLockDiesWithIt) {
   const fs::path out = folder_ / "out";
-  std::fflush(stdout);  // or the child would write it again
+  std::fflush(stdout);  // otherwise the child would print buffered text again
   const pid_t child = fork();
   if (child == 0) {
     for (;;) {
       try {
         const ResultFolder held(out);
         for (;;) pause();
-      } catch (const Error&) { usleep(500); }  // the parent looks, and removes what it finds empty
+      } catch (const Error&) {
+        usleep(500);
+      }  // while checking, the parent may briefly hold the folder and remove it as empty
     }
   }
   const auto held = [&] { return message_of([&] { const ResultFolder second(out); }); };

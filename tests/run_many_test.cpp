@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// run_many_test.cpp  Several scenes in one process: each as if it had been run alone.
+// run_many_test.cpp  Several scenes in one process: each has the results of a run of its own.
 #include "macadam/run_many.hpp"
 
 #include <array>
@@ -13,7 +13,7 @@ namespace {
 
 class RunMany : public Program {
  protected:
-  /// Three scenes whose results differ.
+  /// Writes three scenes whose results differ.
   void SetUp() override {
     Program::SetUp();
     for (const char* frequency : {"5.0", "10.0", "20.0"}) {
@@ -24,7 +24,7 @@ class RunMany : public Program {
       fs::copy_file(file, folder_ / (names_.back() + ".toml"));
     }
   }
-  /// Where macadam finds devices that are the processor in disguise.
+  /// Makes a folder with a plugin of fake devices and returns its path.
   std::string fake_devices() const {
     fs::create_directory(folder_ / "plugins");
     fs::create_symlink(FAKE_DEVICE_PLUGIN, folder_ / "plugins" / "libmacadam_cuda.so");
@@ -66,8 +66,8 @@ TEST_F(RunMany, LeavesEachSceneTheFilesOfARunOfItsOwn) {
   }
 }
 
-// The device is the processor in disguise. However many are let to it at a time, each ends, with a processor's
-// response.
+// The fake device computes on the processor. Whatever number of scenes uses it at a time, every scene finishes with the
+// response of the processor.
 TEST_F(RunMany, SharesOutADevice) {
   const Outcome without = macadam(fmt::format("run {} --out {}", scenes(), path("out")));
   ASSERT_EQ(without.code, 0) << without.err;
@@ -86,7 +86,7 @@ TEST_F(RunMany, SharesOutADevice) {
   ::unsetenv("MACADAM_PLUGIN_PATH");
 }
 
-// Where all are idle, each is given the next scene in turn.
+// If all devices are idle, the scenes are assigned to them in turn.
 TEST_F(RunMany, GivesEachDeviceAsMany) {
   const std::string log = (folder_ / "devices").string();
   for (const auto& [name, value] : {std::pair("MACADAM_PLUGIN_PATH", fake_devices()),
@@ -99,6 +99,7 @@ TEST_F(RunMany, GivesEachDeviceAsMany) {
   EXPECT_EQ(read(log), "0\n1\n2\n");
 }
 
+/// Scenes of different length on several devices give the same results as on a processor.
 TEST_F(RunMany, SpreadsScenesThatDifferOverDevices) {
   for (const std::string& name : names_) {
     const std::string frequencies = name == "at_10" ? "20.0" : "5.0, 10.0, 20.0, 40.0";
@@ -118,6 +119,7 @@ TEST_F(RunMany, SpreadsScenesThatDifferOverDevices) {
     EXPECT_EQ(read(folder_ / "spread" / name / "response.csv"), read(folder_ / "out" / name / "response.csv"));
 }
 
+/// If one scene fails, the others finish.
 TEST_F(RunMany, GoesOnWhereOneFails) {
   std::string diverges = read(folder_ / "at_10.toml");
   diverges.replace(diverges.find(quick), std::string(quick).size(), "time_step = 1e-3\n");
@@ -129,6 +131,7 @@ TEST_F(RunMany, GoesOnWhereOneFails) {
   for (const char* name : {"at_5", "at_20"}) EXPECT_EQ(results(folder_ / "out" / name).size(), 1u);
 }
 
+/// If one scene is invalid, or two have the same name, none starts.
 TEST_F(RunMany, BeginsNoneWhereASceneIsWrong) {
   write(folder_ / "at_20.toml", "nonsense = 1\n");
   const Outcome wrong = macadam(fmt::format("run {} --out {}", scenes(), path("out")));
@@ -143,6 +146,7 @@ TEST_F(RunMany, BeginsNoneWhereASceneIsWrong) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
+/// After a stop request no further scene starts.
 TEST_F(RunMany, BeginsNoOtherAfterAStop) {
   std::vector<SceneJob> jobs;
   for (const std::string& name : names_)
@@ -170,7 +174,8 @@ TEST_F(RunMany, BeginsNoOtherAfterAStop) {
   EXPECT_THROW(run_many(jobs), InputError);
 }
 
-// Each leaves what it has, and a checkpoint from which it goes on to the same bits.
+// A stop interrupts every running scene. Each leaves its files and a checkpoint, from which it can be resumed with the
+// same bits.
 TEST_F(RunMany, StopsThoseThatRun) {
   std::vector<SceneJob> jobs;
   for (const std::string& name : names_) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene_file.hpp  A good scene for tests, whose lines can be changed, and a folder for its file.
+/// \file scene_file.hpp  A valid scene whose lines tests can change, and a temporary folder for its file.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace macadam::test {
 
-/// A good scene with every kind of section; line k of the scene is entry k − 1.
+/// A valid scene with every kind of section; line k of the file is entry k − 1.
 inline const std::vector<std::string> good_scene = {
     "[specimen]",                           // 1
     "box = [0.02, \"20 mm\", 0.03]",        // 2
@@ -70,7 +70,7 @@ inline const std::vector<std::string> good_scene = {
     "E = 1e10",                             // 50
 };
 
-/// Line number and its new text; an empty text takes the line's content away and keeps the numbers of the others.
+/// Line numbers and their new texts. An empty text leaves a blank line, so that later lines keep their numbers.
 using Edits = std::map<int, std::string>;
 
 inline std::string text_of(const Edits& edits = {}) {
@@ -81,7 +81,7 @@ inline std::string text_of(const Edits& edits = {}) {
   return text;
 }
 
-/// A folder of its own for each test, removed at the end.
+/// Makes a folder for each test and removes it at the end.
 class SceneFile : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -98,7 +98,7 @@ class SceneFile : public ::testing::Test {
     std::ofstream(file(), std::ios::binary) << text;
     return read_scene(file());
   }
-  /// The message that reading the text ends with; empty if it is accepted.
+  /// Returns the error message of reading the text; empty if the text is accepted.
   std::string message(const std::string& text) const {
     try {
       read(text);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene_recipe_test.cpp  `[specimen.recipe]` is read to the right values, takes the place of what it decides,
-/// and every contradiction is refused at its line with the sum.
+/// \file scene_recipe_test.cpp  `[specimen.recipe]` is read to the right values and replaces the keys that follow from
+/// it. Every contradiction is refused with its line and the calculation.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -11,7 +11,7 @@
 namespace macadam::test {
 namespace {
 
-/// Line k of the scene is entry k − 1.
+/// A valid scene with a recipe; line k of the file is entry k − 1.
 const std::vector<std::string> good = {
     "[specimen]",                                       // 1
     "box = [0.03, 0.03, 0.03]",                         // 2
@@ -45,7 +45,7 @@ class SceneRecipe : public testing::Test {
   }
   ~SceneRecipe() override { fs::remove_all(folder_); }
 
-  /// `materials` stand behind the scene's lines.
+  /// Reads the scene with these edits; `materials` is appended to its lines.
   Scene scene(const Edits& edits = {}, const std::string& materials = "") const {
     std::vector<std::string> lines = good;
     for (const auto& [line, text] : edits) lines.at(static_cast<std::size_t>(line - 1)) = text;
@@ -62,7 +62,7 @@ class SceneRecipe : public testing::Test {
   fs::path folder_;
 };
 
-/// The numbers are those of recipe_test, DensitiesASizeAndAbsorbedBinderByHand.
+/// The expected numbers are those of recipe_test, DensitiesASizeAndAbsorbedBinderByHand.
 TEST_F(SceneRecipe, GivesClassesPorosityAndDensities) {
   const Scene s = scene();
   ASSERT_TRUE(s.recipe);
@@ -102,8 +102,9 @@ TEST_F(SceneRecipe, GivesClassesPorosityAndDensities) {
 
 TEST_F(SceneRecipe, DensitiesOfMaterialsAgreeOrAreRefused) {
   const std::string aggregate = "[materials.aggregate]\ndensity = 2650\n", mastic = "[materials.mastic]\ndensity = ";
-  const Scene s = scene({}, aggregate + mastic + "\"2.23 g/cm3\"\n");  // rounded: within half a unit of the third digit
-  EXPECT_NEAR(s.materials.aggregate, 2646.524, 1e-3);                  // the recipe's are what is used
+  // rounded: differs by less than half a unit of the third digit
+  const Scene s = scene({}, aggregate + mastic + "\"2.23 g/cm3\"\n");
+  EXPECT_NEAR(s.materials.aggregate, 2646.524, 1e-3);  // the recipe's densities are used
   EXPECT_NEAR(s.materials.mastic, 2227.850, 1e-3);
   const std::string message = refused({}, aggregate + mastic + "2110\n");
   EXPECT_HAS(message, "scene.toml:26: [materials.mastic] density: found 2110 kg/m3, expected 2227.85 kg/m3");
@@ -167,13 +168,13 @@ INSTANTIATE_TEST_SUITE_P(
          "an effective binder of 4.7619 % - 5.71429 % = -0.952381 %",
          "at most 5 % of the aggregate's mass"},
         {"AbsorbedTwice", {{12, "maximum_density = 2500"}}, 14, "absorbed_binder and maximum_density", "one of them"},
-        // without absorption 1.05/(3.811030e-4 + 5e-5) = 2435.613
+        // without absorption: 1.05/(3.811030e-4 + 5e-5) = 2435.613
         {"NegativeAbsorption",
          {{14, "maximum_density = 2400"}},
          14,
          "2400 kg/m3, by which -0.6397",
          "at least 2435.61 kg/m3, without absorption: 1 kg / (0.952381 kg / 2623.96 kg/m3 + 0.047619 kg / 1000 kg/m3)"},
-        // all of it: 1.05/3.811030e-4 = 2755.16
+        // if all binder is absorbed: 1.05/3.811030e-4 = 2755.16
         {"NegativeEffectiveBinder",
          {{14, "maximum_density = 2800"}},
          14,

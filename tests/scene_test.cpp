@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file scene_test.cpp  Scenes are read to the right SI values, and what they lack is named.
+/// \file scene_test.cpp  Scenes are read to the right SI values, and missing values are named.
 #include "macadam/scene.hpp"
 
 #include <cmath>
@@ -13,7 +13,7 @@ using test::Edits, test::good_scene, test::SceneFile, test::text_of;
 
 TEST_F(SceneFile, ReadsEveryKindOfSectionInSIUnits) {
   const Scene scene = read(text_of());
-  // Text with a unit is the same double as the literal in SI units, so all comparisons are exact.
+  // A text with a unit is read to the same double as the literal in SI units, so all comparisons are exact.
   EXPECT_EQ(scene.file, file());
   EXPECT_EQ(scene.specimen.box.size.y, 0.02);
   EXPECT_EQ(scene.specimen.box.size.z, 0.03);

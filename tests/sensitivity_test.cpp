@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sensitivity_test.cpp  Derivatives from one solution against central differences of two.
+// sensitivity_test.cpp  Derivatives computed from one harmonic solution, against central differences of two solutions.
 #include "macadam/sensitivity.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ HarmonicResult solve(const TestScene& scene, const Laws& laws, double density_sc
   return Harmonic(scene.specimen, scene.network, laws, scene.inertia, {}, frequency).solve(frequency, density_scaling);
 }
 
-/// The laws with one parameter multiplied.
+/// Returns the laws with one parameter multiplied by `factor`.
 Laws changed(Laws laws, const std::string& parameter, double factor) {
   const std::size_t dot = parameter.find('.');
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -46,8 +46,8 @@ Laws changed(Laws laws, const std::string& parameter, double factor) {
   return laws;
 }
 
-/// A step of 1e-4 in the logarithm leaves (1e-4)²/6 of the third derivative, and 1e-12 over it of the solutions'
-/// rounding: 1e-6 of |E*| and of a radian hold both.
+/// A step of 1e-4 in the logarithm has an error of (1e-4)²/6 of the third derivative, and the rounding of the
+/// solutions, 1e-12, divided by the step. A tolerance of 1e-6 of |E*| and of a radian covers both.
 void expect_derivatives(const TestScene& scene, double density_scaling) {
   constexpr double step = 1e-4, tolerance = 1e-6;
   const HarmonicResult here = solve(scene, scene.laws, density_scaling);
@@ -80,7 +80,7 @@ TEST(Sensitivity, OfClustersAgainstCentralDifferences) {
   for (const double density_scaling : {0.0, 1e5}) expect_derivatives(scene, density_scaling);
 }
 
-// Moduli times a number: |E*| times it, at the same phase. All shares together are the whole.
+// Multiplying all moduli by a number multiplies |E*| and keeps the phase. The fractions of all pairs add up to 1.
 TEST(Sensitivity, AllDeltasTogetherScaleTheModulus) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   const HarmonicResult r = solve(scene, scene.laws, 0);
@@ -114,10 +114,11 @@ TEST_F(SensitivityCommand, AreWrittenWhereTheSceneAsks) {
   for (const char* name : {"M-M.E_m", "M-A.C_3", "A-A.E", "M-W.delta", "M-A.alpha"}) {
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
   }
-  EXPECT_EQ(std::count(names.begin(), names.end(), "M-W.alpha"), 0);  // it is 0
+  EXPECT_EQ(std::count(names.begin(), names.end(), "M-W.alpha"), 0);  // its value is 0
 }
 
-// The change that the derivative foretells is that of a solution with this scaling, to the square of the change.
+// The scaling predicted from the derivative must change the modulus by the wanted amount, except for the square of the
+// change.
 TEST(Scaling, IsAsLargeAsAChangeOfTheModulusAllows) {
   const TestScene scene = make_scene(random_specimen(test_seed()));
   Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {}, frequency);
@@ -128,10 +129,11 @@ TEST(Scaling, IsAsLargeAsAChangeOfTheModulusAllows) {
       EXPECT_GT(scaling, 1);
       const HarmonicResult scaled = harmonic.solve(frequency, scaling, viscous);
       const double reached = largest(difference(scaled.top, known.top));
-      EXPECT_NEAR(reached / wanted, 1, 3 * wanted + 1e-4) << wanted << " " << viscous;  // 1e-4: digits of 1e-6
+      // 1e-4: accuracy of a change of 1e-6
+      EXPECT_NEAR(reached / wanted, 1, 3 * wanted + 1e-4) << wanted << " " << viscous;
     }
   }
-  EXPECT_EQ(largest_scaling(known, 1e9, 1e-6), 1);  // damping alone is too much
+  EXPECT_EQ(largest_scaling(known, 1e9, 1e-6), 1);  // damping alone exceeds the allowed change
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shape_library_test.cpp  The aggregates that ship with the program, and the generator that made them.
+// shape_library_test.cpp  The aggregate shapes that ship with the program, and the generator that made them.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 #include <omp.h>
@@ -62,7 +62,7 @@ void expect_same(const Surface& a, const Surface& b) {
 
 using Property = std::function<double(const ShapeMeasure&)>;
 
-/// EN 933-3 and EN 933-4 begin at 4 mm.
+/// Returns whether EN 933-3 and EN 933-4 apply to a shape; they begin at 4 mm.
 bool standardised(const ShapeMeasure& m) { return m.d_intermediate >= 4e-3; }
 bool any(const ShapeMeasure&) { return true; }
 
@@ -104,8 +104,8 @@ const Property elongation = [](const ShapeMeasure& m) { return m.elongation(); }
 const Property sphericity_true = [](const ShapeMeasure& m) { return m.sphericity_true; };
 const Property sphericity_working = [](const ShapeMeasure& m) { return m.sphericity_working(); };
 
-/// A row of Table 1: the average within `share` of that in [1]; the range covers that of [1] to the two decimals that
-/// [1] prints, and goes no more than 5 % beyond: no outliers.
+/// A ratio of Table 1 in [1]: the average must be within 5 % of that in [1]. The range must cover that of [1], to the
+/// two decimals printed there, and exceed it by at most 5 %.
 void expect_ratio(const char* name, const std::vector<double>& v, double low, double mean, double high) {
   EXPECT_NEAR(average(v), mean, 0.05 * mean) << name;
   const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
@@ -146,7 +146,7 @@ TEST(ShapeLibrary, OtherSeedsHaveTheRangesOfTable1AsWell) {
     RandomStream random(seed, 0);
     const std::vector<ShapeMeasure> targets = draw_library_targets(random, shipped_shapes);
     for (const ShapeProperty& p : shape_properties()) {
-      if (std::string(p.name) == "A") continue;  // of surfaces alone
+      if (std::string(p.name) == "A") continue;  // a property of surfaces only
       const auto [low, mean, high] = p.paper;
       const Spread spread = spread_of(p, targets);
       EXPECT_NEAR(p.per_unit * spread.min / low, 1, 0.05) << p.name << ", seed " << seed;
@@ -156,7 +156,8 @@ TEST(ShapeLibrary, OtherSeedsHaveTheRangesOfTable1AsWell) {
   }
 }
 
-// Stones are stretched to their lengths at last; a sphericity of 0.8 % off is near enough, and not all stones reach it.
+// Stones are stretched to their lengths in the last step. Their sphericity should be within 0.8 % of its target; most
+// stones achieve this.
 TEST(ShapeLibrary, StonesAreWhatTheyWereToBe) {
   constexpr int shapes = 12;
   RandomStream random(1, 0);
@@ -203,7 +204,7 @@ TEST(ShapeLibrary, PointsAndFacetsLieInThePapersRange) {
 }
 
 TEST(ShapeLibrary, SieveClassesHoldAsManyAsThePapers) {
-  std::map<double, int> found;  // by the upper sieve [mm]
+  std::map<double, int> found;  // keyed by the upper sieve [mm]
   for (const ShapeMeasure& m : measures()) ++found[1e3 * sieve_class(m.d_intermediate)[1]];
   const std::vector<std::pair<double, int>> expected{{0.5, 1},  {1, 6},   {2, 17},   {4, 27},
                                                      {6.3, 14}, {10, 12}, {12.5, 4}, {16, 1}};
@@ -238,12 +239,13 @@ TEST(ShapeLibrary, DimensionsHaveTheStatisticsOfTable1) {
     const std::vector<double> v = values(property);
     EXPECT_NEAR(average(v), mean, 0.05 * mean) << name;
     const auto [least, greatest] = std::minmax_element(v.begin(), v.end());
-    EXPECT_NEAR(*least, low, 0.1 * low) << name;  // of one shape
+    EXPECT_NEAR(*least, low, 0.1 * low) << name;  // the value of a single shape
     EXPECT_NEAR(*greatest, high, 0.1 * high) << name;
   }
 }
 
-/// A row of Table 2: a property and its correlations with those of the rows before it. SI and Fl count from 4 mm on.
+/// A row of Table 2 in [1]: a property and its correlations with those of the rows before it. SI and Fl count only from
+/// 4 mm on.
 struct Correlations {
   const char* name;
   const Property& property;
@@ -264,8 +266,8 @@ const std::vector<Correlations> table_2{
     {"psi^A", sphericity_working, false, {-0.07, -0.03, 0.24, 0.11, 0.06, -0.98, 0.76, 0.86, 0.33, 0.89}},
 };
 
-/// Fisher's z = artanh r differs between two samples of n shapes of one population by √(2/(n − 3)), its standard error:
-/// by how many of them ours and those of [1] do.
+/// Returns the difference of Fisher's z = artanh r between our shapes and those of [1], in standard errors. Two samples
+/// of n shapes from one population have a standard error of √(2/(n − 3)).
 double fisher_errors(double ours, double paper, std::size_t shapes) {
   return (std::atanh(ours) - std::atanh(paper)) / std::sqrt(2.0 / (static_cast<double>(shapes) - 3));
 }
@@ -282,17 +284,18 @@ TEST(ShapeLibrary, CorrelationsAreThoseOfTable2) {
       const double errors = fisher_errors(ours, paper, values(a.property, counts).size());
       SCOPED_TRACE(fmt::format("{} and {}: {:.2f}, paper {:.2f}", a.name, b.name, ours, paper));
       const std::string pair = std::string(b.name) + ' ' + a.name;
-      // One in twenty samples is farther off. Fl divides by a sieve, and those of the classes of [1] are
-      // wider than those that its Fl must have been taken with: see the next test.
+      // One in twenty samples would be farther off. Fl divides by a sieve size, and the classes in [1] are wider than
+      // those with which its Fl must have been computed; see the next test.
       EXPECT_LT(std::abs(errors), pair == "F Fl" ? 2.5 : 2);
-      // The generator pairs its values until what it is asked for is met to 0.1, and makes stones to a per cent of
-      // that. SI is 1/(F·E), so it goes with F as F and E of the few shapes from 4 mm on happen to be paired.
+      // The generator pairs its target values until all correlations are met within 0.1, and makes stones that match
+      // their targets to one per cent. SI is 1/(F·E); its correlation with F depends on how F and E of the few shapes
+      // above 4 mm happen to be paired.
       EXPECT_NEAR(ours, paper, pair == "SI F" ? 0.2 : 0.12);
       squares += errors * errors, ++pairs;
     }
   }
   EXPECT_EQ(pairs, 55);
-  EXPECT_LT(squares / pairs, 1);  // as alike as two samples of one population: 1 in the mean
+  EXPECT_LT(squares / pairs, 1);  // two samples of one population have a mean of 1
 }
 
 TEST(ShapeLibrary, FlakinessGoesWithFlatnessByTheSievesOfTheStandard) {
@@ -305,7 +308,7 @@ TEST(ShapeLibrary, FlakinessGoesWithFlatnessByTheSievesOfTheStandard) {
   EXPECT_LT(std::abs(fisher_errors(correlation(narrow, flatness, standardised), 0.97, shapes)), 2);
 }
 
-/// Volume of the tetrahedron of the origin and three unit vectors with these cosines between them.
+/// Returns the volume of the tetrahedron of the origin and three unit vectors with these cosines between them.
 double unit_tetrahedron(double a, double b, double c) {
   return std::sqrt(1 + 2 * a * b * c - a * a - b * b - c * c) / 6;
 }
@@ -318,7 +321,8 @@ TEST(SubdividedIcosahedron, HasItsPointsOnTheSphereAndItsVolume) {
   EXPECT_TRUE(check_surface(s).good()) << check_surface(s).text();
   const double rounding = 8 * std::numeric_limits<double>::epsilon();
   for (const Vec3d& p : s.points) EXPECT_NEAR(norm(p), radius, rounding * radius);
-  // Of each of the 20 triangles: the middle one, between three middles of edges 36° apart, and three at its corners.
+  // Each of the 20 triangles is divided into a middle triangle, between edge midpoints 36° apart, and three triangles
+  // at its corners.
   const double between_corners = 1 / std::sqrt(5.0), between_middles = std::numbers::phi / 2;
   const double corner_to_middle = std::sqrt((1 + between_corners) / 2);
   const double exact = 20 * unit_tetrahedron(between_middles, between_middles, between_middles) +

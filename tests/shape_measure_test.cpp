@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shape_measure_test.cpp  Dimensions, volumes and indices against closed forms and against a calliper of random jaws.
+// shape_measure_test.cpp  Dimensions, volumes and indices of shapes, against closed forms and against a calliper in
+// random directions.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -20,7 +21,7 @@
 namespace macadam::test {
 namespace {
 
-/// Coordinates of order 1 turned, moved and scaled: a few ulp a number, some ten operations a length.
+/// Coordinates of order 1, rotated, moved and scaled: a few ulp per number, about ten operations per length.
 constexpr double rounding = 1e-13;
 
 void expect_lengths(const ShapeMeasure& m, double l, double i, double s) {
@@ -29,7 +30,7 @@ void expect_lengths(const ShapeMeasure& m, double l, double i, double s) {
   EXPECT_NEAR(m.d_short, s, rounding * l);
 }
 
-/// Runs the test on the surface as it is and turned at random about random centres.
+/// Calls `expect` with the measures of the surface as it is, and of ten random rotations about random centres.
 void in_all_poses(const Surface& surface, const std::function<void(const ShapeMeasure&)>& expect) {
   expect(measure_shape(surface));
   RandomStream random(test_seed(), 1);
@@ -61,10 +62,10 @@ TEST(Stabbing, AnIntervalHoldsWhatIsBeyondItsEndsByTheToleranceAndNoMore) {
 }
 
 TEST(Dimensions, OfABox) {
-  // D^L = (a, b, c). A chord across it is a difference (w1, w2, w3) of two points, |w1| ≤ a, |w2| ≤ b, |w3| ≤ c, with
-  // w1·a + w2·b + w3·c = 0; the longest such is at a corner of that polygon. Where b² + c² ≤ a² it is
-  // (−(b² + c²)/a, b, c), of length √(b² + c²)·D^L/a. Across both is (0, −c, b), along which the box is as long as its
-  // height c allows: c/b·√(b² + c²).
+  // D^L = (a, b, c). A chord perpendicular to it is a difference (w1, w2, w3) of two points with |w1| ≤ a, |w2| ≤ b,
+  // |w3| ≤ c and w1·a + w2·b + w3·c = 0. The longest one is at a corner of this polygon. If b² + c² ≤ a², it is (−(b² +
+  // c²)/a, b, c) with length √(b² + c²)·D^L/a. The direction perpendicular to both is (0, −c, b); along it the height c
+  // limits the chord to c/b·√(b² + c²).
   for (const auto& edges : {std::array{6., 4., 3.}, {5., 4., 1.}, {2., 1.2, 1.1}}) {
     const double a = edges[0], b = edges[1], c = edges[2];
     const double l = std::hypot(a, b, c), across = std::hypot(b, c);
@@ -78,8 +79,8 @@ TEST(Dimensions, OfABox) {
 }
 
 TEST(Dimensions, OfACubeWhoseFourLongAxesTie) {
-  // Across a space diagonal the hexagon's and the triangles' longest chord is a face diagonal (1, −1, 0); across both,
-  // (1, 1, −2), the cube's longest chord ends where two coordinates have changed by half of what the third did.
+  // Perpendicular to a space diagonal, the longest chord is a face diagonal (1, −1, 0). Perpendicular to both, along
+  // (1, 1, −2), the longest chord of the cube ends where two coordinates have changed by half of the third.
   in_all_poses(box_surface(1, 1, 1), [](const ShapeMeasure& m) {
     expect_lengths(m, std::sqrt(3.0), std::sqrt(2.0), std::sqrt(1.5));
     EXPECT_NEAR(dot(m.axis_long, m.axis_intermediate), 0, rounding);
@@ -89,7 +90,8 @@ TEST(Dimensions, OfACubeWhoseFourLongAxesTie) {
 }
 
 TEST(Dimensions, OfARegularTetrahedron) {
-  // Opposite edges are perpendicular: D^L = D^I = 1; across both runs the line of their middles, 1/√2.
+  // Opposite edges are perpendicular, so D^L = D^I = 1. Perpendicular to both is the line through their midpoints,
+  // 1/√2.
   in_all_poses(tetrahedron(), [](const ShapeMeasure& m) {
     expect_lengths(m, 1, 1, std::sqrt(0.5));
     EXPECT_NEAR(m.volume, 1 / std::sqrt(72.0), rounding);
@@ -100,9 +102,9 @@ TEST(Dimensions, OfARegularTetrahedron) {
 }
 
 TEST(Dimensions, OfATriangularPrism) {
-  // Side 1, height 2. D^L = (1, 0, 2). Differences of two points are (d, t), d in the hexagon of the triangle's edges;
-  // across D^L t = −d_x/2, and d_x² + d_y² + d_x²/4 is largest at the hexagon's corner (1, 0): D^I = √1.25. Across both
-  // is y, along which the triangle is √0.75 high.
+  // Side 1, height 2. D^L = (1, 0, 2). Differences of two points are (d, t) with d in the hexagon of the triangle's
+  // edges. Perpendicular to D^L, t = −d_x/2, and d_x² + d_y² + d_x²/4 is largest at the corner (1, 0) of the hexagon:
+  // D^I = √1.25. Perpendicular to both is y, along which the triangle is √0.75 high.
   in_all_poses(prism({{0, 0}, {1, 0}, {0.5, std::sqrt(0.75)}}, 2), [](const ShapeMeasure& m) {
     expect_lengths(m, std::sqrt(5.0), std::sqrt(1.25), std::sqrt(0.75));
     EXPECT_NEAR(m.volume, std::sqrt(0.75), rounding * 10);
@@ -111,7 +113,7 @@ TEST(Dimensions, OfATriangularPrism) {
 }
 
 TEST(Dimensions, ATunnelDoesNotStopTheCalliper) {
-  // All three chords of the box of 6 × 4 × 3 cross the tunnel; its jaws rest outside.
+  // All three chords of the 6 × 4 × 3 box cross the tunnel; the calliper measures between the outer faces.
   in_all_poses(tunnel(6, 4, 3, 1), [](const ShapeMeasure& m) {
     const double l = std::sqrt(61.0);
     expect_lengths(m, l, 5 * l / 6, 3.75);
@@ -122,7 +124,7 @@ TEST(Dimensions, ATunnelDoesNotStopTheCalliper) {
 }
 
 TEST(Dimensions, OfASphereHaveTheKnownLimitOfTheWorkingSphericity) {
-  for (int level = 1; level <= 3; ++level) {  // all have three pairs of points on perpendicular axes
+  for (int level = 1; level <= 3; ++level) {  // every level has three pairs of points on perpendicular axes
     const ShapeMeasure m = measure_shape(icosphere(level));
     expect_lengths(m, 2, 2, 2);
     EXPECT_NEAR(m.sphericity_working(), 12.8 / (3 + 6 * std::sqrt(3.0)), 1e-12);  // 0.956
@@ -131,7 +133,7 @@ TEST(Dimensions, OfASphereHaveTheKnownLimitOfTheWorkingSphericity) {
   }
 }
 
-/// Area of the ellipsoid with half axes 3, 2, 1 by Legendre's integrals.
+/// Returns the area of the ellipsoid with half axes 3, 2, 1, by Legendre's integrals.
 double ellipsoid_area() {
   const double a = 3, b = 2, c = 1, phi = std::acos(c / a);
   const double k = std::sqrt(a * a * (b * b - c * c) / (b * b * (a * a - c * c)));
@@ -141,23 +143,23 @@ double ellipsoid_area() {
 
 TEST(Dimensions, OfAnEllipsoidConvergeAtSecondOrder) {
   RandomStream random(test_seed(), 2);
-  const Pose pose = random_pose(random);  // no point of the mesh at an end of an axis
+  const Pose pose = random_pose(random);  // no point of the mesh is at the end of an axis
   double earlier_volume = 0, earlier_area = 0;
   for (int level = 2; level <= 4; ++level) {
     const ShapeMeasure m = measure_shape(mapped(icosphere(level), [&](const Vec3d& p) {
       const Vec3d q = pose(p);
       return Vec3d{3 * q.x, 2 * q.y, q.z};
     }));
-    // Edges of the sphere's mesh are about 1.1/2^level. A point of it lies within 0.6 of an edge of any point of the
-    // sphere, so D^L misses at most 0.6²/2·h² of itself; D^I and D^S also turn with the axes before them, by the same
-    // angle but scaled up by up to 3, which moves them by another (3·0.6)²/2·h².
+    // Edges of the sphere's mesh have a length h of about 1.1/2^level. Every point of the sphere has a mesh point
+    // within 0.6·h, so D^L is too small by at most 0.6²/2·h². D^I and D^S are also affected by the rotation of the axes
+    // before them. This angle is the same, but scaled by up to 3, which adds (3·0.6)²/2·h².
     const double h = 1.1 / std::pow(2, level), bound = 0.18 * h * h, tilted = bound + 1.62 * h * h;
     EXPECT_LE(m.d_long, 6);
     EXPECT_NEAR(m.d_long, 6, 6 * bound);
     EXPECT_NEAR(m.d_intermediate, 4, 4 * tilted);
     EXPECT_NEAR(m.d_short, 2, 2 * tilted);
     const double volume = 8 * std::numbers::pi - m.volume, area = ellipsoid_area() - m.area;
-    if (level > 2) {  // quartered as edges are halved; 4 % for the next order
+    if (level > 2) {  // the error falls to a quarter as edges are halved; 4 % allowed for the next order
       EXPECT_NEAR(earlier_volume / volume, 4, 0.16);
       EXPECT_NEAR(earlier_area / area, 4, 0.16);
     }
@@ -165,7 +167,8 @@ TEST(Dimensions, OfAnEllipsoidConvergeAtSecondOrder) {
   }
 }
 
-/// The same, written anew: how far apart a line's outermost meetings with the surface are (Möller and Trumbore).
+/// Independent implementation of a calliper: returns the distance between the outermost intersections of a line with
+/// the surface (Möller and Trumbore).
 double calliper(const Surface& s, const Vec3d& origin, const Vec3d& direction) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const auto& [a, b, c] : s.facets) {
@@ -184,7 +187,7 @@ TEST(Dimensions, OfLumpsAgainstACalliperOfManyTries) {
     const ShapeMeasure m = measure_shape(s);
     EXPECT_LE(m.d_short, m.d_intermediate);
     EXPECT_LE(m.d_intermediate, m.d_long);
-    // D^S: no line along it finds more; lines through the middles of facets find nearly as much
+    // D^S: no line in this direction is longer, and lines through random points of the facets are almost as long
     RandomStream random(seed, 3);
     double found = 0;
     for (const auto& f : s.facets) {
@@ -196,8 +199,8 @@ TEST(Dimensions, OfLumpsAgainstACalliperOfManyTries) {
         found = std::max(found, length);
       }
     }
-    EXPECT_GT(found, 0.95 * m.d_short);  // 3,200 lines, some 1/50 of the size apart, at dents' brinks
-    // D^I: of lines in all directions across D^L, through points near both jaws' planes
+    EXPECT_GT(found, 0.95 * m.d_short);  // 3,200 lines, about 1/50 of the size apart, some at the edges of dents
+    // D^I: lines in all directions perpendicular to D^L, through random points of the facets.
     double across = 0;
     for (int k = 0; k < 20000; ++k) {
       const double angle = std::numbers::pi * random.uniform();
@@ -209,7 +212,7 @@ TEST(Dimensions, OfLumpsAgainstACalliperOfManyTries) {
       EXPECT_LE(length, m.d_intermediate * (1 + rounding));
       across = std::max(across, length);
     }
-    EXPECT_GT(across, 0.92 * m.d_intermediate);  // the same lines have to hit the angle as well
+    EXPECT_GT(across, 0.92 * m.d_intermediate);  // here the lines must also be close to the right angle
     double longest = 0;
     for (const Vec3d& p : s.points) {
       for (const Vec3d& q : s.points) longest = std::max(longest, norm(p - q));
@@ -226,18 +229,19 @@ TEST(Dimensions, DoNotDependOnPoseOrScale) {
     const Pose pose = random_pose(random, scale, 3 * scale * Vec3d{1, -2, 1});
     const ShapeMeasure t = measure_shape(mapped(s, pose));
     for (const ShapeProperty& property : shape_properties()) {
-      if (property.column == std::string("flakiness")) continue;  // tied to sieves, hence to size
+      if (property.column == std::string("flakiness")) continue;  // depends on sieve sizes, hence on scale
       const double dimension = property.column == std::string("volume_m3")    ? 3
                                : property.column == std::string("area_m2")    ? 2
                                : std::string(property.column).ends_with("_m") ? 1
                                                                               : 0;
       const double expected = property.value(m) * std::pow(scale, dimension);
-      // the centre at 7 sizes costs a digit, and V the sum of 320 terms
+      // a centre at a distance of 7 sizes costs a digit, V is a sum of 320 terms
       EXPECT_NEAR(property.value(t), expected, 1e-12 * expected) << property.column;
     }
     EXPECT_NEAR(norm(t.centroid - pose(m.centroid)), 0, 1e-13 * scale);
     EXPECT_NEAR(t.radius_bounding, scale * m.radius_bounding, 1e-12 * scale);
-    EXPECT_NEAR(norm(t.centre_bounding - pose(m.centre_bounding)), 0, 1e-7 * scale);  // flat where few points carry it
+    // ill-conditioned if few points determine the sphere
+    EXPECT_NEAR(norm(t.centre_bounding - pose(m.centre_bounding)), 0, 1e-7 * scale);
   }
 }
 
@@ -255,7 +259,7 @@ TEST(Dimensions, OfAFaultySurfaceAreRefused) {
 
 TEST(Dimensions, OfAWholeLibraryTakeNoTime) {
   if (!long_tests) GTEST_SKIP() << "sanitizers and coverage have their own time";
-  Surface s = lump(1, 3, {2, 1.5, 1}, 0.1);  // 1,280 facets
+  Surface s = lump(1, 3, {2, 1.5, 1}, 0.1);  // a surface of 1,280 facets
   const auto start = std::chrono::steady_clock::now();
   for (int k = 0; k < 10; ++k) measure_shape(s);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -298,7 +302,7 @@ TEST(Statistics, PearsonOfKnownSamples) {
   const std::vector<double> x{1, 2, 3, 4, 5};
   EXPECT_NEAR(pearson(x, {3, 5, 7, 9, 11}), 1, 1e-15);
   EXPECT_NEAR(pearson(x, {-1, -2, -3, -4, -5}), -1, 1e-15);
-  EXPECT_NEAR(pearson(x, {4, 1, 0, 1, 4}), 0, 1e-15);               // (x − 3)²
+  EXPECT_NEAR(pearson(x, {4, 1, 0, 1, 4}), 0, 1e-15);               // y = (x − 3)²
   EXPECT_NEAR(pearson(x, {2, 4, 5, 4, 5}), std::sqrt(0.6), 1e-15);  // Sxy = 6, Sxx = 10, Syy = 6
   EXPECT_NEAR(pearson({1, 2, nan, 3, 4, 5, 9}, {2, 4, 7, 5, 4, 5, nan}), std::sqrt(0.6), 1e-15);
   EXPECT_NEAR(pearson({1e9 + 1, 1e9 + 2, 1e9 + 3}, {1, 2, 3}), 1, 1e-15);
@@ -318,18 +322,19 @@ TEST(Statistics, TablesOfThreeBoxes) {
   EXPECT_NEAR(volume.average, 2e-9 * (1 + 8 + 64) / 3, 1e-21);
   EXPECT_NEAR(volume.max, 128e-9, 1e-20);
   EXPECT_EQ(volume.shapes, 3);
-  EXPECT_EQ(spread_of(property("shape_index"), shapes).shapes, 1);  // D^I = √2·√6/2 of 1, 2 and 4 mm
+  // D^I is √2·√6/2 of 1, 2 and 4 mm, so only one box is above 4 mm
+  EXPECT_EQ(spread_of(property("shape_index"), shapes).shapes, 1);
   EXPECT_EQ(spread_of(property("shape_index"), {}).shapes, 0);
   EXPECT_TRUE(std::isnan(spread_of(property("shape_index"), {}).average));
 
   const auto matrix = correlation_matrix(shapes);
   ASSERT_EQ(matrix.size(), 11u);
-  EXPECT_NEAR(matrix[0][1], 1, 1e-14);  // all lengths are in proportion
+  EXPECT_NEAR(matrix[0][1], 1, 1e-14);  // all lengths are proportional
   // volumes 1, 8, 64 and lengths 1, 2, 4: Sxy = 89 − 3·(7/3)·(73/3) …
   const double sxy = 1 + 16 + 256 - 7 * 73 / 3.0, sxx = 21 - 49 / 3.0, syy = 1 + 64 + 4096 - 73 * 73 / 3.0;
   EXPECT_NEAR(matrix[3][0], sxy / std::sqrt(sxx * syy), 1e-14);
   EXPECT_EQ(matrix[3][0], matrix[0][3]);
-  EXPECT_TRUE(std::isnan(matrix[5][0]));  // SI of one shape only
+  EXPECT_TRUE(std::isnan(matrix[5][0]));  // only one shape has an SI
 
   const std::string csv = shapes_csv({"a", "b,c", "d"}, shapes);
   EXPECT_EQ(csv.rfind("name,points,facets,d_long_m,d_intermediate_m,d_short_m,volume_m3,area_m2,shape_index,flatness,"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_packing_test.cpp  The design formulation of Table 3 of [1] in full: 56.3 % of the box is aggregate.
+/// \file shape_packing_test.cpp  The complete design formulation of Table 3 of [1]: 56.3 % of the box is aggregate.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -14,14 +14,14 @@ namespace {
 
 constexpr double asked_of_solid[] = {0.14, 0.11, 0.207, 0.136};
 
-/// As examples/ac14_ms_design has it: the shipped shapes, and spheres where fewer than eight of 1 to 2 mm would fill
-/// them.
+/// Packs the mix of examples/ac14_ms_design: the shipped shapes, or one sphere if fewer than eight spheres of 1 to 2 mm
+/// would fill a shape.
 TEST(ShapePacking, DesignFormulationOfTheShippedShapes) {
   if (!test::long_tests) GTEST_SKIP() << "minutes with sanitizers";
   std::vector<ShapeTemplate> shapes;
   for (const Surface& s : shape_library()) shapes.push_back(shape_template(s));
   const SpecimenSpec recipe = test::design_formulation();
-  // rounded to eight or more; the mean cube of radii of 1 to 2 mm is 3.75 mm³
+  // The number of spheres is rounded, so eight begin at 7.5; the mean cube of radii of 1 to 2 mm is 3.75 mm³.
   const double eight = 7.5 * 3.75 * sphere_volume(2e-3);
   const auto is_sphere = [&](int shape, double size) { return aggregate_volume(shapes[shape], size, false) < eight; };
   const ShapeComposition composition = compose_shapes(recipe, shapes, is_sphere);
@@ -29,17 +29,17 @@ TEST(ShapePacking, DesignFormulationOfTheShippedShapes) {
   const ShapePlacement p = place_shapes(recipe.box, shapes, composition, {});
   const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::printf("%zu aggregates packed in %.1f s\n", p.aggregate.size(), took);
-  EXPECT_LT(took, 300);  // asked of two cores; a tenth of it is usual
+  EXPECT_LT(took, 300);  // limit for two cores; usually it takes a tenth of this
 
   for (int k = 0; k < 4; ++k)
     EXPECT_NEAR(p.row[k].fraction / 0.95, asked_of_solid[k], 1e-3 * asked_of_solid[k]) << p.row[k].name;
-  double reach = 0;  // of any shape about its centre, over D^I
+  double reach = 0;  // largest distance of a point of any shape from its centre, over D^I
   for (const ShapeTemplate& t : shapes)
     for (const Vec3d& x : t.surface.points) reach = std::max(reach, norm(x) / t.d_intermediate);
   const auto size = [&](std::size_t i) {
     return p.aggregate[i].pose.scale * shapes[p.aggregate[i].shape].d_intermediate;
   };
-  std::vector<Surface> surface;  // a sphere's is its centre, with `radius` about it
+  std::vector<Surface> surface;  // for a sphere only its centre; `radius` is its radius
   std::vector<double> radius;
   for (const PlacedAggregate& a : p.aggregate) {
     radius.push_back(a.sphere ? size(surface.size()) / 2 : 0);
@@ -50,8 +50,8 @@ TEST(ShapePacking, DesignFormulationOfTheShippedShapes) {
       EXPECT_GT(std::min({x.x, x.y, x.z}), radius[i]) << i;
       EXPECT_GT(std::min({0.05 - x.x, 0.05 - x.y, 0.08 - x.z}), radius[i]) << i;
     }
-  // Every point of a body against those near it: an independent look at each body's solid angles. Edges against facets
-  // are shape_placement_test's.
+  // Independent check of overlap: every eighth point of an aggregate must be outside of the aggregates near it, by
+  // solid angles. shape_placement_test checks edges against facets.
   std::size_t looked = 0;
   for (std::size_t i = 0; i < surface.size(); ++i)
     for (std::size_t j = 0; j < surface.size(); ++j) {
@@ -77,12 +77,12 @@ TEST(ShapePacking, DesignFormulationOfTheShippedShapes) {
     double n = 0;
     for (const PlacedAggregate& a : p.aggregate)
       if (a.size_class == size_class) quarter[std::min(3, static_cast<int>(a.pose.centre.z / 0.02))] += 1, n += 1;
-    // A count of mean n/4 drawn at random deviates by √(3n)/4; four of these.
+    // A random count with mean n/4 has the standard deviation √(3n)/4; four of these are allowed.
     for (double count : quarter) EXPECT_NEAR(count, n / 4, std::sqrt(3 * n)) << "class " << size_class;
   }
 }
 
-// placement_bench packs without single spheres, and icosahedra: minutes more.
+// placement_bench packs shapes without single spheres, and icosahedra; this takes minutes.
 
 }  // namespace
 }  // namespace macadam

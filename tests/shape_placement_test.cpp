@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shape_placement_test.cpp  Shaped aggregates: overlaps, composition, insertion and packing in small boxes.
+/// \file shape_placement_test.cpp  Shaped aggregates in small boxes: overlap checks, composition, placement by
+/// insertion and by packing.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -22,7 +23,7 @@ std::vector<ShapeTemplate> stones() {
   return shapes;
 }
 
-/// A box of 20 mm with two classes that together fill `share` of it.
+/// Returns a recipe of two classes that together fill the fraction `share` of a box of 20 mm.
 SpecimenSpec small_mix(double share) {
   SpecimenSpec spec;
   spec.box = {{0.02, 0.02, 0.02}};
@@ -41,7 +42,7 @@ bool same_bits(const ShapePlacement& a, const ShapePlacement& b) {
   return std::equal(a.aggregate.begin(), a.aggregate.end(), b.aggregate.begin(), b.aggregate.end(), same);
 }
 
-/// All inside the box, no two with a common point, by the second writing.
+/// Expects that all aggregates are inside the box and no two overlap, by the brute-force check.
 void expect_sound(const Box& box, const ShapePlacement& p, const std::vector<ShapeTemplate>& shapes) {
   double radius = 0;
   for (const ShapeTemplate& t : shapes)
@@ -53,7 +54,7 @@ void expect_sound(const Box& box, const ShapePlacement& p, const std::vector<Sha
     std::vector<Vec3d> points = test::placed_surface(a, shapes).points;
     if (a.sphere) points = {a.pose.centre};
     for (const Vec3d& x : points) {
-      // 1e-15 m: rounding of a position in a box of some centimetres, a few times over
+      // 1e-15 m is a few roundings of a position in a box of some centimetres.
       EXPECT_GE(std::min({x.x, x.y, x.z}), r - 1e-15) << i;
       EXPECT_GE(std::min({box.size.x - x.x, box.size.y - x.y, box.size.z - x.z}), r - 1e-15) << i;
     }
@@ -73,6 +74,8 @@ std::string message_of(const Run& run) {
   return "(accepted)";
 }
 
+/// The overlap check agrees with a brute-force test of every edge against every facet, also if one particle is inside
+/// the other.
 TEST(ShapeBody, OverlapAgreesWithEveryEdgeAgainstEveryFacet) {
   const std::vector<ShapeTemplate> shapes = stones();
   std::vector<std::unique_ptr<ShapeGeometry>> geometries;
@@ -85,7 +88,8 @@ TEST(ShapeBody, OverlapAgreesWithEveryEdgeAgainstEveryFacet) {
     ShapeBody body[2];
     for (int i = 0; i < 2; ++i) {
       placed[i] = {0, static_cast<int>(random.index(3)), random.uniform() < 0.2, {}};
-      const double size = random.uniform() < 0.3 ? 0.003 : 0.012;  // small ones are sometimes wholly inside
+      // small particles are sometimes completely inside the other
+      const double size = random.uniform() < 0.3 ? 0.003 : 0.012;
       body[i] = ShapeBody(*geometries[placed[i].shape], size, placed[i].sphere);
       body[i].set_turn(random_turn(random));
       body[i].centre = {random.uniform(0, 0.011), random.uniform(0, 0.011), random.uniform(0, 0.011)};
@@ -99,6 +103,7 @@ TEST(ShapeBody, OverlapAgreesWithEveryEdgeAgainstEveryFacet) {
   EXPECT_LT(together, 4 * pairs / 5);
 }
 
+/// The grid of distances gives a lower and an upper bound of the true distance to the surface.
 TEST(ShapeBody, FieldBoundsTheTrueDistance) {
   const ShapeTemplate shape = shape_template(test::stone(2, 1));
   const ShapeGeometry geometry(shape);
@@ -106,7 +111,7 @@ TEST(ShapeBody, FieldBoundsTheTrueDistance) {
   for (int k = 0; k < 2000; ++k) {
     const Vec3d p{random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)};
     const double exact = test::signed_distance(shape.surface, p);
-    // Node values are floats of distances below 4: 24 bits.
+    // Node values are floats of distances below 4, which have 24 bits.
     EXPECT_LE(geometry.field.at_least(p), exact + 4 * 0x1p-24) << k;
     EXPECT_GE(geometry.field.at_most(p), exact - 4 * 0x1p-24) << k;
     EXPECT_EQ(geometry.solid.contains(p), exact <= 0) << k;
@@ -123,11 +128,11 @@ TEST(DistanceField, PointsStraightOutOfTheFacesOfABox) {
   for (int k = 0; k < 600; ++k) {
     double p[] = {random.uniform(0.7, 1.3), random.uniform(0.7, 1.3), random.uniform(0.7, 1.3)}, out[] = {0, 0, 0};
     const int axis = k % 3;
-    const double beyond = random.uniform(-0.2, 0.09);  // within the grid, which goes on for 0.1
+    const double beyond = random.uniform(-0.2, 0.09);  // inside the grid, which extends 0.1 beyond the box
     out[axis] = k % 2 ? 1 : -1;
     p[axis] = k % 2 ? 2 + beyond : -beyond;
     const DistanceField::Value v = field.value({p[0], p[1], p[2]});
-    // Nodes hold floats below 0.5, whose halved last place is 1.5e-8; slopes are their differences over 0.1.
+    // Nodes store floats below 0.5 with a rounding error of 1.5e-8. Slopes are their differences over 0.1.
     EXPECT_NEAR(v.distance, beyond, 2e-8) << k;
     EXPECT_LT(norm(v.outward - Vec3d{out[0], out[1], out[2]}), 1e-6) << k;
   }
@@ -158,7 +163,7 @@ TEST(ShapeComposition, ClassesHaveTheirVolumes) {
     EXPECT_LE(r.size, r.size_class == 0 ? 0.00475 : 0.008);
   }
   for (int k = 0; k < 2; ++k) {
-    EXPECT_NEAR(sum[k], 0.25, 0.25 * 1e-3) << k;         // promised
+    EXPECT_NEAR(sum[k], 0.25, 0.25 * 1e-3) << k;         // the accuracy that compose_shapes() promises
     EXPECT_NEAR(sum[k], c.row[k].fraction, 1e-12) << k;  // sums of a hundred terms
     EXPECT_NEAR(c.row[k].fraction_asked, 0.25, 1e-15) << k;
   }
@@ -182,8 +187,9 @@ TEST(ShapeComposition, CountsAreKept) {
   EXPECT_EQ(c.row[0].count, 17);
 }
 
-/// Between a and b by the logarithmic law, the mean cube of the sizes from c to d is (d³ − c³)/(3 ln(b/a)), times the
-/// share of these sizes. Those below √(a·b) are spheres here, and much smaller than the stones.
+/// For the logarithmic size law between a and b, the mean cube of the sizes from c to d, times the fraction of these
+/// sizes, is (d³ − c³)/(3 ln(b/a)). Here sizes below √(a·b) become spheres, whose volume is much smaller than that of
+/// stones.
 TEST(ShapeComposition, TheNumberFollowsFromTheMeanVolumeOfSpheresAndStones) {
   std::vector<ShapeTemplate> shapes = stones();
   for (ShapeTemplate& t : shapes) t.sphere_size = 0.5;
@@ -192,7 +198,7 @@ TEST(ShapeComposition, TheNumberFollowsFromTheMeanVolumeOfSpheresAndStones) {
   spec.box = {{0.06, 0.06, 0.06}};
   spec.aggregate = {{a, b, 0.4, {}}};
   const auto c = compose_shapes(spec, shapes, [&](int, double size) { return size < middle; });
-  double sphere = 0, stone = 0;  // of size 1
+  double sphere = 0, stone = 0;  // mean volumes of a sphere and a stone of size 1
   for (const ShapeTemplate& t : shapes) {
     sphere += aggregate_volume(t, 1, true) / static_cast<double>(shapes.size());
     stone += aggregate_volume(t, 1, false) / static_cast<double>(shapes.size());
@@ -201,9 +207,10 @@ TEST(ShapeComposition, TheNumberFollowsFromTheMeanVolumeOfSpheresAndStones) {
   const double mean = (sphere * (cube(middle) - cube(a)) + stone * (cube(b) - cube(middle))) / (3 * std::log(b / a));
   const double expected = 0.4 * spec.box.volume() / mean;
   ASSERT_GT(expected, 1000);
-  EXPECT_NEAR(static_cast<double>(c.row[0].count), expected, 1.5);  // rounded, and perhaps one more or less
+  EXPECT_NEAR(static_cast<double>(c.row[0].count), expected, 1.5);  // rounded, and possibly one more or less
 }
 
+/// Insertion and packing both place all requested particles inside the box and without overlap.
 TEST(ShapePlacement, BothMethodsKeepThemApartAndInside) {
   const std::vector<ShapeTemplate> shapes = stones();
   for (const auto& [method, share] : {std::pair{PlacementMethod::insertion, 0.3}, {PlacementMethod::packing, 0.5}}) {
@@ -224,8 +231,8 @@ TEST(ShapePlacement, BothMethodsKeepThemApartAndInside) {
   }
 }
 
-/// A contact pushes both bodies with the same force. Of two similar stones the larger, four times the other's size, has
-/// 16 times the mass, and turns less still.
+/// A contact pushes both particles with the same force. Of two similar stones, the one that is four times larger has
+/// about 16 times the mass in this relaxation: it moves 16 times less, and rotates still less.
 TEST(ShapePlacement, PackedStonesGiveWayByTheirMasses) {
   const ShapeTemplate shape = shape_template(test::stone(2, 1));
   const ShapeGeometry geometry(shape);
@@ -249,11 +256,12 @@ TEST(ShapePlacement, SameBitsForAnyNumberOfThreadsOthersForAnotherSeed) {
   spec.box = {{0.035, 0.035, 0.035}};
   spec.aggregate[0].sieve_max = 0.0025;
   const ShapeComposition c = compose_shapes(spec, shapes, small_ones);
-  ASSERT_GT(c.aggregate.size(), 1000u);  // fewer are left to one thread
+  ASSERT_GT(c.aggregate.size(), 1000u);  // fewer particles are processed by one thread
   const int threads = omp_get_max_threads();
   for (const PlacementMethod method : {PlacementMethod::insertion, PlacementMethod::packing}) {
     ShapePlacementSpec how;
-    how.method = method, how.allow_short = true, how.attempts = 3000;  // the last in open cells
+    // the last attempts are in cells that may still have space
+    how.method = method, how.allow_short = true, how.attempts = 3000;
     omp_set_num_threads(1);
     const ShapePlacement one = place_shapes(spec.box, shapes, c, how);
     for (int t : {2, 3, 16}) {
@@ -290,7 +298,7 @@ TEST(ShapePlacement, FailedInsertionSaysHowFarItGot) {
   EXPECT_GT(p.row[1].fraction, 0.1);
 }
 
-/// Two spheres in each shape, far apart and well within it.
+/// Returns two spheres for each shape, far apart and well inside of it.
 std::vector<MultiSphere> dumbbells(const ShapeComposition& c, const std::vector<ShapeTemplate>& shapes) {
   std::vector<MultiSphere> out;
   for (const AggregateRequest& r : c.aggregate) {
@@ -302,11 +310,11 @@ std::vector<MultiSphere> dumbbells(const ShapeComposition& c, const std::vector<
   return out;
 }
 
-/// Spheres that are tested in place of surfaces keep their distance, and let surfaces interlock that could not be
-/// placed.
+/// If overlap is tested with spheres in place of surfaces, the spheres keep their distance, and surfaces may interlock.
+/// So more aggregates fit than with surfaces.
 TEST(ShapePlacement, TestedBySpheresTheyInterlock) {
   const std::vector<ShapeTemplate> shapes = stones();
-  const SpecimenSpec spec = small_mix(0.7);  // too much for surfaces: FailedInsertionSaysHowFarItGot
+  const SpecimenSpec spec = small_mix(0.7);  // too much for surfaces, see FailedInsertionSaysHowFarItGot
   const ShapeComposition c = compose_shapes(spec, shapes, small_ones);
   constexpr double spacing = 1e-4;
   ShapePlacementSpec how;
@@ -332,7 +340,7 @@ TEST(ShapePlacement, TestedBySpheresTheyInterlock) {
       for (std::size_t m = 0; m < a.size(); ++m)
         for (std::size_t n = 0; n < b.size(); ++n)
           EXPECT_GE(norm(a.centre[m] - b.centre[n]), a.radius[m] + b.radius[n] + spacing - 1e-15) << i << " " << j;
-      if (interlocked > 0) continue;  // one will do
+      if (interlocked > 0) continue;  // one interlocked pair is enough
       interlocked +=
           !p.aggregate[i].sphere && !p.aggregate[j].sphere && brute_overlap(p.aggregate[i], p.aggregate[j], shapes);
     }
@@ -355,7 +363,7 @@ TEST(ShapePlacement, SurfacesKeepTheSpacing) {
       const PlacedAggregate &a = p.aggregate[i], &b = p.aggregate[j];
       if (i == j || b.sphere) continue;
       const double reach = a.sphere ? a.pose.scale * shapes[a.shape].d_intermediate / 2 : 0;
-      // a field of 40 cells along a shape, and samples within 0.003 of D^I
+      // the grid has 40 cells along a shape, and samples are within 0.003 of D^I
       const double rough = a.sphere ? 1e-12 : 0.03 * b.pose.scale * shapes[b.shape].d_intermediate;
       for (const Vec3d& x : a.sphere ? std::vector{a.pose.centre} : placed[i].points)
         EXPECT_GT(test::signed_distance(placed[j], x) - reach, how.spacing - rough) << i << " " << j;
@@ -393,7 +401,8 @@ TEST(ShapePlacement, SizesAndSettingsOutOfRangeAreRefused) {
   }
   for (const auto& spoil :
        {+[](ShapePlacementSpec& s) { s.attempts = 0; }, +[](ShapePlacementSpec& s) { s.gap = 0; },
-        +[](ShapePlacementSpec& s) { s.gap = 0.5; }, +[](ShapePlacementSpec& s) { s.spacing = 1e-3; },  // with packing
+        // a spacing cannot be combined with packing
+        +[](ShapePlacementSpec& s) { s.gap = 0.5; }, +[](ShapePlacementSpec& s) { s.spacing = 1e-3; },
         +[](ShapePlacementSpec& s) { s.method = PlacementMethod::insertion, s.spacing = -1e-3; },
         +[](ShapePlacementSpec& s) { s.spheres.resize(1); },
         +[](ShapePlacementSpec& s) {
@@ -428,12 +437,14 @@ TEST(ShapePlacement, DirectionsStayEvenAndClassesMixed) {
     double height = 0, count = 0;
     for (const PlacedAggregate& a : p.aggregate)
       if (a.size_class == 0) height += a.pose.centre.z, count += 1;
-    // The mean of n even heights has the deviation L/√(12·n); four of these.
+    // The mean height of n uniformly distributed particles has the standard deviation L/√(12·n); four of these are
+    // allowed.
     EXPECT_NEAR(height / count, 0.015, 4 * 0.03 / std::sqrt(12 * count)) << seed;
   }
 }
 
-/// Two balls of 8 mm fit into a cube of 12.62 mm; in a smaller one they reach their size, squeezed by 2 gaps or so.
+/// Two balls of 8 mm fit into a cube of 12.62 mm. In a smaller cube they reach their full size only with overlaps of
+/// about 2 gaps, which does not count as packed.
 TEST(ShapePlacement, FullSizeWithOverlapsIsNoPacking) {
   const ShapeTemplate shape = shape_template(test::stone(2, 1));
   const ShapeGeometry geometry(shape);

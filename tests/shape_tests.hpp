@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shape_tests.hpp  Second writings for placed shapes: triangles that cross, solid angles, evenness of directions.
+// shape_tests.hpp  Independent brute-force checks for placed shapes: crossing triangles, solid angles, distances,
+// evenness of directions.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +13,12 @@
 
 namespace macadam::test {
 
-/// An aggregate's surface in the box; of a sphere, an empty one.
+/// Returns the surface of an aggregate at its place in the box; an empty surface if it is a sphere.
 inline Surface placed_surface(const PlacedAggregate& a, const std::vector<ShapeTemplate>& shapes) {
   return a.sphere ? Surface{} : mapped(shapes[a.shape].surface, a.pose);
 }
 
-/// Whether the segment from p to q crosses the triangle a, b, c (Möller–Trumbore).
+/// Returns whether the segment from p to q crosses the triangle a, b, c (Möller–Trumbore).
 inline bool crosses(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const Vec3d way = q - p, e1 = b - a, e2 = c - a, h = cross(way, e2);
   const double det = dot(e1, h);
@@ -27,7 +28,8 @@ inline bool crosses(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec3d&
   return u >= 0 && v >= 0 && u + v <= 1 && t >= 0 && t <= 1;
 }
 
-/// Times that a closed surface winds around a point, from the solid angles of its facets (Van Oosterom & Strackee).
+/// Returns how often a closed surface winds around a point, from the solid angles of its facets (Van Oosterom and
+/// Strackee).
 inline double winding(const Surface& s, const Vec3d& p) {
   double angle = 0;
   for (const auto& f : s.facets) {
@@ -38,14 +40,15 @@ inline double winding(const Surface& s, const Vec3d& p) {
   return angle / (4 * std::numbers::pi);
 }
 
-/// Distance of a point from a segment.
+/// Returns the distance of a point from a segment.
 inline double segment_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
   const Vec3d e = b - a;
   const double t = std::clamp(dot(p - a, e) / dot(e, e), 0.0, 1.0);
   return norm(p - a - t * e);
 }
 
-/// Distance of a point from a triangle: the foot of its perpendicular where that is inside, else the nearest edge.
+/// Returns the distance of a point from a triangle: along the normal if the foot of the perpendicular is inside,
+/// otherwise to the nearest edge.
 inline double triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const Vec3d n = cross(b - a, c - a), d = p - a;
   const bool above =
@@ -54,7 +57,7 @@ inline double triangle_distance(const Vec3d& p, const Vec3d& a, const Vec3d& b, 
   return std::min({segment_distance(p, a, b), segment_distance(p, b, c), segment_distance(p, c, a)});
 }
 
-/// Signed distance of a point from a closed surface, facet by facet.
+/// Returns the signed distance of a point from a closed surface, positive outside, by trying every facet.
 inline double signed_distance(const Surface& s, const Vec3d& p) {
   double least = norm(s.points.front() - p);
   for (const auto& f : s.facets)
@@ -62,7 +65,8 @@ inline double signed_distance(const Surface& s, const Vec3d& p) {
   return winding(s, p) > 0.5 ? -least : least;
 }
 
-/// Whether two aggregates overlap, every edge against every facet and each one's first point in the other.
+/// Returns whether two aggregates overlap. Tests every edge against every facet, and one point of each aggregate
+/// against the other.
 inline bool brute_overlap(const PlacedAggregate& a, const PlacedAggregate& b,
                           const std::vector<ShapeTemplate>& shapes) {
   const auto sphere_radius = [&](const PlacedAggregate& s) {
@@ -85,7 +89,8 @@ inline bool brute_overlap(const PlacedAggregate& a, const PlacedAggregate& b,
          winding(t, s.points.front()) > 0.5;
 }
 
-/// Probability that `values`, if drawn evenly from 0 … 1, are as uneven as they are (Kolmogorov–Smirnov).
+/// Returns the Kolmogorov–Smirnov probability that values drawn uniformly from 0 … 1 are at least as uneven as
+/// `values`.
 inline double evenness(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto n = static_cast<double>(values.size());
@@ -98,8 +103,8 @@ inline double evenness(std::vector<double> values) {
   return std::clamp(p, 0.0, 1.0);
 }
 
-/// The direction of D^L of each placed shape that is no sphere: its least evenness about the three axes. The
-/// components of an even direction are even.
+/// Returns the smallest evenness(), over the three axes, of the directions of D^L of all placed shapes that are not
+/// spheres. The components of a uniformly distributed direction are uniformly distributed.
 inline double evenness_of_directions(const std::vector<PlacedAggregate>& placed,
                                      const std::vector<ShapeTemplate>& shapes) {
   std::vector<Vec3d> axis;
@@ -113,7 +118,7 @@ inline double evenness_of_directions(const std::vector<PlacedAggregate>& placed,
   return std::min({evenness(x), evenness(y), evenness(z)});
 }
 
-/// The mix of Table 3 of [1], "Design formulation", in its box.
+/// Returns the mix "Design formulation" of Table 3 of [1], in its box.
 inline SpecimenSpec design_formulation() {
   SpecimenSpec spec;
   spec.box = {{0.05, 0.05, 0.08}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file shaped_specimen_test.cpp  Specimens of shaped aggregates: clusters of spheres in their places, mastic outside
-/// them, contacts by what meets.
+/// \file shaped_specimen_test.cpp  Specimens with shaped aggregates: each aggregate is a cluster of spheres, mastic is
+/// outside of the clusters, and contact types follow from the touching particles.
 #include <fmt/format.h>
 #include <omp.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@
 namespace macadam::test {
 namespace {
 
-/// A few shapes of the examples: preparing all 82 takes longer than these tests.
+/// Makes a folder with a few of the example shapes, because preparing all 82 takes longer than these tests.
 fs::path few_shapes() {
   const fs::path folder = fs::path(testing::TempDir()) / fmt::format("macadam_few_shapes_{}", ::getpid());
   if (fs::create_directories(folder)) {
@@ -47,7 +47,7 @@ SpecimenSpec recipe(ShapeSpec::Library library, PlacementMethod placement = Plac
   return spec;
 }
 
-/// Made once for all tests that only look at it.
+/// Returns a specimen that is made once and shared by all tests that do not change it.
 const GeneratedSpecimen& made_of(ShapeSpec::Library library) {
   static std::map<ShapeSpec::Library, GeneratedSpecimen> made;
   const auto found = made.find(library);
@@ -102,7 +102,7 @@ TEST_P(ShapedSpecimen, SpheresOfAnAggregateStayTogether) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (s.body[i] < 0) continue;
     const Aggregate& a = *of.at(s.body[i]);
-    // no point of a shape is farther from a point within than D^L; spheres are pressed into it by a part of a radius
+    // no point of a shape is farther from an inner point than D^L; spheres may protrude by a part of their radius
     EXPECT_LE(norm(s.centre[i] - a.centre) + s.radius[i], a.d_long + 0.3 * s.radius[i]) << i;
   }
 }
@@ -114,7 +114,7 @@ TEST_P(ShapedSpecimen, MasticLeavesTheShapesAndFillsThePorosity) {
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (s.phase[i] == Phase::mastic) solid += 4 * M_PI / 3 * std::pow(s.radius[i], 3);
   }
-  const double sphere = 4 * M_PI / 3 * std::pow(1e-3, 3);  // a number of spheres is whole
+  const double sphere = 4 * M_PI / 3 * std::pow(1e-3, 3);  // the number of spheres is an integer
   EXPECT_NEAR(solid, 0.95 * s.box.volume(), sphere);
   EXPECT_TRUE(particles_without_cell(s).empty());
 }
@@ -134,7 +134,8 @@ TEST_P(ShapedSpecimen, MasticHasTheVolumeAndTheRadiiAskedFor) {
       EXPECT_LT(x, 1);
     }
   }
-  // One radius of each of n equal parts of the range, bent until the volume fits: in the mean by half a sphere of n.
+  // One radius is taken from each of n equal parts of the range, then all are adjusted to the volume. This changes the
+  // mean by half a sphere of n.
   EXPECT_NEAR(radii / static_cast<double>(count), 0.5 * (asked.radius_min + asked.radius_max), 1e-3 * asked.radius_max);
   double aggregates = 0;
   for (const Aggregate& a : made_.aggregates) aggregates += a.volume;
@@ -147,7 +148,7 @@ TEST_P(ShapedSpecimen, MasticHasTheVolumeAndTheRadiiAskedFor) {
   EXPECT_NEAR(row.fraction, row.fraction_asked, 1e-12);
 }
 
-/// How far inside the convex hull of its points a point is; below 0 outside.
+/// Returns how deep a point is inside the convex hull of some points; negative outside.
 class Hull {
  public:
   explicit Hull(const std::vector<Vec3d>& points) : points_(points), facets_(convex_hull(points)) {}
@@ -165,8 +166,8 @@ class Hull {
   std::vector<std::array<std::int32_t, 3>> facets_;
 };
 
-// A box with points in the middles of its edges and sides too. Of points in one plane CGAL chooses facets by the
-// addresses of its own data, so that these would change from run to run.
+// The points include midpoints of edges and faces of a box. For points in one plane CGAL chooses facets by memory
+// addresses, which differ from run to run; the result must not.
 TEST(ConvexHull, SidesAreDividedByTheirCornersAlone) {
   std::vector<Vec3d> points;
   for (int k = 0; k < 3; ++k)
@@ -178,8 +179,8 @@ TEST(ConvexHull, SidesAreDividedByTheirCornersAlone) {
   EXPECT_EQ(convex_hull(points), expected);
 }
 
-// Mastic lies around a cluster, not in it: each of its spheres gives way to the cluster's like to any other, half and
-// half, and none gets past them.
+// Mastic spheres stay outside of the clusters. A contact of mastic with a sphere of a cluster is like any other, so
+// that both yield equally; still no mastic sphere gets inside.
 TEST_P(ShapedSpecimen, MasticStaysOutsideTheClusters) {
   const Specimen& s = made_.specimen;
   std::map<std::int32_t, std::vector<Vec3d>> clusters;
@@ -209,7 +210,7 @@ TEST_P(ShapedSpecimen, MasticStaysOutsideTheClusters) {
   fmt::print("deepest mastic centre {:.2f} of its radius in a hull, largest overlap {:.2f}\n", deepest,
              largest_overlap);
   EXPECT_EQ(inside, 0);
-  EXPECT_LT(largest_overlap, 0.5);  // no centre in another sphere
+  EXPECT_LT(largest_overlap, 0.5);  // no centre inside another sphere
 }
 
 TEST_P(ShapedSpecimen, ContactsAreInnerWithinABodyAndNowhereElse) {
@@ -243,7 +244,7 @@ TEST(ShapedSpecimens, AreWrittenALineAnAggregate) {
   const GeneratedSpecimen& made = made_of(ShapeSpec::Library::icosahedron);
   const fs::path file = fs::path(testing::TempDir()) / fmt::format("aggregates_{}.csv", ::getpid());
   std::vector<Aggregate> aggregates = made.aggregates;
-  aggregates[1].shape = "stone,\"1\"";  // the name of a user's file
+  aggregates[1].shape = "stone,\"1\"";  // a user's file may have such a name
   write_aggregates_csv(file, aggregates, made.composition);
   const std::string text = read(file);
   fs::remove(file);
@@ -286,7 +287,8 @@ TEST(ShapedSpecimens, SingleSpheresFollowTheirRule) {
   }
 }
 
-/// Tested by spheres, those of two aggregates do not overlap and keep the spacing, and all are in the box.
+/// If overlap is tested with spheres, spheres of different aggregates do not overlap and keep the spacing, and all are
+/// in the box.
 TEST(ShapedSpecimens, MayBeTestedByTheirSpheres) {
   for (const double spacing : {0.0, 2e-4}) {
     SpecimenSpec spec = recipe(ShapeSpec::Library::icosahedron);
@@ -308,10 +310,11 @@ TEST(ShapedSpecimens, MayBeTestedByTheirSpheres) {
   }
 }
 
-/// How far the mastic reaches below the surfaces of clusters, which are nearly balls.
+/// Measures how far the mastic reaches below the surfaces of clusters, which are nearly balls; hold_out reduces it.
 TEST(ShapedSpecimens, HoldMasticOut) {
   const ShapeMeasure m = measure_shape(subdivided_icosahedron());
-  const double ball = std::cbrt(6 / M_PI * m.volume) / 2 / m.d_intermediate;  // radius of equal volume over D^I
+  // radius of the ball of equal volume, over D^I
+  const double ball = std::cbrt(6 / M_PI * m.volume) / 2 / m.d_intermediate;
   const auto depth = [&](double hold_out) {
     SpecimenSpec spec = recipe(ShapeSpec::Library::icosahedron);
     spec.shapes->hold_out = hold_out;
@@ -324,7 +327,8 @@ TEST(ShapedSpecimens, HoldMasticOut) {
     return sum;
   };
   const double free = depth(0), held = depth(10);
-  EXPECT_LT(held, 0.7 * free);  // the surface is ten times as stiff as a sphere, of which several share a surface
+  // with hold_out = 10 the surface is ten times as stiff as a sphere, but several spheres share a surface
+  EXPECT_LT(held, 0.7 * free);
   EXPECT_LT(depth(1), free);
 }
 
@@ -336,7 +340,8 @@ TEST(ShapedSpecimens, TakeTheIcosahedronAsOneMoreOfTheLibrary) {
   spec.shapes->fill.least = 2;
   std::map<std::string, int> times;
   const std::string icosahedron = subdivided_icosahedron().name;
-  for (spec.seed = 1; spec.seed <= 10 && times[icosahedron] == 0; ++spec.seed)  // 60/83 = 0.7 times each are expected
+  // 60/83 = 0.7 of each shape are expected per seed
+  for (spec.seed = 1; spec.seed <= 10 && times[icosahedron] == 0; ++spec.seed)
     for (const Aggregate& a : generate_specimen(spec).aggregates) ++times[a.shape];
   EXPECT_GT(times[icosahedron], 0);
   EXPECT_LT(times[icosahedron], 6);

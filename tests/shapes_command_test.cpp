@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shapes_command_test.cpp  `macadam shapes` as a user meets it: files, tables, exit codes, messages.
+// shapes_command_test.cpp  `macadam shapes` run as a user does: files, tables, exit codes, messages.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -65,7 +65,7 @@ TEST_F(ShapesCommand, MeasuresAFolderIntoTables) {
   std::vector<std::string> lines;
   for (std::string line; std::getline(csv, line);) lines.push_back(line);
   ASSERT_EQ(lines.size(), 4u);
-  EXPECT_EQ(lines[1].rfind("a,8,12,0.00244", 0), 0u) << lines[1];  // by name, in metres
+  EXPECT_EQ(lines[1].rfind("a,8,12,0.00244", 0), 0u) << lines[1];  // sorted by name, in metres
   EXPECT_EQ(lines[2].rfind("b,8,12,0.00781", 0), 0u) << lines[2];
   EXPECT_TRUE(lines[2].ends_with(",0.0063,0.01")) << lines[2];
   EXPECT_EQ(lines[3].rfind("c,42,80,0.00", 0), 0u) << lines[3];
@@ -75,6 +75,7 @@ TEST_F(ShapesCommand, MeasuresAFolderIntoTables) {
   EXPECT_TRUE(contains(shapes("measure stones/b.off --out tables").out, "--scale 1e-3"));
 }
 
+/// All faulty shapes of a folder are named in one message; with --repair those that can be repaired are measured.
 TEST_F(ShapesCommand, FaultyShapesAreNamedAllAtOnceAndRepairedWhenAsked) {
   stone("good.off", tetrahedron());
   stone("open.off", open_box());
@@ -131,7 +132,8 @@ TEST_F(ShapesCommand, RepairWritesTheFormatThatTheEndingAsksFor) {
   EXPECT_FALSE(fs::exists(folder_ / "closed.off"));
 }
 
-/// Two boxes that overlap are wrapped, which changes their volume: only if that is asked for, and no file is left else.
+/// Two overlapping boxes can only be repaired by wrapping, which changes their volume. Without --wrap this is refused,
+/// and no file is written.
 TEST_F(ShapesCommand, WrapsOnlyWhenAsked) {
   stone("two.off", joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02})));
   const Outcome refused = shapes("repair stones/two.off --out one.off");
@@ -145,11 +147,11 @@ TEST_F(ShapesCommand, WrapsOnlyWhenAsked) {
   EXPECT_TRUE(contains(done.out, "wrapped") && contains(done.out, "(before 2, -2")) << done.out;
   EXPECT_NEAR(measure_shape(read_surface(folder_ / "one.off")).volume, 1.5, 0.05);
   EXPECT_EQ(shapes("measure stones --out tables --repair").code, 2);
-  EXPECT_EQ(shapes("measure stones --out tables --wrap").code, 2);  // what for, without --repair
+  EXPECT_EQ(shapes("measure stones --out tables --wrap").code, 2);  // --wrap has no meaning without --repair
   EXPECT_EQ(shapes("measure stones --out tables --repair --wrap").code, 0);
 }
 
-/// All commands read in the same way, and report changes made on reading.
+/// All commands read files in the same way and report changes that reading made.
 TEST_F(ShapesCommand, WhatReadingChangedIsSaid) {
   std::ofstream(folder_ / "stones" / "cube.obj")
       << "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\n"
@@ -174,7 +176,7 @@ TEST_F(ShapesCommand, FillWritesSpheresAndSaysHowWellTheyFit) {
   ASSERT_EQ(done.code, 0) << done.err;
   const std::string csv = read(folder_ / "spheres" / "spheres.csv");
   const auto spheres = static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n') - 1);
-  EXPECT_GT(spheres, 24u);  // so many there are of 2 mm alone
+  EXPECT_GT(spheres, 24u);  // the number with spheres of 2 mm only
   EXPECT_EQ(csv.rfind("x,y,z,radius\n", 0), 0u);
   EXPECT_TRUE(contains(done.out, fmt::format("ball: {} spheres of 1.5", spheres))) << done.out;
   for (const char* word : {"D^L", "covered", "overlap", "deviation"}) EXPECT_TRUE(contains(done.out, word)) << done.out;

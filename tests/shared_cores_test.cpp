@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// shared_cores_test.cpp  How many threads make each of several specimens, while others wait for cores.
+// shared_cores_test.cpp  The number of threads that generate each of several specimens while others wait for cores.
 #include <gtest/gtest.h>
 #include <omp.h>
 
@@ -15,8 +15,8 @@ namespace {
 
 using SharedCores = FakeDevices;
 
-// Eight cores, of which one feeds the device: the first two specimens have three each. The one whose cells are made
-// first keeps two, and the third specimen begins with the two that are given and left.
+// Of eight cores one serves the device, and the first two specimens get three each. When the cells of one are made, it
+// keeps two threads; the third specimen starts with the one that was released and the one that was left.
 TEST_F(SharedCores, ASceneGivesHalfOnceItsCellsAreMade) {
   std::vector<SceneJob> jobs;
   for (std::uint64_t seed : {1, 2, 3, 4}) {
@@ -30,7 +30,7 @@ TEST_F(SharedCores, ASceneGivesHalfOnceItsCellsAreMade) {
     jobs.push_back({scene, folder_ / std::to_string(seed)});
   }
   std::array<int, 4> relaxing{}, contacts{};
-  std::vector<std::size_t> begun, made;  // jobs, in the order in which they relax and have cells
+  std::vector<std::size_t> begun, made;  // jobs in the order in which they relax, and in which their cells are made
   std::atomic<bool> all_made = false;
   ManyOptions options;
   options.progress = [&](std::size_t job, const std::string& stage, double) {

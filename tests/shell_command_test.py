@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What shells and man know of the command line: shell_command_test.py PROGRAM"""
+"""Tests completion in shells, and the manual page: shell_command_test.py PROGRAM"""
 import os
 import pathlib
 import shutil
@@ -24,13 +24,13 @@ def said(*arguments: str) -> str:
 
 
 def completed(script: str, folder: str, line: str) -> set[str]:
-    """What bash offers at the end of a line, by the function that `complete -F` names."""
+    """Returns what bash offers at the end of a line, from the function that `complete -F` names."""
     ask = (
         f"source '{script}'\n"
         "function_of=$(complete -p macadam | sed -E 's/.*-F ([^ ]+).*/\\1/')\n"
         "COMP_WORDS=($1)\n[[ $1 == *' ' ]] && COMP_WORDS+=('')\n"
         "COMP_CWORD=$((${#COMP_WORDS[@]} - 1)) COMP_LINE=$1 COMP_POINT=${#1}\n"
-        "compopt() { :; }\n"  # outside of a completion that bash itself began
+        "compopt() { :; }\n"  # compopt works only in a completion that bash itself began
         "$function_of macadam\n"
         "printf '%s\\n' \"${COMPREPLY[@]}\"\n"
     )

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// skips_test.cpp  What a step leaves out changes nothing: the same bits, or as little as is said.
+// skips_test.cpp  Parts of a step that are skipped as unnecessary do not change the result: equal bits, or equal to a
+// stated tolerance.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -26,7 +27,8 @@ class Skips : public BackendTest<Case> {
   static double difference(const ParticleState& a, const ParticleState& b) {
     return std::max(relative_difference(a.displacement, b.displacement), relative_difference(a.velocity, b.velocity));
   }
-  /// Of 500 steps: of 6e-8 each where the geometry is single, and some times more where the states are too.
+  /// Returns the tolerance for 500 steps: 6e-8 per step if the geometry is in single precision, and a few times more if
+  /// the states are too.
   double rounding() const {
     return std::get<Precision>(GetParam()) == Precision::double_ ? 1e-11
            : std::get<Precision>(GetParam()) == Precision::mixed ? 3e-5
@@ -46,18 +48,18 @@ Laws elastic_laws() {
   return laws;
 }
 
-// Units that are not there against units that never move.
+// Compares laws without Kelvin units with laws whose units never move.
 TEST_P(Skips, KelvinUnitsThatAreAbsent) {
   const TestScene scene = make_scene(random_specimen(21));
   StepperOptions options = shaking_options(scene);
   options.geometry = Geometry::updated;
   const Laws laws = elastic_laws();
-  // the same sums, but a compiler may round a product and a sum at once in one of them
+  // The sums are the same, but a compiler may fuse a product and a sum in one of the versions.
   EXPECT_LT(difference(shaken(scene, laws, options), shaken(scene, general_laws(laws, 3), options)), rounding());
 }
 
 TEST_P(Skips, ShearWhereAlphaIsZero) {
-  const TestScene scene = make_scene(random_specimen(22));  // its walls have none
+  const TestScene scene = make_scene(random_specimen(22));  // the wall contacts of this scene have α = 0
   StepperOptions options = shaking_options(scene);
   for (const Geometry geometry : {Geometry::updated, Geometry::fixed}) {
     options.geometry = geometry;
@@ -68,7 +70,7 @@ TEST_P(Skips, ShearWhereAlphaIsZero) {
   }
 }
 
-// f = E·x of the displacements of now, against f summed over the steps.
+// Compares f = E·x of the current displacements with f summed over the steps.
 TEST_P(Skips, StatesOfElasticContacts) {
   const TestScene scene = make_scene(random_specimen(23));
   StepperOptions options = shaking_options(scene);
@@ -78,7 +80,7 @@ TEST_P(Skips, StatesOfElasticContacts) {
   }
 }
 
-/// Equal spheres on a cubic lattice: every facet is centred.
+/// Returns equal spheres on a cubic lattice, in which the centroid of every facet is on the line of centres.
 Specimen lattice() {
   Specimen out;
   out.box.size = {0.006, 0.006, 0.01};
@@ -101,15 +103,16 @@ TEST_P(Skips, RotationsThatNothingExcites) {
     options.skip_rotations = true;
     const ParticleState without = shaken(scene, laws, options);
     options.skip_rotations = false;
-    // moments of rounding turn the particles by as little
+    // If rotations are not skipped, moments of rounding rotate the particles slightly.
     EXPECT_LT(difference(without, shaken(scene, laws, options)), rounding()) << to_string(geometry);
     EXPECT_EQ(largest(without.spin), 0);
   }
 }
 
+/// nothing_turns() is true only if no contact has shear stiffness and all facets are centred.
 TEST(NothingTurns, OnlyWithoutShearAndWithCentredFacets) {
   Laws laws = am1_laws();
-  EXPECT_FALSE(nothing_turns(make_scene(lattice()).network, laws));  // shear
+  EXPECT_FALSE(nothing_turns(make_scene(lattice()).network, laws));  // has shear stiffness
   std::get<laws::GeneralisedKelvin>(*laws[int(PairType::mm)]).alpha = 0;
   EXPECT_TRUE(nothing_turns(make_scene(lattice()).network, laws));
   Specimen moved = lattice();
@@ -130,7 +133,7 @@ TEST(NothingTurns, ASpinIsRefusedWhereRotationsAreSkipped) {
                       ->set_velocities(still, spin));
 }
 
-/// The specimen of t8 with and without its tiny facets, each solved.
+/// Solves the specimen t8 with and without its tiny facets. The parameter is area_min.
 class TinyFacets : public testing::TestWithParam<double> {
  protected:
   struct Solved {
@@ -148,7 +151,7 @@ class TinyFacets : public testing::TestWithParam<double> {
     return out;
   }
   static Specimen t8() { return read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}}); }
-  /// The contacts of one network that the other has not.
+  /// Returns the contacts of `whole` that are missing in `less`.
   static ContactNetwork dropped(const Solved& whole, const Solved& less) {
     std::set<std::pair<std::int32_t, std::int32_t>> kept;
     for (const Contact& c : less.scene.network.contacts) kept.emplace(c.a, c.b);
@@ -159,7 +162,7 @@ class TinyFacets : public testing::TestWithParam<double> {
 };
 INSTANTIATE_TEST_SUITE_P(AreaMin, TinyFacets, testing::Values(0.001, 0.01, 0.026, 0.1));
 
-/// What is printed: their share of the area, by its definition.
+/// The reported fraction of the area of dropped facets equals its definition.
 TEST_P(TinyFacets, TheShareIsThatOfTheirAreas) {
   const Solved whole = solve(t8(), am1_laws(), std::nullopt), less = solve(t8(), am1_laws(), GetParam());
   const auto area = [](const ContactNetwork& network) {
@@ -174,10 +177,11 @@ TEST_P(TinyFacets, TheShareIsThatOfTheirAreas) {
               1e-12);  // a thousand terms
 }
 
-/// What they carry. With a the form of the whole network, d that of the dropped contacts, u and v the motions with and
-/// without them: E = a(u, v) and E − ΔE = a(u, v) − d(u, v), because either motion is in equilibrium in its own
-/// network. So the loss is d(u, v), by the reference's matrices, whatever the facets are. Elastic contacts minimise
-/// energy, so it is also no less than what the dropped ones carry in u, and no more than what they would in v.
+/// Loss of modulus by dropped facets. Let a be the bilinear form of the whole network, d that of the dropped contacts,
+/// and u and v the motions with and without them. Then E = a(u, v) and E − ΔE = a(u, v) − d(u, v), because each motion
+/// is in equilibrium in its own network. So the loss is d(u, v), computed with the matrices of the reference
+/// implementation. Elastic contacts minimize energy; therefore the loss is at least what the dropped contacts carry in
+/// u and at most what they would carry in v.
 TEST_P(TinyFacets, TheLossIsWhatTheyCarry) {
   Laws elastic = am1_laws();
   for (auto& law : elastic) law = laws::Elastic{std::abs(chain_stiffness(*law, 1)), 0.1};
@@ -186,10 +190,10 @@ TEST_P(TinyFacets, TheLossIsWhatTheyCarry) {
     const BilinearForm d = bilinear_form(dropped(whole, less), laws, whole.scene.specimen.size(), 20);
     const Box& box = whole.scene.specimen.box;
     const Complex loss = whole.modulus - less.modulus, carried = modulus_of(d(whole.motion, less.motion), box);
-    // both moduli to the harmonic solver's 1e-11 and some condition
+    // Both moduli have errors of the harmonic solver's residual, 1e-11, times some condition.
     const double rounding = 1e-9 * std::abs(whole.modulus);
     EXPECT_LT(std::abs(loss - carried), rounding);
-    EXPECT_GT(std::abs(loss), 100 * rounding);  // there is something to compare
+    EXPECT_GT(std::abs(loss), 100 * rounding);  // the loss is large enough to compare
     const double with = modulus_of(d(whole.motion, whole.motion), box).real();
     const double without = modulus_of(d(less.motion, less.motion), box).real();
     fmt::print("area_min {}: share {:.2e} of the area, {:.2e} of the modulus; carried {:.2e} with, {:.2e} without\n",
@@ -199,14 +203,14 @@ TEST_P(TinyFacets, TheLossIsWhatTheyCarry) {
       EXPECT_GE(loss.real(), with - rounding);
       EXPECT_LE(loss.real(), without + rounding);
     }
-    // The area is what can be said beforehand. It stands for the loss in order: contacts of different stiffness and
-    // distance have alike shares of small facets.
+    // The area fraction is known beforehand and predicts the loss within a factor of about three, because contacts of
+    // different stiffness and distance have similar fractions of small facets.
     EXPECT_GT(std::abs(loss / whole.modulus) / less.scene.network.dropped_share, 0.3);
     EXPECT_LT(std::abs(loss / whole.modulus) / less.scene.network.dropped_share, 3);
   }
 }
 
-// One point a facet: three chains there against six on the facet.
+// With one point per facet, the point form has three chains and the condensed form six; both give the same motion.
 TEST(OnePoint, PointsAndCondensedAgree) {
   NetworkSpec spec;
   spec.quadrature = Quadrature::one_point;

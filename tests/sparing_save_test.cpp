@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sparing_save_test.cpp  Thousands of frequencies do not write thousands of growing summaries.
+// sparing_save_test.cpp  With thousands of frequencies, the growing summary is not written after each of them.
 #include "host/simulation/sparing_save.hpp"
 
 #include <gtest/gtest.h>
@@ -9,11 +9,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A clock that stands still until a test moves it: a busy machine cannot make the tests' times longer.
+/// A clock that only the tests advance, so that a busy machine does not affect them.
 struct OwnTime {
   SparingSave::Clock::time_point now{1h};
   int saved = 0;
-  /// Each writing takes `cost`.
+  /// Returns a SparingSave whose every writing takes `cost`.
   SparingSave save(SparingSave::Clock::duration cost) {
     return SparingSave(
         [this, cost](const std::string&) {
@@ -28,7 +28,7 @@ TEST(SparingSave, TakesATenthOfTheTimeAtMost) {
   OwnTime time;
   SparingSave save = time.save(20ms);
   for (int k = 0; k < 1000; ++k) save("running");
-  EXPECT_EQ(time.saved, 1);  // the others came within ten times what the first took
+  EXPECT_EQ(time.saved, 1);  // the others came within ten times the duration of the first
   time.now += 199ms;
   save("running");
   EXPECT_EQ(time.saved, 1);

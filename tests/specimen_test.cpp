@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file specimen_test.cpp  The specimen's file and its checks.
+/// \file specimen_test.cpp  Reading, writing and checking of specimen files.
 #include "macadam/specimen.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 
 const Box box{{0.05, 0.05, 0.08}};
 
-/// A folder of its own for each test process, removed at the end.
+/// Makes a folder for each test process and removes it at the end.
 class SpecimenCsv : public testing::Test {
  protected:
   SpecimenCsv() { std::filesystem::create_directories(folder_); }
@@ -53,7 +53,8 @@ Specimen two_spheres() {
 
 TEST_F(SpecimenCsv, RoundTripIsExact) {
   Specimen s = two_spheres();
-  s.centre.push_back({1.0 / 3 * 0.05, std::nextafter(0.05, 0), 5e-324});  // needs 17 digits, 17 digits, a subnormal
+  // these need 17 digits, 17 digits, and a subnormal number
+  s.centre.push_back({1.0 / 3 * 0.05, std::nextafter(0.05, 0), 5e-324});
   s.radius.push_back(0.1 + 0.2);
   s.phase.push_back(Phase::aggregate);
   s.body.push_back(2147483647);
@@ -72,6 +73,7 @@ TEST_F(SpecimenCsv, RoundTripIsExact) {
   EXPECT_EQ(t.box.size.z, box.size.z);
 }
 
+/// A gzip file is recognized by its content, not its name.
 TEST_F(SpecimenCsv, ReadsGzipToldByContent) {
   const std::string text = header + good;
   const auto file = folder_ / "no_gz_in_the_name";
@@ -177,7 +179,8 @@ TEST_F(SpecimenCsv, UnreadableFilesAreNamed) {
   EXPECT_NE(message_for(written(bytes)).find("whole readable file"), std::string::npos);
 }
 
-/// What a file unpacks to may be any number of times its size: it is never in memory as a whole.
+/// A compressed file may unpack to any size; the reader never keeps all of it in memory and stops at the first faulty
+/// line.
 TEST_F(SpecimenCsv, WhatUnpacksToGigabytesIsRefusedAtItsLine) {
   const auto bomb = [&](const std::string& begin, char c, std::size_t megabytes) {
     const auto file = folder_ / "bomb.csv.gz";
@@ -195,7 +198,7 @@ TEST_F(SpecimenCsv, WhatUnpacksToGigabytesIsRefusedAtItsLine) {
 }
 
 TEST_F(SpecimenCsv, LinesMayEndAnywhereInABlockOfTheReader) {
-  for (std::size_t more = 0; more < 70; ++more) {  // blocks are of 65,536 bytes
+  for (std::size_t more = 0; more < 70; ++more) {  // the reader's blocks have 65,536 bytes
     std::string text = header + "999999,0.0" + std::string(more, '0') + "1,0.01,0.01,0.004,aggregate,0\n";
     std::size_t n = 1;
     for (; text.size() < 70'000; ++n)
@@ -208,7 +211,7 @@ TEST_F(SpecimenCsv, LinesMayEndAnywhereInABlockOfTheReader) {
 }
 
 TEST_F(SpecimenCsv, ALineMayHaveAThousandBytesAndNoMore) {
-  const auto of_length = [](std::size_t n) {  // more zeros at the end of x
+  const auto of_length = [](std::size_t n) {  // lengthens the line by zeros at the end of x
     std::string line = good;
     line.insert(line.find(",0.02"), n + 1 - line.size(), '0');
     return line;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// spectrum_test.cpp  Relaxation and creep: closed forms, Laplace inversion of full solutions, conversions there and
-// back.
+// spectrum_test.cpp  Relaxation and creep spectra: closed forms, Laplace inversions of full solutions, and conversions
+// between both.
 #include "macadam/spectrum.hpp"
 
 #include <gtest/gtest.h>
@@ -25,11 +25,11 @@ TEST(Series, OfALawIsTheLaw) {
   laws::GeneralisedKelvin solid = am1(PairType::mm), maxwell = solid, twins = solid;
   solid.C_m = std::numeric_limits<double>::infinity();
   maxwell.E.clear(), maxwell.C.clear();
-  twins.E.push_back(twins.E[1]), twins.C.push_back(twins.C[1]);  // two units of one time
+  twins.E.push_back(twins.E[1]), twins.C.push_back(twins.C[1]);  // two units with the same retardation time
   for (const auto& law : {am1(PairType::mm), solid, maxwell, twins}) {
     const PronySeries series = prony_series(law);
     for (const Complex s : {Complex(1e-6, 0), Complex(0, 1e-3), Complex(3, 40), Complex(0, 1e5), Complex(-1e-3, 1)}) {
-      // a few units, roots of which the last digits are rounding
+      // few units, but roots whose last digits are rounding
       EXPECT_LT(std::abs(series.stiffness(s) / law.stiffness(s) - 1.0), 1e-12) << s;
     }
     EXPECT_EQ(series.long_term == 0, std::isfinite(law.C_m));
@@ -37,7 +37,7 @@ TEST(Series, OfALawIsTheLaw) {
   EXPECT_EQ(prony_series(laws::Elastic{3e9, 0.1}).modulus(5), 3e9);
 }
 
-// The chain's creep is its own constants; and 1/E* of a series is J*.
+// The creep of a chain follows from its constants, and must be the inverse of E*.
 TEST(Series, CreepOfALawIsItsChain) {
   const laws::GeneralisedKelvin law = am1(PairType::mm);
   const CreepSeries creep = creep_series(prony_series(law));
@@ -48,7 +48,7 @@ TEST(Series, CreepOfALawIsItsChain) {
   }
 }
 
-/// Two spheres between the walls, joined by one chain.
+/// Two spheres between the walls, joined by one contact with a chain.
 TEST(Spectrum, OfOneContactIsTheClosedForm) {
   Specimen specimen;
   specimen.box.size = {2e-3, 2e-3, 4e-3};
@@ -59,10 +59,11 @@ TEST(Spectrum, OfOneContactIsTheClosedForm) {
     specimen.body.push_back(-1);
   }
   Laws laws = am1_laws();
-  std::get<macadam::laws::Elastic>(*laws[static_cast<std::size_t>(PairType::mw)]).alpha = 0.1;  // nothing slides away
+  // so that nothing can slide freely
+  std::get<macadam::laws::Elastic>(*laws[static_cast<std::size_t>(PairType::mw)]).alpha = 0.1;
   const TestScene scene = make_scene(specimen, {}, laws);
   const Spectrum found = spectrum_of(scene.specimen, scene.network, scene.laws);
-  // three springs in series of area over distance a/d: halves at the walls
+  // Three contacts in series, each with area over distance a/d; those at the walls have half the distance.
   double compliance_at_walls = 0, between = 0;
   for (const Contact& c : scene.network.contacts) (c.b < 0 ? compliance_at_walls : between) += c.distance / c.moments.a;
   const auto& wall = *scene.laws[static_cast<std::size_t>(PairType::mw)];
@@ -81,7 +82,7 @@ TEST(Spectrum, OfOneContactIsTheClosedForm) {
                   (between / law.stiffness(s) + compliance_at_walls / std::get<laws::Elastic>(wall).E));
         },
         t, 24);
-    // Talbot's sum loses digits below 1e-11 of E(0), which is what is left behind 100 s
+    // Talbot's sum is only accurate to 1e-11 of E(0), which limits the comparison beyond 100 s.
     EXPECT_NEAR(found.relaxation.modulus(t), relaxed, 1e-8 * relaxed + 1e-11 * found.relaxation.instantaneous()) << t;
   }
 }
@@ -91,7 +92,7 @@ TEST(Series, ARampIsTheMeanOfSteps) {
   const CreepSeries creep = creep_series(series);
   for (const double duration : {1e-6, 0.02, 5.0}) {
     for (const double t : {0.3 * duration, duration, 1.7 * duration}) {
-      // midpoints: steps of 1/2,000 of the ramp, at most 1/20 of a time: errors of (1/20)²/24
+      // Midpoint rule: steps of 1/2,000 of the ramp, at most 1/20 of a relaxation time, so errors of (1/20)²/24.
       constexpr int steps = 2000;
       double stress = 0, strain = 0;
       for (int i = 0; i < steps; ++i) {
@@ -107,7 +108,7 @@ TEST(Series, ARampIsTheMeanOfSteps) {
   EXPECT_EQ(creep.after_ramp(-1, 3), 0);
 }
 
-// A Kelvin unit that is slow enough is a dashpot, but for a share t/τ of its strain.
+// A sufficiently slow Kelvin unit acts as a dashpot, except for the fraction t/τ of its strain.
 TEST(Series, ASlowUnitFlowsAfterARamp) {
   const CreepSeries dashpot{0, 1e-9, {}};
   const double duration = 0.02;
@@ -126,7 +127,8 @@ TEST(Series, FewUnitsAreAsGoodAsAsked) {
   std::size_t more = 1;
   for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5}) {
     const PronySeries few = few_units(many, 1e-3, 1e3, tolerance);
-    EXPECT_LE(difference(few, many, 1e-3, 1e3), 1.01 * tolerance);  // it is looked at between its own places too
+    // the error is also checked between the times of the fit
+    EXPECT_LE(difference(few, many, 1e-3, 1e3), 1.01 * tolerance);
     EXPECT_GT(few.units.size(), more);
     EXPECT_LT(few.units.size(), many.units.size() / 4);
     more = few.units.size();
@@ -141,13 +143,13 @@ TEST(Series, RangesAreEvenInTheLogarithm) {
   EXPECT_EQ(range.back(), 10);
   EXPECT_NEAR(range[3], 1e-2, 1e-16);
   EXPECT_EQ(log_range(1, 2, 1).size(), 2u);
-  const std::vector<double> widest = log_range(1e-300, 1e300, 1);  // whose ratio is no number
+  const std::vector<double> widest = log_range(1e-300, 1e300, 1);  // the ratio of the ends is not finite
   ASSERT_EQ(widest.size(), 601u);
   for (std::size_t k = 0; k < widest.size(); ++k)
     EXPECT_NEAR(std::log10(widest[k]), static_cast<double>(k) - 300, 1e-9);
 }
 
-/// Of a network, against Laplace inversions of its full solutions: nothing in common but the solver.
+/// The spectrum of a network against Laplace inversions of its full solutions, which share only the solver with it.
 TEST(Spectrum, OfANetworkIsTheInversionOfItsSolutions) {
   for (const TestScene& scene : {make_scene(random_specimen(3)), make_scene(random_specimen(4), {}, am2_laws())}) {
     SpectrumOptions options;
@@ -165,7 +167,7 @@ TEST(Spectrum, OfANetworkIsTheInversionOfItsSolutions) {
       const double creep = talbot([&](Complex s) { return 1.0 / (s * modulus(s)); }, t, 18);
       EXPECT_NEAR(found.creep.compliance(t) / creep, 1, 1e-6) << t;
     }
-    // creep and relaxation are each other's inverse: ∫ E(t − t')·J(t') dt' = t
+    // Creep and relaxation are inverse to each other: ∫ E(t − t')·J(t') dt' = t.
     const double t = 3;
     const auto product = talbot(
         [&](Complex s) {

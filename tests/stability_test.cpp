@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stability_test.cpp  The cases of bench/stability with little effort: every line must come out as stated.
+// stability_test.cpp  The cases of bench/stability with reduced effort: every row must be within its stated bounds.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -26,7 +26,7 @@ TEST_P(Stability, ComesOutAsStated) {
   }
 }
 
-// A verdict can be a failure: no number, and a number outside.
+// A row fails if its number is outside of the bounds or is not a number.
 TEST(StabilityRow, FailsOutsideAndWithoutANumber) {
   Row row{"", "", "", 0, 1, "", 0.5};
   EXPECT_TRUE(row.pass());

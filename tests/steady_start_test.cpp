@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// steady_start_test.cpp  A run that starts from the harmonic solution is periodic at once.
+// steady_start_test.cpp  A run that starts from the harmonic solution is periodic from the first cycle.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -11,14 +11,14 @@ namespace {
 
 TestScene t8() { return make_scene(read_specimen_csv(MACADAM_TEST_DATA "/t8.csv", {{0.008, 0.008, 0.011}})); }
 
-/// The specimen of examples/demo.
+/// Returns the specimen of examples/demo.
 TestScene demo() {
   const Scene scene = read_scene(MACADAM_EXAMPLES "/demo/scene.toml");
   return make_scene(generate_specimen(scene.specimen).specimen, scene.network, scene.laws);
 }
 
-/// One cycle from the steady start: |E*| (relative) and φ [degrees] against the harmonic solution with the same
-/// inertia.
+/// Runs one cycle from the steady start. Returns the error of |E*| (relative) and φ [degrees] against the harmonic
+/// solution with the same inertia.
 Stiffness error_of_one_cycle(const TestScene& scene, double frequency, Backend backend, StepperOptions options) {
   constexpr int samples = 200;
   const double viscous = options.damping_kind == Damping::viscous ? options.damping : 0;
@@ -45,7 +45,7 @@ Stiffness error_of_one_cycle(const TestScene& scene, double frequency, Backend b
   return {found.e_star_pa / known.top.e_star_pa - 1, found.phase_deg - known.top.phase_deg};
 }
 
-void expect_periodic(const Stiffness& error) {  // the bars of a cycle from the steady start
+void expect_periodic(const Stiffness& error) {  // tolerances for one cycle from the steady start
   EXPECT_LT(std::abs(error.e_star_pa), 1e-5);
   EXPECT_LT(std::abs(error.phase_deg), 0.002);
   fmt::print("|E*| {:.1e}, phase {:.1e} deg\n", error.e_star_pa, error.phase_deg);
@@ -80,7 +80,8 @@ TEST(SteadyStartDemo, OneCycleAtTwoAndTwentyHertz) {
   }
 }
 
-// Mass-proportional damping is linear too; it is chosen to change φ by degrees.
+// Mass-proportional damping is linear, so the harmonic solution contains it. The damping here changes φ by more than
+// half a degree.
 TEST(SteadyStartDamped, ViscousDampingIsInTheSolution) {
   const TestScene scene = t8();
   StepperOptions options;
@@ -93,7 +94,7 @@ TEST(SteadyStartDamped, ViscousDampingIsInTheSolution) {
   expect_periodic(error_of_one_cycle(scene, 20, Backend::cpu, options));
 }
 
-// The reference sets its own chains from the same state.
+// The reference stepper sets its own chains from the same start state and must agree.
 TEST(SteadyStartReference, AgreesOverTheFirstSteps) {
   const TestScene scene = t8();
   StepperOptions options = shaking_options(scene);
@@ -128,7 +129,7 @@ TEST(SteadyStartReference, AgreesOverTheFirstSteps) {
 
 TEST(SteadyStartInput, ARampOrAnotherNetworksStateIsRefused) {
   const TestScene scene = t8(), other = make_scene(random_specimen(3));
-  StepperOptions options = shaking_options(scene);  // has a ramp
+  StepperOptions options = shaking_options(scene);  // these options have a ramp
   const drives::Cyclic with_ramp = top_drive(options);
   drives::Cyclic without = with_ramp;
   without.ramp_steps = 0;

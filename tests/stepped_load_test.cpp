@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_load_test.cpp  Relaxation, creep and constant rates as scenes ask for them in steps: against the answer that
-// needs none, in pieces, and refused. What the load puts in is stored, moving or damped.
+// stepped_load_test.cpp  Stepped relaxation, creep and constant rates: compared with the solution without steps,
+// interrupted and resumed, and refused. The work of the load must equal stored, kinetic and damped energy.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -44,8 +44,8 @@ class SteppedLoad : public TestFolder {
   }
 };
 
-/// Of the stepped answer: waves are damped to 2e-5 at the next point, the damping's own drag and
-/// the inertia are smaller here, and the spectrum is known to 1e-6.
+/// Tolerance of the stepped response: waves are damped to 2e-5 at the next point, the effects of damping and inertia
+/// are smaller here, and the spectrum is accurate to 1e-6.
 constexpr double tolerance = 1e-4;
 
 TEST_F(SteppedLoad, RelaxationIsThatOfTheSpectrum) {
@@ -73,7 +73,7 @@ TEST_F(SteppedLoad, RelaxationIsThatOfTheSpectrum) {
   EXPECT_EQ(result.at("points").size(), 4u);
   EXPECT_EQ(summary("out").at("solver").at("damping").at("kind"), "viscous");
   EXPECT_HAS(read(out("out") / "relaxation.csv"), "time_s,strain,stress_pa,modulus_pa,error,bottom_pa,kinetic_j\n");
-  EXPECT_FALSE(fs::exists(out("out") / "prony.csv"));  // steps know nothing of it
+  EXPECT_FALSE(fs::exists(out("out") / "prony.csv"));  // a stepped run has no Prony series
 }
 
 TEST_F(SteppedLoad, HeldSidesAreOfAConfinedSpecimen) {
@@ -82,13 +82,13 @@ TEST_F(SteppedLoad, HeldSidesAreOfAConfinedSpecimen) {
   const RunResult result = run(asked, out("out"));
   const auto& found = std::get<SteppedResponse>(result.found);
   EXPECT_TRUE(found.confined);
-  // normals and arms that follow a strain of 1e-4 change the modulus by about as much
+  // With a strain of 1e-4, updated normals and lever arms change the modulus by about as much.
   EXPECT_NEAR(found.points[0].ratio / spectrum(asked).relaxation.after_ramp(1e-3, 2e-4), 1, 3e-4);
   EXPECT_HAS(results_table(result), "confined modulus");
   EXPECT_EQ(summary("out").at("results").at(0).at("sides"), "held");
 }
 
-// The platen under a stress that rises, is held and is taken off: strain grows, and part of it comes back.
+// The stress on the platen rises, is held and is released. The strain grows, and a part of it recovers.
 TEST_F(SteppedLoad, CreepAndRecoveryAreThoseOfTheSpectrum) {
   const double stress = 1e5, ramp = 2e-4, release = 2e-3;
   const Scene asked = scene(
@@ -118,7 +118,7 @@ TEST_F(SteppedLoad, CreepAndRecoveryAreThoseOfTheSpectrum) {
 }
 
 TEST_F(SteppedLoad, AConstantRateEndsAtItsStrain) {
-  for (const double sign : {1.0, -1.0}) {  // tension, compression
+  for (const double sign : {1.0, -1.0}) {  // tension, then compression
     const Scene asked =
         scene(fmt::format("kind = \"monotonic\"\nrate = {}\nstrain = {}\npoints = 2\n", sign * 0.01, sign * 4e-5));
     const PronySeries known = spectrum(asked).relaxation;
@@ -131,7 +131,7 @@ TEST_F(SteppedLoad, AConstantRateEndsAtItsStrain) {
           << p.time_s;
     }
   }
-  // without steps the same times
+  // The same scene without steps has the same times.
   const Scene asked = read_scene(write_t8("kind = \"monotonic\"\nrate = 0.01\nstrain = 4e-5\npoints = 4\n", ""));
   const std::vector<double> times{1e-3, 2e-3, 3e-3, 4e-3};
   const auto& found = std::get<experiments::Monotonic>(asked.experiment).times;
@@ -139,6 +139,7 @@ TEST_F(SteppedLoad, AConstantRateEndsAtItsStrain) {
   for (std::size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(found[i] / times[i], 1, 1e-14);
 }
 
+/// Interrupting and resuming a stepped creep test does not change its files.
 TEST_F(SteppedLoad, ARunInPiecesGivesTheBitsOfOne) {
   const Scene asked = scene(
       "kind = \"creep\"\nstress = -1e5\nramp = 2e-3\nrelease = 4e-3\ntimes = [1e-4, 2e-2]\npoints_per_decade = 8\n",
@@ -161,11 +162,12 @@ TEST_F(SteppedLoad, ARunInPiecesGivesTheBitsOfOne) {
     EXPECT_TRUE(read(entry.path()) == read(other)) << other;
     frames += entry.path().extension() == ".vtp";
   }
-  EXPECT_EQ(frames, 1 + static_cast<int>(one.at("results").at(0).at("points").size()) / 3);  // and one at the start
+  // and one frame at the start
+  EXPECT_EQ(frames, 1 + static_cast<int>(one.at("results").at(0).at("points").size()) / 3);
 }
 
-// Devices, and the reference, which follows platens in its own words. Rounding alone parts them: 1e-16 times some
-// hundred steps, and stresses that are sums of forces a hundred times as large.
+// Devices, and the reference, which has its own implementation of platens, give the same result as the processor. Only
+// rounding differs: 1e-16 times a few hundred steps, and stresses are sums of forces a hundred times as large.
 TEST_F(SteppedLoad, EveryBackendFindsTheSame) {
   const std::string creep =
       "kind = \"creep\"\nstress = 1e5\nramp = 5e-3\nrelease = 1e-2\ntimes = [4e-3, 8e-3, 16e-3]\n";
@@ -214,6 +216,7 @@ TEST_F(SteppedLoad, ALargeErrorIsReported) {
   EXPECT_TRUE(said) << "a load at once takes a wave's time";
 }
 
+/// A run with very many steps gives a warning with the predicted number of steps; an excessive number is refused.
 TEST_F(SteppedLoad, LongRunsAreForetold) {
   Watcher watcher;
   std::string warned;
@@ -246,12 +249,13 @@ TEST_F(SteppedLoad, WhatDoesNotFitStepsIsRefused) {
              "points beside points_per_decade");
   EXPECT_HAS(unread("kind = \"monotonic\"\nrate = 1\ntimes = [1, 2, 3]\npoints = 3\n"), "the two ends of a range");
   Scene spectral = scene("kind = \"relaxation\"\ntimes = [1e-3]\n", "", "fields = [\"particles\"]\n");
-  spectral.solver.method = SolverMethod::harmonic;  // as --method has it
+  spectral.solver.method = SolverMethod::harmonic;  // as the option --method does
   EXPECT_HAS(refusal(spectral), "fields in [output]");
 }
 
-// Springs alone, so that what is stored follows from forces. Leapfrog with central damping obeys both balances exactly:
-// Σ γm(v⁺ − v⁻) = Δt·(P + reaction − β·Σ γm·v̄), and work P·Δu = change of ½γmv² − ½u(k+1)·F(k), and β·γm·v̄²·Δt.
+// All laws are elastic, so the stored energy follows from the forces. Leapfrog with central damping satisfies both
+// balances exactly. Momentum: Σ γm(v⁺ − v⁻) = Δt·(P + reaction − β·Σ γm·v̄). Energy: the work P·Δu is the change of
+// ½γmv² − ½u(k+1)·F(k), plus β·γm·v̄²·Δt.
 TEST(PlatenBalance, OfMomentumAndEnergy) {
   Laws laws = am1_laws();
   for (auto& law : laws) law = laws::Elastic{std::visit([](const auto& l) { return l.instantaneous(); }, *law), 0.2};
@@ -298,8 +302,8 @@ TEST(PlatenBalance, OfMomentumAndEnergy) {
     impulse += dt * (load - up - beta * scaling * mean_momentum);
     most_work = std::max(most_work, std::abs(work)), most_kinetic = std::max(most_kinetic, kinetic);
     most_impulse = std::max(most_impulse, std::abs(momentum));
-    // Rounding only: a sum of some 1e3 steps, and a platen's velocity from displacements that change by 1e-3 of
-    // themselves in a step.
+    // Rounding only: a sum of about 1e3 steps, and a platen velocity computed from displacements that change by 1e-3 of
+    // themselves per step.
     ASSERT_NEAR(kinetic + stored + damped, work, 1e-9 * most_work) << k;
     ASSERT_NEAR(momentum, impulse, 1e-9 * most_impulse) << k;
     before = now, seen = next, wall_speed = speed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepped_spectrum_test.cpp  Relaxation, creep and recovery stepped in time, with driven walls, against the spectrum
-// that is found without a step.
+// stepped_spectrum_test.cpp  Relaxation, creep and recovery stepped in time with driven walls, against the spectrum,
+// which is computed without steps.
 #include <gtest/gtest.h>
 
 #include "long_tests.hpp"
@@ -17,7 +17,8 @@ class SteppedSpectrum : public testing::Test {
   double area_ = scene_.specimen.box.size.x * scene_.specimen.box.size.y;
   Spectrum spectrum_ = spectrum_of(scene_.specimen, scene_.network, scene_.laws, {1e-4, 10});
 
-  /// Viscous damping by β [1/s] ends the waves that a ramp leaves; what it takes from slow motions is far below 1e-4.
+  /// Returns options with viscous damping β [1/s], which ends the waves that a ramp causes. Its effect on slow motion
+  /// is far below 1e-4.
   StepperOptions options(double scaling, double beta) const {
     StepperOptions out;
     out.geometry = Geometry::fixed;
@@ -33,7 +34,8 @@ class SteppedSpectrum : public testing::Test {
     return 0.8 * critical_step(scene_.network, scene_.laws, scene_.inertia, options).dt;
   }
 
-  /// Stress over the strain that is held after an even rise, from one time to another.
+  /// Compares stress over strain between two times with the spectrum, after a linear rise of the strain that is then
+  /// held.
   void expect_relaxation(double scaling, double beta, double rise, double from, double to) const {
     StepperOptions given = options(scaling, beta);
     given.dt = rise / std::ceil(rise / step(given));
@@ -50,18 +52,19 @@ class SteppedSpectrum : public testing::Test {
   }
 };
 
-// A ramp of a thousandth of a second at true mass, and a slow one with inertia scaled up.
+// A ramp of 0.2 ms at true mass, and a slow one with scaled inertia.
 TEST_F(SteppedSpectrum, IsTheRelaxation) {
   EXPECT_LT(spectrum_.error, 1e-5);
   expect_relaxation(1, 2e4, 2e-4, 1e-3, long_tests ? 5e-3 : 2e-3);
   expect_relaxation(1000, 2e3, 5e-2, 0.1, long_tests ? 1.0 : 0.2);
 }
 
-// The platen under a stress that rises, is held and is taken off: strain grows, and part of it comes back.
+// The stress on the platen rises, is held and is released. The strain grows, and a part of it recovers.
 TEST_F(SteppedSpectrum, IsTheCreepAndTheRecovery) {
   const double stress = 1e5, rise = 0.02, release = 0.1, end = 0.3, mass = 1e-4;
   StepperOptions given = options(100, 200);
-  given.boundary.load(wall_z_hi, 2, std::make_shared<drives::Ramp>(), mass);  // the step rests on its mass
+  // the critical step depends on the platen's mass
+  given.boundary.load(wall_z_hi, 2, std::make_shared<drives::Ramp>(), mass);
   given.dt = rise / std::ceil(rise / step(given));
   const auto rise_steps = std::llround(rise / given.dt), held = std::llround(release / given.dt) - rise_steps;
   given.boundary.load(wall_z_hi, 2, std::make_shared<drives::Ramp>(stress * area_, given.dt, rise_steps, held), mass);
@@ -74,7 +77,7 @@ TEST_F(SteppedSpectrum, IsTheCreepAndTheRecovery) {
                   (now.time > held_until ? spectrum_.creep.after_ramp(now.time - held_until, rise) : 0));
     last = now.top_displacement() / height_;
     largest = std::max(largest, expected);
-    // the waves of a ramp of 20 ms, some 0.3 ms long, die out within twice its length
+    // the waves of a ramp of 20 ms, about 0.3 ms long, decay within twice its length
     const bool rings = now.time < 3 * rise || (now.time > held_until && now.time < held_until + 3 * rise);
     EXPECT_NEAR(last, expected, (rings ? 1e-2 : 1e-4) * largest) << now.time << " s";
   });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file stepper_cases.hpp  The combinations over which kernels are tested, and their names.
+/// \file stepper_cases.hpp  The combinations of backend, precision, form and geometry that kernels are tested over, and
+/// the names of these cases.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,10 +13,11 @@
 
 namespace macadam::test {
 
-/// Every backend besides the reference, whatever this build and machine can run.
+/// Returns every backend except the reference, whether or not this build and machine can run it.
 inline auto all_backends() { return testing::Values(Backend::cpu, Backend::cuda); }
 
-/// Tests over backends: a case of CUDA without a device is skipped and says why, so that it is counted.
+/// Fixture of tests over backends. If there is no device, a case of CUDA is skipped with the reason, so that it is
+/// counted.
 template <class Case>
 class BackendTest : public testing::TestWithParam<Case> {
  protected:
@@ -28,7 +30,7 @@ class BackendTest : public testing::TestWithParam<Case> {
   }
 };
 
-/// All backends, precisions, forms and geometries.
+/// Returns all combinations of backend, precision, form and geometry.
 using StepperCase = std::tuple<Backend, Precision, ContactForm, Geometry>;
 inline auto all_stepper_cases() {
   return testing::Combine(all_backends(), testing::Values(Precision::double_, Precision::mixed, Precision::single),
@@ -36,7 +38,7 @@ inline auto all_stepper_cases() {
                           testing::Values(Geometry::updated, Geometry::fixed));
 }
 
-/// The names of a tuple's choices, one after another.
+/// Returns the names of a case's choices, joined by underscores.
 template <class... Choices>
 std::string name_of_case(const testing::TestParamInfo<std::tuple<Choices...>>& info) {
   std::string out;

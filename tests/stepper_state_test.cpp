@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_state_test.cpp  A stepper set to another's state goes on to the same bits.
+// stepper_state_test.cpp  A stepper that is set to the state of another continues with the same bits.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ class StepperState : public BackendTest<Case> {
   std::unique_ptr<Stepper> stepper(const StepperOptions& options) const {
     return make_stepper(backend_, scene_.specimen, scene_.network, scene_.laws, scene_.inertia, options);
   }
-  /// The same specimen under all that a boundary can do.
+  /// Returns options that use every feature of a boundary on the same specimen.
   StepperOptions pushed() const {
     StepperOptions out = options_;
     const double area = scene_.specimen.box.size.x * scene_.specimen.box.size.y;
@@ -35,7 +35,7 @@ class StepperState : public BackendTest<Case> {
     return out;
   }
 
-  /// Steps of a whole device and of parts of it.
+  /// Compares the steps of a whole device with those of a part of its multiprocessors.
   void compare_sizes(const TestScene& scene, StepperOptions options) const {
     std::tie(options.precision, options.form, options.geometry) =
         std::tie(options_.precision, options_.form, options_.geometry);
@@ -65,8 +65,7 @@ class StepperState : public BackendTest<Case> {
 
 INSTANTIATE_TEST_SUITE_P(All, StepperState, all_stepper_cases(), [](const auto& info) { return name_of_case(info); });
 
-// Several samples in one call are those of steps and observations one by one, on a device too, which takes them without
-// a pause.
+// Several samples from one call equal single steps and observations. A device takes such samples without stopping.
 TEST_P(StepperState, SamplesAreObservationsOneByOne) {
   const auto check = [&](const char* what, const StepperOptions& options) {
     SCOPED_TRACE(what);
@@ -113,10 +112,10 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
     SCOPED_TRACE(what);
     const auto whole = stepper(options), first = stepper(options), second = stepper(options);
     whole->advance(400);
-    first->advance(277);  // longer than a block of steps can be, whose arrays are then not zero
+    first->advance(277);  // longer than any block of steps, so that arrays of a block are not zero
     const std::vector<StateArray> state = first->state();
     EXPECT_FALSE(same_bits(state, whole->state()));
-    second->advance(5);  // whatever it did before
+    second->advance(5);  // its earlier state must not matter
     second->set_state(state);
     EXPECT_TRUE(same_bits(second->state(), state));
     EXPECT_EQ(second->observe().top_force(), first->observe().top_force());
@@ -132,9 +131,10 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
     }
     for (std::size_t k = 0; k < state.size(); ++k) {
       const std::string& name = state[k].name;
-      // the step makes these anew; observe() alone reads the loads on walls
+      // The step recomputes these arrays; only observe() reads the wall loads.
       if (name == "gathered_velocity" || name == "wall_loads") continue;
-      std::vector<StateArray> other = state;  // each array matters: the comparison finds one that was forgotten
+      // Zeroing any array must change the result; this finds arrays that the comparison would not notice.
+      std::vector<StateArray> other = state;
       std::visit([](auto& list) { std::fill(list.begin(), list.end(), 0); }, other[k].values);
       second->set_state(other);
       second->advance(123);
@@ -161,8 +161,8 @@ TEST_P(StepperState, GoesOnToTheSameBits) {
   check("bonds, many of them broken", options_);
 }
 
-// A device with fewer multiprocessors has other tiles, or streams them: the same bits, and a state goes from one to
-// another. Elastic scenes have kernels of their own.
+// A device with fewer multiprocessors has other tiles, or streams them. It gives the same bits and can continue the
+// state of another. Elastic scenes have kernels of their own.
 TEST_P(StepperState, IsThatOfADeviceOfAnySize) {
   if (backend_ != Backend::cuda) GTEST_SKIP() << "of devices alone";
   for (const Laws& laws : {am1_laws(), elastic_laws()}) {
@@ -170,7 +170,7 @@ TEST_P(StepperState, IsThatOfADeviceOfAnySize) {
     for (const StepperOptions& load : {shaking_options(scene), slow_options(scene)}) compare_sizes(scene, load);
   }
 }
-/// Any complex motion, for a start of no particular meaning.
+/// Returns an arbitrary complex motion for a start without physical meaning.
 std::vector<std::complex<double>> some_motion(std::size_t particles) {
   std::mt19937 random(5);
   std::vector<std::complex<double>> out(6 * particles);
@@ -182,7 +182,8 @@ std::vector<std::complex<double>> some_motion(std::size_t particles) {
   return out;
 }
 
-// Frequencies of a run follow one another so: other steps, masses, loads and starts, and what is kept is as it was.
+// Making a stepper from a used one, as consecutive frequencies of a run do: with other steps, masses, loads and starts
+// it must behave like a new one.
 TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   StepperOptions slow = slow_options(scene_);
   std::tie(slow.precision, slow.form, slow.geometry) = std::tie(options_.precision, options_.form, options_.geometry);
@@ -201,7 +202,7 @@ TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   started.boundary = moving_top(at_once);
   const StartState start = steady_start(scene_.network, scene_.laws, some_motion(scene_.specimen.size()), at_once);
   started.start = &start;
-  started.observed_every = 60;  // blocks end there, though the start is one step before
+  started.observed_every = 60;  // blocks end at these samples, although the start is one step before
   StepperOptions resting = slow;
   resting.boundary = {};
   const StepperOptions pushed = this->pushed();
@@ -210,7 +211,7 @@ TEST_P(StepperState, OfAUsedStepperIsThatOfAFreshOne) {
   struct Use {
     const char* name;
     const StepperOptions* options;
-    bool kept;  ///< on the processor; a device keeps less where it takes steps in blocks before or after
+    bool kept;  ///< on the processor; a device keeps less if it steps in blocks before or after
   };
   std::unique_ptr<Stepper> used;
   for (const Use& use : {Use{"slow", &slow, false}, Use{"slower, heavier, damped", &slower, true},

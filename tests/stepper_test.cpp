@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stepper_test.cpp  Every backend, precision, form and geometry against the reference, on fresh random specimens.
+// stepper_test.cpp  Every backend, precision, form and geometry against the reference stepper, on random specimens.
 #include <gtest/gtest.h>
 
 #include <tuple>
@@ -14,7 +14,7 @@ using Case = StepperCase;
 
 class StepperAgainstReference : public BackendTest<Case> {
  protected:
-  /// Steps both and compares all motion and wall forces relative to their own largest values.
+  /// Steps both and compares all motions and wall forces, relative to their largest values.
   void compare(const TestScene& scene, StepperOptions options, std::int64_t steps) {
     const double tolerance = this->tolerance(steps);
     const auto& [backend, precision, form, geometry] = GetParam();
@@ -25,7 +25,7 @@ class StepperAgainstReference : public BackendTest<Case> {
     options.precision = precision;
     const auto stepper = make_stepper(backend, scene.specimen, scene.network, scene.laws, scene.inertia, options);
     reference->advance(steps);
-    stepper->advance(steps / 3);  // the run may be cut anywhere
+    stepper->advance(steps / 3);  // a run may be divided anywhere
     stepper->advance(steps - steps / 3);
     const ParticleState expected = reference->particles(), found = stepper->particles();
     EXPECT_LT(relative_difference(found.displacement, expected.displacement), tolerance);
@@ -41,8 +41,8 @@ class StepperAgainstReference : public BackendTest<Case> {
   }
 
   /// Rounding of the geometry changes every stiffness by about ε, hence the phase of a mode by ε·ω·t ≤ ε·steps (the
-  /// step is half of the critical one, ωΔt ≤ 1); sums of some ten terms make it ten times that. In double the reference
-  /// adds its own share: it forms d from absolute centres, which are five to ten times d.
+  /// step is half of the critical one, so ωΔt ≤ 1). Sums of about ten terms make this ten times as large. In double
+  /// precision the reference contributes too: it computes d from absolute coordinates, which are five to ten times d.
   double tolerance(std::int64_t steps) const {
     const double rounding = std::get<Precision>(GetParam()) == Precision::double_ ? 100 * 0x1p-53 : 10 * 0x1p-24;
     return rounding * static_cast<double>(std::max<std::int64_t>(steps, 100));
@@ -89,7 +89,7 @@ TEST_P(StepperAgainstReference, DampingScalingAndLateralWalls) {
   compare(scene, options, long_tests ? 300 : 100);
   options.damping_kind = Damping::local;
   options.damping = 0.3;
-  // sign(v) of a component that is zero but for rounding may differ: only a few steps can be compared
+  // The sign of a velocity component that is zero except for rounding may differ, so only a few steps can be compared.
   compare(scene, options, 20);
 }
 
@@ -102,7 +102,7 @@ TEST_P(StepperAgainstReference, SlowLoadUnderWaves) {
   compare(scene, options, long_tests ? 300 : 100);
 }
 
-/// On a device of two multiprocessors the tiles are full: all registers that are for contacts are in use.
+/// On a device with two multiprocessors the tiles are full: all registers for contacts are in use.
 TEST_P(StepperAgainstReference, ElasticContactsUnderSlowLoad) {
   const TestScene scene = make_scene(random_specimen(19, 8, 8, 9), {}, elastic_laws());
   StepperOptions options = slow_options(scene);
@@ -111,16 +111,16 @@ TEST_P(StepperAgainstReference, ElasticContactsUnderSlowLoad) {
   compare(scene, options, long_tests ? 600 : 100);
 }
 
-/// What a stepper keeps of laws with a memory, those without have no part in.
+/// If a stepper for laws with memory is reused for laws without, the states that it keeps must not affect the result.
 TEST_P(StepperAgainstReference, LawsOfAnotherKindThanThoseOfTheUsedStepper) {
   const auto& [on, precision, form, geometry] = GetParam();
-  const Backend backend = on;  // clang 16 does not capture what is bound
+  const Backend backend = on;  // clang 16 cannot capture structured bindings
   const TestScene scene = make_scene(random_specimen(19, 6, 6, 7));
   StepperOptions options = slow_options(scene);
   options.form = form;
   options.precision = precision;
   options.geometry = geometry;
-  const Laws elastic = elastic_laws();  // softer: the time step suits both
+  const Laws elastic = elastic_laws();  // softer laws, so the time step suits both
   Laws slippery = elastic;
   std::get<laws::Elastic>(*slippery[static_cast<std::size_t>(PairType::mm)]).alpha = 0;
   const auto with = [&](const Laws& laws, std::unique_ptr<Stepper> used) {
@@ -145,7 +145,7 @@ TEST_P(StepperAgainstReference, LawsOfAnotherKindThanThoseOfTheUsedStepper) {
 INSTANTIATE_TEST_SUITE_P(All, StepperAgainstReference, all_stepper_cases(),
                          [](const auto& info) { return name_of_case(info); });
 
-/// Large finite turns: the carried frame must follow them, not only small strain.
+/// Large finite rotations: the rotating contact frames must follow them, not only small strains.
 TEST_P(StepperAgainstReference, FreeAssemblyThatTumbles) {
   NetworkSpec spec;
   spec.bottom_top_walls = false;
@@ -174,7 +174,7 @@ TEST_P(StepperAgainstReference, FreeAssemblyThatTumbles) {
 }
 
 TEST(Stepper, SameBitsForAnyNumberOfThreads) {
-  const TestScene scene = make_scene(random_specimen(3, 10, 10, 12));  // several tiles
+  const TestScene scene = make_scene(random_specimen(3, 10, 10, 12));  // large enough for several tiles
   std::vector<ParticleState> states;
   for (const int threads : {1, 2, 3}) {
     StepperOptions options = shaking_options(scene);
@@ -194,7 +194,7 @@ TEST(Stepper, SameBitsForAnyNumberOfThreads) {
   }
 }
 
-/// Two runs, one of them cut into pieces, give the same bits on every backend.
+/// Two runs, one of them in pieces, give the same bits on every backend.
 TEST_P(StepperAgainstReference, SameBitsHoweverTheRunIsCut) {
   const auto& [backend, precision, form, geometry] = GetParam();
   const TestScene scene = make_scene(random_specimen(17, 8, 8, 9));
@@ -244,7 +244,7 @@ TEST(Stepper, ExactQuadratureChangesTheBendingOnly) {
     lumped_sum += l.ss + l.tt;
     exact_sum += e.ss + e.tt;
   }
-  EXPECT_GT(lumped_sum, 1.2 * exact_sum);  // points at the rim weigh more than the area between them
+  EXPECT_GT(lumped_sum, 1.2 * exact_sum);  // points at the rim have larger second moments than the area between them
   StepperOptions options = shaking_options(lumped);
   const auto a = make_stepper(Backend::cpu, lumped.specimen, lumped.network, lumped.laws, lumped.inertia, options);
   const auto b = make_stepper(Backend::cpu, polygon.specimen, polygon.network, polygon.laws, polygon.inertia, options);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// stop_signals_test.cpp  Signals at any time, once or several at once: a checkpoint, or an untouched folder.
+// stop_signals_test.cpp  Stop signals at any time, single or several at once: either a checkpoint is left, or the
+// folder is unchanged.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/syscall.h>
@@ -10,16 +11,16 @@
 namespace macadam::test {
 namespace {
 
-/// A run that takes minutes if nothing stops it: however busy the machine is, a signal comes before its end.
+/// Solver settings of a run that takes minutes, so that a signal comes before its end even on a busy machine.
 constexpr const char* minutes_long = "density_scaling = 1.0\n";
 
-/// A pipe that is full: who writes into it waits until somebody reads.
+/// A full pipe: whoever writes into it waits until somebody reads.
 class FullPipe {
  public:
   FullPipe() {
     if (pipe2(ends_, O_NONBLOCK) != 0) throw std::system_error(errno, std::generic_category(), "pipe2");
     while (::write(ends_[1], "", 1) == 1) {}
-    fcntl(ends_[1], F_SETFL, 0);  // the writer waits
+    fcntl(ends_[1], F_SETFL, 0);  // from now on the writer waits
     fcntl(ends_[0], F_SETFL, 0);
   }
   FullPipe(const FullPipe&) = delete;
@@ -28,7 +29,7 @@ class FullPipe {
     if (ends_[1] >= 0) close(ends_[1]);
   }
   int to_write() const { return ends_[1]; }
-  /// Reads until every writer has closed its end.
+  /// Reads until all writers have closed the pipe.
   void drain() {
     close(std::exchange(ends_[1], -1));
     char piece[4096];
@@ -41,12 +42,13 @@ class FullPipe {
 
 class StopSignals : public Program {
  protected:
-  /// Starts `macadam arguments…`, whose output goes to stdout.txt or into `output`.
+  /// Starts `macadam arguments…` as a child. Its output goes to stdout.txt or into `output`.
   pid_t start(std::vector<std::string> arguments, int output = -1) const {
-    std::fflush(stdout);  // or the child would write it again
+    std::fflush(stdout);  // otherwise the child would print buffered text again
     const pid_t child = fork();
     if (child != 0) return child;
-    for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);  // who runs tests may ignore them
+    // the shell that runs the tests may ignore them
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) signal(number, SIG_DFL);
     if (output >= 0 ? dup2(output, STDOUT_FILENO) < 0 : !freopen((folder_ / "stdout.txt").c_str(), "w", stdout))
       _exit(99);
     if (!freopen((folder_ / "stderr.txt").c_str(), "w", stderr)) _exit(99);
@@ -71,7 +73,7 @@ class StopSignals : public Program {
     }
     FAIL() << "it ended too soon: " << read(folder_ / "stderr.txt");
   }
-  /// Waits until the program catches SIGTERM: a larger one takes its time to be loaded.
+  /// Waits until the program has installed its handler of SIGTERM, because a large program takes time to load.
   static void wait_until_it_listens(pid_t child) {
     while (waitpid(child, nullptr, WNOHANG) == 0) {
       std::ifstream status("/proc/" + std::to_string(child) + "/status");
@@ -81,7 +83,8 @@ class StopSignals : public Program {
       usleep(1000);
     }
   }
-  /// Waits until the program waits for room in its standard output. False where the system does not show it.
+  /// Waits until the program blocks in writing to its standard output. Returns false if the system does not show system
+  /// calls in /proc.
   static bool wait_until_it_waits_for_output(pid_t child) {
     while (waitpid(child, nullptr, WNOHANG) == 0) {
       std::ifstream file("/proc/" + std::to_string(child) + "/syscall");
@@ -100,7 +103,8 @@ class StopSignals : public Program {
   }
 };
 
-// coreutils' timeout sends one to its child and another to the child's group, at once.
+// timeout of coreutils sends a signal to its child and at once another one to the child's process group. Several
+// signals count as one request to stop.
 TEST_F(StopSignals, SeveralAtOnceAreOne) {
   write_scene(minutes_long);
   const std::vector<std::vector<int>> bursts{
@@ -120,6 +124,7 @@ TEST_F(StopSignals, SeveralAtOnceAreOne) {
   }
 }
 
+/// One signal stops all scenes of a command.
 TEST_F(StopSignals, StopACommandOfSeveralScenes) {
   const fs::path scene = write_scene(minutes_long);
   std::vector<std::string> arguments{"run"};
@@ -139,8 +144,8 @@ TEST_F(StopSignals, StopACommandOfSeveralScenes) {
   EXPECT_FALSE(fs::exists(folder_ / "out/second/response.csv"));
 }
 
-// The functions themselves, in a process that raises the signal again and again until it dies of it. The clock says
-// only that it cannot have died within two seconds: a machine that stands still makes it die later, never earlier.
+// Tests the functions themselves in a process that raises the signal repeatedly until it dies. Only the lower limit of
+// two seconds is checked, because a slow machine makes it die later, never earlier.
 TEST(StopSignal, AfterTwoSecondsItEndsTheProgram) {
   std::fflush(stdout);
   const auto begin = std::chrono::steady_clock::now();
@@ -160,8 +165,9 @@ TEST(StopSignal, AfterTwoSecondsItEndsTheProgram) {
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
 }
 
-// The program is held where it says what the specimen is. Making the preconditioner, which comes next, asks for no
-// signals: what came meanwhile counts before any file is touched.
+// A full pipe stops the program when it prints its description of the specimen. The next step, making the
+// preconditioner, does not check for signals; a signal that came in the meantime must be noticed before any file is
+// changed.
 TEST_F(StopSignals, BeforeTheHarmonicPlanTheFolderStaysAsItWas) {
   write_scene();
   ASSERT_EQ(run_quick("out").code, 0);
@@ -181,7 +187,7 @@ TEST_F(StopSignals, BeforeTheHarmonicPlanTheFolderStaysAsItWas) {
   EXPECT_TRUE(fs::exists(folder_ / "out/response.csv"));
 }
 
-// Making this specimen takes longer than any machine lets the test wait, if nothing stops it.
+// Generating this specimen takes longer than the test would ever wait, unless the signal stops it.
 TEST_F(StopSignals, BeforeTheFirstStepTheyLeaveTheFolderAsItWas) {
   write_scene();
   ASSERT_EQ(run_quick("out").code, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// streams_test.cpp  Standard input, output and error that are closed, full, unread, limited, or a terminal that is
-// gone.
+// streams_test.cpp  Standard input, output and error that are closed, full, not read, limited in size, or a terminal
+// that has closed.
 #include <pty.h>
 #include <signal.h>
 
@@ -17,7 +17,7 @@ class Streams : public Program {
     write_scene();
   }
 
-  /// Exit code of a command of bash, in which $M is the program.
+  /// Runs a command in bash, where $M is the program; returns the exit code and the standard error.
   Outcome shell(const std::string& command) const {
     write(folder_ / "command.sh", "M='" MACADAM_PROGRAM "'\ncd '" + folder_.string() + "'\n" + command + "\n");
     const fs::path err = folder_ / "stderr.txt";
@@ -28,7 +28,7 @@ class Streams : public Program {
   }
 };
 
-// What these print is all that they do.
+// For commands whose only result is their output, lost output is an error.
 TEST_F(Streams, LostOutputOfACommandThatOnlyPrintsIsExitCodeOne) {
   const std::string surface = "'" MACADAM_EXAMPLES "/icosahedron/icosahedron.off'";
   for (const std::string& command :
@@ -37,7 +37,7 @@ TEST_F(Streams, LostOutputOfACommandThatOnlyPrintsIsExitCodeOne) {
     ASSERT_EQ(shell("$M " + command + " > said.txt").code, 0) << command;
     for (const char* lost : {">/dev/full", ">&-", "| false; exit ${PIPESTATUS[0]}"}) {
       const Outcome outcome = shell("$M " + std::string(command) + " " + lost);
-      // a pipe may still have room for all that is said when its reader ends
+      // The pipe may hold all output before its reader ends.
       if (*lost == '|' && outcome.code == 0) continue;
       EXPECT_EQ(outcome.code, 1) << command << " " << lost;
       EXPECT_HAS(outcome.err, "standard output: cannot be written");
@@ -47,7 +47,8 @@ TEST_F(Streams, LostOutputOfACommandThatOnlyPrintsIsExitCodeOne) {
   }
 }
 
-// What a run says is in its files: it ends well, and no file gets what was meant for a stream.
+// The results of a run are in its files, so it succeeds without streams, and no file gets output that was meant for a
+// stream.
 TEST_F(Streams, ARunNeedsNone) {
   ASSERT_EQ(run_quick("out").code, 0);
   for (const char* streams : {">/dev/full", "| head -n 1 >/dev/null; exit ${PIPESTATUS[0]}", ">&-", "2>&-", "<&-",
@@ -68,7 +69,7 @@ TEST_F(Streams, AnErrorKeepsItsExitCodeWhereNobodyHearsIt) {
   }
 }
 
-// `ulimit -f` counts blocks of 1,024 bytes; specimen.csv has some 14,000 bytes.
+// `ulimit -f` counts blocks of 1,024 bytes; specimen.csv has about 14,000 bytes.
 TEST_F(Streams, AFileBeyondItsLimitIsAnErrorAndLeavesNoPart) {
   const Outcome outcome = shell("ulimit -f 4; $M run scene.toml --backend cpu --out out");
   EXPECT_EQ(outcome.code, 1);
@@ -83,7 +84,8 @@ TEST_F(Streams, ANewSceneBeyondItsLimitIsAnErrorAndLeavesNoPart) {
   EXPECT_FALSE(fs::exists(folder_ / "other.toml"));
 }
 
-// OpenBLAS tries for ever where it cannot map its buffer, for its own threads as it is loaded already.
+// If OpenBLAS cannot allocate its buffers, it retries forever. The program must end with an error; its libraries are
+// already loaded at that point.
 TEST_F(Streams, TooLittleMemoryEndsARun) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the address sanitizer takes terabytes of addresses";
@@ -95,7 +97,7 @@ TEST_F(Streams, TooLittleMemoryEndsARun) {
         "unset OPENBLAS_NUM_THREADS; export OMP_NUM_THREADS=1; ulimit -v {}; ulimit -t {}; timeout -k 5 {} $M {}",
         megabytes * 1024, seconds, 12 * seconds, command));
   };
-  // With less, the libraries are not even loaded; OpenBLAS 0.3.29 then waits for ever before the program begins.
+  // With less memory the libraries cannot even be loaded; OpenBLAS 0.3.29 then hangs before the program begins.
   int too_little = 60, least = 500;
   while (least - too_little > 4) {
     const int middle = (too_little + least) / 2;
@@ -115,7 +117,7 @@ TEST_F(Streams, TooLittleMemoryEndsARun) {
   EXPECT_GT(done, 0);
 }
 
-// Of 0.3 s for a tenth, at least 2.7 s are left, and nothing at the end, however slow the machine is.
+// After 0.3 s for a tenth of the work at least 2.7 s are left, and at the end nothing, however slow the machine is.
 TEST(ProgressLine, SaysTheTimeThatIsLeft) {
   std::fflush(stdout);
   int terminal = -1;
@@ -142,7 +144,7 @@ TEST(ProgressLine, SaysTheTimeThatIsLeft) {
   EXPECT_HAS(shown, "stage 100 %, 0 s left");
 }
 
-// As after nohup, or `disown -h`: the progress line meets a terminal that answers EIO.
+// After nohup or `disown -h`, the progress line writes to a terminal that returns EIO.
 TEST_F(Streams, ATerminalThatIsGoneDoesNotEndARun) {
   write_scene("density_scaling = 3e3\n");
   int terminal = -1;
@@ -159,7 +161,7 @@ TEST_F(Streams, ATerminalThatIsGoneDoesNotEndARun) {
   for (ssize_t n = 0; shown.find(" left") == std::string::npos && (n = ::read(terminal, piece, sizeof piece)) > 0;) {
     shown.append(piece, static_cast<std::size_t>(n));
   }
-  EXPECT_HAS(shown, " left");  // it was under way
+  EXPECT_HAS(shown, " left");  // the run was in progress
   close(terminal);
   int status = -1;
   waitpid(child, &status, 0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_check_test.cpp  Every fault, made on purpose, is found where it was made; what can be healed is.
+// surface_check_test.cpp  Every kind of fault of a surface, made on purpose, is found at the right place, and repaired
+// if that is possible.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,7 +21,7 @@ namespace {
 
 using Facets = std::vector<std::int32_t>;
 
-/// Expects that nothing but what `expect` takes out of it is wrong.
+/// Expects faults, and that none remain after `expect` has checked and removed the expected ones.
 void expect_only(SurfaceVerdict verdict, const std::function<void(SurfaceVerdict&)>& expect) {
   EXPECT_FALSE(verdict.good());
   EXPECT_NE(verdict.text(), "closed");
@@ -59,6 +60,7 @@ TEST(CheckSurface, OpenNamesTheFacetsAroundTheHole) {
   });
 }
 
+/// A point without facets is reported, because it would distort measures such as the bounding sphere.
 TEST(CheckSurface, StrayNamesThePointThatWouldCount) {
   Surface s = icosphere(1);
   s.points.insert(s.points.begin() + 5, {9, 9, 9});
@@ -93,7 +95,7 @@ TEST(CheckSurface, InsideOut) {
   });
 }
 
-/// Whether an edge of facet f passes through the inside of facet g (Möller and Trumbore, in rounded numbers).
+/// Returns whether an edge of facet f passes through the interior of facet g (Möller and Trumbore, in floating point).
 bool pierces(const Surface& s, const std::array<std::int32_t, 3>& f, const std::array<std::int32_t, 3>& g) {
   const Vec3d o = s.points[g[0]], e1 = s.points[g[1]] - o, e2 = s.points[g[2]] - o;
   for (int k = 0; k < 3; ++k) {
@@ -108,7 +110,7 @@ bool pierces(const Surface& s, const std::array<std::int32_t, 3>& f, const std::
 
 TEST(CheckSurface, SelfIntersectingNamesAllThatCut) {
   Surface s = icosphere(1);
-  s.points[3] = -1.5 * s.points[3] + Vec3d{0.01, 0.02, 0.03};  // pushed through the other side
+  s.points[3] = -1.5 * s.points[3] + Vec3d{0.01, 0.02, 0.03};  // pushed through the opposite side
   std::set<std::int32_t> expected;
   for (std::size_t f = 0; f < s.facets.size(); ++f) {
     for (std::size_t g = 0; g < s.facets.size(); ++g) {
@@ -128,7 +130,7 @@ TEST(CheckSurface, SelfIntersectingWhereAFacetIsFoldedOntoItsNeighbour) {
   s.facets.push_back(s.facets[2]);
   const SurfaceVerdict twice = check_surface(s);
   EXPECT_EQ(twice.self_intersecting, (Facets{2, 4}));
-  EXPECT_EQ(twice.non_manifold, (Facets{0, 1, 2, 3, 4}));  // its three edges have three facets each
+  EXPECT_EQ(twice.non_manifold, (Facets{0, 1, 2, 3, 4}));  // each of its three edges has three facets
 
   Surface flat{"flat", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 0, 3}}};
   EXPECT_EQ(check_surface(flat).self_intersecting, (Facets{0, 1}));
@@ -137,12 +139,12 @@ TEST(CheckSurface, SelfIntersectingWhereAFacetIsFoldedOntoItsNeighbour) {
 }
 
 TEST(CheckSurface, NonManifoldEdge) {
-  // Two boxes that share one edge, by the same two points: its four facets are named.
+  // Two boxes that share an edge by the same two points. The four facets at this edge are named.
   Surface s = box_surface(1, 1, 1);
   const Surface other = moved(s, {1, 1, 0});
   s = joined(s, other);
   for (auto& f : s.facets) {
-    for (auto& p : f) p = p == 8 ? 2 : p == 12 ? 6 : p;  // (1, 1, 0) and (1, 1, 1)
+    for (auto& p : f) p = p == 8 ? 2 : p == 12 ? 6 : p;  // the points (1, 1, 0) and (1, 1, 1)
   }
   Facets at_edge;
   for (std::size_t f = 0; f < s.facets.size(); ++f) {
@@ -162,7 +164,8 @@ TEST(CheckSurface, PinchedPointNamesTheFacetsAroundIt) {
   for (auto& f : s.facets) {
     for (auto& p : f) p = p == 4 ? 0 : p;
   }
-  for (std::size_t f = 4; f < 8; ++f) std::swap(s.facets[f][0], s.facets[f][1]);  // mirrored in a point
+  // reflection in a point reverses the orientation
+  for (std::size_t f = 4; f < 8; ++f) std::swap(s.facets[f][0], s.facets[f][1]);
   expect_only(check_surface(s), [](SurfaceVerdict& v) {
     EXPECT_EQ(std::exchange(v.non_manifold, {}), (Facets{0, 1, 2, 4, 5, 6}));
     EXPECT_EQ(v.pieces, 1);
@@ -192,7 +195,7 @@ TEST(CheckSurface, PiecesInsideAnother) {
       });
     }
   }
-  // what sticks out of the box, or has lost a facet, is not a pore
+  // A box that protrudes from the outer one, or is not closed, does not count as a pore.
   EXPECT_EQ(check_surface(joined(box, moved(box_surface(1, 1, 9), {1, 1, 1}))).inner, 0);
   Surface open = moved(box_surface(1, 1, 1), {1, 1, 1});
   open.facets.pop_back();
@@ -200,7 +203,8 @@ TEST(CheckSurface, PiecesInsideAnother) {
 }
 
 TEST(CheckSurface, DegenerateInAnyPose) {
-  // A point put on an edge, and the facets beside it cut there: the facet between them has no area.
+  // A point is placed on an edge, and one of the two facets at the edge is divided there. The facet between them has no
+  // area.
   Surface s = box_surface(1, 1, 1);
   const auto flat = static_cast<std::int32_t>(s.facets.size());
   const auto [a, b, c] = s.facets[0];
@@ -213,7 +217,7 @@ TEST(CheckSurface, DegenerateInAnyPose) {
   for (int k = 0; k < 20; ++k) {
     expect_only(check_surface(mapped(s, random_pose(random, 1e-3, {2e-3, 0, 0}))), [&](SurfaceVerdict& v) {
       EXPECT_EQ(std::exchange(v.degenerate, {}), (Facets{flat + 1}));
-      // turned, the point on the edge is a rounding off it: facets that merely touch may be found to cut each other
+      // After rotation the point is off the edge by rounding, so that touching facets may be found to intersect.
       v.self_intersecting.clear();
     });
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file surface_distance_test.cpp  Depth below a surface against closed forms.
+/// \file surface_distance_test.cpp  Depth of points below a surface, against closed forms.
 #include "host/shapes/surface_distance.hpp"
 
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 namespace macadam {
 namespace {
 
-constexpr double tolerance = 1e-13;  // a few roundings of lengths of order 1 … 10
+constexpr double tolerance = 1e-13;  // a few roundings of lengths of order 1 to 10
 
-/// Points in and around the cube 0 … edge.
+/// Calls `visit` with random points in and around the cube from 0 to `edge`.
 template <class Visit>
 void at_random_points(double edge, const Visit& visit) {
   RandomStream random(1, 0);
@@ -32,7 +32,8 @@ TEST(SurfaceDistance, IsExactInAndAroundABox) {
 TEST(SurfaceDistance, KnowsInsideFromOutsideAtAReentrantEdge) {
   const SurfaceDistance distance(test::l_surface(3, 1, 1));
   at_random_points(3, [&](const Vec3d& p) {
-    // Of a union, the outer distance is that of the nearer part; inside, the deeper part is a lower bound.
+    // Outside, the distance from a union is that from the nearer part. Inside, the depth in the deeper part is a lower
+    // bound.
     const double union_of_two = std::max(test::depth_in_box(p, 3, 1, 1), test::depth_in_box(p, 1, 3, 1));
     const double depth = distance.depth(p);
     ASSERT_EQ(depth > 0, union_of_two > 0) << p.x << " " << p.y << " " << p.z;
@@ -42,7 +43,7 @@ TEST(SurfaceDistance, KnowsInsideFromOutsideAtAReentrantEdge) {
       ASSERT_NEAR(depth, union_of_two, tolerance);
     }
   });
-  // On the bisector of the re-entrant edge, from which the depth is counted: the four sides are further away.
+  // This point is on the bisector of the re-entrant edge, which is its nearest place; the four sides are farther away.
   EXPECT_NEAR(distance.depth({0.7, 0.7, 0.5}), std::hypot(0.3, 0.3), tolerance);
 }
 
@@ -52,8 +53,8 @@ TEST(SurfaceDistance, GrowsAlongTheDirectionItGives) {
     const Vec3d q = p - Vec3d{0.5, 0.5, 0.5};
     const auto [depth, inward] = distance.below(q, 10);
     ASSERT_NEAR(norm(inward), 1, tolerance);
-    // A step against it comes nearer to the nearest point by its own length, as no other point can undercut inside;
-    // outside a convex body the same holds for a step away from it.
+    // Inside, a step against the direction reduces the distance to the nearest point by its length, and no other point
+    // becomes nearer. Outside of a convex surface a step away increases it by its length.
     ASSERT_NEAR(distance.depth(q - 0.1 * inward), depth - 0.1, 1e-12);
   });
 }
@@ -69,7 +70,7 @@ TEST(SurfaceDistance, BeyondTheReachGivesALowerBound) {
       ASSERT_GT(found, reach);
     }
   });
-  EXPECT_GT(bounded, 100);  // or nothing would have been saved
+  EXPECT_GT(bounded, 100);  // otherwise limiting the reach would save nothing
 }
 
 }  // namespace

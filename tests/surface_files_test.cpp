@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_files_test.cpp  Every format there and back; files that are cut, broken or full of nonsense.
+// surface_files_test.cpp  Writing and reading of every surface format, and files that are truncated, corrupt or
+// nonsensical.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -57,7 +58,7 @@ class SurfaceFiles : public testing::Test {
     return folder_ / name;
   }
 
-  /// The file's surface as text and facets, or the message of its InputError; anything else fails the test.
+  /// Returns the message of the InputError on reading the file, or "accepted". Every other exception fails the test.
   static std::string message_for(const fs::path& file, double scale = 1) {
     try {
       read_surface(file, scale);
@@ -68,7 +69,7 @@ class SurfaceFiles : public testing::Test {
     }
   }
 
-  /// The four formats by our writer, and ASCII STL.
+  /// Returns the surface in the four formats of our writer and in ASCII STL, as pairs of extension and bytes.
   std::vector<std::pair<std::string, std::string>> all_formats(const Surface& s) const {
     std::vector<std::pair<std::string, std::string>> files;
     for (const char* ending : {"stl", "off", "ply", "obj"}) {
@@ -118,7 +119,7 @@ TEST_F(SurfaceFiles, StlKeepsFloats) {
   }
   write_surface(folder_ / "stone.stl", s);
   std::string bytes = read(folder_ / "stone.stl");
-  std::memcpy(bytes.data(), "solid by a careless program", 27);  // binary for all that
+  std::memcpy(bytes.data(), "solid by a careless program", 27);  // begins with "solid", but is binary
   EXPECT_EQ(read_surface(written("solid.stl", bytes)).facets.size(), s.facets.size());
 }
 
@@ -166,7 +167,7 @@ TEST_F(SurfaceFiles, BrokenOnesAreInputErrorsWithTheCulprit) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(&nan_stl[84 + 50 * 2 + 12], &nan, 4);
   }
-  std::string header_alone(84, ' ');  // of a binary file whose count asks for one facet
+  std::string header_alone(84, ' ');  // header of a binary file whose count announces one facet
   header_alone[80] = 1, header_alone[81] = header_alone[82] = header_alone[83] = 0;
   std::vector<Case> cases{
       {"header.stl", header_alone,
@@ -227,7 +228,7 @@ TEST_F(SurfaceFiles, BrokenOnesAreInputErrorsWithTheCulprit) {
   }
 }
 
-/// A number is a word as a whole: no text is taken for two numbers, none is left over.
+/// A word is one number: it is neither split into two, nor is a remainder ignored.
 TEST_F(SurfaceFiles, WhatIsNoNumberIsNamedWithItsLine) {
   for (const std::string bad : {"1.5.5", "1,5", "0x1", "1.5f", "--1", "+-1", "1e", "1.5-2"}) {
     const std::string found = fmt::format(": found \"{}\"", bad);
@@ -283,8 +284,9 @@ TEST_F(SurfaceFiles, UnwritableOnesAreRunErrors) {
   EXPECT_THROW(write_surface(folder_ / "stone.step", tetrahedron()), InputError);
 }
 
-/// Wherever the file is cut (at every byte near its end) it is refused, unless only white space is missing. OBJ has no
-/// counts, and a number's last digits may go: then the surface that is left cannot be a good one.
+/// A file that is truncated at any byte (every one near its end) is refused, unless only white space is missing. OBJ
+/// has no counts, and the last digits of a number may be missing; in this case the remaining surface must not count as
+/// good, unless it has all facets.
 TEST_F(SurfaceFiles, CutAnywhereTheyNeverPass) {
   const Surface s = tetrahedron();
   for (const auto& [ending, bytes] : all_formats(s)) {
@@ -303,6 +305,7 @@ TEST_F(SurfaceFiles, CutAnywhereTheyNeverPass) {
   }
 }
 
+/// Changing any byte may lead to an error or to another surface, but never to a crash.
 TEST_F(SurfaceFiles, WithAnyByteChangedTheyNeverCrash) {
   RandomStream random(7, 5);
   for (const auto& [ending, bytes] : all_formats(tetrahedron())) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_ply_test.cpp  PLY: every type of number, in text and both byte orders; headers that promise what is not
-// there.
+// surface_ply_test.cpp  PLY files: every number type, as text and in both byte orders, and headers that announce data
+// that are missing.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -22,7 +22,7 @@ constexpr const char* formats[] = {"ascii", "binary_little_endian", "binary_big_
 
 struct TypeCase {
   const char* name;
-  int bytes;  ///< of a whole number, negative where it has a sign; 0: float, 1000: double
+  int bytes;  ///< bytes of an integer, negative if it is signed; 0 for float, 1000 for double
 };
 constexpr TypeCase types[] = {{"char", -1},  {"int8", -1},   {"uchar", 1},     {"uint8", 1},
                               {"short", -2}, {"int16", -2},  {"ushort", 2},    {"uint16", 2},
@@ -33,7 +33,7 @@ TypeCase type_of(const std::string& name) {
   return *std::find_if(std::begin(types), std::end(types), [&](const TypeCase& t) { return t.name == name; });
 }
 
-/// Writes numbers of any type, in text one line an item.
+/// Builds a PLY file from numbers of any type; as text it has one line per item.
 class PlyText {
  public:
   explicit PlyText(std::string format) : format_(std::move(format)) {
@@ -77,7 +77,8 @@ class PlyText {
   std::string format_, bytes_;
 };
 
-/// A tetrahedron of coordinates that every type holds, with whatever types and whatever else is legal.
+/// Returns a tetrahedron whose coordinates fit into every type, with the given types and optionally other legal
+/// elements.
 std::string tetrahedron_ply(const std::string& format, const std::string& x, const std::string& z,
                             const std::string& count, const std::string& index, bool extras) {
   PlyText ply(format);
@@ -157,7 +158,7 @@ TEST_F(SurfacePly, NegativeAndLargeNumbersKeepTheirValues) {
   }
 }
 
-/// Headers that are wrong, or promise what is not there: refused by line, before anything is allocated.
+/// Headers that are wrong or announce missing data are refused with their line, before memory is allocated.
 TEST_F(SurfacePly, BrokenHeadersAreNamedByLine) {
   struct Case {
     std::string what, by, word;
@@ -209,8 +210,8 @@ TEST_F(SurfacePly, BrokenHeadersAreNamedByLine) {
   }
 }
 
-// The last number of a text needs no blank behind it: three numbers may take five bytes. A file of one point is refused
-// for having no facet, not for being too short.
+// The last number of a text needs no space after it, so three numbers may take five bytes. A file with one point is
+// refused because it has no facet, not because it is too short.
 TEST_F(SurfacePly, ATextMayEndWithItsLastNumber) {
   const std::string header =
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
@@ -235,12 +236,12 @@ TEST_F(SurfacePly, NumbersBeyondTheirTypesAreRefused) {
     const std::string list = "property list uint double weights\nproperty list uchar int vertex_index";
     std::string bytes = tetrahedron_ply(format, "int", "int", "uchar", "int", false);
     bytes.replace(bytes.find("property list uchar int vertex_index"), 36, list);
-    bytes.insert(bytes.size() - 4 * 13, "\xff\xff\xff\xff");  // the first list has 4,294,967,295 numbers
+    bytes.insert(bytes.size() - 4 * 13, "\xff\xff\xff\xff");  // announces 4,294,967,295 numbers in the first list
     EXPECT_HAS(message_for(bytes), "facet 0: found the end of the file");
   }
 }
 
-/// Cut anywhere, in every format, with everything that may stand in a file: never accepted.
+/// A file in any format with all optional elements is refused wherever it is truncated.
 TEST_F(SurfacePly, CutAnywhereTheyNeverPass) {
   for (const std::string format : formats) {
     const std::string good = tetrahedron_ply(format, "short", "double", "uchar", "ushort", true);

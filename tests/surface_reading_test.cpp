@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_reading_test.cpp  Files as other programs write them: seams, polygons and spellings. Volume and area are
-// right.
+// surface_reading_test.cpp  Surface files as other programs write them, with seams, polygons and various spellings:
+// volume and area must be right.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -40,7 +40,7 @@ std::string replaced_all(std::string text, const std::string& what, const std::s
   return text;
 }
 
-/// ASCII STL. `corner` gives the coordinates of a point, and is called for each corner of each facet.
+/// Returns ASCII STL. `corner` returns the coordinates of a point; it is called for each corner of each facet.
 template <class Corner>
 std::string ascii_stl(const Surface& s, Corner&& corner) {
   std::string text = "solid box of stone\n";
@@ -91,7 +91,7 @@ std::string ply(const std::vector<Vec3d>& points, const Polygons& polygons, bool
   return bytes;
 }
 
-/// A ring of `sides` corners with a rectangular cross-section.
+/// Returns a ring of `sides` segments with a rectangular cross-section.
 Surface ring(int sides, double inner, double outer, double height) {
   Surface s{"ring", {}, {}};
   for (int i = 0; i < sides; ++i) {
@@ -123,7 +123,8 @@ class SurfaceReading : public testing::Test {
     write(folder_ / name, bytes);
     return message_of([&] { read_surface(folder_ / name); });
   }
-  /// Expects a closed surface; rounding of the sums is below 1e-14, `tolerance` is the rounding of the file.
+  /// Expects a closed surface of this volume and area. Rounding of the sums is below 1e-14; `tolerance` is for the
+  /// rounding in the file.
   static void expect_closed(const Surface& s, double volume, double area, const std::string& what,
                             double tolerance = 1e-13) {
     ASSERT_TRUE(check_surface(s).good()) << what << ": " << check_surface(s).text();
@@ -135,7 +136,7 @@ class SurfaceReading : public testing::Test {
   fs::path folder_ = fs::path(testing::TempDir()) / fmt::format("macadam_reading_{}", getpid());
 };
 
-/// Programs write a coordinate of 0 as 0, 1e-17 or 6e-8, a new one at each facet.
+/// Programs write a zero coordinate as 0, 1e-17 or 6e-8, differently in each facet. Such corners must be joined.
 TEST_F(SurfaceReading, CornersThatDifferByRoundingAreJoined) {
   const Surface s = ring(24, 6, 8, 3);
   const double volume = 12 * std::sin(std::numbers::pi / 12) * (64 - 36) * 3;
@@ -150,13 +151,14 @@ TEST_F(SurfaceReading, CornersThatDifferByRoundingAreJoined) {
                               }));
     EXPECT_EQ(r.points.size(), s.points.size());
     EXPECT_EQ(r.facets.size(), s.facets.size());
-    expect_closed(r, volume, area, fmt::format("noise {}", noise), 1e-7);  // points moved by 1e-7 of a side at most
+    expect_closed(r, volume, area, fmt::format("noise {}", noise), 1e-7);  // points are moved by at most 1e-7 of a side
     EXPECT_TRUE(r.reading.starts_with("joined ") && r.reading.ends_with(" points at open edges with others less than "
                                                                         "7.6e-06 m away"))
         << r.reading;
   }
 }
 
+/// Corners that differ by one unit in the last place of a float are joined, in any position.
 TEST_F(SurfaceReading, CornersThatDifferByOneFloatAreJoinedWherever) {
   RandomStream random(3, 1);
   const Surface s = stone(3);
@@ -171,14 +173,14 @@ TEST_F(SurfaceReading, CornersThatDifferByOneFloatAreJoinedWherever) {
   expect_closed(r, measure_shape(s).volume, measure_shape(s).area, "stone", 1e-6);
 }
 
-/// Fine details are kept: those of a closed surface to the bit, and a hole whose corners are twice the width apart.
+/// Fine details are kept: a closed surface bit by bit, and a hole whose corners are twice the joining width apart.
 TEST_F(SurfaceReading, FineSurfacesStayAsTheyAre) {
   const Surface thin = prism({{0, 0}, {1, 0}, {1, 1e-9}, {0.5, 1e-9}, {0, 1e-9}}, 1);
   Surface fine = icosphere(2);
   fine.facets.pop_back();
   const auto [a, b, c] = fine.facets.back();
   const Vec3d edge = fine.points[c] - fine.points[b];
-  fine.points.push_back(fine.points[b] + (2e-6 / norm(edge)) * edge);  // the width is 9.5e-7
+  fine.points.push_back(fine.points[b] + (2e-6 / norm(edge)) * edge);  // the joining width is 9.5e-7
   fine.facets.back() = {a, b, static_cast<std::int32_t>(fine.points.size() - 1)};
   for (const Surface& s : {thin, fine}) {
     write_surface(folder_ / "fine.off", s);
@@ -190,7 +192,7 @@ TEST_F(SurfaceReading, FineSurfacesStayAsTheyAre) {
   }
 }
 
-/// Points of 0.6 widths from one to the next are not drawn together in a chain: no point moves by more than the width.
+/// Points that are 0.6 joining widths apart are not joined as a chain: no point moves by more than the width.
 TEST_F(SurfaceReading, JoiningDoesNotChain) {
   const double step = 0.6 * 4 * std::numeric_limits<float>::epsilon();
   Surface fan{"fan", {{0, 1, 0}}, {}};
@@ -198,7 +200,7 @@ TEST_F(SurfaceReading, JoiningDoesNotChain) {
   for (int k = 1; k <= 10; ++k) fan.facets.push_back({0, k, k + 1});
   write_surface(folder_ / "fan.off", fan);
   const Surface r = read_surface(folder_ / "fan.off");
-  ASSERT_EQ(r.points.size(), 7u);  // of eleven every other one, and the apex
+  ASSERT_EQ(r.points.size(), 7u);  // every other one of eleven, and the apex
   for (int k = 0; k <= 5; ++k) EXPECT_EQ(r.points[1 + k].x, fan.points[1 + 2 * k].x);
   EXPECT_EQ(r.facets.size(), 5u);
   EXPECT_TRUE(r.reading.starts_with("joined 5 points at open edges")) << r.reading;
@@ -232,7 +234,7 @@ TEST_F(SurfaceReading, BytesAfterABinaryStlAreLeftOutAndSaid) {
   expect_closed(surface("one.stl", bytes + '\n'), 24, 52, "one byte");
   EXPECT_EQ(surface("one.stl", bytes + '\n').reading, "left out 1 byte after the last facet");
   EXPECT_EQ(surface("many.stl", bytes + std::string(49, 'x')).reading, "left out 49 bytes after the last facet");
-  // 50 bytes may be a facet that the header does not count
+  // 50 bytes could be a facet that the header does not count.
   EXPECT_HAS(message("more.stl", bytes + std::string(50, 'x')),
              "surface: found 734 bytes, expected 684 of a binary file whose header counts 12 facets");
   EXPECT_HAS(message("less.stl", bytes.substr(0, 683)), "surface: found 683 bytes, expected 684 of a binary file");
@@ -250,7 +252,7 @@ TEST_F(SurfaceReading, LinesMayEndInCarriageReturns) {
   for (const bool text : {true, false}) {
     std::vector<Vec3d> points = box.points;
     double first = 0;
-    std::memcpy(&first, "\n\0\0\0\0\0\0\0", 8);  // a number whose first byte is a line feed: 5e-323
+    std::memcpy(&first, "\n\0\0\0\0\0\0\0", 8);  // the double whose first byte is a line feed, 5e-323
     if (!text) points[0].x = first;
     std::string bytes = ply(points, facets, text);
     const std::size_t end = bytes.find("end_header\n") + 11;
@@ -289,7 +291,7 @@ TEST_F(SurfaceReading, QuadrilateralsAreCutByEveryReader) {
   }
 }
 
-/// A prism over a polygon, whose ends are polygons and whose sides are quadrilaterals.
+/// Returns the faces of a prism: two polygons and n quadrilaterals.
 Polygons prism_faces(int n) {
   Polygons faces(2);
   for (int i = 0; i < n; ++i) {
@@ -304,18 +306,18 @@ TEST_F(SurfaceReading, PolygonsAreCutWithinTheirOutlineInAnyPose) {
   RandomStream random(5, 1);
   for (int k = 0; k < 20; ++k) {
     const Pose pose = random_pose(random, 1, {10, 20, -30});
-    // an L, with a corner in the middle of an edge
+    // The polygon is an L with a corner in the middle of an edge.
     std::vector<Vec3d> points;
     for (const double z : {0.0, 2.0}) {
       for (const auto& [x, y] : {std::pair{0., 0.}, {1.5, 0.}, {3., 0.}, {3., 1.}, {1., 1.}, {1., 3.}, {0., 3.}})
         points.push_back(pose({x, y, z}));
     }
-    // files have all digits; coordinates of some 40 are rounded by 7e-15
+    // Files have all digits; coordinates of about 40 are rounded by 7e-15.
     expect_closed(surface("l.obj", obj(points, prism_faces(7))), 10, 34, "L", 1e-12);
   }
 }
 
-/// The outline of a face with a hole goes to the hole and back along the same edge.
+/// The outline of a face with a hole runs to the hole and back along the same edge.
 TEST_F(SurfaceReading, PolygonsWithHolesAreCut) {
   const Surface s = tunnel(6, 4, 3, 1);
   const Polygons faces{{0, 3, 2, 1, 0, 4, 5, 6, 7, 4},
@@ -345,7 +347,7 @@ TEST_F(SurfaceReading, PolygonsThatAreNotFlatOrCrossThemselvesAreSaid) {
   EXPECT_EQ(bent.reading,
             "cut 6 polygons into triangles, 1 of them not flat (corners up to 3.5 % of the radius from the "
             "plane)");
-  // a star drawn in one line, as the ends of a prism
+  // a five-pointed star drawn in one line, as the ends of a prism
   points.clear();
   for (const double z : {0.0, 1.0}) {
     for (int k = 0; k < 5; ++k)
@@ -357,8 +359,8 @@ TEST_F(SurfaceReading, PolygonsThatAreNotFlatOrCrossThemselvesAreSaid) {
   EXPECT_FALSE(check_surface(star).self_intersecting.empty());
 }
 
-/// Corners at random on a small grid, so that many coincide, lie in a line, or make the outline cross itself: the edges
-/// of the triangles that bound them are those of the polygon, so that a closed surface stays closed.
+/// Corners are random points of a small grid, so that many coincide, are collinear, or make the outline cross itself.
+/// The boundary of the triangles must be the polygon's outline, so that a closed surface stays closed.
 TEST_F(SurfaceReading, TrianglesHaveTheOutlineOfTheirPolygon) {
   RandomStream random(11, 1);
   int within = 0;
@@ -396,7 +398,7 @@ TEST_F(SurfaceReading, RepeatedCornersOfPolygonsAreLeftOut) {
   EXPECT_EQ(check_surface(surface("b.obj", obj(s.points, {{0, 1, 2}, {3, 3, 3, 3}}))).degenerate.size(), 1u);
 }
 
-/// Counts of corners that the file cannot hold are refused.
+/// A number of corners that the file cannot hold is refused.
 TEST_F(SurfaceReading, ForgedNumbersOfCornersAreRefused) {
   const std::vector<Vec3d> points = box_surface(2, 2, 2).points;
   for (const bool text : {true, false}) {

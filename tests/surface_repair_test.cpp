@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface_repair_test.cpp  Repairs of faulty surfaces, and the bound on the change of volume and area.
+// surface_repair_test.cpp  Repair of faulty surfaces, and the limit on the change of volume and area.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -14,7 +14,7 @@
 namespace macadam::test {
 namespace {
 
-/// Repairs and expects a good surface of about the given volume.
+/// Repairs a surface and expects a good one of about the given volume.
 SurfaceRepair repaired(const Surface& s, double volume, double tolerance, bool wrap = false) {
   SurfaceRepair repair;
   const Surface r = repair_surface(s, &repair, {}, wrap);
@@ -39,10 +39,10 @@ TEST(RepairSurface, LeavesGoodOnesAsTheyAre) {
   EXPECT_EQ(repair.area_after, repair.area_before);
 }
 
-/// The volume before is that within the facets and the filled hole.
+/// The volume before the repair includes the hole as if it were filled.
 TEST(RepairSurface, FillsHoles) {
   Surface s = box_surface(1, 2, 3);
-  s.facets.erase(s.facets.begin(), s.facets.begin() + 2);  // a face of 1 by 3
+  s.facets.erase(s.facets.begin(), s.facets.begin() + 2);  // removes a face of 1 by 3
   const SurfaceRepair repair = repaired(s, 6, 1e-12);
   EXPECT_EQ(repair.what, "filled 1 hole with 2 facets, 14 % of the area");
   EXPECT_EQ(repair.changes(), "volume 6 m3 (before 6, +0.00 %), area 22 m2 (before 22, +0.00 %)");
@@ -84,7 +84,7 @@ TEST(RepairSurface, JoinsRepeatedPointsAndDropsWhatIsNoFacet) {
   }
   soup.facets.push_back({0, 1, 1});
   soup.facets.push_back(soup.facets[5]);
-  EXPECT_EQ(check_surface(soup).open.size(), 79u);  // the repeated one borders on itself
+  EXPECT_EQ(check_surface(soup).open.size(), 79u);  // the repeated facet shares all edges with its copy
   const std::string what = repaired(soup, measure_shape(s).volume, 1e-12).what;
   EXPECT_TRUE(contains(what, "joined or dropped 198 points")) << what;
   EXPECT_TRUE(contains(what, "dropped 1 degenerate facet")) << what;
@@ -102,7 +102,7 @@ TEST(RepairSurface, DropsSpecksButDoesNotChooseBetweenBodies) {
   const SurfaceRepair repair = repaired(joined(speck, body), measure_shape(body).volume, 1e-12);
   EXPECT_EQ(repair.what, "dropped 1 speck");
   EXPECT_NEAR(repair.volume_before - repair.volume_after, measure_shape(speck).volume, 1e-12);
-  // a speck of 4 % of the area is too much to drop without asking
+  // A speck with 4 % of the area is too large to be removed without --wrap.
   const Surface larger = moved(tetrahedron(0.53), {2, 0, 0});
   EXPECT_THROW(repair_surface(joined(larger, body)), RunError);
   EXPECT_NO_THROW(repair_surface(joined(larger, body), nullptr, {}, true));
@@ -116,17 +116,18 @@ TEST(RepairSurface, DropsSpecksButDoesNotChooseBetweenBodies) {
 }
 
 TEST(RepairSurface, WrapsWhatCutsItself) {
-  // Two boxes of 1 × 1 × 1 that overlap by half: together 1.5. The wrap lies about 1/1000 of the diagonal (1.8) outside
-  // of an area of 8, which adds 0.014, and rounds edges off and concave ones over at 1/40 of it.
+  // Two unit cubes that overlap by half have a union of volume 1.5. The wrap lies about 1/1000 of the diagonal (1.8)
+  // outside of an area of 8, which adds 0.014. It also rounds edges and fills concave ones at a scale of 1/40 of the
+  // diagonal.
   const Surface s = joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02}));
   EXPECT_FALSE(check_surface(s).self_intersecting.empty());
   const SurfaceRepair repair = repaired(s, 1.52, 0.03, true);
   EXPECT_TRUE(contains(repair.what, "wrapped")) << repair.what;
-  EXPECT_NEAR(repair.volume_before, 2, 1e-12);  // of the facets, the common part twice
+  EXPECT_NEAR(repair.volume_before, 2, 1e-12);  // by the facets, which count the common part twice
   EXPECT_NEAR(repair.area_before, 12, 1e-12);
 }
 
-/// A new skin that changes the volume needs `wrap`; the message has both volumes.
+/// A wrap that changes the volume is refused without `wrap`. The message states both volumes.
 TEST(RepairSurface, RefusesAWrapThatChangesTheVolume) {
   const Surface s = joined(box_surface(1, 1, 1), moved(box_surface(1, 1, 1), {0.5, 0.01, 0.02}));
   try {
@@ -141,8 +142,8 @@ TEST(RepairSurface, RefusesAWrapThatChangesTheVolume) {
   }
 }
 
-/// Two neighbouring points are exchanged: eight facets cut each other, and the new skin has the same volume and area
-/// within the bound.
+/// Two neighbouring points are exchanged, so that eight facets intersect. The wrap has the same volume and area within
+/// the limit, so it needs no permission.
 TEST(RepairSurface, WrapsASmallFaultUnasked) {
   Surface s = mapped(icosphere(4), [](const Vec3d& p) { return 5.0 * p; });
   std::swap(s.points[s.facets[100][0]], s.points[s.facets[100][1]]);
@@ -154,7 +155,7 @@ TEST(RepairSurface, WrapsASmallFaultUnasked) {
   EXPECT_NEAR(repair.volume_after, repair.volume_before, 0.01 * repair.volume_before);
 }
 
-/// Unit cubes; those that share an edge or a point only are pinched there.
+/// Returns the surface of unit cubes. Cubes that share only an edge or a point are pinched there.
 Surface voxels(const std::set<std::array<int, 3>>& cubes) {
   Surface s{"voxels", {}, {}};
   std::map<std::array<int, 3>, std::int32_t> number;
@@ -184,7 +185,8 @@ Surface voxels(const std::set<std::array<int, 3>>& cubes) {
   return s;
 }
 
-/// Parting a pinched body gives two points the same coordinates. Reading makes them one point again.
+/// Repair splits a pinched vertex into two vertices at one position; reading the file merges them again. The surface
+/// must be good after reading, too.
 TEST(RepairSurface, IsGoodAsItIsReadBack) {
   const fs::path folder = fs::path(testing::TempDir()) / ("macadam_repair_" + std::to_string(getpid()));
   fs::create_directories(folder);
@@ -199,7 +201,7 @@ TEST(RepairSurface, IsGoodAsItIsReadBack) {
     write_surface(file, repair_surface(s, &repair, file, true));
     EXPECT_TRUE(check_surface(read_surface(file)).good()) << check_surface(read_surface(file)).text();
     EXPECT_TRUE(contains(repair.what, "non-manifold point")) << repair.what;
-    if (file.extension() == ".off") {  // also where no file was named
+    if (file.extension() == ".off") {  // also without a file name
       write_surface(file, repair_surface(s, nullptr, {}, true));
       EXPECT_TRUE(check_surface(read_surface(file)).good());
     }
@@ -207,7 +209,8 @@ TEST(RepairSurface, IsGoodAsItIsReadBack) {
   fs::remove_all(folder);
 }
 
-/// Two points of a good surface are one as floats, and the facets between them nothing.
+/// Two points of a good surface are equal as floats, so facets between them would vanish in an STL file. The repair
+/// takes this into account.
 TEST(RepairSurface, IsGoodInTheFilesOwnPrecision) {
   const Surface s = prism({{0, 0}, {1, 0.5}, {1, 0.5 + 1e-9}, {0.5, 1}}, 1);
   SurfaceRepair repair;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// t8_test.cpp  The whole job on a specimen of 175 particles against |E*| and φ of an independent program, which has no
-// inertia: what is left is that of the scaled mass, the time step and the start.
+// t8_test.cpp  Complete runs on a specimen of 175 particles against |E*| and φ of an independent program without
+// inertia. The remaining difference comes from the scaled mass, the time step and the start.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -19,7 +19,7 @@ constexpr int cycles = 8, samples_per_cycle = 500;
 
 struct Response {
   RunResult result;
-  std::vector<ResponseSample> samples;  ///< read back from response.csv
+  std::vector<ResponseSample> samples;  ///< as read from response.csv
   nlohmann::json summary;
 };
 
@@ -47,7 +47,7 @@ class T8 : public testing::Test {
     scene.solver.density_scaling = std::vector<double>{density_scaling};
     scene.solver.form = form;
     scene.solver.backend = Backend::cpu;
-    scene.solver.threads = 1;  // the tests of this file run side by side
+    scene.solver.threads = 1;  // the tests of this file run in parallel
     Response out;
     out.result = run(scene, folder_);
     out.samples = read_response(folder_ / "response.csv");
@@ -79,7 +79,7 @@ class T8 : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// The two forms add up the same numbers in another order.
+// Both contact forms add the same numbers in another order.
 TEST_F(T8, TwentyHertzInBothForms) {
   const Response condensed = run_t8(20, 100, ContactForm::condensed), points = run_t8(20, 100, ContactForm::points);
   expect_accurate(condensed, at_20_hz);
@@ -98,10 +98,11 @@ TEST_F(T8, TwentyHertzInBothForms) {
 
 TEST_F(T8, TwoHertzCondensed) { expect_accurate(run_t8(2, 1000, ContactForm::condensed), at_2_hz); }
 
-// As much inertia, scaling × f², as at 20 Hz and 100: a third of the steps, the same bounds.
+// The inertia, scaling × f², is the same as at 20 Hz with 100. It takes a third of the steps, with the same tolerances.
 TEST_F(T8, TwoHertzPoints) { expect_accurate(run_t8(2, 10'000, ContactForm::points), at_2_hz); }
 
-// Inertia grows as the scaling: a thousand at 20 Hz shows in |E*|. The same run shows the files.
+// The effect of inertia is proportional to the scaling: at 20 Hz a scaling of 1000 is visible in |E*|. The files are
+// checked with the same run.
 TEST_F(T8, TwentyHertzScaledByAThousand) {
   const Response response = run_t8(20, 1000, ContactForm::condensed);
   const Stiffness found = response.result.stepped().frequencies[0].stiffness;

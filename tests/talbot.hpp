@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file talbot.hpp  From a Laplace transform to a time: a second way, which shares nothing with the first.
+/// \file talbot.hpp  Numerical inversion of a Laplace transform, independent of the method that the library uses.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace macadam::test {
 
-/// Fixed Talbot inversion (Abate and Valkó 2004) of F(s) at t.
+/// Returns the inverse at time t of the Laplace transform F(s), by the fixed Talbot method (Abate and Valkó 2004).
 template <class F>
 double talbot(F&& f, double t, int nodes) {
   using Complex = std::complex<double>;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// temperature_test.cpp  Temperature in a scene: laws shift, and a specimen whose laws shift alike shifts with them.
+// temperature_test.cpp  Temperature in a scene shifts the laws; a specimen whose laws shift equally is shifted with
+// them.
 #include <cmath>
 
 #include "program.hpp"
@@ -14,7 +15,7 @@ double wlf_log_a(double t) { return -14.0 * (t - 10) / (120 + t - 10); }
 
 class Temperature : public Program {
  protected:
-  /// The 175 particles at 1 and 10 Hz; `shift` goes to both laws that flow.
+  /// Writes a scene of the 175 particles at 1 and 10 Hz; `shift` is inserted in both viscoelastic laws.
   fs::path scene(const std::string& shift, const std::string& materials, const std::string& loading,
                  const std::string& frequencies = "1, 10", const std::string& method = "harmonic") const {
     std::string contacts = am1_contacts;
@@ -64,7 +65,7 @@ TEST_F(Temperature, IsothermsOfASpecimenLieOnOneCurve) {
     EXPECT_NEAR(reduced, f * std::pow(10.0, wlf_log_a(t)), 1e-9 * reduced);
     scene("", "", "", fmt::format("{}", reduced));
     const json master = results("master")[0];
-    // both are solutions with residuals of at most 1e-11; the modulus errs by less
+    // Both are solutions with residuals of at most 1e-11; the error of the modulus is smaller.
     EXPECT_NEAR(isotherms[i]["e_star_pa"].get<double>(), master["e_star_pa"], 1e-9 * master["e_star_pa"].get<double>());
     EXPECT_NEAR(isotherms[i]["phase_deg"].get<double>(), master["phase_deg"], 1e-7);
     EXPECT_FALSE(master.contains("temperature_c"));
@@ -80,7 +81,7 @@ TEST_F(Temperature, IsTheSameOfTheSceneAndOfTheLoading) {
   for (json* r : {&loading, &materials})
     for (json& one : *r) one.erase("solve_s");
   ASSERT_FALSE(loading[0]["sensitivities"].empty());
-  // viscosities of the two differ by the rounding of a_T
+  // The viscosities differ by the rounding of a_T.
   const auto near = [](const json& a, const json& b, double scale) {
     EXPECT_NEAR(a.get<double>(), b.get<double>(), 1e-8 * scale);
   };
@@ -96,7 +97,7 @@ TEST_F(Temperature, AppliesToAStepInTime) {
   EXPECT_EQ(stepped["temperature_c"], 25);
   scene(wlf, "temperature = 25\n", "", "20");
   const json solved = results("solved")[0];
-  // a density scaling of 1e5 costs 1.2 % at 20 Hz (1e6: 12 %); ten degrees less make far more of a difference
+  // A density scaling of 1e5 changes |E*| by 1.2 % at 20 Hz (1e6 by 12 %); ten degrees less change it much more.
   EXPECT_NEAR(stepped["e_star_pa"].get<double>() / solved["e_star_pa"].get<double>(), 1, 0.02);
   scene(wlf, "temperature = 10\n", "", "20");
   EXPECT_GT(results("cold")[0]["e_star_pa"].get<double>() / solved["e_star_pa"].get<double>(), 1.2);
@@ -105,7 +106,7 @@ TEST_F(Temperature, AppliesToAStepInTime) {
 TEST_F(Temperature, DifferentShiftsHaveNoCommonCurve) {
   scene(wlf, "", "temperatures = [20]\n");
   std::string text = read(folder_ / "scene.toml");
-  text.replace(text.find("C1 = 14.0"), 9, "C1 = 13.0");  // of the first law only
+  text.replace(text.find("C1 = 14.0"), 9, "C1 = 13.0");  // changes the first law only
   write(folder_ / "scene.toml", text);
   EXPECT_FALSE(results("two")[0].contains("reduced_frequency_hz"));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tessellation_checks.hpp  What every tessellation must have, for tests.
+/// \file tessellation_checks.hpp  Invariants that every tessellation must have.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,8 +11,9 @@
 
 namespace macadam::test {
 
-// Facets come from a handful of operations on coordinates good to ε of the box: about 1e-15 · (box / spacing). With up
-// to ten spacings a box, and room for the tetrahedra that are solved in double down to a flatness of 1e-3, 1e-11.
+// Tolerance of facets. A facet follows from a few operations on coordinates that are good to ε of the box, about 1e-15
+// · (box / spacing). With up to ten spacings per box, and tetrahedra solved in double precision down to a flatness of
+// 1e-3, this is 1e-11.
 inline constexpr double facet_tolerance = 1e-11;
 
 inline Specimen empty_box(const Vec3d& box) {
@@ -47,7 +48,7 @@ inline void expect_order_and_orientation(const Tessellation& t) {
   }
 }
 
-/// Facets of one particle: area and number of corners, by the other side.
+/// Returns area and number of corners of the facets of one particle, by the particle or wall on the other side.
 inline std::map<int, std::pair<double, std::size_t>> facets_of(const Tessellation& t, int particle) {
   std::map<int, std::pair<double, std::size_t>> out;
   for (const Facet& f : t.facets)

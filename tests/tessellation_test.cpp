@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tessellation_test.cpp  Few particles, degenerate and hostile input, random specimens.
+/// \file tessellation_test.cpp  Tessellation of few particles, of degenerate and difficult input, and of random
+/// specimens.
 #include "macadam/tessellation.hpp"
 
 #ifdef _OPENMP
@@ -23,6 +24,8 @@ namespace {
 using test::add, test::facets_of, test::expect_invariants, test::expect_order_and_orientation, test::empty_box,
     test::facet_tolerance;
 
+/// Returns n spheres at random positions in a box of 1 × 0.7 × 1.3, with radii from `smallest` to `largest` on a
+/// logarithmic scale.
 Specimen random_specimen(int n, double smallest, double largest, unsigned seed) {
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> u(0, 1);
@@ -34,7 +37,7 @@ Specimen random_specimen(int n, double smallest, double largest, unsigned seed) 
   return s;
 }
 
-// Few particles.
+// Few particles
 
 TEST(Tessellation, OneParticleOwnsTheBox) {
   for (const Vec3d& p : {Vec3d{0.3, 0.4, 0.5}, Vec3d{0, 0, 0}, Vec3d{1, 0.4, 0}, Vec3d{1, 2, 3}}) {
@@ -73,14 +76,14 @@ TEST(Tessellation, TwoParticlesWithTheWeightedPlane) {
 TEST(Tessellation, CentreOutsideItsOwnCell) {
   Specimen s = empty_box({1, 1, 1});
   add(s, {0.5, 0.5, 0.5}, 0.4);
-  add(s, {0.6, 0.5, 0.5}, 0.3);  // plane at 0.5 + (0.01 + 0.16 − 0.09)/0.2 = 0.9
+  add(s, {0.6, 0.5, 0.5}, 0.3);  // the facet is at 0.5 + (0.01 + 0.16 − 0.09)/0.2 = 0.9
   const Tessellation t = tessellate(s);
   EXPECT_NEAR(t.cell_volume[0], 0.9, 1e-14);
   EXPECT_NEAR(t.cell_volume[1], 0.1, 1e-14);
   expect_invariants(s, t);
 }
 
-// Degenerate positions.
+// Degenerate positions
 
 TEST(Tessellation, CollinearCentresGiveSlabs) {
   Specimen s = empty_box({1, 1, 1});
@@ -106,14 +109,14 @@ TEST(Tessellation, CoplanarAndCosphericalCentres) {
     if (f.b >= 0) { EXPECT_EQ(prisms.polygon(f).size(), 4U); }
   }
   expect_invariants(plane, prisms);
-  const Tessellation cones = tessellate(ball);  // all cells meet in the ball's centre
+  const Tessellation cones = tessellate(ball);  // all cells meet in the centre of the ball
   EXPECT_TRUE(cones.hidden.empty());
   expect_invariants(ball, cones);
 }
 
 TEST(Tessellation, ThinFacetsAreKeptAndRoundingIsNot) {
-  // A square of centres whose corner is pushed in by δ: it meets the opposite one in a strip between the points
-  // (½, ½ − δ) and (½ − δ, ½) of equal distance to three corners.
+  // One corner of a square of centres is pushed in by δ. Its cell meets that of the opposite corner in a strip between
+  // (½, ½ − δ) and (½ − δ, ½), the points equidistant from three corners.
   for (const double delta : {1e-3, 1e-6, 1e-8, 0.0, 1e-14}) {
     Specimen s = empty_box({2, 2, 1});
     for (const Vec3d& p : {Vec3d{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}, {0.5, 1.5, 0.5}, {1.5 - delta, 1.5 - delta, 0.5}})
@@ -125,7 +128,7 @@ TEST(Tessellation, ThinFacetsAreKeptAndRoundingIsNot) {
       continue;
     }
     ASSERT_EQ(facets.count(3), 1U) << delta;
-    EXPECT_NEAR(facets.at(3).first, std::numbers::sqrt2 * delta, 2e-15) << delta;  // error: a few ε of the box
+    EXPECT_NEAR(facets.at(3).first, std::numbers::sqrt2 * delta, 2e-15) << delta;  // tolerance: a few ε of the box
     expect_invariants(s, t);
   }
 }
@@ -172,14 +175,14 @@ TEST(Tessellation, NamesFileAndLine) {
   EXPECT_EQ(message(bad).rfind("stones.csv:9: particle 7: radius: found -1", 0), 0U) << message(bad);
 }
 
-// Hidden particles.
+// Hidden particles
 
 TEST(Tessellation, HiddenParticlesAreNamed) {
   Specimen s = empty_box({1, 1, 1});
   add(s, {0.50, 0.5, 0.5}, 0.3);
-  add(s, {0.52, 0.5, 0.5}, 0.01);  // pow_0 < pow_1 at every point of the box: its cell lies beyond x = 2.7
+  add(s, {0.52, 0.5, 0.5}, 0.01);  // pow_0 < pow_1 everywhere in the box, because the cell would be beyond x = 2.7
   add(s, {0.2, 0.2, 0.2}, 0.1);
-  add(s, {0.205, 0.2, 0.2}, 0.02);  // shadowed by 0 and 2
+  add(s, {0.205, 0.2, 0.2}, 0.02);  // hidden by 0 and 2
   const Tessellation t = tessellate(s);
   EXPECT_EQ(t.hidden, (std::vector<std::int32_t>{1, 3}));
   EXPECT_EQ(particles_without_cell(s), t.hidden);
@@ -189,8 +192,8 @@ TEST(Tessellation, HiddenParticlesAreNamed) {
 }
 
 TEST(Tessellation, SheetsOfRoundingAreNotCells) {
-  // R_a² − R_b² = d², exact in binary: the planes of a–b and b–c are the same, b's cell is a sheet of no thickness.
-  // The same with b's radius a little too large by rounding; and with one that does open a cell.
+  // With R_a² − R_b² = d² (exact in binary) the facets a–b and b–c coincide, so b's cell has no thickness. The loop
+  // also tests radii of b that are larger by rounding, and one that opens a cell.
   for (const double more : {0.0, 1e-15, -1e-15, 1e-13, 1e-6}) {
     Specimen s = empty_box({1, 1, 1});
     add(s, {0.25, 0.5, 0.5}, 0.3125);
@@ -206,7 +209,7 @@ TEST(Tessellation, SheetsOfRoundingAreNotCells) {
 
 TEST(Tessellation, CellThatOnlyTouchesTheWallIsHidden) {
   Specimen s = empty_box({1, 1, 1});
-  add(s, {0.5, 0.5, 0.5}, 0.5);  // plane at 0.5 + (1/16 + 1/4 − 1/16)/(1/2) = 1, the wall
+  add(s, {0.5, 0.5, 0.5}, 0.5);  // the facet is at 0.5 + (1/16 + 1/4 − 1/16)/(1/2) = 1, on the wall
   add(s, {0.75, 0.5, 0.5}, 0.25);
   const Tessellation t = tessellate(s);
   EXPECT_EQ(t.hidden, std::vector<std::int32_t>{1});
@@ -214,7 +217,7 @@ TEST(Tessellation, CellThatOnlyTouchesTheWallIsHidden) {
   expect_invariants(s, t);
 }
 
-// Random specimens.
+// Random specimens
 
 class RandomSpecimen : public ::testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(RadiusRatio, RandomSpecimen, ::testing::Values(1.0, 5.0, 50.0));
@@ -222,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(RadiusRatio, RandomSpecimen, ::testing::Values(1.0, 5.0
 TEST_P(RandomSpecimen, FacetsBelongToTheirTwoParticles) {
   const Specimen s = random_specimen(400, 0.004, 0.004 * GetParam(), 11);
   const Tessellation t = tessellate(s);
-  expect_invariants(s, t, 1e-9);  // smallest distances of random centres are 1e-2 of the spacing and less
+  expect_invariants(s, t, 1e-9);  // the smallest distances between random centres are 1e-2 of the spacing or less
   expect_order_and_orientation(t);
   std::vector<std::uint8_t> hidden(s.size(), 0);
   for (const auto i : t.hidden) hidden[i] = 1;
@@ -230,14 +233,15 @@ TEST_P(RandomSpecimen, FacetsBelongToTheirTwoParticles) {
     const Vec3d v = x - s.centre[i];
     return dot(v, v) - s.radius[i] * s.radius[i];
   };
-  for (const Facet& f : t.facets) {  // nobody is nearer (in power) than the owners at a facet's centroid
+  // at the centroid of a facet no particle is nearer in power distance than the two owners
+  for (const Facet& f : t.facets) {
     const double own = power(f.a, f.centroid);
     for (std::size_t i = 0; i < s.size(); ++i) ASSERT_GE(power(i, f.centroid), own - 1e-13) << f.a << ' ' << f.b;
     ASSERT_FALSE(hidden[f.a] || (f.b >= 0 && hidden[f.b]));
   }
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<double> u(0, 1);
-  for (int k = 0; k < 2000; ++k) {  // the owner of any point has a cell
+  for (int k = 0; k < 2000; ++k) {  // the owner of every point has a cell
     const Vec3d x{u(engine), 0.7 * u(engine), 1.3 * u(engine)};
     std::size_t owner = 0;
     for (std::size_t i = 1; i < s.size(); ++i)
@@ -251,7 +255,7 @@ TEST_P(RandomSpecimen, FacetsBelongToTheirTwoParticles) {
 TEST(Tessellation, LengthUnitDoesNotMatter) {
   const Specimen s = random_specimen(200, 0.02, 0.1, 5);
   Specimen scaled = s;
-  const double factor = 0x1p-30;  // a power of two: exact
+  const double factor = 0x1p-30;  // a power of two, so that scaling is exact
   scaled.box.size = factor * s.box.size;
   for (auto& p : scaled.centre) p = factor * p;
   for (auto& r : scaled.radius) r *= factor;
@@ -300,7 +304,7 @@ TEST(Tessellation, BadInputIsNamed) {
   s.centre[7].x = 2;
   EXPECT_NE(message(s).find("particle 7"), std::string::npos) << message(s);
   s = random_specimen(20, 0.02, 0.05, 1);
-  s.radius[9] = 1e200;  // its square would be infinite
+  s.radius[9] = 1e200;  // its square would overflow
   EXPECT_NE(message(s).find("particle 9"), std::string::npos) << message(s);
 }
 

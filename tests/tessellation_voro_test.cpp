@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file tessellation_voro_test.cpp  The full single-sphere specimen against voro++, an independent tessellation.
+/// \file tessellation_voro_test.cpp  The tessellation of the full single-sphere specimen against voro++, an independent
+/// implementation.
 #include <gtest/gtest.h>
 #ifdef _OPENMP
 #include <omp.h>
@@ -32,10 +33,10 @@ struct VoroResult {
 
 constexpr double mm = 1e-3;
 
-/// All cells with neighbours and face areas. In millimetres: voro++ has absolute tolerances.
+/// Returns all cells with their neighbours and face areas, in millimetres because voro++ uses absolute tolerances.
 VoroResult voro_tessellate(const Specimen& s) {
   const Vec3d size = (1 / mm) * s.box.size;
-  constexpr double particles_per_block = 5.6;  // voro++'s own optimum
+  constexpr double particles_per_block = 5.6;  // the optimum according to voro++
   const double blocks = std::cbrt(static_cast<double>(s.size()) / (particles_per_block * size.x * size.y * size.z));
   const auto grid = [blocks](double length) { return static_cast<int>(length * blocks) + 1; };
   voro::container_poly container(0, size.x, 0, size.y, 0, size.z, grid(size.x), grid(size.y), grid(size.z), false,
@@ -85,10 +86,11 @@ class FullSpecimen : public ::testing::Test {
 TEST_F(FullSpecimen, Invariants) {
   EXPECT_TRUE(tessellation->hidden.empty());
   const TessellationInvariants i = measure_invariants(*specimen, *tessellation);
-  // Sums of 2e5 positive terms, each good to a few ε: 1e-15…1e-14, and 1e-12 is the promise.
+  // Sums of 2e5 positive terms with a relative error of a few ε each: 1e-15 to 1e-14. Promised is 1e-12.
   EXPECT_LT(i.volume, 1e-12);
   EXPECT_LT(i.walls, 1e-12);
-  // ε of the box over the smallest distance of two centres, 1e-16 · 100, over the flatness 1e-3 of tetrahedra.
+  // ε of the box over the smallest distance between two centres, 1e-16 · 100, over the smallest flatness of tetrahedra,
+  // 1e-3.
   EXPECT_LT(i.closure, 1e-11);
   EXPECT_LT(i.flatness, 1e-11);
   EXPECT_LT(i.power, 1e-11);
@@ -103,7 +105,8 @@ TEST_F(FullSpecimen, ContactsByKind) {
     else
       ++aggregates[(specimen->phase[f.a] == Phase::aggregate) + (specimen->phase[f.b] == Phase::aggregate)];
   }
-  EXPECT_EQ(aggregates, (std::array<int, 3>{160310, 56896, 2209}));  // M-M, M-A, A-A of an independent rebuild
+  // counts of M-M, M-A and A-A in an independent implementation
+  EXPECT_EQ(aggregates, (std::array<int, 3>{160310, 56896, 2209}));
   EXPECT_EQ(walls[4], 944);
   EXPECT_EQ(walls[5], 957);
 }

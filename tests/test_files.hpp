@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file test_files.hpp  Scene files for tests, and what comes out of them.
+/// \file test_files.hpp  Scene files for tests, and helpers for reading the files and messages that come out of them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace macadam::test {
 
 namespace fs = std::filesystem;
 
-/// Densities and the laws of binder AM1, as a scene file gives them.
+/// Densities and the laws of binder AM1 as lines of a scene file.
 inline constexpr const char* am1_contacts = R"(
 [materials.aggregate]
 density = 2630.0
@@ -61,7 +61,7 @@ inline std::string read(const fs::path& file) {
 }
 inline void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
-/// What an error of Macadam says.
+/// Returns the message of the Macadam error that `f` throws.
 inline std::string message_of(const std::function<void()>& f) {
   try {
     f();
@@ -70,7 +70,7 @@ inline std::string message_of(const std::function<void()>& f) {
 }
 #define EXPECT_HAS(text, part) EXPECT_NE(std::string(text).find(part), std::string::npos) << text
 
-/// Whether two states are the same to the bit; NaN would be too.
+/// Returns whether two states are equal bit by bit; equal bits of NaN count as equal.
 inline bool same_bits(const std::vector<StateArray>& a, const std::vector<StateArray>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file test_folder.hpp  A folder of a test's own, with the small specimen in it, and a disk that is full.
+/// \file test_folder.hpp  A temporary folder per test with the small specimen t8 in it, and a limit on file sizes that
+/// acts like a full disk.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 
 namespace macadam::test {
 
-/// A folder with the specimen t8, gone after the test.
+/// Makes a folder with the specimen t8 and removes it after the test.
 class TestFolder : public testing::Test {
  protected:
   void SetUp() override {
@@ -25,7 +26,7 @@ class TestFolder : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// A scene of the 175 particles; the specimen's path is relative to it.
+  /// Writes a scene of the 175 particles of t8. The specimen's path is relative to the scene file.
   fs::path write_t8(const std::string& loading, const std::string& solver, const std::string& output = "") const {
     write(folder_ / "scene.toml", "[specimen]\nfile = \"t8.csv\"\nbox = [0.008, 0.008, 0.011]\n[loading]\n" + loading +
                                       "[solver]\n" + solver + (output.empty() ? "" : "[output]\n" + output) +
@@ -34,7 +35,8 @@ class TestFolder : public testing::Test {
   }
   fs::path out(const std::string& name) const { return folder_ / name; }
 
-  /// Runs until `stop` was asked for the `asked`-th time after planning; 0: to the end. Whether it was interrupted.
+  /// Runs the scene until `stop` has been asked `asked` times after planning; 0 means to the end. Returns whether the
+  /// run was interrupted.
   bool run_until(const Scene& scene, const std::string& name, int asked, bool resume = false) const {
     Watcher watcher;
     int count = 0;
@@ -55,7 +57,8 @@ class TestFolder : public testing::Test {
   fs::path folder_;
 };
 
-/// No file of this process may grow beyond so many bytes while this lives: a full disk.
+/// Limits the size of every file that this process writes, while it lives: writing beyond `bytes` fails as on a full
+/// disk.
 class FileLimit {
  public:
   explicit FileLimit(rlim_t bytes) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file test_networks.hpp  Small networks made by hand, with numbers that can be worked out on paper.
+/// \file test_networks.hpp  Small hand-made networks whose numbers can be worked out on paper.
 #pragma once
 
 #include <array>
@@ -14,30 +14,31 @@ namespace macadam::test {
 
 using Laws = LawTable;
 
-/// A specimen with its contacts and masses: what a stepper needs besides laws and options.
+/// A specimen with its contacts and masses: the input of a stepper without laws and options.
 struct HandMade {
   Specimen specimen;
   ContactNetwork network;
   Inertia inertia;
 };
 
-/// The same law for every pair type.
+/// Returns a table with the same law for every pair type.
 inline Laws same_law(const Law& law) {
   Laws out;
   out.fill(law);
   return out;
 }
 
-/// The mastic–mastic constants of [1] (Table 4), in Pa and Pa·s.
+/// Returns the mastic–mastic constants of AM1 from Table 4 of [1], in Pa and Pa·s.
 inline laws::GeneralisedKelvin mastic_am1() {
   return {1.115e10, 2.515e9, {3.799e8, 1.600e9, 4.308e10}, {8.950e9, 5.695e9, 1.114e9}, 0.10};
 }
+/// Returns the mastic–mastic constants of AM2 from Table 4 of [1], in Pa and Pa·s.
 inline laws::GeneralisedKelvin mastic_am2() {
   return {8.909e9, 1.164e9, {1.064e10, 6.326e9, 5.776e10}, {2.854e8, 5.865e8, 5.354e9}, 0.10};
 }
 
-/// Second moment Σ A_J·s² = Σ A_J·t² of a square facet's five points: the vertices hold a sixth of the area each, at
-/// half a side. (The polygon's own is half of that.)
+/// Returns the second moment Σ A_J·s² = Σ A_J·t² over the five points of a square facet. Each vertex holds a sixth of
+/// the area at a distance of half a side. (The second moment of the square itself is half of that.)
 inline double square_second_moment(double side) { return side * side * side * side / 6; }
 
 /// Adds a particle of given mass; its moment of inertia is that of a solid sphere.
@@ -50,7 +51,8 @@ inline void add_particle(HandMade& made, const Vec3d& centre, double radius, dou
   made.inertia.inertia.push_back(0.4 * mass * radius * radius);
 }
 
-/// Adds a contact over a square facet: its four vertices and then its centroid, which is x0 shifted by (s0, t0).
+/// Adds a contact over a square facet. Its points are the four vertices and then the centroid, which lies at x0 + (s0,
+/// t0).
 inline void add_square_contact(ContactNetwork& network, std::int32_t a, std::int32_t b, PairType pair, const Vec3d& n,
                                double arm_a, double arm_b, double side, double s0 = 0, double t0 = 0) {
   Contact contact;
@@ -68,7 +70,8 @@ inline void add_square_contact(ContactNetwork& network, std::int32_t a, std::int
   const double s[5] = {-h, h, h, -h, 0}, t[5] = {-h, -h, h, h, 0};
   for (int j = 0; j < 5; ++j) {
     const double area =
-        contact.area / (j < 4 ? 6 : 3);  // a vertex is in two fan triangles of four, the centroid in all
+        // a vertex is in two of the four triangles of the fan, the centroid in all four
+        contact.area / (j < 4 ? 6 : 3);
     const double ps = s0 + s[j], pt = t0 + t[j];
     network.point_s.push_back(ps);
     network.point_t.push_back(pt);
@@ -82,7 +85,7 @@ inline void add_square_contact(ContactNetwork& network, std::int32_t a, std::int
   ++network.count[static_cast<std::size_t>(pair)];
 }
 
-/// Lists every particle's contacts; to be called once all contacts are there, in order of (a, b).
+/// Lists the contacts of every particle. Call it when all contacts are there, in order of (a, b).
 inline void fill_rows(ContactNetwork& network, std::size_t particles) {
   network.row_begin.assign(1, 0);
   network.rows.clear();
@@ -97,16 +100,16 @@ inline void fill_rows(ContactNetwork& network, std::size_t particles) {
   }
 }
 
-/// Two free mastic spheres joined across a square facet.
+/// Two free mastic spheres that are joined over a square facet.
 struct PairShape {
   double radius_a = 1.0e-3, radius_b = 0.8e-3;  ///< [m]
   double mass_a = 2.0e-5, mass_b = 1.0e-5;      ///< [kg]
   double distance = 1.7e-3;                     ///< [m]
-  double side = 1.2e-3;                         ///< of the facet [m]
+  double side = 1.2e-3;                         ///< edge of the square facet [m]
   Vec3d n{0, 0, 1};                             ///< from a to b, a unit vector
-  double s0 = 0, t0 = 0;                        ///< centroid in the facet's frame [m]
+  double s0 = 0, t0 = 0;                        ///< position of the centroid in the facet's frame [m]
 
-  /// Distance of x0 from each centre: R − Un/2 − dv with Eq. 5's dv, which is where the power of both spheres is equal.
+  /// Distance of x0 from each centre: R − Un/2 − dv with dv of Eq. 5. At x0 both spheres have equal power.
   double arm_a() const { return (distance * distance + radius_a * radius_a - radius_b * radius_b) / (2 * distance); }
   double arm_b() const { return distance - arm_a(); }
 };
@@ -123,8 +126,9 @@ inline HandMade two_sphere_network(const PairShape& shape = {}) {
   return made;
 }
 
-/// Equal mastic spheres at the centres of nx × ny × nz cubes of edge `side` that fill the box; the radius is half the
-/// edge. Particle (i, j, k) has number (i·ny + j)·nz + k. Bottom and top walls are contacts, lateral faces are free.
+/// Returns nx × ny × nz cubes of edge `side` that fill the box, each with a mastic sphere of radius side/2 at its
+/// centre. Particle (i, j, k) has number (i·ny + j)·nz + k. The bottom and top walls are contacts; lateral faces are
+/// free.
 inline HandMade cubic_lattice_network(int nx, int ny, int nz, double side, double mass) {
   HandMade made;
   made.specimen.box.size = {nx * side, ny * side, nz * side};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file test_scenes.hpp  Random specimens with their networks, laws and masses, fresh for every seed.
+/// \file test_scenes.hpp  Random specimens with their networks, laws and masses; every seed gives another specimen.
 #pragma once
 
 #include <algorithm>
@@ -13,13 +13,13 @@
 
 namespace macadam::test {
 
-/// The first seed of specimens that nobody has seen before: MACADAM_TEST_SEED of the environment, or 1.
+/// Returns the first seed of random specimens: the environment variable MACADAM_TEST_SEED, or 1.
 inline unsigned test_seed() {
   const char* asked = std::getenv("MACADAM_TEST_SEED");
   return asked ? static_cast<unsigned>(std::strtoul(asked, nullptr, 10)) : 1;
 }
 
-/// Everything a stepper needs.
+/// Everything that a stepper needs except options.
 struct TestScene {
   Specimen specimen;
   ContactNetwork network;
@@ -27,7 +27,7 @@ struct TestScene {
   Inertia inertia;
 };
 
-/// The AM1 laws of [1] (Table 4), one for each pair type.
+/// Returns the AM1 laws of [1] (Table 4), one per pair type.
 inline Laws am1_laws() {
   const auto mm = mastic_am1();
   laws::GeneralisedKelvin ma{3.511e10, 7.921e9, {1.197e9, 5.039e9, 1.357e11}, {2.819e10, 1.794e10, 3.510e9}, 0.10};
@@ -41,7 +41,7 @@ inline Laws am1_laws() {
   return out;
 }
 
-/// Springs, one for each pair type; softer than those of AM1's aggregates.
+/// Returns one elastic law per pair type, softer than the laws of AM1's aggregates.
 inline Laws elastic_laws() {
   Laws out;
   for (std::size_t pair = 0; pair < pair_types; ++pair) {
@@ -51,7 +51,7 @@ inline Laws elastic_laws() {
   return out;
 }
 
-/// The same of binder AM2.
+/// Returns the laws of binder AM2, one per pair type.
 inline Laws am2_laws() {
   laws::GeneralisedKelvin ma{6.014e10, 7.859e9, {7.184e10, 4.270e10, 3.899e11}, {1.925e9, 3.959e9, 3.614e10}, 0.10};
   Laws out = am1_laws();
@@ -61,8 +61,8 @@ inline Laws am2_laws() {
   return out;
 }
 
-/// Spheres of random size jittered about a grid in a box of 4 × 4 × 5 cells of 2 mm: every pair type occurs, a pair of
-/// spheres makes up one aggregate.
+/// Returns spheres of random size, shifted at random from a grid of nx × ny × nz cells of 2 mm. Every pair type occurs;
+/// a pair of spheres makes up one aggregate.
 inline Specimen random_specimen(unsigned seed, int nx = 4, int ny = 4, int nz = 5) {
   std::mt19937 random(seed);
   auto uniform = [&](double lo, double hi) { return lo + (hi - lo) * (static_cast<double>(random()) / 4294967296.0); };
@@ -85,7 +85,7 @@ inline Specimen random_specimen(unsigned seed, int nx = 4, int ny = 4, int nz = 
   return out;
 }
 
-/// The same with two boulders among them, each of which touches a hundred others.
+/// Returns such a specimen with two large spheres in it, each of which touches about a hundred others.
 inline Specimen boulders(unsigned seed) {
   const double cell = 2e-3, radius = 3.1 * cell;
   const Specimen small = random_specimen(seed, 15, 9, 9);
@@ -102,6 +102,7 @@ inline Specimen boulders(unsigned seed) {
   return out;
 }
 
+/// Tessellates the specimen and returns it with its network, laws and masses.
 inline TestScene make_scene(Specimen specimen, const NetworkSpec& spec = {}, const Laws& laws = am1_laws()) {
   TestScene out{std::move(specimen), {}, laws, {}};
   out.network = build_network(out.specimen, tessellate(out.specimen), spec);
@@ -109,7 +110,8 @@ inline TestScene make_scene(Specimen specimen, const NetworkSpec& spec = {}, con
   return out;
 }
 
-/// Options with a stable step and a load of the top wall at 2 kHz, fast enough to shake everything in 1,000 steps.
+/// Returns options with a stable time step and a top wall that oscillates at 2 kHz, fast enough to move all particles
+/// within 1,000 steps.
 inline StepperOptions shaking_options(const TestScene& scene) {
   StepperOptions out;
   const double dt = 0.5 * critical_step(scene.network, scene.laws, scene.inertia, out).dt;
@@ -123,12 +125,13 @@ inline StepperOptions shaking_options(const TestScene& scene) {
   return out;
 }
 
-/// The cyclic drive of the top wall.
+/// Returns the cyclic drive of the top wall.
 inline drives::Cyclic top_drive(const StepperOptions& options) {
   return dynamic_cast<const drives::Cyclic&>(*options.boundary.wall[wall_index(wall_z_hi)].axis[2].drive);
 }
 
-/// The same with a load of 100 Hz: a backend may take many steps before it settles what changes slowly.
+/// Returns shaking_options() with a load of 100 Hz, so that a backend may take many steps per update of the
+/// viscoelastic state.
 inline StepperOptions slow_options(const TestScene& scene) {
   StepperOptions out = shaking_options(scene);
   drives::Cyclic loading = top_drive(out);
@@ -139,14 +142,14 @@ inline StepperOptions slow_options(const TestScene& scene) {
   return out;
 }
 
-/// Largest length in a list of vectors.
+/// Returns the largest length in a list of vectors.
 inline double largest(const std::vector<Vec3d>& list) {
   double out = 0;
   for (const auto& v : list) out = std::max(out, norm(v));
   return out;
 }
 
-/// Largest difference of two lists over the largest length of the second.
+/// Returns the largest difference between two lists over the largest length in the second.
 inline double relative_difference(const std::vector<Vec3d>& list, const std::vector<Vec3d>& expected) {
   double out = list.size() == expected.size() ? 0 : INFINITY;
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -156,8 +159,8 @@ inline double relative_difference(const std::vector<Vec3d>& list, const std::vec
   return out / largest(expected);
 }
 
-/// Backends that this build and machine can run besides the reference. MACADAM_REQUIRE_GPU=1 makes a missing device a
-/// failure.
+/// Returns the backends besides the reference that this build and machine can run. With MACADAM_REQUIRE_GPU=1, CUDA is
+/// in the list even without a device, so that tests fail.
 inline std::vector<Backend> tested_backends() {
   std::vector<Backend> out{Backend::cpu};
   const char* required = std::getenv("MACADAM_REQUIRE_GPU");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// test_surfaces.hpp  Small closed surfaces whose measures are known, and ways to turn them.
+// test_surfaces.hpp  Small closed surfaces with known measures, and ways to move and rotate them.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,8 @@ inline Surface tetrahedron(double edge = 1) {
       "tetrahedron", {{k, k, k}, {k, -k, -k}, {-k, k, -k}, {-k, -k, k}}, {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
 }
 
-/// Right prism along z over a polygon (counter-clockwise, star-shaped about its first point).
+/// Returns a right prism along z over a polygon. The polygon is counter-clockwise and star-shaped about its first
+/// point.
 inline Surface prism(const std::vector<std::array<double, 2>>& base, double height) {
   Surface s{"prism", {}, {}};
   const auto n = static_cast<std::int32_t>(base.size());
@@ -43,20 +44,20 @@ inline Surface box_surface(double a, double b, double c) {
   return s;
 }
 
-/// An L of two arms, `length` long and `width` wide, in the corner of the axes.
+/// Returns an L-shaped prism in the corner of the axes, with two arms of the given length and width.
 inline Surface l_surface(double length, double width, double height) {
   const double l = length, w = width;
   return prism({{0, 0}, {l, 0}, {l, w}, {w, w}, {w, l}, {0, l}}, height);
 }
 
-/// Signed distance from the surface of the box 0 … (a, b, c), positive inside.
+/// Returns the signed distance of p from the surface of the box 0 … (a, b, c), positive inside.
 inline double depth_in_box(const Vec3d& p, double a, double b, double c) {
   const double x = std::max(-p.x, p.x - a), y = std::max(-p.y, p.y - b), z = std::max(-p.z, p.z - c);
   const Vec3d out{std::max(x, 0.0), std::max(y, 0.0), std::max(z, 0.0)};
   return -norm(out) - std::min(std::max({x, y, z}), 0.0);
 }
 
-/// A box with a square tunnel of side w along x through its middle: of genus 1.
+/// Returns a box with a square tunnel of side w along x through its middle, a surface of genus 1.
 inline Surface tunnel(double a, double b, double c, double w) {
   Surface s{"tunnel", {}, {}};
   for (const double x : {0.0, a}) {
@@ -72,16 +73,16 @@ inline Surface tunnel(double a, double b, double c, double w) {
   };
   for (int i = 0; i < 4; ++i) {
     const int j = (i + 1) % 4;
-    quad(j, i, i + 8, j + 8);            // outside
-    quad(i + 4, j + 4, j + 12, i + 12);  // tunnel
-    quad(i, j, j + 4, i + 4);            // x = 0, seen from −x the ring runs clockwise in (y, z)
-    quad(j + 8, i + 8, i + 12, j + 12);  // x = a
+    quad(j, i, i + 8, j + 8);            // outer faces
+    quad(i + 4, j + 4, j + 12, i + 12);  // walls of the tunnel
+    quad(i, j, j + 4, i + 4);            // end x = 0; seen from −x the ring runs clockwise in (y, z)
+    quad(j + 8, i + 8, i + 12, j + 12);  // end x = a
   }
   for (auto& f : s.facets) std::swap(f[1], f[2]);
   return s;
 }
 
-/// Icosahedron whose facets are quartered `level` times, its points on the unit sphere.
+/// Returns an icosahedron whose facets are split into four `level` times, with its points on the unit sphere.
 inline Surface icosphere(int level) {
   Surface s = geodesic_sphere(level);
   s.name = "icosphere";
@@ -94,7 +95,7 @@ Surface mapped(Surface surface, const Map& map) {
   return surface;
 }
 
-/// Two surfaces as one of two pieces.
+/// Returns two surfaces as one surface of two pieces.
 inline Surface joined(const Surface& a, const Surface& b) {
   Surface s = a;
   s.points.insert(s.points.end(), b.points.begin(), b.points.end());
@@ -103,17 +104,17 @@ inline Surface joined(const Surface& a, const Surface& b) {
   return s;
 }
 
-/// The surface at another place.
+/// Returns the surface shifted by `by`.
 inline Surface moved(const Surface& s, const Vec3d& by) {
   return mapped(s, [&](const Vec3d& p) { return p + by; });
 }
 
-/// A uniform random rotation, then scale and shift.
+/// Returns a uniformly distributed random rotation with the given scale and centre.
 inline Pose random_pose(RandomStream& random, double scale = 1, const Vec3d& centre = {}) {
   return {centre, random_turn(random), scale};
 }
 
-/// A lump: an ellipsoid with dents, not convex but star-shaped about the origin.
+/// Returns an ellipsoid with random dents; it is not convex but star-shaped about the origin.
 inline Surface lump(std::uint64_t seed, int level, const Vec3d& axes, double dent) {
   RandomStream random(seed, 0);
   return mapped(icosphere(level), [&](const Vec3d& p) {
@@ -122,11 +123,12 @@ inline Surface lump(std::uint64_t seed, int level, const Vec3d& axes, double den
   });
 }
 
-/// A stone: an ellipsoid of about the average proportions of aggregates, 1 : 0.7 : 0.45, with faces cut by planes.
+/// Returns a stone: an ellipsoid of 1 : 0.7 : 0.45, about the average proportions of aggregates, with flat faces cut by
+/// random planes.
 inline Surface stone(std::uint64_t seed, int level = 2) {
   RandomStream random(seed, 0);
   const auto between = [&] { return random.uniform(-1, 1); };
-  std::vector<Vec3d> planes;  // normal over distance
+  std::vector<Vec3d> planes;  // unit normal over the distance of the plane from the origin
   while (planes.size() < 14) {
     const Vec3d n{between(), between(), between()};
     if (dot(n, n) < 1 && dot(n, n) > 0.01) planes.push_back((1 / (random.uniform(0.75, 0.9) * norm(n))) * n);

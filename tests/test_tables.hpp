@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file test_tables.hpp  Tables that a run or a measurement has left.
+/// \file test_tables.hpp  Reads CSV tables that a run or a measurement wrote.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 namespace macadam::test {
 
-/// Rows of CSV by the names of their columns. Lines that begin with # are no rows; no field has commas within.
+/// Returns the rows of a CSV text, each by the names of the columns. Skips lines that begin with #. Fields contain no
+/// commas.
 inline std::vector<std::map<std::string, std::string>> table_of(const std::string& text) {
   std::vector<std::map<std::string, std::string>> out;
   std::vector<std::string> names;

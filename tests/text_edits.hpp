@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file text_edits.hpp  A good text with one change: a number, a cell, a line or the value of a key.
+/// \file text_edits.hpp  Makes variants of a valid text, each with one change: another number, cell, line or value of a
+/// key.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@
 
 namespace macadam::test {
 
-/// A changed text, where it is changed, and how.
+/// A changed text, with a description of the place and of the change.
 struct TextEdit {
   std::string place, change, text;
 };
@@ -27,10 +28,10 @@ inline std::string joined(const std::vector<std::string>& lines) {
   return out;
 }
 
-/// Begin and length.
+/// Begin and length of a part of a line.
 using Part = std::pair<std::size_t, std::size_t>;
 
-/// Numbers of a line with their signs, but for those that are a part of a word.
+/// Returns the numbers of a line with their signs. Numbers that are part of a word are left out.
 inline std::vector<Part> numbers(const std::string& line) {
   std::vector<Part> out;
   const auto part_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.'; };
@@ -50,7 +51,7 @@ inline std::vector<Part> numbers(const std::string& line) {
   return out;
 }
 
-/// What stands between separators.
+/// Returns the parts of a line between the separators.
 inline std::vector<Part> cells(const std::string& line, const std::string& separators) {
   std::vector<Part> out;
   std::size_t begin = 0;
@@ -62,7 +63,8 @@ inline std::vector<Part> cells(const std::string& line, const std::string& separ
   return out;
 }
 
-/// Each of these parts in each line of `which` by each of `instead`, and by the part before it.
+/// Replaces one part of one line at a time. The lines are those in `which`; a part is replaced by each text of
+/// `instead` and by the part before it. Adds each result to `out`.
 template <class PartsOf>
 void replace_parts(std::vector<TextEdit>& out, const std::string& text, const std::vector<std::size_t>& which,
                    const std::vector<std::string>& instead, const PartsOf& parts_of) {
@@ -86,7 +88,7 @@ void replace_parts(std::vector<TextEdit>& out, const std::string& text, const st
   }
 }
 
-/// Each line of `which` left out, and twice.
+/// Adds two texts for each line of `which`: one without the line, one with the line twice.
 inline void replace_lines(std::vector<TextEdit>& out, const std::string& text, const std::vector<std::size_t>& which) {
   const std::vector<std::string> all = lines_of(text);
   for (const std::size_t n : which) {
@@ -100,7 +102,8 @@ inline void replace_lines(std::vector<TextEdit>& out, const std::string& text, c
   }
 }
 
-/// A key of a section of TOML, whose value is one line where it has one: each of `values` in its place, and left out.
+/// Adds a text for each of `values` as the value of a key in a section of TOML, and one without the key if it is there.
+/// The old value must be on one line.
 inline void set_key(std::vector<TextEdit>& out, const std::string& text, const std::string& section,
                     const std::string& key, const std::vector<std::string>& values) {
   std::vector<std::string> all = lines_of(text);

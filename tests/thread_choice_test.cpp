@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// thread_choice_test.cpp  Fed with times of steps, the choice takes what is faster, and notices a change.
+// thread_choice_test.cpp  The choice between all threads and one, given measured times of steps: it takes the faster
+// and notices changes.
 #include "kernels/thread_choice.hpp"
 
 #include <gtest/gtest.h>
@@ -7,7 +8,8 @@
 namespace macadam::kernels {
 namespace {
 
-/// Plays `seconds` of stepping where a step takes so long with all threads and with one. The share of time on one.
+/// Simulates `seconds` of stepping, in which a step takes `all` seconds with all threads and `one` with a single
+/// thread. Returns the fraction of time on one thread.
 double play(ThreadChoice& choice, double all, double one, double seconds) {
   double on_one = 0, total = 0;
   while (total < seconds) {
@@ -28,8 +30,8 @@ TEST(ThreadChoice, KeepsAllThreadsOnAQuietMachine) {
 TEST(ThreadChoice, TakesOneWhileOthersWantTheCores) {
   ThreadChoice choice(2, false);
   play(choice, 1e-4, 2e-4, 30);
-  EXPECT_GT(play(choice, 2e-3, 4e-4, 30), 0.9);    // beside a build
-  EXPECT_LT(play(choice, 1e-4, 2e-4, 120), 0.55);  // it is over: noticed within a minute
+  EXPECT_GT(play(choice, 2e-3, 4e-4, 30), 0.9);    // while a build uses the cores
+  EXPECT_LT(play(choice, 1e-4, 2e-4, 120), 0.55);  // the build has ended, which is noticed within a minute
   EXPECT_LT(play(choice, 1e-4, 2e-4, 30), 0.01);
 }
 

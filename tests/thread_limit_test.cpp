@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// thread_limit_test.cpp  Every part of a job keeps to its number of threads, and waiting threads do not spin.
+// thread_limit_test.cpp  Every part of a job uses the given number of threads, and waiting threads do not spin.
 #include "host/thread_limit.hpp"
 
 #include <dlfcn.h>
@@ -14,9 +14,9 @@
 namespace macadam::test {
 namespace {
 
-constexpr int outside = 5, inside = 2;  // threads of the process, and of the scene
+constexpr int outside = 5, inside = 2;  // number of threads of the process, and of the scene
 
-/// Collects what omp_get_max_threads() is in all parts of a job that call back.
+/// Collects the values of omp_get_max_threads() in all parts of a job that call back.
 class ThreadLimitOfJobs : public Program {
  protected:
   void SetUp() override {
@@ -74,6 +74,7 @@ TEST_F(ThreadLimitOfJobs, SteppedAndHarmonicRuns) {
   }
 }
 
+/// The direct solver calls BLAS with a single thread, because it is itself parallel.
 TEST_F(ThreadLimitOfJobs, FactorsHaveOneThreadOfBlas) {
   using Get = int();
   auto* const threads = reinterpret_cast<Get*>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
@@ -98,7 +99,7 @@ TEST_F(ThreadLimitOfJobs, Calibrations) {
   EXPECT_TRUE(stages_.contains("solving")) << testing::PrintToString(stages_);
 }
 
-// Five cores give each of two scenes two cores; the first scene may use a single thread.
+// Of five cores each of two scenes gets two; the first scene is limited to a single thread.
 TEST_F(ThreadLimitOfJobs, SeveralScenesAtOnce) {
   const std::vector<SceneJob> jobs = {{scene_of(SolverMethod::harmonic, 1), folder_ / "a"},
                                       {scene_of(SolverMethod::harmonic, 0), folder_ / "b"}};
@@ -110,7 +111,7 @@ TEST_F(ThreadLimitOfJobs, SeveralScenesAtOnce) {
   EXPECT_EQ(seen[1], std::set<int>{2});
 }
 
-/// OpenMP itself reports its settings when it is loaded. The report of the last start of the program counts.
+/// OpenMP prints its settings when it is loaded. If the program restarts itself, the last report counts.
 using WaitPolicy = Program;
 
 std::string spins(const fs::path& folder, const std::string& environment) {

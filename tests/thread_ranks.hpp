@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file thread_ranks.hpp  Ranks that are threads of one process and share one device: any number of them, without MPI.
+/// \file thread_ranks.hpp  Ranks that are threads of one process and use one device. Tests can run any number of them
+/// without MPI.
 #pragma once
 
 #include <cuda_runtime.h>
@@ -19,7 +20,7 @@
 
 namespace macadam::test {
 
-/// What the threads share.
+/// Data that all ranks share.
 struct RankHub {
   explicit RankHub(std::size_t count)
       : all(static_cast<std::ptrdiff_t>(count)), values(count), first(nullptr), sent(count), ready(count), done(count) {
@@ -31,11 +32,12 @@ struct RankHub {
   std::barrier<> all;
   std::vector<double> values;
   void* first;
-  std::vector<std::vector<Ranks::Message>> sent;  // [rank]
+  std::vector<std::vector<Ranks::Message>> sent;  // messages sent, by rank of the sender
   std::vector<cudaEvent_t> ready, done;
 };
 
-/// Messages are copies, which wait for the sender's stream, as its next work waits for them.
+/// A rank that sends a message as a copy on the device. The copy waits for the sender's stream; the sender's later work
+/// waits for the copy.
 class ThreadRank final : public Ranks {
  public:
   ThreadRank(RankHub& hub, int number) : hub_(hub), number_(number) {}
@@ -67,7 +69,7 @@ class ThreadRank final : public Ranks {
       const auto& theirs = hub_.sent[static_cast<std::size_t>(m.rank)];
       const auto found = std::find_if(theirs.begin(), theirs.end(),
                                       [&](const Message& s) { return s.rank == number_ && s.size == m.size; });
-      if (found == theirs.end()) std::abort();  // the others would wait for ever
+      if (found == theirs.end()) std::abort();  // without the message the other ranks would wait for ever
       cudaStreamWaitEvent(to, hub_.ready[static_cast<std::size_t>(m.rank)], 0);
       cudaMemcpyAsync(m.data, found->data, m.size, cudaMemcpyDeviceToDevice, to);
     }
@@ -86,7 +88,7 @@ class ThreadRank final : public Ranks {
   int number_;
 };
 
-/// Calls f(rank) in a thread for each of `count` ranks.
+/// Calls f(rank) for each of `count` ranks, each in a thread.
 inline void for_ranks(int count, const std::function<void(Ranks&)>& f) {
   RankHub hub(static_cast<std::size_t>(count));
   std::vector<std::thread> threads;
@@ -96,7 +98,7 @@ inline void for_ranks(int count, const std::function<void(Ranks&)>& f) {
       ThreadRank rank(hub, number);
       try {
         f(rank);
-      } catch (const std::exception& error) {  // the others would wait for ever
+      } catch (const std::exception& error) {  // without this rank the others would wait for ever
         std::fprintf(stderr, "rank %d: %s\n", number, error.what());
         std::_Exit(1);
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tile_plan_test.cpp  The plan of tiles, carried out here in plain loops: every load arrives, in one order for any
-// tiles.
+// tile_plan_test.cpp  The plan of tiles, executed here in plain loops: every load is added once, and in the same order
+// for any division into tiles.
 #include "kernels/tile_plan.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace macadam::kernels {
 namespace {
 
-/// A load of each contact; its end B gets the negative.
+/// Returns a random load for each contact; its end B gets the negative.
 std::vector<float> some_loads(const ContactNetwork& network) {
   std::mt19937 random(5);
   std::vector<float> out;
@@ -21,7 +21,7 @@ std::vector<float> some_loads(const ContactNetwork& network) {
   return out;
 }
 
-/// The number in the network of a contact of the plan.
+/// Returns the number, in the network, of a contact of the plan.
 std::uint32_t number_of(const Layout& layout, const TileContact& c) {
   for (const auto& group : layout.groups) {
     if (static_cast<std::uint32_t>(&group - layout.groups.data()) == c.group) return group.contact[c.group_slot];
@@ -29,7 +29,8 @@ std::uint32_t number_of(const Layout& layout, const TileContact& c) {
   return inert;
 }
 
-/// What the threads of a tile leave in its slots; a slot that is written twice is a fault of the plan.
+/// Returns the load cells (slots) of a tile as its threads would leave them. Expects that every slot is written exactly
+/// once.
 std::vector<float> fill_slots(const TilePlan& plan, const Layout& layout, const Tile& tile,
                               const std::vector<float>& load) {
   std::vector<float> slots(tile.slots, 0);
@@ -68,7 +69,7 @@ std::vector<float> fill_slots(const TilePlan& plan, const Layout& layout, const 
   return slots;
 }
 
-/// [particle] sums of loads as tiles make them.
+/// Returns the sum of loads per particle as tiles compute it.
 std::vector<float> sums_by_tiles(const test::TestScene& scene, const TileSize& size, const std::vector<float>& load) {
   const Layout layout = make_layout(scene.specimen, scene.network, 32, size);
   const TilePlan plan = plan_tiles(scene.network, layout);
@@ -107,7 +108,7 @@ void expect_every_load_arrives(const test::TestScene& scene) {
   const std::vector<float> whole = sums_by_tiles(scene, load.size(), load);
   for (std::size_t i = 0; i < whole.size(); ++i) {
     const double rounding =
-        static_cast<double>(scene.network.row(i).size()) * 0x1p-24 * largest[i];  // a sum's of n terms
+        static_cast<double>(scene.network.row(i).size()) * 0x1p-24 * largest[i];  // rounding of a sum of n terms
     EXPECT_NEAR(whole[i], expected[i], rounding) << "particle " << i;
   }
   for (const std::size_t contacts : {700u, 300u, 120u}) {
@@ -119,7 +120,8 @@ TEST(TilePlan, EveryLoadArrivesAndInOneOrderForAnyTiles) {
   expect_every_load_arrives(test::make_scene(test::random_specimen(3, 7, 6, 8)));
 }
 
-// A sphere of 4 mm among those of about 1 mm touches some seventy of them, which all have lower numbers: a slot each.
+// A sphere of 4 mm among spheres of about 1 mm touches about seventy of them. All have lower numbers, so each contact
+// has its own slot in the row of the large sphere.
 TEST(TilePlan, LoadsArriveInRowsOfAnyLength) {
   const Specimen small = test::random_specimen(3, 7, 6, 8);
   const Vec3d middle = 0.5 * small.box.size;
@@ -160,15 +162,16 @@ TEST(TilePlan, RunsLeaveFewSlotsAndFewPlacesEmpty) {
   for (const Tile& tile : plan.tile) slots += tile.slots, inner += tile.inner;
   EXPECT_GT(inner, 0u);
   for (const TileContact& c : plan.contact) real += c.group_slot != UINT32_MAX;
-  // each contact has a slot at end B, and each run of two one at end A, of which a particle's last may be half empty
+  // Each contact has a slot for end B. Each run of two contacts has one for end A; the last run of a particle may be
+  // half empty.
   EXPECT_LE(slots, (3 * scene.network.contacts.size() + scene.specimen.size()) / 2);
-  // at most a warp's last group of each tile, and its last packet
+  // At most the last group of a warp per tile, and its last packet, are partly empty.
   EXPECT_LE(plan.contact.size(), real + plan.tile.size() * 32 * (TilePlan::run + 1));
 }
 
 TEST(TilePlan, EvenTilesTouchAboutAsManyContactsEach) {
   const test::TestScene scene = test::make_scene(test::random_specimen(4, 12, 12, 14));
-  const auto fullest = [&](bool even) {  // over the mean
+  const auto fullest = [&](bool even) {  // largest number of contacts per tile over the mean
     const TilePlan plan = plan_tiles(scene.network, make_layout(scene.specimen, scene.network, 32, {500, even}));
     std::size_t most = 0, all = 0;
     for (const Tile& tile : plan.tile) {
@@ -179,7 +182,7 @@ TEST(TilePlan, EvenTilesTouchAboutAsManyContactsEach) {
     }
     return static_cast<double>(most * plan.tile.size()) / static_cast<double>(all);
   };
-  EXPECT_LT(fullest(true), 1.05);  // a particle more or less is some 2 %
+  EXPECT_LT(fullest(true), 1.05);  // one particle more or less is about 2 %
   EXPECT_LT(fullest(true), fullest(false));
 }
 

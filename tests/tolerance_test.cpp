@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// tolerance_test.cpp  [solver] tolerance: the error that is asked for is kept, and is what was predicted.
+// tolerance_test.cpp  The key `tolerance` in [solver]: the error stays below it and agrees with the predicted error.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -41,7 +41,7 @@ class Tolerance : public testing::Test {
     spec.box.size = {0.008, 0.008, 0.011};
     return spec;
   }
-  /// Mastic and a few aggregates in a small box.
+  /// Returns a recipe of mastic and a few aggregates in a small box.
   static SpecimenSpec fresh(std::uint64_t seed) {
     SpecimenSpec spec = read_scene(MACADAM_EXAMPLES "/demo/scene.toml").specimen;
     spec.seed = seed;
@@ -58,7 +58,7 @@ class Tolerance : public testing::Test {
     for (const experiments::SteppedFrequency& f : result.stepped().frequencies) {
       ASSERT_TRUE(f.achieved && f.predicted);
       EXPECT_LE(largest(*f.achieved), *scene.solver.tolerance) << f.frequency_hz << " Hz";
-      // most of the tolerance is used: time goes as the root of the inertia that is admitted
+      // Most of the tolerance must be used, because the time of a run decreases as the root of the admitted inertia.
       EXPECT_GE(largest(*f.achieved), 0.5 * *scene.solver.tolerance) << f.frequency_hz << " Hz";
       EXPECT_NEAR(f.achieved->e_star, f.predicted->e_star, 0.05 * *scene.solver.tolerance);
       EXPECT_NEAR(f.achieved->phase_rad, f.predicted->phase_rad, 0.05 * *scene.solver.tolerance);
@@ -69,7 +69,8 @@ class Tolerance : public testing::Test {
   std::filesystem::path folder_;
 };
 
-// At 0.1 the change by inertia is no longer straight: a first guess of the scaling may miss.
+// At a tolerance of 0.1 the effect of inertia is not linear any more, so the first estimate of the scaling may be
+// wrong.
 TEST_F(Tolerance, IsKeptOnT8) {
   for (const double tolerance : long_tests ? std::vector{1e-1, 1e-2, 1e-3, 1e-4} : std::vector{1e-1, 1e-2}) {
     SCOPED_TRACE(tolerance);
@@ -86,8 +87,8 @@ TEST_F(Tolerance, IsKeptOnFreshSpecimens) {
   }
 }
 
-// Clusters are where stiff and soft contacts lie closest together. The units of AM2 relax within a cycle, those of AM1
-// take seconds.
+// In clusters stiff and soft contacts are closest together. The units of AM2 relax within a cycle, those of AM1 within
+// seconds.
 TEST_F(Tolerance, IsKeptOnClustersWithBothMixes) {
   for (const Laws& laws : {am1_laws(), am2_laws()}) {
     for (const double tolerance : long_tests ? std::vector{1e-2, 1e-3} : std::vector{1e-2}) {
@@ -106,7 +107,7 @@ TEST_F(Tolerance, IsKeptOnTheDemo) {
   expect_kept(scene_of(read_scene(MACADAM_EXAMPLES "/demo/scene.toml").specimen, 1e-2));
 }
 
-// The laws are settled as seldom as the tolerance allows, and the plan says so.
+// The viscoelastic state is updated as seldom as the tolerance allows, and the plan states how often.
 TEST_F(Tolerance, IsKeptInBlocksOfStepsOnCuda) {
   if (report_backends().devices.empty()) GTEST_SKIP() << report_backends().cuda_status;
   Scene scene = scene_of(t8(), 1e-3);
@@ -145,7 +146,8 @@ bool says(const RunResult& result, const std::string& what) {
                      [&](const std::string& d) { return d.find(what) != std::string::npos; });
 }
 
-// Local damping is not linear: a ramp from rest, although a steady start was asked; and it is said.
+// Local damping is not linear, so the run starts with a ramp from rest although the scene asks for a steady start, and
+// says so.
 TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -161,8 +163,8 @@ TEST_F(Tolerance, WhatIsNotLinearStartsFromRest) {
   EXPECT_TRUE(says(result, "from rest, not steady as asked"));
 }
 
-// One point a facet and no shear: particles turn freely, and the stiffness is singular.
-// Two particles that can turn freely: no harmonic solution, but a steady state that the stepping finds.
+// With one point per facet and fewer contacts, two particles can rotate freely. There is no harmonic solution, but
+// stepping finds a steady state, so the run only has an estimate of its error.
 TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -179,7 +181,8 @@ TEST_F(Tolerance, WithoutAHarmonicSolutionAnEstimateDecides) {
   EXPECT_NE(result.warnings[0].find("could not be verified"), std::string::npos) << result.warnings[0];
 }
 
-// A mechanism has no static modulus: what the stepping finds is inertia, at a phase of some 150 degrees.
+// A mechanism has no static modulus. Stepping finds its inertia only, with a phase of about 150 degrees, so the run
+// must fail.
 TEST_F(Tolerance, AMechanismIsAFailedRun) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -193,7 +196,7 @@ TEST_F(Tolerance, AMechanismIsAFailedRun) {
   }
 }
 
-// What the scene gives may not keep the tolerance: it is said.
+// Settings of the scene may violate the tolerance; the result says so.
 TEST_F(Tolerance, AMissIsSaid) {
   Scene scene = scene_of(t8(), 1e-3);
   scene.cyclic().frequencies = {20};
@@ -212,8 +215,8 @@ TEST_F(Tolerance, AGivenStepHasTheScalingThatItNeeds) {
   EXPECT_NEAR(f.dt_s, 5e-6, 5e-7);
 }
 
-// Without a tolerance too, steps are as long as stability lets them, but follow a decay with exp(-t / 20 us), unless
-// the scene gives a step.
+// Without a tolerance, steps are as long as stability permits, but must resolve a decay of exp(-t / 20 us), unless the
+// scene sets the step.
 TEST_F(Tolerance, StepsFollowTheDecayOfViscousDamping) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -225,11 +228,11 @@ TEST_F(Tolerance, StepsFollowTheDecayOfViscousDamping) {
   scene.solver.damping = 5e4;
   EXPECT_NEAR(run_it(scene).stepped().frequencies[0].dt_s, 2e-5, 1e-6);
   scene.solver.density_scaling = std::vector<double>{1e7};
-  scene.solver.time_step = 1e-4 / 3;  // three steps a sample
+  scene.solver.time_step = 1e-4 / 3;  // three steps per sample
   EXPECT_NEAR(run_it(scene).stepped().frequencies[0].dt_s, 1e-4 / 3, 1e-9);
 }
 
-// Large strains: the run keeps its geometry up to date and says that the harmonic solution does not.
+// At large strain the run updates the geometry and says that the harmonic solution does not.
 TEST_F(Tolerance, LargeStrainsAreNotLinear) {
   Scene scene = scene_of(t8(), 1e-3);
   scene.cyclic().frequencies = {20};
@@ -241,7 +244,8 @@ TEST_F(Tolerance, LargeStrainsAreNotLinear) {
   EXPECT_TRUE(says(result, "a ramp of 1 cycle"));
 }
 
-// The geometry of the start, as the scene wants it, misses the tolerance although the harmonic solution is met.
+// With the initial geometry, which the scene asks for, the harmonic solution is met but the tolerance is not, because
+// the strain is large.
 TEST_F(Tolerance, AFixedGeometryAtLargeStrainIsAMiss) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -252,7 +256,7 @@ TEST_F(Tolerance, AFixedGeometryAtLargeStrainIsAMiss) {
   EXPECT_FALSE(f.kept.value());
 }
 
-// What fixed geometry skips is below what is stated for it, and not far below.
+// The error of fixed geometry is below the stated one, and not far below.
 TEST_F(Tolerance, FixedGeometryCostsWhatIsStated) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.solver.tolerance = std::nullopt;
@@ -270,7 +274,7 @@ TEST_F(Tolerance, FixedGeometryCostsWhatIsStated) {
   EXPECT_GT(change, 0.1 * fixed_geometry_error(3e-3));
 }
 
-// Without a ramp the run says what that costs.
+// A start from rest without a ramp is stated in the decisions.
 TEST_F(Tolerance, AStartWithoutARampIsSaid) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -282,7 +286,7 @@ TEST_F(Tolerance, AStartWithoutARampIsSaid) {
   EXPECT_FALSE(says(result, "steady start from the harmonic solution"));
 }
 
-// A ramp that leaves no cycle to fit makes the run longer.
+// If the ramp leaves no cycle for the fit, the run is longer.
 TEST_F(Tolerance, TheFittedCyclesLieAfterTheRamp) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};
@@ -292,7 +296,7 @@ TEST_F(Tolerance, TheFittedCyclesLieAfterTheRamp) {
   EXPECT_EQ(run_it(scene).stepped().frequencies[0].cycles, 6);
 }
 
-// Only the fitted cycles are observed where nobody wants the response; the answer is the same.
+// If the response is not requested, only the fitted cycles are sampled; the result is the same.
 TEST_F(Tolerance, AResponseNobodyAskedForIsNotObserved) {
   Scene scene = scene_of(t8(), 1e-2);
   scene.cyclic().frequencies = {20};

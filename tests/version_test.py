@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What scripts/version says in a repository, in a source archive, and where neither is: version_test.py SOURCE_FOLDER"""
+"""Tests scripts/version in a repository, in a source archive, and without both: version_test.py SOURCE_FOLDER"""
 import os
 import shutil
 import subprocess
@@ -23,7 +23,7 @@ def expect(folder, expected, *options):
 
 
 def not_filled_in(file):
-    """Of a repository; in a source archive git has put its answers in place of the questions."""
+    """Returns the text of the file as in a repository. In a source archive git has replaced the placeholders by values."""
     questions = {"commit": "%H", "epoch": "%ct", "describe": "%(describe:tags=true,abbrev=10,match=v[0-9]*.[0-9]*.[0-9]*)"}
     text = "".join(f"{name}: $Format:{question}$\n" for name, question in questions.items())
     assert "$Format" not in file.read_text() or file.read_text() == text, f"{file} asks for something else"
@@ -45,7 +45,7 @@ with tempfile.TemporaryDirectory() as temporary:
     shutil.copy(SOURCE / ".gitattributes", plain)
     (plain / ".git_archival.txt").write_text(not_filled_in(SOURCE / ".git_archival.txt"))
     (plain / "CHANGELOG.md").write_text("# Changelog\n\n## [Unreleased]\n\n## [0.4.2] - 2026-01-02\n\n## [0.4.1] - 2025-01-02\n")
-    expect(plain, "0.4.2")  # nothing but the changelog, as pip unpacks it
+    expect(plain, "0.4.2")  # only the changelog is available, as in a source that pip unpacks
     expect(plain, "unknown", "--commit")
     expect(plain, "0", "--epoch")
 
@@ -58,7 +58,7 @@ with tempfile.TemporaryDirectory() as temporary:
     expect(repository, f"0.4.2+g{commit}")  # a clone without tags
     expect(repository, "0.4.2", "--number")
     expect(repository, "1700000000", "--epoch")
-    shutil.copytree(plain, repository / "within")  # unpacked in a repository, and not of it
+    shutil.copytree(plain, repository / "within")  # a source that is unpacked in a repository but not part of it
     expect(repository / "within", "0.4.2")
     shutil.rmtree(repository / "within")
     expect(unpacked(repository, work / "untagged"), f"0.4.2+g{commit}")
@@ -77,7 +77,7 @@ with tempfile.TemporaryDirectory() as temporary:
     expect(later, "1700000000", "--epoch")
 
     ran(repository, "git", "commit", "-qm", "third", "--allow-empty")
-    ran(repository, "git", "tag", "v0.6.0-rc1")  # no version of ours
+    ran(repository, "git", "tag", "v0.6.0-rc1")  # not a version of the form X.Y.Z
     said = subprocess.run(["scripts/version"], cwd=repository, capture_output=True, text=True, env={**os.environ, **NAMELESS})
     assert said.returncode == 1 and "expected X.Y.Z" in said.stderr, said
 print("passed")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file void_test.cpp  Air voids: cells that are no particles, whose facets are free surface, in files, in generated
-/// specimens and in every solver.
+/// \file void_test.cpp  Air voids: cells that are not particles and whose facets are free surfaces, in files, in
+/// generated specimens and in every solver.
 #include <algorithm>
 #include <numbers>
 
@@ -14,7 +14,7 @@ namespace {
 
 double volume_of(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
-/// 3 × 3 × 5 touching mastic spheres.
+/// Returns 3 × 3 × 5 touching mastic spheres.
 Specimen lattice() {
   Specimen out;
   out.box.size = {6e-3, 6e-3, 10e-3};
@@ -27,7 +27,7 @@ Specimen lattice() {
   return out;
 }
 
-/// The same with a particle turned into air.
+/// Returns the specimen with one particle replaced by a void.
 Specimen with_void(Specimen s, std::size_t particle) {
   const auto at = static_cast<std::ptrdiff_t>(particle);
   s.voids.push_back({s.centre[particle], s.radius[particle]});
@@ -36,7 +36,7 @@ Specimen with_void(Specimen s, std::size_t particle) {
   return s;
 }
 
-/// Random spheres of which some are air.
+/// Returns random spheres, some of which are voids.
 Specimen porous(unsigned seed) {
   Specimen s = random_specimen(seed, 5, 5, 6);
   for (const std::size_t particle : {110U, 77U, 62U, 31U}) s = with_void(std::move(s), particle);
@@ -45,13 +45,13 @@ Specimen porous(unsigned seed) {
 
 TEST(Voids, HaveTheCellsOfParticlesAndNoContacts) {
   const Specimen whole = random_specimen(3, 5, 5, 6);
-  for (const std::size_t gone : {0U, 62U, 149U}) {  // at walls and within
+  for (const std::size_t gone : {0U, 62U, 149U}) {  // at walls and inside
     const Specimen s = with_void(whole, gone);
     const Tessellation before = tessellate(whole), after = tessellate(s);
     EXPECT_NEAR(after.cell_volume.back() / before.cell_volume[gone], 1, 1e-9);
     const TessellationInvariants i = measure_invariants(s, after);
     EXPECT_LT(std::max({i.volume, i.closure, i.flatness, i.power, i.walls}), 1e-9);
-    // the contacts of all others, number by number
+    // The contacts of all other particles must stay, with renumbered particles.
     const ContactNetwork all = build_network(whole, before), left = build_network(s, after);
     std::size_t k = 0;
     const auto number = [&](std::int32_t particle) { return particle - (particle > static_cast<int>(gone) ? 1 : 0); };
@@ -62,7 +62,8 @@ TEST(Voids, HaveTheCellsOfParticlesAndNoContacts) {
       EXPECT_EQ(d.a, number(c.a));
       EXPECT_EQ(d.b, number(c.b));
       EXPECT_EQ(d.pair, c.pair);
-      // the triangulation meets the sites in another order; a facet's area is a sum of differences of its corners
+      // The triangulation processes the sites in another order, and a facet's area is a sum of differences of its
+      // corners.
       EXPECT_NEAR(d.area, c.area, 1e-9 * 4e-6);
       EXPECT_NEAR(d.moments.ss, c.moments.ss, 1e-9 * 4e-12);
     }
@@ -70,7 +71,7 @@ TEST(Voids, HaveTheCellsOfParticlesAndNoContacts) {
   }
 }
 
-// Without shear stiffness the columns of a lattice are springs side by side, of which a void cuts one of nine.
+// Without shear stiffness the columns of a lattice are parallel springs; a void interrupts one of nine.
 TEST(Voids, CutAColumnOfALattice) {
   const Laws laws = same_law(laws::Elastic{2e10, 0});
   for (const std::size_t particle : {4U, 22U, 26U}) {  // at the bottom wall, in the middle, at an edge
@@ -91,7 +92,7 @@ TEST(Voids, MakeASpecimenSofterInEverySolver) {
   EXPECT_GT(e, 0.5 * e_full);
   for (const LinearMethod linear : {LinearMethod::iterative, LinearMethod::direct}) {
     Harmonic harmonic(scene.specimen, scene.network, scene.laws, scene.inertia, {.linear = linear}, 1);
-    EXPECT_NEAR(harmonic.solve(1).top.e_star_pa / e, 1, 1e-8);  // solvers end at residuals of their own
+    EXPECT_NEAR(harmonic.solve(1).top.e_star_pa / e, 1, 1e-8);  // the solvers have different residuals
   }
 }
 
@@ -109,7 +110,7 @@ TEST_P(VoidsInSteps, AgreeWithTheReference) {
   options.precision = std::get<Precision>(GetParam());
   const auto stepper = make_stepper(backend(), scene.specimen, scene.network, scene.laws, scene.inertia, options);
   reference->advance(100), stepper->advance(100);
-  // rounding of each step adds up over 100 of them
+  // Rounding accumulates over 100 steps.
   const double loose = options.precision == Precision::double_ ? 1e-9 : 1e-3;
   EXPECT_LT(relative_difference(stepper->particles().displacement, reference->particles().displacement), loose);
 }
@@ -153,14 +154,14 @@ TEST_F(VoidFiles, AreRefusedWhereTheyCannotBe) {
   EXPECT_HAS(refused(mastic + "1,0.018,0.005,0.005,0.001,void,-1\n"), "s.csv:3: void 1: centre");
   EXPECT_HAS(refused(mastic + "1,0.002,0.005,0.005,0.001,void,-1\n"), "that of particle 0");
   EXPECT_HAS(refused(mastic + "1,0.008,0.005,0.005,0.001,air,-1\n"), "expected aggregate, mastic or void");
-  EXPECT_HAS(refused("1,0.008,0.005,0.005,0.001,void,-1\n"), "particles");  // nothing but air
+  EXPECT_HAS(refused("1,0.008,0.005,0.005,0.001,void,-1\n"), "particles");  // only voids, no particles
   Specimen s = lattice();
-  s.phase[7] = Phase::air_void;  // it must be in `voids`
+  s.phase[7] = Phase::air_void;  // voids must be in `voids`
   EXPECT_HAS(message_of([&] { validate(s, "here"); }), "here: particle 7: phase");
 }
 
 TEST_F(VoidFiles, OfAHiddenVoidIsSaid) {
-  // of two voids with nearly the same centre the smaller one has no cell
+  // Of two voids with nearly the same centre, the smaller one has no cell.
   const Specimen s = read_rows(
       "0,0.002,0.005,0.005,0.002,mastic,-1\n1,0.008,0.005,0.005,0.002,void,-1\n2,0.0081,0.005,0.005,0.001,void,-1\n");
   EXPECT_HAS(message_of([&] { build_network(s, tessellate(s)); }), "1 without (particle 2)");
@@ -197,7 +198,7 @@ void expect_sound(const SpecimenSpec& spec, const GeneratedSpecimen& made, doubl
   for (std::size_t i = 0; i < s.size(); ++i) solid += s.phase[i] == Phase::mastic ? volume_of(s.radius[i]) : 0;
   const double box = spec.box.volume();
   EXPECT_NEAR(air / box, fraction, volume_of(0.0012) / box);
-  // the porosity counts what the voids leave; as far as the last sphere reaches
+  // The porosity refers to the volume without voids; the tolerance is the last sphere.
   EXPECT_NEAR(solid / box, 0.95 * (1 - fraction), volume_of(0.001) / box);
   EXPECT_EQ(made.composition.back().name, "voids");
   EXPECT_EQ(made.composition.back().count, static_cast<std::int64_t>(s.voids.size()));
@@ -259,7 +260,8 @@ class VoidScenes : public VoidFiles {
                                       "[specimen.mastic]\nradius = [\"0.75 mm\", \"1 mm\"]\n" + voids +
                                       "[loading]\nkind = \"cyclic\"\nfrequencies = [10.0]\n[solver]\nmethod = "
                                       "\"harmonic\"\n" +
-                                      contacts.substr(contacts.find("[[contacts]]")));  // densities are the recipe's
+                                      // densities follow from the recipe
+                                      contacts.substr(contacts.find("[[contacts]]")));
     return read_scene(folder_ / "scene.toml");
   }
   static constexpr const char* recipe = R"([specimen.recipe]
@@ -275,11 +277,11 @@ air_voids = "4 %"
 TEST_F(VoidScenes, TakeTheAirVoidsOfARecipe) {
   const Scene all = scene(recipe, "[specimen.voids]\nradius = [\"0.6 mm\", \"1 mm\"]\n");
   EXPECT_DOUBLE_EQ(*all.specimen.voids->fraction, 0.04);
-  EXPECT_NEAR(*all.specimen.mastic->porosity, 0, 1e-15);  // no air is left but in the voids
+  EXPECT_NEAR(*all.specimen.mastic->porosity, 0, 1e-15);  // all air is in the voids
   const Scene some = scene(recipe, "[specimen.voids]\nradius = [\"0.6 mm\", \"1 mm\"]\nfraction = \"3 %\"\n");
   EXPECT_NEAR((1 - *some.specimen.mastic->porosity) * 0.97, 0.96, 1e-12);
   const MixVolumes asked = volumes_of(*all.recipe);
-  for (const Scene& s : {all, some}) {  // what is solid is what the mix design says, voids or not
+  for (const Scene& s : {all, some}) {  // the solid volumes are those of the mix design, with or without voids
     const GeneratedSpecimen made = generate_specimen(s.specimen);
     const double rounding = volume_of(0.001) / s.specimen.box.volume();
     EXPECT_NEAR(made.composition[0].fraction, asked.classes[0].volume, rounding);

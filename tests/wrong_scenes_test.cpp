@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file wrong_scenes_test.cpp  Every wrong scene is refused at its line with what was found and what was expected.
+/// \file wrong_scenes_test.cpp  Every wrong scene is refused with its line, the value found and the value expected.
 #include "tests/scene_file.hpp"
 
 namespace macadam {
@@ -7,13 +7,13 @@ namespace {
 
 using test::Edits, test::SceneFile, test::text_of;
 
-/// A scene that is wrong in one thing.
+/// A scene with one fault.
 struct Wrong {
   const char* name;
   Edits edits;
-  int line;              ///< at which the message must point; 0: at the file
-  std::string found;     ///< must follow ": found "
-  std::string expected;  ///< must follow ", expected "
+  int line;              ///< line in the message; 0 if it names only the file
+  std::string found;     ///< follows ": found " in the message
+  std::string expected;  ///< follows ", expected " in the message
 };
 void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.name; }
 
@@ -132,7 +132,7 @@ const std::vector<Wrong> wrong_scenes = {
     {"UnknownPrecision", {{36, "precision = \"float\""}}, 36, "\"float\"", "\"mixed\""},
     {"UnknownBackend", {{36, "backend = \"gpu\""}}, 36, "\"gpu\"", "\"cuda\""},
     {"UnknownSizeLaw", {{3, "size_law = \"normal\""}}, 3, "\"normal\"", "\"log_uniform\""},
-    // What holds between keys
+    // Conditions between keys
     {"PairTwice", {{23, "pair = \"M-M\""}}, 23, "\"M-M\" again", "once"},
     {"KelvinUnitsUnequal", {{20, "C = [8.95e9]"}}, 20, "1 viscosities for the 2 moduli", "as many"},
     {"KelvinWithoutDashpots", {{20, ""}}, 14, "0 viscosities for the 2 moduli", "as many"},
@@ -181,7 +181,7 @@ TEST_F(SceneFile, AFileBesideARecipeIsRefused) {
       << what;
 }
 
-// Spheres of 8 mm: 44 are 11.80 of the box's 12 cm3, 45 are 12.06.
+// Spheres of 8 mm: 44 have 11.80 cm3, 45 have 12.06 cm3, and the box has 12 cm3.
 TEST_F(SceneFile, VoidsByCountLeaveRoomInTheBox) {
   const auto with_voids = [](int count) {
     return text_of(
@@ -195,7 +195,8 @@ TEST_F(SceneFile, CountedAggregatesNeedNoMastic) {
   EXPECT_EQ(message(text_of({{6, "count = 3"}, {7, ""}, {8, ""}, {9, ""}})), "");
 }
 
-// Of the box's 12 cm3, 40 aggregates of 8 mm leave room for 4e7 spheres of 0.04 mm, one of them for 3.5e8.
+// In the box of 12 cm3, 40 aggregates of 8 mm leave space for 4e7 spheres of 0.04 mm; one aggregate leaves space for
+// 3.5e8, which is too many.
 TEST_F(SceneFile, MasticHasTheRoomThatCountedAggregatesLeave) {
   const auto with_aggregates = [](int count) {
     return text_of({{5, "sieve = [0.008, 0.008]"},
@@ -217,7 +218,7 @@ TEST_F(SceneFile, AMissingFileAndADirectoryAreRefused) {
 TEST_F(SceneFile, FilesThatNobodyWroteByHandAreRefused) {
   EXPECT_NE(message(std::string(2'000'000, '\n')).find("found 2000000 bytes"), std::string::npos);
   EXPECT_NE(message("\n" + std::string(2001, '#')).find(":2: scene: found 2001 characters"), std::string::npos);
-  // As deep as the longest line allows: nested tables are destroyed by recursion, and must not use up the stack.
+  // The deepest nesting that a line can hold: nested tables are destroyed recursively and must not exhaust the stack.
   std::string deep = "[output.a";
   while (deep.size() < 1990) deep += ".a";
   EXPECT_NE(message(deep + "]\n").find("[specimen]: found nothing"), std::string::npos);
@@ -229,20 +230,20 @@ TEST_F(SceneFile, ControlCharactersLeaveTheMessageInOneLine) {
       << what;
 }
 
-TEST_F(SceneFile, AnUnreadableHeaderNamesItsLine) {  // an assertion of the TOML parser must not end the program
+TEST_F(SceneFile, AnUnreadableHeaderNamesItsLine) {  // an assertion in the TOML parser must not end the program
   const std::string what = message("\n[=]\n");
   EXPECT_EQ(what.substr(0, (file().string() + ":2: TOML syntax: ").size()), file().string() + ":2: TOML syntax: ");
 }
 
 TEST_F(SceneFile, CutOrCorruptedScenesAreReadOrRefusedButNeverCrash) {
   const std::string text = text_of();
-  constexpr std::size_t stride = 3;  // every third place is cut, or broken by another byte
+  constexpr std::size_t stride = 3;  // the text is cut or corrupted at every third position
   for (std::size_t length = 0; length < text.size(); length += stride) message(text.substr(0, length));
   const std::string bytes = std::string("\0[]=\"'\n#.-9e\xff{", 14);
   for (std::size_t at = 0; at < text.size(); at += stride) {
     std::string broken = text;
     broken[at] = bytes[at % bytes.size()];
-    message(broken);  // any exception but InputError fails the test
+    message(broken);  // every exception other than InputError fails the test
   }
 }
 

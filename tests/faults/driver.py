@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Calls of NVIDIA's driver that fail: memory, launches, waits, copies; kernels that die, and a device that is lost."""
+"""Campaigns with failing calls of NVIDIA's driver: memory, launches, waits, copies; failing kernels, and a lost device."""
 import ctypes
 import re
 import shutil
@@ -15,12 +15,12 @@ def stepped(setting):
 
 
 def tiles(setting):
-    """By a device, whose tiles wait for one another on the chip."""
+    """Runs on one device, whose tiles wait for one another on the chip."""
     faults(setting, "tiles", ["tiles.toml", "--method", "explicit", "--precision", "mixed", "--devices", "0"], "cuda, ", "tiles on the chip")
 
 
 def team(setting):
-    """By two devices, whose tiles wait for one another: where one fails, the others must end."""
+    """Runs on two devices, whose tiles wait for one another: if one device fails, the other must end."""
     faults(setting, "team", ["tiles.toml", "--method", "explicit", "--precision", "mixed", "--devices", "0,1"],
            "cuda devices 0 and 1, ", "tiles on the chip")
 
@@ -30,7 +30,9 @@ def harmonic(setting):
 
 
 def faults(setting, name, arguments, *solver):
-    """Calls of the driver fail once each; kernels die; and from a launch on, all calls fail. Some of each kind. `solver`: what is to run, in words of the program."""
+    """Makes single calls of the driver fail, kernels fail, and all calls fail from a launch on; some of each kind.
+
+    `solver` are words that the program must print about the solver, so that the intended one is tested."""
     library = setting.preloaded("driver_faults", "-Wl,-soname,libcuda.so.1")
     whole = setting.clear("whole")
     outcome = setting.run(command(whole, arguments))
@@ -50,7 +52,7 @@ def faults(setting, name, arguments, *solver):
 
 
 def driver_file():
-    """Where the loader finds the driver."""
+    """Returns the path at which the loader finds the driver."""
     try:
         ctypes.CDLL("libcuda.so.1")
     except OSError as error:
@@ -80,7 +82,7 @@ def census(setting, library, arguments):
 
 
 def trial(setting, library, what, arguments, kind, at, expected):
-    """A run that fails keeps its last checkpoint; resumed, it gives the bits of one that never failed."""
+    """A run that fails keeps its last checkpoint. Resumed, it gives the same bits as a run without a fault."""
     out, report = setting.clear(), setting.folder / "report.txt"
     report.unlink(missing_ok=True)
     outcome = setting.run(command(out, arguments), preloaded(library, report, kind, at))
@@ -89,7 +91,7 @@ def trial(setting, library, what, arguments, kind, at, expected):
         return  # fewer calls than before
     what += f", {hit[hit.index('hit') + 1]}"
     complaints = []
-    if outcome.code == 0:  # put right: asked again, or of something that is not needed
+    if outcome.code == 0:  # the fault had no effect: the call was repeated, or not needed
         complaints += differences(Result(out), expected, "a plain run")
     elif outcome.code != 1 or not ("CUDA" in outcome.err or "memory" in outcome.err or "device" in outcome.err):
         complaints.append(f"exit code {outcome.code}, expected 1 and a word of CUDA, memory or a device")

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// driver_faults.c  To be preloaded into a program that uses CUDA (x86-64): lets one call of NVIDIA's driver fail.
+// driver_faults.c  A library to be preloaded into a program that uses CUDA (x86-64). It makes one call of NVIDIA's driver
+// fail.
 //
-// It bears the driver's name, so that the CUDA runtime takes it for the driver. It asks the driver itself for every function,
-// and puts between one that counts its calls, and does not make the one that is to fail. Environment:
-//   FAULT_DRIVER  the driver itself, a path
-//   FAULT_KIND    memory, launch, together (launches whose blocks wait for one another), graph (launches of several kernels, with
-//                 what these take), wait, copy, other; lost: from any launch on, every call fails; dies, dies-together: a
-//                 launch is made, but with nonsense in place of all pointers and numbers, so that the kernel dies while it runs
-//   FAULT_AT      number of the call of this kind that fails, from 1 on; 0: none, they are counted only
-//   FAULT_REPORT  file that receives `hit FUNCTION` when a call fails; and in the end, where none did, `count KIND N`
+// It has the driver's library name, so that the CUDA runtime uses it as the driver. It looks up every function in the real
+// driver, and returns a replacement that counts the calls and does not make the call that is to fail. Environment:
+//   FAULT_DRIVER  path of the real driver
+//   FAULT_KIND    kind of the call: memory, launch, together (launches whose blocks wait for one another), graph (launches
+//                 of several kernels with their arguments), wait, copy, other; lost: every call fails from a launch on;
+//                 dies, dies-together: the launch is made, but with invalid values instead of all pointers and numbers, so
+//                 that the kernel fails while it runs
+//   FAULT_AT      number of the call of this kind that fails, from 1 on; 0: none fails, the calls are only counted
+//   FAULT_REPORT  file that receives `hit FUNCTION` when a call fails, and at the end, if none failed, `count KIND N`
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <stdatomic.h>
@@ -21,8 +23,8 @@ enum { memory, launch, together, graph, wait_, copy, other, kinds };
 static const char* const kind_names[kinds] = {"memory", "launch", "together", "graph", "wait", "copy", "other"};
 enum { out_of_memory = 2, not_initialised = 3, not_found = 500, device_unavailable = 46, launch_out_of_resources = 701, launch_failed = 719 };
 
-// All the driver's functions take integers and pointers, and give a code: one form serves for all. What a function does not
-// take is not looked at.
+// All functions of the driver take integers and pointers and return a code, so one function type serves all of them. A
+// function ignores the arguments that it does not take.
 typedef intptr_t W;
 typedef int (*Function)(W, W, W, W, W, W, W, W, W, W, W, W, W, W);
 #define TAKEN W a, W b, W c, W d, W e, W f, W g, W h, W i, W j, W k, W l, W m, W n
@@ -55,10 +57,10 @@ static int code_of(int which) {
   }
 }
 
-// No pointer has such an address, on any machine with 64 bits.
+// Launches with arguments of bytes 0x5a: as a pointer, this is an invalid address on every 64-bit machine.
 static int launched_with_nonsense(int function, TAKEN) {
   enum { most_parameters = 64 };
-  static char nonsense[32768];  // CUDA's limit of all that a kernel takes
+  static char nonsense[32768];  // CUDA's limit for all arguments of a kernel
   static void* parameters[most_parameters];
   memset(nonsense, 0x5a, sizeof nonsense);
   for (int x = 0; x < most_parameters; ++x) parameters[x] = nonsense;
@@ -84,7 +86,7 @@ static int pass(int function, TAKEN) {
   return real[function](GIVEN);
 }
 
-// 1024 functions that know their number.
+// 1024 functions, each with its own number.
 #define NUMBERS16(x) EACH(x##0) EACH(x##1) EACH(x##2) EACH(x##3) EACH(x##4) EACH(x##5) EACH(x##6) EACH(x##7) \
                      EACH(x##8) EACH(x##9) EACH(x##a) EACH(x##b) EACH(x##c) EACH(x##d) EACH(x##e) EACH(x##f)
 #define NUMBERS256(x) NUMBERS16(x##0) NUMBERS16(x##1) NUMBERS16(x##2) NUMBERS16(x##3) NUMBERS16(x##4) NUMBERS16(x##5) \
@@ -108,7 +110,7 @@ static int kind_by_name(const char* name) {
   return other;
 }
 
-// What says of an error what it is stays as it is, and so do the ways to more functions.
+// Replaces a function, except functions that describe an error or look up other functions.
 static void put_between(const char* name, void** function) {
   if (!*function || strstr(name, "GetError") || strstr(name, "GetProcAddress") || strstr(name, "GetExportTable")) return;
   for (int x = 0; x < functions && x < most_functions; ++x) {
@@ -138,7 +140,7 @@ static void* of_driver(const char* name) {
 int cuGetProcAddress_v2(const char* name, void** function, int version, uint64_t flags, int* found) {
   int (*const ask)(const char*, void**, int, uint64_t, int*) = of_driver("cuGetProcAddress_v2");
   if (!ask) return not_found;
-  if (strcmp(name, "cuGetProcAddress") == 0) {  // the next ones must come this way too
+  if (strcmp(name, "cuGetProcAddress") == 0) {  // later look-ups must also use this function
     *function = (void*)cuGetProcAddress_v2;
     if (found) *found = 0;
     return 0;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// faults.c  To be preloaded into a program (glibc): lets one allocation, or one call on its result files, fail.
+// faults.c  A library to be preloaded into a program (glibc). It makes one allocation, or one call on its result files, fail.
 //
-// Calls count from main() on; what loading the libraries takes is not the program's. Environment:
-//   FAULT_KIND    memory, open, write, short (half of a write is done, without an error), sync, rename, close, remove,
+// Calls count from the start of main(), so that loading the libraries does not count. Environment:
+//   FAULT_KIND    memory, open, write, short (only half of a write is done, without an error), sync, rename, close, remove,
 //                 mkdir
-//   FAULT_AT      number of the call that fails, from 1 on; 0: none, they are counted only
-//   FAULT_BYTES   in place of FAULT_AT: allocations fail with which the program would hold more than so many bytes
-//   FAULT_SPARE   part of the name of a library: allocations that it asks for itself do not fail, and do not count
-//   FAULT_ERRNO   what a call on a file fails with
-//   FAULT_FOLDER  files below this folder count, as the program names them, with an absolute path
-//   FAULT_REPORT  file that receives `hit KIND` when a call fails; and in the end, where none did, `count KIND N` and, of
-//                 the bytes held, `count start N` and `count most N`
-//   FAULT_TRACE   file that receives the functions that asked for what fails first
-//   FAULT_CLOCK   if it is there, the time of day goes back by an hour each time that it is asked for
-//   FAULT_STACKS  file that receives a number of 64 bits for each allocation: a hash of the functions that asked for it
+//   FAULT_AT      number of the call that fails, from 1 on; 0: none fails, the calls are only counted
+//   FAULT_BYTES   instead of FAULT_AT: allocations fail if the program would then hold more than this number of bytes
+//   FAULT_SPARE   part of the name of a library: allocations that this library itself requests neither fail nor count
+//   FAULT_ERRNO   error number with which a call on a file fails
+//   FAULT_FOLDER  only files in this folder count; an absolute path, as the program uses it
+//   FAULT_REPORT  file that receives `hit KIND` when a call fails, and at the end, if none failed, `count KIND N` and the
+//                 bytes held at the start of main() and at most: `count start N`, `count most N`
+//   FAULT_TRACE   file that receives the call stack of the first call that fails
+//   FAULT_CLOCK   if set, the time of day goes back by an hour with each query
+//   FAULT_STACKS  file that receives a 64-bit hash of the call stack for each allocation
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -43,7 +43,7 @@ static atomic_long held, held_at_start, most_held;
 static long at, most_bytes;
 static int kind = -1, error_number = EIO, hit;
 static const char* spare;
-static uintptr_t spare_begin, spare_end;  // where the code of the library is
+static uintptr_t spare_begin, spare_end;  // address range of the code of the spared library
 static const char *folder, *report, *stacks, *trace;
 static unsigned char marked[most_files];
 
@@ -56,7 +56,7 @@ extern void* __libc_realloc(void*, size_t);
 extern void* __libc_memalign(size_t, size_t);
 extern void __libc_free(void*);
 
-// No function of stdio: it allocates.
+// Writes to the report without stdio, which allocates memory.
 static void say(const char* what, const char* name, long number) {
   char text[80];
   size_t n = 0;
@@ -142,7 +142,7 @@ int posix_memalign(void** to, size_t align, size_t bytes) {
   if (memory_fails(bytes, CALLER)) return ENOMEM;
   return (*to = hold(__libc_memalign(align, bytes))) ? 0 : ENOMEM;
 }
-char* strdup(const char* text) {  // or the C library would ask for the memory of those who are spared
+char* strdup(const char* text) {  // otherwise libc would be the caller, also for a spared library
   const size_t bytes = strlen(text) + 1;
   char* const out = memory_fails(bytes, CALLER) ? NULL : hold(__libc_malloc(bytes));
   return out ? memcpy(out, text, bytes) : NULL;
@@ -164,7 +164,7 @@ static int mark(int file, unsigned char what) {
 
 #define REAL(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 
-// Folders are opened for reading, to be locked and synchronised.
+// Only opening for writing can fail. Folders are opened for reading, to be locked and synchronised.
 static int opens(int at_folder, const char* path, int flags, mode_t mode) {
   if (!ours(path)) return (int)syscall(SYS_openat, at_folder, path, flags, mode);
   const int writes = (flags & (O_WRONLY | O_RDWR)) != 0;
@@ -226,7 +226,7 @@ int ftruncate64(int file, off_t bytes) { return truncates(file, bytes); }
 int fsync(int file) { return is_marked(file) && fails(sync_) ? -1 : (int)syscall(SYS_fsync, file); }
 int fdatasync(int file) { return is_marked(file) && fails(sync_) ? -1 : (int)syscall(SYS_fdatasync, file); }
 
-// A close that fails has closed the file all the same, as in Linux.
+// Returns whether the close of the file fails. A close that fails closes the file nevertheless, as in Linux.
 static int unmark(int file) {
   if (!is_marked(file)) return 0;
   const int what = marked[file];
@@ -321,7 +321,7 @@ int __libc_start_main(int (*main_function)(int, char**, char**), int argc, char*
   trace = getenv("FAULT_TRACE");
   stacks = getenv("FAULT_STACKS");
   void* room[2];
-  if (stacks || trace) backtrace(room, 2);  // the first loads a library
+  if (stacks || trace) backtrace(room, 2);  // the first call loads a library
   if (stacks) {
     stack_hashes = mmap(NULL, sizeof(uint64_t) * most_stacks, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Kills at any moment, and checkpoints that were damaged."""
+"""Campaigns with kills at random moments, and with damaged checkpoints."""
 import shutil
 import signal
 import subprocess
@@ -11,7 +11,7 @@ from verdicts import Result, damaged, differences
 
 
 def kills(setting):
-    """Killed at any moment and resumed until it is done, a run gives the same bits."""
+    """A run that is killed at random moments, and resumed until it finishes, gives the same bits."""
     whole = setting.clear("whole")
     start = time.monotonic()
     outcome = setting.run(setting.stepped(whole))
@@ -23,10 +23,10 @@ def kills(setting):
     while all_killed < most:
         out, killed, complaints = setting.clear(), 0, []
         for _ in range(300):
-            more = ["--resume"] if (out / "checkpoint.h5").exists() else []  # at every moment the newest is whole
+            more = ["--resume"] if (out / "checkpoint.h5").exists() else []  # the newest checkpoint is complete at every moment
             child = subprocess.Popen([setting.program, *setting.stepped(out, *more)], env=setting.environment, cwd=setting.folder,
                                      stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            longest = 0.6 * max(0.3, alone) * (1 + killed / 20)  # others may need the processor meanwhile
+            longest = 0.6 * max(0.3, alone) * (1 + killed / 20)  # longer with each kill: other processes may use the processor
             try:
                 _, err = child.communicate(timeout=setting.random.uniform(0.01, longest))
             except subprocess.TimeoutExpired:
@@ -47,8 +47,8 @@ def kills(setting):
 
 
 def checkpoints(setting):
-    """A checkpoint with a bit flipped, or cut, is refused, and nothing in its folder changes. Where the one before is there,
-    the run says so and goes on from that one, to the same bits."""
+    """A checkpoint that is cut or has a flipped bit is refused, and nothing in its folder changes. If the previous
+    checkpoint exists, the run reports the damage and continues from the previous one, to the same bits."""
     whole = setting.clear("whole")
     setting.run(setting.stepped(whole))
     expected, out = Result(whole), interrupted(setting)
@@ -68,15 +68,15 @@ def checkpoints(setting):
 
 
 def interrupted(setting):
-    """The folder of a run that was interrupted when it had written two checkpoints."""
+    """Returns the folder of a run that was interrupted after it had written two checkpoints."""
     end = time.monotonic() + TIMEOUT
-    while time.monotonic() < end:  # on a busy machine it may be done before it is seen that it has written one
+    while time.monotonic() < end:  # on a busy machine the run may finish before its checkpoint is noticed
         out = setting.clear()
         child = subprocess.Popen([setting.program, *setting.stepped(out)], env=setting.environment, cwd=setting.folder,
                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         while not (out / "checkpoint.h5").exists() and child.poll() is None and time.monotonic() < end:
             time.sleep(0.005)
-        child.send_signal(signal.SIGTERM)  # SIGINT is ignored where a shell runs this in the background
+        child.send_signal(signal.SIGTERM)  # SIGINT is ignored if a shell runs this in the background
         child.wait()
         if (out / "checkpoint-previous.h5").exists():
             return out

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Allocations and calls on files that fail."""
+"""Campaigns with failing allocations, and failing calls on files."""
 import array
 import ctypes
 import errno
@@ -13,7 +13,8 @@ from verdicts import Result, left_behind
 
 
 def census(setting, command, stacks=False):
-    """How many calls of each kind a command makes, and, for each allocation, a number for the functions that it is in."""
+    """Counts the calls of each kind that a command makes. With `stacks` also returns a hash of the call stack of each
+    allocation."""
     out = setting.clear()
     shutil.copytree(setting.folder / "older", out)
     report, hashes = setting.folder / "report.txt", setting.folder / "stacks.bin"
@@ -32,7 +33,7 @@ def census(setting, command, stacks=False):
 
 
 def prepare(setting, command):
-    """The older result and the new one of a command."""
+    """Makes the older result and the new result of a command."""
     for name, arguments in (("older", command.older), ("new", command.arguments)):
         out = setting.clear(name)
         if arguments[0] == "run" or name == "older":
@@ -64,11 +65,11 @@ def trial(setting, campaign, command, kind, at, number=errno.EIO, limit=0):
     else:
         what += f", {errno.errorcode[number]}"
         said = os.strerror(number) in outcome.err and str(out) in outcome.err
-        # HDF5 1.10 crashes at the end of a program in which it could not close a file, after all is said and done
+        # HDF5 1.10 crashes at the end of a program in which it could not close a file, after all results and messages
         crashes = outcome.code == -signal.SIGSEGV and "H5Fclose failed" in outcome.err
         if outcome.code not in (0, 1) and not crashes:
             complaints.append(f"exit code {outcome.code}, expected 1")
-        # what is absorbed: the rest is written, HDF5 tries to open a file before it makes it
+        # Some faults have no effect: the rest of a short write is written, and HDF5 tries to open a file before it makes it.
         elif not said and not (outcome.code == 0 and (kind in ("short", "remove") or (kind == "open" and "HDF5" in what))):
             complaints.append("file or reason not said")
     complaints += left_behind(out, setting.older, setting.new, outcome, kind)
@@ -76,7 +77,8 @@ def trial(setting, campaign, command, kind, at, number=errno.EIO, limit=0):
 
 
 def memory(setting):
-    """Every allocation fails once: one for each way through the program that asks for memory, or all of them."""
+    """Makes one allocation of each call stack fail (in a quick campaign some of them), or with --every each allocation.
+    In addition runs each command with little memory."""
     start = None
     for command in [Command("start", ["--version"], None), *setting.commands()]:
         if command.older is None:
@@ -101,7 +103,7 @@ def memory(setting):
 
 
 def starting(setting, ways, count):
-    """What comes before any command is the same for all: making the command line."""
+    """Makes allocations fail that come before any command: those of the command line, the same for all commands."""
     for at in range(1, count + 1) if setting.every else setting.sample(ways, 40):
         outcome = setting.run(["--version"], {"LD_PRELOAD": setting.library, "FAULT_KIND": "memory", "FAULT_AT": str(at),
                                            "FAULT_TRACE": str(setting.folder / "trace.txt")})
@@ -112,7 +114,8 @@ def starting(setting, ways, count):
 
 
 def files(setting):
-    """Every write, fsync, rename, close, removal and opening for writing fails once."""
+    """Makes every write, fsync, rename, close, removal, new folder and opening for writing fail once (in a quick campaign
+    six of each kind)."""
     for command in setting.commands():
         prepare(setting, command)
         _, counts, _ = census(setting, command)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the campaigns share: scenes, commands, and what was found."""
+"""Scenes, commands and the list of results, which all campaigns use."""
 import collections
 import os
 import random
@@ -12,7 +12,7 @@ from verdicts import callers
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 SURFACE = ROOT / "examples" / "icosahedron" / "icosahedron.off"
-TIMEOUT = 60  # seconds, of commands that take a tenth of one
+TIMEOUT = 60  # [s]; the commands take about 0.1 s
 
 CONTACTS = """
 [materials.aggregate]
@@ -54,17 +54,19 @@ alpha = 0.0
 
 
 def scene(specimen, solver="density_scaling = 1e6", output=""):
-    """One cycle at 20 Hz: 500 steps with the scaling of a million, and in proportion to the root of its inverse."""
+    """Returns a scene of one cycle at 20 Hz: 500 steps with density scaling 1e6, and in proportion to
+    1 / sqrt(density_scaling) otherwise."""
     return (f'[specimen]\nfile = "{specimen}"\nbox = [0.008, 0.008, 0.011]\n[loading]\nkind = "cyclic"\n'
             f"frequencies = [20.0]\ncycles = 1\n[solver]\n{solver}\n[output]\n{output}\n{CONTACTS}")
 
 
-# HDF5 1.10 crashes, or ends the program without a word, where an allocation of its own fails: the program looks for memory
-# before it asks HDF5 for anything. What then happens where there is little is another campaign, in which all may fail.
+# HDF5 1.10 crashes, or ends the program without a message, if one of its own allocations fails. The program therefore
+# checks that memory is available before it calls HDF5, and here HDF5's own allocations do not fail. In the campaign "little
+# memory" all allocations can fail.
 SPARED = {"FAULT_SPARE": "libhdf5_serial.so"}
 
 Outcome = collections.namedtuple("Outcome", "code out err")
-Command = collections.namedtuple("Command", "name arguments older")  # what it runs, and what made the older result
+Command = collections.namedtuple("Command", "name arguments older")  # older: arguments of the older result
 
 
 class Setting:
@@ -80,7 +82,7 @@ class Setting:
         self.rows = []
         self.built = Path(arguments.libraries or folder)
         self.library = self.preloaded("faults")
-        # one thread: its allocations come in the same order every time
+        # one thread, so that the allocations have the same order every time
         self.environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "LC_ALL": "C"}
         particles = (ROOT / "tests" / "data" / "t8.csv").read_text()
         (folder / "t8.csv").write_text(particles)
@@ -91,13 +93,13 @@ class Setting:
                   "full": scene("t8.csv", output=everything + 'format = "vtp"'),
                   "hdf5": scene("t8.csv", output=everything),
                   "device": scene("t8.csv", "density_scaling = 1e4", "checkpoint = 0.02"),
-                  "tiles": scene("t8.csv", "density_scaling = 1e2", "checkpoint = 0.02"),  # steps short enough for blocks
+                  "tiles": scene("t8.csv", "density_scaling = 1e2", "checkpoint = 0.02"),  # short steps, taken in blocks
                   "stepped": scene("t8.csv", f"density_scaling = {self.scaling()}", "checkpoint = 0.05")}
         for name, text in scenes.items():
             (folder / f"{name}.toml").write_text(text)
 
     def preloaded(self, name, *options):
-        """A library to be preloaded, made of a source beside this file where it is not there."""
+        """Returns the path of a library to be preloaded. Compiles it from the source in this folder if it does not exist."""
         out = self.built / f"{name}.so"
         if not out.exists():
             subprocess.run(["cc", "-shared", "-fPIC", "-O1", *options, "-o", out, HERE / f"{name}.c", "-ldl"], check=True)
@@ -112,7 +114,7 @@ class Setting:
             self.failed[campaign] += 1
             alike = (campaign, what.split(",")[0], *complaints, where.split(" < ")[0])
             self.alike[alike] += 1
-            if self.alike[alike] <= 2:  # all are in the file that --out names
+            if self.alike[alike] <= 2:  # the file that --out names contains all
                 said = f" | code {outcome.code}: {outcome.err.strip()[-300:]!r}" if outcome else ""
                 print(f"FAILED {campaign}: {what}: {'; '.join(complaints)}{said}{where and ' | in ' + where}", flush=True)
 
@@ -130,7 +132,7 @@ class Setting:
         return self.folder / name
 
     def scaling(self):
-        """So that a stepped run takes about a second: of 35,000 to 500,000 steps."""
+        """Returns a density scaling for which a stepped run takes about a second, with 35,000 to 500,000 steps."""
         return 1 if self.backend == "cuda" else 20 if self.long else 200
 
     def stepped(self, out, *more):
@@ -154,6 +156,6 @@ class Setting:
                         ["shapes", "generate", "--count", "1", "--seed", "2"])]
 
     def sample(self, numbers, quick, long=None):
-        """Some of a list, or in a long campaign all."""
+        """Returns a random sample of `quick` numbers, or in a long campaign of `long` numbers (None: all)."""
         number = long if self.long else quick
         return sorted(numbers if number is None or len(numbers) <= number else self.random.sample(list(numbers), number))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Folders, disks, streams, languages and names as they come."""
+"""Campaigns with unusual folders, disks, streams, languages and names."""
 import errno
 import os
 import resource
@@ -29,7 +29,7 @@ def two_at_once(setting):
 
 
 def full_disks(setting):
-    """A small file system in memory, mounted for the command alone."""
+    """Runs commands whose result folder is on a small file system in memory, which is mounted only for the command."""
     command = setting.commands()[0]
     mount = ["unshare", "-rm"]
     disk = setting.folder / "disk"
@@ -40,7 +40,7 @@ def full_disks(setting):
         return
     for command in setting.commands():
         prepare(setting, command)
-        held = sum((len(b) + 4095) // 4096 * 4096 for b in setting.older.files.values()) + 12288  # pages and folders
+        held = sum((len(b) + 4095) // 4096 * 4096 for b in setting.older.files.values()) + 12288  # whole pages, and the folders
         for spare in setting.sample([4096 * (1 << k) // 2 for k in range(1, 12)], 4):
             left = setting.clear("left")
             script = ('mount -t tmpfs -o size="$SIZE" none "$DISK" && cp -r "$OLDER" "$DISK/out" || exit 99\n'
@@ -59,7 +59,7 @@ def full_disks(setting):
 
 
 def folders(setting):
-    # one that nobody may write into; root may write everywhere
+    # a folder without write permission; root could write into it, so another user runs the command
     out = setting.clear()
     out.mkdir()
     (out / "kept.txt").write_text("kept")
@@ -70,7 +70,7 @@ def folders(setting):
         good = outcome.code == 1 and str(out) in outcome.err and os.strerror(errno.EACCES) in outcome.err
         setting.report("read-only folder", command.name, [] if good else ["is not refused, or not why"], outcome)
     out.chmod(0o755)
-    # one that is removed while the command runs
+    # a folder that is removed while the command runs
     for _ in range(20 if setting.long else 4):
         out = setting.clear()
         child = subprocess.Popen([setting.program, *setting.stepped(out)], env=setting.environment, cwd=setting.folder,
@@ -79,7 +79,7 @@ def folders(setting):
             time.sleep(0.002)
         time.sleep(setting.random.uniform(0, 0.2))
         shutil.rmtree(out, ignore_errors=True)
-        shutil.rmtree(out, ignore_errors=True)  # a file may have appeared
+        shutil.rmtree(out, ignore_errors=True)  # the command may have created a file meanwhile
         try:
             _, err = child.communicate(timeout=TIMEOUT)
         except subprocess.TimeoutExpired:

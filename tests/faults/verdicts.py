@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is wrong with what a command left behind."""
+"""Finds what is wrong with the files that a command left."""
 import json
 import re
 import shutil
@@ -12,7 +12,7 @@ CHECKPOINTS = ("checkpoint.h5", "checkpoint-previous.h5")
 
 
 def callers(trace):
-    """The innermost functions that called what failed, of the program and its library."""
+    """Returns the innermost functions (at most three) of the program and its library that led to the failed call."""
     if not trace.exists():
         return ""
     names = []
@@ -30,7 +30,7 @@ def callers(trace):
 
 
 class Result:
-    """The files of a folder."""
+    """The files of a result folder, and its summary without times."""
 
     def __init__(self, folder):
         self.files = {str(p.relative_to(folder)): p.read_bytes() for p in sorted(folder.rglob("*")) if p.is_file()}
@@ -38,7 +38,7 @@ class Result:
 
 
 def timeless(text):
-    """A summary without what changes from run to run: times, and the scene's name."""
+    """Returns a summary without the entries that differ between runs: times, and the scene's name."""
     if text is None:
         return None
     try:
@@ -60,7 +60,7 @@ def differences(found, expected, of_what):
 
 
 def damaged(folder, killed=False):
-    """What is wrong with files whatever result they are of."""
+    """Returns which files are damaged or were not removed, independent of the result that they belong to."""
     out = []
     for path in folder.rglob("*"):
         if not path.is_file():
@@ -84,7 +84,7 @@ def damaged(folder, killed=False):
 
 
 def left_behind(folder, older, new, outcome, kind):
-    """What is wrong with the files that a command left where the older result was."""
+    """Returns what is wrong with the files that a command left in a folder that contained an older result."""
     out = [text for text in damaged(folder) if not (kind == "remove" and text.endswith("is left"))]
     found = Result(folder)
     if outcome.code == 0:
@@ -102,7 +102,7 @@ def left_behind(folder, older, new, outcome, kind):
         if bytes_ == of_new or (name == "response.csv" and of_new.startswith(bytes_)):
             continue
         if found.summary is None and bytes_ == older.files.get(name):
-            continue  # no summary claims it
+            continue  # there is no summary that it could contradict
         out.append(f"{name} is neither the new one nor told from it")
     if new.summary is None:
         out += [f"{name} is lost" for name in older.files if name in new.files and name not in found.files]

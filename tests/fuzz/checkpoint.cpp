@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// checkpoint.cpp  A checkpoint as bytes, or one with a good checksum around an HDF5 file made by a recipe.
+// checkpoint.cpp  Fuzz target: a checkpoint as raw bytes, or a valid checksum around an HDF5 file that is made from a
+// recipe.
 #include "host/results/checkpoint.hpp"
 
 #include <H5Cpp.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// forged_hdf5.cpp  A byte of the recipe after the other decides; where they end, zeros do.
+// forged_hdf5.cpp  Each byte of the recipe makes one decision; after its end all decisions are 0.
 #include "tests/fuzz/forged_hdf5.hpp"
 
 #include <H5Cpp.h>
@@ -65,7 +65,7 @@ H5::DataSpace space_by(Recipe& recipe, std::size_t rank) {
   return rank == 0 ? H5::DataSpace(H5S_SCALAR) : H5::DataSpace(static_cast<int>(rank), size);
 }
 
-/// Zeros, where they are few and no addresses.
+/// Writes zeros if the values are few and not pointers.
 template <class Values>
 void fill(const Values& values, const H5::DataType& type) {
   const double bytes =
@@ -140,7 +140,7 @@ std::string forged_hdf5(std::string_view bytes, const std::vector<std::string>& 
   for (int entries = 0; recipe.more() && entries < 20; ++entries) {
     try {
       add(file, recipe, groups, names, attributes);
-    } catch (const H5::Exception&) {  // what HDF5 does not make it need not read
+    } catch (const H5::Exception&) {  // HDF5 could not make this entry, so no reader has to read it
     }
   }
   file.flush(H5F_SCOPE_GLOBAL);

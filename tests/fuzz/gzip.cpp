@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// gzip.cpp  zlib's streams with gzip's headers.
+// gzip.cpp  Compression by zlib in the gzip format.
 #include "tests/fuzz/gzip.hpp"
 
 #include <zlib.h>
@@ -9,7 +9,7 @@
 namespace macadam::fuzz {
 namespace {
 
-constexpr int with_gzip = 15 + 16;  // bits of the window, and which header
+constexpr int with_gzip = 15 + 16;  // bits of the window; 16 more select the gzip header
 
 std::string stream_of(std::string_view text, int level) {
   z_stream z{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file gzip.hpp  Texts within gzip, for mutators.
+/// \file gzip.hpp  Texts compressed with gzip, for mutators.
 #pragma once
 
 #include <string>
@@ -9,13 +9,14 @@
 
 namespace macadam::fuzz {
 
-/// What the bytes unpack to, as far as they do; 64 KiB at most.
+/// Returns the text that the bytes unpack to, as far as they are valid; at most 64 KiB.
 std::string unpacked(std::string_view bytes);
 
-/// As one stream, or as two behind each other.
+/// Returns the text as one gzip stream, or as two streams in sequence.
 std::string packed(const std::string& text, Random& random);
 
-/// One line of the text so often that the whole is some megabytes: they pack to next to nothing.
+/// Returns a beginning of the text, followed by one piece of it that is repeated up to some megabytes, which compress
+/// to almost nothing.
 std::string repeated(const std::string& text, Random& random);
 
 }  // namespace macadam::fuzz

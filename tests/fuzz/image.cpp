@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// image.cpp  An image of a scan, in the format of the program's name: what it says of itself, and its voxels.
+// image.cpp  Fuzz target: an image of a scan, in the format of the program's name. Reads the header and the voxels.
 #include "host/ct/image_slices.hpp"
 #include "tests/fuzz/forged_hdf5.hpp"
 #include "tests/fuzz/mutate.hpp"
@@ -8,7 +8,8 @@
 namespace macadam::fuzz {
 namespace {
 
-constexpr std::int64_t most_voxels = 100'000;  // that are read: a header may stand for 4000 bytes a byte
+// limit up to which voxels are read, because a header may announce 4000 bytes per byte of the file
+constexpr std::int64_t most_voxels = 100'000;
 
 MemoryFile& file() {
   static MemoryFile one("." MACADAM_FUZZ_ENDING);
@@ -21,7 +22,7 @@ std::string file_name() { return file().path().string(); }
 
 void read(std::string_view bytes) {
   std::unique_ptr<ct::ImageSlices> image;
-#ifdef MACADAM_FUZZ_HDF5  // a recipe, but for whole files among the seeds
+#ifdef MACADAM_FUZZ_HDF5  // the bytes are a recipe, except for complete HDF5 files among the seeds
   if (!bytes.starts_with("\x89HDF")) {
     image =
         ct::open_image(file().with(forged_hdf5(bytes, {"/", "scan"}, {"data", "grey", "b"}, {"element_size_um"})), {});

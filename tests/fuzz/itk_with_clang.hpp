@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file itk_with_clang.hpp  Before all else in sources that include ITK: Debian's headers of it ask which compiler
-/// this is, and know GCC alone. What they do then, Clang does too.
+/// \file itk_with_clang.hpp  To be included before everything else in sources that include ITK. Debian's ITK headers
+/// check the compiler and know only GCC, so this file makes Clang look like GCC 12 while they check. Clang accepts what
+/// they do then.
 #pragma once
 
 #pragma push_macro("__clang__")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// laboratory.cpp  Measured moduli, which `macadam fit` and `macadam calibrate` read.
+// laboratory.cpp  Fuzz target: measured moduli, which `macadam fit` and `macadam calibrate` read.
 #include "macadam/fit.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/fuzz/target.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// memory_file.cpp  Memory with a name in /proc, which any reader opens as a regular file.
+// memory_file.cpp  A file in memory with a name in /proc, which every reader opens as a regular file.
 #include <sys/mman.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// model.cpp  A model of a binder as a TOML file, which `macadam fit` turns into a contact law.
+// model.cpp  Fuzz target: a model of a binder as a TOML file, which `macadam fit` converts to a contact law.
 #include "macadam/fit.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/fuzz/target.hpp"

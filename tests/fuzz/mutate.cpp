@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// mutate.cpp  Lines and cells, and the numbers that readers stumble over.
+// mutate.cpp  Mutation of lines and cells, with numbers that are difficult for readers.
 #include "tests/fuzz/mutate.hpp"
 
 #include <algorithm>
@@ -61,7 +61,7 @@ std::vector<std::string> lines_of(std::string_view text) {
   return out;
 }
 
-/// Where cells of a line begin and how long they are.
+/// Returns begin and length of each cell of a line.
 std::vector<std::pair<std::size_t, std::size_t>> cells_of(std::string_view line, std::string_view separators) {
   std::vector<std::pair<std::size_t, std::size_t>> out;
   for (std::size_t begin = 0; begin < line.size();) {

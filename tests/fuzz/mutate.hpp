@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file mutate.hpp  Changes that leave the form of a text: lines, and cells in lines.
+/// \file mutate.hpp  Mutations that keep the form of a text: they change lines, and cells of lines.
 #pragma once
 
 #include <cstddef>
@@ -13,22 +13,24 @@ namespace macadam::fuzz {
 
 using Random = std::minstd_rand;
 
-/// A number below `end`.
+/// Returns a random number below `end`.
 std::size_t below(Random& random, std::size_t end);
 
-/// One change by libFuzzer's own means, which is blind to form; at most `most` bytes.
+/// Returns the text after one mutation by libFuzzer, which does not know the form; at most `most` bytes.
 std::string changed_bytes(std::string text, std::size_t most);
 
-/// A few changes of lines (taken out, doubled, exchanged, moved) and of cells (replaced by a word or number, emptied,
-/// exchanged). `separators`: what stands between cells. `words`: what may stand in a cell, besides numbers.
+/// Returns the text after a few changes of lines (removed, copied, exchanged) and cells (emptied, copied, inserted,
+/// replaced by a word or number). `separators` are the characters between cells. `words` may replace cells, in addition
+/// to numbers.
 std::string changed_cells(std::string_view text, Random& random, std::string_view separators,
                           const std::vector<std::string>& words);
 
-/// The body of LLVMFuzzerCustomMutator for a text of cells: bytes change in some inputs, cells in the others.
+/// Implements LLVMFuzzerCustomMutator for a text of cells: a third of the calls change bytes, the others change lines
+/// and cells.
 std::size_t mutate_cells(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed,
                          std::string_view separators, const std::vector<std::string>& words);
 
-/// Puts a text where libFuzzer wants it, cut to what fits.
+/// Copies the text to libFuzzer's buffer, cut to `most` bytes, and returns its size.
 std::size_t give_back(const std::string& text, std::uint8_t* data, std::size_t most);
 
 }  // namespace macadam::fuzz

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scene.cpp  A scene's text. Its keys come from the very table of those that are known.
+// scene.cpp  Fuzz target: the text of a scene. The words for mutations come from the reader's own table of known keys.
 #include "macadam/scene.hpp"
 
 #include "host/scene/known_keys.hpp"

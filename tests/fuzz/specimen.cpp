@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// specimen.cpp  A specimen as CSV or, with another mutator, as CSV within gzip.
+// specimen.cpp  Fuzz target: a specimen as CSV or, with another mutator, as CSV compressed with gzip.
 #include "macadam/specimen.hpp"
 
 #include "tests/fuzz/gzip.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// surface.cpp  A surface, in the format of the program's name.
+// surface.cpp  Fuzz target: a surface, in the format of the program's name.
 #include "host/shapes/surface_files.hpp"
 #include "tests/fuzz/mutate.hpp"
 #include "tests/fuzz/target.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// target.cpp  One input, and what is asked of every reader: errors of Macadam alone, which name the file; a second for
-// each kilobyte; a hundred times the input and 64 MB of memory. What breaks one of these ends the program, as the
-// fuzzer asks.
+// target.cpp  Runs one input and checks the rules for every reader: only errors of Macadam, whose messages name the
+// file; at most one second per kilobyte, but at least one second; memory of at most 64 MB plus a hundred times the
+// input. A violation aborts the program, which libFuzzer reports as a finding.
 #include "tests/fuzz/target.hpp"
 
 #include <cxxabi.h>
@@ -44,14 +44,14 @@ void freed(const volatile void* memory) {
   if (counting && memory) live -= static_cast<std::int64_t>(__sanitizer_get_allocated_size(memory));
 }
 
-/// Of this process: others on the machine may be busy.
+/// Returns the CPU time of this process [s], which other processes do not affect.
 double seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// One line that begins with the file, and says what was found and what was expected.
+/// Checks that a message is one line that begins with the file and states what was found and what was expected.
 void check_message(const std::string& message) {
   static const std::string name = file_name();
   const bool line = std::none_of(message.begin(), message.end(),
@@ -102,7 +102,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-/// What C libraries ask for in vain is theirs to report; what C++ asks for in vain ends the program.
+/// If memory is not available, malloc returns null, so that C libraries can report it; operator new ends the program.
 extern "C" const char* __asan_default_options() {
   return "allocator_may_return_null=1:detect_stack_use_after_return=0:detect_leaks=0:quarantine_size_mb=16";
 }

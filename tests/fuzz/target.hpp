@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file target.hpp  What each target of the fuzzer defines, and a file in memory for readers that ask for a name.
+/// \file target.hpp  Functions that each fuzz target defines, and a file in memory for readers that need a file name.
 #pragma once
 
 #include <filesystem>
@@ -8,24 +8,24 @@
 
 namespace macadam::fuzz {
 
-/// Reads the bytes of a file that anyone may have made, under the name of file_name(). Defined once in each program.
-/// \throws Error where they are no such file; anything else that it throws is a defect.
+/// Reads the bytes of a file from an untrusted source, under the name file_name(). Each target defines it once.
+/// \throws Error if the file is invalid; every other exception is a defect.
 void read(std::string_view bytes);
 
-/// How the file is called: messages must say it. Defined once in each program.
+/// Returns the name of the file, which error messages must contain. Each target defines it once.
 std::string file_name();
 
-/// A file that is on no disk.
+/// A file that exists only in memory.
 class MemoryFile {
  public:
-  /// `ending`: that of its name, ".tif" for instance; empty where the reader does not ask.
+  /// `ending` is the extension of the name, such as ".tif"; empty if the reader does not need one.
   explicit MemoryFile(const std::string& ending = {});
   ~MemoryFile();
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  /// Replaces what is in it.
+  /// Replaces the content and returns the path.
   const std::filesystem::path& with(std::string_view bytes);
 
  private:
@@ -33,7 +33,7 @@ class MemoryFile {
   std::filesystem::path path_, folder_;
 };
 
-/// The one file of a program whose reader does not ask for an ending.
+/// Returns the only file of a target whose reader does not need an extension.
 inline MemoryFile& the_file() {
   static MemoryFile one;
   return one;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// main.cpp  An outside user of the installed library: four spheres, their cells, their contacts, and one load step.
+// main.cpp  A program outside of the repository that uses the installed library: four spheres, their cells, their
+// contacts, and ten time steps.
 #include <macadam/macadam.hpp>
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace {
 
-/// Spheres of 1 mm in two layers of two, each with a cubic cell.
+/// Returns spheres of 1 mm diameter in two layers of two, each with a cubic cell.
 macadam::Specimen make_specimen() {
   macadam::Specimen specimen;
   specimen.box = {{2e-3, 1e-3, 2e-3}};
@@ -24,7 +25,7 @@ macadam::Specimen make_specimen() {
   return specimen;
 }
 
-/// Whether an error thrown inside the library is caught by its type outside.
+/// Returns whether an error thrown inside the library is caught by its type outside of it.
 bool catches_errors() {
   try {
     macadam::tessellate({});

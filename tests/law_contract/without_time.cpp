@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// without_time.cpp  A law that lacks a part of its contract: the compiler must say which. It is not to compile.
+// without_time.cpp  A law that lacks shortest_time(). It must not compile, and the compiler's message must name the
+// missing member.
 #include "macadam/laws/law.hpp"
 
 struct Timeless {

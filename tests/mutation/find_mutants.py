@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Places where a mistake can be made: operators and statements of functions, by clang's own reading of the sources."""
+"""Finds the places in the sources for mutants: operators and statements of functions, as clang parses them."""
 import collections
 import json
 from pathlib import Path
@@ -15,7 +15,7 @@ NUMBERS = {TypeKind.BOOL, TypeKind.INT, TypeKind.UINT, TypeKind.LONG, TypeKind.U
            TypeKind.DEPENDENT, TypeKind.UNEXPOSED}
 KEPT = ("-I", "-D", "-std", "-isystem", "-include", "-fopenmp", "-march")
 
-# text: what stands at [begin, end) of the file; mutated: what is to stand there in its place
+# text: code at [begin, end) of the file; mutated: code that replaces it
 Mutant = collections.namedtuple("Mutant", "file line begin end what text mutated")
 
 
@@ -30,7 +30,8 @@ def arguments_of(command):
 
 
 def find(commands, root, told=print):
-    """Every mutant of the sources below host/ and kernels/ that the commands of a build (a file of CMake's) compile."""
+    """Returns every mutant of the sources in host/ and kernels/ that a build compiles. `commands` is the file
+    compile_commands.json that CMake writes."""
     entries = [e for e in json.loads(Path(commands).read_text()) if "/tests/" not in e["file"] and "/bench/" not in e["file"]]
     found, texts = {}, {}
     index = cindex.Index.create()
@@ -57,7 +58,7 @@ def ours(cursor, root, texts):
 def kind_of(cursor):
     try:
         return cursor.kind
-    except ValueError:  # newer than the package
+    except ValueError:  # a kind that is newer than the Python package
         return None
 
 
@@ -92,7 +93,7 @@ def span(cursor, text):
 
 
 def plain(piece):
-    """Short, and without what cannot stand twice: functions without a name, comments, macros of several lines."""
+    """Returns whether a piece of code is short and may be written twice: no lambdas, comments, or macros of several lines."""
     return len(piece) < 160 and not any(mark in piece for mark in ("[&", "[=", "[]", "//", "\n#", "{", ";"))
 
 
@@ -118,7 +119,7 @@ def mutant_at(cursor, file, text):
 
 
 def without(cursor, file, text):
-    """A call whose result nobody takes is left out."""
+    """Returns the mutant that leaves out a call whose result is not used, or None."""
     whole = span(cursor, text)
     if not whole or text[whole[1]:whole[1] + 1] != b";":
         return None

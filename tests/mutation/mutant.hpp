@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// \file mutant.hpp  Which one of the mistakes that tests/mutation/campaign has put into the sources is made: that of
-/// the environment's MUTANT, or none. The campaign compiles every source with this file before it.
+/// \file mutant.hpp  Selects which of the mutants that tests/mutation/campaign put into the sources is active: the
+/// number in the environment variable MUTANT, or none. The campaign compiles every source with this file included
+/// first.
 #pragma once
 
 #include <cstdio>
@@ -10,8 +11,8 @@ namespace mutation {
 
 inline constexpr int most = 4096;
 
-/// Those whose place in the code was come by. Written down at the end where the environment's MUTANTS_REACHED names a
-/// file.
+/// The mutants whose code was reached. At exit their numbers are appended to the file that the environment variable
+/// MUTANTS_REACHED names.
 struct Reached {
   bool at[most] = {};
   ~Reached() {
@@ -30,7 +31,8 @@ inline int chosen() {
   return number;
 }
 
-/// Whether mistake `number` is made. Never where the compiler computes: what it needs must stay a constant.
+/// Returns whether mutant `number` is active. Always false in constant evaluation, so that constant expressions stay
+/// constant.
 constexpr bool on(int number) {
   if (__builtin_is_constant_evaluated()) return false;
   if (!reached.at[number]) reached.at[number] = true;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// soak.cpp  Hours of runs in one process, many of them interrupted and resumed: the same bits each time, and neither
-// memory nor open files that grow.
+// soak.cpp  Runs for hours in one process, many of them interrupted and resumed. Every run must give the same bits each
+// time, and neither memory nor the number of open files may grow.
 //
 // usage: soak SECONDS [cpu|cuda] [TABLE.csv]
 #include <fmt/chrono.h>
@@ -26,7 +26,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a process must not take more and more of.
+/// Resources of the process that must not grow.
 struct Held {
   double resident_mb = 0, allocated_mb = 0, device_mb = 0;
   int files = 0, threads = 0;
@@ -50,11 +50,11 @@ Held held_now() {
   return out;
 }
 
-/// One of the runs that come again and again, and the bits that it must give.
+/// A run that is repeated, and the output that it must give each time.
 struct Case {
   Scene scene;
   fs::path out;
-  std::string response, first;  ///< first: that of the first time
+  std::string response, first;  ///< first: output of the first time
 };
 
 class Soak {
@@ -70,7 +70,8 @@ class Soak {
     add("backend = \"" + backend + "\"\nmethod = \"harmonic\"\nlinear = \"iterative\"\n", "contacts = true\n");
   }
 
-  /// Every case once, whole or in pieces. \throws RunError where the bits are others than the first time.
+  /// Runs every case once, with or without interruptions.
+  /// \throws RunError if the output differs from the first time.
   void round() {
     for (Case& c : cases_) {
       const bool in_pieces = c.scene.solver.method == SolverMethod::explicit_ && random_() % 3 > 0;
@@ -109,7 +110,7 @@ class Soak {
     } catch (const InterruptedError&) { return true; }
   }
 
-  /// Those of a summary, without the times that they took.
+  /// Returns the lines of a summary with |E*| and phase, without times.
   static std::string results_of(const fs::path& out) {
     std::istringstream lines(read(out / "summary.json"));
     std::string all;
@@ -134,7 +135,7 @@ int soak(double seconds, const std::string& backend, const std::string& table) {
   fmt::print("{}", head);
   const auto start = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  soak.round();  // every code path has its buffers
+  soak.round();  // after this round every code path has its buffers
   std::vector<Held> rows;
   for (double next = 0; elapsed() < seconds || rows.size() < 4;) {
     soak.round();
@@ -149,8 +150,8 @@ int soak(double seconds, const std::string& backend, const std::string& table) {
     std::fflush(stdout);
   }
   fs::remove_all(folder);
-  // What a process holds wavers with the moment and with how the heap is cut up: the most of the last third is compared
-  // with the most of those before.
+  // The use of resources varies from moment to moment and with the fragmentation of the heap. So the maximum of the
+  // last third is compared with the maximum before it.
   const auto most = [&](std::size_t from, std::size_t to, auto of) {
     double all = 0;
     for (std::size_t k = from; k < to; ++k) all = std::max(all, static_cast<double>(of(rows[k])));
