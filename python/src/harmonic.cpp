@@ -75,7 +75,7 @@ class Solver {
   std::mutex busy_;
 };
 
-/// Returns the complex fraction of E* that each pair type carries, by name; pair types that carry nothing are left out.
+/// Returns the fraction of E* that each pair type carries, by name; pair types that carry nothing are left out.
 nb::dict shares_of(const HarmonicResult& r) {
   nb::dict out;
   const auto all = shares(r.parts);

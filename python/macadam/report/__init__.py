@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reports: one self-contained HTML file from any result folders of macadam.
 
-The module can be called as its function `report`. matplotlib is imported when a report is asked for."""
+The module itself can be called like its function `report`. matplotlib is imported when a report is made."""
 
 from __future__ import annotations
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contacts by type, the share of the stiffness that each carries, and what |E*| and the phase angle depend on."""
+"""Section of the report on contacts: their number and area by type, the share of E* that each type carries, and the
+sensitivities of |E*| and phase angle to the parameters of the laws."""
 
 from __future__ import annotations
 
@@ -19,7 +20,7 @@ NAMES = {
     "A-W": "aggregate – wall",
     "M-W": "mastic – wall",
 }
-MOST = 10  # parameters shown
+MOST = 10  # largest number of parameters in the picture of sensitivities
 
 
 def add(page: Page, folders: list[Folder]) -> None:
@@ -150,7 +151,7 @@ def _sensitivities(page: Page, folder: Folder) -> None:
         }
         for r in ends
     ]
-    # delta of a pair is all its moduli together and would repeat them
+    # a pair's delta scales all its moduli, so its sensitivity would repeat theirs
     names = [n for n in effects[0] if not n.endswith(".delta")]
     names.sort(key=lambda n: -max(abs(e.get(n, (0, 0))[0]) for e in effects))
     names = names[:MOST]
@@ -181,7 +182,7 @@ def _sensitivities(page: Page, folder: Folder) -> None:
 
 
 def _at_first_temperature(results: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Returns the results at the first one's temperature, by frequency, so that only the frequency differs between them."""
+    """Returns the results at the temperature of the first one, sorted by frequency, so that only the frequency differs."""
     return sorted(
         (r for r in results if r.get("temperature_c") == results[0].get("temperature_c")), key=lambda r: r["frequency_hz"]
     )

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the program decided and skipped and why, its warnings, where the time went, version and machine."""
+"""Sections of the report on the run: the program's decisions and skips with their reasons, its warnings, wall times, version
+and machine."""
 
 from __future__ import annotations
 
@@ -46,6 +47,7 @@ def add_decisions(page: Page, folders: list[Folder]) -> None:
             )
 
 
+# Returns the skipped computations of a run as an HTML list.
 def _skips(folder: Folder) -> str:
     return (
         "<ul>"
@@ -110,7 +112,8 @@ def _facts(folder: Folder) -> list[tuple[str, Any]]:
 
 
 def add_warnings(page: Page, folders: list[Folder]) -> None:
-    """What a reader must know before any number; nothing where all is well."""
+    """Adds paragraphs that a reader must see before any number: an incomplete run, warnings, a tolerance not kept. Adds
+    nothing if there is no such thing."""
     for f in folders:
         of = f"{f.label}: " if len(folders) > 1 else ""
         status = f.summary.get("status")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results of `macadam calibrate` and `macadam fit`: parameters found, and measured beside predicted moduli."""
+"""Sections of the report on results of `macadam calibrate` and `macadam fit`: the parameters found, and measured and predicted
+moduli in one picture."""
 
 from __future__ import annotations
 
@@ -47,7 +48,7 @@ def _fitted(f: Folder) -> pd.DataFrame:
 
 
 def _errors_of_fit(table: pd.DataFrame) -> tuple[float, float]:
-    """Root mean squares of the relative differences of |E*|, and of those of φ [degrees]."""
+    """Returns the root mean square of the relative differences of |E*|, and of the differences of φ [degrees]."""
     e_star = np.sqrt(np.mean((table["fitted_e_star_pa"] / table["e_star_pa"] - 1) ** 2))
     return float(e_star), float(np.sqrt(np.mean((table["fitted_phase_deg"] - table["phase_deg"]) ** 2)))
 

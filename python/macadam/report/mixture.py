@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The mix: what it is made of, by volume and by mass, and its gradation."""
+"""Section of the report on the mix: its composition by volume and by mass, and its gradation."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from macadam.report import look
 from macadam.report.folders import Folder
 from macadam.report.page import Page, facts
 
-ABREAST = 4  # folders that one table has as columns
-SIZES = re.compile(r"([\d.]+)-([\d.]+) mm$")  # of a class without a name of its own
+ABREAST = 4  # largest number of folders that one table shows as columns
+SIZES = re.compile(r"([\d.]+)-([\d.]+) mm$")  # name of a size class that the scene gives no other name
 
 
 def add(page: Page, folders: list[Folder]) -> None:
@@ -116,7 +116,8 @@ def _composition(page: Page, folders: list[Folder]) -> None:
 
 
 def _from_coarse_to_fine(names: Iterable[str]) -> list[str]:
-    """Classes of several mixes; what has no sizes, such as mastic, comes behind in its own order."""
+    """Returns the classes of several mixes, the coarsest first. Classes without sizes, such as mastic, follow in the given
+    order."""
     return sorted(names, key=lambda name: -float(sizes[2]) if (sizes := SIZES.match(name)) else 0.0)
 
 
@@ -154,7 +155,8 @@ def _gradation(folder: Folder) -> Any:
 
 
 def _between_sieves(folder: Folder, recipe: dict[str, Any], at_cut: float) -> tuple[np.ndarray, np.ndarray]:
-    """Sizes [m], and the share of the aggregate's mass below them, a step for every aggregate above the cut."""
+    """Returns sizes [m] and the fraction of the aggregate's mass that passes each, one step per aggregate above the cut.
+    at_cut: the fraction that passes at the cut."""
     density = {c["class"]: float(c["density"]) for c in recipe["classes"]}
     grains = folder.aggregates.sort_values("size")
     mass = grains["volume"].to_numpy() * grains["class"].map(density).fillna(np.mean(list(density.values()))).to_numpy()

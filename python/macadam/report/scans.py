@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results of `macadam ct` and of `macadam shapes measure`: grains of a scan, twins, phantoms, shapes of a library."""
+"""Sections of the report on results of `macadam ct` and `macadam shapes measure`: grains of a scan, twins, phantoms, shapes of a
+library."""
 
 from __future__ import annotations
 
@@ -49,7 +50,7 @@ def _cell(value: Any) -> Any:
 
 
 def _rounded(value: Any) -> Any:
-    return 0.0 if isinstance(value, float) and abs(value) < 1e-15 else value  # what rounding left of a zero
+    return 0.0 if isinstance(value, float) and abs(value) < 1e-15 else value  # a zero with a rounding error
 
 
 def _facts(summary: dict[str, Any], before: str = "") -> list[tuple[str, Any]]:

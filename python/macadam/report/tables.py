@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of |E*| and phase angle: of one folder, of several beside one another, of frequencies by temperatures."""
+"""Tables of |E*| and phase angle: of one folder, of several folders side by side, or of frequencies by temperatures."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from macadam.report import look
 from macadam.report.folders import Folder
 from macadam.report.page import Page
 
-ROWS = 40  # of one table; a longer one is cut
-ABREAST = 3  # folders that one table has beside one another
+ROWS = 40  # largest number of rows of a table; a longer one is cut
+ABREAST = 3  # largest number of folders that one table shows side by side
 
 Error = Callable[[dict[str, Any]], tuple[float, float]]
 
 
 def add(page: Page, folders: list[Folder], error: Error) -> None:
-    """Tables of folders that all have results over frequencies."""
+    """Adds tables of these folders, all of which have results over frequencies. error: returns the error of a result."""
     if 1 < len(folders) <= ABREAST and not any(_temperatures(f)[1:] for f in folders):
         _abreast(page, folders)
         return
