@@ -115,7 +115,8 @@ def figure(
     values = (data.point_data if of_points else data.cell_data)[name]
     values = factor * (np.linalg.norm(values, axis=1) if values.ndim > 1 else np.asarray(values, float))
     (data.point_data if of_points else data.cell_data)["shown"] = values
-    low, high = limits or (float(values.min()), float(np.quantile(values, 0.999)))  # so that a few very large values do not hide the others
+    # not the maximum: a few very large values would hide the others
+    low, high = limits or (float(values.min()), float(np.quantile(values, 0.999)))
     words, box = [f"{label or name}, {Path(file).name}"], data.bounds
     if half:
         words.append("what lies in front of the middle is taken away")
