@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Long calls: Ctrl-C ends them, threads run beside them."""
+"""Long calls: Ctrl-C ends them, and other threads run at the same time."""
 import os
 import signal
 import subprocess
@@ -19,7 +19,8 @@ LONG = {"loading.frequencies": [0.5], "solver.tolerance": None, "solver.density_
 
 
 def interrupted(work, said, tmp_path):
-    """Runs `work` in a Python of its own, which says `ready` and gets Ctrl-C then; what it said, and how long that took."""
+    """Runs `work` in another Python process, which prints `ready` and then gets Ctrl-C. Returns the process's output and the
+    seconds until it ended."""
     code = "import macadam as mc, numpy as np, sys\n" + textwrap.dedent(work)
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                              cwd=tmp_path, env={**os.environ, "PYTHONUNBUFFERED": "1"})
@@ -39,7 +40,7 @@ def test_ctrl_c_ends_a_run_with_a_checkpoint(scene, small_file, tmp_path):
             print("ready")
         mc.run({str(small_file)!r}, out="out", on_plan=tell, **{LONG!r})""", "checkpoint", tmp_path)
     assert (tmp_path / "out" / "checkpoint.h5").exists()
-    assert took < 20  # a second, and what the other tests on this machine take of it
+    assert took < 20  # about one second, and more if other tests use the machine
 
 
 def test_ctrl_c_ends_what_prepares(scene, small_file, tmp_path):
@@ -78,7 +79,7 @@ def test_python_runs_beside_a_long_call(specimen):
     gained = counted[0] - before
     done.set()
     beside.join()
-    assert gained > 20  # of five hundred, where a lock was held none but those between calls
+    assert gained > 20  # about 500; if the lock were held, only the few between calls
 
 
 def test_threads_get_the_numbers_of_one(scene):
@@ -96,7 +97,7 @@ def test_a_stepper_serves_one_thread_at_a_time(specimen):
     try:
         stepper.advance(1)
     except mc.RunError as error:
-        assert "another thread" in str(error)  # said of observe() and the like too
+        assert "another thread" in str(error)  # observe() and the like report it too
     other.join()
     assert stepper.observe().step in (3000, 3001)
     assert np.isfinite(stepper.particles().velocity).all()
@@ -111,7 +112,7 @@ def test_a_solver_serves_threads_in_turn(specimen):
 
 def test_what_the_last_callback_raises_is_raised(specimen):
     def fail(stage, share):
-        if stage == "contact network":  # the last of all
+        if stage == "contact network":  # the last stage
             raise LookupError("too late to stop")
     with pytest.raises(LookupError, match="too late"):
         mc.specimen(specimen.scene, progress=fail)
