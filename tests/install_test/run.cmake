@@ -7,7 +7,7 @@ function(run)
   execute_process(COMMAND ${ARGV} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# The installed package may ask its users for none of these
+# The installed package must not need any of these
 foreach(library CGAL Boost Eigen3 fmt nlohmann_json tomlplusplus CLI11 ZLIB HDF5 ITK OpenMP CUDAToolkit)
   list(APPEND absent -D CMAKE_DISABLE_FIND_PACKAGE_${library}=ON)
 endforeach()
@@ -23,7 +23,7 @@ run(${CMAKE_COMMAND} -S ${examples}/tutorial -B ${WORK}/tutorial -G Ninja ${abse
     -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_PREFIX_PATH=${WORK}/prefix)
 run(${CMAKE_COMMAND} --build ${WORK}/tutorial)
 execute_process(COMMAND ${WORK}/tutorial/tutorial ${examples}/demo/scene.toml ${WORK}/tutorial/results
-                OUTPUT_VARIABLE said COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)  # it fails where the two |E*| differ
+                OUTPUT_VARIABLE said COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)  # the tutorial fails if the two |E*| differ
 string(REPLACE "\n" "\n    " said "    ${said}")
 string(STRIP "${said}" said)
 file(READ ${examples}/tutorial/README.md page)
@@ -31,7 +31,7 @@ string(FIND "${page}" "${said}" at)
 if(at EQUAL -1)
   message(FATAL_ERROR "examples/tutorial/README.md: expected the tutorial's output, found another:\n    ${said}")
 endif()
-foreach(example own_law own_loading)  # laws and loads of a user's own; they fail where closed forms differ
+foreach(example own_law own_loading)  # laws and loads that a user writes; they fail if results differ from closed forms
   run(${CMAKE_COMMAND} -S ${examples}/${example} -B ${WORK}/${example} -G Ninja
       -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_PREFIX_PATH=${WORK}/prefix)
   run(${CMAKE_COMMAND} --build ${WORK}/${example})
